@@ -1,0 +1,56 @@
+// The constant part of a scene: particles and the terms that act on them. The variant below is the table of terms:
+// a new term is a file in terms/, one line here, and one line in the reader's table (scene_file.cpp).
+//
+// What a term does is said by the functions its file declares, found by overload:
+//   add_force(term, particles, state, forces)         a force
+//   potential_energy(term, particles, state)          an energy whose negative gradient is that force
+//   add_velocity(term, state, rate)                   a first-order velocity field
+//   resolve_contact(term, x_n, x, v)                  acts on the whole step of a particle
+#pragma once
+
+#include <variant>
+#include <vector>
+
+#include "mysim/particles.h"
+#include "mysim/terms/drag.h"
+#include "mysim/terms/gravity.h"
+#include "mysim/terms/rotation.h"
+#include "mysim/terms/sphere.h"
+#include "mysim/terms/springs.h"
+#include "mysim/terms/wind.h"
+
+namespace crosscheck {
+
+using Term = std::variant<Rotation, Gravity, Springs, Drag, Wind, Sphere>;
+
+template <class T>
+concept HasForce = requires(const T& term, const Particles& p, const State& s, Forces& f) { add_force(term, p, s, f); };
+template <class T>
+concept HasPotential = requires(const T& term, const Particles& p, const State& s) { potential_energy(term, p, s); };
+template <class T>
+concept HasVelocityField = requires(const T& term, const State& s, Points& rate) { add_velocity(term, s, rate); };
+
+struct Model {
+  Particles particles;
+  std::vector<Term> terms;  // the scene's ingredients; nothing else is evaluated
+
+  /// The term of that type, or null.
+  template <class T>
+  const T* find() const {
+    for (const Term& term : terms)
+      if (const T* found = std::get_if<T>(&term)) return found;
+    return nullptr;
+  }
+  template <class T>
+  T* find() {
+    return const_cast<T*>(static_cast<const Model*>(this)->find<T>());
+  }
+
+  bool first_order() const { return find<Rotation>() != nullptr; }
+};
+
+inline std::string_view name_of(const Term& term) {
+  return std::visit([](const auto& t) { return std::decay_t<decltype(t)>::name; }, term);
+}
+
+}  // namespace crosscheck

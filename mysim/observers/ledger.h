@@ -1,0 +1,60 @@
+// The energy ledger: what a run has, what it lost, what it was given, and what does not add up.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mysim/energy.h"
+#include "mysim/run.h"
+
+namespace crosscheck {
+
+/// Integral of a quantity sampled at equal steps, to fourth order: Simpson's 3/8 rule over the first three steps, then
+/// the Adams-Moulton weights (9, 19, -5, 1) h / 24.
+class Integral {
+ public:
+  void add(double value, double h);
+  double value() const { return value_; }
+
+ private:
+  std::array<double, 4> last_{};  // newest first
+  int count_ = 0;
+  double value_ = 0;
+};
+
+enum class ContactLoss {
+  reported,  // the engine shows the state before and after contact
+  inferred,  // it does not: what is missing from the balance is called contact loss, and no closure is claimed
+};
+
+struct LedgerRow {
+  double t;           // s
+  Energy energy;      // J
+  double dissipated;  // J, taken by drag since the start
+  double contact;     // J, lost in contact since the start
+  double wind, pins;  // J, work done by the wind and by moved pins since the start
+  /// total + dissipated + contact - wind - pins, J: constant up to the method's error.
+  double balance() const { return energy.total() + dissipated + contact - wind - pins; }
+};
+
+class Ledger : public Observer {
+ public:
+  Ledger(const Model& model, ContactLoss contact);
+  bool every_step() const override { return true; }
+  Verdict observe(const State& state, bool sample) override;
+  void contact(const State& proposed, const State& resolved) override;
+
+  const std::vector<LedgerRow>& rows() const { return rows_; }
+  bool contact_inferred() const { return inferred_; }
+  LedgerRow now(const State& state) const;
+
+ private:
+  const Model& model_;
+  bool inferred_;  // a sphere is there and the engine does not report its losses
+  Forces scratch_;
+  Integral dissipated_, wind_, pins_;
+  double contact_ = 0, last_t_ = 0;
+  std::vector<LedgerRow> rows_;
+};
+
+}  // namespace crosscheck

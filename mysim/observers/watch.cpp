@@ -1,0 +1,34 @@
+// The verdict on a run, from its energy.
+#include "mysim/observers/watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crosscheck {
+
+Watch::Watch(const Model& model) : model_(model) {
+  if (model.find<Wind>() || model.particles.move) ledger_.emplace(model, ContactLoss::reported);
+}
+
+Verdict Watch::observe(const State& state, bool sample) {
+  if (!state.x.allFinite() || !state.v.allFinite()) return Verdict::nan;
+  if (model_.first_order()) return Verdict::ok;
+  if (ledger_) ledger_->observe(state, false);
+  if (!sample) return Verdict::ok;
+
+  const Energy energy = energy_of(model_, state);
+  if (!start_) {
+    start_ = energy;
+    budget_ = energy.kinetic + energy.elastic;
+  }
+  double work = 0;
+  if (ledger_) {
+    const LedgerRow row = ledger_->now(state);
+    work = row.wind + row.pins;
+  }
+  if (!std::isfinite(energy.total()) || !std::isfinite(work)) return Verdict::nan;
+  budget_ = std::max({budget_, std::abs(energy.gravitational - start_->gravitational), std::abs(work)});
+  return energy.total() - start_->total() - work > budget_ ? Verdict::energy : Verdict::ok;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,27 @@
+// Tells when a run has failed: a non-finite state, or more energy than everything it had to work with.
+#pragma once
+
+#include <optional>
+
+#include "mysim/observers/ledger.h"
+
+namespace crosscheck {
+
+/// Verdict::energy when E(t) - E(0) - (work of wind and moved pins) exceeds the energy that the run had to work with:
+/// kinetic + elastic at the start, plus the largest change of gravitational energy and the largest work so far.
+/// No correct motion can exceed it: drag and contact only take away. Blow-ups pass it at once, also those of engines
+/// that clamp speeds and never become non-finite.
+class Watch : public Observer {
+ public:
+  explicit Watch(const Model& model);
+  bool every_step() const override { return ledger_.has_value(); }
+  Verdict observe(const State& state, bool sample) override;
+
+ private:
+  const Model& model_;
+  std::optional<Ledger> ledger_;  // only where wind or moved pins do work
+  std::optional<Energy> start_;
+  double budget_ = 0;
+};
+
+}  // namespace crosscheck

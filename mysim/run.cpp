@@ -1,0 +1,44 @@
+// Steps of a run, and observers as one.
+#include "mysim/run.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crosscheck {
+
+std::string_view name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::ok: return "ok";
+    case Verdict::energy: return "energy";
+    case Verdict::nan: return "nan";
+    case Verdict::unsupported: return "unsupported";
+  }
+  return "unknown";
+}
+
+Run default_run(const Scene& scene) { return {scene.step, scene.duration, scene.samples}; }
+
+StepPlan plan(const Run& run) {
+  const double interval = run.duration / run.samples;
+  // a step that divides the interval but for round-off is kept: 1e-9 is far above round-off, far below one step
+  const int steps = std::max(1, static_cast<int>(std::ceil(interval / run.step * (1 - 1e-9))));
+  return {interval / steps, steps, run.samples};
+}
+
+bool Observers::every_step() const {
+  return std::any_of(list_.begin(), list_.end(), [](const Observer* o) { return o->every_step(); });
+}
+
+Verdict Observers::observe(const State& state, bool sample) {
+  Verdict first = Verdict::ok;
+  for (Observer* o : list_)
+    if (sample || o->every_step())
+      if (const Verdict v = o->observe(state, sample); first == Verdict::ok) first = v;
+  return first;
+}
+
+void Observers::contact(const State& proposed, const State& resolved) {
+  for (Observer* o : list_) o->contact(proposed, resolved);
+}
+
+}  // namespace crosscheck

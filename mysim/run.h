@@ -1,0 +1,98 @@
+// One run: what is asked (Run), who looks on (Observer), what came of it (Outcome). Every engine has the same type.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mysim/scene.h"
+
+namespace crosscheck {
+
+enum class Verdict {
+  ok,
+  energy,       // more energy than everything the run had to work with
+  nan,          // a non-finite position or velocity
+  unsupported,  // the method lacks an ingredient of the scene
+};
+std::string_view name_of(Verdict verdict);
+
+struct Run {
+  double step;      // s, as asked; the run reduces it so that it divides the sampling interval
+  double duration;  // s
+  int samples;      // frames after the first, at i duration / samples
+};
+Run default_run(const Scene& scene);
+
+/// The steps of a run: `steps_per_sample` steps of length h between two samples.
+struct StepPlan {
+  double h;  // s
+  int steps_per_sample;
+  int samples;
+  double time(int sample, int step) const { return (static_cast<double>(sample) * steps_per_sample + step) * h; }
+};
+StepPlan plan(const Run& run);
+
+/// Looks at states as they pass.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// True: sees every step. False: sees the start and the samples only.
+  virtual bool every_step() const { return false; }
+  /// Anything but Verdict::ok ends the run.
+  virtual Verdict observe(const State& state, bool sample) = 0;
+  /// The state as proposed by the stepper and as left by the contacts; only engines that know both call it.
+  virtual void contact(const State& /*proposed*/, const State& /*resolved*/) {}
+};
+
+/// Several observers as one; the first verdict that is not ok counts.
+class Observers : public Observer {
+ public:
+  Observers(std::initializer_list<Observer*> list) : list_(list) {}
+  bool every_step() const override;
+  Verdict observe(const State& state, bool sample) override;
+  void contact(const State& proposed, const State& resolved) override;
+
+ private:
+  std::vector<Observer*> list_;
+};
+
+/// What an engine says of the scene it built, read from its own data structures after the first step.
+struct Readback {
+  struct Link {
+    int a, b;                         // ends, in the scene's numbering
+    double rest;                      // m
+    std::optional<double> stiffness;  // N/m
+  };
+  std::vector<double> mass;                   // kg; 0 where the engine holds the particle fixed
+  std::vector<char> pinned;                   // 1 where fixed
+  std::vector<Link> links;                    // springs
+  std::optional<Vec3> gravity;                // m/s^2
+  std::optional<std::vector<double>> drag;    // 1/s, drag rate gamma of each free particle
+  std::optional<double> contact_radius;       // m
+  std::optional<double> friction;             // Coulomb's mu
+  double step = 0;                            // s
+  std::string precision;                      // "double" or "single"
+  bool may_sleep = false;                     // the engine may freeze slow bodies
+  std::map<std::string, std::string> mapped;  // quantity -> how it was handed over, for the certificate
+};
+
+struct Outcome {
+  Verdict verdict = Verdict::ok;
+  std::string reason;          // one sentence when the verdict is not ok
+  double end = 0;              // s, last time reached; the time of failure when the verdict is not ok
+  double step = 0;             // s, as used
+  long steps = 0;              // taken
+  long evaluations = 0;        // of the right-hand side, or the engine's own force passes
+  long coincident = 0;         // springs met at zero length, summed over the evaluations
+  double cpu_seconds = 0;      // of the stepping thread, observers excluded
+  std::vector<std::string> different_law;  // ingredients that the engine has under another law, one sentence each
+  std::optional<Readback> readback;
+};
+
+using Engine = std::function<Outcome(const Scene&, const Run&, Observer&)>;
+
+}  // namespace crosscheck

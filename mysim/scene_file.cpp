@@ -1,0 +1,146 @@
+// Scene files: the keys of a scene, and their expansion into particles, springs and terms.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mysim/errors.h"
+#include "mysim/grid.h"
+#include "mysim/scene.h"
+
+namespace crosscheck {
+namespace {
+
+// the table of terms that have a section of their own; springs come from [grid] and [[spring]]
+struct TermReader {
+  std::string_view key;
+  Term (*read)(const Section&, const Particles&);
+};
+constexpr TermReader term_readers[] = {
+    {Rotation::name, [](const Section& s, const Particles&) -> Term { return read_rotation(s); }},
+    {Gravity::name, [](const Section& s, const Particles&) -> Term { return read_gravity(s); }},
+    {Drag::name, [](const Section& s, const Particles& p) -> Term { return read_drag(s, p); }},
+    {Wind::name, [](const Section& s, const Particles&) -> Term { return read_wind(s); }},
+    {Sphere::name, [](const Section& s, const Particles&) -> Term { return read_sphere(s); }},
+};
+
+/// Particles of [grid] first, then of [[particle]].
+void read_particles(const Section& file, const std::optional<Grid>& grid, bool first_order, Scene& scene) {
+  const std::vector<Section> single = file.sections("particle");
+  const int on_grid = grid ? grid->nu * grid->nv : 0;
+  const int n = on_grid + static_cast<int>(single.size());
+  if (n == 0) file.fail("particle", "at least one [[particle]] or a [grid]");
+  if (grid && first_order) file.fail("grid", "single particles, as [rotation] makes the scene first-order, without mass");
+  scene.start.x.resize(3, n);
+  scene.start.v = Points::Zero(3, first_order ? 0 : n);
+  scene.model.particles.mass = Eigen::VectorXd::Ones(n);
+  scene.model.particles.pinned.assign(n, 0);
+  if (grid) {
+    scene.start.x.leftCols(on_grid) = grid_points(*grid);
+    scene.model.particles.mass.head(on_grid).setConstant(grid->mass / on_grid);
+    scene.triangles = grid_triangles(*grid);
+  }
+  for (int i = on_grid; i < n; ++i) {
+    const Section& p = single[i - on_grid];
+    scene.start.x.col(i) = p.vec3("position");
+    if (first_order) continue;  // a mass or a velocity is then an unknown key
+    scene.model.particles.mass[i] = p.positive("mass");
+    if (p.has("velocity")) scene.start.v.col(i) = p.vec3("velocity");
+  }
+}
+
+void read_springs(const Section& file, const std::optional<Grid>& grid, Scene& scene) {
+  Springs springs;
+  if (grid) springs.list = grid_springs(*grid, scene.start.x);
+  const int n = scene.model.particles.size();
+  for (const Section& s : file.sections("spring")) {
+    const std::vector<int> ends = s.integers("ends");
+    if (ends.size() != 2 || ends[0] == ends[1]) s.fail("ends", "two different particles");
+    for (int end : ends)
+      if (end >= n) s.fail("ends", fmt::format("particles from 0 to {}, got {}", n - 1, end));
+    const double distance = (scene.start.x.col(ends[0]) - scene.start.x.col(ends[1])).norm();
+    const double rest = s.has("rest") ? s.not_negative("rest") : distance;
+    if (distance == 0 && rest > 0) s.fail("ends", "ends that do not coincide at the start, as the rest length is above zero");
+    springs.list.push_back({ends[0], ends[1], s.positive("stiffness"), rest, Family::single});
+  }
+  if (!springs.list.empty()) scene.model.terms.emplace_back(std::move(springs));
+}
+
+void read_pins(const Section& file, Scene& scene) {
+  if (!file.has("pins")) return;
+  const Section s = file.section("pins");
+  Particles& particles = scene.model.particles;
+  particles.pins = s.integers("particles");
+  if (particles.pins.empty()) s.fail("particles", "at least one particle");
+  std::sort(particles.pins.begin(), particles.pins.end());
+  particles.pin_home.resize(3, static_cast<int>(particles.pins.size()));
+  for (size_t i = 0; i < particles.pins.size(); ++i) {
+    const int pin = particles.pins[i];
+    if (pin >= particles.size()) s.fail("particles", fmt::format("particles from 0 to {}, got {}", particles.size() - 1, pin));
+    if (particles.pinned[pin]) s.fail("particles", fmt::format("each particle once, got {} twice", pin));
+    particles.pinned[pin] = 1;
+    particles.pin_home.col(static_cast<int>(i)) = scene.start.x.col(pin);
+    if (!scene.start.v.col(pin).isZero(0)) s.fail("particles", fmt::format("pins that start at rest; particle {} has a velocity", pin));
+  }
+  if (static_cast<int>(particles.pins.size()) == particles.size()) s.fail("particles", "at least one particle left free");
+  if (s.has("motion")) {
+    const Section m = s.section("motion");
+    particles.move = PinMotion{m.vec3("amplitude"), m.positive("frequency"), m.positive("ramp")};
+  }
+}
+
+void read_time(const Section& file, Scene& scene) {
+  const Section s = file.section("time");
+  scene.duration = s.positive("duration");
+  scene.samples = s.count("samples");
+  scene.step = s.positive("step");
+  if (scene.step > scene.duration) s.fail("step", "a step not longer than the duration");
+  scene.window = s.positive("window");
+  if (scene.window > scene.duration) s.fail("window", "a window not longer than the duration");
+  scene.tolerance = s.positive("tolerance");
+  scene.method = s.text("method");
+}
+
+Scene expand(const Section& file, const std::string& name) {
+  Scene scene{};
+  scene.name = name;
+  scene.question = file.text("question");
+  scene.parameters = file.text("parameters");
+  read_time(file, scene);
+
+  const bool first_order = file.has(Rotation::name);
+  std::optional<Grid> grid;
+  if (file.has("grid")) grid = read_grid(file.section("grid"));
+  read_particles(file, grid, first_order, scene);
+  if (!first_order) {
+    read_springs(file, grid, scene);
+    read_pins(file, scene);
+  }
+  for (const TermReader& reader : term_readers)
+    if ((!first_order || reader.key == Rotation::name) && file.has(reader.key))
+      scene.model.terms.push_back(reader.read(file.section(reader.key), scene.model.particles));
+
+  if (file.has("camera")) {
+    const Section s = file.section("camera");
+    scene.camera = Camera{s.vec3("eye"), s.vec3("target")};
+    if (scene.camera->eye == scene.camera->target) s.fail("target", "a point other than the eye");
+  }
+  file.finish();
+  if (!first_order) scene.model.particles.place_pins(scene.start);
+  scene.hash = hash_of(scene);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) { return expand(Section::parse_file(file), file.stem().string()); }
+
+Scene parse_scene(std::string_view text, const std::string& name) {
+  return expand(Section::parse_text(text, name), name);
+}
+
+double Scene::size() const {
+  const double diagonal = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
+  return diagonal > 0 ? diagonal : 1;
+}
+
+}  // namespace crosscheck

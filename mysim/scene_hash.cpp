@@ -1,0 +1,66 @@
+// The fingerprint of a scene: FNV-1a (64 bit) over the exact bits of everything that engines see.
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstdint>
+
+#include "mysim/scene.h"
+
+namespace crosscheck {
+namespace {
+
+class Hash {
+ public:
+  void add(std::uint64_t word) {
+    for (int i = 0; i < 8; ++i) state_ = (state_ ^ (word >> (8 * i) & 0xff)) * 0x100000001b3ull;
+  }
+  void add(int value) { add(static_cast<std::uint64_t>(static_cast<std::int64_t>(value))); }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(std::string_view text) {
+    for (char c : text) add(static_cast<int>(c));
+    add(-1);
+  }
+  template <class Derived>
+  void add(const Eigen::DenseBase<Derived>& values) {
+    add(static_cast<int>(values.size()));
+    for (int j = 0; j < values.cols(); ++j)
+      for (int i = 0; i < values.rows(); ++i) add(static_cast<double>(values(i, j)));
+  }
+
+  void term(const Rotation& t) { add(t.rate); }
+  void term(const Gravity& t) { add(t.acceleration); }
+  void term(const Springs& t) {
+    for (const Spring& s : t.list) add(s.a), add(s.b), add(s.k), add(s.rest);
+  }
+  void term(const Drag& t) { add(t.c); }
+  void term(const Wind& t) {
+    add(t.mean);
+    if (t.gusts) add(t.gusts->variation), add(t.gusts->side), add(t.gusts->seed);
+  }
+  void term(const Sphere& t) { add(t.centre), add(t.radius), add(t.margin), add(t.friction), add(t.restitution); }
+
+  std::uint64_t value() const { return state_; }
+
+ private:
+  std::uint64_t state_ = 0xcbf29ce484222325ull;
+};
+
+}  // namespace
+
+std::string hash_of(const Scene& scene) {
+  Hash h;
+  const Particles& p = scene.model.particles;
+  h.add(p.mass);
+  for (int pin : p.pins) h.add(pin);
+  h.add(-1);
+  if (p.move) h.add(p.move->amplitude), h.add(p.move->frequency), h.add(p.move->ramp);
+  for (const Term& term : scene.model.terms) {
+    h.add(name_of(term));
+    std::visit([&](const auto& t) { h.term(t); }, term);
+  }
+  h.add(scene.start.x);
+  h.add(scene.start.v);
+  return fmt::format("{:016x}", h.value());
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,48 @@
+// One table of a scene file: typed look-ups that name file, line and key when they fail, and remember what was read.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mysim/types.h"
+
+namespace crosscheck {
+
+/// A table of a TOML file. Every look-up throws InputError ("FILE:LINE: KEY: expected ..., got ...") when the value is
+/// missing, of the wrong type, not finite or out of range. finish() throws on the first key that nobody asked for.
+class Section {
+ public:
+  /// Reads and parses a file. Throws InputError when it is missing or no TOML.
+  static Section parse_file(const std::filesystem::path& file);
+  /// The same from text; name stands in for the file in messages.
+  static Section parse_text(std::string_view text, const std::string& name);
+
+  bool has(std::string_view key) const;  // also makes the key a known one
+
+  double number(std::string_view key) const;        // any finite number
+  double positive(std::string_view key) const;      // > 0
+  double not_negative(std::string_view key) const;  // >= 0
+  int count(std::string_view key) const;            // whole number > 0
+  std::string text(std::string_view key) const;     // not empty
+  Vec3 vec3(std::string_view key) const;            // three finite numbers
+  std::vector<int> integers(std::string_view key) const;
+
+  Section section(std::string_view key) const;                // a table; an error when it is missing
+  std::vector<Section> sections(std::string_view key) const;  // an array of tables; empty when it is missing
+
+  /// Throws InputError at the line of the key: "FILE:LINE: KEY: expected EXPECTED".
+  [[noreturn]] void fail(std::string_view key, const std::string& expected) const;
+  /// Throws InputError when the file holds a key that was never read, here or in a section below.
+  void finish() const;
+
+ private:
+  struct Node;
+  explicit Section(std::shared_ptr<Node> node);
+  std::shared_ptr<Node> node_;
+};
+
+}  // namespace crosscheck

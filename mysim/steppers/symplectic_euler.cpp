@@ -1,0 +1,12 @@
+// Symplectic Euler: kick with the force at x_n (drag at v_n), then drift with the new velocity.
+#include "mysim/steppers/stepper.h"
+
+namespace crosscheck {
+
+void symplectic_euler(System& f, State& s, double h, Workspace& w) {
+  f.acceleration(s, w.k1.v);
+  s.v += h * w.k1.v;
+  s.x += h * s.v;
+}
+
+}  // namespace crosscheck

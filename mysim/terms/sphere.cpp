@@ -1,0 +1,72 @@
+// Contact of one particle with the sphere: position, friction, velocity.
+#include "mysim/terms/sphere.h"
+
+#include <algorithm>
+
+namespace crosscheck {
+namespace {
+
+/// The vector shortened by at most `by`, never beyond zero.
+Vec3 shortened(const Vec3& vector, double by) {
+  const double length = vector.norm();
+  return length <= by ? Vec3::Zero() : Vec3(vector * (1 - by / length));
+}
+
+/// Outward unit normal at x; up where x is the very centre and no direction is better than another.
+Vec3 normal_at(const Sphere& sphere, const Vec3& x) {
+  const Vec3 d = x - sphere.centre;
+  const double length = d.norm();
+  return length > 0 ? Vec3(d / length) : Vec3(0, 1, 0);
+}
+
+}  // namespace
+
+Sphere read_sphere(const Section& s) {
+  Sphere sphere{s.vec3("centre"), s.positive("radius"), 0, 0, 0};
+  if (s.has("margin")) sphere.margin = s.positive("margin");
+  if (s.has("friction")) sphere.friction = s.positive("friction");
+  if (s.has("restitution")) {
+    sphere.restitution = s.positive("restitution");
+    if (sphere.restitution > 1) s.fail("restitution", "a number above 0 and not above 1");
+  }
+  return sphere;
+}
+
+double resolve_contact(const Sphere& sphere, const Vec3& x_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) {
+  const double distance = (x - sphere.centre).norm();
+  const double radius = sphere.contact_radius();
+  if (!(distance < radius)) return 0;
+
+  // put the particle on the surface
+  const double push = radius - distance;
+  Vec3 n = normal_at(sphere, x);
+  x = sphere.centre + radius * n;
+
+  // friction holds back the tangential displacement of this step
+  if (sphere.friction > 0) {
+    const Vec3 moved = x - x_n;
+    const Vec3 along_normal = moved.dot(n) * n;
+    x = x_n + along_normal + shortened(moved - along_normal, sphere.friction * push);
+    n = normal_at(sphere, x);
+    x = sphere.centre + radius * n;
+  }
+
+  // no velocity into the sphere, and friction in proportion to what was removed
+  const double inward = v.dot(n);
+  if (inward < 0) {
+    const Vec3 tangential = v - inward * n;
+    const double change = -(1 + sphere.restitution) * inward;
+    v = shortened(tangential, sphere.friction * change) + (inward + change) * n;
+  }
+  return push;
+}
+
+double resolve_contact_sticky(const Sphere& sphere, const Vec3& x_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) {
+  const double distance = (x - sphere.centre).norm();
+  if (!(distance < sphere.contact_radius())) return 0;
+  x = sphere.centre + sphere.contact_radius() * normal_at(sphere, x_n);
+  v.setZero();
+  return sphere.contact_radius() - distance;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,50 @@
+// Seeded, smooth gusts.
+#include "mysim/terms/wind.h"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace crosscheck {
+
+Gust::Gust(int seed, int channel) {
+  // raw engine output, not a std distribution: those differ between standard libraries
+  std::mt19937_64 engine(1000003ull * static_cast<unsigned>(seed) + static_cast<unsigned>(channel));
+  auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1.0p-53; };
+  double total = 0;
+  for (Wave& wave : waves) {
+    // between 0.2 and 1.2 Hz: slow enough to be resolved by every step in use, fast enough to be felt as gusts
+    wave = {0.5 + uniform(), 2 * std::numbers::pi * (0.2 + uniform()), 2 * std::numbers::pi * uniform()};
+    total += wave.weight;
+  }
+  for (Wave& wave : waves) wave.weight /= total;
+}
+
+double Gust::at(double t) const {
+  double sum = 0;
+  for (const Wave& wave : waves) sum += wave.weight * std::sin(wave.omega * t + wave.phase);
+  return sum;
+}
+
+Wind read_wind(const Section& s) {
+  Wind wind{s.vec3("acceleration"), std::nullopt};
+  if (s.has("gusts")) {
+    const Section g = s.section("gusts");
+    const int seed = g.count("seed");
+    wind.gusts = {g.not_negative("variation"), g.vec3("side"), seed, Gust(seed, 1), Gust(seed, 2)};
+  }
+  return wind;
+}
+
+Vec3 acceleration_at(const Wind& wind, double t) {
+  if (!wind.gusts) return wind.mean;
+  const auto& g = *wind.gusts;
+  return wind.mean * (1 + g.variation * g.along.at(t)) + g.side * g.across.at(t);
+}
+
+void add_force(const Wind& wind, const Particles& particles, const State& state, Forces& forces) {
+  const Vec3 a = acceleration_at(wind, state.t);
+  for (int i = 0; i < particles.size(); ++i) forces.f.col(i) += particles.mass[i] * a;
+}
+
+}  // namespace crosscheck
