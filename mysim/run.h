@@ -51,7 +51,7 @@ class Observer {
 /// Several observers as one; the first verdict that is not ok counts.
 class Observers : public Observer {
  public:
-  Observers(std::initializer_list<Observer*> list) : list_(list) {}
+  explicit Observers(std::vector<Observer*> list) : list_(std::move(list)) {}
   bool every_step() const override;
   Verdict observe(const State& state, bool sample) override;
   void contact(const State& proposed, const State& resolved) override;
@@ -60,16 +60,23 @@ class Observers : public Observer {
   std::vector<Observer*> list_;
 };
 
+/// Spring forces that an engine computes when its springs are stretched in a known way.
+struct SpringProbe {
+  Points x;      // N (3 x n), m: where the particles were put
+  Points force;  // N (3 x n), N: of the springs alone
+};
+
 /// What an engine says of the scene it built, read from its own data structures after the first step.
 struct Readback {
   struct Link {
     int a, b;                         // ends, in the scene's numbering
     double rest;                      // m
-    std::optional<double> stiffness;  // N/m
+    std::optional<double> stiffness;  // N/m; where the engine does not tell, the probe does
   };
   std::vector<double> mass;                   // kg; 0 where the engine holds the particle fixed
   std::vector<char> pinned;                   // 1 where fixed
   std::vector<Link> links;                    // springs
+  std::optional<SpringProbe> probe;
   std::optional<Vec3> gravity;                // m/s^2
   std::optional<std::vector<double>> drag;    // 1/s, drag rate gamma of each free particle
   std::optional<double> contact_radius;       // m

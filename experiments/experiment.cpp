@@ -1,0 +1,53 @@
+// The table of experiments.
+#include "experiments/experiment.h"
+
+#include <fmt/format.h>
+
+#include "mysim/errors.h"
+
+namespace crosscheck {
+namespace {
+
+int one_per_scene(const Request& request) { return static_cast<int>(request.scenes.size()); }
+int one_per_run(const Request& request) { return static_cast<int>(request.scenes.size() * request.methods.size()); }
+
+}  // namespace
+
+std::span<const Experiment> experiments() {
+  static constexpr Experiment table[] = {
+      {"order", "How fast does the error fall when the step is made smaller?", order_experiment, one_per_scene},
+      {"energy", "Where does the energy go, and what does not add up?", energy_experiment, one_per_run},
+      {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_experiment, one_per_run},
+  };
+  return table;
+}
+
+const Experiment& find_experiment(const std::string& name) {
+  std::string known;
+  for (const Experiment& e : experiments()) {
+    if (e.name == name) return e;
+    known += (known.empty() ? "" : ", ") + std::string(e.name);
+  }
+  throw InputError(fmt::format("unknown experiment '{}'; expected one of: {}", name, known));
+}
+
+std::vector<Method> default_methods() {
+  std::vector<Method> methods;
+  for (Method& method : all_methods())
+    if (!method.name.starts_with("truth/")) methods.push_back(std::move(method));
+  return methods;
+}
+
+Run run_of(const Request& request, const Scene& scene) {
+  Run run = default_run(scene);
+  if (request.step > 0) run.step = request.step;
+  return run;
+}
+
+const Table* Result::table(const std::string& name) const {
+  for (const Table& t : tables)
+    if (t.name == name) return &t;
+  return nullptr;
+}
+
+}  // namespace crosscheck

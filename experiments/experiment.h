@@ -1,0 +1,61 @@
+// Experiments: drivers that run methods over scenes and write tables. The table of them is in experiment.cpp.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/progress.h"
+#include "experiments/table.h"
+#include "mysim/observers/trajectory.h"
+#include "reference/certificate.h"
+#include "reference/method.h"
+#include "reference/truth.h"
+
+namespace crosscheck {
+
+struct Request {
+  std::vector<Scene> scenes;
+  std::vector<Method> methods;
+  bool full = false;     // more points, for the same questions
+  double step = 0;       // s, of all fixed-step methods; 0: each scene's own
+};
+
+/// One method's answer to one scene, kept for pictures and certificates.
+struct Answer {
+  std::string scene, method;
+  Outcome outcome;
+  Trajectory trajectory;
+};
+
+struct Result {
+  std::vector<Table> tables;
+  std::vector<Answer> answers;
+  std::vector<Certificate> certificates;
+  std::vector<std::string> notes;  // what was left out and why, for people
+
+  const Table* table(const std::string& name) const;
+};
+
+struct Experiment {
+  std::string_view name, question;
+  void (*run)(const Request&, Progress&, Result&);
+  int (*steps)(const Request&);  // how many times it calls Progress::begin
+};
+
+void order_experiment(const Request& request, Progress& progress, Result& result);
+void energy_experiment(const Request& request, Progress& progress, Result& result);
+void engines_experiment(const Request& request, Progress& progress, Result& result);
+
+std::span<const Experiment> experiments();
+/// Throws InputError that lists what there is.
+const Experiment& find_experiment(const std::string& name);
+
+/// The methods compared when nobody names any: all of mysim and Bullet.
+std::vector<Method> default_methods();
+
+/// A run of the scene at the request's step.
+Run run_of(const Request& request, const Scene& scene);
+
+}  // namespace crosscheck

@@ -1,0 +1,86 @@
+// Metrics of trajectories.
+#include "experiments/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "reference/truth.h"
+
+namespace crosscheck {
+
+Vec3 centre_of_mass(const Scene& scene, const Points& x) {
+  const Particles& p = scene.model.particles;
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (int i = 0; i < p.size(); ++i)
+    if (!p.pinned[i]) {
+      sum += p.mass[i] * x.col(i);
+      mass += p.mass[i];
+    }
+  return sum / mass;
+}
+
+double motion_of(const Trajectory& trajectory) {
+  double largest = 0;
+  for (const Points& x : trajectory.x) largest = std::max(largest, rms_distance(x, trajectory.x.front()));
+  return largest;
+}
+
+std::optional<double> clearance(const Scene& scene, const Points& x) {
+  const auto* sphere = scene.model.find<Sphere>();
+  if (!sphere) return std::nullopt;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < x.cols(); ++i)
+    if (!scene.model.particles.pinned[i])
+      smallest = std::min(smallest, (x.col(i) - sphere->centre).norm() - sphere->contact_radius());
+  return smallest;
+}
+
+std::optional<double> creep(const Scene& scene, const Points& x, const Points& v) {
+  const auto* sphere = scene.model.find<Sphere>();
+  if (!sphere) return std::nullopt;
+  double sum = 0;
+  int touching = 0;
+  for (int i = 0; i < x.cols(); ++i) {
+    const Vec3 d = x.col(i) - sphere->centre;
+    const double distance = d.norm();
+    if (scene.model.particles.pinned[i] || distance - sphere->contact_radius() > 1e-3) continue;
+    const Vec3 n = d / distance;
+    sum += (v.col(i) - v.col(i).dot(n) * n).norm();
+    ++touching;
+  }
+  if (touching == 0) return std::nullopt;
+  return sum / touching;
+}
+
+std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory) {
+  for (int i = 0; i < trajectory.frames(); ++i)
+    if (const auto gap = clearance(scene, trajectory.x[i]); gap && *gap < 1e-9) return trajectory.t[i];
+  return std::nullopt;
+}
+
+double perturbation_growth(const Method& method, const Scene& scene, double step, double until) {
+  constexpr double size = 1e-10;  // m: far above round-off (1e-16), far below every nonlinearity
+  Scene perturbed = scene;
+  std::mt19937_64 engine(1);
+  auto uniform = [&] { return 2 * (static_cast<double>(engine() >> 11) * 0x1.0p-53) - 1; };
+  for (int i = 0; i < scene.start.x.cols(); ++i) {
+    Vec3 direction;
+    do direction = Vec3(uniform(), uniform(), uniform());
+    while (direction.norm() > 1 || direction.norm() < 0.1);
+    if (!scene.model.particles.pinned[i]) perturbed.start.x.col(i) += size * direction.normalized();
+  }
+  const int samples = std::max(1, static_cast<int>(std::lround(scene.samples * until / scene.duration)));
+  const Run run{step, until, samples};
+  Recorder a, b;
+  run_method(method, scene, run, {&a});
+  run_method(method, perturbed, run, {&b});
+  double largest = 0;
+  for (int i = 0; i < std::min(a.trajectory.frames(), b.trajectory.frames()); ++i)
+    largest = std::max(largest, (a.trajectory.x[i] - b.trajectory.x[i]).colwise().norm().maxCoeff());
+  return largest / size;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,30 @@
+// Numbers taken from trajectories.
+#pragma once
+
+#include <optional>
+
+#include "mysim/observers/trajectory.h"
+#include "reference/method.h"
+
+namespace crosscheck {
+
+/// Mass-weighted mean of the positions of the free particles, m (mean of all where there is no mass).
+Vec3 centre_of_mass(const Scene& scene, const Points& x);
+
+/// RMS distance of the particles from where they started, its largest value over the run: the scale of errors, m.
+double motion_of(const Trajectory& trajectory);
+
+/// Smallest distance of a free particle from the sphere's contact surface, m; negative inside. Empty without a sphere.
+std::optional<double> clearance(const Scene& scene, const Points& x);
+
+/// Mean speed along the surface of the particles that touch the sphere (closer than 1 mm), m/s; empty when none does.
+std::optional<double> creep(const Scene& scene, const Points& x, const Points& v);
+
+/// Time of the first sample at which a particle touches the sphere (closer than 1e-9 m), s.
+std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory);
+
+/// By how much a perturbation of 1e-10 m of every free particle, in seeded random directions, grows: the largest distance
+/// of a particle from its unperturbed self at any sample up to `until` (s), over 1e-10 m.
+double perturbation_growth(const Method& method, const Scene& scene, double step, double until);
+
+}  // namespace crosscheck

@@ -1,0 +1,35 @@
+// Shipped scenes: one line for each.
+#include "experiments/scenes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "mysim/errors.h"
+
+namespace crosscheck {
+
+std::span<const std::string_view> shipped_scenes() {
+  static constexpr std::string_view table[] = {
+      "circle",       //
+      "spring",       //
+      "pendulum",     //
+      "chain",        //
+      "cloth-hang",   //
+      "cloth-swing",  //
+      "cloth-wind",   //
+      "cloth-sphere",
+  };
+  return table;
+}
+
+Scene load_scene(const std::string& name) {
+  const auto shipped = shipped_scenes();
+  if (std::find(shipped.begin(), shipped.end(), name) != shipped.end())
+    return read_scene(std::filesystem::path(CROSSCHECK_SCENES) / (name + ".toml"));
+  if (name.ends_with(".toml") || std::filesystem::exists(name)) return read_scene(name);
+  throw InputError(fmt::format("unknown scene '{}'; expected one of {}, or the path of a .toml file", name, fmt::join(shipped, ", ")));
+}
+
+}  // namespace crosscheck

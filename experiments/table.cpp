@@ -1,0 +1,63 @@
+// CSV.
+#include "experiments/table.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <stdexcept>
+
+#include "mysim/files.h"
+
+namespace crosscheck {
+namespace {
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string text_of(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return quoted(*text);
+  if (const auto* number = std::get_if<double>(&cell)) return exact_text(*number);
+  if (const auto* whole = std::get_if<long>(&cell)) return fmt::format("{}", *whole);
+  return "";
+}
+
+}  // namespace
+
+std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
+
+void Table::add(std::vector<Cell> row) {
+  assert(row.size() == columns.size());
+  rows.push_back(std::move(row));
+}
+
+int Table::column(const std::string& wanted) const {
+  for (size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].name == wanted) return static_cast<int>(i);
+  throw std::out_of_range(fmt::format("table {} has no column {}", name, wanted));
+}
+
+std::string csv(const Table& table, const Provenance& provenance) {
+  std::string out;
+  for (const auto& [key, value] : provenance) out += fmt::format("# {}: {}\n", key, value);
+  for (size_t i = 0; i < table.columns.size(); ++i)
+    out += (i ? "," : "") + quoted(fmt::format("{} [{}]", table.columns[i].name, table.columns[i].unit));
+  out += "\n";
+  for (const auto& row : table.rows) {
+    for (size_t i = 0; i < row.size(); ++i) out += (i ? "," : "") + text_of(row[i]);
+    out += "\n";
+  }
+  return out;
+}
+
+void write_csv(const Table& table, const Provenance& provenance, const std::filesystem::path& folder) {
+  write_file(folder / (table.name + ".csv"), csv(table, provenance));
+}
+
+}  // namespace crosscheck

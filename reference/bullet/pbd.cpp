@@ -1,0 +1,150 @@
+// Bullet's position-based soft-body world.
+#include <BulletSoftBody/btSoftBodySolvers.h>
+#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "mysim/errors.h"
+#include "reference/bullet/drive.h"
+#include "reference/bullet/scene_body.h"
+#include "reference/bullet/worlds.h"
+
+namespace crosscheck::bullet {
+namespace {
+
+/// kLST of a link of stiffness k between particles of reduced mass mu: one link, relaxed n times, is backward Euler.
+double link_stiffness(double k, double mu, double h, int n) {
+  return std::isinf(mu) ? 1 : -std::expm1(-std::log1p(k * h * h / mu) / n);
+}
+
+/// The stiffness (N/m) that kLST stands for: the inverse of link_stiffness.
+double newton_per_metre(double kLST, double mu, double h, int n) {
+  return mu / (h * h) * std::expm1(-n * std::log1p(-kLST));
+}
+
+class PbdWorld : public World {
+ public:
+  PbdWorld(const Scene& scene, double h, int iterations) : scene_(scene), h_(h), iterations_(iterations) {
+    const Model& model = scene.model;
+    const std::optional<double> rate = uniform_drag_rate(model);
+    if (!rate) throw Unsupported("Bullet's position-based world has one drag rate for the whole body");
+
+    world_ = std::make_unique<btSoftRigidDynamicsWorld>(&stage_.dispatcher, &stage_.broadphase, &solver_, &stage_.configuration);
+    btSoftBodyWorldInfo& info = world_->getWorldInfo();
+    // its default voxel of 0.25 m would misplace the sphere by 1.5 cm
+    info.m_sparsesdf.setDefaultVoxelsz(0.02);
+    info.m_sparsesdf.Reset();
+    const auto* gravity = model.find<Gravity>();
+    info.m_gravity = gravity ? to_bullet(gravity->acceleration) : btVector3(0, 0, 0);
+    info.m_dispatcher = &stage_.dispatcher;
+    info.m_broadphase = &stage_.broadphase;
+
+    scene_body_ = std::make_unique<SceneBody>(scene, info);
+    set_stiffness();
+    auto& cfg = body().m_cfg;
+    cfg.piterations = iterations_;
+    cfg.viterations = 0;
+    cfg.kDP = -std::expm1(-*rate * h_);
+    cfg.kKHR = 0.1;  // at 1 contacts bounce, at 0 links pull nodes into the sphere
+    cfg.collisions = btSoftBody::fCollision::SDF_RS;
+    make_obstacle(scene, stage_);
+    if (stage_.ball) world_->addRigidBody(stage_.ball.get());
+    world_->addSoftBody(&body());
+    world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the sphere is fixed
+
+    mapped_["stiffness"] = fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", iterations_);
+    if (*rate > 0) mapped_["drag"] = fmt::format("kDP = 1 - exp(-gamma h) = {:.6g}", double(cfg.kDP));
+    if (gravity) mapped_["gravity"] = "world info, g as it is";
+    if (model.find<Wind>()) mapped_["wind"] = "added force m a(t) on each node";
+  }
+
+  ~PbdWorld() override {
+    world_->removeSoftBody(&body());
+    scene_body_.reset();
+    if (stage_.ball) world_->removeRigidBody(stage_.ball.get());
+    world_->getWorldInfo().m_sparsesdf.Reset();
+    world_.reset();
+  }
+
+  void step(double t, double t_next) override {
+    const Particles& particles = scene_.model.particles;
+    if (const auto* wind = scene_.model.find<Wind>()) {
+      const btVector3 a = to_bullet(acceleration_at(*wind, t));
+      for (int i = 0; i < particles.size(); ++i)
+        if (!particles.pinned[i]) body().addForce(a * particles.mass[i], scene_body_->node_of(i));
+    }
+    scene_body_->place_pins(t_next);  // links are solved at the end of the step
+    world_->stepSimulation(h_, 0);
+  }
+
+  void read_state(double t, State& state) const override { scene_body_->read_state(t, state); }
+
+  Readback read_back() override {
+    Readback r = scene_body_->read_back();
+    const auto& cfg = body().m_cfg;
+    if (const auto* springs = scene_.model.find<Springs>())
+      for (size_t l = 0; l < springs->list.size(); ++l) {
+        const double mu = pair_mass(scene_.model.particles, springs->list[l]);
+        const double kLST = body().m_links[static_cast<int>(l)].m_material->m_kLST;
+        r.links[l].stiffness = std::isinf(mu) ? springs->list[l].k : newton_per_metre(kLST, mu, h_, cfg.piterations);
+      }
+    if (scene_.model.find<Gravity>()) r.gravity = from_bullet(world_->getWorldInfo().m_gravity);
+    if (scene_.model.find<Drag>())
+      r.drag = std::vector<double>(scene_.model.particles.size(), -std::log1p(-cfg.kDP) / h_);
+    if (scene_.model.find<Sphere>()) r.friction = stage_.ball->getFriction() * cfg.kDF;
+    r.mapped = mapped_;
+    return r;
+  }
+
+ private:
+  btSoftBody& body() { return scene_body_->body(); }
+
+  void set_stiffness() {
+    const auto* springs = scene_.model.find<Springs>();
+    if (!springs) return;
+    std::map<double, btSoftBody::Material*> materials;
+    for (size_t l = 0; l < springs->list.size(); ++l) {
+      const Spring& s = springs->list[l];
+      const double kLST = link_stiffness(s.k, pair_mass(scene_.model.particles, s), h_, iterations_);
+      auto& material = materials[kLST];
+      if (!material) {
+        material = body().appendMaterial();
+        material->m_kLST = kLST;
+      }
+      body().m_links[static_cast<int>(l)].m_material = material;
+    }
+    body().updateLinkConstants();
+    // updateLinkConstants keeps rest lengths but not their squares as ours; both are set again
+    for (size_t l = 0; l < springs->list.size(); ++l)
+      body().m_links[static_cast<int>(l)].m_c1 = springs->list[l].rest * springs->list[l].rest;
+    body().m_bUpdateRtCst = false;
+  }
+
+  const Scene& scene_;
+  double h_;
+  int iterations_;
+  std::map<std::string, std::string> mapped_;
+  Stage stage_;
+  btSequentialImpulseConstraintSolver solver_;
+  std::unique_ptr<btSoftRigidDynamicsWorld> world_;
+  std::unique_ptr<SceneBody> scene_body_;
+};
+
+}  // namespace
+
+Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, int iterations) {
+  PbdWorld world(scene, plan(run).h, iterations);
+  Outcome out = drive(world, scene, run, observer);
+  if (scene.model.find<Springs>())
+    out.different_law.push_back(
+        "springs: position-based links pull with k L (L^2 - r^2) / (L^2 + r^2), about k (L - r) for small strains, and are "
+        "solved like an implicit step, one after the other");
+  if (scene.model.find<Sphere>())
+    out.different_law.push_back("friction: a touching node loses a fixed share of its tangential motion in each step, whatever "
+                                "presses it on; Coulomb's law is not followed");
+  return out;
+}
+
+}  // namespace crosscheck::bullet

@@ -1,0 +1,160 @@
+// Translates the expanded scene into nodes and links, and reads them back.
+#include "reference/bullet/scene_body.h"
+
+#include <limits>
+#include <numeric>
+
+#include "mysim/errors.h"
+
+namespace crosscheck::bullet {
+namespace {
+
+/// True when the springs join all particles into one network.
+bool connected(const Model& model) {
+  const int n = model.particles.size();
+  std::vector<int> parent(n);
+  std::iota(parent.begin(), parent.end(), 0);
+  auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  int pieces = n;
+  if (const auto* springs = model.find<Springs>())
+    for (const Spring& s : springs->list)
+      if (const int a = root(s.a), b = root(s.b); a != b) parent[a] = b, --pieces;
+  return pieces == 1;
+}
+
+}  // namespace
+
+void make_obstacle(const Scene& scene, Stage& stage) {
+  const auto* sphere = scene.model.find<Sphere>();
+  if (!sphere) return;
+  stage.ball_shape = std::make_unique<btSphereShape>(sphere->radius);
+  btTransform place;
+  place.setIdentity();
+  place.setOrigin(to_bullet(sphere->centre));
+  btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, stage.ball_shape.get());
+  info.m_startWorldTransform = place;
+  info.m_friction = sphere->friction;  // multiplied by the body's kDF, which is set to 1
+  info.m_restitution = 0;
+  stage.ball = std::make_unique<btRigidBody>(info);
+}
+
+SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(scene) {
+  const Model& model = scene.model;
+  const Particles& particles = model.particles;
+  const auto* sphere = model.find<Sphere>();
+  const int n = particles.size();
+  if (model.first_order()) throw Unsupported("Bullet has no first-order systems: its bodies have mass and velocity");
+  if (sphere && sphere->restitution > 0) throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
+  if (sphere && n > 1 && !connected(model))
+    throw Unsupported("Bullet's contact search hangs on a body whose springs do not join all particles");
+
+  // free particles first, pins last
+  node_of_.resize(n);
+  for (int pinned = 0; pinned < 2; ++pinned)
+    for (int i = 0; i < n; ++i)
+      if (particles.pinned[i] == pinned) {
+        node_of_[i] = static_cast<int>(particle_of_.size());
+        particle_of_.push_back(i);
+      }
+  std::vector<btVector3> x(n);
+  std::vector<btScalar> mass(n);
+  for (int node = 0; node < n; ++node) {
+    const int i = particle_of_[node];
+    x[node] = to_bullet(scene.start.x.col(i));
+    mass[node] = particles.pinned[i] ? 0 : particles.mass[i];
+  }
+  body_ = std::make_unique<btSoftBody>(&info, n, x.data(), mass.data());
+
+  const auto* springs = model.find<Springs>();
+  if (springs)
+    for (const Spring& s : springs->list) body_->appendLink(node_of_[s.a], node_of_[s.b], body_->m_materials[0]);
+  body_->updateConstants();
+  if (springs)
+    for (int l = 0; l < body_->m_links.size(); ++l) {
+      const double rest = springs->list[l].rest;
+      body_->m_links[l].m_rl = rest;
+      body_->m_links[l].m_c1 = rest * rest;
+    }
+  if (sphere) body_->initializeFaceTree();
+  body_->m_bUpdateRtCst = false;
+
+  for (int node = 0; node < n; ++node) {
+    const int i = particle_of_[node];
+    const btVector3 v = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(scene.start.v.col(i));
+    body_->m_nodes[node].m_v = body_->m_nodes[node].m_vn = v;
+  }
+  // without a sphere the margin only bounds speeds (box diagonal over step): large enough to bound nothing
+  body_->getCollisionShape()->setMargin(sphere ? sphere->margin : 10.0);
+  body_->m_cfg.kDF = 1;
+  body_->setActivationState(DISABLE_DEACTIVATION);
+}
+
+void SceneBody::place_pins(double t) {
+  const Particles& particles = scene_.model.particles;
+  if (!particles.move) return;
+  const Vec3 shift = pin_displacement(*particles.move, t);
+  for (size_t p = 0; p < particles.pins.size(); ++p) {
+    auto& node = body_->m_nodes[node_of_[particles.pins[p]]];
+    node.m_x = node.m_q = to_bullet(particles.pin_home.col(static_cast<int>(p)) + shift);
+    node.m_v = node.m_vn = btVector3(0, 0, 0);
+  }
+}
+
+void SceneBody::read_state(double t, State& state) const {
+  state.t = t;
+  for (int node = 0; node < body_->m_nodes.size(); ++node) {
+    state.x.col(particle_of_[node]) = from_bullet(body_->m_nodes[node].m_x);
+    state.v.col(particle_of_[node]) = from_bullet(body_->m_nodes[node].m_v);
+  }
+  // Bullet knows no velocity of prescribed pins; ours is exact
+  const Particles& particles = scene_.model.particles;
+  const Vec3 velocity = particles.move ? pin_velocity(*particles.move, t) : Vec3::Zero();
+  for (int pin : particles.pins) state.v.col(pin) = velocity;
+}
+
+Readback SceneBody::read_back() const {
+  Readback r;
+  const int n = body_->m_nodes.size();
+  r.mass.resize(n);
+  r.pinned.resize(n);
+  for (int i = 0; i < n; ++i) {
+    const double inverse = body_->m_nodes[node_of_[i]].m_im;
+    r.pinned[i] = inverse == 0;
+    r.mass[i] = inverse == 0 ? 0 : 1 / inverse;
+  }
+  const btSoftBody::Node* first = n ? &body_->m_nodes[0] : nullptr;
+  for (int l = 0; l < body_->m_links.size(); ++l) {
+    const auto& link = body_->m_links[l];
+    r.links.push_back({particle_of_[link.m_n[0] - first], particle_of_[link.m_n[1] - first], link.m_rl, std::nullopt});
+  }
+  if (const auto* sphere = scene_.model.find<Sphere>())
+    r.contact_radius = sphere->radius + body_->getCollisionShape()->getMargin();
+  r.precision = sizeof(btScalar) == sizeof(double) ? "double" : "single";
+  r.may_sleep = body_->getActivationState() != DISABLE_DEACTIVATION;
+  return r;
+}
+
+double pair_mass(const Particles& particles, const Spring& spring) {
+  const double inverse = (particles.pinned[spring.a] ? 0 : 1 / particles.mass[spring.a]) +
+                         (particles.pinned[spring.b] ? 0 : 1 / particles.mass[spring.b]);
+  return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
+}
+
+std::optional<double> uniform_drag_rate(const Model& model) {
+  const auto* drag = model.find<Drag>();
+  if (!drag) return 0;
+  std::optional<double> rate;
+  for (int i = 0; i < model.particles.size(); ++i) {
+    if (model.particles.pinned[i]) continue;
+    const double gamma = drag->c[i] / model.particles.mass[i];
+    // masses times gamma over masses: equal but for a few roundings
+    if (rate && std::abs(gamma - *rate) > 4 * std::numeric_limits<double>::epsilon() * *rate) return std::nullopt;
+    if (!rate) rate = gamma;
+  }
+  return rate;
+}
+
+}  // namespace crosscheck::bullet

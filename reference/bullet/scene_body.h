@@ -1,0 +1,63 @@
+// A scene as one Bullet soft body and one obstacle: the part that both kinds of Bullet world share.
+//
+// Traps met here (all measured): pinned nodes go last, since the implicit world shifts its contact prediction by one node
+// for each pin before; the first step overwrites rest lengths unless the update flag is cleared; bodies slower than
+// 0.04 m/s fall asleep unless told not to; a disconnected network hangs the builder of the node tree; the body's margin is
+// 0.25 m unless set; the explicit world clamps speeds to the diagonal of the body's box over the step.
+#pragma once
+
+#include <BulletSoftBody/btSoftBody.h>
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+#include <vector>
+
+#include "mysim/run.h"
+
+namespace crosscheck::bullet {
+
+/// Bullet's double-precision vector from ours, and back.
+inline btVector3 to_bullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+inline Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// What every world needs and what it leaves behind in the right order.
+struct Stage {
+  btSoftBodyRigidBodyCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+  std::unique_ptr<btSphereShape> ball_shape;
+  std::unique_ptr<btRigidBody> ball;  // the scene's sphere, or null
+};
+
+/// Builds stage.ball for the scene's sphere, if it has one.
+void make_obstacle(const Scene& scene, Stage& stage);
+
+class SceneBody {
+ public:
+  /// Nodes, links with rest lengths, start velocities, margin; no forces. Throws Unsupported where Bullet would hang
+  /// (a network in several pieces beside a sphere) or cannot follow (restitution).
+  SceneBody(const Scene& scene, btSoftBodyWorldInfo& info);
+
+  btSoftBody& body() { return *body_; }
+  int node_of(int particle) const { return node_of_[particle]; }
+
+  /// Writes position and velocity of the pins at time t into the nodes. Bullet's forces read m_q.
+  void place_pins(double t);
+  /// Positions and velocities in the scene's numbering.
+  void read_state(double t, State& state) const;
+  /// Masses, pins, links with rest lengths; the world adds what it alone knows.
+  Readback read_back() const;
+
+ private:
+  const Scene& scene_;
+  std::vector<int> node_of_, particle_of_;
+  std::unique_ptr<btSoftBody> body_;
+};
+
+/// mu of the pair of ends, 1 / (1/m_a + 1/m_b) with pins of infinite mass, kg; infinite between two pins.
+double pair_mass(const Particles& particles, const Spring& spring);
+/// The one drag rate (1/s) of all free particles, 0 without drag, or nothing when they differ.
+std::optional<double> uniform_drag_rate(const Model& model);
+
+}  // namespace crosscheck::bullet

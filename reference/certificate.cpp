@@ -1,0 +1,166 @@
+// Compares the scene with what an engine says it built.
+#include "reference/certificate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace crosscheck {
+namespace {
+
+class Writer {
+ public:
+  Writer(Certificate& certificate, const Readback& readback) : certificate_(certificate), readback_(readback) {}
+
+  void row(const std::string& quantity, std::string asked, std::string read_back, Parity parity) {
+    const auto how = readback_.mapped.find(quantity);
+    certificate_.rows.push_back({quantity, std::move(asked), how == readback_.mapped.end() ? "as it is" : how->second,
+                                 std::move(read_back), parity});
+  }
+  void row(const std::string& quantity, std::string asked, std::string read_back, bool same) {
+    row(quantity, std::move(asked), std::move(read_back), same ? Parity::match : Parity::mismatch);
+  }
+  /// A quantity compared by its largest deviation, relative to its scale.
+  void deviation(const std::string& quantity, std::string asked, double largest, double scale) {
+    row(quantity, std::move(asked), fmt::format("largest deviation {:.2g}", scale > 0 ? largest / scale : largest),
+        largest <= tolerance() * scale);
+  }
+  /// Rounding of an engine that computes in this precision, after a mapping and its inverse: some tens of ulps.
+  double tolerance() const { return readback_.precision == "single" ? 1e-5 : 1e-12; }
+
+ private:
+  Certificate& certificate_;
+  const Readback& readback_;
+};
+
+void certify_particles(const Scene& scene, const Readback& r, Writer& w) {
+  const Particles& p = scene.model.particles;
+  const bool count = static_cast<int>(r.mass.size()) == p.size();
+  w.row("particles", fmt::format("{}", p.size()), fmt::format("{}", r.mass.size()), count);
+  if (!count) return;
+  double worst = 0, total = 0;
+  for (int i = 0; i < p.size(); ++i)
+    if (!p.pinned[i]) {
+      worst = std::max(worst, std::abs(r.mass[i] - p.mass[i]) / p.mass[i]);
+      total += p.mass[i];
+    }
+  w.deviation("masses", fmt::format("{:.6g} kg in all, free particles", total), worst, 1);
+  w.row("pins", fmt::format("{}", p.pins.size()), fmt::format("{}", std::count(r.pinned.begin(), r.pinned.end(), 1)),
+        std::equal(r.pinned.begin(), r.pinned.end(), p.pinned.begin(), p.pinned.end()));
+}
+
+void certify_springs(const Scene& scene, const Readback& r, Writer& w) {
+  const auto* springs = scene.model.find<Springs>();
+  const size_t asked = springs ? springs->list.size() : 0;
+  bool same = r.links.size() == asked;
+  double rest = 0, longest = 0, stiffness = 0;
+  bool told = same;
+  for (size_t i = 0; same && i < asked; ++i) {
+    const Spring& s = springs->list[i];
+    const Readback::Link& link = r.links[i];
+    same = link.a == s.a && link.b == s.b;
+    rest = std::max(rest, std::abs(link.rest - s.rest));
+    longest = std::max(longest, s.rest);
+    told = told && link.stiffness;
+    if (link.stiffness) stiffness = std::max(stiffness, std::abs(*link.stiffness - s.k) / s.k);
+  }
+  w.row("springs", fmt::format("{}", asked), fmt::format("{}, {}", r.links.size(), same ? "same ends" : "other ends"), same);
+  if (!same || asked == 0) return;
+  w.deviation("rest lengths", fmt::format("up to {:.6g} m", longest), rest, std::max(longest, 1e-300));
+  const auto [soft, hard] = std::minmax_element(springs->list.begin(), springs->list.end(),
+                                                [](const Spring& a, const Spring& b) { return a.k < b.k; });
+  const std::string range = soft->k == hard->k ? fmt::format("{:.6g} N/m", soft->k)
+                                               : fmt::format("{:.6g} to {:.6g} N/m", soft->k, hard->k);
+  if (told) {
+    // the inverse of a mapping by powers loses what 1 - kLST loses: k h^2/mu may be 1e-6, and eps / 1e-6 is left
+    w.row("stiffness", range, fmt::format("largest deviation {:.2g}", stiffness), stiffness <= 1e-8);
+  } else if (r.probe) {
+    Forces ours{Points::Zero(3, scene.model.particles.size()), 0};
+    State stretched = scene.start;
+    stretched.x = r.probe->x;
+    add_force(*springs, scene.model.particles, stretched, ours);
+    const double scale = ours.f.colwise().norm().maxCoeff();
+    const double off = (ours.f - r.probe->force).colwise().norm().maxCoeff();
+    // forces are differences of lengths near the rest length: 1 % of stretch costs two digits
+    w.row("stiffness", range, fmt::format("forces at 1 % stretch off by {:.2g}", off / scale), off <= 100 * w.tolerance() * scale);
+  } else {
+    w.row("stiffness", range, "not told", Parity::unattested);
+  }
+}
+
+void certify_terms(const Scene& scene, const Readback& r, Writer& w) {
+  const Model& model = scene.model;
+  auto vector = [](const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m/s^2", v.x(), v.y(), v.z()); };
+  if (const auto* gravity = model.find<Gravity>()) {
+    if (r.gravity)
+      w.row("gravity", vector(gravity->acceleration), vector(*r.gravity),
+            (*r.gravity - gravity->acceleration).norm() <= w.tolerance() * gravity->acceleration.norm());
+    else
+      w.row("gravity", vector(gravity->acceleration), "not told", Parity::unattested);
+  }
+  if (const auto* drag = model.find<Drag>()) {
+    const double low = (drag->c.array() / model.particles.mass.array()).minCoeff();
+    const double high = (drag->c.array() / model.particles.mass.array()).maxCoeff();
+    const std::string asked = high - low < 1e-12 * high ? fmt::format("{:.6g} /s", high) : fmt::format("{:.6g} to {:.6g} /s", low, high);
+    if (r.drag && static_cast<int>(r.drag->size()) == model.particles.size()) {
+      double worst = 0;
+      for (int i = 0; i < model.particles.size(); ++i)
+        if (!model.particles.pinned[i]) worst = std::max(worst, std::abs((*r.drag)[i] - drag->c[i] / model.particles.mass[i]));
+      // gamma comes back from 1 - exp(-gamma h): eps / (gamma h) is left
+      w.row("drag", asked, fmt::format("largest deviation {:.2g} /s", worst), worst <= std::max(w.tolerance(), 1e-9) * high);
+    } else {
+      w.row("drag", asked, "not told", Parity::unattested);
+    }
+  }
+  if (const auto* wind = model.find<Wind>())
+    w.row("wind", "mean " + vector(wind->mean) + (wind->gusts ? " with gusts" : ""), "given to the engine at each step", Parity::match);
+  if (const auto* sphere = model.find<Sphere>()) {
+    const double radius = sphere->contact_radius();
+    if (r.contact_radius)
+      w.row("contact radius", fmt::format("{:.6g} m", radius), fmt::format("{:.6g} m", *r.contact_radius),
+            std::abs(*r.contact_radius - radius) <= w.tolerance() * radius);
+    if (r.friction)
+      w.row("friction", fmt::format("{:.6g}", sphere->friction), fmt::format("{:.6g}", *r.friction),
+            std::abs(*r.friction - sphere->friction) <= w.tolerance());
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(Parity parity) {
+  switch (parity) {
+    case Parity::match: return "match";
+    case Parity::different_law: return "different law";
+    case Parity::mismatch: return "mismatch";
+    case Parity::unattested: return "not attested";
+  }
+  return "unknown";
+}
+
+bool Certificate::mismatch() const {
+  return std::any_of(rows.begin(), rows.end(), [](const CertificateRow& r) { return r.parity == Parity::mismatch; });
+}
+
+Certificate certify(const std::string& method, const Scene& scene, const Outcome& outcome) {
+  Certificate certificate{method, scene.name, {}};
+  if (!outcome.readback) {
+    certificate.rows.push_back({"whole scene", "hash " + scene.hash, "-", "not told", Parity::unattested});
+    return certificate;
+  }
+  const Readback& r = *outcome.readback;
+  Writer w(certificate, r);
+  certify_particles(scene, r, w);
+  certify_springs(scene, r, w);
+  certify_terms(scene, r, w);
+  w.row("step", fmt::format("{:.6g} s", outcome.step), fmt::format("{:.6g} s", r.step), r.step == outcome.step);
+  w.row("precision", "double", r.precision, r.precision == "double" ? Parity::match : Parity::different_law);
+  w.row("sleeping", "off", r.may_sleep ? "on" : "off", !r.may_sleep);
+  for (const std::string& law : outcome.different_law) {
+    const size_t colon = law.find(": ");
+    certificate.rows.push_back({"law of " + law.substr(0, colon), "as in the scene", "-", law.substr(colon + 2), Parity::different_law});
+  }
+  return certificate;
+}
+
+}  // namespace crosscheck

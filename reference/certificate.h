@@ -1,0 +1,33 @@
+// The parity certificate: was the same scene built? Asked, as mapped, read back, verdict, for each quantity.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mysim/run.h"
+
+namespace crosscheck {
+
+enum class Parity {
+  match,          // read back as asked, within the engine's precision
+  different_law,  // the ingredient is there under another law
+  mismatch,       // another scene was built: no comparison
+  unattested,     // the engine does not tell
+};
+std::string_view name_of(Parity parity);
+
+struct CertificateRow {
+  std::string quantity, asked, mapped, read_back;
+  Parity parity;
+};
+
+struct Certificate {
+  std::string method, scene;
+  std::vector<CertificateRow> rows;
+  bool mismatch() const;
+};
+
+/// Compares what the engine read back with the scene. Without read-back all rows are unattested.
+Certificate certify(const std::string& method, const Scene& scene, const Outcome& outcome);
+
+}  // namespace crosscheck

@@ -1,0 +1,107 @@
+// Recognises scenes with a closed form.
+#include "reference/exact/exact.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "reference/exact/oscillator.h"
+
+namespace crosscheck {
+namespace {
+
+std::optional<ExactSolution> turning_points(const Scene& scene) {
+  const auto* rotation = scene.model.find<Rotation>();
+  if (!rotation) return std::nullopt;
+  return ExactSolution{"x(t) = rotation of x(0) by rate * t about z", [start = scene.start, rate = rotation->rate](double t) {
+                         State s = start;
+                         const double c = std::cos(rate * t), d = std::sin(rate * t);
+                         for (int i = 0; i < s.x.cols(); ++i)
+                           s.x.col(i).head<2>() << c * start.x(0, i) - d * start.x(1, i), d * start.x(0, i) + c * start.x(1, i);
+                         s.t = t;
+                         return s;
+                       }};
+}
+
+/// The constant acceleration of gravity and steady wind, or nothing when the wind has gusts.
+std::optional<Vec3> steady_acceleration(const Model& model) {
+  Vec3 a = Vec3::Zero();
+  if (const auto* gravity = model.find<Gravity>()) a += gravity->acceleration;
+  if (const auto* wind = model.find<Wind>()) {
+    if (wind->gusts) return std::nullopt;
+    a += wind->mean;
+  }
+  return a;
+}
+
+std::optional<ExactSolution> projectile(const Scene& scene) {
+  const Model& model = scene.model;
+  const auto a = steady_acceleration(model);
+  if (model.particles.size() != 1 || model.find<Springs>() || model.find<Sphere>() || !a) return std::nullopt;
+  const auto* drag = model.find<Drag>();
+  const double gamma = drag ? drag->c[0] / model.particles.mass[0] : 0;
+  return ExactSolution{gamma > 0 ? "v(t) = a/gamma + (v0 - a/gamma) exp(-gamma t)" : "x(t) = x0 + v0 t + a t^2 / 2",
+                       [start = scene.start, a = *a, gamma](double t) {
+                         State s = start;
+                         s.t = t;
+                         const Vec3 x0 = start.x.col(0), v0 = start.v.col(0);
+                         if (gamma > 0) {
+                           const Vec3 limit = a / gamma;
+                           const double gone = -std::expm1(-gamma * t);  // 1 - exp(-gamma t), exact for small gamma t
+                           s.v.col(0) = v0 + gone * (limit - v0);
+                           s.x.col(0) = x0 + limit * t + (v0 - limit) * (gone / gamma);
+                         } else {
+                           s.v.col(0) = v0 + a * t;
+                           s.x.col(0) = x0 + v0 * t + a * (t * t / 2);
+                         }
+                         return s;
+                       }};
+}
+
+std::optional<ExactSolution> vertical_spring(const Scene& scene) {
+  const Model& model = scene.model;
+  const auto* springs = model.find<Springs>();
+  const auto a = steady_acceleration(model);
+  if (model.particles.size() != 2 || !springs || springs->list.size() != 1 || model.find<Sphere>() || !a ||
+      model.particles.pins.size() != 1 || model.particles.move)
+    return std::nullopt;
+  const Spring& spring = springs->list[0];
+  const int anchor = model.particles.pins[0], free = 1 - anchor;
+  const Vec3 along = scene.start.x.col(free) - scene.start.x.col(anchor);
+  const double distance = along.norm(), mass = model.particles.mass[free];
+  const Vec3 n = along / distance, v0 = scene.start.v.col(free);
+  // collinear: what is across the spring is below round-off
+  const double across = (*a - a->dot(n) * n).norm() + (v0 - v0.dot(n) * n).norm();
+  if (distance == 0 || across > 1e-14 * (a->norm() + v0.norm())) return std::nullopt;
+
+  const auto* drag = model.find<Drag>();
+  const double rest_point = spring.rest + mass * a->dot(n) / spring.k;
+  const Oscillator u{spring.k / mass, drag ? drag->c[free] / mass : 0, distance - rest_point, v0.dot(n)};
+  if (!(u.largest() < rest_point)) return std::nullopt;  // it could pass the anchor, where the spring's law has a kink
+  return ExactSolution{"damped harmonic oscillator about the hanging length", [start = scene.start, u, n, rest_point, anchor, free](double t) {
+                         State s = start;
+                         s.t = t;
+                         s.x.col(free) = start.x.col(anchor) + (rest_point + u.position(t)) * n;
+                         s.v.col(free) = u.velocity(t) * n;
+                         return s;
+                       }};
+}
+
+}  // namespace
+
+std::optional<ExactSolution> exact_solution(const Scene& scene) {
+  for (const auto recognise : {turning_points, projectile, vertical_spring})
+    if (auto solution = recognise(scene)) return solution;
+  return std::nullopt;
+}
+
+double rigid_pendulum_period(double length, double gravity, double theta0) {
+  double a = 1, b = std::cos(theta0 / 2);
+  while (std::abs(a - b) > 1e-15 * a) {  // quadratic convergence: four or five turns
+    const double mean = (a + b) / 2;
+    b = std::sqrt(a * b);
+    a = mean;
+  }
+  return 2 * std::numbers::pi * std::sqrt(length / gravity) / a;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,34 @@
+// Methods: everything that answers a scene, by name. The families stand in one table (method.cpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mysim/observers/ledger.h"
+#include "mysim/run.h"
+#include "mysim/steppers/stepper.h"
+
+namespace crosscheck {
+
+struct Method {
+  std::string name;                 // full, e.g. "mysim/leapfrog+sticky"
+  std::string what;                 // one line for people
+  std::string rule;                 // methods of the same rule must agree to round-off in contact-free scenes; may be empty
+  Engine engine;                    // throws Unsupported
+  ContactLoss contact;              // whether it reports what contacts took away
+  const Stepper* stepper = nullptr; // of mysim's methods
+};
+
+/// Every method there is, without options.
+std::vector<Method> all_methods();
+
+/// A method by name: "rk4" (short for "mysim/rk4"), "bullet/pbd+n=10". Throws InputError that lists what there is.
+Method find_method(const std::string& text);
+
+/// Splits "a,b,c" and finds each.
+std::vector<Method> find_methods(const std::string& list);
+
+/// Runs the method under a watch for failures; Unsupported becomes an outcome with that verdict.
+Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers);
+
+}  // namespace crosscheck
