@@ -11,8 +11,17 @@ namespace {
 
 Table ledger_table(const std::string& scene) {
   return {"energy-" + scene,
-          {{"method", "1"}, {"t", "s"}, {"kinetic", "J"}, {"elastic", "J"}, {"gravitational", "J"}, {"dissipated", "J"},
-           {"contact loss", "J"}, {"contact loss inferred", "1"}, {"wind work", "J"}, {"pin work", "J"}, {"balance error", "J"}},
+          {{"method", "1"},
+           {"t", "s"},
+           {"kinetic", "J"},
+           {"elastic", "J"},
+           {"gravitational", "J"},
+           {"dissipated", "J"},
+           {"contact loss", "J"},
+           {"contact loss inferred", "1"},
+           {"wind work", "J"},
+           {"pin work", "J"},
+           {"balance error", "J"}},
           {}};
 }
 
@@ -20,8 +29,14 @@ Table ledger_table(const std::string& scene) {
 
 void energy_experiment(const Request& request, Progress& progress, Result& result) {
   Table summary{"energy",
-                {{"scene", "1"}, {"method", "1"}, {"verdict", "1"}, {"end", "s"}, {"energy turned over", "J"},
-                 {"largest balance error", "J"}, {"relative balance error", "1"}, {"contact loss inferred", "1"}},
+                {{"scene", "1"},
+                 {"method", "1"},
+                 {"verdict", "1"},
+                 {"end", "s"},
+                 {"energy turned over", "J"},
+                 {"largest balance error", "J"},
+                 {"relative balance error", "1"},
+                 {"contact loss inferred", "1"}},
                 {}};
   for (const Scene& scene : request.scenes) {
     if (scene.model.first_order()) {
@@ -43,12 +58,14 @@ void energy_experiment(const Request& request, Progress& progress, Result& resul
         table.add({method.name, row.t, row.energy.kinetic, row.energy.elastic, row.energy.gravitational, row.dissipated,
                    row.contact, inferred ? 1l : 0l, row.wind, row.pins, inferred ? Cell() : Cell(error)});
         worst = std::max(worst, std::abs(error));
-        turned_over = std::max({turned_over, row.energy.kinetic, std::abs(row.energy.gravitational - ledger.rows()[0].energy.gravitational)});
+        turned_over = std::max({turned_over, row.energy.kinetic,
+                                std::abs(row.energy.gravitational - ledger.rows()[0].energy.gravitational)});
       }
       const bool ok = out.verdict == Verdict::ok;
       const bool claimed = ok && !ledger.contact_inferred();
       summary.add({scene.name, method.name, std::string(name_of(out.verdict)), out.end, turned_over,
-                   claimed ? Cell(worst) : Cell(), claimed ? Cell(worst / turned_over) : Cell(), ledger.contact_inferred() ? 1l : 0l});
+                   claimed ? Cell(worst) : Cell(), claimed ? Cell(worst / turned_over) : Cell(),
+                   ledger.contact_inferred() ? 1l : 0l});
     }
     result.tables.push_back(std::move(table));
   }

@@ -1,5 +1,5 @@
-// Experiment `engines`: all methods on the same scene at the same step; how far from the truth, how far from each other,
-// at what cost.
+// Experiment `engines`: all methods on the same scene at the same step; how far from the truth, how far from each
+// other, at what cost.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,28 +31,62 @@ Cell cell_of(const std::optional<T>& value) {
 
 void engines_experiment(const Request& request, Progress& progress, Result& result) {
   Table summary{"engines",
-                {{"scene", "1"}, {"method", "1"}, {"verdict", "1"}, {"reason", "1"}, {"end", "s"}, {"step", "s"}, {"steps", "1"},
-                 {"evaluations", "1"}, {"coincident springs", "1"}, {"motion", "m"}, {"window", "s"}, {"truth tier", "1"}, {"truth bar", "m"},
-                 {"largest error", "m"}, {"largest difference", "m"}, {"largest difference of centres", "m"},
-                 {"smallest clearance", "m"}, {"creep at end", "m/s"}, {"different law", "1"}},
+                {{"scene", "1"},
+                 {"method", "1"},
+                 {"verdict", "1"},
+                 {"reason", "1"},
+                 {"end", "s"},
+                 {"step", "s"},
+                 {"steps", "1"},
+                 {"evaluations", "1"},
+                 {"coincident springs", "1"},
+                 {"motion", "m"},
+                 {"window", "s"},
+                 {"perturbation growth", "1"},
+                 {"truth tier", "1"},
+                 {"truth bar", "m"},
+                 {"largest error", "m"},
+                 {"largest difference", "m"},
+                 {"largest difference of centres", "m"},
+                 {"smallest clearance", "m"},
+                 {"creep at end", "m/s"},
+                 {"different law", "1"}},
                 {}};
-  Table cost{"engines-cost", {{"scene", "1"}, {"method", "1"}, {"cpu", "s"}, {"cpu per step", "s"}, {"simulated per cpu", "s/s"}}, {}};
+  Table cost{"engines-cost",
+             {{"scene", "1"}, {"method", "1"}, {"cpu", "s"}, {"cpu per step", "s"}, {"simulated per cpu", "s/s"}},
+             {}};
 
   for (const Scene& scene : request.scenes) {
     const Run run = run_of(request, scene);
     Table table{"engines-" + scene.name,
-                {{"method", "1"}, {"t", "s"}, {"error", "m"}, {"difference", "m"}, {"difference of centres", "m"},
-                 {"clearance", "m"}, {"creep", "m/s"}},
+                {{"method", "1"},
+                 {"t", "s"},
+                 {"error", "m"},
+                 {"difference", "m"},
+                 {"difference of centres", "m"},
+                 {"clearance", "m"},
+                 {"creep", "m/s"}},
                 {}};
     const auto truth = truth_of(scene, run);
     Recorder reference;
     run_method(find_method(reference_rule), scene, run, {&reference});
+    const Method probe = find_method(scene.model.first_order() ? scene.method : reference_rule);
+    const double growth = perturbation_growth(probe, scene, run.step, scene.window);
     const double motion = motion_of(truth ? truth->trajectory : reference.trajectory);
 
     for (const Method& method : request.methods) {
       progress.begin(fmt::format("engines: {} by {}", scene.name, method.name));
       Recorder recorder;
       Outcome out = run_method(method, scene, run, {&recorder});
+      if (out.verdict != Verdict::unsupported && !method.stepper) {
+        result.certificates.push_back(certify(method.name, scene, out));
+        if (result.certificates.back().mismatch()) {
+          // what answers another scene is no answer: no number of it is kept
+          out.verdict = Verdict::unsupported;
+          out.reason = "it built another scene, see its parity certificate";
+          recorder.trajectory = {};
+        }
+      }
       const Trajectory& path = recorder.trajectory;
       const bool unsupported = out.verdict == Verdict::unsupported;
       const size_t first_row = table.rows.size();
@@ -61,25 +95,40 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
         const bool both = i < reference.trajectory.frames() && reference.trajectory.x[i].cols() == path.x[i].cols();
         const auto gap = clearance(scene, path.x[i]);
         if (gap) lowest = std::min(lowest, *gap);
-        table.add({method.name, path.t[i], truth ? Cell(rms_distance(path.x[i], truth->trajectory.x[i])) : Cell(),
-                   both ? Cell(rms_distance(path.x[i], reference.trajectory.x[i])) : Cell(),
-                   both ? Cell((centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.trajectory.x[i])).norm()) : Cell(),
-                   cell_of(gap), cell_of(creep(scene, path.x[i], path.v[i]))});
+        table.add(
+            {method.name, path.t[i], truth ? Cell(rms_distance(path.x[i], truth->trajectory.x[i])) : Cell(),
+             both ? Cell(rms_distance(path.x[i], reference.trajectory.x[i])) : Cell(),
+             both ? Cell((centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.trajectory.x[i])).norm())
+                  : Cell(),
+             cell_of(gap), cell_of(creep(scene, path.x[i], path.v[i]))});
       }
       std::string laws;
       for (const std::string& law : out.different_law) laws += (laws.empty() ? "" : "; ") + law;
       const bool ok = out.verdict == Verdict::ok;
-      summary.add({scene.name, method.name, std::string(name_of(out.verdict)), out.reason, out.end, out.step, out.steps,
-                   out.evaluations, out.coincident, motion, scene.window, truth ? Cell(std::string(name_of(truth->tier))) : Cell(),
-                   truth ? Cell(truth->bar) : Cell(), ok ? largest(table, first_row, "error", scene.window) : Cell(),
+      summary.add({scene.name,
+                   method.name,
+                   std::string(name_of(out.verdict)),
+                   out.reason,
+                   out.end,
+                   out.step,
+                   out.steps,
+                   out.evaluations,
+                   out.coincident,
+                   motion,
+                   scene.window,
+                   growth,
+                   truth ? Cell(std::string(name_of(truth->tier))) : Cell(),
+                   truth ? Cell(truth->bar) : Cell(),
+                   ok ? largest(table, first_row, "error", scene.window) : Cell(),
                    ok ? largest(table, first_row, "difference", scene.window) : Cell(),
                    ok ? largest(table, first_row, "difference of centres", scene.duration) : Cell(),
                    ok && lowest < 1e300 ? Cell(lowest) : Cell(),
-                   ok && path.frames() ? cell_of(creep(scene, path.x.back(), path.v.back())) : Cell(), laws});
+                   ok && path.frames() ? cell_of(creep(scene, path.x.back(), path.v.back())) : Cell(),
+                   laws});
       if (!unsupported)
-        cost.add({scene.name, method.name, out.cpu_seconds, out.steps ? Cell(out.cpu_seconds / static_cast<double>(out.steps)) : Cell(),
+        cost.add({scene.name, method.name, out.cpu_seconds,
+                  out.steps ? Cell(out.cpu_seconds / static_cast<double>(out.steps)) : Cell(),
                   out.cpu_seconds > 0 ? Cell(out.end / out.cpu_seconds) : Cell()});
-      if (!unsupported && !method.stepper) result.certificates.push_back(certify(method.name, scene, out));
       result.answers.push_back({scene.name, method.name, std::move(out), std::move(recorder.trajectory)});
     }
     result.tables.push_back(std::move(table));

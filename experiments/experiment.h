@@ -18,8 +18,8 @@ namespace crosscheck {
 struct Request {
   std::vector<Scene> scenes;
   std::vector<Method> methods;
-  bool full = false;     // more points, for the same questions
-  double step = 0;       // s, of all fixed-step methods; 0: each scene's own
+  bool full = false;  // more points, for the same questions
+  double step = 0;    // s, of all fixed-step methods; 0: each scene's own
 };
 
 /// One method's answer to one scene, kept for pictures and certificates.

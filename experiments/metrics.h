@@ -23,8 +23,8 @@ std::optional<double> creep(const Scene& scene, const Points& x, const Points& v
 /// Time of the first sample at which a particle touches the sphere (closer than 1e-9 m), s.
 std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory);
 
-/// By how much a perturbation of 1e-10 m of every free particle, in seeded random directions, grows: the largest distance
-/// of a particle from its unperturbed self at any sample up to `until` (s), over 1e-10 m.
+/// By how much a perturbation of 1e-10 m of every free particle, in seeded random directions, grows: the largest
+/// distance of a particle from its unperturbed self at any sample up to `until` (s), over 1e-10 m.
 double perturbation_growth(const Method& method, const Scene& scene, double step, double until);
 
 }  // namespace crosscheck

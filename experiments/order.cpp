@@ -24,17 +24,31 @@ double error_against(const Trajectory& trajectory, const Truth& truth) {
 /// Why a scene is left out, or nothing.
 std::string why_not(const Scene& scene) {
   if (scene.model.find<Sphere>()) return "contact makes every rule first order, erratically after impacts";
-  if (scene.start.x.cols() > 50) return "its stiffest modes sit at the stability limit of the steps in use, where no order shows";
+  if (scene.start.x.cols() > 50)
+    return "its stiffest modes sit at the stability limit of the steps in use, where no order shows";
   return "";
 }
 
 }  // namespace
 
 void order_experiment(const Request& request, Progress& progress, Result& result) {
-  Table points{"order", {{"scene", "1"}, {"method", "1"}, {"step", "s"}, {"error", "m"}, {"truth bar", "m"},
-                         {"evaluations", "1"}, {"verdict", "1"}}, {}};
-  Table slopes{"order-slopes", {{"scene", "1"}, {"method", "1"}, {"declared order", "1"}, {"measured order", "1"},
-                                {"from step", "s"}, {"to step", "s"}}, {}};
+  Table points{"order",
+               {{"scene", "1"},
+                {"method", "1"},
+                {"step", "s"},
+                {"error", "m"},
+                {"truth bar", "m"},
+                {"evaluations", "1"},
+                {"verdict", "1"}},
+               {}};
+  Table slopes{"order-slopes",
+               {{"scene", "1"},
+                {"method", "1"},
+                {"declared order", "1"},
+                {"measured order", "1"},
+                {"from step", "s"},
+                {"to step", "s"}},
+               {}};
   const int halvings = request.full ? 9 : 7;
   for (const Scene& scene : request.scenes) {
     progress.begin("order: " + scene.name);
@@ -73,8 +87,8 @@ void order_experiment(const Request& request, Progress& progress, Result& result
         sx += x, sy += y, sxx += x * x, sxy += x * y;
       }
       const double n = static_cast<double>(fine.size());
-      slopes.add({scene.name, method.name, static_cast<long>(method.stepper->order), (n * sxy - sx * sy) / (n * sxx - sx * sx),
-                  fine.front().step, fine.back().step});
+      slopes.add({scene.name, method.name, static_cast<long>(method.stepper->order),
+                  (n * sxy - sx * sy) / (n * sxx - sx * sx), fine.front().step, fine.back().step});
     }
   }
   result.tables.push_back(std::move(points));

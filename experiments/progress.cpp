@@ -8,7 +8,8 @@
 
 namespace crosscheck {
 
-Progress::Progress(int total) : total_(total), terminal_(isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
+Progress::Progress(int total)
+    : total_(total), terminal_(isatty(STDERR_FILENO)), start_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() {
   if (terminal_ && begun_ > 0) fmt::print(stderr, "\r\033[K");
@@ -19,8 +20,8 @@ void Progress::begin(const std::string& what) {
   std::string left;
   if (begun_ > 0 && total_ > begun_) left = fmt::format(", about {:.0f} s left", elapsed / begun_ * (total_ - begun_));
   ++begun_;
-  fmt::print(stderr, "{}[{}/{}] {} ({:.0f} s{}){}", terminal_ ? "\r\033[K" : "", begun_, std::max(total_, begun_), what, elapsed, left,
-             terminal_ ? "" : "\n");
+  fmt::print(stderr, "{}[{}/{}] {} ({:.0f} s{}){}", terminal_ ? "\r\033[K" : "", begun_, std::max(total_, begun_), what,
+             elapsed, left, terminal_ ? "" : "\n");
   std::fflush(stderr);
 }
 

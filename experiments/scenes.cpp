@@ -29,7 +29,8 @@ Scene load_scene(const std::string& name) {
   if (std::find(shipped.begin(), shipped.end(), name) != shipped.end())
     return read_scene(std::filesystem::path(CROSSCHECK_SCENES) / (name + ".toml"));
   if (name.ends_with(".toml") || std::filesystem::exists(name)) return read_scene(name);
-  throw InputError(fmt::format("unknown scene '{}'; expected one of {}, or the path of a .toml file", name, fmt::join(shipped, ", ")));
+  throw InputError(fmt::format("unknown scene '{}'; expected one of {}, or the path of a .toml file", name,
+                               fmt::join(shipped, ", ")));
 }
 
 }  // namespace crosscheck

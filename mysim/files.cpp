@@ -22,7 +22,8 @@ void write_file(const fs::path& file, std::string_view content) {
     out.close();
     if (!out) {
       fs::remove(temporary, error);
-      throw InputError(fmt::format("{}: cannot be written; expected a folder with write permission and free space", file.string()));
+      throw InputError(
+          fmt::format("{}: cannot be written; expected a folder with write permission and free space", file.string()));
     }
   }
   fs::rename(temporary, file, error);
@@ -43,7 +44,8 @@ void require_writable(const fs::path& folder) {
 std::string file_name_of(std::string_view text) {
   std::string name(text);
   for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._=+-").find(c) == std::string_view::npos) c = '-';
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._=+-").find(c) == std::string_view::npos)
+      c = '-';
   return name;
 }
 

@@ -11,7 +11,8 @@ namespace crosscheck {
 /// Throws InputError that names the file when it cannot be written.
 void write_file(const std::filesystem::path& file, std::string_view content);
 
-/// Makes sure that files can be written into the folder, making it where it is missing. Throws InputError that names it.
+/// Makes sure that files can be written into the folder, making it where it is missing. Throws InputError that names
+/// it.
 void require_writable(const std::filesystem::path& folder);
 
 /// The text with every character outside [A-Za-z0-9._=+-] replaced by '-': how methods appear in file names.

@@ -24,11 +24,17 @@ namespace crosscheck {
 using Term = std::variant<Rotation, Gravity, Springs, Drag, Wind, Sphere>;
 
 template <class T>
-concept HasForce = requires(const T& term, const Particles& p, const State& s, Forces& f) { add_force(term, p, s, f); };
+concept HasForce = requires(const T& term, const Particles& p, const State& s, Forces& f) {
+  add_force(term, p, s, f);
+};
 template <class T>
-concept HasPotential = requires(const T& term, const Particles& p, const State& s) { potential_energy(term, p, s); };
+concept HasPotential = requires(const T& term, const Particles& p, const State& s) {
+  potential_energy(term, p, s);
+};
 template <class T>
-concept HasVelocityField = requires(const T& term, const State& s, Points& rate) { add_velocity(term, s, rate); };
+concept HasVelocityField = requires(const T& term, const State& s, Points& rate) {
+  add_velocity(term, s, rate);
+};
 
 struct Model {
   Particles particles;

@@ -8,10 +8,14 @@ namespace crosscheck {
 
 std::string_view name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::ok: return "ok";
-    case Verdict::energy: return "energy";
-    case Verdict::nan: return "nan";
-    case Verdict::unsupported: return "unsupported";
+    case Verdict::ok:
+      return "ok";
+    case Verdict::energy:
+      return "energy";
+    case Verdict::nan:
+      return "nan";
+    case Verdict::unsupported:
+      return "unsupported";
   }
   return "unknown";
 }

@@ -73,9 +73,9 @@ struct Readback {
     double rest;                      // m
     std::optional<double> stiffness;  // N/m; where the engine does not tell, the probe does
   };
-  std::vector<double> mass;                   // kg; 0 where the engine holds the particle fixed
-  std::vector<char> pinned;                   // 1 where fixed
-  std::vector<Link> links;                    // springs
+  std::vector<double> mass;  // kg; 0 where the engine holds the particle fixed
+  std::vector<char> pinned;  // 1 where fixed
+  std::vector<Link> links;   // springs
   std::optional<SpringProbe> probe;
   std::optional<Vec3> gravity;                // m/s^2
   std::optional<std::vector<double>> drag;    // 1/s, drag rate gamma of each free particle
@@ -89,13 +89,13 @@ struct Readback {
 
 struct Outcome {
   Verdict verdict = Verdict::ok;
-  std::string reason;          // one sentence when the verdict is not ok
-  double end = 0;              // s, last time reached; the time of failure when the verdict is not ok
-  double step = 0;             // s, as used
-  long steps = 0;              // taken
-  long evaluations = 0;        // of the right-hand side, or the engine's own force passes
-  long coincident = 0;         // springs met at zero length, summed over the evaluations
-  double cpu_seconds = 0;      // of the stepping thread, observers excluded
+  std::string reason;                      // one sentence when the verdict is not ok
+  double end = 0;                          // s, last time reached; the time of failure when the verdict is not ok
+  double step = 0;                         // s, as used
+  long steps = 0;                          // taken
+  long evaluations = 0;                    // of the right-hand side, or the engine's own force passes
+  long coincident = 0;                     // springs met at zero length, summed over the evaluations
+  double cpu_seconds = 0;                  // of the stepping thread, observers excluded
   std::vector<std::string> different_law;  // ingredients that the engine has under another law, one sentence each
   std::optional<Readback> readback;
 };

@@ -12,7 +12,8 @@
 namespace crosscheck {
 
 struct Camera {
-  Vec3 eye, target;  // m
+  Vec3 eye, target;          // m
+  std::optional<double> at;  // s, when the picture is taken; none: at the end
 };
 
 struct Scene {

@@ -29,7 +29,8 @@ void read_particles(const Section& file, const std::optional<Grid>& grid, bool f
   const int on_grid = grid ? grid->nu * grid->nv : 0;
   const int n = on_grid + static_cast<int>(single.size());
   if (n == 0) file.fail("particle", "at least one [[particle]] or a [grid]");
-  if (grid && first_order) file.fail("grid", "single particles, as [rotation] makes the scene first-order, without mass");
+  if (grid && first_order)
+    file.fail("grid", "single particles, as [rotation] makes the scene first-order, without mass");
   scene.start.x.resize(3, n);
   scene.start.v = Points::Zero(3, first_order ? 0 : n);
   scene.model.particles.mass = Eigen::VectorXd::Ones(n);
@@ -59,7 +60,8 @@ void read_springs(const Section& file, const std::optional<Grid>& grid, Scene& s
       if (end >= n) s.fail("ends", fmt::format("particles from 0 to {}, got {}", n - 1, end));
     const double distance = (scene.start.x.col(ends[0]) - scene.start.x.col(ends[1])).norm();
     const double rest = s.has("rest") ? s.not_negative("rest") : distance;
-    if (distance == 0 && rest > 0) s.fail("ends", "ends that do not coincide at the start, as the rest length is above zero");
+    if (distance == 0 && rest > 0)
+      s.fail("ends", "ends that do not coincide at the start, as the rest length is above zero");
     springs.list.push_back({ends[0], ends[1], s.positive("stiffness"), rest, Family::single});
   }
   if (!springs.list.empty()) scene.model.terms.emplace_back(std::move(springs));
@@ -75,13 +77,16 @@ void read_pins(const Section& file, Scene& scene) {
   particles.pin_home.resize(3, static_cast<int>(particles.pins.size()));
   for (size_t i = 0; i < particles.pins.size(); ++i) {
     const int pin = particles.pins[i];
-    if (pin >= particles.size()) s.fail("particles", fmt::format("particles from 0 to {}, got {}", particles.size() - 1, pin));
+    if (pin >= particles.size())
+      s.fail("particles", fmt::format("particles from 0 to {}, got {}", particles.size() - 1, pin));
     if (particles.pinned[pin]) s.fail("particles", fmt::format("each particle once, got {} twice", pin));
     particles.pinned[pin] = 1;
     particles.pin_home.col(static_cast<int>(i)) = scene.start.x.col(pin);
-    if (!scene.start.v.col(pin).isZero(0)) s.fail("particles", fmt::format("pins that start at rest; particle {} has a velocity", pin));
+    if (!scene.start.v.col(pin).isZero(0))
+      s.fail("particles", fmt::format("pins that start at rest; particle {} has a velocity", pin));
   }
-  if (static_cast<int>(particles.pins.size()) == particles.size()) s.fail("particles", "at least one particle left free");
+  if (static_cast<int>(particles.pins.size()) == particles.size())
+    s.fail("particles", "at least one particle left free");
   if (s.has("motion")) {
     const Section m = s.section("motion");
     particles.move = PinMotion{m.vec3("amplitude"), m.positive("frequency"), m.positive("ramp")};
@@ -121,7 +126,9 @@ Scene expand(const Section& file, const std::string& name) {
 
   if (file.has("camera")) {
     const Section s = file.section("camera");
-    scene.camera = Camera{s.vec3("eye"), s.vec3("target")};
+    scene.camera = Camera{s.vec3("eye"), s.vec3("target"), std::nullopt};
+    if (s.has("at")) scene.camera->at = s.not_negative("at");
+    if (scene.camera->at > scene.duration) s.fail("at", "a time not after the end of the run");
     if (scene.camera->eye == scene.camera->target) s.fail("target", "a point other than the eye");
   }
   file.finish();

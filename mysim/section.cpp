@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "mysim/errors.h"
 
@@ -18,12 +18,14 @@ struct Section::Node {
   std::shared_ptr<const toml::table> root;  // keeps the tree alive
   const toml::table* table = nullptr;
   std::string file;
-  std::string path;  // dotted name of this table; empty at the root
-  mutable std::set<std::string, std::less<>> read;  // every key that was asked for
+  std::string path;                                     // dotted name of this table; empty at the root
+  mutable std::set<std::string, std::less<>> read;      // every key that was asked for
   mutable std::vector<std::shared_ptr<Node>> children;  // so that finish() sees what was read below
   mutable std::map<std::string, std::vector<std::shared_ptr<Node>>, std::less<>> made;
 
-  std::string full(std::string_view key) const { return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key); }
+  std::string full(std::string_view key) const {
+    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+  }
 
   [[noreturn]] void fail_at(const toml::source_region& where, std::string_view key, const std::string& expected) const {
     throw InputError(fmt::format("{}:{}: {}: {}", file, where.begin.line, full(key), expected));

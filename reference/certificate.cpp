@@ -65,13 +65,14 @@ void certify_springs(const Scene& scene, const Readback& r, Writer& w) {
     told = told && link.stiffness;
     if (link.stiffness) stiffness = std::max(stiffness, std::abs(*link.stiffness - s.k) / s.k);
   }
-  w.row("springs", fmt::format("{}", asked), fmt::format("{}, {}", r.links.size(), same ? "same ends" : "other ends"), same);
+  w.row("springs", fmt::format("{}", asked), fmt::format("{}, {}", r.links.size(), same ? "same ends" : "other ends"),
+        same);
   if (!same || asked == 0) return;
   w.deviation("rest lengths", fmt::format("up to {:.6g} m", longest), rest, std::max(longest, 1e-300));
   const auto [soft, hard] = std::minmax_element(springs->list.begin(), springs->list.end(),
                                                 [](const Spring& a, const Spring& b) { return a.k < b.k; });
-  const std::string range = soft->k == hard->k ? fmt::format("{:.6g} N/m", soft->k)
-                                               : fmt::format("{:.6g} to {:.6g} N/m", soft->k, hard->k);
+  const std::string range =
+      soft->k == hard->k ? fmt::format("{:.6g} N/m", soft->k) : fmt::format("{:.6g} to {:.6g} N/m", soft->k, hard->k);
   if (told) {
     // the inverse of a mapping by powers loses what 1 - kLST loses: k h^2/mu may be 1e-6, and eps / 1e-6 is left
     w.row("stiffness", range, fmt::format("largest deviation {:.2g}", stiffness), stiffness <= 1e-8);
@@ -83,7 +84,8 @@ void certify_springs(const Scene& scene, const Readback& r, Writer& w) {
     const double scale = ours.f.colwise().norm().maxCoeff();
     const double off = (ours.f - r.probe->force).colwise().norm().maxCoeff();
     // forces are differences of lengths near the rest length: 1 % of stretch costs two digits
-    w.row("stiffness", range, fmt::format("forces at 1 % stretch off by {:.2g}", off / scale), off <= 100 * w.tolerance() * scale);
+    w.row("stiffness", range, fmt::format("forces at 1 % stretch off by {:.2g}", off / scale),
+          off <= 100 * w.tolerance() * scale);
   } else {
     w.row("stiffness", range, "not told", Parity::unattested);
   }
@@ -102,19 +104,23 @@ void certify_terms(const Scene& scene, const Readback& r, Writer& w) {
   if (const auto* drag = model.find<Drag>()) {
     const double low = (drag->c.array() / model.particles.mass.array()).minCoeff();
     const double high = (drag->c.array() / model.particles.mass.array()).maxCoeff();
-    const std::string asked = high - low < 1e-12 * high ? fmt::format("{:.6g} /s", high) : fmt::format("{:.6g} to {:.6g} /s", low, high);
+    const std::string asked =
+        high - low < 1e-12 * high ? fmt::format("{:.6g} /s", high) : fmt::format("{:.6g} to {:.6g} /s", low, high);
     if (r.drag && static_cast<int>(r.drag->size()) == model.particles.size()) {
       double worst = 0;
       for (int i = 0; i < model.particles.size(); ++i)
-        if (!model.particles.pinned[i]) worst = std::max(worst, std::abs((*r.drag)[i] - drag->c[i] / model.particles.mass[i]));
+        if (!model.particles.pinned[i])
+          worst = std::max(worst, std::abs((*r.drag)[i] - drag->c[i] / model.particles.mass[i]));
       // gamma comes back from 1 - exp(-gamma h): eps / (gamma h) is left
-      w.row("drag", asked, fmt::format("largest deviation {:.2g} /s", worst), worst <= std::max(w.tolerance(), 1e-9) * high);
+      w.row("drag", asked, fmt::format("largest deviation {:.2g} /s", worst),
+            worst <= std::max(w.tolerance(), 1e-9) * high);
     } else {
       w.row("drag", asked, "not told", Parity::unattested);
     }
   }
   if (const auto* wind = model.find<Wind>())
-    w.row("wind", "mean " + vector(wind->mean) + (wind->gusts ? " with gusts" : ""), "given to the engine at each step", Parity::match);
+    w.row("wind", "mean " + vector(wind->mean) + (wind->gusts ? " with gusts" : ""), "given to the engine at each step",
+          Parity::match);
   if (const auto* sphere = model.find<Sphere>()) {
     const double radius = sphere->contact_radius();
     if (r.contact_radius)
@@ -130,10 +136,14 @@ void certify_terms(const Scene& scene, const Readback& r, Writer& w) {
 
 std::string_view name_of(Parity parity) {
   switch (parity) {
-    case Parity::match: return "match";
-    case Parity::different_law: return "different law";
-    case Parity::mismatch: return "mismatch";
-    case Parity::unattested: return "not attested";
+    case Parity::match:
+      return "match";
+    case Parity::different_law:
+      return "different law";
+    case Parity::mismatch:
+      return "mismatch";
+    case Parity::unattested:
+      return "not attested";
   }
   return "unknown";
 }
@@ -158,7 +168,8 @@ Certificate certify(const std::string& method, const Scene& scene, const Outcome
   w.row("sleeping", "off", r.may_sleep ? "on" : "off", !r.may_sleep);
   for (const std::string& law : outcome.different_law) {
     const size_t colon = law.find(": ");
-    certificate.rows.push_back({"law of " + law.substr(0, colon), "as in the scene", "-", law.substr(colon + 2), Parity::different_law});
+    certificate.rows.push_back(
+        {"law of " + law.substr(0, colon), "as in the scene", "-", law.substr(colon + 2), Parity::different_law});
   }
   return certificate;
 }

@@ -32,11 +32,14 @@ Method mysim_method(const Stepper& stepper, const std::vector<Option>& options) 
     if (o.key != "sticky" || !o.value.empty()) refuse(name, o, "+sticky or none");
     contact = ContactRule::sticky;
   }
-  return {name, std::string(stepper.what), std::string(stepper.name),
+  return {name,
+          std::string(stepper.what),
+          std::string(stepper.name),
           [&stepper, contact](const Scene& scene, const Run& run, Observer& observer) {
             return simulate(stepper, contact, scene, run, observer);
           },
-          ContactLoss::reported, &stepper};
+          ContactLoss::reported,
+          &stepper};
 }
 
 Method deformable_explicit(const std::vector<Option>& options) {
@@ -54,21 +57,26 @@ Method pbd(const std::vector<Option>& options) {
     if (o.key != "n" || error != std::errc() || end != o.value.data() + o.value.size() || n < 1 || n > 1000)
       refuse(name, o, "+n=1 to +n=1000 (iterations)");
   }
-  return {name, "Bullet's position-based world, stiffness mapped per link; different link and friction laws", "",
-          [n](const Scene& scene, const Run& run, Observer& observer) { return bullet::run_pbd(scene, run, observer, n); },
-          ContactLoss::inferred};
+  return {
+      name, "Bullet's position-based world, stiffness mapped per link; different link and friction laws", "",
+      [n](const Scene& scene, const Run& run, Observer& observer) { return bullet::run_pbd(scene, run, observer, n); },
+      ContactLoss::inferred};
 }
 
 /// The best answer known, played through the observer like any other method.
 Method truth_method(Tier tier, const std::vector<Option>& options) {
   const std::string name = fmt::format("truth/{}", name_of(tier));
   if (!options.empty()) refuse(name, options[0], "none");
-  return {name, tier == Tier::exact ? "closed form, where the scene has one" : "rk4 refined until its own step halving tells the error bar", "",
+  return {name,
+          tier == Tier::exact ? "closed form, where the scene has one"
+                              : "rk4 refined until its own step halving tells the error bar",
+          "",
           [tier](const Scene& scene, const Run& run, Observer& observer) {
             const auto truth = truth_of(scene, run);
             if (!truth || truth->tier != tier)
-              throw Unsupported(tier == Tier::exact ? "the scene has no closed form"
-                                                    : "the scene has a closed form, or contacts on whose rule the answer depends");
+              throw Unsupported(tier == Tier::exact
+                                    ? "the scene has no closed form"
+                                    : "the scene has a closed form, or contacts on whose rule the answer depends");
             Outcome out;
             out.step = plan(run).h;
             for (int i = 0; i < truth->trajectory.frames() && out.verdict == Verdict::ok; ++i) {
@@ -89,7 +97,8 @@ struct Row {
 std::vector<Row> table() {
   std::vector<Row> rows;
   for (const Stepper& stepper : steppers())
-    rows.push_back({fmt::format("mysim/{}", stepper.name), [&stepper](const auto& options) { return mysim_method(stepper, options); }});
+    rows.push_back({fmt::format("mysim/{}", stepper.name),
+                    [&stepper](const auto& options) { return mysim_method(stepper, options); }});
   rows.push_back({"bullet/deformable-explicit", deformable_explicit});
   rows.push_back({"bullet/pbd", pbd});
   rows.push_back({"truth/exact", [](const auto& options) { return truth_method(Tier::exact, options); }});
@@ -100,7 +109,8 @@ std::vector<Row> table() {
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;
   size_t begin = 0;
-  for (size_t end; (end = text.find(at, begin)) != std::string::npos; begin = end + 1) parts.push_back(text.substr(begin, end - begin));
+  for (size_t end; (end = text.find(at, begin)) != std::string::npos; begin = end + 1)
+    parts.push_back(text.substr(begin, end - begin));
   parts.push_back(text.substr(begin));
   return parts;
 }

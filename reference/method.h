@@ -11,12 +11,12 @@
 namespace crosscheck {
 
 struct Method {
-  std::string name;                 // full, e.g. "mysim/leapfrog+sticky"
-  std::string what;                 // one line for people
-  std::string rule;                 // methods of the same rule must agree to round-off in contact-free scenes; may be empty
-  Engine engine;                    // throws Unsupported
-  ContactLoss contact;              // whether it reports what contacts took away
-  const Stepper* stepper = nullptr; // of mysim's methods
+  std::string name;     // full, e.g. "mysim/leapfrog+sticky"
+  std::string what;     // one line for people
+  std::string rule;     // methods of the same rule must agree to round-off in contact-free scenes; may be empty
+  Engine engine;        // throws Unsupported
+  ContactLoss contact;  // whether it reports what contacts took away
+  const Stepper* stepper = nullptr;  // of mysim's methods
 };
 
 /// Every method there is, without options.

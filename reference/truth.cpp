@@ -37,10 +37,14 @@ Truth from_closed_form(const ExactSolution& exact, const Scene& scene, const Run
 
 std::string_view name_of(Tier tier) {
   switch (tier) {
-    case Tier::exact: return "exact";
-    case Tier::exact_discrete: return "exact for the discrete rule";
-    case Tier::converged: return "converged";
-    case Tier::another_engine: return "another engine";
+    case Tier::exact:
+      return "exact";
+    case Tier::exact_discrete:
+      return "exact for the discrete rule";
+    case Tier::converged:
+      return "converged";
+    case Tier::another_engine:
+      return "another engine";
   }
   return "unknown";
 }
@@ -60,7 +64,8 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
   for (int i = 0; i < fine.trajectory.frames(); ++i)
     bar = std::max(bar, rms_distance(coarse.trajectory.x[i], fine.trajectory.x[i]));
   if (!std::isfinite(bar)) return std::nullopt;  // rk4 is unstable even there: nothing is known
-  return Truth{Tier::converged, fmt::format("rk4 at {:.3g} s, one route (no independent integrator yet)", scene.step / 4),
+  return Truth{Tier::converged,
+               fmt::format("rk4 at {:.3g} s, one route (no independent integrator yet)", scene.step / 4),
                std::move(fine.trajectory), std::max(bar, 1e-15 * scene.size())};
 }
 

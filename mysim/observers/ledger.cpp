@@ -7,11 +7,19 @@ void Integral::add(double value, double h) {
   last_ = {value, last_[0], last_[1], last_[2]};
   const auto& [p0, p1, p2, p3] = last_;
   switch (count_++) {
-    case 0: break;
-    case 1: value_ = h / 2 * (p1 + p0); break;
-    case 2: value_ = h / 3 * (p2 + 4 * p1 + p0); break;
-    case 3: value_ = 3 * h / 8 * (p3 + 3 * p2 + 3 * p1 + p0); break;
-    default: value_ += h / 24 * (9 * p0 + 19 * p1 - 5 * p2 + p3);
+    case 0:
+      break;
+    case 1:
+      value_ = h / 2 * (p1 + p0);
+      break;
+    case 2:
+      value_ = h / 3 * (p2 + 4 * p1 + p0);
+      break;
+    case 3:
+      value_ = 3 * h / 8 * (p3 + 3 * p2 + 3 * p1 + p0);
+      break;
+    default:
+      value_ += h / 24 * (9 * p0 + 19 * p1 - 5 * p2 + p3);
   }
 }
 

@@ -20,10 +20,10 @@ using StepFunction = void (*)(System&, State&, double h, Workspace&);
 struct Stepper {
   std::string_view name;
   StepFunction step;
-  int order;             // of the global error on smooth scenes, drag included
-  int evaluations;       // of the right-hand side, per step
-  bool first_order;      // takes first-order scenes
-  bool symplectic;       // without drag
+  int order;              // of the global error on smooth scenes, drag included
+  int evaluations;        // of the right-hand side, per step
+  bool first_order;       // takes first-order scenes
+  bool symplectic;        // without drag
   std::string_view what;  // for people
 };
 

@@ -5,10 +5,14 @@ namespace crosscheck {
 
 std::string_view name_of(Family family) {
   switch (family) {
-    case Family::single: return "single";
-    case Family::structural: return "structural";
-    case Family::shear: return "shear";
-    case Family::bend: return "bend";
+    case Family::single:
+      return "single";
+    case Family::structural:
+      return "structural";
+    case Family::shear:
+      return "shear";
+    case Family::bend:
+      return "bend";
   }
   return "unknown";
 }

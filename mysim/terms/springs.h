@@ -1,4 +1,5 @@
-// Linear springs. With d = x_a - x_b and L = |d|: force on a is -k (L - r) d / L, on b the opposite; energy k (L - r)^2 / 2.
+// Linear springs. With d = x_a - x_b and L = |d|: force on a is -k (L - r) d / L, on b the opposite; energy k (L - r)^2
+// / 2.
 #pragma once
 
 #include <string_view>

@@ -27,7 +27,8 @@ class DeformableWorld : public World {
     world_->getWorldInfo().m_sparsesdf.setDefaultVoxelsz(0.005);
     world_->getWorldInfo().m_sparsesdf.Reset();
     scene_body_ = std::make_unique<SceneBody>(scene, world_->getWorldInfo());
-    if (scene.model.find<Sphere>()) body().m_cfg.collisions = btSoftBody::fCollision::SDF_RD | btSoftBody::fCollision::SDF_RDN;
+    if (scene.model.find<Sphere>())
+      body().m_cfg.collisions = btSoftBody::fCollision::SDF_RD | btSoftBody::fCollision::SDF_RDN;
     make_obstacle(scene, stage_);
     if (stage_.ball) world_->addRigidBody(stage_.ball.get());
     world_->addSoftBody(&body());
@@ -162,7 +163,8 @@ Outcome run_deformable_explicit(const Scene& scene, const Run& run, Observer& ob
   Outcome out = drive(world, scene, run, observer);
   if (scene.model.find<Sphere>())
     out.different_law.push_back(
-        "contact: Bullet finds it at the proposed position but uses normal and gap of the old one (a tangent plane), so that "
+        "contact: Bullet finds it at the proposed position but uses normal and gap of the old one (a tangent plane), "
+        "so that "
         "nodes hop by (v h)^2 / 2R on a sphere; friction is Coulomb's in both");
   return out;
 }

@@ -31,7 +31,8 @@ class PbdWorld : public World {
     const std::optional<double> rate = uniform_drag_rate(model);
     if (!rate) throw Unsupported("Bullet's position-based world has one drag rate for the whole body");
 
-    world_ = std::make_unique<btSoftRigidDynamicsWorld>(&stage_.dispatcher, &stage_.broadphase, &solver_, &stage_.configuration);
+    world_ = std::make_unique<btSoftRigidDynamicsWorld>(&stage_.dispatcher, &stage_.broadphase, &solver_,
+                                                        &stage_.configuration);
     btSoftBodyWorldInfo& info = world_->getWorldInfo();
     // its default voxel of 0.25 m would misplace the sphere by 1.5 cm
     info.m_sparsesdf.setDefaultVoxelsz(0.02);
@@ -139,11 +140,13 @@ Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, int iter
   Outcome out = drive(world, scene, run, observer);
   if (scene.model.find<Springs>())
     out.different_law.push_back(
-        "springs: position-based links pull with k L (L^2 - r^2) / (L^2 + r^2), about k (L - r) for small strains, and are "
+        "springs: position-based links pull with k L (L^2 - r^2) / (L^2 + r^2), about k (L - r) for small strains, and "
+        "are "
         "solved like an implicit step, one after the other");
   if (scene.model.find<Sphere>())
-    out.different_law.push_back("friction: a touching node loses a fixed share of its tangential motion in each step, whatever "
-                                "presses it on; Coulomb's law is not followed");
+    out.different_law.push_back(
+        "friction: a touching node loses a fixed share of its tangential motion in each step, whatever "
+        "presses it on; Coulomb's law is not followed");
   return out;
 }
 

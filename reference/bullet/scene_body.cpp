@@ -47,7 +47,8 @@ SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(sce
   const auto* sphere = model.find<Sphere>();
   const int n = particles.size();
   if (model.first_order()) throw Unsupported("Bullet has no first-order systems: its bodies have mass and velocity");
-  if (sphere && sphere->restitution > 0) throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
+  if (sphere && sphere->restitution > 0)
+    throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
   if (sphere && n > 1 && !connected(model))
     throw Unsupported("Bullet's contact search hangs on a body whose springs do not join all particles");
 

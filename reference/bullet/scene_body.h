@@ -1,9 +1,9 @@
 // A scene as one Bullet soft body and one obstacle: the part that both kinds of Bullet world share.
 //
-// Traps met here (all measured): pinned nodes go last, since the implicit world shifts its contact prediction by one node
-// for each pin before; the first step overwrites rest lengths unless the update flag is cleared; bodies slower than
-// 0.04 m/s fall asleep unless told not to; a disconnected network hangs the builder of the node tree; the body's margin is
-// 0.25 m unless set; the explicit world clamps speeds to the diagonal of the body's box over the step.
+// Traps met here (all measured): pinned nodes go last, since the implicit world shifts its contact prediction by one
+// node for each pin before; the first step overwrites rest lengths unless the update flag is cleared; bodies slower
+// than 0.04 m/s fall asleep unless told not to; a disconnected network hangs the builder of the node tree; the body's
+// margin is 0.25 m unless set; the explicit world clamps speeds to the diagonal of the body's box over the step.
 #pragma once
 
 #include <BulletSoftBody/btSoftBody.h>

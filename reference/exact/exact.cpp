@@ -12,14 +12,15 @@ namespace {
 std::optional<ExactSolution> turning_points(const Scene& scene) {
   const auto* rotation = scene.model.find<Rotation>();
   if (!rotation) return std::nullopt;
-  return ExactSolution{"x(t) = rotation of x(0) by rate * t about z", [start = scene.start, rate = rotation->rate](double t) {
-                         State s = start;
-                         const double c = std::cos(rate * t), d = std::sin(rate * t);
-                         for (int i = 0; i < s.x.cols(); ++i)
-                           s.x.col(i).head<2>() << c * start.x(0, i) - d * start.x(1, i), d * start.x(0, i) + c * start.x(1, i);
-                         s.t = t;
-                         return s;
-                       }};
+  return ExactSolution{
+      "x(t) = rotation of x(0) by rate * t about z", [start = scene.start, rate = rotation->rate](double t) {
+        State s = start;
+        const double c = std::cos(rate * t), d = std::sin(rate * t);
+        for (int i = 0; i < s.x.cols(); ++i)
+          s.x.col(i).head<2>() << c * start.x(0, i) - d * start.x(1, i), d * start.x(0, i) + c * start.x(1, i);
+        s.t = t;
+        return s;
+      }};
 }
 
 /// The constant acceleration of gravity and steady wind, or nothing when the wind has gusts.
@@ -77,7 +78,8 @@ std::optional<ExactSolution> vertical_spring(const Scene& scene) {
   const double rest_point = spring.rest + mass * a->dot(n) / spring.k;
   const Oscillator u{spring.k / mass, drag ? drag->c[free] / mass : 0, distance - rest_point, v0.dot(n)};
   if (!(u.largest() < rest_point)) return std::nullopt;  // it could pass the anchor, where the spring's law has a kink
-  return ExactSolution{"damped harmonic oscillator about the hanging length", [start = scene.start, u, n, rest_point, anchor, free](double t) {
+  return ExactSolution{"damped harmonic oscillator about the hanging length",
+                       [start = scene.start, u, n, rest_point, anchor, free](double t) {
                          State s = start;
                          s.t = t;
                          s.x.col(free) = start.x.col(anchor) + (rest_point + u.position(t)) * n;

@@ -1,0 +1,34 @@
+// The table of charts.
+#include "report/charts/charts.h"
+
+#include <fmt/format.h>
+
+namespace crosscheck {
+
+std::vector<Chart> all_charts(const ChartInput& input) {
+  std::vector<Chart> all;
+  for (const auto make :
+       {scoreboard_charts, order_charts, error_charts, agreement_charts, contact_charts, energy_charts})
+    for (Chart& chart : make(input)) all.push_back(std::move(chart));
+  return all;
+}
+
+std::vector<std::pair<double, double>> points_of(const Table& table, const std::string& method,
+                                                 const std::string& column, bool positive) {
+  std::vector<std::pair<double, double>> points;
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    if (std::get<std::string>(table.at(i, "method")) != method) continue;
+    if (const auto* y = std::get_if<double>(&table.at(i, column)); y && (!positive || *y > 0))
+      points.emplace_back(std::get<double>(table.at(i, "t")), *y);
+  }
+  return points;
+}
+
+std::string caption_of(const Scene& scene, const SceneFacts& facts, const std::string& commit, bool with_truth) {
+  std::string text = "Scene " + scene.name;
+  if (with_truth) text += fmt::format("; truth: {}, error bar {}", facts.tier, nice_length(facts.bar));
+  return text + fmt::format("; step {} s; commit {}.", nice(facts.methods.empty() ? scene.step : facts.methods[0].step),
+                            commit);
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,45 @@
+// Error over time against the truth, one chart per scene that has one.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/charts/charts.h"
+
+namespace crosscheck {
+
+std::vector<Chart> error_charts(const ChartInput& input) {
+  std::vector<Chart> charts;
+  for (size_t i = 0; i < input.scenes.size(); ++i) {
+    const Scene& scene = input.scenes[i];
+    const SceneFacts& facts = input.facts[i];
+    const Table* table = input.result.table("engines-" + scene.name);
+    if (facts.tier.empty() || !table) continue;
+    Figure f;
+    f.name = scene.name + "-error";
+    f.title = scene.name + ": distance from the truth";
+    f.caption = caption_of(scene, facts, input.commit, true);
+    f.x = {"t / s", false, 0.0, scene.duration};
+    const double top = 10 * facts.motion;
+    f.y = {"RMS error / m", true, std::max(facts.bar, 1e-16) / 10, top};
+    std::vector<std::string> failed;
+    for (const MethodFacts& m : facts.methods) {
+      if (!m.supported()) continue;
+      Curve curve{m.method, style_of(m.method), {}};
+      for (const auto& [t, error] : points_of(*table, m.method, "error", true))
+        if (error < top && error > *f.y.low) curve.points.emplace_back(t, error);
+      if (!m.ok()) {
+        f.failures.push_back({m.method + ": blew up", style_of(m.method), m.end,
+                              curve.points.empty() ? top / 3 : std::min(top / 3, curve.points.back().second * 3)});
+        failed.push_back(m.method);
+      }
+      if (!curve.points.empty()) f.curves.push_back(std::move(curve));
+    }
+    f.floor = {"error bar of the truth", facts.bar};
+    f.finding = fmt::format("Errors of {} methods over {:.3g} s{}.", f.curves.size(), scene.duration,
+                            failed.empty() ? "" : fmt::format("; {} of them blew up", failed.size()));
+    charts.push_back({scene.name, std::move(f)});
+  }
+  return charts;
+}
+
+}  // namespace crosscheck

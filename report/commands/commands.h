@@ -1,0 +1,55 @@
+// The subcommands. Each returns the exit status: 0 done, 1 the answer is no; bad input throws InputError (exit 2).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace crosscheck {
+
+int doctor_command();
+
+int list_command(const std::string& what, bool json);
+
+struct RunOptions {
+  std::string scene, method;
+  double step = 0, tolerance = 0, duration = 0;  // 0: the scene's own
+  std::filesystem::path out = "out/run";
+  std::string command_line;
+};
+int run_command(const RunOptions& options);
+
+struct CompareOptions {
+  std::string scene, methods;
+  double step = 0;
+  std::filesystem::path out = "out/compare";
+  std::string command_line;
+};
+int compare_command(const CompareOptions& options);
+
+struct ExperimentOptions {
+  std::vector<std::string> names;  // of experiments, then of scenes
+  std::string methods;
+  bool full = false;
+  std::filesystem::path out = "out/experiment";
+  std::string command_line;
+};
+int experiment_command(const ExperimentOptions& options);
+
+struct ReportOptions {
+  std::vector<std::string> scenes;
+  std::string methods;
+  bool full = false;
+  std::filesystem::path out = "out/report";
+  std::string command_line;
+};
+int report_command(const ReportOptions& options);
+
+struct RenderOptions {
+  std::string scene, methods, mode = "shaded", quality = "still", size = "1280x720";
+  double at = -1;  // s; negative: the end
+  std::filesystem::path file;
+};
+int render_command(const RenderOptions& options);
+
+}  // namespace crosscheck

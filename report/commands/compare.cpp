@@ -1,0 +1,116 @@
+// compare: parity certificates, then the methods side by side; exit 1 on a mismatch or when equal rules differ.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "experiments/experiment.h"
+#include "experiments/metrics.h"
+#include "experiments/scenes.h"
+#include "mysim/files.h"
+#include "reference/certificate.h"
+#include "report/certificate_json.h"
+#include "report/commands/commands.h"
+#include "report/provenance.h"
+
+namespace crosscheck {
+namespace {
+
+void print(const Certificate& certificate) {
+  fmt::print("\nparity of {} with the scene {}\n", certificate.method, certificate.scene);
+  for (const CertificateRow& r : certificate.rows)
+    fmt::print("  {:<14} {:<14} asked: {}; handed over: {}; read back: {}\n", name_of(r.parity), r.quantity, r.asked,
+               r.mapped, r.read_back);
+}
+
+std::string shown(const Cell& cell) {
+  const auto* value = std::get_if<double>(&cell);
+  return value ? fmt::format("{:.3g}", *value) : "-";
+}
+
+/// Methods declared to follow the same rule, in scenes without contact: largest allowed distance from the first of
+/// them. Both sum the same forces in another order: about 1e-15 of the scene's size per step, times the measured growth
+/// of a perturbation, times 100 for thousands of steps that add up like a random walk.
+double allowed_difference(const Method& method, const Scene& scene, double step) {
+  const double growth = perturbation_growth(method, scene, step, scene.window);
+  return 1e-13 * std::max(1.0, scene.size()) * std::max(1.0, growth);
+}
+
+/// Prints what the same rules differ by; true when one differs by more than allowed.
+bool equal_rules_differ(const Request& request, const Scene& scene, const Result& result) {
+  bool differ = false;
+  for (size_t i = 0; i < request.methods.size(); ++i)
+    for (size_t j = 0; j < i; ++j) {
+      const std::string& rule = request.methods[i].rule;
+      const Answer &a = result.answers[i], &b = result.answers[j];
+      if (rule.empty() || rule != request.methods[j].rule || request.methods[i].name == request.methods[j].name)
+        continue;
+      if (a.outcome.verdict != Verdict::ok || b.outcome.verdict != Verdict::ok || scene.model.find<Sphere>()) continue;
+      double largest = 0;
+      for (int k = 0;
+           k < std::min(a.trajectory.frames(), b.trajectory.frames()) && a.trajectory.t[k] <= scene.window * (1 + 1e-9);
+           ++k)
+        largest = std::max(largest, (a.trajectory.x[k] - b.trajectory.x[k]).colwise().norm().maxCoeff());
+      const double allowed = allowed_difference(request.methods[j], scene, run_of(request, scene).step);
+      const bool over = largest > allowed;
+      fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, at most {:.3g} m is round-off: {}\n",
+                 b.method, a.method, largest, allowed, over ? "NOT THE SAME" : "the same");
+      differ |= over;
+    }
+  return differ;
+}
+
+}  // namespace
+
+int compare_command(const CompareOptions& options) {
+  Request request;
+  request.scenes.push_back(load_scene(options.scene));
+  request.methods = options.methods.empty() ? default_methods() : find_methods(options.methods);
+  request.step = options.step;
+  require_writable(options.out);
+  const Scene& scene = request.scenes[0];
+
+  Progress progress(static_cast<int>(request.methods.size()));
+  Result result;
+  engines_experiment(request, progress, result);
+  progress.done();
+  const Provenance lines = with_scenes(provenance(options.command_line), request.scenes);
+  for (const Table& table : result.tables) write_csv(table, lines, options.out);
+
+  bool mismatch = false;
+  for (const Certificate& certificate : result.certificates) {
+    print(certificate);
+    write_file(options.out / fmt::format("certificate-{}.json", file_name_of(certificate.method)),
+               certificate_json(certificate));
+    if (certificate.mismatch()) {
+      fmt::print("  MISMATCH: {} was given another scene; its numbers are not compared\n", certificate.method);
+      mismatch = true;
+    }
+  }
+  if (mismatch) return 1;
+
+  const Table& table = *result.table("engines");
+  const std::string tier = std::holds_alternative<std::string>(table.at(0, "truth tier"))
+                               ? std::get<std::string>(table.at(0, "truth tier"))
+                               : "none";
+  fmt::print("\n{}: {}\ntruth: {}{}\n\n", scene.name, scene.question, tier,
+             tier == "none" ? "" : fmt::format(", error bar {} m", shown(table.at(0, "truth bar"))));
+  fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "method", "verdict", "error/m", "diff./m",
+             "centres/m", "step/s", "until/s");
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", std::get<std::string>(table.at(i, "method")),
+               std::get<std::string>(table.at(i, "verdict")), shown(table.at(i, "largest error")),
+               shown(table.at(i, "largest difference")), shown(table.at(i, "largest difference of centres")),
+               shown(table.at(i, "step")), shown(table.at(i, "end")));
+    if (std::get<std::string>(table.at(i, "verdict")) == "unsupported")
+      fmt::print("    {}\n", std::get<std::string>(table.at(i, "reason")));
+  }
+  fmt::print(
+      "\nerror: from the truth; diff.: from mysim/symplectic-euler; largest RMS over the particles up to {:.3g} s\n",
+      scene.window);
+  const bool differ = equal_rules_differ(request, scene, result);
+  fmt::print("\n{}\n", options.out.string());
+  return differ ? 1 : 0;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,58 @@
+// doctor: what is installed, what is missing, what each is for.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "report/commands/commands.h"
+#include "report/run_program.h"
+
+namespace crosscheck {
+namespace {
+
+struct Tool {
+  const char* name;
+  const char* package;  // Debian's
+  const char* purpose;
+  bool required;
+};
+
+bool on_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::string folders = path ? path : "";
+  for (size_t begin = 0; begin <= folders.size();) {
+    const size_t end = std::min(folders.find(':', begin), folders.size());
+    if (std::filesystem::exists(std::filesystem::path(folders.substr(begin, end - begin)) / program)) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+int doctor_command() {
+  fmt::print("built with: {}\n", CROSSCHECK_COMPILER);
+  fmt::print("  {:<14} {:<10} {}\n", "Eigen", CROSSCHECK_EIGEN_VERSION, "vectors and matrices");
+  fmt::print("  {:<14} {:<10} {}\n", "Bullet", CROSSCHECK_BULLET_VERSION,
+             "the engine that mysim is compared with (double precision)");
+  fmt::print("  {:<14} {:<10} {}\n\n", "OSMesa", "linked", "renders pictures without a display");
+
+  static constexpr Tool tools[] = {
+      {"gnuplot", "gnuplot-nox", "draws the figures", true},
+      {"git", "git", "names the commit in tables and captions", false},
+      {"ctest", "cmake", "runs the tests", true},
+      {"chromium", "chromium", "prints the page as PDF by hand; nothing here needs it", false},
+  };
+  bool complete = true;
+  for (const Tool& tool : tools) {
+    const bool found = on_path(tool.name);
+    complete &= found || !tool.required;
+    const std::string state = found ? "found" : tool.required ? "MISSING" : "absent";
+    fmt::print("  {:<14} {:<10} {}{}\n", tool.name, state, tool.purpose,
+               found ? "" : fmt::format("; apt-get install --no-install-recommends {}", tool.package));
+  }
+  fmt::print("\n{}\n", complete ? "all that is required is here" : "something required is missing");
+  return complete ? 0 : 1;
+}
+
+}  // namespace crosscheck

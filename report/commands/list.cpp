@@ -1,0 +1,35 @@
+// list: scenes, methods, experiments, assignments.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/experiment.h"
+#include "experiments/scenes.h"
+#include "mysim/errors.h"
+#include "report/commands/commands.h"
+
+namespace crosscheck {
+
+int list_command(const std::string& what, bool json) {
+  std::vector<std::pair<std::string, std::string>> rows;
+  if (what == "scenes")
+    for (const auto name : shipped_scenes()) rows.emplace_back(name, load_scene(std::string(name)).question);
+  else if (what == "methods")
+    for (const Method& method : all_methods()) rows.emplace_back(method.name, method.what);
+  else if (what == "experiments")
+    for (const Experiment& experiment : experiments()) rows.emplace_back(experiment.name, experiment.question);
+  else if (what != "assignments")  // none is shipped yet: an empty list says so
+    throw InputError(fmt::format("list {}: expected scenes, methods, experiments or assignments", what));
+
+  if (json) {
+    auto list = nlohmann::ordered_json::array();
+    for (const auto& [name, text] : rows) list.push_back({{"name", name}, {"what", text}});
+    fmt::print("{}\n", list.dump(2));
+    return 0;
+  }
+  for (const auto& [name, text] : rows) fmt::print("{:<28} {}\n", name, text);
+  if (rows.empty()) fmt::print("none in this version\n");
+  return 0;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,66 @@
+// render: a picture of a scene, methods side by side.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "experiments/scenes.h"
+#include "mysim/errors.h"
+#include "mysim/files.h"
+#include "report/commands/commands.h"
+#include "report/pictures.h"
+
+namespace crosscheck {
+namespace {
+
+void read_size(const std::string& text, Shot& shot) {
+  int end = 0;
+  // the renderer's largest image is 16384 pixels wide
+  if (std::sscanf(text.c_str(), "%dx%d%n", &shot.width, &shot.height, &end) != 2 ||
+      end != static_cast<int>(text.size()) || shot.width < 64 || shot.height < 64 || shot.width > 8192 ||
+      shot.height > 8192)
+    throw InputError(fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each from 64 to 8192", text));
+}
+
+}  // namespace
+
+int render_command(const RenderOptions& options) {
+  const Scene scene = load_scene(options.scene);
+  Shot shot;
+  shot.mode = mode_named(options.mode);
+  shot.at = options.at;
+  if (options.at > scene.duration)
+    throw InputError(fmt::format("--at {}: expected a time from 0 to {} s", options.at, scene.duration));
+  if (options.quality != "fast" && options.quality != "still")
+    throw InputError(fmt::format("--quality {}: expected fast or still", options.quality));
+  shot.quality = options.quality == "fast" ? render::Quality::fast : render::Quality::still;
+  read_size(options.size, shot);
+  if (options.file.extension() != ".png")
+    throw InputError(fmt::format("-o {}: expected a file name that ends in .png", options.file.string()));
+  require_writable(options.file.has_parent_path() ? options.file.parent_path() : ".");
+
+  std::vector<Method> methods;
+  if (options.methods.empty())
+    for (const std::string& name : pictured_methods(scene)) methods.push_back(find_method(name));
+  else
+    methods = find_methods(options.methods);
+  std::vector<Answer> answers;
+  bool refused = false;
+  for (const Method& method : methods) {
+    Recorder recorder;
+    Outcome out = run_method(method, scene, default_run(scene), {&recorder});
+    if (out.verdict == Verdict::unsupported) {
+      fmt::print(stderr, "crosscheck: {} cannot run {}: {}\n", method.name, scene.name, out.reason);
+      refused = true;
+      continue;
+    }
+    answers.push_back({scene.name, method.name, std::move(out), std::move(recorder.trajectory)});
+  }
+  if (answers.empty() && refused) return 1;
+  std::vector<const Answer*> shown;
+  for (const Answer& a : answers) shown.push_back(&a);
+  render::write_png(picture_of(scene, shown, shot), options.file);
+  fmt::print("{}\n", options.file.string());
+  return 0;
+}
+
+}  // namespace crosscheck

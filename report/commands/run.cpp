@@ -1,0 +1,96 @@
+// run: one method on one scene; writes trajectory.npy, velocities.npy, energy.csv, run.json.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "experiments/experiment.h"
+#include "experiments/scenes.h"
+#include "mysim/errors.h"
+#include "mysim/files.h"
+#include "reference/npy.h"
+#include "report/commands/commands.h"
+#include "report/provenance.h"
+
+namespace crosscheck {
+namespace {
+
+Table energy_table(const Ledger& ledger) {
+  Table table{"energy",
+              {{"t", "s"},
+               {"kinetic", "J"},
+               {"elastic", "J"},
+               {"gravitational", "J"},
+               {"dissipated", "J"},
+               {"contact loss", "J"},
+               {"contact loss inferred", "1"},
+               {"wind work", "J"},
+               {"pin work", "J"}},
+              {}};
+  for (const LedgerRow& r : ledger.rows())
+    table.add({r.t, r.energy.kinetic, r.energy.elastic, r.energy.gravitational, r.dissipated, r.contact,
+               ledger.contact_inferred() ? 1l : 0l, r.wind, r.pins});
+  return table;
+}
+
+std::string run_json(const Scene& scene, const Method& method, const Outcome& out, const Trajectory& path) {
+  nlohmann::ordered_json json{{"scene", scene.name},
+                              {"scene_hash", scene.hash},
+                              {"method", method.name},
+                              {"step", out.step},
+                              {"times", path.t},
+                              {"verdict", name_of(out.verdict)},
+                              {"reason", out.reason},
+                              {"end", out.end},
+                              {"steps", out.steps},
+                              {"force_evaluations", out.evaluations},
+                              {"coincident_springs", out.coincident},
+                              {"cpu_seconds", out.cpu_seconds},
+                              {"different_law", out.different_law}};
+  return json.dump(1) + "\n";
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const Scene scene = load_scene(options.scene);
+  const Method method = find_method(options.method.empty() ? scene.method : options.method);
+  if (options.tolerance > 0)
+    throw InputError(fmt::format("--tol: {} is a fixed-step method; expected --step (s)", method.name));
+  Run run = default_run(scene);
+  if (options.step > 0) run.step = options.step;
+  if (options.duration > 0) {
+    // the sampling interval stays near the scene's own
+    run.samples = std::max(1, static_cast<int>(std::lround(scene.samples * options.duration / scene.duration)));
+    run.duration = options.duration;
+  }
+  if (run.step > run.duration)
+    throw InputError(fmt::format("--step: expected at most the duration of {} s, got {}", run.duration, run.step));
+  require_writable(options.out);
+
+  Recorder recorder;
+  Ledger ledger(scene.model, method.contact);
+  std::vector<Observer*> observers{&recorder};
+  if (!scene.model.first_order()) observers.push_back(&ledger);
+  const Outcome out = run_method(method, scene, run, observers);
+  if (out.verdict == Verdict::unsupported) {
+    fmt::print(stderr, "crosscheck: {} cannot run {}: {}\n", method.name, scene.name, out.reason);
+    return 1;
+  }
+
+  const Trajectory& path = recorder.trajectory;
+  write_file(options.out / "trajectory.npy", npy_bytes(path.x));
+  if (!scene.model.first_order()) {
+    write_file(options.out / "velocities.npy", npy_bytes(path.v));
+    write_csv(energy_table(ledger), with_scenes(provenance(options.command_line), {scene}), options.out);
+  }
+  write_file(options.out / "run.json", run_json(scene, method, out, path));
+  fmt::print("{} by {}: {}{}\n", scene.name, method.name, name_of(out.verdict),
+             out.reason.empty() ? "" : ", " + out.reason);
+  fmt::print("  {} steps of {:.6g} s, {} force evaluations, {:.3g} s of CPU time, {} frames\n", out.steps, out.step,
+             out.evaluations, out.cpu_seconds, path.frames());
+  if (out.coincident > 0) fmt::print("  springs met at zero length {} times and got no force there\n", out.coincident);
+  fmt::print("  {}\n", options.out.string());
+  return 0;
+}
+
+}  // namespace crosscheck

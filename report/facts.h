@@ -1,0 +1,43 @@
+// The numbers of a scene, picked from the experiments' tables for sentences, charts and the page.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/experiment.h"
+
+namespace crosscheck {
+
+struct MethodFacts {
+  std::string method, verdict, reason, different_law;
+  double end = 0, step = 0;  // s
+  long evaluations = 0, coincident = 0;
+  std::optional<double> error;              // m, largest RMS error from the truth in the window
+  std::optional<double> difference;         // m, largest RMS difference from mysim/symplectic-euler in the window
+  std::optional<double> centres;            // m, largest difference of the centres of mass over the run
+  std::optional<double> clearance, creep;   // m, m/s
+  std::optional<double> cpu, cpu_per_step;  // s
+  std::optional<double> energy_error;       // relative
+  bool supported() const { return verdict != "unsupported"; }
+  bool ok() const { return verdict == "ok"; }
+};
+
+struct SceneFacts {
+  std::string scene;
+  double motion = 0, window = 0, growth = 0;  // m, s, 1
+  std::string tier;                           // of the truth; empty without one
+  double bar = 0;                             // m
+  std::vector<MethodFacts> methods;
+  const MethodFacts* find(const std::string& method) const;
+};
+
+/// Facts of a scene from the tables `engines`, `engines-cost` and `energy`.
+SceneFacts facts_of(const std::string& scene, const Result& result);
+
+/// "3.2e-05" as "3.2e-5", small and large numbers plain where that is short: for sentences.
+std::string nice(double value);
+/// A length in the unit that suits it: "1.2 mm", "3.4e-14 m".
+std::string nice_length(double metres);
+
+}  // namespace crosscheck

@@ -1,0 +1,183 @@
+// Figures: the data as CSV, a script that reads it, and gnuplot.
+#include "report/figure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "mysim/files.h"
+#include "report/assets.h"
+#include "report/run_program.h"
+
+namespace crosscheck {
+namespace {
+
+std::string single_quoted(const std::string& text) {
+  std::string out = "'";
+  for (char c : text) out += c == '\'' ? "''" : std::string(1, c);
+  return out + "'";
+}
+
+/// How a curve is called in the data file: gnuplot splits even quoted fields at commas.
+std::string id_of(std::string title) {
+  for (char& c : title)
+    if (c == ',' || c == '"') c = ';';
+  return title;
+}
+
+/// Every point as a row: curve, x, y. Throws when there is nothing, or something that cannot be drawn.
+Table data_of(const Figure& f) {
+  Table table{f.name, {{"curve", "1"}, {f.x.label, "see name"}, {f.y.label, "see name"}}, {}};
+  auto add = [&](const std::string& curve, double x, double y) {
+    if (!std::isfinite(x) || !std::isfinite(y))
+      throw std::runtime_error(fmt::format("figure {}: a value is not finite", f.name));
+    table.add({id_of(curve), x, y});
+  };
+  for (const Curve& curve : f.curves)
+    for (const auto& [x, y] : curve.points) add(curve.title, x, y);
+  for (const FailureMark& mark : f.failures) add("failed: " + mark.title, mark.x, mark.y);
+  if (table.rows.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", f.name));
+  return table;
+}
+
+std::string axis_commands(const Axis& axis, char letter) {
+  std::string out = fmt::format("set {}label {}\n", letter, single_quoted(axis.label));
+  if (axis.logarithmic) out += fmt::format("set logscale {0} 10\nset format {0} \"10^{{%L}}\"\n", letter);
+  if (axis.low || axis.high)
+    out += fmt::format("set {}range [{}:{}]\n", letter, axis.low ? fmt::format("{:.6g}", *axis.low) : "",
+                       axis.high ? fmt::format("{:.6g}", *axis.high) : "");
+  return out;
+}
+
+/// One plot element that picks the rows of one curve from the file.
+std::string element(const Figure& f, const std::string& curve, const std::string& with, const std::string& title) {
+  return fmt::format("{} using (strcol(1) eq {} ? $2 : NaN):3 with {} title {}", single_quoted(f.name + ".csv"),
+                     single_quoted(id_of(curve)), with, single_quoted(title));
+}
+
+std::string plot_command(const Figure& f) {
+  std::vector<std::string> parts;
+  for (const Curve& c : f.curves) {
+    if (c.points.empty()) continue;
+    const int gap = c.markers ? 1 : std::max<int>(1, static_cast<int>(c.points.size()) / 8);
+    const std::string look = fmt::format("lc rgb \"{}\" pt {} ps 0.8", c.style.colour, c.style.marker);
+    parts.push_back(element(f, c.title,
+                            c.line ? fmt::format("linespoints {} lw 2 dt {} pointinterval {}", look, c.style.dash, gap)
+                                   : "points " + look + " lw 2",
+                            c.title));
+  }
+  std::set<std::string> marked;  // one element, and one line in the key, for all crosses of a name
+  for (const FailureMark& m : f.failures)
+    if (marked.insert(m.title).second)
+      parts.push_back(element(f, "failed: " + m.title,
+                              fmt::format("points lc rgb \"{}\" pt 2 ps 1.5 lw 3", m.style.colour), m.title));
+  if (f.floor)
+    parts.push_back(fmt::format("{:.6g} with lines lc rgb \"#999999\" lw 1.5 dt (2,3) title {}", f.floor->second,
+                                single_quoted(f.floor->first)));
+  std::string out = "plot ";
+  for (size_t i = 0; i < parts.size(); ++i) out += (i ? ", \\\n     " : "") + parts[i];
+  return out + "\n";
+}
+
+/// The x axis with both ends set: where left open, from the data. gnuplot samples horizontal lines over the range.
+Axis closed(const Figure& f) {
+  Axis axis = f.x;
+  double low = 1e300, high = -1e300;
+  auto see = [&](double x) { low = std::min(low, x), high = std::max(high, x); };
+  for (const Curve& curve : f.curves)
+    for (const auto& point : curve.points) see(point.first);
+  for (const FailureMark& mark : f.failures) see(mark.x);
+  const double room = axis.logarithmic ? 1.25 : 0.02 * (high - low) + 1e-12;
+  if (!axis.low) axis.low = axis.logarithmic ? low / room : low - room;
+  if (!axis.high) axis.high = axis.logarithmic ? high * room : high + room;
+  return axis;
+}
+
+std::string script_of(const Figure& f) {
+  std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", f.title, f.name);
+  out += fmt::format("set title {}\n", single_quoted(f.title));
+  out += axis_commands(closed(f), 'x') + axis_commands(f.y, 'y');
+  if (!f.categories.empty()) {
+    out += "set xtics rotate by 20 right noenhanced (";
+    for (size_t i = 0; i < f.categories.size(); ++i)
+      out += fmt::format("{}{} {:g}", i ? ", " : "", single_quoted(f.categories[i].second), f.categories[i].first);
+    out += ")\n";
+  }
+  if (f.window) {
+    out += fmt::format(
+        "set object 1 rectangle from {:.6g}, graph 0 to graph 1, graph 1 fc rgb \"#F1F1EE\" fs solid noborder behind\n",
+        f.window->first);
+    out += fmt::format(
+        "set label 1 {} at {:.6g}, graph 0.97 offset 0.6,0 left noenhanced font \"DejaVu Sans,9\" textcolor rgb "
+        "\"#777777\" front\n",
+        single_quoted(f.window->second), f.window->first);
+  }
+  std::string svg_name = f.name;  // gnuplot takes letters, digits and _ only
+  for (char& c : svg_name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  out += fmt::format("set term svg size 680,500 dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}\n",
+                     single_quoted(svg_name));
+  out += fmt::format("set output {}\n{}", single_quoted(f.name + ".svg"), plot_command(f));
+  out += fmt::format("set term pdfcairo size 17cm,12.5cm font \"DejaVu Sans,11\"\nset output {}\nreplot\n",
+                     single_quoted(f.name + ".pdf"));
+  out += fmt::format(
+      "set term pngcairo size 1360,1000 font \"DejaVu Sans,12\" fontscale 1.6 linewidth 1.7 pointscale 1.6\nset output "
+      "{}\nreplot\nset output\n",
+      single_quoted(f.name + ".png"));
+  return out;
+}
+
+/// Sets the one date in a PDF that Debian's cairo writes (it knows no SOURCE_DATE_EPOCH) to 1970, so that two runs
+/// write the same bytes; its length stays, and with it all offsets.
+void undate(const std::filesystem::path& pdf) {
+  std::ifstream in(pdf, std::ios::binary);
+  std::stringstream bytes;
+  bytes << in.rdbuf();
+  std::string text = bytes.str();
+  const std::string key = "/CreationDate (D:", date = "19700101000000";
+  const size_t at = text.find(key);
+  if (at == std::string::npos) return;
+  text.replace(at + key.size(), date.size(), date);
+  write_file(pdf, text);
+}
+
+}  // namespace
+
+MethodStyle style_of(const std::string& method) {
+  struct Row {
+    const char* name;
+    MethodStyle style;
+  };
+  static const Row table[] = {
+      {"mysim/symplectic-euler", {"#0072B2", "1", 7}},
+      {"mysim/leapfrog", {"#56B4E9", "(16,3,2,3)", 9}},
+      {"mysim/rk4", {"#009E73", "(6,3)", 13}},
+      {"mysim/trapezoidal", {"#E69F00", "(2,2)", 11}},
+      {"mysim/explicit-euler", {"#CC79A7", "(10,3,2,3)", 15}},
+      {"bullet/deformable-explicit", {"#D55E00", "(14,4)", 5}},
+      {"bullet/pbd", {"#7A3B00", "(4,2)", 4}},
+  };
+  for (const Row& row : table)
+    if (method == row.name) return row.style;
+  return {"#333333", "(8,2,2,2,2,2)", 3};
+}
+
+void draw_figure(const Figure& figure, const Provenance& provenance, const std::filesystem::path& folder) {
+  const Table data = data_of(figure);
+  write_file(folder / "style.gp", asset("style.gp"));
+  write_csv(data, provenance, folder);
+  write_file(folder / (figure.name + ".gp"), script_of(figure));
+  const ProgramResult drawn = run_program({"gnuplot", figure.name + ".gp"}, folder);
+  if (drawn.status != 0 || !drawn.err.empty())
+    throw std::runtime_error(
+        fmt::format("figure {}: gnuplot: {}", figure.name, drawn.err.empty() ? "failed" : drawn.err));
+  undate(folder / (figure.name + ".pdf"));
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,24 @@
+// Findings: plain sentences with the numbers and the tier that they rest on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/facts.h"
+
+namespace crosscheck {
+
+struct Finding {
+  std::string scene;     // or empty: of the whole report
+  std::string topic;     // agreement, accuracy, failure, cost, contact, order
+  std::string sentence;  // for a reader who has never seen the code
+  std::string tier;      // of the truth that it rests on; "another engine" for differences; "measured" for costs
+};
+
+/// What one scene showed.
+std::vector<Finding> findings_of(const Scene& scene, const SceneFacts& facts);
+/// What all scenes together showed, first things first.
+std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
+                                      const Result& result);
+
+}  // namespace crosscheck

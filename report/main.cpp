@@ -1,0 +1,125 @@
+// crosscheck: the subcommands, and nothing else.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "mysim/errors.h"
+#include "report/commands/commands.h"
+
+using namespace crosscheck;
+
+namespace {
+
+/// The command line as a person would type it.
+std::string command_line(int argc, char** argv) {
+  std::string line = "crosscheck";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    line += word.find_first_of(" \t'\"") == std::string::npos ? " " + word : " '" + word + "'";
+  }
+  return line;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{
+      "Crosscheck sets mysim, an in-house mass-spring and cloth engine, beside matching Bullet soft-body scenes."};
+  app.require_subcommand(1);
+  const std::string line = command_line(argc, argv);
+  int status = 0;
+  auto quick_or_full = [](CLI::App* command, bool& full) {
+    auto* quick = command->add_flag("--quick")->description("the short form (the default)");
+    command->add_flag("--full", full, "more points and finer pictures")->excludes(quick);
+  };
+
+  app.add_subcommand("doctor", "what is installed, what is missing, what each is for")->callback([&] {
+    status = doctor_command();
+  });
+
+  std::string what;
+  bool json = false;
+  auto* list = app.add_subcommand("list", "what there is: scenes, methods, experiments, assignments");
+  list->add_option("WHAT", what, "scenes, methods, experiments or assignments")->required();
+  list->add_flag("--json", json, "for programs");
+  list->callback([&] { status = list_command(what, json); });
+
+  RunOptions run_options;
+  auto* run = app.add_subcommand("run", "one run: trajectory, energies, verdict");
+  run->add_option("SCENE", run_options.scene, "a shipped scene or a TOML file")->required();
+  run->add_option("--method", run_options.method, "default: the scene's own");
+  run->add_option("--step", run_options.step, "s, of fixed-step methods")->check(CLI::PositiveNumber);
+  run->add_option("--tol", run_options.tolerance, "relative, of adaptive methods")->check(CLI::PositiveNumber);
+  run->add_option("--duration", run_options.duration, "s")->check(CLI::PositiveNumber);
+  run->add_option("--out", run_options.out, "folder (out/run)");
+  run->callback([&] { run_options.command_line = line, status = run_command(run_options); });
+
+  CompareOptions compare_options;
+  auto* compare = app.add_subcommand("compare", "parity certificate, then methods side by side");
+  compare->add_option("SCENE", compare_options.scene, "a shipped scene or a TOML file")->required();
+  compare->add_option("--methods", compare_options.methods, "A,B,...");
+  compare->add_option("--step", compare_options.step, "s")->check(CLI::PositiveNumber);
+  compare->add_option("--out", compare_options.out, "folder (out/compare)");
+  compare->callback([&] { compare_options.command_line = line, status = compare_command(compare_options); });
+
+  ExperimentOptions experiment_options;
+  auto* experiment = app.add_subcommand("experiment", "runs experiments and writes their tables");
+  experiment->add_option("NAME", experiment_options.names, "experiments, then scenes (default: all scenes)")
+      ->required();
+  experiment->add_option("--methods", experiment_options.methods, "A,B,...");
+  experiment->add_option("--out", experiment_options.out, "folder (out/experiment)");
+  quick_or_full(experiment, experiment_options.full);
+  experiment->callback(
+      [&] { experiment_options.command_line = line, status = experiment_command(experiment_options); });
+
+  ReportOptions report_options;
+  auto* report = app.add_subcommand("report", "the main job: a page with findings, figures, pictures and data");
+  report->add_option("SCENE", report_options.scenes, "default: all shipped scenes");
+  report->add_option("--methods", report_options.methods, "A,B,...");
+  report->add_option("--out", report_options.out, "folder (out/report)");
+  quick_or_full(report, report_options.full);
+  report->callback([&] { report_options.command_line = line, status = report_command(report_options); });
+
+  RenderOptions render_options;
+  auto* render = app.add_subcommand("render", "a picture of a scene, methods side by side");
+  render->add_option("SCENE", render_options.scene, "a shipped scene or a TOML file")->required();
+  render->add_option("--methods", render_options.methods, "A,B,...");
+  render->add_option("--mode", render_options.mode, "shaded, stretch, springs, difference or strip");
+  render->add_option("--at", render_options.at, "s (default: the end)")->check(CLI::NonNegativeNumber);
+  render->add_option("--quality", render_options.quality, "fast or still");
+  render->add_option("--size", render_options.size, "WxH, pixels");
+  render->add_option("-o", render_options.file, "FILE.png")->required();
+  render->callback([&] { status = render_command(render_options); });
+
+  if (argc > 1 && argv[1][0] != '-') {
+    std::string known;
+    bool found = false;
+    for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+      known += (known.empty() ? "" : ", ") + command->get_name();
+      found |= command->get_name() == argv[1];
+    }
+    if (!found) throw InputError(fmt::format("unknown command '{}'; expected one of: {}", argv[1], known));
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& done) {
+    return app.exit(done);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "crosscheck: {} (crosscheck --help shows the commands)\n", error.what());
+    return 2;
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "crosscheck: {}\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "crosscheck: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,82 @@
+// The page from top to bottom: answer, overview, scenes, how it was made.
+#include "report/page/page.h"
+
+#include <fmt/format.h>
+
+#include "report/assets.h"
+#include "report/provenance.h"
+
+namespace crosscheck {
+namespace {
+
+std::string finding_list(const std::vector<Finding>& findings, const std::string& css_class) {
+  std::string out = fmt::format("<ul class=\"{}\">\n", css_class);
+  for (const Finding& f : findings)
+    out += fmt::format("<li class=\"{}\">{} <span class=\"tier\">{}</span></li>\n", f.topic, escaped(f.sentence),
+                       f.tier == "measured" || f.tier == "see each scene" ? f.tier : "against: " + escaped(f.tier));
+  return out + "</ul>\n";
+}
+
+std::string head() {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width, "
+      "initial-scale=1\"><meta name=\"color-scheme\" content=\"light dark\"><title>Crosscheck: mysim beside "
+      "Bullet</title>\n<style>\n{}</style></head>\n<body>\n",
+      asset("page/style.css"));
+}
+
+std::string first_screen(const PageContent& c) {
+  std::string out = "<header><h1>Do mysim and Bullet agree?</h1></header>\n<main>\n<section class=\"answer\"><div>\n";
+  out += finding_list(c.findings, "findings");
+  for (const std::string& problem : c.problems)
+    out += fmt::format("<p class=\"problem\">Missing: {}</p>\n", escaped(problem));
+  out += "</div>\n";
+  out += "<div>\n";
+  for (const PageImage& image : c.hero) out += image_html(image, "hero");
+  return out + "</div></section>\n";
+}
+
+std::string scene_section(const ScenePart& part) {
+  const Scene& scene = *part.scene;
+  std::string out = fmt::format("<section class=\"scene\" id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"question\">{1}</p>\n",
+                                escaped(scene.name), escaped(scene.question));
+  out += finding_list(part.findings, "findings");
+  for (const PageImage& image : part.pictures) out += image_html(image, "render");
+  out += "<div class=\"figures\">\n";
+  for (const PageImage& image : part.figures) out += image_html(image, "chart");
+  out += "</div>\n" + run_table_html(part);
+  for (const Certificate* certificate : part.certificates) out += certificate_html(*certificate);
+  out += fmt::format(
+      "<p class=\"parameters\"><b>Parameters.</b> {} Step {} s, {:.3g} s of motion; pointwise comparison up to {:.3g} "
+      "s, where a perturbation "
+      "of 1e-10 m has grown {}-fold. Scene hash {}.</p>\n</section>\n",
+      escaped(scene.parameters), nice(part.facts->methods.empty() ? scene.step : part.facts->methods[0].step),
+      scene.duration, scene.window, nice(part.facts->growth), scene.hash);
+  return out;
+}
+
+}  // namespace
+
+std::string page_html(const PageContent& c) {
+  std::string out = head() + first_screen(c);
+  out += "<section>\n<h2>Scene by scene</h2>\n" + scene_table_html(c.scenes);
+  out += "</section>\n";
+  for (const ScenePart& part : c.scenes) out += scene_section(part);
+
+  out +=
+      "<section class=\"made\"><h2>How this was made</h2>\n<p>An error is the distance from the truth: the closed form "
+      "where the scene has one, "
+      "otherwise a converged solution with an error bar. A difference is the distance between two engines. Lengths are "
+      "RMS over all "
+      "particles, the largest over time. A run has blown up when it shows more energy than all it had to work with. "
+      "Data, figures and scripts lie "
+      "beside this page in <code>data/</code> and <code>figures/</code>.</p>\n";
+  for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", escaped(note));
+  out += "<table class=\"provenance\">\n";
+  for (const auto& [key, value] : c.provenance)
+    out += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td></tr>\n", escaped(key), escaped(value));
+  return out + "</table></section>\n</main></body></html>\n";
+}
+
+}  // namespace crosscheck

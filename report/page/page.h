@@ -1,0 +1,52 @@
+// The page: one self-contained HTML file that opens with the answer.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "report/charts/charts.h"
+#include "report/findings.h"
+
+namespace crosscheck {
+
+/// A picture or a figure already on disk.
+struct PageImage {
+  std::filesystem::path file;  // .png or .svg
+  std::string alt, caption;
+};
+
+struct ScenePart {
+  const Scene* scene;
+  const SceneFacts* facts;
+  std::vector<Finding> findings;
+  std::vector<PageImage> pictures;  // renders
+  std::vector<PageImage> figures;   // charts
+  std::vector<const Certificate*> certificates;
+};
+
+struct PageContent {
+  std::vector<Finding> findings;  // of the whole report
+  std::vector<PageImage> hero;    // beside the answer: a picture, and the figures of the whole report
+  std::vector<ScenePart> scenes;
+  std::vector<std::string> notes;     // what was left out, and why
+  std::vector<std::string> problems;  // what failed to be made
+  Provenance provenance;
+};
+
+/// The whole page. Throws std::runtime_error when an image cannot be read.
+std::string page_html(const PageContent& content);
+
+/// Text made safe for HTML.
+std::string escaped(const std::string& text);
+
+/// <figure> with the image inside the page as base64.
+std::string image_html(const PageImage& image, const std::string& css_class);
+
+/// The run table of one scene, and its parity certificates.
+std::string run_table_html(const ScenePart& part);
+std::string certificate_html(const Certificate& certificate);
+/// The table on the first screen: one row per scene.
+std::string scene_table_html(const std::vector<ScenePart>& scenes);
+
+}  // namespace crosscheck

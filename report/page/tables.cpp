@@ -1,0 +1,119 @@
+// Tables of the page: scenes at a glance, runs of a scene, certificates.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/page/page.h"
+
+namespace crosscheck {
+namespace {
+
+std::string length_cell(const std::optional<double>& value, double floor = 0) {
+  if (!value) return "<td class=\"none\">–</td>";
+  if (*value < floor) return fmt::format("<td>&lt; {}</td>", nice_length(floor));
+  return fmt::format("<td>{}</td>", nice_length(*value));
+}
+
+std::string verdict_cell(const MethodFacts& m) {
+  if (m.ok()) return "<td class=\"ok\">ok</td>";
+  if (!m.supported()) return fmt::format("<td class=\"unsupported\">unsupported: {}</td>", escaped(m.reason));
+  const std::string what = m.verdict == "energy" ? "energy from nothing"
+                           : m.verdict == "nan"  ? "not a number"
+                                                 : m.verdict;
+  return fmt::format("<td class=\"failed\">blew up at {:.3g} s ({})</td>", m.end, what);
+}
+
+}  // namespace
+
+std::string scene_table_html(const std::vector<ScenePart>& scenes) {
+  std::string out =
+      "<div class=\"scroll\"><table class=\"scenes\"><thead><tr><th>scene</th><th>what was asked</th><th>Bullet's "
+      "explicit world and mysim, "
+      "same rule</th><th>Bullet's position-based world</th><th>nearest to the truth</th><th>blew up</th><th>CPU per "
+      "step, Bullet / "
+      "mysim</th></tr></thead><tbody>\n";
+  for (const ScenePart& part : scenes) {
+    const MethodFacts *a = part.facts->find("mysim/symplectic-euler"),
+                      *b = part.facts->find("bullet/deformable-explicit"), *p = part.facts->find("bullet/pbd");
+    out += fmt::format("<tr><th scope=\"row\"><a href=\"#{0}\">{0}</a></th><td class=\"text\">{1}</td>",
+                       escaped(part.scene->name), escaped(part.scene->question));
+    const bool sphere = part.scene->model.find<Sphere>();
+    if (b && b->ok() && b->difference)
+      out += fmt::format("<td>differ by {}{}</td>", nice_length(*b->difference),
+                         sphere ? fmt::format(" until {:.2g} s", part.scene->window) : "");
+    else
+      out += b && b->supported() ? verdict_cell(*b) : "<td class=\"none\">not modelled</td>";
+    if (p && p->ok() && (p->error || p->difference))
+      out += fmt::format("<td>{} by {}</td>", p->error ? "off" : "differs",
+                         nice_length(p->error ? *p->error : *p->difference));
+    else
+      out += p && p->supported() ? verdict_cell(*p) : "<td class=\"none\">not modelled</td>";
+    const MethodFacts* best = nullptr;
+    int failed = 0;
+    for (const MethodFacts& m : part.facts->methods) {
+      failed += m.supported() && !m.ok();
+      if (m.ok() && m.error && !m.method.starts_with("truth/") && (!best || *m.error < *best->error)) best = &m;
+    }
+    out += best ? fmt::format("<td>{}<br>{}{}</td>", best->method, *best->error < part.facts->bar ? "&lt; " : "",
+                              nice_length(std::max(*best->error, part.facts->bar)))
+                : "<td class=\"none\">no truth: contact</td>";
+    std::string names;
+    for (const MethodFacts& m : part.facts->methods)
+      if (m.supported() && !m.ok()) names += (names.empty() ? "" : "<br>") + escaped(m.method);
+    out += failed ? fmt::format("<td class=\"failed\">{}</td>", names) : "<td class=\"ok\">none</td>";
+    // below 50 particles a step takes less than the clock can tell
+    if (a && b && a->ok() && b->ok() && a->cpu_per_step && b->cpu_per_step && part.scene->model.particles.size() >= 50)
+      out += fmt::format("<td>{:.1f}</td>", *b->cpu_per_step / *a->cpu_per_step);
+    else
+      out += "<td class=\"none\">–</td>";
+    out += "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string run_table_html(const ScenePart& part) {
+  const bool contact = part.scene->model.find<Sphere>();
+  std::string out = fmt::format(
+      "<div class=\"scroll\"><table><thead><tr><th>method</th><th>verdict</th><th>error from the "
+      "truth</th><th>distance from "
+      "mysim/symplectic-euler</th>{}<th>energy off</th><th>force evaluations</th><th>CPU / "
+      "s</th></tr></thead><tbody>\n",
+      contact ? "<th>centres apart</th><th>clearance</th><th>creep at the end</th>" : "");
+  for (const MethodFacts& m : part.facts->methods) {
+    out += fmt::format("<tr><th scope=\"row\">{}{}</th>{}{}{}", escaped(m.method),
+                       m.different_law.empty() ? ""
+                                               : fmt::format("<span class=\"law\" title=\"{}\">different law</span>",
+                                                             escaped(m.different_law)),
+                       verdict_cell(m), length_cell(m.error, part.facts->bar), length_cell(m.difference));
+    if (contact) {
+      out += length_cell(m.centres) + length_cell(m.clearance);
+      out += m.creep ? fmt::format("<td>{} mm/s</td>", nice(1e3 * *m.creep)) : "<td class=\"none\">–</td>";
+    }
+    out += m.energy_error ? fmt::format("<td>{} %</td>", nice(100 * *m.energy_error)) : "<td class=\"none\">–</td>";
+    out += m.supported() ? fmt::format("<td>{}</td><td>{}</td>", m.evaluations, m.cpu ? nice(*m.cpu) : "–")
+                         : "<td class=\"none\">–</td><td class=\"none\">–</td>";
+    out += "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string certificate_html(const Certificate& certificate) {
+  const bool bad = certificate.mismatch();
+  const long other = std::count_if(certificate.rows.begin(), certificate.rows.end(),
+                                   [](const CertificateRow& r) { return r.parity == Parity::different_law; });
+  std::string out = fmt::format(
+      "<details{}><summary>Is it the same scene? {}: {} quantities read back, {}{}</summary><div "
+      "class=\"scroll\"><table><thead><tr><th>quantity"
+      "</th><th>asked</th><th>handed over</th><th>read back</th><th>verdict</th></tr></thead><tbody>\n",
+      bad ? " open" : "", escaped(certificate.method), static_cast<long>(certificate.rows.size()) - other,
+      bad ? "MISMATCH" : "no mismatch", other ? fmt::format(", {} under another law", other) : "");
+  for (const CertificateRow& r : certificate.rows)
+    out += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td class=\"text\">{}</td><td "
+        "class=\"text\">{}</td><td class=\"{}\">{}</td></tr>\n",
+        escaped(r.quantity), escaped(r.asked), escaped(r.mapped), escaped(r.read_back),
+        r.parity == Parity::mismatch ? "failed" : "ok", name_of(r.parity));
+  return out + "</tbody></table></div></details>\n";
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,188 @@
+// Bodies, views and scales of pictures.
+#include "report/pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mysim/errors.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr int strip_columns = 5;
+
+/// Index of the sample nearest to t, or the last one for negative t.
+int frame_at(const Trajectory& path, double t) {
+  if (t < 0) return path.frames() - 1;
+  const auto nearest = std::min_element(path.t.begin(), path.t.end(),
+                                        [t](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
+  return static_cast<int>(nearest - path.t.begin());
+}
+
+/// The last frame up to `frame` that can be drawn: finite, and within a hundred scene sizes.
+int drawable(const Scene& scene, const Trajectory& path, int frame) {
+  const double far = 100 * scene.size();
+  while (frame > 0 && !(path.x[frame].allFinite() && (path.x[frame] - path.x[0]).cwiseAbs().maxCoeff() < far)) --frame;
+  return frame;
+}
+
+/// Mean extension of the springs at each particle, % of their rest length; compression counts as zero.
+std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<double>* per_spring = nullptr) {
+  std::vector<double> sum(x.cols(), 0), count(x.cols(), 0);
+  if (const auto* springs = scene.model.find<Springs>())
+    for (const Spring& s : springs->list) {
+      const double strain = s.rest > 0 ? std::max(0.0, (x.col(s.a) - x.col(s.b)).norm() / s.rest - 1) * 100 : 0;
+      if (per_spring) per_spring->push_back(strain);
+      if (s.family == Family::shear || s.family == Family::bend) continue;
+      for (int end : {s.a, s.b}) sum[end] += strain, count[end] += 1;
+    }
+  for (size_t i = 0; i < sum.size(); ++i) sum[i] /= std::max(1.0, count[i]);
+  return sum;
+}
+
+bool is_thread(const Spring& s) { return s.family == Family::structural; }
+
+/// A round number not below the value: 1, 2 or 5 times a power of ten.
+double round_up(double value) {
+  if (!(value > 0)) return 1;
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (double step : {1.0, 2.0, 5.0, 10.0})
+    if (value <= step * power * (1 + 1e-9)) return step * power;
+  return value;
+}
+
+render::Body body_of(const Scene& scene, const Answer& answer, int frame, Mode mode, const Points* base) {
+  render::Body body;
+  body.x = answer.trajectory.x[frame];
+  body.pinned = scene.model.particles.pins;
+  const auto* springs = scene.model.find<Springs>();
+  const bool surface = !scene.triangles.empty() && mode != Mode::springs;
+  if (surface) {
+    body.triangles = scene.triangles;
+    if (springs)
+      for (const Spring& s : springs->list)
+        if (is_thread(s)) body.threads.push_back({s.a, s.b});
+  } else {
+    if (scene.triangles.empty()) body.bead_radius = render::by_view;
+    std::vector<double> strain;
+    if (mode == Mode::stretch) stretch_of(scene, body.x, &strain);
+    if (springs)
+      for (size_t i = 0; i < springs->list.size(); ++i) {
+        const Spring& s = springs->list[i];
+        body.tubes.push_back({s.a, s.b});
+        if (mode == Mode::springs) body.tube_colour.push_back(std::max(0, static_cast<int>(s.family) - 1));
+        if (mode == Mode::stretch) body.tube_value.push_back(strain[i]);
+      }
+  }
+  if (surface && mode == Mode::stretch) body.value = stretch_of(scene, body.x);
+  if (mode == Mode::difference && base) {
+    body.value.resize(body.x.cols());
+    for (int i = 0; i < body.x.cols(); ++i) body.value[i] = 1000 * (body.x.col(i) - base->col(i)).norm();
+  }
+  // the last particle of a scene without cloth draws its path
+  if (scene.triangles.empty())
+    for (int i = 0; i <= frame; ++i) body.trail.push_back(answer.trajectory.x[i].col(body.x.cols() - 1));
+  return body;
+}
+
+std::vector<render::Ball> balls_of(const Scene& scene) {
+  if (const auto* sphere = scene.model.find<Sphere>()) return {{sphere->centre, sphere->radius}};
+  return {};
+}
+
+/// The scene's camera, or one that holds everything that the panels show.
+render::View view_of(const Scene& scene, const std::vector<Points>& shown, double aspect) {
+  double depth = 0;
+  for (const Points& x : shown) depth = std::max(depth, x.row(2).maxCoeff() - x.row(2).minCoeff());
+  const bool flat = scene.triangles.empty() && depth < 1e-9;
+  render::View view =
+      render::view_that_holds(shown, balls_of(scene), flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1), aspect);
+  if (flat) view.floor.reset();
+  if (scene.camera) {
+    view.eye = scene.camera->eye;
+    view.target = scene.camera->target;
+  }
+  return view;
+}
+
+std::string time_text(const Answer& answer, int frame) {
+  const std::string t = fmt::format("t = {:.3g} s", answer.trajectory.t[frame]);
+  return answer.outcome.verdict == Verdict::ok
+             ? t
+             : fmt::format("{}, failed at {:.3g} s: {}", t, answer.outcome.end, name_of(answer.outcome.verdict));
+}
+
+std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Shot& shot) {
+  if (shot.mode != Mode::strip) return {drawable(scene, path, frame_at(path, shot.at))};
+  std::vector<int> frames;
+  for (int c = 0; c < strip_columns; ++c)
+    frames.push_back(drawable(scene, path, frame_at(path, scene.duration * c / (strip_columns - 1))));
+  return frames;
+}
+
+}  // namespace
+
+Mode mode_named(const std::string& name) {
+  constexpr std::pair<const char*, Mode> table[] = {{"shaded", Mode::shaded},
+                                                    {"stretch", Mode::stretch},
+                                                    {"springs", Mode::springs},
+                                                    {"difference", Mode::difference},
+                                                    {"strip", Mode::strip}};
+  for (const auto& [known, mode] : table)
+    if (name == known) return mode;
+  throw InputError(fmt::format("--mode {}: expected shaded, stretch, springs, difference or strip", name));
+}
+
+std::vector<std::string> pictured_methods(const Scene& scene) {
+  if (scene.model.first_order()) return {"mysim/explicit-euler", "mysim/trapezoidal", "mysim/rk4"};
+  return {"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd"};
+}
+
+render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>& answers, const Shot& shot) {
+  std::vector<const Answer*> usable;
+  for (const Answer* a : answers)
+    if (a->trajectory.frames() > 0) usable.push_back(a);
+  if (usable.empty())
+    throw InputError(
+        fmt::format("{}: none of the methods gives a picture; expected one that can run the scene", scene.name));
+
+  render::Picture picture;
+  picture.width = shot.width;
+  picture.height = shot.height;
+  picture.quality = shot.quality;
+  const bool strip = shot.mode == Mode::strip;
+  const Mode mode = strip ? Mode::shaded : shot.mode;
+  const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
+  std::vector<Points> healthy, all;
+  double most = 0;
+  if (!strip) picture.rows.emplace_back();
+  for (const Answer* a : usable) {
+    if (strip) picture.rows.emplace_back();
+    const std::vector<int> frames = frames_of(scene, a->trajectory, shot);
+    for (size_t c = 0; c < frames.size(); ++c) {
+      const Points& base = usable[0]->trajectory.x[base_frames[c]];
+      render::Panel panel;
+      panel.title = !strip || c == 0 ? a->method : "";
+      panel.subtitle = time_text(*a, frames[c]);
+      panel.balls = balls_of(scene);
+      panel.bodies.push_back(body_of(scene, *a, frames[c], mode, &base));
+      for (double v : panel.bodies[0].value) most = std::max(most, v);
+      for (double v : panel.bodies[0].tube_value) most = std::max(most, v);
+      all.push_back(panel.bodies[0].x);
+      if (a->outcome.verdict == Verdict::ok) healthy.push_back(panel.bodies[0].x);
+      for (const Vec3& p : panel.bodies[0].trail)
+        if (a->outcome.verdict == Verdict::ok) healthy.push_back(Points(p));
+      picture.rows.back().push_back(std::move(panel));
+    }
+  }
+  if (mode == Mode::stretch) picture.scale = render::Scale{"stretch / %", 0, round_up(most)};
+  if (mode == Mode::difference)
+    picture.scale = render::Scale{"distance from " + usable[0]->method + " / mm", 0, round_up(most)};
+  if (mode == Mode::springs && !scene.triangles.empty()) picture.legend = {"structural", "shear", "bend"};
+  picture.view = view_of(scene, healthy.empty() ? all : healthy, render::panel_aspect(picture));
+  return picture;
+}
+
+}  // namespace crosscheck

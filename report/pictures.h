@@ -1,0 +1,31 @@
+// From scenes and answers to pictures: what is drawn in which mode, and from where it is seen.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/experiment.h"
+#include "report/render/picture.h"
+
+namespace crosscheck {
+
+enum class Mode { shaded, stretch, springs, difference, strip };
+/// Throws InputError that lists the modes.
+Mode mode_named(const std::string& name);
+
+struct Shot {
+  Mode mode = Mode::shaded;
+  double at = -1;  // s; negative: the end
+  render::Quality quality = render::Quality::still;
+  int width = 1280, height = 720;
+};
+
+/// Answers of one scene side by side, in one view. Answers without frames are left out; a failed run is shown at its
+/// last finite frame and says so. In mode difference the first answer is the one that the others are set against.
+/// Throws InputError when nothing can be shown.
+render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>& answers, const Shot& shot);
+
+/// The methods that a picture of the scene shows when nobody names any.
+std::vector<std::string> pictured_methods(const Scene& scene);
+
+}  // namespace crosscheck

@@ -1,0 +1,62 @@
+// Gathers provenance.
+#include "report/provenance.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "report/run_program.h"
+
+namespace crosscheck {
+namespace {
+
+std::string commit() {
+  try {
+    const auto git =
+        run_program({"git", "describe", "--always", "--dirty=, with uncommitted changes", "--abbrev=12", "--exclude=*"},
+                    CROSSCHECK_SOURCE_DIR);
+    if (git.status == 0 && !git.out.empty()) return git.out.substr(0, git.out.find('\n'));
+  } catch (const std::exception&) {
+    // no git on this machine
+  }
+  return "unknown (no git)";
+}
+
+std::string processor() {
+  std::ifstream in("/proc/cpuinfo");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+}  // namespace
+
+Provenance provenance(const std::string& command) {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return {{"command", command},
+          {"commit", commit()},
+          {"compiler", CROSSCHECK_COMPILER},
+          {"cpu", processor()},
+          {"engines", "mysim (double), Bullet " CROSSCHECK_BULLET_VERSION " (double)"},
+          {"date", fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(now))}};
+}
+
+Provenance with_scenes(Provenance lines, const std::vector<Scene>& scenes) {
+  for (const Scene& scene : scenes) {
+    std::string value = fmt::format("{} {}", scene.name, scene.hash);
+    if (const auto* wind = scene.model.find<Wind>(); wind && wind->gusts)
+      value += fmt::format(", seed {}", wind->gusts->seed);
+    lines.emplace_back("scene", value);
+  }
+  return lines;
+}
+
+std::string value_of(const Provenance& lines, const std::string& key) {
+  for (const auto& [k, v] : lines)
+    if (k == key) return v;
+  return "";
+}
+
+}  // namespace crosscheck

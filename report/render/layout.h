@@ -1,0 +1,32 @@
+// Where panels, titles, colour bar and legend go in the picture, in pixels from the top left.
+#pragma once
+
+#include <vector>
+
+#include "report/render/picture.h"
+
+namespace crosscheck::render {
+
+struct Layout {
+  double title = 0, text = 0;  // font sizes, pixels
+  double subtitle = 0;         // font size of the subtitles, pixels
+  int panel_width = 0, panel_height = 0;
+  int left = 0;                          // of the first column
+  std::vector<int> panel_top;            // one per row
+  std::vector<double> title_y;           // middle of the title line, one per row
+  std::vector<double> subtitle_y;        // middle of the subtitle line, one per row
+  std::vector<std::vector<int>> legend;  // entries of each line of the legend
+  double legend_y = 0;                   // middle of its first line
+  double bar_top = 0, bar_height = 0, bar_left = 0, bar_width = 0;
+};
+
+/// A row whose only title stands in its first column is a strip: the title heads the whole row.
+bool is_strip(const std::vector<Panel>& row);
+
+/// Width of a legend entry with its swatch and the gap after it, in pixels.
+double legend_entry_width(const std::string& name, double font);
+
+/// Throws std::runtime_error if the picture has no panels or no room for them.
+Layout layout_of(const Picture& picture);
+
+}  // namespace crosscheck::render

@@ -1,0 +1,111 @@
+// Runs another program by posix_spawn: stdin from /dev/null, stdout and stderr read through two pipes.
+#include "report/run_program.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace crosscheck {
+namespace {
+
+struct Pipe {
+  int read_end = -1, write_end = -1;
+  Pipe() {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
+    read_end = ends[0], write_end = ends[1];
+  }
+  ~Pipe() { close_end(read_end), close_end(write_end); }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  static void close_end(int& end) {
+    if (end >= 0) close(end);
+    end = -1;
+  }
+};
+
+struct FileActions {
+  posix_spawn_file_actions_t list;
+  FileActions() { posix_spawn_file_actions_init(&list); }
+  ~FileActions() { posix_spawn_file_actions_destroy(&list); }
+  FileActions(const FileActions&) = delete;
+  FileActions& operator=(const FileActions&) = delete;
+};
+
+/// The inherited environment with the extra entries in place of those of the same name.
+std::vector<std::string> merged_environment(const std::vector<std::string>& extra) {
+  std::vector<std::string> all = extra;
+  for (char** entry = environ; *entry; ++entry) {
+    const std::string inherited = *entry;
+    const std::string name = inherited.substr(0, inherited.find('=') + 1);
+    bool replaced = false;
+    for (const std::string& own : extra) replaced = replaced || own.compare(0, name.size(), name) == 0;
+    if (!replaced) all.push_back(inherited);
+  }
+  return all;
+}
+
+std::vector<char*> pointers(const std::vector<std::string>& strings) {
+  std::vector<char*> list;
+  for (const std::string& s : strings) list.push_back(const_cast<char*>(s.c_str()));
+  list.push_back(nullptr);
+  return list;
+}
+
+/// Reads both pipes until both are at their end: reading one after the other could block the program for ever.
+void read_all(Pipe& out, std::string& out_text, Pipe& err, std::string& err_text) {
+  std::array<char, 4096> chunk;
+  while (out.read_end >= 0 || err.read_end >= 0) {
+    pollfd wait[2] = {{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}};
+    if (poll(wait, 2, -1) < 0) {
+      if (errno == EINTR) continue;
+      throw std::runtime_error(std::string("poll: ") + std::strerror(errno));
+    }
+    for (int i = 0; i < 2; ++i) {
+      if (wait[i].fd < 0 || wait[i].revents == 0) continue;
+      Pipe& from = i == 0 ? out : err;
+      const ssize_t n = read(from.read_end, chunk.data(), chunk.size());
+      if (n > 0) (i == 0 ? out_text : err_text).append(chunk.data(), static_cast<std::size_t>(n));
+      if (n == 0 || (n < 0 && errno != EINTR)) Pipe::close_end(from.read_end);
+    }
+  }
+}
+
+}  // namespace
+
+ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
+                          const std::vector<std::string>& extra_env) {
+  if (argv.empty()) throw std::runtime_error("run_program: no program named");
+  Pipe out, err;
+  FileActions actions;
+  posix_spawn_file_actions_addopen(&actions.list, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions.list, out.write_end, 1);
+  posix_spawn_file_actions_adddup2(&actions.list, err.write_end, 2);
+  posix_spawn_file_actions_addchdir_np(&actions.list, cwd.c_str());
+
+  const std::vector<std::string> environment = merged_environment(extra_env);
+  pid_t child = 0;
+  const int failed = posix_spawnp(&child, argv[0].c_str(), &actions.list, nullptr, pointers(argv).data(),
+                                  pointers(environment).data());
+  if (failed) {
+    throw std::runtime_error("cannot start " + argv[0] + " in " + cwd.string() + ": " + std::strerror(failed));
+  }
+  Pipe::close_end(out.write_end), Pipe::close_end(err.write_end);
+
+  ProgramResult result;
+  read_all(out, result.out, err, result.err);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return result;
+}
+
+}  // namespace crosscheck

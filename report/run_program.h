@@ -1,0 +1,21 @@
+// Runs another program without a shell and hands back its exit status and all it wrote.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace crosscheck {
+
+struct ProgramResult {
+  int status = 0;   // exit code; 128 + signal number if a signal ended it
+  std::string err;  // all of stderr
+  std::string out;  // all of stdout
+};
+
+/// Runs argv[0] (looked up in PATH) in the folder cwd with stdin empty; extra_env holds "NAME=value" entries that win
+/// over the inherited ones. Throws std::runtime_error if the program cannot be started.
+ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
+                          const std::vector<std::string>& extra_env = {});
+
+}  // namespace crosscheck

@@ -1,0 +1,103 @@
+// Bullet against mysim on the shipped cloths, in their windows, beside the measured growth of a perturbation.
+#include "experiments/metrics.h"
+#include "experiments/scenes.h"
+#include "reference/certificate.h"
+#include "reference/method.h"
+#include "tests/unit/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+/// The whole run of a method at the scene's own step, which must come to its end.
+Answered play(const std::string& method, const Scene& scene) {
+  Answered a = answer(method, scene, default_run(scene));
+  EXPECT_EQ(a.outcome.verdict, Verdict::ok) << method << ": " << a.outcome.reason;
+  return a;
+}
+
+void expect_identity(const std::string& name, const std::string& carried_by) {
+  const Scene scene = load_scene(name);
+  const Answered ours = play("symplectic-euler", scene), theirs = play("bullet/deformable-explicit", scene);
+  ASSERT_TRUE(theirs.outcome.readback);
+  EXPECT_TRUE(contains(theirs.outcome.readback->mapped.at("stiffness"), carried_by));
+  EXPECT_FALSE(certify("bullet/deformable-explicit", scene, theirs.outcome).mismatch());
+  const double apart = sup_distance(ours.trajectory, theirs.trajectory, scene.window);
+  const double growth = perturbation_growth(find_method("symplectic-euler"), scene, scene.step, scene.window);
+  fmt::print("{}: {:.3g} m apart, growth {:.3g}\n", name, apart, growth);
+  EXPECT_LE(apart, 1e-12);  // the bound: round-off of the summation order, 1e-15 m, times the growth
+  EXPECT_LT(growth, 1e3);
+}
+
+TEST(BulletCloth, HangIsIdenticalByBulletsOwnForce) { expect_identity("cloth-hang", "Bullet's own mass-spring force"); }
+TEST(BulletCloth, SwingIsIdentical) { expect_identity("cloth-swing", "Bullet's own mass-spring force"); }
+TEST(BulletCloth, WindIsIdentical) { expect_identity("cloth-wind", "Bullet's own mass-spring force"); }
+
+TEST(BulletCloth, ThreeStiffnessesAreIdenticalByOurForceClass) {
+  Scene scene = load_scene("cloth-hang");
+  for (Spring& s : scene.model.find<Springs>()->list)
+    s.k = s.family == Family::structural ? 200 : s.family == Family::shear ? 180 : 160;
+  scene.duration = scene.window = 1;
+  scene.samples = 30;
+  const Answered ours = play("symplectic-euler", scene), theirs = play("bullet/deformable-explicit", scene);
+  EXPECT_TRUE(contains(theirs.outcome.readback->mapped.at("stiffness"), "force class of our own"));
+  EXPECT_LE(sup_distance(ours.trajectory, theirs.trajectory), 1e-12);
+}
+
+TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStepper) {
+  for (const auto name : shipped_scenes()) {
+    const Scene scene = load_scene(std::string(name));
+    int stable = 0;
+    for (const Stepper& s : steppers()) {
+      SCOPED_TRACE(fmt::format("{} {}", name, s.name));
+      const Method method = find_method(std::string(s.name));
+      Recorder r;
+      const int samples = std::max(1, static_cast<int>(scene.samples * scene.window / scene.duration));
+      if (run_method(method, scene, {scene.step, scene.window, samples}, {&r}).verdict != Verdict::ok) continue;
+      ++stable;
+      const double growth = perturbation_growth(method, scene, scene.step, scene.window);
+      fmt::print("{:12} {:16} growth {:.3g}\n", name, s.name, growth);
+      EXPECT_GT(growth, 0);
+      EXPECT_LT(growth, 1e3);  // the bound, by which windows were chosen
+    }
+    EXPECT_GE(stable, 3) << name;  // the two symplectic rules and rk4, or the three that take first-order scenes
+  }
+}
+
+/// Time (s) at the end of the first step in which something touched.
+class FirstTouch : public Observer {
+ public:
+  bool every_step() const override { return true; }
+  Verdict observe(const State&, bool) override { return Verdict::ok; }
+  void contact(const State&, const State& resolved) override { time = std::min(time, resolved.t); }
+  double time = INFINITY;
+};
+
+TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {
+  const Scene scene = load_scene("cloth-sphere");
+  const Answered ours = play("symplectic-euler", scene), theirs = play("bullet/deformable-explicit", scene);
+  FirstTouch touch;
+  run_method(find_method("symplectic-euler"), scene, default_run(scene), {&touch});
+  EXPECT_NEAR(scene.window, touch.time + 0.3, 0.01);  // the window is written to two digits
+  const auto sampled = first_contact(scene, ours.trajectory);
+  ASSERT_TRUE(sampled);
+  EXPECT_NEAR(*sampled, touch.time, 0.02 + scene.step);  // a touch is seen at the next sample, 0.02 s later at most
+  const double rms = sup_rms(ours.trajectory, theirs.trajectory, scene.window);
+  double mean_apart = 0, closest = 0;
+  for (int i = 0; i < ours.trajectory.frames(); ++i) {
+    mean_apart =
+        std::max(mean_apart,
+                 (centre_of_mass(scene, ours.trajectory.x[i]) - centre_of_mass(scene, theirs.trajectory.x[i])).norm());
+    closest = std::min(closest, *clearance(scene, theirs.trajectory.x[i]));
+    EXPECT_GE(*clearance(scene, ours.trajectory.x[i]), -1e-13);  // round-off of the radius
+  }
+  fmt::print("cloth-sphere: touch {:.3g} s, rms {:.3g} m, centre of mass {:.3g} m, clearance {:.3g} m\n", touch.time,
+             rms, mean_apart, closest);
+  EXPECT_LE(rms, 2e-3);         // the bounds: Bullet's normals are those of the old position,
+  EXPECT_LE(mean_apart, 5e-3);  // so that nodes hop by (v h)^2 / 2R in each step
+  EXPECT_GE(closest, -1e-3);    // distance field at 0.005 m voxels: 6e-6 m, and one hop
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,236 @@
+// The program as people and scripts call it: exit statuses, messages of one line, files, and the same bytes twice.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "report/run_program.h"
+
+namespace crosscheck {
+namespace {
+namespace fs = std::filesystem;
+
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("crosscheck-cli-" + std::to_string(getpid()) + "-" +
+                                           testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  ProgramResult call(std::vector<std::string> words) const {
+    words.insert(words.begin(), CROSSCHECK_PROGRAM);
+    return run_program(words, folder_, {"ASAN_OPTIONS=detect_leaks=0"});
+  }
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  static std::string read(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::stringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+  /// The rows of a table, without the provenance lines (they hold the date).
+  static std::string rows(const fs::path& file) {
+    std::istringstream in(read(file));
+    std::string out;
+    for (std::string line; std::getline(in, line);)
+      if (!line.starts_with("#")) out += line + "\n";
+    return out;
+  }
+  int files() const {
+    return static_cast<int>(
+        std::distance(fs::recursive_directory_iterator(folder_), fs::recursive_directory_iterator()));
+  }
+  fs::path folder_;
+};
+
+constexpr auto own_scene = R"(
+question = "Does a scene that nobody shipped work everywhere?"
+parameters = "Two masses on springs, picked at random."
+[time]
+duration = 0.4
+samples = 20
+step = 1e-3
+window = 0.4
+tolerance = 1e-3
+method = "leapfrog"
+[[particle]]
+position = [0, 0, 0]
+mass = 1
+[[particle]]
+position = [0.3, -0.4, 0]
+mass = 0.5
+[[particle]]
+position = [0.3, -0.9, 0.1]
+mass = 0.25
+[[spring]]
+ends = [0, 1]
+stiffness = 150
+[[spring]]
+ends = [1, 2]
+stiffness = 90
+[pins]
+particles = [0]
+[gravity]
+acceleration = [0, -9.81, 0]
+)";
+
+TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
+  const std::string good = own_scene;
+  // a faulty copy of the scene, and the place of its fault as a message names it: "FILE:LINE:"
+  auto with = [&](const std::string& name, const std::string& from, const std::string& to, const std::string& fault) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(text.find(fault)), '\n');
+    return std::pair{write(name, text).string(), name + ":" + std::to_string(line) + ":"};
+  };
+  const auto [unknown_key, unknown_key_at] =
+      with("unknown-key.toml", "[gravity]", "[gravity]\nstrength = 3", "strength");
+  const auto [ghost, ghost_at] = with("ghost.toml", "ends = [1, 2]", "ends = [1, 7]", "ends = [1, 7]");
+  const auto [negative, negative_at] = with("negative.toml", "mass = 0.5", "mass = -0.5", "mass = -0.5");
+  const auto [not_a_number, not_a_number_at] = with("nan.toml", "mass = 0.5", "mass = nan", "mass = nan");
+  write("a-file", "");
+  struct Row {
+    std::vector<std::string> words;
+    std::vector<std::string> expected;  // parts of the message
+  };
+  const Row table[] = {
+      {{"run", unknown_key}, {unknown_key_at, "gravity.strength", "unknown key", "acceleration"}},
+      {{"run", ghost}, {ghost_at, "spring[1].ends", "particles from 0 to 2", "7"}},
+      {{"run", negative}, {negative_at, "particle[1].mass", "above zero", "-0.5"}},
+      {{"run", not_a_number}, {not_a_number_at, "particle[1].mass", "nan"}},
+      {{"run", "missing.toml"}, {"missing.toml", "cannot be read"}},
+      {{"run", "no-such-scene"}, {"no-such-scene", "cloth-hang"}},
+      {{"run", "chain", "--method", "rk5"}, {"rk5", "mysim/rk4"}},
+      {{"run", "chain", "--method", "bullet/pbd+n=0"}, {"+n=0", "+n=1"}},
+      {{"run", "chain", "--tol", "1e-6"}, {"--tol", "fixed-step"}},
+      {{"run", "chain", "--step", "-1"}, {"--step"}},
+      {{"run", "chain", "--step", "9"}, {"--step", "duration"}},
+      {{"run", "chain", "--out", "a-file/below"}, {"--out a-file/below", "folder"}},
+      {{"run"}, {"SCENE"}},
+      {{"compare", "chain", "--methods", "rk4,nothing"}, {"nothing"}},
+      {{"compare", "chain", "--out", "a-file"}, {"--out a-file"}},
+      {{"experiment", "no-such-experiment"}, {"no-such-experiment", "order"}},
+      {{"experiment", "order", "no-such-scene"}, {"no-such-scene"}},
+      {{"report", "no-such-scene"}, {"no-such-scene"}},
+      {{"report", "chain", "--quick", "--full"}, {"--full"}},
+      {{"report", "chain", "--out", "a-file"}, {"--out a-file"}},
+      {{"render", "chain", "-o", "picture.gif"}, {"picture.gif", ".png"}},
+      {{"render", "chain", "-o", "p.png", "--mode", "x-ray"}, {"x-ray", "stretch"}},
+      {{"render", "chain", "-o", "p.png", "--size", "12"}, {"--size 12"}},
+      {{"render", "chain", "-o", "p.png", "--at", "99"}, {"--at 99"}},
+      {{"render", "chain", "-o", "a-file/p.png"}, {"a-file"}},
+      {{"list", "colours"}, {"colours", "methods"}},
+      {{"fly"}, {"fly"}},
+      {{}, {"subcommand"}},
+  };
+  const int before = files();
+  for (const Row& row : table) {
+    const ProgramResult result = call(row.words);
+    SCOPED_TRACE(result.err);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << "one line";
+    for (const std::string& part : row.expected) EXPECT_NE(result.err.find(part), std::string::npos) << part;
+  }
+  EXPECT_EQ(files(), before) << "bad input leaves nothing behind";
+}
+
+TEST_F(Cli, RunWritesWhatPythonReads) {
+  const ProgramResult result = call({"run", "chain", "--duration", "0.5", "--out", "out"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const std::string npy = read(folder_ / "out/trajectory.npy");
+  ASSERT_GT(npy.size(), 128u);
+  EXPECT_EQ(npy.substr(0, 8), std::string("\x93NUMPY\x01\x00", 8));
+  EXPECT_NE(npy.find("'shape': (26, 4, 3)"), std::string::npos);  // 25 samples of 0.02 s and the start
+  EXPECT_EQ(npy.size() % 64, (26 * 4 * 3 * sizeof(double)) % 64) << "data begin at a multiple of 64";
+  EXPECT_EQ(read(folder_ / "out/velocities.npy").size(), npy.size());
+  EXPECT_NE(read(folder_ / "out/run.json").find("\"verdict\": \"ok\""), std::string::npos);
+  EXPECT_NE(read(folder_ / "out/energy.csv").find("t [s],kinetic [J]"), std::string::npos);
+}
+
+TEST_F(Cli, DivergingRunIsAnAnswer) {
+  const ProgramResult result = call({"run", "chain", "--method", "explicit-euler", "--out", "out"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(read(folder_ / "out/run.json").find("\"verdict\": \"energy\""), std::string::npos);
+}
+
+TEST_F(Cli, UnsupportedMethodIsANoWithItsReason) {
+  const ProgramResult result = call({"run", "circle", "--method", "bullet/pbd", "--out", "out"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("first-order"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder_ / "out/run.json"));
+}
+
+TEST_F(Cli, CompareShowsParityAndThatEqualRulesAgree) {
+  const ProgramResult result = call({"compare", "chain", "--out", "out"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("parity of bullet/deformable-explicit"), std::string::npos);
+  EXPECT_NE(result.out.find("same rule"), std::string::npos);
+  EXPECT_EQ(result.out.find("NOT THE SAME"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "out/certificate-bullet-pbd.json"));
+}
+
+TEST_F(Cli, ListsAreReadableByProgramsToo) {
+  for (const char* what : {"scenes", "methods", "experiments", "assignments"}) {
+    SCOPED_TRACE(what);
+    EXPECT_EQ(call({"list", what}).status, 0);
+    const ProgramResult json = call({"list", what, "--json"});
+    EXPECT_EQ(json.status, 0);
+    EXPECT_EQ(json.out.front(), '[');
+  }
+  EXPECT_EQ(call({"doctor"}).status, 0);
+}
+
+TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
+  write("mine.toml", own_scene);
+  for (const char* out : {"one", "two"}) {
+    const ProgramResult result = call({"report", "mine.toml", "circle", "--quick", "--out", out});
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
+  const std::string page = read(folder_ / "one/index.html");
+  EXPECT_NE(page.find("Does a scene that nobody shipped work everywhere?"), std::string::npos);
+  EXPECT_EQ(page.find("http://"), std::string::npos) << "the page needs no network";
+  EXPECT_EQ(page.find("https://"), std::string::npos);
+  for (const char* figure : {"mine-error", "mine-agreement", "mine-energy", "mine-order", "scoreboard"})
+    for (const char* ending : {".gp", ".csv", ".svg", ".pdf", ".png"})
+      EXPECT_TRUE(fs::exists(folder_ / "one/figures" / (std::string(figure) + ending))) << figure << ending;
+  EXPECT_TRUE(fs::exists(folder_ / "one/figures/mine-picture.png"));
+
+  // two runs: the same data rows, SVG, PNG and PDF; costs and what is drawn from them aside
+  int compared = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "one")) {
+    const fs::path file = entry.path(), other = folder_ / "two" / fs::relative(file, folder_ / "one");
+    const std::string ending = file.extension();
+    if (file.stem().string().ends_with("-cost")) continue;
+    if (ending == ".csv") {
+      EXPECT_EQ(rows(file), rows(other)) << file;
+      ++compared;
+    } else if (ending == ".svg" || ending == ".png" || ending == ".pdf" || ending == ".gp") {
+      EXPECT_TRUE(read(file) == read(other)) << file;
+      ++compared;
+    }
+    EXPECT_NE(ending, ".part") << "no half file is left";
+  }
+  EXPECT_GT(compared, 30);
+}
+
+TEST_F(Cli, RenderDrawsEveryMode) {
+  for (const char* mode : {"shaded", "stretch", "springs", "difference", "strip"}) {
+    SCOPED_TRACE(mode);
+    const std::string file = std::string(mode) + ".png";
+    const ProgramResult result =
+        call({"render", "chain", "--mode", mode, "--quality", "fast", "--size", "480x270", "--at", "0.3", "-o", file});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(read(folder_ / file).substr(0, 4), "\x89PNG");
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck

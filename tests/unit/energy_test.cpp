@@ -1,0 +1,196 @@
+// Energies and the ledger: exact integrals, balance that closes to the order of the stepper, losses of contact, the
+// watch.
+#include "experiments/scenes.h"
+#include "mysim/observers/ledger.h"
+#include "mysim/observers/watch.h"
+#include "tests/unit/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+TEST(Integral, IsExactForCubics) {
+  auto f = [](double t) { return 2 - 3 * t + 4 * t * t - 5 * t * t * t; };
+  auto whole = [](double t) { return t * (2 + t * (-1.5 + t * (4.0 / 3 - 1.25 * t))); };
+  Integral integral;
+  const double h = 0.1;
+  integral.add(f(0), 0);
+  for (int i = 1; i <= 50; ++i) {
+    integral.add(f(h * i), h);
+    if (i == 1) continue;  // two values know no cubic
+    // some roundings of each of the terms, the largest is 1.25 t^4
+    EXPECT_NEAR(integral.value(), whole(h * i), 4 * i * eps * std::max(1.0, 5 * std::pow(h * i, 4)));
+  }
+}
+
+TEST(Integral, HasOrderFourOnSmoothCurves) {
+  auto error = [](int n) {
+    Integral integral;
+    const double h = 2.0 / n;
+    double worst = 0;
+    for (int i = 0; i <= n; ++i) {
+      integral.add(std::exp(h * i), i ? h : 0);
+      if (i >= 3) worst = std::max(worst, std::abs(integral.value() - std::expm1(h * i)));
+    }
+    return worst;
+  };
+  EXPECT_NEAR(slope(error(40), error(80)), 4, 0.15);  // the next term is h = 0.05 of the leading one
+}
+
+/// Largest deviation of the balance from its start, J.
+double imbalance(const Stepper& s, const Scene& scene, const Run& run) {
+  Ledger ledger(scene.model, ContactLoss::reported);
+  simulate(s, ContactRule::coulomb, scene, run, ledger);
+  double worst = 0;
+  for (const LedgerRow& row : ledger.rows())
+    worst = std::max(worst, std::abs(row.balance() - ledger.rows()[0].balance()));
+  return worst;
+}
+
+TEST(Ledger, ClosesToTheOrderOfTheStepperUnderDragWindAndMovedPins) {
+  const Scene scene = small_cloth();
+  for (const Stepper& s : steppers()) {
+    SCOPED_TRACE(s.name);
+    // steps that divide the ramp, where the third derivative of the pins' motion jumps
+    const double h = s.order == 1 ? 1e-4 : s.order == 2 ? 2.5e-4 : 2.5e-3;
+    const double coarse = imbalance(s, scene, {h, 1, 20}), fine = imbalance(s, scene, {h / 2, 1, 20});
+    EXPECT_GT(fine, 1e-13) << "at round-off the slope is noise";
+    EXPECT_NEAR(slope(coarse, fine), s.order, 0.25);  // the next term is h times the highest frequency, 0.2 here
+  }
+}
+
+TEST(Ledger, EveryEntryIsNeeded) {
+  const Scene scene = small_cloth();
+  Ledger ledger(scene.model, ContactLoss::reported);
+  simulate(stepper("rk4"), ContactRule::coulomb, scene, {1e-3, 1, 20}, ledger);
+  const double residue = imbalance(stepper("rk4"), scene, {1e-3, 1, 20});
+  const LedgerRow& end = ledger.rows().back();
+  for (const double entry : {end.dissipated, end.wind, end.pins}) EXPECT_GT(std::abs(entry), 1e4 * residue);
+  EXPECT_EQ(end.contact, 0);
+}
+
+TEST(Ledger, ClosesToFirstOrderInContact) {
+  // a ball dropped on a sphere off its top: it lands, loses its normal speed, slides with friction, leaves, under drag
+  const Scene scene = small_scene(std::string("[[particle]]\nposition = [0.3, 1.2, 0]\nmass = 1\n[sphere]\n"
+                                              "centre = [0, 0, 0]\nradius = 1\nfriction = 0.1\n[drag]\ngamma = 1\n") +
+                                  gravity_text);
+  for (const Stepper& s : steppers())
+    for (const double h : {1e-3, 1e-4}) {
+      SCOPED_TRACE(fmt::format("{} h = {}", s.name, h));
+      // m g times a step's path at the top speed of 5 m/s, for the step of the landing, and as much for Euler's lag
+      EXPECT_LT(imbalance(s, scene, {h, 1, 50}), 2 * 9.81 * 5 * h);
+    }
+}
+
+TEST(Ledger, ContactLossIsWhatTheRuleTook) {
+  const Scene scene = small_scene(std::string("[[particle]]\nposition = [0, 1.2, 0]\nmass = 2\n[sphere]\n"
+                                              "centre = [0, 0, 0]\nradius = 1\n") +
+                                  gravity_text);
+  for (const Stepper& s : steppers()) {
+    SCOPED_TRACE(s.name);
+    Ledger ledger(scene.model, ContactLoss::reported);
+    const double h = 1e-4;  // s
+    simulate(s, ContactRule::coulomb, scene, {h, 1, 10}, ledger);
+    // the ball falls 0.2 m and stays: all of m g 0.2 is lost, but for m g times the last step's path (2 m/s), and for
+    // Euler's lag in flight and the kick of each resting step, which together make m g (g t h / 2) over the run of 1 s
+    EXPECT_NEAR(ledger.rows().back().contact, 2 * 9.81 * 0.2, 2 * 9.81 * (2 + 9.81 / 2) * h);
+  }
+}
+
+TEST(Ledger, LossesThatAnEngineDoesNotReportAreInferredAndMarked) {
+  const std::string ball = "[[particle]]\nposition = [0, 1.2, 0]\nmass = 2\n" + std::string(gravity_text);
+  const Scene free = small_scene(ball), onto = small_scene(ball + "[sphere]\ncentre = [0, 0, 0]\nradius = 1\n");
+  EXPECT_FALSE(Ledger(free.model, ContactLoss::inferred).contact_inferred());  // nothing to infer
+  EXPECT_FALSE(Ledger(onto.model, ContactLoss::reported).contact_inferred());
+  Ledger inferred(onto.model, ContactLoss::inferred), reported(onto.model, ContactLoss::reported);
+  ASSERT_TRUE(inferred.contact_inferred());
+  simulate(stepper("leapfrog"), ContactRule::coulomb, onto, {1e-4, 1, 10}, reported);
+  // the same run seen by an engine that does not call contact()
+  struct Mute : Observer {
+    explicit Mute(Ledger& l) : ledger(l) {}
+    bool every_step() const override { return true; }
+    Verdict observe(const State& s, bool sample) override { return ledger.observe(s, sample); }
+    Ledger& ledger;
+  } mute(inferred);
+  simulate(stepper("leapfrog"), ContactRule::coulomb, onto, {1e-4, 1, 10}, mute);
+  for (size_t i = 0; i < inferred.rows().size(); ++i) {
+    EXPECT_NEAR(inferred.rows()[i].balance(), inferred.rows()[0].balance(), 16 * eps * 40);    // by definition, 40 J
+    EXPECT_NEAR(inferred.rows()[i].contact, reported.rows()[i].contact, 2 * 9.81 * 2 * 1e-4);  // a step's path
+  }
+}
+
+TEST(Energy, OfAKnownState) {
+  const Scene s =
+      small_scene(std::string("[[particle]]\nposition = [0, 0, 0]\nmass = 5\n[[particle]]\nposition = [3, 4, 0]\n"
+                              "mass = 2\nvelocity = [0, 0, 3]\n[[spring]]\nends = [0, 1]\nstiffness = 10\n"
+                              "rest = 4\n[pins]\nparticles = [0]\n") +
+                  gravity_text);
+  const Energy e = energy_of(s.model, s.start);
+  EXPECT_DOUBLE_EQ(e.kinetic, 9);                   // 2 kg at 3 m/s
+  EXPECT_DOUBLE_EQ(e.elastic, 5);                   // 10 N/m by 1 m
+  EXPECT_DOUBLE_EQ(e.gravitational, 2 * 9.81 * 4);  // the pin counts nowhere
+  EXPECT_DOUBLE_EQ(e.total(), e.kinetic + e.elastic + e.gravitational);
+}
+
+TEST(Watch, NanIsANan) {
+  const Scene s = small_scene("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n");
+  for (const double bad : {NAN, INFINITY}) {
+    Watch watch(s.model);
+    State state = s.start;
+    EXPECT_EQ(watch.observe(state, true), Verdict::ok);
+    state.v(1, 0) = bad;
+    EXPECT_EQ(watch.observe(state, true), Verdict::nan);
+  }
+}
+
+TEST(Watch, NoGoodRunIsCondemned) {
+  for (const auto name : shipped_scenes())
+    for (const auto method : {"rk4", "leapfrog"}) {
+      const Scene scene = load_scene(std::string(name));
+      if (scene.model.first_order() && !stepper(method).first_order) continue;
+      SCOPED_TRACE(fmt::format("{} {}", name, method));
+      Watch watch(scene.model);
+      const double duration = std::min(scene.duration, 0.3);
+      const Outcome out = simulate(stepper(method), ContactRule::coulomb, scene, {scene.step, duration, 30}, watch);
+      EXPECT_EQ(out.verdict, Verdict::ok);
+    }
+}
+
+TEST(Watch, ASceneAtRestIsNotCondemnedForItsRounding) {
+  // a spring whose written rest length is its length but for rounding: a motion of 1e-15 m with 1e-29 J to work with
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    Random random(seed);
+    std::string text;
+    const Vec3 ends[] = {random.vector(), random.vector()};
+    for (const Vec3& x : ends)
+      text += fmt::format("[[particle]]\nposition = [{:.17g}, {:.17g}, {:.17g}]\nmass = 1\n", x.x(), x.y(), x.z());
+    const Scene scene = small_scene(
+        text + fmt::format("[[spring]]\nends = [0, 1]\nstiffness = 100\nrest = {:.15g}\n", (ends[0] - ends[1]).norm()));
+    for (const Stepper& s : steppers()) {
+      SCOPED_TRACE(fmt::format("seed {} {}", seed, s.name));
+      Watch watch(scene.model);
+      EXPECT_EQ(simulate(s, ContactRule::coulomb, scene, {1e-3, 1, 10}, watch).verdict, Verdict::ok);
+    }
+  }
+}
+
+TEST(Watch, BlowUpsAreFoundWhetherOrNotTheWindBlowsAndPinsMove) {
+  const Scene cloth = small_cloth();
+  Scene plain = cloth;
+  plain.model.particles.move.reset();
+  std::erase_if(plain.model.terms, [](const Term& t) { return std::holds_alternative<Wind>(t); });
+  for (const Scene& scene : {cloth, plain})
+    for (const Stepper& s : steppers()) {
+      SCOPED_TRACE(s.name);
+      Watch watch(scene.model);
+      // omega_max is about sqrt(8 k n / m) = 200 rad/s: h omega = 10 is beyond every explicit rule
+      const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.05, 5, 100}, watch);
+      EXPECT_TRUE(out.verdict == Verdict::energy || out.verdict == Verdict::nan) << name_of(out.verdict);
+      EXPECT_LT(out.end, 2);
+      EXPECT_FALSE(out.reason.empty());
+    }
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,131 @@
+// What several unit tests share: seeded numbers, small scenes, runs, and distances over time.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "mysim/engine.h"
+#include "mysim/observers/trajectory.h"
+#include "reference/method.h"
+#include "reference/truth.h"
+
+namespace crosscheck::testing_tools {
+
+inline constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// Seeded numbers, the same with every standard library.
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1.0p-53);
+  }
+  Vec3 vector() {  // each part in [-1, 1]; drawn in a fixed order
+    Vec3 v;
+    for (double& part : v) part = between(-1, 1);
+    return v;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+inline const Stepper& stepper(std::string_view name) {
+  for (const Stepper& s : steppers())
+    if (s.name == name) return s;
+  throw std::out_of_range("no stepper " + std::string(name));
+}
+
+/// The heading that every scene file needs; `more` holds particles and terms.
+inline std::string scene_text(const std::string& more, double duration = 1, double step = 1e-3, int samples = 10) {
+  return fmt::format(
+             "question = \"q\"\nparameters = \"p\"\n[time]\nduration = {}\nsamples = {}\nstep = {}\nwindow = {}\n"
+             "tolerance = 1e-3\nmethod = \"leapfrog\"\n",
+             duration, samples, step, duration) +
+         more;
+}
+inline Scene small_scene(const std::string& more, double duration = 1, double step = 1e-3, int samples = 10) {
+  return parse_scene(scene_text(more, duration, step, samples), "small");
+}
+
+inline constexpr auto gravity_text = "[gravity]\nacceleration = [0, -9.81, 0]\n";
+
+/// A 5 x 5 cloth held along its upper edge, moved by hand, in gusts, with drag: every smooth ingredient at once.
+inline Scene small_cloth() {
+  return small_scene(std::string("[grid]\nsize = [5, 5]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\nv = [0, -0.9, 0.4]\n"
+                                 "mass = 0.25\n[grid.stiffness]\nstructural = 40\nshear = 30\nbend = 20\n"
+                                 "[pins]\nparticles = [0, 1, 2, 3, 4]\n[pins.motion]\namplitude = [0, 0, 0.1]\n"
+                                 "frequency = 1\nramp = 0.25\n[drag]\ngamma = 2\n"
+                                 "[wind]\nacceleration = [0, 0, 3]\n[wind.gusts]\nvariation = 1\nside = [1, 0, 0]\n"
+                                 "seed = 3\n") +
+                     gravity_text);
+}
+
+inline Scene with_drag(Scene scene, double gamma) {
+  scene.model.terms.emplace_back(Drag{gamma * scene.model.particles.mass});
+  return scene;
+}
+
+/// Runs mysim with Coulomb contact and without a watch.
+inline Trajectory trajectory_of(const Stepper& s, const Scene& scene, const Run& run) {
+  Recorder recorder;
+  simulate(s, ContactRule::coulomb, scene, run, recorder);
+  return recorder.trajectory;
+}
+
+/// Trajectory and outcome of a method by name, under its watch.
+struct Answered {
+  Trajectory trajectory;
+  Outcome outcome;
+};
+inline Answered answer(const std::string& method, const Scene& scene, const Run& run) {
+  Recorder r;
+  Answered a{{}, run_method(find_method(method), scene, run, {&r})};
+  a.trajectory = r.trajectory;
+  return a;
+}
+
+/// Largest RMS distance of two trajectories over time up to `until`, m. Both must have the same samples.
+inline double sup_rms(const Trajectory& a, const Trajectory& b, double until = INFINITY) {
+  EXPECT_EQ(a.frames(), b.frames());
+  double largest = 0;
+  for (int i = 0; i < std::min(a.frames(), b.frames()) && a.t[i] <= until * (1 + 1e-9); ++i) {
+    const double d = rms_distance(a.x[i], b.x[i]);
+    largest = std::isnan(d) ? INFINITY : std::max(largest, d);
+  }
+  return largest;
+}
+
+/// Largest distance of a particle from its other self over time, m.
+inline double sup_distance(const Trajectory& a, const Trajectory& b, double until = INFINITY) {
+  EXPECT_EQ(a.frames(), b.frames());
+  double largest = 0;
+  for (int i = 0; i < std::min(a.frames(), b.frames()) && a.t[i] <= until * (1 + 1e-9); ++i) {
+    const double d = (a.x[i] - b.x[i]).colwise().norm().maxCoeff();
+    largest = std::isnan(d) ? INFINITY : std::max(largest, d);
+  }
+  return largest;
+}
+
+/// Same bits in every frame.
+inline bool identical(const Trajectory& a, const Trajectory& b) { return a.t == b.t && a.x == b.x && a.v == b.v; }
+
+/// Messages: what is asked of them, and what was there when it is not so.
+inline ::testing::AssertionResult contains(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "'" << part << "' is not in '" << text << "'";
+}
+inline ::testing::AssertionResult begins(const std::string& text, const std::string& part) {
+  if (text.starts_with(part)) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "'" << text << "' does not begin with '" << part << "'";
+}
+
+/// Slope of the error between a step and half of it.
+inline double slope(double coarse, double fine) { return std::log2(coarse / fine); }
+
+}  // namespace crosscheck::testing_tools
