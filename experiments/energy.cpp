@@ -7,10 +7,9 @@
 #include "experiments/experiment.h"
 
 namespace crosscheck {
-namespace {
 
-Table ledger_table(const std::string& scene) {
-  return {"energy-" + scene,
+Table ledger_table(const std::string& name) {
+  return {name,
           {{"method", "1"},
            {"t", "s"},
            {"kinetic", "J"},
@@ -25,7 +24,13 @@ Table ledger_table(const std::string& scene) {
           {}};
 }
 
-}  // namespace
+void add_ledger(Table& table, const std::string& method, const Ledger& ledger) {
+  const bool inferred = ledger.contact_inferred();
+  for (const LedgerRow& row : ledger.rows())
+    table.add({method, row.t, row.energy.kinetic, row.energy.elastic, row.energy.gravitational, row.dissipated,
+               row.contact, inferred ? 1l : 0l, row.wind, row.pins,
+               inferred ? Cell() : Cell(row.balance() - ledger.rows().front().balance())});
+}
 
 void energy_experiment(const Request& request, Progress& progress, Result& result) {
   Table summary{"energy",
@@ -44,7 +49,7 @@ void energy_experiment(const Request& request, Progress& progress, Result& resul
       result.notes.push_back(fmt::format("energy leaves out {}: a first-order system has no energy", scene.name));
       continue;
     }
-    Table table = ledger_table(scene.name);
+    Table table = ledger_table("energy-" + scene.name);
     for (const Method& method : request.methods) {
       progress.begin(fmt::format("energy: {} by {}", scene.name, method.name));
       Ledger ledger(scene.model, method.contact);
@@ -52,12 +57,9 @@ void energy_experiment(const Request& request, Progress& progress, Result& resul
       if (out.verdict == Verdict::unsupported) continue;
       const double start = ledger.rows().front().balance();
       double worst = 0, turned_over = 0;
+      add_ledger(table, method.name, ledger);
       for (const LedgerRow& row : ledger.rows()) {
-        const bool inferred = ledger.contact_inferred();
-        const double error = row.balance() - start;
-        table.add({method.name, row.t, row.energy.kinetic, row.energy.elastic, row.energy.gravitational, row.dissipated,
-                   row.contact, inferred ? 1l : 0l, row.wind, row.pins, inferred ? Cell() : Cell(error)});
-        worst = std::max(worst, std::abs(error));
+        worst = std::max(worst, std::abs(row.balance() - start));
         turned_over = std::max({turned_over, row.energy.kinetic,
                                 std::abs(row.energy.gravitational - ledger.rows()[0].energy.gravitational)});
       }

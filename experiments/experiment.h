@@ -55,6 +55,11 @@ const Experiment& find_experiment(const std::string& name);
 /// The methods compared when nobody names any: all of mysim and Bullet.
 std::vector<Method> default_methods();
 
+/// The ledger of one run as rows of (method, t, energies, losses, work, balance error); the last is empty where the
+/// contact loss was inferred, as no closure is claimed there.
+Table ledger_table(const std::string& name);
+void add_ledger(Table& table, const std::string& method, const Ledger& ledger);
+
 /// A run of the scene at the request's step.
 Run run_of(const Request& request, const Scene& scene);
 

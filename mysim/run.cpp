@@ -1,8 +1,12 @@
 // Steps of a run, and observers as one.
 #include "mysim/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "mysim/errors.h"
 
 namespace crosscheck {
 
@@ -25,7 +29,10 @@ Run default_run(const Scene& scene) { return {scene.step, scene.duration, scene.
 StepPlan plan(const Run& run) {
   const double interval = run.duration / run.samples;
   // a step that divides the interval but for round-off is kept: 1e-9 is far above round-off, far below one step
-  const int steps = std::max(1, static_cast<int>(std::ceil(interval / run.step * (1 - 1e-9))));
+  const double wanted = std::ceil(interval / run.step * (1 - 1e-9));
+  if (!(wanted <= 1e9))
+    throw InputError(fmt::format("step {:g} s: expected at most 1e9 steps between two samples", run.step));
+  const int steps = std::max(1, static_cast<int>(wanted));
   return {interval / steps, steps, run.samples};
 }
 

@@ -34,6 +34,7 @@ struct StepPlan {
   int samples;
   double time(int sample, int step) const { return (static_cast<double>(sample) * steps_per_sample + step) * h; }
 };
+/// Throws InputError when the step is so small that a sampling interval would take more than 1e9 of them.
 StepPlan plan(const Run& run);
 
 /// Looks at states as they pass.

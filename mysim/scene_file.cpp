@@ -99,6 +99,7 @@ void read_time(const Section& file, Scene& scene) {
   scene.samples = s.count("samples");
   scene.step = s.positive("step");
   if (scene.step > scene.duration) s.fail("step", "a step not longer than the duration");
+  if (scene.duration / scene.samples / scene.step > 1e9) s.fail("step", "at most 1e9 steps between two samples");
   scene.window = s.positive("window");
   if (scene.window > scene.duration) s.fail("window", "a window not longer than the duration");
   scene.tolerance = s.positive("tolerance");

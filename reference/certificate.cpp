@@ -9,6 +9,9 @@
 namespace crosscheck {
 namespace {
 
+/// The larger one; nan where one is nan, so that a deviation that is no number never passes.
+double worse(double a, double b) { return std::isnan(b) || b > a ? b : a; }
+
 class Writer {
  public:
   Writer(Certificate& certificate, const Readback& readback) : certificate_(certificate), readback_(readback) {}
@@ -42,7 +45,7 @@ void certify_particles(const Scene& scene, const Readback& r, Writer& w) {
   double worst = 0, total = 0;
   for (int i = 0; i < p.size(); ++i)
     if (!p.pinned[i]) {
-      worst = std::max(worst, std::abs(r.mass[i] - p.mass[i]) / p.mass[i]);
+      worst = worse(worst, std::abs(r.mass[i] - p.mass[i]) / p.mass[i]);
       total += p.mass[i];
     }
   w.deviation("masses", fmt::format("{:.6g} kg in all, free particles", total), worst, 1);
@@ -60,10 +63,10 @@ void certify_springs(const Scene& scene, const Readback& r, Writer& w) {
     const Spring& s = springs->list[i];
     const Readback::Link& link = r.links[i];
     same = link.a == s.a && link.b == s.b;
-    rest = std::max(rest, std::abs(link.rest - s.rest));
+    rest = worse(rest, std::abs(link.rest - s.rest));
     longest = std::max(longest, s.rest);
     told = told && link.stiffness;
-    if (link.stiffness) stiffness = std::max(stiffness, std::abs(*link.stiffness - s.k) / s.k);
+    if (link.stiffness) stiffness = worse(stiffness, std::abs(*link.stiffness - s.k) / s.k);
   }
   w.row("springs", fmt::format("{}", asked), fmt::format("{}, {}", r.links.size(), same ? "same ends" : "other ends"),
         same);
@@ -110,7 +113,7 @@ void certify_terms(const Scene& scene, const Readback& r, Writer& w) {
       double worst = 0;
       for (int i = 0; i < model.particles.size(); ++i)
         if (!model.particles.pinned[i])
-          worst = std::max(worst, std::abs((*r.drag)[i] - drag->c[i] / model.particles.mass[i]));
+          worst = worse(worst, std::abs((*r.drag)[i] - drag->c[i] / model.particles.mass[i]));
       // gamma comes back from 1 - exp(-gamma h): eps / (gamma h) is left
       w.row("drag", asked, fmt::format("largest deviation {:.2g} /s", worst),
             worst <= std::max(w.tolerance(), 1e-9) * high);
@@ -118,11 +121,17 @@ void certify_terms(const Scene& scene, const Readback& r, Writer& w) {
       w.row("drag", asked, "not told", Parity::unattested);
     }
   }
+  // what the scene does not have must not be in the engine either
+  if (!model.find<Gravity>() && r.gravity && !r.gravity->isZero(0)) w.row("gravity", "none", vector(*r.gravity), false);
+  if (!model.find<Drag>() && r.drag && std::any_of(r.drag->begin(), r.drag->end(), [](double c) { return c != 0; }))
+    w.row("drag", "none", "some", false);
   if (const auto* wind = model.find<Wind>())
     w.row("wind", "mean " + vector(wind->mean) + (wind->gusts ? " with gusts" : ""), "given to the engine at each step",
           Parity::match);
   if (const auto* sphere = model.find<Sphere>()) {
     const double radius = sphere->contact_radius();
+    if (!r.contact_radius) w.row("contact radius", fmt::format("{:.6g} m", radius), "not told", Parity::unattested);
+    if (!r.friction) w.row("friction", fmt::format("{:.6g}", sphere->friction), "not told", Parity::unattested);
     if (r.contact_radius)
       w.row("contact radius", fmt::format("{:.6g} m", radius), fmt::format("{:.6g} m", *r.contact_radius),
             std::abs(*r.contact_radius - radius) <= w.tolerance() * radius);

@@ -19,7 +19,11 @@ Verdict Watch::observe(const State& state, bool sample) {
   const Energy energy = energy_of(model_, state);
   if (!start_) {
     start_ = energy;
-    budget_ = energy.kinetic + energy.elastic;
+    // rounding is no motion: 1e-12 of each spring's length, 1e-14 of the energies
+    budget_ = (1 + 1e-14) * (energy.kinetic + energy.elastic) + 1e-14 * std::abs(energy.gravitational);
+    if (const auto* springs = model_.find<Springs>())
+      for (const Spring& s : springs->list)
+        budget_ += 1e-24 * s.k * (state.x.col(s.a) - state.x.col(s.b)).squaredNorm();
   }
   double work = 0;
   if (ledger_) {

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "mysim/errors.h"
-#include "reference/bullet/drive.h"
 #include "reference/bullet/scene_body.h"
 #include "reference/bullet/worlds.h"
 
@@ -80,9 +79,9 @@ class PbdWorld : public World {
     world_->stepSimulation(h_, 0);
   }
 
-  void read_state(double t, State& state) const override { scene_body_->read_state(t, state); }
+  const State& state(double t) override { return scene_body_->read_state(t); }
 
-  Readback read_back() override {
+  std::optional<Readback> read_back() override {
     Readback r = scene_body_->read_back();
     const auto& cfg = body().m_cfg;
     if (const auto* springs = scene_.model.find<Springs>())
@@ -137,7 +136,8 @@ class PbdWorld : public World {
 
 Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, int iterations) {
   PbdWorld world(scene, plan(run).h, iterations);
-  Outcome out = drive(world, scene, run, observer);
+  Outcome out = march(world, run, observer);
+  out.evaluations = out.steps;
   if (scene.model.find<Springs>())
     out.different_law.push_back(
         "springs: position-based links pull with k L (L^2 - r^2) / (L^2 + r^2), about k (L - r) for small strains, and "

@@ -41,7 +41,7 @@ void make_obstacle(const Scene& scene, Stage& stage) {
   stage.ball = std::make_unique<btRigidBody>(info);
 }
 
-SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(scene) {
+SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(scene), state_(scene.start) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
   const auto* sphere = model.find<Sphere>();
@@ -104,16 +104,17 @@ void SceneBody::place_pins(double t) {
   }
 }
 
-void SceneBody::read_state(double t, State& state) const {
-  state.t = t;
+const State& SceneBody::read_state(double t) {
+  state_.t = t;
   for (int node = 0; node < body_->m_nodes.size(); ++node) {
-    state.x.col(particle_of_[node]) = from_bullet(body_->m_nodes[node].m_x);
-    state.v.col(particle_of_[node]) = from_bullet(body_->m_nodes[node].m_v);
+    state_.x.col(particle_of_[node]) = from_bullet(body_->m_nodes[node].m_x);
+    state_.v.col(particle_of_[node]) = from_bullet(body_->m_nodes[node].m_v);
   }
   // Bullet knows no velocity of prescribed pins; ours is exact
   const Particles& particles = scene_.model.particles;
   const Vec3 velocity = particles.move ? pin_velocity(*particles.move, t) : Vec3::Zero();
-  for (int pin : particles.pins) state.v.col(pin) = velocity;
+  for (int pin : particles.pins) state_.v.col(pin) = velocity;
+  return state_;
 }
 
 Readback SceneBody::read_back() const {

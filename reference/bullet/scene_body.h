@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-#include "mysim/run.h"
+#include "mysim/march.h"
 
 namespace crosscheck::bullet {
 
@@ -45,7 +45,7 @@ class SceneBody {
   /// Writes position and velocity of the pins at time t into the nodes. Bullet's forces read m_q.
   void place_pins(double t);
   /// Positions and velocities in the scene's numbering.
-  void read_state(double t, State& state) const;
+  const State& read_state(double t);
   /// Masses, pins, links with rest lengths; the world adds what it alone knows.
   Readback read_back() const;
 
@@ -53,6 +53,7 @@ class SceneBody {
   const Scene& scene_;
   std::vector<int> node_of_, particle_of_;
   std::unique_ptr<btSoftBody> body_;
+  State state_;
 };
 
 /// mu of the pair of ends, 1 / (1/m_a + 1/m_b) with pins of infinite mass, kg; infinite between two pins.

@@ -34,6 +34,14 @@ std::optional<Vec3> steady_acceleration(const Model& model) {
   return a;
 }
 
+/// (z - 1 + exp(-z)) / z^2, by its series where that would cancel; 1/2 without drag.
+double fall(double z) {
+  if (z > 0.5) return (z + std::expm1(-z)) / (z * z);
+  double sum = 0, term = 0.5;
+  for (int n = 3; n < 18; ++n) sum += term, term *= -z / n;
+  return sum;
+}
+
 std::optional<ExactSolution> projectile(const Scene& scene) {
   const Model& model = scene.model;
   const auto a = steady_acceleration(model);
@@ -45,15 +53,10 @@ std::optional<ExactSolution> projectile(const Scene& scene) {
                          State s = start;
                          s.t = t;
                          const Vec3 x0 = start.x.col(0), v0 = start.v.col(0);
-                         if (gamma > 0) {
-                           const Vec3 limit = a / gamma;
-                           const double gone = -std::expm1(-gamma * t);  // 1 - exp(-gamma t), exact for small gamma t
-                           s.v.col(0) = v0 + gone * (limit - v0);
-                           s.x.col(0) = x0 + limit * t + (v0 - limit) * (gone / gamma);
-                         } else {
-                           s.v.col(0) = v0 + a * t;
-                           s.x.col(0) = x0 + v0 * t + a * (t * t / 2);
-                         }
+                         const double z = gamma * t;
+                         const double gone = z > 0 ? -std::expm1(-z) / gamma : t;  // integral of exp(-gamma t), s
+                         s.v.col(0) = v0 * std::exp(-z) + a * gone;
+                         s.x.col(0) = x0 + v0 * gone + a * (t * t * fall(z));
                          return s;
                        }};
 }

@@ -14,24 +14,6 @@
 namespace crosscheck {
 namespace {
 
-Table energy_table(const Ledger& ledger) {
-  Table table{"energy",
-              {{"t", "s"},
-               {"kinetic", "J"},
-               {"elastic", "J"},
-               {"gravitational", "J"},
-               {"dissipated", "J"},
-               {"contact loss", "J"},
-               {"contact loss inferred", "1"},
-               {"wind work", "J"},
-               {"pin work", "J"}},
-              {}};
-  for (const LedgerRow& r : ledger.rows())
-    table.add({r.t, r.energy.kinetic, r.energy.elastic, r.energy.gravitational, r.dissipated, r.contact,
-               ledger.contact_inferred() ? 1l : 0l, r.wind, r.pins});
-  return table;
-}
-
 std::string run_json(const Scene& scene, const Method& method, const Outcome& out, const Trajectory& path) {
   nlohmann::ordered_json json{{"scene", scene.name},
                               {"scene_hash", scene.hash},
@@ -81,7 +63,9 @@ int run_command(const RunOptions& options) {
   write_file(options.out / "trajectory.npy", npy_bytes(path.x));
   if (!scene.model.first_order()) {
     write_file(options.out / "velocities.npy", npy_bytes(path.v));
-    write_csv(energy_table(ledger), with_scenes(provenance(options.command_line), {scene}), options.out);
+    Table energy = ledger_table("energy");
+    add_ledger(energy, method.name, ledger);
+    write_csv(energy, with_scenes(provenance(options.command_line), {scene}), options.out);
   }
   write_file(options.out / "run.json", run_json(scene, method, out, path));
   fmt::print("{} by {}: {}{}\n", scene.name, method.name, name_of(out.verdict),

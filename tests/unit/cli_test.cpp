@@ -152,7 +152,7 @@ TEST_F(Cli, RunWritesWhatPythonReads) {
   EXPECT_EQ(npy.size() % 64, (26 * 4 * 3 * sizeof(double)) % 64) << "data begin at a multiple of 64";
   EXPECT_EQ(read(folder_ / "out/velocities.npy").size(), npy.size());
   EXPECT_NE(read(folder_ / "out/run.json").find("\"verdict\": \"ok\""), std::string::npos);
-  EXPECT_NE(read(folder_ / "out/energy.csv").find("t [s],kinetic [J]"), std::string::npos);
+  EXPECT_NE(read(folder_ / "out/energy.csv").find("method [1],t [s],kinetic [J]"), std::string::npos);
 }
 
 TEST_F(Cli, DivergingRunIsAnAnswer) {

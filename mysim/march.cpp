@@ -1,0 +1,41 @@
+// Samples, steps, observers; the clock runs while the world steps.
+#include "mysim/march.h"
+
+#include <fmt/format.h>
+
+#include "mysim/clock.h"
+
+namespace crosscheck {
+
+Outcome march(World& world, const Run& run, Observer& observer) {
+  const StepPlan steps = plan(run);
+  const bool every_step = observer.every_step();
+  CpuClock clock;
+  Outcome out;
+  out.step = steps.h;
+  out.verdict = observer.observe(world.state(0), true);
+
+  for (int sample = 0; sample < steps.samples && out.verdict == Verdict::ok; ++sample) {
+    clock.start();
+    for (int step = 1; step <= steps.steps_per_sample && out.verdict == Verdict::ok; ++step) {
+      const double t = steps.time(sample, step);
+      world.step(steps.time(sample, step - 1), t);
+      out.end = t;
+      const bool first = out.steps++ == 0, sampled = step == steps.steps_per_sample;
+      if (!every_step && !sampled && !first) continue;
+
+      clock.stop();
+      if (first && (out.readback = world.read_back())) out.readback->step = steps.h;
+      if (every_step) world.tell_contact(observer);
+      if (every_step || sampled) out.verdict = observer.observe(world.state(t), sampled);
+      clock.start();
+    }
+    clock.stop();
+  }
+
+  out.cpu_seconds = clock.seconds();
+  if (out.verdict != Verdict::ok) out.reason = fmt::format("the run failed at t = {:.4g} s", out.end);
+  return out;
+}
+
+}  // namespace crosscheck
