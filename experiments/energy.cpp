@@ -45,12 +45,13 @@ void energy_experiment(const Request& request, Progress& progress, Result& resul
                 {}};
   for (const Scene& scene : request.scenes) {
     if (scene.model.first_order()) {
-      for (size_t i = 0; i < request.methods.size(); ++i) progress.begin("energy: " + scene.name);
+      progress.expect(1 - static_cast<int>(methods_of(request, scene).size()));
+      progress.begin("energy: " + scene.name);
       result.notes.push_back(fmt::format("energy leaves out {}: a first-order system has no energy", scene.name));
       continue;
     }
     Table table = ledger_table("energy-" + scene.name);
-    for (const Method& method : request.methods) {
+    for (const Method& method : methods_of(request, scene)) {
       progress.begin(fmt::format("energy: {} by {}", scene.name, method.name));
       Ledger ledger(scene.model, method.contact);
       const Outcome out = run_method(method, scene, run_of(request, scene), {&ledger});

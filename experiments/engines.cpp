@@ -74,7 +74,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
     const double growth = perturbation_growth(probe, scene, run.step, scene.window);
     const double motion = motion_of(truth ? truth->trajectory : reference.trajectory);
 
-    for (const Method& method : request.methods) {
+    for (const Method& method : methods_of(request, scene)) {
       progress.begin(fmt::format("engines: {} by {}", scene.name, method.name));
       Recorder recorder;
       Outcome out = run_method(method, scene, run, {&recorder});

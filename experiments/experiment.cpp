@@ -9,7 +9,11 @@ namespace crosscheck {
 namespace {
 
 int one_per_scene(const Request& request) { return static_cast<int>(request.scenes.size()); }
-int one_per_run(const Request& request) { return static_cast<int>(request.scenes.size() * request.methods.size()); }
+int one_per_run(const Request& request) {
+  int runs = 0;
+  for (const Scene& scene : request.scenes) runs += static_cast<int>(methods_of(request, scene).size());
+  return runs;
+}
 
 }  // namespace
 
@@ -31,10 +35,12 @@ const Experiment& find_experiment(const std::string& name) {
   throw InputError(fmt::format("unknown experiment '{}'; expected one of: {}", name, known));
 }
 
-std::vector<Method> default_methods() {
+std::vector<Method> methods_of(const Request& request, const Scene& scene) {
+  if (!request.methods.empty()) return request.methods;
   std::vector<Method> methods;
   for (Method& method : all_methods())
     if (!method.name.starts_with("truth/")) methods.push_back(std::move(method));
+  if (scene.model.find<Sphere>()) methods.push_back(find_method("mysim/symplectic-euler+sticky"));
   return methods;
 }
 

@@ -17,9 +17,9 @@ namespace crosscheck {
 
 struct Request {
   std::vector<Scene> scenes;
-  std::vector<Method> methods;
-  bool full = false;  // more points, for the same questions
-  double step = 0;    // s, of all fixed-step methods; 0: each scene's own
+  std::vector<Method> methods;  // empty: the default ones of each scene
+  bool full = false;            // more points, for the same questions
+  double step = 0;              // s, of all fixed-step methods; 0: each scene's own
 };
 
 /// One method's answer to one scene, kept for pictures and certificates.
@@ -52,8 +52,9 @@ std::span<const Experiment> experiments();
 /// Throws InputError that lists what there is.
 const Experiment& find_experiment(const std::string& name);
 
-/// The methods compared when nobody names any: all of mysim and Bullet.
-std::vector<Method> default_methods();
+/// The methods that a request runs on a scene: the ones it names, or all of mysim and Bullet; on a scene with a sphere
+/// also the assignment's sticky sphere, to be seen failing beside them.
+std::vector<Method> methods_of(const Request& request, const Scene& scene);
 
 /// The ledger of one run as rows of (method, t, energies, losses, work, balance error); the last is empty where the
 /// contact loss was inferred, as no closure is claimed there.

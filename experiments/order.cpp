@@ -62,7 +62,7 @@ void order_experiment(const Request& request, Progress& progress, Result& result
       result.notes.push_back(fmt::format("order leaves out {}: no truth is known for it", scene.name));
       continue;
     }
-    for (const Method& method : request.methods) {
+    for (const Method& method : methods_of(request, scene)) {
       if (!method.stepper || method.name.find('+') != std::string::npos) continue;
       std::vector<Point> good;
       for (int i = 0; i < halvings; ++i) {

@@ -13,7 +13,7 @@ class Progress {
   ~Progress();
   /// Announces the step that begins now.
   void begin(const std::string& what);
-  /// More work was found.
+  /// More work was found, or less.
   void expect(int more) { total_ += more; }
   void done();
 

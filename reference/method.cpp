@@ -36,7 +36,11 @@ Method mysim_method(const Stepper& stepper, const std::vector<Option>& options) 
           std::string(stepper.what),
           std::string(stepper.name),
           [&stepper, contact](const Scene& scene, const Run& run, Observer& observer) {
-            return simulate(stepper, contact, scene, run, observer);
+            Outcome out = simulate(stepper, contact, scene, run, observer);
+            if (contact == ContactRule::sticky && scene.model.find<Sphere>())
+              out.different_law.push_back(
+                  "contact: a touching particle is put back to where it came from and loses all its velocity");
+            return out;
           },
           ContactLoss::reported,
           &stepper};

@@ -2,6 +2,7 @@
 #include "report/figure.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -114,7 +115,7 @@ std::string script_of(const Figure& f) {
         "set object 1 rectangle from {:.6g}, graph 0 to graph 1, graph 1 fc rgb \"#F1F1EE\" fs solid noborder behind\n",
         f.window->first);
     out += fmt::format(
-        "set label 1 {} at {:.6g}, graph 0.97 offset 0.6,0 left noenhanced font \"DejaVu Sans,9\" textcolor rgb "
+        "set label 1 {} at {:.6g}, graph 0.04 offset 0.6,0 left noenhanced font \"DejaVu Sans,9\" textcolor rgb "
         "\"#777777\" front\n",
         single_quoted(f.window->second), f.window->first);
   }
@@ -162,6 +163,7 @@ MethodStyle style_of(const std::string& method) {
       {"mysim/explicit-euler", {"#CC79A7", "(10,3,2,3)", 15}},
       {"bullet/deformable-explicit", {"#D55E00", "(14,4)", 5}},
       {"bullet/pbd", {"#7A3B00", "(4,2)", 4}},
+      {"mysim/symplectic-euler+sticky", {"#666666", "(3,3)", 8}},
   };
   for (const Row& row : table)
     if (method == row.name) return row.style;
@@ -170,14 +172,25 @@ MethodStyle style_of(const std::string& method) {
 
 void draw_figure(const Figure& figure, const Provenance& provenance, const std::filesystem::path& folder) {
   const Table data = data_of(figure);
-  write_file(folder / "style.gp", asset("style.gp"));
-  write_csv(data, provenance, folder);
-  write_file(folder / (figure.name + ".gp"), script_of(figure));
-  const ProgramResult drawn = run_program({"gnuplot", figure.name + ".gp"}, folder);
+  // gnuplot writes its files bit by bit: in a folder of its own, so that no half figure is ever seen
+  const std::filesystem::path work = folder / fmt::format(".{}.{}.part", figure.name, getpid());
+  struct Remove {
+    std::filesystem::path path;
+    ~Remove() {
+      std::error_code ignored;
+      std::filesystem::remove_all(path, ignored);
+    }
+  } remove{work};
+  write_file(work / "style.gp", asset("style.gp"));
+  write_csv(data, provenance, work);
+  write_file(work / (figure.name + ".gp"), script_of(figure));
+  const ProgramResult drawn = run_program({"gnuplot", figure.name + ".gp"}, work);
   if (drawn.status != 0 || !drawn.err.empty())
     throw std::runtime_error(
         fmt::format("figure {}: gnuplot: {}", figure.name, drawn.err.empty() ? "failed" : drawn.err));
-  undate(folder / (figure.name + ".pdf"));
+  undate(work / (figure.name + ".pdf"));
+  for (const auto& file : std::filesystem::directory_iterator(work))
+    std::filesystem::rename(file.path(), folder / file.path().filename());
 }
 
 }  // namespace crosscheck

@@ -11,7 +11,7 @@ namespace {
 
 constexpr auto ours = "mysim/symplectic-euler", theirs = "bullet/deformable-explicit", position_based = "bullet/pbd";
 
-std::string percent(double part, double whole) { return nice(100 * part / whole) + " %"; }
+std::string percent(double part, double whole) { return fmt::format("{:.2g} %", 100 * part / whole); }
 
 std::string joined(const std::vector<std::string>& words) {
   std::string out;
@@ -88,15 +88,32 @@ void failures(const Scene& scene, const SceneFacts& facts, std::vector<Finding>&
                    fmt::format("At a step of {:.3g} s these blew up: {}.", scene.step, joined(failed)), "measured"});
 }
 
+/// "0.36 mm inside the contact surface"; what is within round-off of the surface is on it.
+std::string depth(double clearance) {
+  if (std::abs(clearance) < 1e-12) return "on the contact surface (to round-off)";
+  return fmt::format("{} {} the contact surface", nice_length(std::abs(clearance)),
+                     clearance < 0 ? "inside" : "outside");
+}
+
 void contact(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
   if (!scene.model.find<Sphere>()) return;
-  std::vector<std::string> parts;
+  std::string parts;
   for (const char* name : {ours, theirs, position_based})
     if (const MethodFacts* m = facts.find(name); m && m->ok() && m->clearance)
-      parts.push_back(fmt::format("{}: deepest point {} {} the contact surface{}", name,
-                                  nice_length(std::abs(*m->clearance)), *m->clearance < 0 ? "inside" : "outside",
-                                  m->creep ? fmt::format(", creep {} mm/s at the end", nice(1000 * *m->creep)) : ""));
-  if (!parts.empty()) out.push_back({scene.name, "contact", "On the sphere, " + joined(parts) + ".", "measured"});
+      parts += fmt::format("{}{}: {}{}", parts.empty() ? "" : "; ", name, depth(*m->clearance),
+                           m->creep ? fmt::format(", creeping at {} mm/s in the end", nice(1000 * *m->creep)) : "");
+  if (!parts.empty()) out.push_back({scene.name, "contact", "Deepest point over the run: " + parts + ".", "measured"});
+}
+
+void sticky(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
+  const MethodFacts* m = facts.find("mysim/symplectic-euler+sticky");
+  if (!m || !m->ok() || !m->centres || !scene.model.find<Sphere>()) return;
+  out.push_back({scene.name, "failure",
+                 fmt::format("The assignment's sticky sphere, kept for comparison, freezes the cloth where it touches: "
+                             "its centre of mass "
+                             "is up to {} away from where the cloth slides to.",
+                             nice_length(*m->centres)),
+                 "another engine"});
 }
 
 void cost(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
@@ -115,7 +132,7 @@ void cost(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out
 
 std::vector<Finding> findings_of(const Scene& scene, const SceneFacts& facts) {
   std::vector<Finding> out;
-  for (const auto part : {agreement, accuracy, other_law, failures, contact, cost}) part(scene, facts, out);
+  for (const auto part : {agreement, accuracy, other_law, failures, contact, sticky, cost}) part(scene, facts, out);
   return out;
 }
 
@@ -166,8 +183,8 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
   if (worst_law > 0)
     out.push_back(
         {"", "accuracy",
-         fmt::format("Bullet's position-based world follows another spring law: its error is {} to {} % of the motion.",
-                     nice(100 * best_law), nice(100 * worst_law)),
+         fmt::format("Bullet's position-based world follows another spring law: its error is {} to {} of the motion.",
+                     percent(best_law, 1), percent(worst_law, 1)),
          "see each scene"});
   if (!euler.empty() || !heun.empty()) {
     std::string sentence;

@@ -137,6 +137,8 @@ Mode mode_named(const std::string& name) {
 
 std::vector<std::string> pictured_methods(const Scene& scene) {
   if (scene.model.first_order()) return {"mysim/explicit-euler", "mysim/trapezoidal", "mysim/rk4"};
+  if (scene.model.find<Sphere>())
+    return {"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd", "mysim/symplectic-euler+sticky"};
   return {"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd"};
 }
 

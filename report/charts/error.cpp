@@ -20,13 +20,13 @@ std::vector<Chart> error_charts(const ChartInput& input) {
     f.caption = caption_of(scene, facts, input.commit, true);
     f.x = {"t / s", false, 0.0, scene.duration};
     const double top = 10 * facts.motion;
-    f.y = {"RMS error / m", true, std::max(facts.bar, 1e-16) / 10, top};
+    f.y = {"RMS error / m", true, std::max(facts.bar, 1e-16) / 3, top};
     std::vector<std::string> failed;
     for (const MethodFacts& m : facts.methods) {
       if (!m.supported()) continue;
       Curve curve{m.method, style_of(m.method), {}};
       for (const auto& [t, error] : points_of(*table, m.method, "error", true))
-        if (error < top && error > *f.y.low) curve.points.emplace_back(t, error);
+        if (error < top) curve.points.emplace_back(t, std::max(error, facts.bar));  // below the bar nothing is known
       if (!m.ok()) {
         f.failures.push_back({m.method + ": blew up", style_of(m.method), m.end,
                               curve.points.empty() ? top / 3 : std::min(top / 3, curve.points.back().second * 3)});

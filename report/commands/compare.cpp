@@ -38,20 +38,20 @@ double allowed_difference(const Method& method, const Scene& scene, double step)
 
 /// Prints what the same rules differ by; true when one differs by more than allowed.
 bool equal_rules_differ(const Request& request, const Scene& scene, const Result& result) {
+  const std::vector<Method> methods = methods_of(request, scene);
   bool differ = false;
-  for (size_t i = 0; i < request.methods.size(); ++i)
+  for (size_t i = 0; i < methods.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
-      const std::string& rule = request.methods[i].rule;
+      const std::string& rule = methods[i].rule;
       const Answer &a = result.answers[i], &b = result.answers[j];
-      if (rule.empty() || rule != request.methods[j].rule || request.methods[i].name == request.methods[j].name)
-        continue;
+      if (rule.empty() || rule != methods[j].rule || methods[i].name == methods[j].name) continue;
       if (a.outcome.verdict != Verdict::ok || b.outcome.verdict != Verdict::ok || scene.model.find<Sphere>()) continue;
       double largest = 0;
       for (int k = 0;
            k < std::min(a.trajectory.frames(), b.trajectory.frames()) && a.trajectory.t[k] <= scene.window * (1 + 1e-9);
            ++k)
         largest = std::max(largest, (a.trajectory.x[k] - b.trajectory.x[k]).colwise().norm().maxCoeff());
-      const double allowed = allowed_difference(request.methods[j], scene, run_of(request, scene).step);
+      const double allowed = allowed_difference(methods[j], scene, run_of(request, scene).step);
       const bool over = largest > allowed;
       fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, at most {:.3g} m is round-off: {}\n",
                  b.method, a.method, largest, allowed, over ? "NOT THE SAME" : "the same");
@@ -65,12 +65,12 @@ bool equal_rules_differ(const Request& request, const Scene& scene, const Result
 int compare_command(const CompareOptions& options) {
   Request request;
   request.scenes.push_back(load_scene(options.scene));
-  request.methods = options.methods.empty() ? default_methods() : find_methods(options.methods);
+  if (!options.methods.empty()) request.methods = find_methods(options.methods);
   request.step = options.step;
   require_writable(options.out);
   const Scene& scene = request.scenes[0];
 
-  Progress progress(static_cast<int>(request.methods.size()));
+  Progress progress(find_experiment("engines").steps(request));
   Result result;
   engines_experiment(request, progress, result);
   progress.done();

@@ -17,7 +17,7 @@ int experiment_command(const ExperimentOptions& options) {
   std::vector<const Experiment*> chosen;
   Request request;
   request.full = options.full;
-  request.methods = options.methods.empty() ? default_methods() : find_methods(options.methods);
+  if (!options.methods.empty()) request.methods = find_methods(options.methods);
   for (const std::string& name : options.names) {
     const auto all = experiments();
     const auto found = std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return e.name == name; });

@@ -157,7 +157,7 @@ class Builder {
 int report_command(const ReportOptions& options) {
   Request request;
   request.full = options.full;
-  request.methods = options.methods.empty() ? default_methods() : find_methods(options.methods);
+  if (!options.methods.empty()) request.methods = find_methods(options.methods);
   if (options.scenes.empty())
     for (const auto name : shipped_scenes()) request.scenes.push_back(load_scene(std::string(name)));
   for (const std::string& name : options.scenes) request.scenes.push_back(load_scene(name));

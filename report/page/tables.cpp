@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "report/page/page.h"
 
@@ -14,13 +15,16 @@ std::string length_cell(const std::optional<double>& value, double floor = 0) {
   return fmt::format("<td>{}</td>", nice_length(*value));
 }
 
+/// A clearance: negative inside; round-off is neither.
+std::string signed_length(double metres) { return std::abs(metres) < 1e-12 ? "0 m" : nice_length(metres); }
+
 std::string verdict_cell(const MethodFacts& m) {
   if (m.ok()) return "<td class=\"ok\">ok</td>";
   if (!m.supported()) return fmt::format("<td class=\"unsupported\">unsupported: {}</td>", escaped(m.reason));
   const std::string what = m.verdict == "energy" ? "energy from nothing"
                            : m.verdict == "nan"  ? "not a number"
                                                  : m.verdict;
-  return fmt::format("<td class=\"failed\">blew up at {:.3g} s ({})</td>", m.end, what);
+  return fmt::format("<td class=\"failed\" title=\"{}\">blew up at {:.3g} s</td>", what, m.end);
 }
 
 }  // namespace
@@ -74,11 +78,10 @@ std::string scene_table_html(const std::vector<ScenePart>& scenes) {
 std::string run_table_html(const ScenePart& part) {
   const bool contact = part.scene->model.find<Sphere>();
   std::string out = fmt::format(
-      "<div class=\"scroll\"><table><thead><tr><th>method</th><th>verdict</th><th>error from the "
-      "truth</th><th>distance from "
-      "mysim/symplectic-euler</th>{}<th>energy off</th><th>force evaluations</th><th>CPU / "
-      "s</th></tr></thead><tbody>\n",
-      contact ? "<th>centres apart</th><th>clearance</th><th>creep at the end</th>" : "");
+      "<div class=\"scroll\"><table><thead><tr><th>method</th><th>verdict</th><th>error from truth</th><th>away from "
+      "symplectic "
+      "Euler</th>{}<th>energy off</th><th>evaluations</th><th>CPU / s</th></tr></thead><tbody>\n",
+      contact ? "<th>centres apart</th><th>clearance</th><th>creep at end</th>" : "");
   for (const MethodFacts& m : part.facts->methods) {
     out += fmt::format("<tr><th scope=\"row\">{}{}</th>{}{}{}", escaped(m.method),
                        m.different_law.empty() ? ""
@@ -86,7 +89,8 @@ std::string run_table_html(const ScenePart& part) {
                                                              escaped(m.different_law)),
                        verdict_cell(m), length_cell(m.error, part.facts->bar), length_cell(m.difference));
     if (contact) {
-      out += length_cell(m.centres) + length_cell(m.clearance);
+      out += length_cell(m.centres);
+      out += m.clearance ? fmt::format("<td>{}</td>", signed_length(*m.clearance)) : "<td class=\"none\">–</td>";
       out += m.creep ? fmt::format("<td>{} mm/s</td>", nice(1e3 * *m.creep)) : "<td class=\"none\">–</td>";
     }
     out += m.energy_error ? fmt::format("<td>{} %</td>", nice(100 * *m.energy_error)) : "<td class=\"none\">–</td>";

@@ -151,7 +151,8 @@ TEST(Render, PenetrationIsSeen) {
   body_of(inside).x *= 0.33 / 0.352;
   Picture bare = on_top;
   bare.rows[0][0].bodies.clear();
-  EXPECT_GT(changed(studio.draw(on_top), studio.draw(bare)), 0.03);
+  // seen: ten times what a hidden cloth may change by the light it lets through
+  EXPECT_GT(changed(studio.draw(on_top), studio.draw(bare)), 0.02);
   EXPECT_LT(changed(studio.draw(inside), studio.draw(bare)), 0.002);
 }
 
