@@ -50,7 +50,7 @@ void energy_experiment(const Request& request, Progress& progress, Result& resul
       result.notes.push_back(fmt::format("energy leaves out {}: a first-order system has no energy", scene.name));
       continue;
     }
-    Table table = ledger_table("energy-" + scene.name);
+    Table table = ledger_table(scene.name + "-energy");
     for (const Method& method : methods_of(request, scene)) {
       progress.begin(fmt::format("energy: {} by {}", scene.name, method.name));
       Ledger ledger(scene.model, method.contact);

@@ -58,7 +58,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
 
   for (const Scene& scene : request.scenes) {
     const Run run = run_of(request, scene);
-    Table table{"engines-" + scene.name,
+    Table table{scene.name + "-engines",
                 {{"method", "1"},
                  {"t", "s"},
                  {"error", "m"},

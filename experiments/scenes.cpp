@@ -33,4 +33,18 @@ Scene load_scene(const std::string& name) {
                                fmt::join(shipped, ", ")));
 }
 
+std::vector<Scene> load_scenes(const std::vector<std::string>& names) {
+  std::vector<Scene> scenes;
+  if (names.empty())
+    for (const auto name : shipped_scenes()) scenes.push_back(load_scene(std::string(name)));
+  for (const std::string& name : names) {
+    Scene scene = load_scene(name);
+    for (const Scene& other : scenes)
+      if (other.name == scene.name)
+        throw InputError(fmt::format("{}: expected scenes of different names, got '{}' twice", name, scene.name));
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
 }  // namespace crosscheck

@@ -16,4 +16,8 @@ std::span<const std::string_view> shipped_scenes();
 /// A shipped scene by name, or any TOML file by path. Throws InputError that lists what there is.
 Scene load_scene(const std::string& name_or_path);
 
+/// Several at once; none given: all shipped ones. Throws InputError when two have the same name, under which their rows
+/// and files could not be told apart.
+std::vector<Scene> load_scenes(const std::vector<std::string>& names);
+
 }  // namespace crosscheck

@@ -39,7 +39,8 @@ struct Scene {
   double size() const;
 };
 
-/// Reads and expands a scene file. Throws InputError: "FILE:LINE: KEY: expected ...".
+/// Reads and expands a scene file; its name, made safe for file names, is the scene's. Throws InputError: "FILE:LINE:
+/// KEY: expected ...".
 Scene read_scene(const std::filesystem::path& file);
 /// The same from text; name stands in for the file in messages and is the scene's name.
 Scene parse_scene(std::string_view text, const std::string& name);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mysim/errors.h"
+#include "mysim/files.h"
 #include "mysim/grid.h"
 #include "mysim/scene.h"
 
@@ -140,7 +141,9 @@ Scene expand(const Section& file, const std::string& name) {
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file) { return expand(Section::parse_file(file), file.stem().string()); }
+Scene read_scene(const std::filesystem::path& file) {
+  return expand(Section::parse_file(file), file_name_of(file.stem().string()));
+}
 
 Scene parse_scene(std::string_view text, const std::string& name) {
   return expand(Section::parse_text(text, name), name);

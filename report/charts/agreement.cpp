@@ -10,7 +10,7 @@ std::vector<Chart> agreement_charts(const ChartInput& input) {
   for (size_t i = 0; i < input.scenes.size(); ++i) {
     const Scene& scene = input.scenes[i];
     const SceneFacts& facts = input.facts[i];
-    const Table* table = input.result.table("engines-" + scene.name);
+    const Table* table = input.result.table(scene.name + "-engines");
     if (!table) continue;
     Figure f;
     f.name = scene.name + "-agreement";

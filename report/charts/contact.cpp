@@ -29,7 +29,7 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
   std::vector<Chart> charts;
   for (size_t i = 0; i < input.scenes.size(); ++i) {
     const Scene& scene = input.scenes[i];
-    const Table* table = input.result.table("engines-" + scene.name);
+    const Table* table = input.result.table(scene.name + "-engines");
     if (!scene.model.find<Sphere>() || !table) continue;
     for (const Quantity& q : quantities) {
       Figure f;

@@ -69,7 +69,7 @@ std::vector<Chart> energy_charts(const ChartInput& input) {
   const Table* summary = input.result.table("energy");
   for (size_t i = 0; i < input.scenes.size() && summary; ++i) {
     const Scene& scene = input.scenes[i];
-    const Table* table = input.result.table("energy-" + scene.name);
+    const Table* table = input.result.table(scene.name + "-energy");
     const double scale = turned_over(*summary, scene.name);
     if (!table || !(scale > 0)) continue;
     Figure f = scene.model.find<Sphere>() ? contact_figure(scene, input.facts[i], *table)

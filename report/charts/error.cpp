@@ -12,7 +12,7 @@ std::vector<Chart> error_charts(const ChartInput& input) {
   for (size_t i = 0; i < input.scenes.size(); ++i) {
     const Scene& scene = input.scenes[i];
     const SceneFacts& facts = input.facts[i];
-    const Table* table = input.result.table("engines-" + scene.name);
+    const Table* table = input.result.table(scene.name + "-engines");
     if (facts.tier.empty() || !table) continue;
     Figure f;
     f.name = scene.name + "-error";

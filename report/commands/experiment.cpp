@@ -15,6 +15,7 @@ namespace crosscheck {
 
 int experiment_command(const ExperimentOptions& options) {
   std::vector<const Experiment*> chosen;
+  std::vector<std::string> scenes;
   Request request;
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
@@ -26,10 +27,9 @@ int experiment_command(const ExperimentOptions& options) {
     else if (chosen.empty())
       find_experiment(name);  // throws: the first word must be an experiment
     else
-      request.scenes.push_back(load_scene(name));
+      scenes.push_back(name);
   }
-  if (request.scenes.empty())
-    for (const auto name : shipped_scenes()) request.scenes.push_back(load_scene(std::string(name)));
+  request.scenes = load_scenes(scenes);
   require_writable(options.out);
 
   int steps = 0;

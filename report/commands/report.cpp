@@ -158,9 +158,7 @@ int report_command(const ReportOptions& options) {
   Request request;
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
-  if (options.scenes.empty())
-    for (const auto name : shipped_scenes()) request.scenes.push_back(load_scene(std::string(name)));
-  for (const std::string& name : options.scenes) request.scenes.push_back(load_scene(name));
+  request.scenes = load_scenes(options.scenes);
   require_writable(options.out);
   clear_former_report(options.out);
   return Builder(options, std::move(request)).build();

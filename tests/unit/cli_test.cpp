@@ -120,6 +120,7 @@ TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
       {{"experiment", "no-such-experiment"}, {"no-such-experiment", "order"}},
       {{"experiment", "order", "no-such-scene"}, {"no-such-scene"}},
       {{"report", "no-such-scene"}, {"no-such-scene"}},
+      {{"report", "chain", "circle", "chain"}, {"chain", "twice"}},
       {{"report", "chain", "--quick", "--full"}, {"--full"}},
       {{"report", "chain", "--out", "a-file"}, {"--out a-file"}},
       {{"render", "chain", "-o", "picture.gif"}, {"picture.gif", ".png"}},
