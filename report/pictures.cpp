@@ -72,7 +72,6 @@ render::Body body_of(const Scene& scene, const Answer& answer, int frame, Mode m
       for (size_t i = 0; i < springs->list.size(); ++i) {
         const Spring& s = springs->list[i];
         body.tubes.push_back({s.a, s.b});
-        if (mode == Mode::springs) body.tube_colour.push_back(std::max(0, static_cast<int>(s.family) - 1));
         if (mode == Mode::stretch) body.tube_value.push_back(strain[i]);
       }
   }
@@ -85,6 +84,40 @@ render::Body body_of(const Scene& scene, const Answer& answer, int frame, Mode m
   if (scene.triangles.empty())
     for (int i = 0; i <= frame; ++i) body.trail.push_back(answer.trajectory.x[i].col(body.x.cols() - 1));
   return body;
+}
+
+/// The families that the scene's springs belong to, in the order of the legend.
+std::vector<Family> families_of(const Scene& scene) {
+  std::vector<Family> present;
+  for (const Family family : {Family::structural, Family::shear, Family::bend, Family::single})
+    for (const Spring& s : scene.model.find<Springs>()->list)
+      if (s.family == family) {
+        present.push_back(family);
+        break;
+      }
+  return present;
+}
+
+/// The springs of a cloth as tubes, one body per family: structural ones thick, shear and bend ones thin. Bend springs
+/// lie on the structural ones; they are lifted towards the eye so that both are seen.
+std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Vec3& towards_eye) {
+  const auto& springs = scene.model.find<Springs>()->list;
+  double spacing = 1e300;
+  for (const Spring& s : springs)
+    if (s.rest > 0) spacing = std::min(spacing, s.rest);
+  std::vector<render::Body> bodies;
+  for (const Family family : families_of(scene)) {
+    render::Body body;
+    body.x = x;
+    if (family == Family::bend) body.x.colwise() += 0.12 * spacing * towards_eye;
+    if (bodies.empty()) body.pinned = scene.model.particles.pins;
+    body.tube_radius = spacing * (family == Family::bend ? 0.035 : family == Family::shear ? 0.045 : 0.11);
+    for (const Spring& s : springs)
+      if (s.family == family) body.tubes.push_back({s.a, s.b});
+    body.tube_colour.assign(body.tubes.size(), static_cast<int>(bodies.size()));
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
 }
 
 std::vector<render::Ball> balls_of(const Scene& scene) {
@@ -182,8 +215,12 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
   if (mode == Mode::stretch) picture.scale = render::Scale{"stretch / %", 0, round_up(most)};
   if (mode == Mode::difference)
     picture.scale = render::Scale{"distance from " + usable[0]->method + " / mm", 0, round_up(most)};
-  if (mode == Mode::springs && !scene.triangles.empty()) picture.legend = {"structural", "shear", "bend"};
+  if (mode == Mode::springs && !scene.triangles.empty())
+    for (const Family family : families_of(scene)) picture.legend.emplace_back(name_of(family));
   picture.view = view_of(scene, healthy.empty() ? all : healthy, render::panel_aspect(picture));
+  if (!picture.legend.empty())
+    for (render::Panel& panel : picture.rows[0])
+      panel.bodies = tubes_of(scene, panel.bodies[0].x, (picture.view.eye - picture.view.target).normalized());
   return picture;
 }
 

@@ -1,4 +1,4 @@
-// Pictures: determinism, what must be seen and what must not crash, the view, and the PNG with its letters.
+// Pictures: determinism, what must be seen and what must not crash, and the PNG with its letters.
 #include <gtest/gtest.h>
 #include <png.h>
 #include <unistd.h>
@@ -12,8 +12,7 @@
 #include <numbers>
 #include <string>
 
-#include "report/render/frame.h"
-#include "report/render/mesh.h"
+#include "render_helpers.h"
 #include "report/render/picture.h"
 #include "report/run_program.h"
 
@@ -21,50 +20,6 @@ namespace crosscheck::render {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A square cloth of n x n particles and side 1 m, at this height, sagging a little in the middle.
-Body cloth(int n, double height) {
-  Body body;
-  body.x.resize(3, n * n);
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const double u = double(i) / (n - 1), v = double(j) / (n - 1);
-      body.x.col(j * n + i) = Vec3(u - 0.5, height - 0.3 * u * (1 - u) * v * (1 - v), v - 0.5);
-      const int here = j * n + i;
-      if (i + 1 < n) body.threads.push_back({here, here + 1});
-      if (j + 1 < n) body.threads.push_back({here, here + n});
-      if (i + 1 == n || j + 1 == n) continue;
-      body.triangles.push_back({here, here + 1, here + n + 1});
-      body.triangles.push_back({here, here + n + 1, here + n});
-    }
-  }
-  return body;
-}
-
-Picture small_picture(Quality quality = Quality::fast) {
-  Picture picture;
-  picture.quality = quality;
-  picture.width = 160, picture.height = 120;
-  const Body body = cloth(8, 0.6);
-  const Ball ball{{0, 0, 0}, 0.35};
-  picture.rows = {{Panel{"mysim", "", "", {body}, {ball}}}};
-  picture.view = view_that_holds({body.x}, {ball}, {0.3, 0.4, 1}, panel_aspect(picture));
-  return picture;
-}
-
-Body& body_of(Picture& picture) { return picture.rows[0][0].bodies[0]; }
-
-/// Part of the pixels of which a channel differs by more than 8.
-double changed(const Image& a, const Image& b) {
-  EXPECT_EQ(a.rgb.size(), b.rgb.size());
-  int count = 0;
-  for (std::size_t i = 0; i + 2 < a.rgb.size(); i += 3) {
-    int most = 0;
-    for (std::size_t k = i; k < i + 3; ++k) most = std::max(most, std::abs(a.rgb[k] - b.rgb[k]));
-    count += most > 8;
-  }
-  return double(count) / (a.width * a.height);
-}
 
 struct Scratch {
   fs::path path = fs::temp_directory_path() / ("render_test_" + std::to_string(getpid()));
@@ -227,51 +182,6 @@ TEST(Render, TubesTakePaletteColours) {
     return studio.draw(picture);
   };
   EXPECT_GT(changed(with_colour(0), with_colour(1)), 0.02);
-}
-
-TEST(Render, SphereMeshIsRoundAndClosed) {
-  // the picture's balls: no flat piece may dip more than 0.1 % of the radius below the surface
-  const Mesh mesh = sphere_mesh(112);
-  ASSERT_EQ(mesh.index.size() % 3, 0u);
-  for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
-    Eigen::Vector3f middle = Eigen::Vector3f::Zero();
-    for (std::size_t k = i; k < i + 3; ++k) middle += mesh.corner[mesh.index[k]].head<3>() / 3;
-    ASSERT_GT(middle.norm(), 0.999f);
-  }
-}
-
-TEST(Render, ViewHoldsEverythingTightly) {
-  const Points points = Points::Random(3, 50);
-  const std::vector<Ball> balls = {{{0.5, -0.2, 0.1}, 0.9}};
-  for (const double aspect : {0.4, 1.0, 2.5}) {
-    for (const Vec3& direction : {Vec3(0.3, 0.4, 1), Vec3(0, 0, 1), Vec3(-1, 0.2, 0), Vec3(0, 1, 0)}) {
-      const View view = view_that_holds({points}, balls, direction, aspect);
-      const Frame frame = frame_of(view, aspect);
-      Points all(3, 50 + 400);
-      all.leftCols(50) = points;
-      for (int i = 0; i < 400; ++i) {
-        all.col(50 + i) = balls[0].centre + balls[0].radius * Vec3::Random().normalized();
-      }
-      double reach = 0;
-      for (int i = 0; i < all.cols(); ++i) {
-        const Eigen::Vector4f clip = frame.to_clip * frame.place(all.col(i)).homogeneous();
-        reach = std::max({reach, double(std::abs(clip.x() / clip.w())), double(std::abs(clip.y() / clip.w()))});
-        EXPECT_GT(view.up.dot(all.col(i)), *view.floor);
-      }
-      EXPECT_LT(reach, 0.89) << "margin, aspect " << aspect;
-      EXPECT_GT(reach, 0.45) << "size, aspect " << aspect;
-    }
-  }
-}
-
-TEST(Render, ViewOfHardCasesIsUsable) {
-  Points line(3, 2), bad(3, 2);
-  line << 0, 0, 0, -1, 0, 0;
-  bad << 0, std::nan(""), 0, 1, 0, 1;
-  for (const View& view : {view_that_holds({line}, {}, {0, 0, 1}, 1), view_that_holds({bad}, {}, {0, 0, 1}, 1),
-                           view_that_holds({}, {}, {0, 0, 1}, 1), view_that_holds({line}, {}, {0, 0, 0}, 0)}) {
-    EXPECT_NO_THROW(frame_of(view, 1));
-  }
 }
 
 TEST(Render, PngHasLettersAndTheSameBytes) {
