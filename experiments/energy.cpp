@@ -67,7 +67,7 @@ void energy_experiment(const Request& request, Progress& progress, Result& resul
       const bool ok = out.verdict == Verdict::ok;
       const bool claimed = ok && !ledger.contact_inferred();
       summary.add({scene.name, method.name, std::string(name_of(out.verdict)), out.end, turned_over,
-                   claimed ? Cell(worst) : Cell(), claimed ? Cell(worst / turned_over) : Cell(),
+                   claimed ? Cell(worst) : Cell(), claimed && turned_over > 0 ? Cell(worst / turned_over) : Cell(),
                    ledger.contact_inferred() ? 1l : 0l});
     }
     result.tables.push_back(std::move(table));

@@ -43,6 +43,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                  {"motion", "m"},
                  {"window", "s"},
                  {"perturbation growth", "1"},
+                 {"round-off bound", "m"},
                  {"truth tier", "1"},
                  {"truth bar", "m"},
                  {"largest error", "m"},
@@ -69,7 +70,9 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                 {}};
     const auto truth = truth_of(scene, run);
     Recorder reference;
-    run_method(find_method(reference_rule), scene, run, {&reference});
+    // differences from a run that failed would tell nothing
+    if (run_method(find_method(reference_rule), scene, run, {&reference}).verdict != Verdict::ok)
+      reference.trajectory = {};
     const Method probe = find_method(scene.model.first_order() ? scene.method : reference_rule);
     const double growth = perturbation_growth(probe, scene, run.step, scene.window);
     const double motion = motion_of(truth ? truth->trajectory : reference.trajectory);
@@ -84,9 +87,9 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
           // what answers another scene is no answer: no number of it is kept
           out.verdict = Verdict::unsupported;
           out.reason = "it built another scene, see its parity certificate";
-          recorder.trajectory = {};
         }
       }
+      if (out.verdict == Verdict::unsupported) recorder.trajectory = {};
       const Trajectory& path = recorder.trajectory;
       const bool unsupported = out.verdict == Verdict::unsupported;
       const size_t first_row = table.rows.size();
@@ -117,6 +120,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                    motion,
                    scene.window,
                    growth,
+                   cell_of(round_off_bound(scene, growth)),
                    truth ? Cell(std::string(name_of(truth->tier))) : Cell(),
                    truth ? Cell(truth->bar) : Cell(),
                    ok ? largest(table, first_row, "error", scene.window) : Cell(),

@@ -61,6 +61,11 @@ std::optional<double> first_contact(const Scene& scene, const Trajectory& trajec
   return std::nullopt;
 }
 
+std::optional<double> round_off_bound(const Scene& scene, double growth) {
+  if (!(growth < 1e6)) return std::nullopt;
+  return 1e-13 * std::max(1.0, scene.size()) * std::max(1.0, growth);
+}
+
 double perturbation_growth(const Method& method, const Scene& scene, double step, double until) {
   constexpr double size = 1e-10;  // m: far above round-off (1e-16), far below every nonlinearity
   Scene perturbed = scene;

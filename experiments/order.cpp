@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "experiments/experiment.h"
+#include "experiments/metrics.h"
 
 namespace crosscheck {
 namespace {
@@ -19,6 +21,22 @@ double error_against(const Trajectory& trajectory, const Truth& truth) {
   for (int i = 0; i < trajectory.frames(); ++i)
     largest = std::max(largest, rms_distance(trajectory.x[i], truth.trajectory.x[i]));
   return largest;
+}
+
+struct Fit {
+  double order, from, to;  // slope, and the steps (s) between which it was fitted
+};
+
+/// The slope of the finest three points, if it is steady there: two successive slopes within 0.3 of each other.
+/// Elsewhere the error is not yet, or no longer, a power of the step, and no order can be read off.
+std::optional<Fit> asymptotic_order(const std::vector<Point>& points) {
+  if (points.size() < 3) return std::nullopt;
+  const Point *p = &points[points.size() - 3], *q = p + 1, *r = p + 2;
+  const auto slope = [](const Point* a, const Point* b) {
+    return std::log(a->error / b->error) / std::log(a->step / b->step);
+  };
+  if (!(std::abs(slope(p, q) - slope(q, r)) < 0.3)) return std::nullopt;
+  return Fit{slope(p, r), p->step, r->step};
 }
 
 /// Why a scene is left out, or nothing.
@@ -62,6 +80,7 @@ void order_experiment(const Request& request, Progress& progress, Result& result
       result.notes.push_back(fmt::format("order leaves out {}: no truth is known for it", scene.name));
       continue;
     }
+    const double motion = motion_of(truth->trajectory);
     for (const Method& method : methods_of(request, scene)) {
       if (!method.stepper || method.name.find('+') != std::string::npos) continue;
       std::vector<Point> good;
@@ -76,19 +95,12 @@ void order_experiment(const Request& request, Progress& progress, Result& result
         points.add({scene.name, method.name, out.step, ok ? Cell(error) : Cell(), truth->bar, out.evaluations,
                     std::string(name_of(out.verdict))});
         // below 30 truth bars the bar, and below round-off the round-off, bends the slope by more than 0.05
-        if (ok && error > 30 * truth->bar && error < 0.1 * scene.size()) good.push_back({out.step, error});
+        if (ok && error > 30 * truth->bar && error < 0.1 * motion) good.push_back({out.step, error});
       }
-      if (good.size() < 2) continue;
-      // least squares through the finest three points that count: the asymptotic end
-      const std::vector<Point> fine(good.end() - std::min<long>(3, static_cast<long>(good.size())), good.end());
-      double sx = 0, sy = 0, sxx = 0, sxy = 0;
-      for (const Point& p : fine) {
-        const double x = std::log(p.step), y = std::log(p.error);
-        sx += x, sy += y, sxx += x * x, sxy += x * y;
-      }
-      const double n = static_cast<double>(fine.size());
-      slopes.add({scene.name, method.name, static_cast<long>(method.stepper->order),
-                  (n * sxy - sx * sy) / (n * sxx - sx * sx), fine.front().step, fine.back().step});
+      if (const auto fit = asymptotic_order(good))
+        slopes.add({scene.name, method.name, static_cast<long>(method.stepper->order), fit->order, fit->from, fit->to});
+      else
+        result.notes.push_back(fmt::format("order sees no steady slope of {} on {}", method.name, scene.name));
     }
   }
   result.tables.push_back(std::move(points));

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "mysim/errors.h"
+#include "reference/method.h"
 
 namespace crosscheck {
 
@@ -24,11 +25,26 @@ std::span<const std::string_view> shipped_scenes() {
   return table;
 }
 
+namespace {
+
+/// Reads the file and makes sure that its default method is one.
+Scene checked(const std::filesystem::path& file) {
+  Scene scene = read_scene(file);
+  try {
+    find_method(scene.method);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: time.method: {}", file.string(), error.what()));
+  }
+  return scene;
+}
+
+}  // namespace
+
 Scene load_scene(const std::string& name) {
   const auto shipped = shipped_scenes();
   if (std::find(shipped.begin(), shipped.end(), name) != shipped.end())
-    return read_scene(std::filesystem::path(CROSSCHECK_SCENES) / (name + ".toml"));
-  if (name.ends_with(".toml") || std::filesystem::exists(name)) return read_scene(name);
+    return checked(std::filesystem::path(CROSSCHECK_SCENES) / (name + ".toml"));
+  if (name.ends_with(".toml") || std::filesystem::exists(name)) return checked(name);
   throw InputError(fmt::format("unknown scene '{}'; expected one of {}, or the path of a .toml file", name,
                                fmt::join(shipped, ", ")));
 }

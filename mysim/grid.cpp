@@ -6,8 +6,8 @@ namespace crosscheck {
 Grid read_grid(const Section& s) {
   Grid g{};
   const std::vector<int> size = s.integers("size");
-  if (size.size() != 2 || size[0] < 2 || size[1] < 2 || size[0] > 10000 || size[1] > 10000)
-    s.fail("size", "two whole numbers from 2 to 10000, particles along u and v");
+  if (size.size() != 2 || size[0] < 2 || size[1] < 2 || long(size[0]) * size[1] > 10000000)
+    s.fail("size", "two whole numbers from 2, particles along u and v, ten million in all at most");
   g.nu = size[0];
   g.nv = size[1];
   g.origin = s.vec3("origin");

@@ -24,6 +24,20 @@ std::string_view name_of(Verdict verdict) {
   return "unknown";
 }
 
+std::string_view in_words(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::ok:
+      return "ok";
+    case Verdict::energy:
+      return "blew up (energy from nothing)";
+    case Verdict::nan:
+      return "blew up (not a number)";
+    case Verdict::unsupported:
+      return "unsupported";
+  }
+  return "unknown";
+}
+
 Run default_run(const Scene& scene) { return {scene.step, scene.duration, scene.samples}; }
 
 StepPlan plan(const Run& run) {

@@ -18,7 +18,8 @@ enum class Verdict {
   nan,          // a non-finite position or velocity
   unsupported,  // the method lacks an ingredient of the scene
 };
-std::string_view name_of(Verdict verdict);
+std::string_view name_of(Verdict verdict);   // the word in tables and files
+std::string_view in_words(Verdict verdict);  // for people
 
 struct Run {
   double step;      // s, as asked; the run reduces it so that it divides the sampling interval

@@ -11,6 +11,8 @@
 
 namespace crosscheck {
 
+/// From where the scene is seen: only the direction from target to eye counts, the distance is chosen to hold
+/// everything.
 struct Camera {
   Vec3 eye, target;          // m
   std::optional<double> at;  // s, when the picture is taken; none: at the end

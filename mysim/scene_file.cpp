@@ -98,6 +98,7 @@ void read_time(const Section& file, Scene& scene) {
   const Section s = file.section("time");
   scene.duration = s.positive("duration");
   scene.samples = s.count("samples");
+  if (scene.samples > 1000000) s.fail("samples", "at most a million samples");
   scene.step = s.positive("step");
   if (scene.step > scene.duration) s.fail("step", "a step not longer than the duration");
   if (scene.duration / scene.samples / scene.step > 1e9) s.fail("step", "at most 1e9 steps between two samples");
@@ -125,6 +126,14 @@ Scene expand(const Section& file, const std::string& name) {
   for (const TermReader& reader : term_readers)
     if ((!first_order || reader.key == Rotation::name) && file.has(reader.key))
       scene.model.terms.push_back(reader.read(file.section(reader.key), scene.model.particles));
+
+  if (const auto* sphere = scene.model.find<Sphere>())
+    for (int i = 0; i < scene.model.particles.size(); ++i)
+      // 1e-9 of the radius: on the surface but for the rounding of a decimal number is not inside
+      if (!scene.model.particles.pinned[i] &&
+          (scene.start.x.col(i) - sphere->centre).norm() < (1 - 1e-9) * sphere->contact_radius())
+        file.section("sphere").fail("radius",
+                                    fmt::format("no particle inside radius + margin at the start, got particle {}", i));
 
   if (file.has("camera")) {
     const Section s = file.section("camera");

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mysim/engine.h"
+#include "mysim/observers/watch.h"
 #include "reference/exact/exact.h"
 
 namespace crosscheck {
@@ -58,15 +59,22 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
   const Stepper& rk4 = stepper_named("rk4");
   Recorder coarse, fine;
   // the scene's own step, whatever the run's: truth must not depend on what is compared with it
-  simulate(rk4, ContactRule::coulomb, scene, {scene.step / 2, run.duration, run.samples}, coarse);
-  simulate(rk4, ContactRule::coulomb, scene, {scene.step / 4, run.duration, run.samples}, fine);
-  double bar = 0;
-  for (int i = 0; i < fine.trajectory.frames(); ++i)
+  Watch coarse_watch(scene.model), fine_watch(scene.model);
+  Observers coarse_look({&coarse, &coarse_watch}), fine_look({&fine, &fine_watch});
+  const Outcome a =
+      simulate(rk4, ContactRule::coulomb, scene, {scene.step / 2, run.duration, run.samples}, coarse_look);
+  const Outcome b = simulate(rk4, ContactRule::coulomb, scene, {scene.step / 4, run.duration, run.samples}, fine_look);
+  if (a.verdict != Verdict::ok || b.verdict != Verdict::ok) return std::nullopt;
+  double bar = 0, motion = 0;
+  for (int i = 0; i < fine.trajectory.frames(); ++i) {
+    motion = std::max(motion, rms_distance(fine.trajectory.x[i], fine.trajectory.x[0]));
     bar = std::max(bar, rms_distance(coarse.trajectory.x[i], fine.trajectory.x[i]));
-  if (!std::isfinite(bar)) return std::nullopt;  // rk4 is unstable even there: nothing is known
+  }
+  bar = std::max(bar, 1e-15 * scene.size());
+  if (!(bar < 0.01 * motion)) return std::nullopt;  // known to less than a hundredth of the motion: not known
   return Truth{Tier::converged,
                fmt::format("rk4 at {:.3g} s, one route (no independent integrator yet)", scene.step / 4),
-               std::move(fine.trajectory), std::max(bar, 1e-15 * scene.size())};
+               std::move(fine.trajectory), bar};
 }
 
 }  // namespace crosscheck

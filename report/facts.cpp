@@ -31,6 +31,12 @@ const MethodFacts* SceneFacts::find(const std::string& method) const {
   return nullptr;
 }
 
+bool SceneFacts::touched() const {
+  for (const MethodFacts& m : methods)
+    if (m.ok() && m.clearance && *m.clearance < 1e-3) return true;
+  return false;
+}
+
 SceneFacts facts_of(const std::string& scene, const Result& result) {
   SceneFacts facts;
   facts.scene = scene;
@@ -40,6 +46,7 @@ SceneFacts facts_of(const std::string& scene, const Result& result) {
     facts.motion = number(engines.at(i, "motion")).value_or(0);
     facts.window = number(engines.at(i, "window")).value_or(0);
     facts.growth = number(engines.at(i, "perturbation growth")).value_or(0);
+    facts.round_off = number(engines.at(i, "round-off bound"));
     facts.tier = text(engines.at(i, "truth tier"));
     facts.bar = number(engines.at(i, "truth bar")).value_or(0);
     MethodFacts m;

@@ -26,10 +26,13 @@ struct MethodFacts {
 struct SceneFacts {
   std::string scene;
   double motion = 0, window = 0, growth = 0;  // m, s, 1
-  std::string tier;                           // of the truth; empty without one
-  double bar = 0;                             // m
+  std::optional<double> round_off;  // m, what the same rule may differ by; empty where nothing can be predicted
+  std::string tier;                 // of the truth; empty without one
+  double bar = 0;                   // m
   std::vector<MethodFacts> methods;
   const MethodFacts* find(const std::string& method) const;
+  /// True when some run came within a millimetre of the sphere's contact surface.
+  bool touched() const;
 };
 
 /// Facts of a scene from the tables `engines`, `engines-cost` and `energy`.

@@ -86,15 +86,17 @@ std::string plot_command(const Figure& f) {
   return out + "\n";
 }
 
-/// The x axis with both ends set: where left open, from the data. gnuplot samples horizontal lines over the range.
-Axis closed(const Figure& f) {
-  Axis axis = f.x;
+/// The axis with both ends set where gnuplot must not choose: x always (horizontal lines are sampled over it), y where
+/// all values are the same.
+Axis closed(const Figure& f, bool of_x) {
+  Axis axis = of_x ? f.x : f.y;
   double low = 1e300, high = -1e300;
-  auto see = [&](double x) { low = std::min(low, x), high = std::max(high, x); };
+  auto see = [&](double x, double y) { low = std::min(low, of_x ? x : y), high = std::max(high, of_x ? x : y); };
   for (const Curve& curve : f.curves)
-    for (const auto& point : curve.points) see(point.first);
-  for (const FailureMark& mark : f.failures) see(mark.x);
-  const double room = axis.logarithmic ? 1.25 : 0.02 * (high - low) + 1e-12;
+    for (const auto& point : curve.points) see(point.first, point.second);
+  for (const FailureMark& mark : f.failures) see(mark.x, mark.y);
+  if (!of_x && low < high) return axis;
+  const double room = axis.logarithmic ? 1.25 : low < high ? 0.02 * (high - low) : 0.05 * std::abs(high) + 1e-9;
   if (!axis.low) axis.low = axis.logarithmic ? low / room : low - room;
   if (!axis.high) axis.high = axis.logarithmic ? high * room : high + room;
   return axis;
@@ -103,7 +105,7 @@ Axis closed(const Figure& f) {
 std::string script_of(const Figure& f) {
   std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", f.title, f.name);
   out += fmt::format("set title {}\n", single_quoted(f.title));
-  out += axis_commands(closed(f), 'x') + axis_commands(f.y, 'y');
+  out += axis_commands(closed(f, true), 'x') + axis_commands(closed(f, false), 'y');
   if (!f.categories.empty()) {
     out += "set xtics rotate by 20 right noenhanced (";
     for (size_t i = 0; i < f.categories.size(); ++i)

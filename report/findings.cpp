@@ -1,6 +1,8 @@
 // Sentences from facts.
 #include "report/findings.h"
 
+#include "report/findings_text.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,41 +11,47 @@
 namespace crosscheck {
 namespace {
 
-constexpr auto ours = "mysim/symplectic-euler", theirs = "bullet/deformable-explicit", position_based = "bullet/pbd";
-
-std::string percent(double part, double whole) { return fmt::format("{:.2g} %", 100 * part / whole); }
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (size_t i = 0; i < words.size(); ++i) out += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  return out;
-}
-
 void agreement(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
   const MethodFacts* b = facts.find(theirs);
   if (!b || !b->ok() || !b->difference) return;
-  if (!scene.model.find<Sphere>()) {
+  const std::string apart = *b->difference == 0 ? "not at all" : "by at most " + nice_length(*b->difference);
+  if (facts.touched()) {
+    std::string sentence = fmt::format("Until {:.3g} s, {} and {} differ by at most {} (RMS).", scene.window, ours,
+                                       theirs, nice_length(*b->difference));
+    if (scene.window < scene.duration)
+      sentence += fmt::format(
+          " After that single positions are not compared, since contact makes them unpredictable; the centres of mass "
+          "stay "
+          "within {} over the whole run.",
+          nice_length(b->centres.value_or(0)));
+    out.push_back({scene.name, "agreement", sentence, "another engine"});
+  } else if (!facts.round_off) {
+    out.push_back({scene.name, "failure",
+                   fmt::format("Nothing can be said of agreement: within {:.3g} s a perturbation of 1e-10 m grows "
+                               "{}-fold, so that two correct "
+                               "engines part as well. {} and {} part {}.",
+                               scene.window, nice(facts.growth), ours, theirs, apart),
+                   "another engine"});
+  } else if (same_rule_differs(facts)) {
+    out.push_back({scene.name, "failure",
+                   fmt::format("The same rule at the same step does NOT give the same motion: {} and {} part {}, and "
+                               "only {} would be round-off.",
+                               ours, theirs, apart, nice_length(*facts.round_off)),
+                   "another engine"});
+  } else {
     out.push_back(
         {scene.name, "agreement",
-         fmt::format(
-             "The same rule at the same step gives the same motion: {} and {} part by at most {} in {:.3g} s, where a "
-             "perturbation grows {}-fold.",
-             ours, theirs, nice_length(*b->difference), scene.window, nice(facts.growth)),
+         fmt::format("The same rule at the same step gives the same motion: {} and {} part {} in {:.3g} s, where {}; "
+                     "up to {} is "
+                     "round-off.",
+                     ours, theirs, apart, scene.window, growth_text(facts.growth), nice_length(*facts.round_off)),
          "another engine"});
-    return;
   }
-  out.push_back(
-      {scene.name, "agreement",
-       fmt::format(
-           "Until {:.3g} s, {} and {} differ by at most {} (RMS). After that single positions are not compared, "
-           "since contact makes them unpredictable; the centres of mass stay within {} over the whole run.",
-           scene.window, ours, theirs, nice_length(*b->difference), nice_length(b->centres.value_or(0))),
-       "another engine"});
 }
 
 void other_law(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
   const MethodFacts* p = facts.find(position_based);
-  if (!p || !p->ok()) return;
+  if (!p || !p->ok() || !scene.model.find<Springs>() || !(facts.motion > 0)) return;
   if (p->error)
     out.push_back({scene.name, "accuracy",
                    fmt::format("{} differs from the truth by up to {}, {} of the motion: its springs follow another "
@@ -54,9 +62,8 @@ void other_law(const Scene& scene, const SceneFacts& facts, std::vector<Finding>
   else if (p->difference)
     out.push_back(
         {scene.name, "accuracy",
-         fmt::format(
-             "{} differs by up to {} (RMS) until {:.3g} s; both its springs and its friction follow other laws.",
-             position_based, nice_length(*p->difference), scene.window),
+         fmt::format("{} differs by up to {} (RMS) until {:.3g} s; its springs{} follow another law.", position_based,
+                     nice_length(*p->difference), scene.window, facts.touched() ? " and its friction" : ""),
          "another engine"});
 }
 
@@ -68,7 +75,7 @@ void accuracy(const Scene& scene, const SceneFacts& facts, std::vector<Finding>&
     const double per_step = static_cast<double>(m.evaluations) * m.step / scene.duration;
     if (per_step < 1.5 && (!thrifty || *m.error < *thrifty->error)) thrifty = &m;
   }
-  if (!best) return;
+  if (!best || !(facts.motion > 0)) return;
   const double shown = std::max(*best->error, facts.bar);
   std::string sentence =
       fmt::format("Nearest to the truth at this step is {} ({}{} for {:.3g} s of motion)", best->method,
@@ -96,18 +103,20 @@ std::string depth(double clearance) {
 }
 
 void contact(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
-  if (!scene.model.find<Sphere>()) return;
+  if (!facts.touched()) return;
   std::string parts;
   for (const char* name : {ours, theirs, position_based})
     if (const MethodFacts* m = facts.find(name); m && m->ok() && m->clearance)
-      parts += fmt::format("{}{}: {}{}", parts.empty() ? "" : "; ", name, depth(*m->clearance),
-                           m->creep ? fmt::format(", creeping at {} mm/s in the end", nice(1000 * *m->creep)) : "");
-  if (!parts.empty()) out.push_back({scene.name, "contact", "Deepest point over the run: " + parts + ".", "measured"});
+      parts += fmt::format(
+          "{}{}: {}{}", parts.empty() ? "" : "; ", name, depth(*m->clearance),
+          m->creep ? fmt::format(", touching particles slide at {} mm/s in the end", nice(1000 * *m->creep)) : "");
+  if (!parts.empty())
+    out.push_back({scene.name, "contact", "Nearest to the contact surface at any sample: " + parts + ".", "measured"});
 }
 
 void sticky(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
   const MethodFacts* m = facts.find("mysim/symplectic-euler+sticky");
-  if (!m || !m->ok() || !m->centres || !scene.model.find<Sphere>()) return;
+  if (!m || !m->ok() || !m->centres || !facts.touched()) return;
   out.push_back({scene.name, "failure",
                  fmt::format("The assignment's sticky sphere, kept for comparison, freezes the cloth where it touches: "
                              "its centre of mass "
@@ -133,83 +142,6 @@ void cost(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out
 std::vector<Finding> findings_of(const Scene& scene, const SceneFacts& facts) {
   std::vector<Finding> out;
   for (const auto part : {agreement, accuracy, other_law, failures, contact, sticky, cost}) part(scene, facts, out);
-  return out;
-}
-
-std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
-                                      const Result& result) {
-  std::vector<Finding> out;
-  std::vector<std::string> same;
-  double worst = 0, best_law = 1e300, worst_law = 0, cheapest = 1e300, dearest = 0;
-  std::vector<std::string> euler, heun, contact_scenes;
-  double rms = 0, centres = 0;
-  for (size_t i = 0; i < scenes.size(); ++i) {
-    const MethodFacts *a = facts[i].find(ours), *b = facts[i].find(theirs), *p = facts[i].find(position_based);
-    const bool sphere = scenes[i].model.find<Sphere>() != nullptr;
-    if (b && b->ok() && b->difference && !sphere) {
-      same.push_back(scenes[i].name);
-      worst = std::max(worst, *b->difference);
-    }
-    if (b && b->ok() && b->difference && sphere) {
-      contact_scenes.push_back(scenes[i].name);
-      rms = std::max(rms, *b->difference);
-      centres = std::max(centres, b->centres.value_or(0));
-    }
-    if (p && p->ok() && p->error) {
-      best_law = std::min(best_law, *p->error / facts[i].motion);
-      worst_law = std::max(worst_law, *p->error / facts[i].motion);
-    }
-    for (auto [name, list] : {std::pair{"mysim/explicit-euler", &euler}, std::pair{"mysim/trapezoidal", &heun}})
-      if (const MethodFacts* m = facts[i].find(name); m && m->supported() && !m->ok()) list->push_back(scenes[i].name);
-    if (a && b && a->ok() && b->ok() && a->cpu_per_step && b->cpu_per_step && scenes[i].model.particles.size() >= 50) {
-      cheapest = std::min(cheapest, *b->cpu_per_step / *a->cpu_per_step);
-      dearest = std::max(dearest, *b->cpu_per_step / *a->cpu_per_step);
-    }
-  }
-  if (!same.empty())
-    out.push_back({"", "agreement",
-                   fmt::format("mysim and Bullet agree: with the same rule (symplectic Euler) and the same step they "
-                               "part by at most {} (round-off) on {}.",
-                               nice_length(worst), joined(same)),
-                   "another engine"});
-  if (!contact_scenes.empty())
-    out.push_back(
-        {"", "contact",
-         fmt::format(
-             "With contact they agree to {} (RMS) until 0.3 s after the first touch, and their centres of mass to {} "
-             "over the whole run of {}.",
-             nice_length(rms), nice_length(centres), joined(contact_scenes)),
-         "another engine"});
-  if (worst_law > 0)
-    out.push_back(
-        {"", "accuracy",
-         fmt::format("Bullet's position-based world follows another spring law: its error is {} to {} of the motion.",
-                     percent(best_law, 1), percent(worst_law, 1)),
-         "see each scene"});
-  if (!euler.empty() || !heun.empty()) {
-    std::string sentence;
-    if (!euler.empty()) sentence += "Explicit Euler blew up on " + joined(euler);
-    if (!heun.empty())
-      sentence +=
-          (sentence.empty() ? "The explicit trapezoidal rule blew up on " : "; the explicit trapezoidal rule on ") +
-          joined(heun);
-    out.push_back({"", "failure", sentence + ", at a step where the other rules are stable.", "measured"});
-  }
-  if (const Table* slopes = result.table("order-slopes"); slopes && !slopes->rows.empty()) {
-    double off = 0;
-    for (size_t i = 0; i < slopes->rows.size(); ++i)
-      off = std::max(off, std::abs(std::get<double>(slopes->at(i, "measured order")) -
-                                   double(std::get<long>(slopes->at(i, "declared order")))));
-    out.push_back({"", "order", fmt::format("Measured orders of accuracy lie within {:.2f} of the declared ones.", off),
-                   "see each scene"});
-  }
-  if (dearest > 0)
-    out.push_back({"", "cost",
-                   fmt::format("One step of the same rule on cloth costs Bullet {:.1f} to {:.1f} times the CPU time of "
-                               "mysim's plain loops (Debian's "
-                               "build of Bullet; one run each).",
-                               cheapest, dearest),
-                   "measured"});
   return out;
 }
 

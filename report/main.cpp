@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "mysim/errors.h"
 #include "report/commands/commands.h"
@@ -21,7 +23,23 @@ std::string command_line(int argc, char** argv) {
   return line;
 }
 
+/// CLI11's own range checks let nan through and print 309 digits.
+CLI::Validator number(bool zero_allowed) {
+  return CLI::Validator(
+      [zero_allowed](const std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool good =
+            end != text.c_str() && *end == '\0' && std::isfinite(value) && (value > 0 || (zero_allowed && value == 0));
+        return good ? std::string()
+                    : fmt::format("expected a finite number {} zero, got '{}'", zero_allowed ? "not below" : "above",
+                                  text);
+      },
+      "");
+}
+
 int run(int argc, char** argv) {
+  const CLI::Validator above_zero = number(false), not_below_zero = number(true);
   CLI::App app{
       "Crosscheck sets mysim, an in-house mass-spring and cloth engine, beside matching Bullet soft-body scenes."};
   app.require_subcommand(1);
@@ -47,9 +65,9 @@ int run(int argc, char** argv) {
   auto* run = app.add_subcommand("run", "one run: trajectory, energies, verdict");
   run->add_option("SCENE", run_options.scene, "a shipped scene or a TOML file")->required();
   run->add_option("--method", run_options.method, "default: the scene's own");
-  run->add_option("--step", run_options.step, "s, of fixed-step methods")->check(CLI::PositiveNumber);
-  run->add_option("--tol", run_options.tolerance, "relative, of adaptive methods")->check(CLI::PositiveNumber);
-  run->add_option("--duration", run_options.duration, "s")->check(CLI::PositiveNumber);
+  run->add_option("--step", run_options.step, "s, of fixed-step methods")->check(above_zero);
+  run->add_option("--tol", run_options.tolerance, "relative, of adaptive methods")->check(above_zero);
+  run->add_option("--duration", run_options.duration, "s")->check(above_zero);
   run->add_option("--out", run_options.out, "folder (out/run)");
   run->callback([&] { run_options.command_line = line, status = run_command(run_options); });
 
@@ -57,7 +75,7 @@ int run(int argc, char** argv) {
   auto* compare = app.add_subcommand("compare", "parity certificate, then methods side by side");
   compare->add_option("SCENE", compare_options.scene, "a shipped scene or a TOML file")->required();
   compare->add_option("--methods", compare_options.methods, "A,B,...");
-  compare->add_option("--step", compare_options.step, "s")->check(CLI::PositiveNumber);
+  compare->add_option("--step", compare_options.step, "s")->check(above_zero);
   compare->add_option("--out", compare_options.out, "folder (out/compare)");
   compare->callback([&] { compare_options.command_line = line, status = compare_command(compare_options); });
 
@@ -84,7 +102,7 @@ int run(int argc, char** argv) {
   render->add_option("SCENE", render_options.scene, "a shipped scene or a TOML file")->required();
   render->add_option("--methods", render_options.methods, "A,B,...");
   render->add_option("--mode", render_options.mode, "shaded, stretch, springs, difference or strip");
-  render->add_option("--at", render_options.at, "s (default: the end)")->check(CLI::NonNegativeNumber);
+  render->add_option("--at", render_options.at, "s (default: the end)")->check(not_below_zero);
   render->add_option("--quality", render_options.quality, "fast or still");
   render->add_option("--size", render_options.size, "WxH, pixels");
   render->add_option("-o", render_options.file, "FILE.png")->required();

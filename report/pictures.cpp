@@ -130,21 +130,17 @@ render::View view_of(const Scene& scene, const std::vector<Points>& shown, doubl
   double depth = 0;
   for (const Points& x : shown) depth = std::max(depth, x.row(2).maxCoeff() - x.row(2).minCoeff());
   const bool flat = scene.triangles.empty() && depth < 1e-9;
-  render::View view =
-      render::view_that_holds(shown, balls_of(scene), flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1), aspect);
+  // the scene's camera says from where; how far away is chosen so that panels of every shape hold everything
+  Vec3 from = flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1);
+  if (scene.camera) from = scene.camera->eye - scene.camera->target;
+  render::View view = render::view_that_holds(shown, balls_of(scene), from, aspect);
   if (flat) view.floor.reset();
-  if (scene.camera) {
-    view.eye = scene.camera->eye;
-    view.target = scene.camera->target;
-  }
   return view;
 }
 
 std::string time_text(const Answer& answer, int frame) {
   const std::string t = fmt::format("t = {:.3g} s", answer.trajectory.t[frame]);
-  return answer.outcome.verdict == Verdict::ok
-             ? t
-             : fmt::format("{}, failed at {:.3g} s: {}", t, answer.outcome.end, name_of(answer.outcome.verdict));
+  return answer.outcome.verdict == Verdict::ok ? t : fmt::format("{}, blew up at {:.3g} s", t, answer.outcome.end);
 }
 
 std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Shot& shot) {
@@ -187,8 +183,12 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
   picture.width = shot.width;
   picture.height = shot.height;
   picture.quality = shot.quality;
+  if (shot.mode == Mode::difference && usable.size() < 2)
+    throw InputError(fmt::format("{}: --mode difference: expected two methods that can run the scene", scene.name));
   const bool strip = shot.mode == Mode::strip;
-  const Mode mode = strip ? Mode::shaded : shot.mode;
+  // without springs there is no stretch to colour by
+  const bool no_stretch = shot.mode == Mode::stretch && !scene.model.find<Springs>();
+  const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   std::vector<Points> healthy, all;
   double most = 0;

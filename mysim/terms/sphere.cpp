@@ -24,10 +24,10 @@ Vec3 normal_at(const Sphere& sphere, const Vec3& x) {
 Sphere read_sphere(const Section& s) {
   Sphere sphere{s.vec3("centre"), s.positive("radius"), 0, 0, 0};
   if (s.has("margin")) sphere.margin = s.positive("margin");
-  if (s.has("friction")) sphere.friction = s.positive("friction");
+  if (s.has("friction")) sphere.friction = s.not_negative("friction");
   if (s.has("restitution")) {
-    sphere.restitution = s.positive("restitution");
-    if (sphere.restitution > 1) s.fail("restitution", "a number above 0 and not above 1");
+    sphere.restitution = s.not_negative("restitution");
+    if (sphere.restitution > 1) s.fail("restitution", "a number from 0 to 1");
   }
   return sphere;
 }

@@ -30,7 +30,7 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
   for (size_t i = 0; i < input.scenes.size(); ++i) {
     const Scene& scene = input.scenes[i];
     const Table* table = input.result.table(scene.name + "-engines");
-    if (!scene.model.find<Sphere>() || !table) continue;
+    if (!input.facts[i].touched() || !table) continue;
     for (const Quantity& q : quantities) {
       Figure f;
       f.name = scene.name + "-" + q.name;

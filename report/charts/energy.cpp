@@ -72,8 +72,8 @@ std::vector<Chart> energy_charts(const ChartInput& input) {
     const Table* table = input.result.table(scene.name + "-energy");
     const double scale = turned_over(*summary, scene.name);
     if (!table || !(scale > 0)) continue;
-    Figure f = scene.model.find<Sphere>() ? contact_figure(scene, input.facts[i], *table)
-                                          : balance_figure(scene, input.facts[i], *table, scale);
+    Figure f = input.facts[i].touched() ? contact_figure(scene, input.facts[i], *table)
+                                        : balance_figure(scene, input.facts[i], *table, scale);
     f.caption = caption_of(scene, input.facts[i], input.commit, false);
     if (!f.curves.empty() || !f.failures.empty()) charts.push_back({scene.name, std::move(f)});
   }

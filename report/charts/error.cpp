@@ -13,7 +13,7 @@ std::vector<Chart> error_charts(const ChartInput& input) {
     const Scene& scene = input.scenes[i];
     const SceneFacts& facts = input.facts[i];
     const Table* table = input.result.table(scene.name + "-engines");
-    if (facts.tier.empty() || !table) continue;
+    if (facts.tier.empty() || !(facts.motion > 0) || !table) continue;
     Figure f;
     f.name = scene.name + "-error";
     f.title = scene.name + ": distance from the truth";
@@ -36,7 +36,8 @@ std::vector<Chart> error_charts(const ChartInput& input) {
     }
     f.floor = {"error bar of the truth", facts.bar};
     f.finding = fmt::format("Errors of {} methods over {:.3g} s{}.", f.curves.size(), scene.duration,
-                            failed.empty() ? "" : fmt::format("; {} of them blew up", failed.size()));
+                            failed.empty() ? "" : fmt::format("; blew up: {}", failed.size()));
+    if (f.curves.empty() && f.failures.empty()) continue;
     charts.push_back({scene.name, std::move(f)});
   }
   return charts;

@@ -16,7 +16,7 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
   f.y = {"largest RMS error / motion of the scene", true, std::nullopt, 10};
   double x = 0, lowest = 1;
   for (const SceneFacts& scene : input.facts) {
-    if (scene.tier.empty()) continue;
+    if (scene.tier.empty() || !(scene.motion > 0)) continue;
     f.categories.emplace_back(x, scene.scene);
     double shift = -0.3;  // side by side, so that equal errors stay apart
     for (const MethodFacts& m : scene.methods) {
@@ -39,8 +39,8 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   f.caption = "All scenes with a known truth; errors below a truth's error bar are drawn at the bar; commit " +
               input.commit + ".";
-  f.finding = fmt::format("Error of {} methods on {} scenes in parts of the motion; {} runs blew up.", f.curves.size(),
-                          f.categories.size(), f.failures.size());
+  f.finding = fmt::format("Error of {} methods on {} scenes in parts of the motion; runs that blew up: {}.",
+                          f.curves.size(), f.categories.size(), f.failures.size());
   return {{"", std::move(f)}};
 }
 

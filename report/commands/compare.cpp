@@ -28,14 +28,6 @@ std::string shown(const Cell& cell) {
   return value ? fmt::format("{:.3g}", *value) : "-";
 }
 
-/// Methods declared to follow the same rule, in scenes without contact: largest allowed distance from the first of
-/// them. Both sum the same forces in another order: about 1e-15 of the scene's size per step, times the measured growth
-/// of a perturbation, times 100 for thousands of steps that add up like a random walk.
-double allowed_difference(const Method& method, const Scene& scene, double step) {
-  const double growth = perturbation_growth(method, scene, step, scene.window);
-  return 1e-13 * std::max(1.0, scene.size()) * std::max(1.0, growth);
-}
-
 /// Prints what the same rules differ by; true when one differs by more than allowed.
 bool equal_rules_differ(const Request& request, const Scene& scene, const Result& result) {
   const std::vector<Method> methods = methods_of(request, scene);
@@ -51,10 +43,14 @@ bool equal_rules_differ(const Request& request, const Scene& scene, const Result
            k < std::min(a.trajectory.frames(), b.trajectory.frames()) && a.trajectory.t[k] <= scene.window * (1 + 1e-9);
            ++k)
         largest = std::max(largest, (a.trajectory.x[k] - b.trajectory.x[k]).colwise().norm().maxCoeff());
-      const double allowed = allowed_difference(methods[j], scene, run_of(request, scene).step);
-      const bool over = largest > allowed;
-      fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, at most {:.3g} m is round-off: {}\n",
-                 b.method, a.method, largest, allowed, over ? "NOT THE SAME" : "the same");
+      const double growth = perturbation_growth(methods[j], scene, run_of(request, scene).step, scene.window);
+      const std::optional<double> allowed = round_off_bound(scene, growth);
+      const bool over = allowed && largest > *allowed;
+      fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, ", b.method, a.method, largest);
+      if (allowed)
+        fmt::print("at most {:.3g} m is round-off: {}\n", *allowed, over ? "NOT THE SAME" : "the same");
+      else
+        fmt::print("but a perturbation grows {:.1g}-fold here: nothing can be said\n", growth);
       differ |= over;
     }
   return differ;

@@ -8,6 +8,7 @@
 #include "mysim/files.h"
 #include "report/certificate_json.h"
 #include "report/commands/commands.h"
+#include "report/findings_text.h"
 #include "report/page/page.h"
 #include "report/pictures.h"
 #include "report/provenance.h"
@@ -83,9 +84,13 @@ class Builder {
     progress.begin("figures");
     charts_ = all_charts({request_.scenes, facts_, result_, value_of(page_.provenance, "commit")});
     for (const Chart& chart : charts_) attempt("figure " + chart.figure.name, [&] { draw(chart); });
-    // the richest scene's picture stands beside the answer
-    if (!page_.scenes.empty() && !page_.scenes.back().pictures.empty())
-      page_.hero.insert(page_.hero.begin(), page_.scenes.back().pictures[0]);
+    // beside the answer stands the last scene that Bullet answers too
+    const ScenePart* shown = nullptr;
+    for (const ScenePart& part : page_.scenes) {
+      const MethodFacts* bullet = part.facts->find("bullet/deformable-explicit");
+      if (!part.pictures.empty() && (!shown || (bullet && bullet->ok()))) shown = &part;
+    }
+    if (shown) page_.hero.insert(page_.hero.begin(), shown->pictures[0]);
     progress.done();
 
     write_file(options_.out / "report.json", report_json(page_, charts_));
@@ -94,7 +99,9 @@ class Builder {
       fmt::print(stderr, "crosscheck: missing in the report: {}\n", problem);
     for (const Finding& f : page_.findings) fmt::print("- {}\n", f.sentence);
     fmt::print("{}\n", (options_.out / "index.html").string());
-    return page_.problems.empty() ? 0 : 1;
+    bool agree = true;  // where the same rule must agree, it does
+    for (const SceneFacts& facts : facts_) agree &= !same_rule_differs(facts);
+    return page_.problems.empty() && agree ? 0 : 1;
   }
 
  private:

@@ -68,7 +68,7 @@ int run_command(const RunOptions& options) {
     write_csv(energy, with_scenes(provenance(options.command_line), {scene}), options.out);
   }
   write_file(options.out / "run.json", run_json(scene, method, out, path));
-  fmt::print("{} by {}: {}{}\n", scene.name, method.name, name_of(out.verdict),
+  fmt::print("{} by {}: {}{}\n", scene.name, method.name, in_words(out.verdict),
              out.reason.empty() ? "" : ", " + out.reason);
   fmt::print("  {} steps of {:.6g} s, {} force evaluations, {:.3g} s of CPU time, {} frames\n", out.steps, out.step,
              out.evaluations, out.cpu_seconds, path.frames());

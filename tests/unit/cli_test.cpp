@@ -96,6 +96,8 @@ TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
   const auto [ghost, ghost_at] = with("ghost.toml", "ends = [1, 2]", "ends = [1, 7]", "ends = [1, 7]");
   const auto [negative, negative_at] = with("negative.toml", "mass = 0.5", "mass = -0.5", "mass = -0.5");
   const auto [not_a_number, not_a_number_at] = with("nan.toml", "mass = 0.5", "mass = nan", "mass = nan");
+  const auto [inside, inside_at] =
+      with("inside.toml", "[gravity]", "[sphere]\ncentre = [0.3, -0.9, 0]\nradius = 0.2\n[gravity]", "radius = 0.2");
   write("a-file", "");
   struct Row {
     std::vector<std::string> words;
@@ -106,12 +108,16 @@ TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
       {{"run", ghost}, {ghost_at, "spring[1].ends", "particles from 0 to 2", "7"}},
       {{"run", negative}, {negative_at, "particle[1].mass", "above zero", "-0.5"}},
       {{"run", not_a_number}, {not_a_number_at, "particle[1].mass", "nan"}},
+      {{"run", inside}, {inside_at, "sphere.radius", "no particle inside", "particle 2"}},
       {{"run", "missing.toml"}, {"missing.toml", "cannot be read"}},
       {{"run", "no-such-scene"}, {"no-such-scene", "cloth-hang"}},
       {{"run", "chain", "--method", "rk5"}, {"rk5", "mysim/rk4"}},
       {{"run", "chain", "--method", "bullet/pbd+n=0"}, {"+n=0", "+n=1"}},
       {{"run", "chain", "--tol", "1e-6"}, {"--tol", "fixed-step"}},
-      {{"run", "chain", "--step", "-1"}, {"--step"}},
+      {{"run", "chain", "--step", "-1"}, {"--step", "above zero", "-1"}},
+      {{"run", "chain", "--step", "nan"}, {"--step", "finite", "nan"}},
+      {{"run", "chain", "--duration", "inf"}, {"--duration", "finite", "inf"}},
+      {{"render", "chain", "-o", "p.png", "--mode", "difference", "--methods", "rk4"}, {"difference", "two methods"}},
       {{"run", "chain", "--step", "9"}, {"--step", "duration"}},
       {{"run", "chain", "--out", "a-file/below"}, {"--out a-file/below", "folder"}},
       {{"run"}, {"SCENE"}},
@@ -220,6 +226,41 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     EXPECT_NE(ending, ".part") << "no half file is left";
   }
   EXPECT_GT(compared, 30);
+}
+
+TEST_F(Cli, ReportClaimsNoAgreementWhereTheMotionIsChaotic) {
+  // four masses flung about without drag for 20 s: any two engines part, and the page must not call that round-off
+  std::string text = own_scene;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("duration = 0.4", "duration = 20");
+  replace("window = 0.4", "window = 20");
+  replace("position = [0.3, -0.4, 0]", "position = [0.3, 0.4, 0]");
+  replace("position = [0.3, -0.9, 0.1]", "position = [0.6, 0.9, 0.1]");
+  write("flung.toml", text);
+  const ProgramResult result = call(
+      {"report", "flung.toml", "--quick", "--out", "out", "--methods", "symplectic-euler,bullet/deformable-explicit"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("chaotic"), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("Bullet agree"), std::string::npos) << result.out;
+}
+
+TEST_F(Cli, ReportOfBodiesAtRestAndFreeFlightIsWhole) {
+  const std::string head =
+      "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 0.01\nwindow = 1\n"
+      "tolerance = 1e-3\nmethod = \"rk4\"\n";
+  write("rest.toml", head +
+                         "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1, 0, 0]\nmass = 1\n"
+                         "[[spring]]\nends = [0, 1]\nstiffness = 10\n");
+  write("bounce.toml", head +
+                           "[[particle]]\nposition = [0, 2, 0]\nmass = 1\n[gravity]\nacceleration = [0, -9.81, 0]\n"
+                           "[sphere]\ncentre = [0, 0, 0]\nradius = 1\nrestitution = 0.5\n");
+  const ProgramResult result = call({"report", "rest.toml", "bounce.toml", "--quick", "--out", "out"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::string page = read(folder_ / "out/index.html");
+  for (const char* number : {"nan ", "-nan", ">nan", "inf "})  // none of these can stand in the images' base64
+    EXPECT_EQ(page.find(number), std::string::npos) << number;
 }
 
 TEST_F(Cli, RenderDrawsEveryMode) {

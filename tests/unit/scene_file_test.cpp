@@ -209,7 +209,7 @@ TEST(SceneFaults, NumbersOutOfRange) {
       {40, "gamma = -1", "bad.toml:40: drag.gamma: ", "expected a number above zero, got -1"},
       {46, "seed = 0", "bad.toml:46: wind.gusts.seed: ", "expected a whole number from 1"},
       {49, "radius = -1", "bad.toml:49: sphere.radius: ", "expected a number above zero"},
-      {52, "restitution = 1.5", "bad.toml:52: sphere.restitution: ", "not above 1"}};
+      {52, "restitution = 1.5", "bad.toml:52: sphere.restitution: ", "from 0 to 1"}};
   expect_messages(faults);
 }
 

@@ -1,0 +1,166 @@
+// Sentences on all scenes together: the first screen of the page.
+#include <algorithm>
+#include <cmath>
+
+#include "report/findings.h"
+#include "report/findings_text.h"
+
+namespace crosscheck {
+namespace {
+
+void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
+                      std::vector<Finding>& out) {
+  std::vector<std::string> same, differing, unknown, contact, alone;
+  double worst = 0, rms = 0, centres = 0;
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    const MethodFacts* b = facts[i].find(theirs);
+    if (!b || !b->supported()) {
+      alone.push_back(scenes[i].name);
+    } else if (!b->ok() || !b->difference) {
+      continue;
+    } else if (facts[i].touched()) {
+      contact.push_back(scenes[i].name);
+      rms = std::max(rms, *b->difference);
+      centres = std::max(centres, b->centres.value_or(0));
+    } else if (!facts[i].round_off) {
+      unknown.push_back(scenes[i].name);
+    } else if (same_rule_differs(facts[i])) {
+      differing.push_back(fmt::format("{} ({})", scenes[i].name, nice_length(*b->difference)));
+    } else {
+      same.push_back(scenes[i].name);
+      worst = std::max(worst, *b->difference);
+    }
+  }
+  auto add = [&](const char* topic, std::string sentence) {
+    out.push_back({"", topic, std::move(sentence), "another engine"});
+  };
+  if (!differing.empty())
+    add("failure",
+        fmt::format(
+            "mysim and Bullet do NOT agree on {}: the same rule at the same step differs by more than round-off.",
+            joined(differing)));
+  if (!same.empty())
+    add("agreement",
+        fmt::format("mysim and Bullet agree: with the same rule (symplectic Euler) and the same step they "
+                    "part {} on {}.",
+                    worst == 0 ? "not at all" : fmt::format("by at most {} (round-off)", nice_length(worst)),
+                    joined(same)));
+  if (!contact.empty())
+    add("contact", fmt::format("With contact they differ by at most {} (RMS) while single positions can be compared, "
+                               "and their centres of mass by {} "
+                               "over the whole run of {}.",
+                               nice_length(rms), nice_length(centres), joined(contact)));
+  if (!unknown.empty())
+    add("failure", "Nothing can be said of agreement on " + joined(unknown) + ": the motion is chaotic.");
+  if (alone.size() == scenes.size())
+    add("accuracy", "Bullet's explicit world cannot model " + joined(alone) + ": see why in the table of runs.");
+}
+
+void other_law_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
+                      std::vector<Finding>& out) {
+  double best = 1e300, worst = 0;
+  for (size_t i = 0; i < scenes.size(); ++i)
+    if (const MethodFacts* p = facts[i].find(position_based);
+        p && p->ok() && p->error && facts[i].motion > 0 && scenes[i].model.find<Springs>()) {
+      best = std::min(best, *p->error / facts[i].motion);
+      worst = std::max(worst, *p->error / facts[i].motion);
+    }
+  if (worst > 0)
+    out.push_back(
+        {"", "accuracy",
+         fmt::format("Bullet's position-based world follows another spring law: its error is {} of the motion.",
+                     range(percent(best, 1), percent(worst, 1))),
+         "see each scene"});
+}
+
+void failures_of_all(const std::vector<SceneFacts>& facts, std::vector<Finding>& out) {
+  std::vector<std::string> euler, heun, all;
+  bool others_hold = true;  // on the scenes where these two fail
+  for (const SceneFacts& scene : facts) {
+    int failed = 0, held = 0;
+    bool e = false, h = false;
+    for (const MethodFacts& m : scene.methods) {
+      if (!m.supported()) continue;
+      (m.ok() ? held : failed) += 1;
+      if (!m.ok() && m.method == "mysim/explicit-euler") e = true;
+      if (!m.ok() && m.method == "mysim/trapezoidal") h = true;
+    }
+    if (failed > 0 && held == 0) {
+      all.push_back(scene.scene);
+      continue;
+    }
+    if (e) euler.push_back(scene.scene);
+    if (h) heun.push_back(scene.scene);
+    if (failed > e + h) others_hold = false;
+  }
+  std::string sentence;
+  if (!euler.empty()) sentence += "Explicit Euler blew up on " + joined(euler);
+  if (!heun.empty())
+    sentence +=
+        (sentence.empty() ? "The explicit trapezoidal rule blew up on " : "; the explicit trapezoidal rule on ") +
+        joined(heun);
+  if (!sentence.empty())
+    out.push_back({"", "failure",
+                   sentence + (others_hold ? ", at a step where the other rules are stable."
+                                           : "; see each scene for the others."),
+                   "measured"});
+  if (!all.empty())
+    out.push_back({"", "failure", "Every method blew up on " + joined(all) + ": the step is too large for all of them.",
+                   "measured"});
+}
+
+void orders(const Result& result, std::vector<Finding>& out) {
+  const Table* slopes = result.table("order-slopes");
+  if (!slopes || slopes->rows.empty()) return;
+  double off = -1;
+  std::string which;
+  for (size_t i = 0; i < slopes->rows.size(); ++i) {
+    const double measured = std::get<double>(slopes->at(i, "measured order"));
+    const auto declared = static_cast<double>(std::get<long>(slopes->at(i, "declared order")));
+    if (std::abs(measured - declared) <= off) continue;
+    off = std::abs(measured - declared);
+    which = fmt::format("{} on {}: {:.2f} instead of {:g}", std::get<std::string>(slopes->at(i, "method")),
+                        std::get<std::string>(slopes->at(i, "scene")), measured, declared);
+  }
+  // 0.1: what the finest three steps of a smooth scene still carry of the next order
+  if (off <= 0.1)
+    out.push_back({"", "order", fmt::format("Measured orders of accuracy lie within {:.2f} of the declared ones.", off),
+                   "see each scene"});
+  else
+    out.push_back({"", "failure", fmt::format("Not all measured orders of accuracy are the declared ones ({}).", which),
+                   "see each scene"});
+}
+
+void cost_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts, std::vector<Finding>& out) {
+  double cheapest = 1e300, dearest = 0;
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    const MethodFacts *a = facts[i].find(ours), *b = facts[i].find(theirs);
+    if (!a || !b || !a->ok() || !b->ok() || !a->cpu_per_step || !b->cpu_per_step ||
+        scenes[i].model.particles.size() < 50)
+      continue;
+    cheapest = std::min(cheapest, *b->cpu_per_step / *a->cpu_per_step);
+    dearest = std::max(dearest, *b->cpu_per_step / *a->cpu_per_step);
+  }
+  if (dearest > 0)
+    out.push_back({"", "cost",
+                   fmt::format("One step of the same rule on cloth costs Bullet {} times the CPU time of mysim's plain "
+                               "loops (Debian's build of "
+                               "Bullet; one run each).",
+                               range(fmt::format("{:.1f}", cheapest), fmt::format("{:.1f}", dearest))),
+                   "measured"});
+}
+
+}  // namespace
+
+std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
+                                      const Result& result) {
+  std::vector<Finding> out;
+  agreement_of_all(scenes, facts, out);
+  other_law_of_all(scenes, facts, out);
+  failures_of_all(facts, out);
+  orders(result, out);
+  cost_of_all(scenes, facts, out);
+  return out;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,42 @@
+// Words and numbers that findings share.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "report/facts.h"
+
+namespace crosscheck {
+
+inline constexpr auto ours = "mysim/symplectic-euler", theirs = "bullet/deformable-explicit",
+                      position_based = "bullet/pbd";
+
+inline std::string percent(double part, double whole) {
+  const double value = 100 * part / whole;
+  return value < 100 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
+}
+
+inline std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (size_t i = 0; i < words.size(); ++i) out += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
+  return out;
+}
+
+/// "0.12 % to 66 %", or one of them where both read the same.
+inline std::string range(const std::string& low, const std::string& high) {
+  return low == high ? low : low + " to " + high;
+}
+
+/// True where no contact and no chaos excuses it: the same rule, more than round-off apart.
+inline bool same_rule_differs(const SceneFacts& facts) {
+  const MethodFacts* b = facts.find(theirs);
+  return b && b->ok() && b->difference && !facts.touched() && facts.round_off && *b->difference > *facts.round_off;
+}
+
+inline std::string growth_text(double growth) {
+  return growth < 2 ? "a perturbation hardly grows" : fmt::format("a perturbation grows {}-fold", nice(growth));
+}
+
+}  // namespace crosscheck
