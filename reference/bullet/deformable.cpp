@@ -10,15 +10,16 @@
 #include <set>
 
 #include "mysim/errors.h"
+#include "reference/bullet/body_world.h"
 #include "reference/bullet/net_force.h"
 #include "reference/bullet/worlds.h"
 
 namespace crosscheck::bullet {
 namespace {
 
-class DeformableWorld : public World {
+class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
  public:
-  DeformableWorld(const Scene& scene, double h) : scene_(scene), h_(h) {
+  DeformableWorld(const Scene& scene, double h) : BodyWorld(scene, h) {
     solver_.setDeformableSolver(&body_solver_);
     world_ = std::make_unique<btDeformableMultiBodyDynamicsWorld>(&stage_.dispatcher, &stage_.broadphase, &solver_,
                                                                   &stage_.configuration, &body_solver_);
@@ -29,19 +30,11 @@ class DeformableWorld : public World {
     scene_body_ = std::make_unique<SceneBody>(scene, world_->getWorldInfo());
     if (scene.model.find<Sphere>())
       body().m_cfg.collisions = btSoftBody::fCollision::SDF_RD | btSoftBody::fCollision::SDF_RDN;
-    make_obstacle(scene, stage_);
-    if (stage_.ball) world_->addRigidBody(stage_.ball.get());
-    world_->addSoftBody(&body());
+    enter();
     add_forces();
   }
 
-  ~DeformableWorld() override {
-    world_->removeSoftBody(&body());
-    scene_body_.reset();
-    if (stage_.ball) world_->removeRigidBody(stage_.ball.get());
-    world_->getWorldInfo().m_sparsesdf.Reset();
-    world_.reset();
-  }
+  ~DeformableWorld() override { tear_down(); }
 
   void step(double t, double t_next) override {
     if (net_force_) net_force_->set_time(t);
@@ -52,8 +45,6 @@ class DeformableWorld : public World {
       // where the limit acts, a speed is put to it exactly; drag and contact may take a little off
       if (body().m_nodes[i].m_im > 0 && !(body().m_nodes[i].m_v.length() < 0.999 * limit)) speed_limit_ = limit;
   }
-
-  const State& state(double t) override { return scene_body_->read_state(t); }
 
   std::optional<Readback> read_back() override {
     Readback r = scene_body_->read_back();
@@ -70,7 +61,6 @@ class DeformableWorld : public World {
   std::optional<double> speed_limit() const { return speed_limit_; }
 
  private:
-  btSoftBody& body() { return scene_body_->body(); }
   /// 1 - h gamma: what Bullet's drag leaves of a velocity in one step.
   double factor() const { return 1 - h_ * drag_rate_; }
 
@@ -119,7 +109,6 @@ class DeformableWorld : public World {
       world_->addForce(&body(), gravity_force_.get());
       mapped_["gravity"] = drag_rate_ > 0 ? "gravity force, g / (1 - h gamma)" : "gravity force, g as it is";
     }
-    world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the sphere is fixed
   }
 
   /// Spring forces in a body stretched by 1 %, so that every link pulls.
@@ -146,20 +135,15 @@ class DeformableWorld : public World {
     return p;
   }
 
-  const Scene& scene_;
-  double h_;
   bool shipped_ = false;               // Bullet's own spring force carries the springs
   double drag_rate_ = 0;               // 1/s, as carried by the body's drag factor
   std::optional<double> speed_limit_;  // m/s, when Bullet limited a speed to the body's box over the step
   std::map<std::string, std::string> mapped_;
-  Stage stage_;
   btDeformableBodySolver body_solver_;
   btDeformableMultiBodyConstraintSolver solver_;
   std::unique_ptr<btDeformableMassSpringForce> spring_force_;
   std::unique_ptr<btDeformableGravityForce> gravity_force_;
   std::unique_ptr<NetForce> net_force_;
-  std::unique_ptr<btDeformableMultiBodyDynamicsWorld> world_;
-  std::unique_ptr<SceneBody> scene_body_;
 };
 
 }  // namespace

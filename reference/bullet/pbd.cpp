@@ -7,7 +7,7 @@
 #include <map>
 
 #include "mysim/errors.h"
-#include "reference/bullet/scene_body.h"
+#include "reference/bullet/body_world.h"
 #include "reference/bullet/worlds.h"
 
 namespace crosscheck::bullet {
@@ -23,9 +23,9 @@ double newton_per_metre(double kLST, double mu, double h, int n) {
   return mu / (h * h) * std::expm1(-n * std::log1p(-kLST));
 }
 
-class PbdWorld : public World {
+class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
  public:
-  PbdWorld(const Scene& scene, double h, int iterations) : scene_(scene), h_(h), iterations_(iterations) {
+  PbdWorld(const Scene& scene, double h, int iterations) : BodyWorld(scene, h), iterations_(iterations) {
     const Model& model = scene.model;
     const std::optional<double> rate = uniform_drag_rate(model);
     if (!rate) throw Unsupported("Bullet's position-based world has one drag rate for the whole body");
@@ -49,10 +49,7 @@ class PbdWorld : public World {
     cfg.kDP = -std::expm1(-*rate * h_);
     cfg.kKHR = 0.1;  // at 1 contacts bounce, at 0 links pull nodes into the sphere
     cfg.collisions = btSoftBody::fCollision::SDF_RS;
-    make_obstacle(scene, stage_);
-    if (stage_.ball) world_->addRigidBody(stage_.ball.get());
-    world_->addSoftBody(&body());
-    world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the sphere is fixed
+    enter();
 
     mapped_["stiffness"] = fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", iterations_);
     if (*rate > 0) mapped_["drag"] = fmt::format("kDP = 1 - exp(-gamma h) = {:.6g}", double(cfg.kDP));
@@ -60,13 +57,7 @@ class PbdWorld : public World {
     if (model.find<Wind>()) mapped_["wind"] = "added force m a(t) on each node";
   }
 
-  ~PbdWorld() override {
-    world_->removeSoftBody(&body());
-    scene_body_.reset();
-    if (stage_.ball) world_->removeRigidBody(stage_.ball.get());
-    world_->getWorldInfo().m_sparsesdf.Reset();
-    world_.reset();
-  }
+  ~PbdWorld() override { tear_down(); }
 
   void step(double t, double t_next) override {
     const Particles& particles = scene_.model.particles;
@@ -78,8 +69,6 @@ class PbdWorld : public World {
     scene_body_->place_pins(t_next);  // links are solved at the end of the step
     world_->stepSimulation(h_, 0);
   }
-
-  const State& state(double t) override { return scene_body_->read_state(t); }
 
   std::optional<Readback> read_back() override {
     Readback r = scene_body_->read_back();
@@ -99,8 +88,6 @@ class PbdWorld : public World {
   }
 
  private:
-  btSoftBody& body() { return scene_body_->body(); }
-
   void set_stiffness() {
     const auto* springs = scene_.model.find<Springs>();
     if (!springs) return;
@@ -122,14 +109,9 @@ class PbdWorld : public World {
     body().m_bUpdateRtCst = false;
   }
 
-  const Scene& scene_;
-  double h_;
   int iterations_;
   std::map<std::string, std::string> mapped_;
-  Stage stage_;
   btSequentialImpulseConstraintSolver solver_;
-  std::unique_ptr<btSoftRigidDynamicsWorld> world_;
-  std::unique_ptr<SceneBody> scene_body_;
 };
 
 }  // namespace

@@ -41,16 +41,21 @@ void make_obstacle(const Scene& scene, Stage& stage) {
   stage.ball = std::make_unique<btRigidBody>(info);
 }
 
+void require_supported(const Scene& scene) {
+  const Model& model = scene.model;
+  const auto* sphere = model.find<Sphere>();
+  if (model.first_order()) throw Unsupported("Bullet has no first-order systems: its bodies have mass and velocity");
+  if (sphere && sphere->restitution > 0)
+    throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
+  if (sphere && model.particles.size() > 1 && !connected(model))
+    throw Unsupported("Bullet's contact search hangs on a body whose springs do not join all particles");
+}
+
 SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(scene), state_(scene.start) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
   const auto* sphere = model.find<Sphere>();
   const int n = particles.size();
-  if (model.first_order()) throw Unsupported("Bullet has no first-order systems: its bodies have mass and velocity");
-  if (sphere && sphere->restitution > 0)
-    throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
-  if (sphere && n > 1 && !connected(model))
-    throw Unsupported("Bullet's contact search hangs on a body whose springs do not join all particles");
 
   // free particles first, pins last
   node_of_.resize(n);

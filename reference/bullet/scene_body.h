@@ -33,10 +33,13 @@ struct Stage {
 /// Builds stage.ball for the scene's sphere, if it has one.
 void make_obstacle(const Scene& scene, Stage& stage);
 
+/// Throws Unsupported where Bullet would hang (a network in several pieces beside a sphere) or cannot follow
+/// (first-order scenes, restitution). To be asked before a world is built.
+void require_supported(const Scene& scene);
+
 class SceneBody {
  public:
-  /// Nodes, links with rest lengths, start velocities, margin; no forces. Throws Unsupported where Bullet would hang
-  /// (a network in several pieces beside a sphere) or cannot follow (restitution).
+  /// Nodes, links with rest lengths, start velocities, margin; no forces. The scene must be supported.
   SceneBody(const Scene& scene, btSoftBodyWorldInfo& info);
 
   btSoftBody& body() { return *body_; }
