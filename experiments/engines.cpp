@@ -96,14 +96,14 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
       double lowest = 1e300;
       for (int i = 0; i < path.frames() && !unsupported; ++i) {
         const bool both = i < reference.trajectory.frames() && reference.trajectory.x[i].cols() == path.x[i].cols();
-        const auto gap = clearance(scene, path.x[i]);
+        const auto gap = clearance(scene, path.t[i], path.x[i]);
         if (gap) lowest = std::min(lowest, *gap);
         table.add(
             {method.name, path.t[i], truth ? Cell(rms_distance(path.x[i], truth->trajectory.x[i])) : Cell(),
              both ? Cell(rms_distance(path.x[i], reference.trajectory.x[i])) : Cell(),
              both ? Cell((centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.trajectory.x[i])).norm())
                   : Cell(),
-             cell_of(gap), cell_of(creep(scene, path.x[i], path.v[i]))});
+             cell_of(gap), cell_of(creep(scene, path.t[i], path.x[i], path.v[i]))});
       }
       std::string laws;
       for (const std::string& law : out.different_law) laws += (laws.empty() ? "" : "; ") + law;
@@ -127,7 +127,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                    ok ? largest(table, first_row, "difference", scene.window) : Cell(),
                    ok ? largest(table, first_row, "difference of centres", scene.duration) : Cell(),
                    ok && lowest < 1e300 ? Cell(lowest) : Cell(),
-                   ok && path.frames() ? cell_of(creep(scene, path.x.back(), path.v.back())) : Cell(),
+                   ok && path.frames() ? cell_of(creep(scene, path.t.back(), path.x.back(), path.v.back())) : Cell(),
                    laws});
       if (!unsupported)
         cost.add({scene.name, method.name, out.cpu_seconds,

@@ -40,7 +40,7 @@ std::vector<Method> methods_of(const Request& request, const Scene& scene) {
   std::vector<Method> methods;
   for (Method& method : all_methods())
     if (!method.name.starts_with("truth/")) methods.push_back(std::move(method));
-  if (scene.model.find<Sphere>()) methods.push_back(find_method("mysim/symplectic-euler+sticky"));
+  if (scene.model.find<Spheres>()) methods.push_back(find_method("mysim/symplectic-euler+sticky"));
   return methods;
 }
 

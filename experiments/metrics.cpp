@@ -28,28 +28,30 @@ double motion_of(const Trajectory& trajectory) {
   return largest;
 }
 
-std::optional<double> clearance(const Scene& scene, const Points& x) {
-  const auto* sphere = scene.model.find<Sphere>();
-  if (!sphere) return std::nullopt;
+std::optional<double> clearance(const Scene& scene, double t, const Points& x) {
+  const auto* spheres = scene.model.find<Spheres>();
+  if (!spheres) return std::nullopt;
   double smallest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < x.cols(); ++i)
-    if (!scene.model.particles.pinned[i])
-      smallest = std::min(smallest, (x.col(i) - sphere->centre).norm() - sphere->contact_radius());
+    if (!scene.model.particles.pinned[i]) smallest = std::min(smallest, clearance_from(*spheres, t, x.col(i)));
   return smallest;
 }
 
-std::optional<double> creep(const Scene& scene, const Points& x, const Points& v) {
-  const auto* sphere = scene.model.find<Sphere>();
-  if (!sphere) return std::nullopt;
+std::optional<double> creep(const Scene& scene, double t, const Points& x, const Points& v) {
+  const auto* spheres = scene.model.find<Spheres>();
+  if (!spheres) return std::nullopt;
   double sum = 0;
   int touching = 0;
-  for (int i = 0; i < x.cols(); ++i) {
-    const Vec3 d = x.col(i) - sphere->centre;
-    const double distance = d.norm();
-    if (scene.model.particles.pinned[i] || distance - sphere->contact_radius() > 1e-3) continue;
-    const Vec3 n = d / distance;
-    sum += (v.col(i) - v.col(i).dot(n) * n).norm();
-    ++touching;
+  for (const Sphere& sphere : spheres->list) {
+    const Vec3 centre = sphere.centre_at(t), u = sphere.motion ? velocity_at(*sphere.motion, t) : Vec3::Zero();
+    for (int i = 0; i < x.cols(); ++i) {
+      const Vec3 d = x.col(i) - centre, seen = v.col(i) - u;
+      const double distance = d.norm();
+      if (scene.model.particles.pinned[i] || distance - sphere.contact_radius() > 1e-3) continue;
+      const Vec3 n = d / distance;
+      sum += (seen - seen.dot(n) * n).norm();
+      ++touching;
+    }
   }
   if (touching == 0) return std::nullopt;
   return sum / touching;
@@ -57,7 +59,7 @@ std::optional<double> creep(const Scene& scene, const Points& x, const Points& v
 
 std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory) {
   for (int i = 0; i < trajectory.frames(); ++i)
-    if (const auto gap = clearance(scene, trajectory.x[i]); gap && *gap < 1e-9) return trajectory.t[i];
+    if (const auto gap = clearance(scene, trajectory.t[i], trajectory.x[i]); gap && *gap < 1e-9) return trajectory.t[i];
   return std::nullopt;
 }
 

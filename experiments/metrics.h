@@ -14,11 +14,13 @@ Vec3 centre_of_mass(const Scene& scene, const Points& x);
 /// RMS distance of the particles from where they started, its largest value over the run: the scale of errors, m.
 double motion_of(const Trajectory& trajectory);
 
-/// Smallest distance of a free particle from the sphere's contact surface, m; negative inside. Empty without a sphere.
-std::optional<double> clearance(const Scene& scene, const Points& x);
+/// Smallest distance of a free particle from the nearest sphere's contact surface at time t (s), m; negative inside.
+/// Empty without a sphere.
+std::optional<double> clearance(const Scene& scene, double t, const Points& x);
 
-/// Mean speed along the surface of the particles that touch the sphere (closer than 1 mm), m/s; empty when none does.
-std::optional<double> creep(const Scene& scene, const Points& x, const Points& v);
+/// Mean speed along the surface, as seen from the sphere, of the particles that touch one (closer than 1 mm), m/s;
+/// empty when none does.
+std::optional<double> creep(const Scene& scene, double t, const Points& x, const Points& v);
 
 /// Time of the first sample at which a particle touches the sphere (closer than 1e-9 m), s.
 std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory);

@@ -41,7 +41,7 @@ std::optional<Fit> asymptotic_order(const std::vector<Point>& points) {
 
 /// Why a scene is left out, or nothing.
 std::string why_not(const Scene& scene) {
-  if (scene.model.find<Sphere>()) return "contact makes every rule first order, erratically after impacts";
+  if (scene.model.find<Spheres>()) return "contact makes every rule first order, erratically after impacts";
   if (scene.start.x.cols() > 50)
     return "its stiffest modes sit at the stability limit of the steps in use, where no order shows";
   return "";

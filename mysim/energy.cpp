@@ -33,9 +33,19 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
   };
   if (const auto* drag = model.find<Drag>()) p.dissipated = -free_power(particles, force_of(*drag), state.v);
   if (const auto* wind = model.find<Wind>()) p.wind = free_power(particles, force_of(*wind), state.v);
-  if (const auto* springs = model.find<Springs>(); springs && particles.move) {
-    const Points& f = force_of(*springs);
-    for (int pin : particles.pins) p.pins -= f.col(pin).dot(state.v.col(pin));
+  if (const auto* air = model.find<Aerodynamics>()) p.wind += free_power(particles, force_of(*air), state.v);
+  auto on_pins = [&](const Points& f) {
+    double power = 0;
+    for (int pin : particles.pins) power += f.col(pin).dot(state.v.col(pin));
+    return power;
+  };
+  if (const auto* springs = model.find<Springs>(); springs && particles.move) p.pins -= on_pins(force_of(*springs));
+  if (const auto* dashpots = model.find<Dashpots>()) {
+    const Points& f = force_of(*dashpots);
+    const double given = particles.move ? -on_pins(f) : 0;
+    // pairs lose what free ends lose and what moved pins put in
+    p.dissipated += given - free_power(particles, f, state.v);
+    p.pins += given;
   }
   return p;
 }

@@ -1,4 +1,4 @@
-// The two ways in which a request is refused: bad input (exit 2) and what a method lacks (a row, not a crash).
+// How a request is refused: bad input (exit 2), what a method lacks, and a solver that gave up (rows, not crashes).
 #pragma once
 
 #include <stdexcept>
@@ -12,6 +12,11 @@ struct InputError : std::runtime_error {
 
 /// A method lacks an ingredient of the scene. what() is the reason, without the method's name.
 struct Unsupported : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A solver inside a step found no answer: the run ends with Verdict::solver. what() is the reason.
+struct SolverFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

@@ -1,62 +1,116 @@
-// Expands a grid into particles, springs and triangles.
+// Expands a grid into particles, pairs and triangles.
 #include "mysim/grid.h"
+
+#include <limits>
 
 namespace crosscheck {
 
 Grid read_grid(const Section& s) {
   Grid g{};
   const std::vector<int> size = s.integers("size");
-  if (size.size() != 2 || size[0] < 2 || size[1] < 2 || long(size[0]) * size[1] > 10000000)
-    s.fail("size", "two whole numbers from 2, particles along u and v, ten million in all at most");
+  long particles = 1;
+  bool good = size.size() == 2 || size.size() == 3;
+  for (int n : size) good = good && n >= 2 && (particles *= n) <= 10000000;
+  if (!good)
+    s.fail("size",
+           "two whole numbers from 2 (cloth) or three (a block), particles along u, v and w, ten million in all "
+           "at most");
   g.nu = size[0];
   g.nv = size[1];
+  g.nw = size.size() == 3 ? size[2] : 1;
   g.origin = s.vec3("origin");
   g.u = s.vec3("u");
   g.v = s.vec3("v");
   if (g.u.cross(g.v).norm() <= 1e-12 * g.u.norm() * g.v.norm()) s.fail("v", "a side that is not parallel to u");
+  g.w = Vec3::Zero();
+  if (g.nw > 1) {
+    g.w = s.vec3("w");
+    if (!(g.u.cross(g.v).dot(g.w) > 1e-12 * g.u.norm() * g.v.norm() * g.w.norm()))
+      s.fail("w", "a side that leaves the plane of u and v, on the side of u x v");
+  }
   g.mass = s.positive("mass");
-  const Section k = s.section("stiffness");
-  g.stiffness.structural = k.positive("structural");
-  if (k.has("shear")) g.stiffness.shear = k.positive("shear");
-  if (k.has("bend")) g.stiffness.bend = k.positive("bend");
+  if (s.has("inextensible")) {
+    if (s.text("inextensible") != "structural") s.fail("inextensible", "\"structural\"");
+    g.hard = true;
+  }
+  if (!g.hard || s.has("stiffness")) {
+    const Section k = s.section("stiffness");
+    if (!g.hard) g.stiffness.structural = k.positive("structural");
+    if (k.has("shear")) g.stiffness.shear = k.positive("shear");
+    if (k.has("bend")) g.stiffness.bend = k.positive("bend");
+  }
+  if (g.hard) g.stiffness.structural = std::numeric_limits<double>::infinity();
+  if (s.has("dashpot")) g.dashpot = s.positive("dashpot");
   return g;
 }
 
 Points grid_points(const Grid& g) {
-  Points x(3, g.nu * g.nv);
-  for (int j = 0; j < g.nv; ++j)
-    for (int i = 0; i < g.nu; ++i)
-      x.col(i + j * g.nu) = g.origin + double(i) / (g.nu - 1) * g.u + double(j) / (g.nv - 1) * g.v;
+  Points x(3, g.size());
+  for (int l = 0; l < g.nw; ++l)
+    for (int j = 0; j < g.nv; ++j)
+      for (int i = 0; i < g.nu; ++i) {
+        Vec3 p = g.origin + double(i) / (g.nu - 1) * g.u + double(j) / (g.nv - 1) * g.v;
+        if (g.nw > 1) p += double(l) / (g.nw - 1) * g.w;
+        x.col(i + g.nu * (j + g.nv * l)) = p;
+      }
   return x;
 }
 
 std::vector<Spring> grid_springs(const Grid& g, const Points& x) {
   std::vector<Spring> list;
-  auto add = [&](int i0, int j0, int i1, int j1, double k, Family family) {
-    if (k == 0 || i0 < 0 || i1 < 0 || i0 >= g.nu || i1 >= g.nu || j1 >= g.nv) return;
-    const int a = i0 + j0 * g.nu, b = i1 + j1 * g.nu;
+  const int size[3] = {g.nu, g.nv, g.nw}, stride[3] = {1, g.nu, g.nu * g.nv};
+  using Steps = std::array<int, 3>;
+  auto inside = [&](const Steps& at) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (at[axis] < 0 || at[axis] >= size[axis]) return false;
+    return true;
+  };
+  auto add = [&](const Steps& from, const Steps& to, double k, Family family) {
+    if (k == 0 || !inside(from) || !inside(to)) return;
+    int a = 0, b = 0;
+    for (int axis = 0; axis < 3; ++axis) a += stride[axis] * from[axis], b += stride[axis] * to[axis];
     list.push_back({a, b, k, (x.col(a) - x.col(b)).norm(), family});
   };
-  for (int j = 0; j < g.nv; ++j)
-    for (int i = 0; i < g.nu; ++i) {
-      add(i, j, i + 1, j, g.stiffness.structural, Family::structural);
-      add(i, j, i, j + 1, g.stiffness.structural, Family::structural);
-      add(i, j, i + 1, j + 1, g.stiffness.shear, Family::shear);
-      add(i + 1, j, i, j + 1, g.stiffness.shear, Family::shear);
-      add(i, j, i + 2, j, g.stiffness.bend, Family::bend);
-      add(i, j, i, j + 2, g.stiffness.bend, Family::bend);
-    }
+  auto moved = [](Steps at, int axis, int by) {
+    at[axis] += by;
+    return at;
+  };
+  for (int l = 0; l < g.nw; ++l)
+    for (int j = 0; j < g.nv; ++j)
+      for (int i = 0; i < g.nu; ++i) {
+        const Steps here{i, j, l};
+        for (int axis = 0; axis < 3; ++axis)
+          add(here, moved(here, axis, 1), g.stiffness.structural, Family::structural);
+        for (const auto& [p, q] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
+          add(here, moved(moved(here, p, 1), q, 1), g.stiffness.shear, Family::shear);
+          add(moved(here, p, 1), moved(here, q, 1), g.stiffness.shear, Family::shear);
+        }
+        for (int axis = 0; axis < 3; ++axis) add(here, moved(here, axis, 2), g.stiffness.bend, Family::bend);
+      }
   return list;
 }
 
 std::vector<std::array<int, 3>> grid_triangles(const Grid& g) {
   std::vector<std::array<int, 3>> list;
-  for (int j = 0; j + 1 < g.nv; ++j)
-    for (int i = 0; i + 1 < g.nu; ++i) {
-      const int a = i + j * g.nu, b = a + 1, c = a + g.nu, d = c + 1;
-      list.push_back({a, c, b});
-      list.push_back({b, c, d});
-    }
+  // a face of n by m particles that starts at `first`, with these distances between neighbours
+  auto face = [&](int first, int n, int step_n, int m, int step_m) {
+    for (int j = 0; j + 1 < m; ++j)
+      for (int i = 0; i + 1 < n; ++i) {
+        const int a = first + i * step_n + j * step_m, b = a + step_n, c = a + step_m, d = c + step_n;
+        list.push_back({a, c, b});
+        list.push_back({b, c, d});
+      }
+  };
+  const int u = 1, v = g.nu, w = g.nu * g.nv;
+  const int far_u = (g.nu - 1) * u, far_v = (g.nv - 1) * v, far_w = (g.nw - 1) * w;
+  face(0, g.nu, u, g.nv, v);  // the normal of (a, c, b) is v x u: outwards at l = 0
+  if (g.nw > 1) {
+    face(far_w, g.nv, v, g.nu, u);
+    face(0, g.nw, w, g.nu, u);
+    face(far_v, g.nu, u, g.nw, w);
+    face(0, g.nv, v, g.nw, w);
+    face(far_u, g.nw, w, g.nv, v);
+  }
   return list;
 }
 

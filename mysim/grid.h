@@ -1,4 +1,4 @@
-// Regular grids of particles with structural, shear and bend springs: cloth.
+// Regular grids of particles with structural, shear and bend springs: cloth, and blocks of jelly.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,21 +9,27 @@
 
 namespace crosscheck {
 
-/// Particle (i, j) has index i + j nu and starts at origin + i/(nu-1) u + j/(nv-1) v.
+/// Particle (i, j, l) has index i + nu (j + nv l) and starts at origin + i/(nu-1) u + j/(nv-1) v + l/(nw-1) w.
 struct Grid {
-  int nu, nv;
-  Vec3 origin, u, v;  // m; u and v are the whole sides
-  double mass;        // kg, of the whole grid, shared equally
+  int nu, nv, nw;        // nw = 1: cloth
+  Vec3 origin, u, v, w;  // m; u, v and w are the whole sides
+  double mass;           // kg, of the whole grid, shared equally
+  bool hard;             // the structural family keeps its lengths: constraints, no springs
   struct {
     double structural, shear, bend;  // N/m; 0: the family is absent
   } stiffness;
+  double dashpot;  // N s/m along every spring; 0: none
+
+  int size() const { return nu * nv * nw; }
 };
 
 Grid read_grid(const Section& s);
 Points grid_points(const Grid& grid);
-/// Springs in the order of the particles: for each one, structural along u and v, both shear diagonals of the cell that
-/// starts there, bend (skip one) along u and v. Rest lengths are the distances at the start.
+/// Pairs in the order of the particles: for each one, structural along the axes, both shear diagonals of each face of
+/// the cell that starts there, bend (skip one) along the axes. Rest lengths are the distances at the start; stiffness
+/// is infinite for the structural family of a hard grid.
 std::vector<Spring> grid_springs(const Grid& grid, const Points& x);
+/// The cloth, or the six faces of the block seen from outside.
 std::vector<std::array<int, 3>> grid_triangles(const Grid& grid);
 
 }  // namespace crosscheck

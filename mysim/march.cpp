@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "mysim/clock.h"
+#include "mysim/errors.h"
 
 namespace crosscheck {
 
@@ -19,7 +20,13 @@ Outcome march(World& world, const Run& run, Observer& observer) {
     clock.start();
     for (int step = 1; step <= steps.steps_per_sample && out.verdict == Verdict::ok; ++step) {
       const double t = steps.time(sample, step);
-      world.step(steps.time(sample, step - 1), t);
+      try {
+        world.step(steps.time(sample, step - 1), t);
+      } catch (const SolverFailure& failure) {
+        out.verdict = Verdict::solver;
+        out.reason = failure.what();
+        break;
+      }
       out.end = t;
       const bool first = out.steps++ == 0, sampled = step == steps.steps_per_sample;
       if (!every_step && !sampled && !first) continue;
@@ -34,7 +41,8 @@ Outcome march(World& world, const Run& run, Observer& observer) {
   }
 
   out.cpu_seconds = clock.seconds();
-  if (out.verdict != Verdict::ok) out.reason = fmt::format("the run failed at t = {:.4g} s", out.end);
+  if (out.verdict != Verdict::ok)
+    out.reason = fmt::format("the run failed at t = {:.4g} s{}{}", out.end, out.reason.empty() ? "" : ": ", out.reason);
   return out;
 }
 

@@ -4,14 +4,19 @@
 // What a term does is said by the functions its file declares, found by overload:
 //   add_force(term, particles, state, forces)         a force
 //   potential_energy(term, particles, state)          an energy whose negative gradient is that force
+//   add_tangent(term, particles, state, curvature, tangent)   what implicit methods need of a force
 //   add_velocity(term, state, rate)                   a first-order velocity field
-//   resolve_contact(term, x_n, x, v)                  acts on the whole step of a particle
+// Forces on moving particles (dashpots, air) also say `uses_velocity`: leapfrog then treats them by themselves, so that
+// its order survives. Spheres and constraints are no forces: contact acts on whole steps, constraints on methods.
 #pragma once
 
 #include <variant>
 #include <vector>
 
 #include "mysim/particles.h"
+#include "mysim/terms/aerodynamics.h"
+#include "mysim/terms/constraints.h"
+#include "mysim/terms/dashpots.h"
 #include "mysim/terms/drag.h"
 #include "mysim/terms/gravity.h"
 #include "mysim/terms/rotation.h"
@@ -21,7 +26,7 @@
 
 namespace crosscheck {
 
-using Term = std::variant<Rotation, Gravity, Springs, Drag, Wind, Sphere>;
+using Term = std::variant<Rotation, Gravity, Springs, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres>;
 
 template <class T>
 concept HasForce = requires(const T& term, const Particles& p, const State& s, Forces& f) {
@@ -30,6 +35,14 @@ concept HasForce = requires(const T& term, const Particles& p, const State& s, F
 template <class T>
 concept HasPotential = requires(const T& term, const Particles& p, const State& s) {
   potential_energy(term, p, s);
+};
+template <class T>
+concept HasTangent = requires(const T& term, const Particles& p, const State& s, Tangent& tangent) {
+  add_tangent(term, p, s, Curvature::exact, tangent);
+};
+template <class T>
+concept UsesVelocity = requires {
+  requires T::uses_velocity;
 };
 template <class T>
 concept HasVelocityField = requires(const T& term, const State& s, Points& rate) {

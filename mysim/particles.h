@@ -4,31 +4,21 @@
 #include <optional>
 #include <vector>
 
-#include "mysim/types.h"
+#include "mysim/motion.h"
 
 namespace crosscheck {
 
-/// Prescribed motion common to all pins: displacement d(t) = amplitude r(t) sin(2 pi frequency t), where the ramp r
-/// rises from 0 to 1 in the first `ramp` seconds as 6 s^5 - 15 s^4 + 10 s^3 (twice continuously differentiable).
-struct PinMotion {
-  Vec3 amplitude;    // m
-  double frequency;  // Hz
-  double ramp;       // s
-};
-
 struct Particles {
-  Eigen::VectorXd mass;           // n, kg; pinned particles have one too (energies leave it out)
-  std::vector<int> pins;          // indices of the pinned particles, ascending
-  std::vector<char> pinned;       // n; 1 where pinned
-  Points pin_home;                // 3 x pins, m: where each pin is at t = 0
-  std::optional<PinMotion> move;  // none: the pins stand still
+  Eigen::VectorXd mass;        // n, kg; pinned particles have one too (energies leave it out)
+  std::vector<int> pins;       // indices of the pinned particles, ascending
+  std::vector<char> pinned;    // n; 1 where pinned
+  Points pin_home;             // 3 x pins, m: where each pin is at t = 0
+  std::optional<Motion> move;  // none: the pins stand still
 
   int size() const { return static_cast<int>(mass.size()); }
   /// Writes positions and velocities that the pins have at state.t.
   void place_pins(State& state) const;
+  void place_pin_velocities(State& state) const;  // the second half of it
 };
-
-Vec3 pin_displacement(const PinMotion& motion, double t);  // m
-Vec3 pin_velocity(const PinMotion& motion, double t);      // m/s, the derivative of pin_displacement
 
 }  // namespace crosscheck

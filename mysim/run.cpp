@@ -18,6 +18,8 @@ std::string_view name_of(Verdict verdict) {
       return "energy";
     case Verdict::nan:
       return "nan";
+    case Verdict::solver:
+      return "solver";
     case Verdict::unsupported:
       return "unsupported";
   }
@@ -32,13 +34,17 @@ std::string_view in_words(Verdict verdict) {
       return "blew up (energy from nothing)";
     case Verdict::nan:
       return "blew up (not a number)";
+    case Verdict::solver:
+      return "the solver gave up";
     case Verdict::unsupported:
       return "unsupported";
   }
   return "unknown";
 }
 
-Run default_run(const Scene& scene) { return {scene.step, scene.duration, scene.samples}; }
+Run default_run(const Scene& scene) {
+  return {scene.step, scene.duration, scene.samples, 0.01 * scene.tolerance / scene.size()};
+}
 
 StepPlan plan(const Run& run) {
   const double interval = run.duration / run.samples;

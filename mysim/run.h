@@ -16,16 +16,19 @@ enum class Verdict {
   ok,
   energy,       // more energy than everything the run had to work with
   nan,          // a non-finite position or velocity
+  solver,       // an equation inside a step had no answer
   unsupported,  // the method lacks an ingredient of the scene
 };
 std::string_view name_of(Verdict verdict);   // the word in tables and files
 std::string_view in_words(Verdict verdict);  // for people
 
 struct Run {
-  double step;      // s, as asked; the run reduces it so that it divides the sampling interval
-  double duration;  // s
-  int samples;      // frames after the first, at i duration / samples
+  double step;              // s, as asked; the run reduces it so that it divides the sampling interval
+  double duration;          // s
+  int samples;              // frames after the first, at i duration / samples
+  double tolerance = 1e-6;  // of adaptive methods: relative; absolute it is this times the scene's size
 };
+/// The scene's own step, duration and samples; adaptive methods keep to a hundredth of the scene's tolerance.
 Run default_run(const Scene& scene);
 
 /// The steps of a run: `steps_per_sample` steps of length h between two samples.
@@ -93,7 +96,8 @@ struct Outcome {
   Verdict verdict = Verdict::ok;
   std::string reason;                      // one sentence when the verdict is not ok
   double end = 0;                          // s, last time reached; the time of failure when the verdict is not ok
-  double step = 0;                         // s, as used
+  double step = 0;                         // s, as used; the mean of adaptive methods
+  double tolerance = 0;                    // 1, of adaptive methods; 0 elsewhere
   long steps = 0;                          // taken
   long evaluations = 0;                    // of the right-hand side, or the engine's own force passes
   long coincident = 0;                     // springs met at zero length, summed over the evaluations

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "mysim/errors.h"
 #include "mysim/files.h"
@@ -11,23 +12,26 @@
 namespace crosscheck {
 namespace {
 
-// the table of terms that have a section of their own; springs come from [grid] and [[spring]]
+// the table of terms that have a section of their own; springs, dashpots and constraints come from [grid], [[spring]]
+// and
+// [[constraint]]
 struct TermReader {
   std::string_view key;
-  Term (*read)(const Section&, const Particles&);
+  Term (*read)(const Section&, const Scene&);
 };
 constexpr TermReader term_readers[] = {
-    {Rotation::name, [](const Section& s, const Particles&) -> Term { return read_rotation(s); }},
-    {Gravity::name, [](const Section& s, const Particles&) -> Term { return read_gravity(s); }},
-    {Drag::name, [](const Section& s, const Particles& p) -> Term { return read_drag(s, p); }},
-    {Wind::name, [](const Section& s, const Particles&) -> Term { return read_wind(s); }},
-    {Sphere::name, [](const Section& s, const Particles&) -> Term { return read_sphere(s); }},
+    {Rotation::name, [](const Section& s, const Scene&) -> Term { return read_rotation(s); }},
+    {Gravity::name, [](const Section& s, const Scene&) -> Term { return read_gravity(s); }},
+    {Drag::name, [](const Section& s, const Scene& scene) -> Term { return read_drag(s, scene.model.particles); }},
+    {Wind::name, [](const Section& s, const Scene&) -> Term { return read_wind(s); }},
+    {Aerodynamics::name,
+     [](const Section& s, const Scene& scene) -> Term { return read_aerodynamics(s, scene.triangles); }},
 };
 
 /// Particles of [grid] first, then of [[particle]].
 void read_particles(const Section& file, const std::optional<Grid>& grid, bool first_order, Scene& scene) {
   const std::vector<Section> single = file.sections("particle");
-  const int on_grid = grid ? grid->nu * grid->nv : 0;
+  const int on_grid = grid ? grid->size() : 0;
   const int n = on_grid + static_cast<int>(single.size());
   if (n == 0) file.fail("particle", "at least one [[particle]] or a [grid]");
   if (grid && first_order)
@@ -50,22 +54,78 @@ void read_particles(const Section& file, const std::optional<Grid>& grid, bool f
   }
 }
 
-void read_springs(const Section& file, const std::optional<Grid>& grid, Scene& scene) {
-  Springs springs;
-  if (grid) springs.list = grid_springs(*grid, scene.start.x);
+/// The two particles of a [[spring]] or [[constraint]], and their distance at the start.
+struct Ends {
+  int a, b;
+  double distance;  // m
+};
+Ends read_ends(const Section& s, const Scene& scene) {
+  const std::vector<int> ends = s.integers("ends");
   const int n = scene.model.particles.size();
+  if (ends.size() != 2 || ends[0] == ends[1]) s.fail("ends", "two different particles");
+  for (int end : ends)
+    if (end >= n) s.fail("ends", fmt::format("particles from 0 to {}, got {}", n - 1, end));
+  return {ends[0], ends[1], (scene.start.x.col(ends[0]) - scene.start.x.col(ends[1])).norm()};
+}
+
+/// Springs, their dashpots and hard distances: of the grid first, then one by one.
+void read_pairs(const Section& file, const std::optional<Grid>& grid, Scene& scene) {
+  Springs springs;
+  Dashpots dashpots;
+  Constraints constraints;
+  if (grid)
+    for (const Spring& s : grid_springs(*grid, scene.start.x)) {
+      if (std::isinf(s.k)) {
+        constraints.list.push_back({s.a, s.b, s.rest});
+        continue;
+      }
+      springs.list.push_back(s);
+      if (grid->dashpot > 0) dashpots.list.push_back({s.a, s.b, grid->dashpot});
+    }
   for (const Section& s : file.sections("spring")) {
-    const std::vector<int> ends = s.integers("ends");
-    if (ends.size() != 2 || ends[0] == ends[1]) s.fail("ends", "two different particles");
-    for (int end : ends)
-      if (end >= n) s.fail("ends", fmt::format("particles from 0 to {}, got {}", n - 1, end));
-    const double distance = (scene.start.x.col(ends[0]) - scene.start.x.col(ends[1])).norm();
+    const auto [a, b, distance] = read_ends(s, scene);
     const double rest = s.has("rest") ? s.not_negative("rest") : distance;
     if (distance == 0 && rest > 0)
       s.fail("ends", "ends that do not coincide at the start, as the rest length is above zero");
-    springs.list.push_back({ends[0], ends[1], s.positive("stiffness"), rest, Family::single});
+    springs.list.push_back({a, b, s.positive("stiffness"), rest, Family::single});
+    if (s.has("dashpot")) dashpots.list.push_back({a, b, s.positive("dashpot")});
+  }
+  for (const Section& s : file.sections("constraint")) {
+    const auto [a, b, distance] = read_ends(s, scene);
+    const double length = s.has("length") ? s.positive("length") : distance;
+    // 1e-9: equal but for the rounding of a decimal number
+    if (!(std::abs(distance - length) <= 1e-9 * length) || distance == 0)
+      s.fail("ends", fmt::format("ends that are {:.6g} m apart at the start, as they must stay, got {:.6g} m", length,
+                                 distance));
+    constraints.list.push_back({a, b, length});
+  }
+  if (file.has("springs")) {
+    const Section s = file.section("springs");
+    const std::string law = s.text("law");
+    if (law == name_of(SpringLaw::bullet_link))
+      springs.law = SpringLaw::bullet_link;
+    else if (law != name_of(SpringLaw::hooke))
+      s.fail("law", fmt::format("\"{}\" or \"{}\"", name_of(SpringLaw::hooke), name_of(SpringLaw::bullet_link)));
+    if (springs.list.empty()) s.fail("law", "springs that follow it");
   }
   if (!springs.list.empty()) scene.model.terms.emplace_back(std::move(springs));
+  if (!dashpots.list.empty()) scene.model.terms.emplace_back(std::move(dashpots));
+  if (!constraints.list.empty()) scene.model.terms.emplace_back(std::move(constraints));
+}
+
+void read_spheres(const Section& file, Scene& scene) {
+  if (!file.has(Spheres::name)) return;
+  Spheres spheres;
+  const Particles& particles = scene.model.particles;
+  for (const Section& s : file.one_or_more(Spheres::name)) {
+    const Sphere sphere = read_sphere(s);
+    for (int i = 0; i < particles.size(); ++i)
+      // 1e-9 of the radius: on the surface but for the rounding of a decimal number is not inside
+      if (!particles.pinned[i] && (scene.start.x.col(i) - sphere.centre).norm() < (1 - 1e-9) * sphere.contact_radius())
+        s.fail("radius", fmt::format("no particle inside radius + margin at the start, got particle {}", i));
+    spheres.list.push_back(sphere);
+  }
+  scene.model.terms.emplace_back(std::move(spheres));
 }
 
 void read_pins(const Section& file, Scene& scene) {
@@ -89,8 +149,9 @@ void read_pins(const Section& file, Scene& scene) {
   if (static_cast<int>(particles.pins.size()) == particles.size())
     s.fail("particles", "at least one particle left free");
   if (s.has("motion")) {
-    const Section m = s.section("motion");
-    particles.move = PinMotion{m.vec3("amplitude"), m.positive("frequency"), m.positive("ramp")};
+    if (scene.model.find<Constraints>())
+      s.fail("motion", "pins that stand still: the work of moved pins on hard distances is not modelled");
+    particles.move = read_motion(s.section("motion"));
   }
 }
 
@@ -120,20 +181,15 @@ Scene expand(const Section& file, const std::string& name) {
   if (file.has("grid")) grid = read_grid(file.section("grid"));
   read_particles(file, grid, first_order, scene);
   if (!first_order) {
-    read_springs(file, grid, scene);
+    read_pairs(file, grid, scene);
     read_pins(file, scene);
   }
   for (const TermReader& reader : term_readers)
     if ((!first_order || reader.key == Rotation::name) && file.has(reader.key))
-      scene.model.terms.push_back(reader.read(file.section(reader.key), scene.model.particles));
-
-  if (const auto* sphere = scene.model.find<Sphere>())
-    for (int i = 0; i < scene.model.particles.size(); ++i)
-      // 1e-9 of the radius: on the surface but for the rounding of a decimal number is not inside
-      if (!scene.model.particles.pinned[i] &&
-          (scene.start.x.col(i) - sphere->centre).norm() < (1 - 1e-9) * sphere->contact_radius())
-        file.section("sphere").fail("radius",
-                                    fmt::format("no particle inside radius + margin at the start, got particle {}", i));
+      scene.model.terms.push_back(reader.read(file.section(reader.key), scene));
+  if (!first_order) read_spheres(file, scene);
+  if (scene.model.find<Wind>() && scene.model.find<Aerodynamics>())
+    file.fail(Wind::name, "one kind of wind, [wind] or [aerodynamics]");
 
   if (file.has("camera")) {
     const Section s = file.section("camera");

@@ -31,17 +31,37 @@ class Hash {
   void term(const Gravity& t) { add(t.acceleration); }
   void term(const Springs& t) {
     for (const Spring& s : t.list) add(s.a), add(s.b), add(s.k), add(s.rest);
+    if (t.law != SpringLaw::hooke) add(name_of(t.law));
+  }
+  void term(const Dashpots& t) {
+    for (const auto& [a, b, c] : t.list) add(a), add(b), add(c);
+  }
+  void term(const Constraints& t) {
+    for (const auto& [a, b, length] : t.list) add(a), add(b), add(length);
   }
   void term(const Drag& t) { add(t.c); }
-  void term(const Wind& t) {
-    add(t.mean);
-    if (t.gusts) add(t.gusts->variation), add(t.gusts->side), add(t.gusts->seed);
+  void term(const Wind& t) { blowing(t.acceleration); }
+  void term(const Aerodynamics& t) {
+    add(t.density), add(t.coefficient), blowing(t.velocity);
+    for (const auto& triangle : t.triangles)
+      for (int corner : triangle) add(corner);
   }
-  void term(const Sphere& t) { add(t.centre), add(t.radius), add(t.margin), add(t.friction), add(t.restitution); }
+  void term(const Spheres& t) {
+    for (const Sphere& s : t.list) {
+      add(s.centre), add(s.radius), add(s.margin), add(s.friction), add(s.restitution);
+      if (s.motion) motion(*s.motion);
+    }
+  }
+  void motion(const Motion& m) { add(m.amplitude), add(m.frequency), add(m.ramp); }
 
   std::uint64_t value() const { return state_; }
 
  private:
+  void blowing(const Blowing& b) {
+    add(b.mean);
+    if (b.gusts) add(b.gusts->variation), add(b.gusts->side), add(b.gusts->seed);
+  }
+
   std::uint64_t state_ = 0xcbf29ce484222325ull;
 };
 
@@ -53,7 +73,7 @@ std::string hash_of(const Scene& scene) {
   h.add(p.mass);
   for (int pin : p.pins) h.add(pin);
   h.add(-1);
-  if (p.move) h.add(p.move->amplitude), h.add(p.move->frequency), h.add(p.move->ramp);
+  if (p.move) h.motion(*p.move);
   for (const Term& term : scene.model.terms) {
     h.add(name_of(term));
     std::visit([&](const auto& t) { h.term(t); }, term);

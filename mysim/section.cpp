@@ -188,6 +188,10 @@ std::vector<Section> Section::sections(std::string_view key) const {
   return list;
 }
 
+std::vector<Section> Section::one_or_more(std::string_view key) const {
+  return node_->need(key, "a table").is_table() ? std::vector{section(key)} : sections(key);
+}
+
 void Section::fail(std::string_view key, const std::string& expected) const {
   const toml::node* n = node_->table->get(key);
   node_->fail_at(n ? n->source() : node_->table->source(), key, fmt::format("expected {}", expected));

@@ -31,8 +31,9 @@ class Section {
   Vec3 vec3(std::string_view key) const;            // three finite numbers
   std::vector<int> integers(std::string_view key) const;
 
-  Section section(std::string_view key) const;                // a table; an error when it is missing
-  std::vector<Section> sections(std::string_view key) const;  // an array of tables; empty when it is missing
+  Section section(std::string_view key) const;                   // a table; an error when it is missing
+  std::vector<Section> sections(std::string_view key) const;     // an array of tables; empty when it is missing
+  std::vector<Section> one_or_more(std::string_view key) const;  // a table, or an array of tables
 
   /// Throws InputError at the line of the key: "FILE:LINE: KEY: expected EXPECTED".
   [[noreturn]] void fail(std::string_view key, const std::string& expected) const;

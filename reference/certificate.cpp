@@ -126,9 +126,10 @@ void certify_terms(const Scene& scene, const Readback& r, Writer& w) {
   if (!model.find<Drag>() && r.drag && std::any_of(r.drag->begin(), r.drag->end(), [](double c) { return c != 0; }))
     w.row("drag", "none", "some", false);
   if (const auto* wind = model.find<Wind>())
-    w.row("wind", "mean " + vector(wind->mean) + (wind->gusts ? " with gusts" : ""), "given to the engine at each step",
-          Parity::match);
-  if (const auto* sphere = model.find<Sphere>()) {
+    w.row("wind", "mean " + vector(wind->acceleration.mean) + (wind->acceleration.gusts ? " with gusts" : ""),
+          "given to the engine at each step", Parity::match);
+  if (const auto* spheres = model.find<Spheres>()) {
+    const Sphere* sphere = &spheres->list[0];  // engines with a read-back take one sphere
     const double radius = sphere->contact_radius();
     if (!r.contact_radius) w.row("contact radius", fmt::format("{:.6g} m", radius), "not told", Parity::unattested);
     if (!r.friction) w.row("friction", fmt::format("{:.6g}", sphere->friction), "not told", Parity::unattested);

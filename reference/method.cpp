@@ -27,17 +27,22 @@ struct Option {
 
 Method mysim_method(const Stepper& stepper, const std::vector<Option>& options) {
   ContactRule contact = ContactRule::coulomb;
+  Stepper rule = stepper;
   const std::string name = fmt::format("mysim/{}", stepper.name);
   for (const Option& o : options) {
-    if (o.key != "sticky" || !o.value.empty()) refuse(name, o, "+sticky or none");
-    contact = ContactRule::sticky;
+    if (o.key == "sticky" && o.value.empty())
+      contact = ContactRule::sticky;
+    else if (o.key == "linear" && o.value.empty() && stepper.linear)
+      rule.step = stepper.linear;
+    else
+      refuse(name, o, stepper.linear ? "+linear, +sticky or none" : "+sticky or none");
   }
   return {name,
-          std::string(stepper.what),
+          fmt::format("{} ({})", stepper.what, stepper.limit_formula),
           std::string(stepper.name),
-          [&stepper, contact](const Scene& scene, const Run& run, Observer& observer) {
-            Outcome out = simulate(stepper, contact, scene, run, observer);
-            if (contact == ContactRule::sticky && scene.model.find<Sphere>())
+          [rule, contact](const Scene& scene, const Run& run, Observer& observer) {
+            Outcome out = simulate(rule, contact, scene, run, observer);
+            if (contact == ContactRule::sticky && scene.model.find<Spheres>())
               out.different_law.push_back(
                   "contact: a touching particle is put back to where it came from and loses all its velocity");
             return out;

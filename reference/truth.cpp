@@ -54,7 +54,7 @@ double rms_distance(const Points& a, const Points& b) { return (a - b).norm() / 
 
 std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
   if (const auto exact = exact_solution(scene)) return from_closed_form(*exact, scene, run);
-  if (scene.model.find<Sphere>()) return std::nullopt;
+  if (scene.model.find<Spheres>()) return std::nullopt;
 
   const Stepper& rk4 = stepper_named("rk4");
   Recorder coarse, fine;

@@ -38,6 +38,12 @@ std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<
       if (s.family == Family::shear || s.family == Family::bend) continue;
       for (int end : {s.a, s.b}) sum[end] += strain, count[end] += 1;
     }
+  if (const auto* constraints = scene.model.find<Constraints>())
+    for (const auto& [a, b, length] : constraints->list)
+      for (int end : {a, b}) {
+        sum[end] += std::max(0.0, (x.col(a) - x.col(b)).norm() / length - 1) * 100;
+        count[end] += 1;
+      }
   for (size_t i = 0; i < sum.size(); ++i) sum[i] /= std::max(1.0, count[i]);
   return sum;
 }
@@ -58,12 +64,15 @@ render::Body body_of(const Scene& scene, const Answer& answer, int frame, Mode m
   body.x = answer.trajectory.x[frame];
   body.pinned = scene.model.particles.pins;
   const auto* springs = scene.model.find<Springs>();
+  const auto* constraints = scene.model.find<Constraints>();
   const bool surface = !scene.triangles.empty() && mode != Mode::springs;
   if (surface) {
     body.triangles = scene.triangles;
     if (springs)
       for (const Spring& s : springs->list)
         if (is_thread(s)) body.threads.push_back({s.a, s.b});
+    if (constraints)
+      for (const auto& [a, b, length] : constraints->list) body.threads.push_back({a, b});
   } else {
     if (scene.triangles.empty()) body.bead_radius = render::by_view;
     std::vector<double> strain;
@@ -73,6 +82,12 @@ render::Body body_of(const Scene& scene, const Answer& answer, int frame, Mode m
         const Spring& s = springs->list[i];
         body.tubes.push_back({s.a, s.b});
         if (mode == Mode::stretch) body.tube_value.push_back(strain[i]);
+      }
+    if (constraints)
+      for (const auto& [a, b, length] : constraints->list) {
+        body.tubes.push_back({a, b});
+        if (mode == Mode::stretch)
+          body.tube_value.push_back(std::max(0.0, (body.x.col(a) - body.x.col(b)).norm() / length - 1) * 100);
       }
   }
   if (surface && mode == Mode::stretch) body.value = stretch_of(scene, body.x);
@@ -89,6 +104,7 @@ render::Body body_of(const Scene& scene, const Answer& answer, int frame, Mode m
 /// The families that the scene's springs belong to, in the order of the legend.
 std::vector<Family> families_of(const Scene& scene) {
   std::vector<Family> present;
+  if (!scene.model.find<Springs>()) return present;
   for (const Family family : {Family::structural, Family::shear, Family::bend, Family::single})
     for (const Spring& s : scene.model.find<Springs>()->list)
       if (s.family == family) {
@@ -120,20 +136,23 @@ std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Ve
   return bodies;
 }
 
-std::vector<render::Ball> balls_of(const Scene& scene) {
-  if (const auto* sphere = scene.model.find<Sphere>()) return {{sphere->centre, sphere->radius}};
-  return {};
+std::vector<render::Ball> balls_of(const Scene& scene, double t) {
+  std::vector<render::Ball> balls;
+  if (const auto* spheres = scene.model.find<Spheres>())
+    for (const Sphere& s : spheres->list) balls.push_back({s.centre_at(t), s.radius});
+  return balls;
 }
 
 /// The scene's camera, or one that holds everything that the panels show.
-render::View view_of(const Scene& scene, const std::vector<Points>& shown, double aspect) {
+render::View view_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<render::Ball>& balls,
+                     double aspect) {
   double depth = 0;
   for (const Points& x : shown) depth = std::max(depth, x.row(2).maxCoeff() - x.row(2).minCoeff());
   const bool flat = scene.triangles.empty() && depth < 1e-9;
   // the scene's camera says from where; how far away is chosen so that panels of every shape hold everything
   Vec3 from = flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1);
   if (scene.camera) from = scene.camera->eye - scene.camera->target;
-  render::View view = render::view_that_holds(shown, balls_of(scene), from, aspect);
+  render::View view = render::view_that_holds(shown, balls, from, aspect);
   if (flat) view.floor.reset();
   return view;
 }
@@ -166,7 +185,7 @@ Mode mode_named(const std::string& name) {
 
 std::vector<std::string> pictured_methods(const Scene& scene) {
   if (scene.model.first_order()) return {"mysim/explicit-euler", "mysim/trapezoidal", "mysim/rk4"};
-  if (scene.model.find<Sphere>())
+  if (scene.model.find<Spheres>())
     return {"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd", "mysim/symplectic-euler+sticky"};
   return {"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd"};
 }
@@ -187,10 +206,12 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
     throw InputError(fmt::format("{}: --mode difference: expected two methods that can run the scene", scene.name));
   const bool strip = shot.mode == Mode::strip;
   // without springs there is no stretch to colour by
-  const bool no_stretch = shot.mode == Mode::stretch && !scene.model.find<Springs>();
+  const bool no_stretch =
+      shot.mode == Mode::stretch && !scene.model.find<Springs>() && !scene.model.find<Constraints>();
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   std::vector<Points> healthy, all;
+  std::vector<render::Ball> balls;
   double most = 0;
   if (!strip) picture.rows.emplace_back();
   for (const Answer* a : usable) {
@@ -201,7 +222,8 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
       render::Panel panel;
       panel.title = !strip || c == 0 ? a->method : "";
       panel.subtitle = time_text(*a, frames[c]);
-      panel.balls = balls_of(scene);
+      panel.balls = balls_of(scene, a->trajectory.t[frames[c]]);
+      balls.insert(balls.end(), panel.balls.begin(), panel.balls.end());
       panel.bodies.push_back(body_of(scene, *a, frames[c], mode, &base));
       for (double v : panel.bodies[0].value) most = std::max(most, v);
       for (double v : panel.bodies[0].tube_value) most = std::max(most, v);
@@ -217,7 +239,7 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
     picture.scale = render::Scale{"distance from " + usable[0]->method + " / mm", 0, round_up(most)};
   if (mode == Mode::springs && !scene.triangles.empty())
     for (const Family family : families_of(scene)) picture.legend.emplace_back(name_of(family));
-  picture.view = view_of(scene, healthy.empty() ? all : healthy, render::panel_aspect(picture));
+  picture.view = view_of(scene, healthy.empty() ? all : healthy, balls, render::panel_aspect(picture));
   if (!picture.legend.empty())
     for (render::Panel& panel : picture.rows[0])
       panel.bodies = tubes_of(scene, panel.bodies[0].x, (picture.view.eye - picture.view.target).normalized());

@@ -46,8 +46,10 @@ Provenance provenance(const std::string& command) {
 Provenance with_scenes(Provenance lines, const std::vector<Scene>& scenes) {
   for (const Scene& scene : scenes) {
     std::string value = fmt::format("{} {}", scene.name, scene.hash);
-    if (const auto* wind = scene.model.find<Wind>(); wind && wind->gusts)
-      value += fmt::format(", seed {}", wind->gusts->seed);
+    const auto* wind = scene.model.find<Wind>();
+    const auto* air = scene.model.find<Aerodynamics>();
+    for (const Blowing* blowing : {wind ? &wind->acceleration : nullptr, air ? &air->velocity : nullptr})
+      if (blowing && blowing->gusts) value += fmt::format(", seed {}", blowing->gusts->seed);
     lines.emplace_back("scene", value);
   }
   return lines;

@@ -24,7 +24,7 @@ void Integral::add(double value, double h) {
 }
 
 Ledger::Ledger(const Model& model, ContactLoss contact)
-    : model_(model), inferred_(contact == ContactLoss::inferred && model.find<Sphere>() != nullptr) {
+    : model_(model), inferred_(contact == ContactLoss::inferred && model.find<Spheres>() != nullptr) {
   scratch_.f = Points::Zero(3, model.particles.size());
 }
 

@@ -3,11 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace crosscheck {
 
 Watch::Watch(const Model& model) : model_(model) {
-  if (model.find<Wind>() || model.particles.move) ledger_.emplace(model, ContactLoss::reported);
+  if (const auto* spheres = model.find<Spheres>())
+    for (const Sphere& s : spheres->list)
+      if (s.motion) {
+        // |d'| <= amplitude (omega + 15/8 / ramp), the ramp's steepest slope; a particle of restitution e leaves at (1
+        // + e) times that at most, and as much again is allowed for what it stores in springs
+        const double omega = 2 * std::numbers::pi * s.motion->frequency;
+        const double speed = (1 + s.restitution) * s.motion->amplitude.norm() * (omega + 1.875 / s.motion->ramp);
+        moving_spheres_ += model.particles.mass.sum() * speed * speed;
+      }
+  if (model.find<Wind>() || model.find<Aerodynamics>() || model.particles.move)
+    ledger_.emplace(model, ContactLoss::reported);
 }
 
 Verdict Watch::observe(const State& state, bool sample) {
@@ -24,6 +35,7 @@ Verdict Watch::observe(const State& state, bool sample) {
     if (const auto* springs = model_.find<Springs>())
       for (const Spring& s : springs->list)
         budget_ += 1e-24 * s.k * (state.x.col(s.a) - state.x.col(s.b)).squaredNorm();
+    budget_ += moving_spheres_;
   }
   double work = 0;
   if (ledger_) {

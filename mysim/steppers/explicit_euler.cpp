@@ -4,9 +4,10 @@
 namespace crosscheck {
 
 void explicit_euler(System& f, State& s, double h, Workspace& w) {
-  f.derivative(s, w.k1);
-  s.x += h * w.k1.x;
-  s.v += h * w.k1.v;
+  State& k = w[0];
+  f.derivative(s, k);
+  s.x += h * k.x;
+  s.v += h * k.v;
 }
 
 }  // namespace crosscheck

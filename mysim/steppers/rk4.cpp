@@ -4,18 +4,20 @@
 namespace crosscheck {
 
 void rk4(System& f, State& s, double h, Workspace& w) {
+  State &k1 = w[0], &k2 = w[1], &k3 = w[2], &k4 = w[3];
   auto stage = [&](double c, const State& k) -> State& {
-    w.stage.t = s.t + c * h;
-    w.stage.x = s.x + c * h * k.x;
-    w.stage.v = s.v + c * h * k.v;
-    return w.stage;
+    State& x = w[4];
+    x.t = s.t + c * h;
+    x.x = s.x + c * h * k.x;
+    x.v = s.v + c * h * k.v;
+    return x;
   };
-  f.derivative(s, w.k1);
-  f.derivative(stage(0.5, w.k1), w.k2);
-  f.derivative(stage(0.5, w.k2), w.k3);
-  f.derivative(stage(1, w.k3), w.k4);
-  s.x += h / 6 * (w.k1.x + 2 * w.k2.x + 2 * w.k3.x + w.k4.x);
-  s.v += h / 6 * (w.k1.v + 2 * w.k2.v + 2 * w.k3.v + w.k4.v);
+  f.derivative(s, k1);
+  f.derivative(stage(0.5, k1), k2);
+  f.derivative(stage(0.5, k2), k3);
+  f.derivative(stage(1, k3), k4);
+  s.x += h / 6 * (k1.x + 2 * k2.x + 2 * k3.x + k4.x);
+  s.v += h / 6 * (k1.v + 2 * k2.v + 2 * k3.v + k4.v);
 }
 
 }  // namespace crosscheck

@@ -4,8 +4,9 @@
 namespace crosscheck {
 
 void symplectic_euler(System& f, State& s, double h, Workspace& w) {
-  f.acceleration(s, w.k1.v);
-  s.v += h * w.k1.v;
+  Points& a = w[0].v;
+  f.acceleration(s, a);
+  s.v += h * a;
   s.x += h * s.v;
 }
 

@@ -4,13 +4,14 @@
 namespace crosscheck {
 
 void trapezoidal(System& f, State& s, double h, Workspace& w) {
-  f.derivative(s, w.k1);
-  w.stage.t = s.t + h;
-  w.stage.x = s.x + h * w.k1.x;
-  w.stage.v = s.v + h * w.k1.v;
-  f.derivative(w.stage, w.k2);
-  s.x += h / 2 * (w.k1.x + w.k2.x);
-  s.v += h / 2 * (w.k1.v + w.k2.v);
+  State &f0 = w[0], &f1 = w[1], &stage = w[2];
+  f.derivative(s, f0);
+  stage.t = s.t + h;
+  stage.x = s.x + h * f0.x;
+  stage.v = s.v + h * f0.v;
+  f.derivative(stage, f1);
+  s.x += h / 2 * (f0.x + f1.x);
+  s.v += h / 2 * (f0.v + f1.v);
 }
 
 }  // namespace crosscheck

@@ -2,6 +2,7 @@
 #include "mysim/terms/sphere.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace crosscheck {
 namespace {
@@ -13,8 +14,8 @@ Vec3 shortened(const Vec3& vector, double by) {
 }
 
 /// Outward unit normal at x; up where x is the very centre and no direction is better than another.
-Vec3 normal_at(const Sphere& sphere, const Vec3& x) {
-  const Vec3 d = x - sphere.centre;
+Vec3 normal_at(const Vec3& centre, const Vec3& x) {
+  const Vec3 d = x - centre;
   const double length = d.norm();
   return length > 0 ? Vec3(d / length) : Vec3(0, 1, 0);
 }
@@ -22,33 +23,43 @@ Vec3 normal_at(const Sphere& sphere, const Vec3& x) {
 }  // namespace
 
 Sphere read_sphere(const Section& s) {
-  Sphere sphere{s.vec3("centre"), s.positive("radius"), 0, 0, 0};
+  Sphere sphere{s.vec3("centre"), s.positive("radius"), 0, 0, 0, std::nullopt};
   if (s.has("margin")) sphere.margin = s.positive("margin");
   if (s.has("friction")) sphere.friction = s.not_negative("friction");
   if (s.has("restitution")) {
     sphere.restitution = s.not_negative("restitution");
     if (sphere.restitution > 1) s.fail("restitution", "a number from 0 to 1");
   }
+  if (s.has("motion")) sphere.motion = read_motion(s.section("motion"));
   return sphere;
 }
 
-double resolve_contact(const Sphere& sphere, const Vec3& x_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) {
-  const double distance = (x - sphere.centre).norm();
+Motion read_motion(const Section& s) { return {s.vec3("amplitude"), s.positive("frequency"), s.positive("ramp")}; }
+
+double clearance_from(const Spheres& spheres, double t, const Vec3& x) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Sphere& s : spheres.list) smallest = std::min(smallest, (x - s.centre_at(t)).norm() - s.contact_radius());
+  return smallest;
+}
+
+double resolve_contact(const Sphere& sphere, const Vec3& centre, const Vec3& x_n, Eigen::Ref<Vec3> x,
+                       Eigen::Ref<Vec3> v) {
+  const double distance = (x - centre).norm();
   const double radius = sphere.contact_radius();
   if (!(distance < radius)) return 0;
 
   // put the particle on the surface
   const double push = radius - distance;
-  Vec3 n = normal_at(sphere, x);
-  x = sphere.centre + radius * n;
+  Vec3 n = normal_at(centre, x);
+  x = centre + radius * n;
 
   // friction holds back the tangential displacement of this step
   if (sphere.friction > 0) {
     const Vec3 moved = x - x_n;
     const Vec3 along_normal = moved.dot(n) * n;
     x = x_n + along_normal + shortened(moved - along_normal, sphere.friction * push);
-    n = normal_at(sphere, x);
-    x = sphere.centre + radius * n;
+    n = normal_at(centre, x);
+    x = centre + radius * n;
   }
 
   // no velocity into the sphere, and friction in proportion to what was removed
@@ -61,10 +72,11 @@ double resolve_contact(const Sphere& sphere, const Vec3& x_n, Eigen::Ref<Vec3> x
   return push;
 }
 
-double resolve_contact_sticky(const Sphere& sphere, const Vec3& x_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) {
-  const double distance = (x - sphere.centre).norm();
+double resolve_contact_sticky(const Sphere& sphere, const Vec3& centre, const Vec3& x_n, Eigen::Ref<Vec3> x,
+                              Eigen::Ref<Vec3> v) {
+  const double distance = (x - centre).norm();
   if (!(distance < sphere.contact_radius())) return 0;
-  x = sphere.centre + sphere.contact_radius() * normal_at(sphere, x_n);
+  x = centre + sphere.contact_radius() * normal_at(centre, x_n);
   v.setZero();
   return sphere.contact_radius() - distance;
 }

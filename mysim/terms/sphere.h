@@ -1,4 +1,5 @@
-// A fixed sphere with Coulomb friction and restitution. It is no force: it acts on the whole step of a particle.
+// Spheres with Coulomb friction and restitution, at rest or in a prescribed motion. They are no force: each acts on the
+// whole step of a particle. What follows is seen from the sphere: positions and velocities are relative to it.
 //
 // The stepper proposes x* and v*. If |x* - centre| < R (R = radius + margin), then
 //   1. position: the particle is put on the surface, which pushes it by p along the outward normal n;
@@ -9,30 +10,51 @@
 // Friction on the velocity alone is not enough: a particle at rest on a slope would creep at about h g sin(theta) / 2.
 #pragma once
 
+#include <algorithm>
+#include <optional>
 #include <string_view>
+#include <vector>
 
+#include "mysim/motion.h"
 #include "mysim/section.h"
 
 namespace crosscheck {
 
 struct Sphere {
-  static constexpr std::string_view name = "sphere";
-  Vec3 centre;         // m
+  Vec3 centre;         // m, at t = 0
   double radius;       // m, of the solid ball
   double margin;       // m, half the thickness of the cloth: particles stay at radius + margin from the centre
   double friction;     // Coulomb's mu, 1
   double restitution;  // e, 0 to 1
+  std::optional<Motion> motion;
 
   double contact_radius() const { return radius + margin; }
+  Vec3 centre_at(double t) const { return motion ? Vec3(centre + displacement_at(*motion, t)) : centre; }  // m
+};
+
+struct Spheres {
+  static constexpr std::string_view name = "sphere";
+  std::vector<Sphere> list;
+
+  bool moving() const {
+    return std::any_of(list.begin(), list.end(), [](const Sphere& s) { return s.motion.has_value(); });
+  }
 };
 
 Sphere read_sphere(const Section& s);
+Motion read_motion(const Section& s);
 
-/// Applies the rule above to one particle that was at x_n. Returns the push p (m); 0 when there was no contact.
-double resolve_contact(const Sphere& sphere, const Vec3& x_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v);
+/// Distance of a particle from the nearest contact surface at time t, m; negative inside.
+double clearance_from(const Spheres& spheres, double t, const Vec3& x);
+
+/// Applies the rule above to one particle that was at x_n, with the sphere at `centre`, in the sphere's frame. Returns
+/// the push p (m); 0 when there was no contact.
+double resolve_contact(const Sphere& sphere, const Vec3& centre, const Vec3& x_n, Eigen::Ref<Vec3> x,
+                       Eigen::Ref<Vec3> v);
 
 /// The assignment's sphere, kept to be shown failing: a particle that touches is put back to where it came from, on the
 /// surface, and loses all its velocity: it freezes to the sphere. Returns the push p (m); 0 when there was no contact.
-double resolve_contact_sticky(const Sphere& sphere, const Vec3& x_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v);
+double resolve_contact_sticky(const Sphere& sphere, const Vec3& centre, const Vec3& x_n, Eigen::Ref<Vec3> x,
+                              Eigen::Ref<Vec3> v);
 
 }  // namespace crosscheck

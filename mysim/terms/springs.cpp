@@ -1,5 +1,8 @@
-// The plain edge loop: the definition of the spring term, and the oracle of every faster kernel.
+// Spring laws, and the plain edge loop over them.
 #include "mysim/terms/springs.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace crosscheck {
 
@@ -17,6 +20,14 @@ std::string_view name_of(Family family) {
   return "unknown";
 }
 
+std::string_view name_of(SpringLaw law) { return law == SpringLaw::hooke ? "hooke" : "bullet-link"; }
+
+Tension tension_of(const Spring& s, SpringLaw law, double length) {
+  if (law == SpringLaw::hooke) return {s.k * (length - s.rest), s.k};
+  const double l2 = length * length, r2 = s.rest * s.rest, sum = l2 + r2;
+  return {s.k * length * (l2 - r2) / sum, s.k * (l2 * l2 + 4 * l2 * r2 - r2 * r2) / (sum * sum)};
+}
+
 void add_force(const Springs& springs, const Particles&, const State& state, Forces& forces) {
   for (const Spring& s : springs.list) {
     const Vec3 d = state.x.col(s.a) - state.x.col(s.b);
@@ -26,7 +37,7 @@ void add_force(const Springs& springs, const Particles&, const State& state, For
       forces.coincident += s.rest > 0;
       continue;
     }
-    const Vec3 f = (-s.k * (length - s.rest) / length) * d;
+    const Vec3 f = (-tension_of(s, springs.law, length).force / length) * d;
     forces.f.col(s.a) += f;
     forces.f.col(s.b) -= f;
   }
@@ -35,10 +46,28 @@ void add_force(const Springs& springs, const Particles&, const State& state, For
 double potential_energy(const Springs& springs, const Particles&, const State& state) {
   double energy = 0;
   for (const Spring& s : springs.list) {
-    const double stretch = (state.x.col(s.a) - state.x.col(s.b)).norm() - s.rest;
-    energy += 0.5 * s.k * stretch * stretch;
+    const double length = (state.x.col(s.a) - state.x.col(s.b)).norm();
+    if (springs.law == SpringLaw::hooke) {
+      energy += 0.5 * s.k * (length - s.rest) * (length - s.rest);
+    } else {
+      // log1p keeps the digits near the rest length, where both parts nearly cancel
+      const double r2 = s.rest * s.rest, excess = length * length - r2;
+      energy += 0.5 * s.k * (r2 > 0 ? excess - 2 * r2 * std::log1p(excess / (2 * r2)) : excess);
+    }
   }
   return energy;
+}
+
+void add_tangent(const Springs& springs, const Particles&, const State& state, Curvature curvature, Tangent& tangent) {
+  for (const Spring& s : springs.list) {
+    const Vec3 d = state.x.col(s.a) - state.x.col(s.b);
+    const double length = d.norm();
+    if (length == 0) continue;  // no direction, no force, no stiffness
+    const auto [force, slope] = tension_of(s, springs.law, length);
+    double along = slope, across = force / length;
+    if (curvature == Curvature::clamped) along = std::max(0.0, along), across = std::max(0.0, across);
+    tangent.add_stiffness({s.a, s.b, d / length, along, across});
+  }
 }
 
 }  // namespace crosscheck

@@ -1,5 +1,8 @@
-// Linear springs. With d = x_a - x_b and L = |d|: force on a is -k (L - r) d / L, on b the opposite; energy k (L - r)^2
-// / 2.
+// Springs. With d = x_a - x_b and L = |d|, the force on a is -T(L) d / L and on b the opposite; the law T is
+//   hooke         T = k (L - r), energy k (L - r)^2 / 2;
+//   bullet-link   T = k L (L^2 - r^2) / (L^2 + r^2), energy k/2 (L^2 - r^2 - 2 r^2 ln((L^2 + r^2) / (2 r^2))): what
+//   Bullet's
+//                 position-based links follow as the step goes to 0 (its projection per step, divided by h^2).
 #pragma once
 
 #include <string_view>
@@ -7,6 +10,7 @@
 
 #include "mysim/forces.h"
 #include "mysim/particles.h"
+#include "mysim/tangent.h"
 
 namespace crosscheck {
 
@@ -20,12 +24,27 @@ struct Spring {
   Family family;  // for colours, tables and the model ladder; physics does not look at it
 };
 
+enum class SpringLaw { hooke, bullet_link };
+std::string_view name_of(SpringLaw law);  // as in scene files
+
 struct Springs {
   static constexpr std::string_view name = "springs";
   std::vector<Spring> list;
+  SpringLaw law = SpringLaw::hooke;
 };
 
+/// Tension T(L) of a spring (N; positive: it pulls) and its slope dT/dL (N/m), at length L > 0 (m).
+struct Tension {
+  double force, slope;
+};
+Tension tension_of(const Spring& spring, SpringLaw law, double length);
+
+/// The plain edge loop: the definition of the term, and the oracle of every faster kernel (spring_kernel.h).
 void add_force(const Springs& springs, const Particles& particles, const State& state, Forces& forces);
 double potential_energy(const Springs& springs, const Particles& particles, const State& state);  // J
+/// -dF/dx. Clamped: what a shortened spring takes from the stiffness across itself is left out, which makes the matrix
+/// positive semidefinite.
+void add_tangent(const Springs& springs, const Particles& particles, const State& state, Curvature curvature,
+                 Tangent& tangent);
 
 }  // namespace crosscheck

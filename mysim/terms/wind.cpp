@@ -26,24 +26,23 @@ double Gust::at(double t) const {
   return sum;
 }
 
-Wind read_wind(const Section& s) {
-  Wind wind{s.vec3("acceleration"), std::nullopt};
+Blowing read_blowing(const Section& s, std::string_view key) {
+  Blowing blowing{s.vec3(key), std::nullopt};
   if (s.has("gusts")) {
     const Section g = s.section("gusts");
     const int seed = g.count("seed");
-    wind.gusts = {g.not_negative("variation"), g.vec3("side"), seed, Gust(seed, 1), Gust(seed, 2)};
+    blowing.gusts = {g.not_negative("variation"), g.vec3("side"), seed, Gust(seed, 1), Gust(seed, 2)};
   }
-  return wind;
+  return blowing;
 }
 
-Vec3 acceleration_at(const Wind& wind, double t) {
-  if (!wind.gusts) return wind.mean;
-  const auto& g = *wind.gusts;
-  return wind.mean * (1 + g.variation * g.along.at(t)) + g.side * g.across.at(t);
+Vec3 Blowing::at(double t) const {
+  if (!gusts) return mean;
+  return mean * (1 + gusts->variation * gusts->along.at(t)) + gusts->side * gusts->across.at(t);
 }
 
 void add_force(const Wind& wind, const Particles& particles, const State& state, Forces& forces) {
-  const Vec3 a = acceleration_at(wind, state.t);
+  const Vec3 a = wind.acceleration.at(state.t);
   for (int i = 0; i < particles.size(); ++i) forces.f.col(i) += particles.mass[i] * a;
 }
 

@@ -1,4 +1,5 @@
-// A wind that comes and goes: the same acceleration for every particle, a smooth function of time alone.
+// A wind that comes and goes, as a smooth function of time; and the simplest force of it: the same acceleration for
+// every particle.
 #pragma once
 
 #include <array>
@@ -21,21 +22,28 @@ struct Gust {
   double at(double t) const;
 };
 
-/// a(t) = mean (1 + variation g1(t)) + side g2(t), with g1 and g2 independent gusts.
-struct Wind {
-  static constexpr std::string_view name = "wind";
-  Vec3 mean;  // m/s^2
+/// w(t) = mean (1 + variation g1(t)) + side g2(t), with g1 and g2 independent gusts; in the unit of the mean.
+struct Blowing {
+  Vec3 mean;
   struct Gusts {
     double variation;  // 1
-    Vec3 side;         // m/s^2
+    Vec3 side;
     int seed;
     Gust along, across;
   };
-  std::optional<Gusts> gusts;  // none: a steady wind
+  std::optional<Gusts> gusts;  // none: steady
+
+  Vec3 at(double t) const;
+};
+/// Reads the mean from `key` and [gusts] beside it.
+Blowing read_blowing(const Section& s, std::string_view key);
+
+struct Wind {
+  static constexpr std::string_view name = "wind";
+  Blowing acceleration;  // m/s^2
 };
 
-Wind read_wind(const Section& s);
-Vec3 acceleration_at(const Wind& wind, double t);  // m/s^2
+inline Wind read_wind(const Section& s) { return {read_blowing(s, "acceleration")}; }
 void add_force(const Wind& wind, const Particles& particles, const State& state, Forces& forces);
 
 }  // namespace crosscheck

@@ -28,7 +28,7 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
     world_->getWorldInfo().m_sparsesdf.setDefaultVoxelsz(0.005);
     world_->getWorldInfo().m_sparsesdf.Reset();
     scene_body_ = std::make_unique<SceneBody>(scene, world_->getWorldInfo());
-    if (scene.model.find<Sphere>())
+    if (scene.model.find<Spheres>())
       body().m_cfg.collisions = btSoftBody::fCollision::SDF_RD | btSoftBody::fCollision::SDF_RDN;
     enter();
     add_forces();
@@ -52,7 +52,7 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
     // our own force class would only repeat what it was given: then nothing is attested
     if (scene_.model.find<Drag>() && shipped_)
       r.drag = std::vector<double>(scene_.model.particles.size(), body().m_cfg.drag / h_);
-    if (scene_.model.find<Sphere>()) r.friction = stage_.ball->getFriction() * body().m_cfg.kDF;
+    if (scene_.model.find<Spheres>()) r.friction = stage_.ball->getFriction() * body().m_cfg.kDF;
     if (scene_.model.find<Springs>()) r.probe = probe();
     r.mapped = mapped_;
     return r;
@@ -152,7 +152,7 @@ Outcome run_deformable_explicit(const Scene& scene, const Run& run, Observer& ob
   DeformableWorld world(scene, plan(run).h);
   Outcome out = march(world, run, observer);
   out.evaluations = out.steps;
-  if (scene.model.find<Sphere>())
+  if (scene.model.find<Spheres>())
     out.different_law.push_back(
         "contact: Bullet finds it at the proposed position but uses normal and gap of the old one (a tangent plane), "
         "so that "

@@ -21,7 +21,7 @@ void NetForce::addScaledElasticForce(btScalar scale, TVStack& force) {
 void NetForce::addScaledExplicitForce(btScalar scale, TVStack& force) {
   addScaledElasticForce(scale, force);
   const auto& nodes = m_softBodies[0]->m_nodes;
-  const btVector3 wind = parts_.wind ? to_bullet(acceleration_at(*parts_.wind, t_)) : btVector3(0, 0, 0);
+  const btVector3 wind = parts_.wind ? to_bullet(parts_.wind->acceleration.at(t_)) : btVector3(0, 0, 0);
   for (int i = 0; i < particles_.size(); ++i) {
     const auto& node = nodes[scene_body_.node_of(i)];
     if (parts_.wind) force[node.index] += wind * (scale * parts_.factor * particles_.mass[i]);

@@ -62,7 +62,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
   void step(double t, double t_next) override {
     const Particles& particles = scene_.model.particles;
     if (const auto* wind = scene_.model.find<Wind>()) {
-      const btVector3 a = to_bullet(acceleration_at(*wind, t));
+      const btVector3 a = to_bullet(wind->acceleration.at(t));
       for (int i = 0; i < particles.size(); ++i)
         if (!particles.pinned[i]) body().addForce(a * particles.mass[i], scene_body_->node_of(i));
     }
@@ -82,7 +82,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     if (scene_.model.find<Gravity>()) r.gravity = from_bullet(world_->getWorldInfo().m_gravity);
     if (scene_.model.find<Drag>())
       r.drag = std::vector<double>(scene_.model.particles.size(), -std::log1p(-cfg.kDP) / h_);
-    if (scene_.model.find<Sphere>()) r.friction = stage_.ball->getFriction() * cfg.kDF;
+    if (scene_.model.find<Spheres>()) r.friction = stage_.ball->getFriction() * cfg.kDF;
     r.mapped = mapped_;
     return r;
   }
@@ -125,7 +125,7 @@ Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, int iter
         "springs: position-based links pull with k L (L^2 - r^2) / (L^2 + r^2), about k (L - r) for small strains, and "
         "are "
         "solved like an implicit step, one after the other");
-  if (scene.model.find<Sphere>())
+  if (scene.model.find<Spheres>())
     out.different_law.push_back(
         "friction: a touching node loses a fixed share of its tangential motion in each step, whatever "
         "presses it on; Coulomb's law is not followed");

@@ -28,7 +28,7 @@ bool connected(const Model& model) {
 }  // namespace
 
 void make_obstacle(const Scene& scene, Stage& stage) {
-  const auto* sphere = scene.model.find<Sphere>();
+  const Sphere* sphere = sphere_of(scene.model);
   if (!sphere) return;
   stage.ball_shape = std::make_unique<btSphereShape>(sphere->radius);
   btTransform place;
@@ -43,8 +43,13 @@ void make_obstacle(const Scene& scene, Stage& stage) {
 
 void require_supported(const Scene& scene) {
   const Model& model = scene.model;
-  const auto* sphere = model.find<Sphere>();
+  const Sphere* sphere = sphere_of(model);
   if (model.first_order()) throw Unsupported("Bullet has no first-order systems: its bodies have mass and velocity");
+  if (model.find<Dashpots>()) throw Unsupported("spring dashpots are not handed over to Bullet yet");
+  if (model.find<Aerodynamics>()) throw Unsupported("wind on triangles is not handed over to Bullet yet");
+  if (const auto* spheres = model.find<Spheres>(); spheres && spheres->list.size() > 1)
+    throw Unsupported("only one sphere is handed over to Bullet yet");
+  if (sphere && sphere->motion) throw Unsupported("moving spheres are not handed over to Bullet yet");
   if (sphere && sphere->restitution > 0)
     throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
   if (sphere && model.particles.size() > 1 && !connected(model))
@@ -54,7 +59,7 @@ void require_supported(const Scene& scene) {
 SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(scene), state_(scene.start) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
-  const auto* sphere = model.find<Sphere>();
+  const Sphere* sphere = sphere_of(model);
   const int n = particles.size();
 
   // free particles first, pins last
@@ -101,7 +106,7 @@ SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(sce
 void SceneBody::place_pins(double t) {
   const Particles& particles = scene_.model.particles;
   if (!particles.move) return;
-  const Vec3 shift = pin_displacement(*particles.move, t);
+  const Vec3 shift = displacement_at(*particles.move, t);
   for (size_t p = 0; p < particles.pins.size(); ++p) {
     auto& node = body_->m_nodes[node_of_[particles.pins[p]]];
     node.m_x = node.m_q = to_bullet(particles.pin_home.col(static_cast<int>(p)) + shift);
@@ -117,7 +122,7 @@ const State& SceneBody::read_state(double t) {
   }
   // Bullet knows no velocity of prescribed pins; ours is exact
   const Particles& particles = scene_.model.particles;
-  const Vec3 velocity = particles.move ? pin_velocity(*particles.move, t) : Vec3::Zero();
+  const Vec3 velocity = particles.move ? velocity_at(*particles.move, t) : Vec3::Zero();
   for (int pin : particles.pins) state_.v.col(pin) = velocity;
   return state_;
 }
@@ -137,11 +142,16 @@ Readback SceneBody::read_back() const {
     const auto& link = body_->m_links[l];
     r.links.push_back({particle_of_[link.m_n[0] - first], particle_of_[link.m_n[1] - first], link.m_rl, std::nullopt});
   }
-  if (const auto* sphere = scene_.model.find<Sphere>())
+  if (const Sphere* sphere = sphere_of(scene_.model))
     r.contact_radius = sphere->radius + body_->getCollisionShape()->getMargin();
   r.precision = sizeof(btScalar) == sizeof(double) ? "double" : "single";
   r.may_sleep = body_->getActivationState() != DISABLE_DEACTIVATION;
   return r;
+}
+
+const Sphere* sphere_of(const Model& model) {
+  const auto* spheres = model.find<Spheres>();
+  return spheres ? &spheres->list[0] : nullptr;
 }
 
 double pair_mass(const Particles& particles, const Spring& spring) {

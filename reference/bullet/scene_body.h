@@ -62,6 +62,8 @@ class SceneBody {
 /// mu of the pair of ends, 1 / (1/m_a + 1/m_b) with pins of infinite mass, kg; infinite between two pins.
 double pair_mass(const Particles& particles, const Spring& spring);
 /// The one drag rate (1/s) of all free particles, 0 without drag, or nothing when they differ.
+/// The scene's one sphere, or null.
+const Sphere* sphere_of(const Model& model);
 std::optional<double> uniform_drag_rate(const Model& model);
 
 }  // namespace crosscheck::bullet

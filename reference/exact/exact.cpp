@@ -28,8 +28,8 @@ std::optional<Vec3> steady_acceleration(const Model& model) {
   Vec3 a = Vec3::Zero();
   if (const auto* gravity = model.find<Gravity>()) a += gravity->acceleration;
   if (const auto* wind = model.find<Wind>()) {
-    if (wind->gusts) return std::nullopt;
-    a += wind->mean;
+    if (wind->acceleration.gusts) return std::nullopt;
+    a += wind->acceleration.mean;
   }
   return a;
 }
@@ -45,7 +45,7 @@ double fall(double z) {
 std::optional<ExactSolution> projectile(const Scene& scene) {
   const Model& model = scene.model;
   const auto a = steady_acceleration(model);
-  if (model.particles.size() != 1 || model.find<Springs>() || model.find<Sphere>() || !a) return std::nullopt;
+  if (model.particles.size() != 1 || model.find<Springs>() || model.find<Spheres>() || !a) return std::nullopt;
   const auto* drag = model.find<Drag>();
   const double gamma = drag ? drag->c[0] / model.particles.mass[0] : 0;
   return ExactSolution{gamma > 0 ? "v(t) = a/gamma + (v0 - a/gamma) exp(-gamma t)" : "x(t) = x0 + v0 t + a t^2 / 2",
@@ -65,7 +65,7 @@ std::optional<ExactSolution> vertical_spring(const Scene& scene) {
   const Model& model = scene.model;
   const auto* springs = model.find<Springs>();
   const auto a = steady_acceleration(model);
-  if (model.particles.size() != 2 || !springs || springs->list.size() != 1 || model.find<Sphere>() || !a ||
+  if (model.particles.size() != 2 || !springs || springs->list.size() != 1 || model.find<Spheres>() || !a ||
       model.particles.pins.size() != 1 || model.particles.move)
     return std::nullopt;
   const Spring& spring = springs->list[0];

@@ -37,7 +37,7 @@ bool equal_rules_differ(const Request& request, const Scene& scene, const Result
       const std::string& rule = methods[i].rule;
       const Answer &a = result.answers[i], &b = result.answers[j];
       if (rule.empty() || rule != methods[j].rule || methods[i].name == methods[j].name) continue;
-      if (a.outcome.verdict != Verdict::ok || b.outcome.verdict != Verdict::ok || scene.model.find<Sphere>()) continue;
+      if (a.outcome.verdict != Verdict::ok || b.outcome.verdict != Verdict::ok || scene.model.find<Spheres>()) continue;
       double largest = 0;
       for (int k = 0;
            k < std::min(a.trajectory.frames(), b.trajectory.frames()) && a.trajectory.t[k] <= scene.window * (1 + 1e-9);
@@ -101,6 +101,10 @@ int compare_command(const CompareOptions& options) {
     if (std::get<std::string>(table.at(i, "verdict")) == "unsupported")
       fmt::print("    {}\n", std::get<std::string>(table.at(i, "reason")));
   }
+  if (options.step > 0)
+    for (const Method& method : methods_of(request, scene))
+      if (method.stepper && method.stepper->adaptive)
+        fmt::print("\n{} chooses its own steps: --step does not apply to it\n", method.name);
   fmt::print(
       "\nerror: from the truth; diff.: from mysim/symplectic-euler; largest RMS over the particles up to {:.3g} s\n",
       scene.window);

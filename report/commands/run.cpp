@@ -19,6 +19,7 @@ std::string run_json(const Scene& scene, const Method& method, const Outcome& ou
                               {"scene_hash", scene.hash},
                               {"method", method.name},
                               {"step", out.step},
+                              {"tolerance", out.tolerance > 0 ? nlohmann::ordered_json(out.tolerance) : nullptr},
                               {"times", path.t},
                               {"verdict", name_of(out.verdict)},
                               {"reason", out.reason},
@@ -36,10 +37,14 @@ std::string run_json(const Scene& scene, const Method& method, const Outcome& ou
 int run_command(const RunOptions& options) {
   const Scene scene = load_scene(options.scene);
   const Method method = find_method(options.method.empty() ? scene.method : options.method);
-  if (options.tolerance > 0)
+  const bool adaptive = method.stepper && method.stepper->adaptive;
+  if (options.tolerance > 0 && !adaptive)
     throw InputError(fmt::format("--tol: {} is a fixed-step method; expected --step (s)", method.name));
+  if (options.step > 0 && adaptive)
+    throw InputError(fmt::format("--step: {} chooses its own steps; expected --tol (relative)", method.name));
   Run run = default_run(scene);
   if (options.step > 0) run.step = options.step;
+  if (options.tolerance > 0) run.tolerance = options.tolerance;
   if (options.duration > 0) {
     // the sampling interval stays near the scene's own
     run.samples = std::max(1, static_cast<int>(std::lround(scene.samples * options.duration / scene.duration)));
@@ -70,8 +75,9 @@ int run_command(const RunOptions& options) {
   write_file(options.out / "run.json", run_json(scene, method, out, path));
   fmt::print("{} by {}: {}{}\n", scene.name, method.name, in_words(out.verdict),
              out.reason.empty() ? "" : ", " + out.reason);
-  fmt::print("  {} steps of {:.6g} s, {} force evaluations, {:.3g} s of CPU time, {} frames\n", out.steps, out.step,
-             out.evaluations, out.cpu_seconds, path.frames());
+  fmt::print("  {} steps of {:.6g} s{}, {} force evaluations, {:.3g} s of CPU time, {} frames\n", out.steps, out.step,
+             adaptive ? fmt::format(" in the mean (relative tolerance {:.3g})", out.tolerance) : "", out.evaluations,
+             out.cpu_seconds, path.frames());
   if (out.coincident > 0) fmt::print("  springs met at zero length {} times and got no force there\n", out.coincident);
   fmt::print("  {}\n", options.out.string());
   return 0;

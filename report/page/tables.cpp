@@ -41,7 +41,7 @@ std::string scene_table_html(const std::vector<ScenePart>& scenes) {
                       *b = part.facts->find("bullet/deformable-explicit"), *p = part.facts->find("bullet/pbd");
     out += fmt::format("<tr><th scope=\"row\"><a href=\"#{0}\">{0}</a></th><td class=\"text\">{1}</td>",
                        escaped(part.scene->name), escaped(part.scene->question));
-    const bool sphere = part.scene->model.find<Sphere>();
+    const bool sphere = part.scene->model.find<Spheres>();
     if (b && b->ok() && b->difference)
       out += fmt::format("<td>differ by {}{}</td>", nice_length(*b->difference),
                          sphere ? fmt::format(" until {:.2g} s", part.scene->window) : "");
@@ -76,7 +76,7 @@ std::string scene_table_html(const std::vector<ScenePart>& scenes) {
 }
 
 std::string run_table_html(const ScenePart& part) {
-  const bool contact = part.scene->model.find<Sphere>();
+  const bool contact = part.scene->model.find<Spheres>();
   std::string out = fmt::format(
       "<div class=\"scroll\"><table><thead><tr><th>method</th><th>verdict</th><th>error from truth</th><th>away from "
       "symplectic "

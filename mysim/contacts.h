@@ -1,0 +1,30 @@
+// Contact of all particles with the scene's spheres, after a step.
+#pragma once
+
+#include "mysim/model.h"
+#include "mysim/run.h"
+
+namespace crosscheck {
+
+enum class ContactRule { coulomb, sticky };  // sticky: the assignment's sphere, kept to be shown failing
+
+class Contacts {
+ public:
+  Contacts(const Model& model, ContactRule rule);
+  bool any() const { return spheres_ != nullptr; }
+  /// Remembers where the step begins.
+  void begin(const State& s);
+  /// Lets every sphere act on the whole step of every free particle; true when one touched.
+  bool resolve(State& s);
+  /// Hands the states before and after the last resolve() to the observer, if something touched.
+  void tell(Observer& observer, const State& resolved) const;
+
+ private:
+  const Particles& particles_;
+  const Spheres* spheres_;
+  ContactRule rule_;
+  State start_, proposed_;
+  bool touched_ = false;
+};
+
+}  // namespace crosscheck

@@ -1,0 +1,89 @@
+// Newton's method on the incremental potential.
+#include "mysim/implicit/newton.h"
+
+#include <fmt/format.h>
+
+#include "mysim/errors.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr int most_newton_steps = 200, most_repetitions = 100;
+constexpr double force_tolerance = 1e-10;  // of the largest force: six digits below what any step of order 2 resolves
+
+double largest_column(const Points& p) { return p.cols() ? p.colwise().norm().maxCoeff() : 0; }
+
+}  // namespace
+
+/// p_ = -matrix^-1 g at u_.
+CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
+  potential_.linearise(u_, curvature);
+  minus_g_ = -g_;
+  // in exact arithmetic as many iterations as unknowns would do
+  return conjugate_gradients([&](const Points& p, Points& q) { potential_.apply(p, q); },
+                             [&](const Points& r, Points& z) { potential_.precondition(r, z); }, minus_g_, tolerance,
+                             3 * static_cast<int>(u_.cols()) + 20, p_, cg_);
+}
+
+/// Descends from u_ to the minimum.
+void ImplicitStep::minimise() {
+  double value = potential_.value(u_);
+  descent_.assign(1, value);
+  for (int step = 0; step < most_newton_steps; ++step) {
+    potential_.gradient(u_, g_);
+    const double left = largest_column(g_),
+                 goal = std::max(force_tolerance * potential_.force_scale(), potential_.force_rounding());
+    if (left <= goal) return;
+
+    // far from the minimum a rough direction does; near it the error should fall quadratically
+    const double accuracy = std::min(0.1, std::sqrt(left / potential_.force_scale()));
+    if (newton_direction(Curvature::exact, accuracy).negative_curvature) newton_direction(Curvature::clamped, accuracy);
+
+    const double slope = dot(g_, p_);
+    double length = 1, tried = 0;
+    for (;; length /= 2) {
+      trial_ = u_ + length * p_;
+      tried = potential_.value(trial_);
+      if (tried <= value + 1e-4 * length * slope + potential_.rounding()) break;
+      if (length < 1e-12)
+        throw SolverFailure(
+            fmt::format("the line search found no lower potential (force left {:.2g} N, asked {:.2g} N)", left, goal));
+    }
+    u_ = trial_;
+    value = tried;
+    descent_.push_back(value);
+  }
+  throw SolverFailure(fmt::format("Newton's method did not converge in {} steps", most_newton_steps));
+}
+
+const State& ImplicitStep::solve(const State& s, double h) {
+  potential_.begin(s, h);
+  // from where the particles are: the potential there is what the step must not exceed; pins have moved already
+  u_ = s.x - potential_.inertial();
+  for (int pin : potential_.pins()) u_.col(pin).setZero();
+  const bool repeat = potential_.freeze(u_);
+  minimise();
+  double change = INFINITY;
+  for (int i = 0; repeat && change > 0; ++i) {
+    if (i == most_repetitions) throw SolverFailure("the forces on moving particles did not settle within the step");
+    const Points before = u_;
+    potential_.freeze(u_);
+    minimise();
+    // below the accuracy of the solves themselves nothing more is gained
+    change = descent_.size() == 1 ? 0 : largest_column(u_ - before);
+  }
+  return potential_.end(u_);
+}
+
+const State& ImplicitStep::solve_linear(const State& s, double h) {
+  potential_.begin(s, h);
+  u_.setZero(3, s.x.cols());
+  potential_.freeze(u_);
+  potential_.gradient(u_, g_);
+  if (!newton_direction(Curvature::clamped, 1e-12).converged && largest_column(g_) > potential_.force_rounding())
+    throw SolverFailure("the linear system of the step was not solved");
+  u_ = p_;
+  return potential_.end(u_);
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,86 @@
+// Extended position-based dynamics with small steps (M. Macklin, M. Mueller and N. Chentanez, Motion in Games, 2016; M.
+// Macklin et al., Symposium on Computer Animation, 2019): a free step, then one sweep over dashpots, springs and hard
+// distances, each of which corrects the positions of its two ends at once.
+#include <algorithm>
+
+#include "mysim/steppers/stepper.h"
+
+namespace crosscheck {
+namespace {
+
+class Sweep {
+ public:
+  Sweep(const Particles& particles, const Points& x_n, double h, State& s)
+      : particles_(particles), x_n_(x_n), h_(h), s_(s) {}
+
+  double inverse_mass(int a, int b) const { return inverse_mass(a) + inverse_mass(b); }
+  Vec3 between(int a, int b) const { return s_.x.col(a) - s_.x.col(b); }
+  Vec3 moved_apart(int a, int b) const { return between(a, b) - (x_n_.col(a) - x_n_.col(b)); }
+  /// Moves the ends by their inverse mass times +-impulse (kg m).
+  void push(int a, int b, const Vec3& impulse) {
+    move(a, inverse_mass(a) * impulse);
+    move(b, -inverse_mass(b) * impulse);
+  }
+
+ private:
+  double inverse_mass(int i) const { return particles_.pinned[i] ? 0 : 1 / particles_.mass[i]; }
+  void move(int i, const Vec3& by) {
+    s_.x.col(i) += by;
+    s_.v.col(i) += by / h_;
+  }
+
+  const Particles& particles_;
+  const Points& x_n_;
+  double h_;
+  State& s_;
+};
+
+}  // namespace
+
+void xpbd(System& f, State& s, double h, Workspace& w) {
+  const Model& model = f.model();
+  Points &x_n = w[0].x, &a = w[1].v;
+  x_n = s.x;
+
+  // free step: forces that are no constraint, drag implicit, pins where they will be
+  f.external_acceleration(s, a);
+  for (int i = 0; i < s.x.cols(); ++i) s.v.col(i) = (s.v.col(i) + h * a.col(i)) / (1 + h * f.drag_rate()[i]);
+  s.x += h * s.v;
+  s.t += h;
+  model.particles.place_pins(s);
+
+  Sweep sweep(model.particles, x_n, h, s);
+  f.count(1);
+  if (const auto* dashpots = model.find<Dashpots>())
+    for (const auto& [i, j, c] : dashpots->list) {
+      const Vec3 d = sweep.between(i, j);
+      const double length2 = d.squaredNorm(), inverse = sweep.inverse_mass(i, j);
+      if (length2 == 0) continue;
+      // along the line, what is left of the separation is d' with d' + (c h inverse mass) d' = moved apart
+      sweep.push(i, j, (-c * h * sweep.moved_apart(i, j).dot(d) / (length2 * (1 + c * h * inverse))) * d);
+    }
+  if (const auto* springs = model.find<Springs>())
+    for (const Spring& p : springs->list) {
+      const Vec3 d = sweep.between(p.a, p.b);
+      const double length = d.norm();
+      if (length == 0) {
+        f.count_coincident(p.rest > 0);
+        continue;
+      }
+      // implicit along the line, linearised: for Hooke's law -(L - r) / (inverse mass + compliance / h^2)
+      const auto [force, slope] = tension_of(p, springs->law, length);
+      const double stiffening = h * h * std::max(0.0, slope) * sweep.inverse_mass(p.a, p.b);
+      sweep.push(p.a, p.b, (-h * h * force / (length * (1 + stiffening))) * d);
+    }
+  if (const auto* constraints = model.find<Constraints>())
+    for (const auto& [i, j, rest] : constraints->list) {
+      const Vec3 d = sweep.between(i, j);
+      const double length = d.norm(), inverse = sweep.inverse_mass(i, j);
+      if (length == 0)
+        f.count_coincident(1);
+      else if (inverse > 0)
+        sweep.push(i, j, (-(length - rest) / (length * inverse)) * d);
+    }
+}
+
+}  // namespace crosscheck

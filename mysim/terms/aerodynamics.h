@@ -1,0 +1,26 @@
+// Wind that presses on triangles: each feels the air that streams past it, by its area and its normal.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mysim/terms/wind.h"
+
+namespace crosscheck {
+
+/// With u = wind velocity - mean velocity of the three corners and A the area times the unit normal: force on the
+/// triangle 1/2 rho C |u| (u . A) A / |A|, a third of it on each corner: the pressure on a flat plate, proportional to
+/// |u|^2 and to the sine of the angle between plate and air. It has no energy; what it gives is work of the wind.
+struct Aerodynamics {
+  static constexpr std::string_view name = "aerodynamics";
+  static constexpr bool uses_velocity = true;
+  double density;      // rho of the air, kg/m^3
+  double coefficient;  // C, 1: twice the sine's slope of the normal force, 1 to 2 for a flat plate
+  Blowing velocity;    // of the air, m/s
+  std::vector<std::array<int, 3>> triangles;
+};
+
+Aerodynamics read_aerodynamics(const Section& s, const std::vector<std::array<int, 3>>& triangles);
+void add_force(const Aerodynamics& air, const Particles& particles, const State& state, Forces& forces);
+
+}  // namespace crosscheck

@@ -1,0 +1,44 @@
+// Spring dashpots: along the line of two particles, with n the unit vector from b to a, the force on a is
+// -c ((v_a - v_b) . n) n and on b the opposite. They damp what stretches and leave free fall and rotation alone.
+#pragma once
+
+#include <vector>
+
+#include "mysim/forces.h"
+#include "mysim/particles.h"
+#include "mysim/tangent.h"
+
+namespace crosscheck {
+
+struct Dashpots {
+  static constexpr std::string_view name = "dashpots";
+  static constexpr bool uses_velocity = true;
+  struct Dashpot {
+    int a, b;  // ends
+    double c;  // N s/m
+  };
+  std::vector<Dashpot> list;
+};
+
+inline void add_force(const Dashpots& dashpots, const Particles&, const State& state, Forces& forces) {
+  for (const auto& [a, b, c] : dashpots.list) {
+    const Vec3 d = state.x.col(a) - state.x.col(b);
+    const double length2 = d.squaredNorm();
+    if (length2 == 0) continue;  // no direction, no force; the spring between the same ends counts the event
+    const Vec3 f = (-c * (state.v.col(a) - state.v.col(b)).dot(d) / length2) * d;
+    forces.f.col(a) += f;
+    forces.f.col(b) -= f;
+  }
+}
+
+/// -dF/dv at the state's directions. What turns the directions (dF/dx) is left out: implicit methods repeat their solve
+/// with the new directions instead, which keeps the matrix symmetric.
+inline void add_tangent(const Dashpots& dashpots, const Particles&, const State& state, Curvature, Tangent& tangent) {
+  for (const auto& [a, b, c] : dashpots.list) {
+    const Vec3 d = state.x.col(a) - state.x.col(b);
+    const double length = d.norm();
+    if (length > 0) tangent.add_damping({a, b, d / length, c, 0});
+  }
+}
+
+}  // namespace crosscheck
