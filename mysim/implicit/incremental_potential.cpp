@@ -19,13 +19,13 @@ IncrementalPotential::IncrementalPotential(System& f) : f_(f), model_(f.model())
   a_ = moved_ = Points::Zero(3, n);
   frozen_air_.f = Points::Zero(3, n);
   if (const auto* springs = model_.find<Springs>()) {
-    Eigen::ArrayXd pull = Eigen::ArrayXd::Zero(n);
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(n);
     for (const Spring& s : springs->list) {
-      pull[s.a] += s.k * s.rest;
-      pull[s.b] += s.k * s.rest;
-      spring_moment_ += s.k * s.rest * s.rest;
+      sum[s.a] += s.k;
+      sum[s.b] += s.k;
+      stiffness_ += s.k;
     }
-    spring_force_ = pull.maxCoeff();
+    stiffest_ = sum.maxCoeff();
   }
 }
 
@@ -101,10 +101,10 @@ double IncrementalPotential::value(const Points& u) {
   a_.setZero();
   frozen_damping_.add_product(0, 1, moved_, a_);
   const double dashpots = moved_.cwiseProduct(a_).sum() / (2 * h_);
-  // each sum is rounded by some eps of itself; a spring's energy by eps k |e| L, and sum k |e| L <= sqrt(sum k e^2)
-  // times sqrt(sum k L^2)
-  rounding_ =
-      8 * eps * (inertia + drag + dashpots + springs + std::abs(given) + std::sqrt(2 * springs * spring_moment_));
+  // a sum of n parts is rounded by at most n eps of their sizes; a spring's energy by k |e| eps |x|, since its ends
+  // are, and sum k |e| <= sqrt(sum k e^2) sqrt(sum k)
+  rounding_ = particles.size() * eps * (inertia + drag + dashpots + springs + std::abs(given)) +
+              8 * eps * std::sqrt(2 * springs * stiffness_) * at.x.cwiseAbs().maxCoeff();
   return inertia + drag + dashpots + springs + given;
 }
 
@@ -124,7 +124,8 @@ void IncrementalPotential::gradient(const Points& u, Points& g) {
     g.col(i) += inertia + drag - m * a_.col(i) - frozen_air_.f.col(i);
   }
   clear_pins(g);
-  force_rounding_ = 8 * eps * (spring_force_ + largest_column(a_) * particles.mass.maxCoeff());
+  // spring forces come from positions, each rounded by eps |x|
+  force_rounding_ = 8 * eps * (stiffest_ * at.x.cwiseAbs().maxCoeff() + largest_column(a_) * particles.mass.maxCoeff());
 }
 
 void IncrementalPotential::linearise(const Points& u, Curvature curvature) {

@@ -42,9 +42,9 @@ class IncrementalPotential {
 
   System& f_;
   const Model& model_;
-  Eigen::ArrayXd drag_;       // n, c, N s/m
-  double spring_force_ = 0;   // N, largest sum of k r at a particle: what spring forces are rounded against
-  double spring_moment_ = 0;  // J, sum of k r^2
+  Eigen::ArrayXd drag_;   // n, c, N s/m
+  double stiffness_ = 0;  // N/m, sum over all springs
+  double stiffest_ = 0;   // N/m, largest sum over the springs of a particle
   State start_, end_;
   double h_ = 0;
   Points y_, moved_, a_;
