@@ -120,7 +120,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                    motion,
                    scene.window,
                    growth,
-                   cell_of(round_off_bound(scene, growth)),
+                   cell_of(round_off_bound(scene, motion, growth)),
                    truth ? Cell(std::string(name_of(truth->tier))) : Cell(),
                    truth ? Cell(truth->bar) : Cell(),
                    ok ? largest(table, first_row, "error", scene.window) : Cell(),

@@ -63,9 +63,9 @@ std::optional<double> first_contact(const Scene& scene, const Trajectory& trajec
   return std::nullopt;
 }
 
-std::optional<double> round_off_bound(const Scene& scene, double growth) {
+std::optional<double> round_off_bound(const Scene& scene, double motion, double growth) {
   if (!(growth < 1e6)) return std::nullopt;
-  return 1e-13 * std::max(1.0, scene.size()) * std::max(1.0, growth);
+  return 1e-13 * std::max(1.0, scene.size() + motion) * std::max(1.0, growth);
 }
 
 double perturbation_growth(const Method& method, const Scene& scene, double step, double until) {

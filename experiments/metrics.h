@@ -30,8 +30,9 @@ std::optional<double> first_contact(const Scene& scene, const Trajectory& trajec
 double perturbation_growth(const Method& method, const Scene& scene, double step, double until);
 
 /// The most that two engines of the same rule may differ by, m, where they sum the same forces in another order: about
-/// 1e-15 of the scene's size per step, times the growth of a perturbation, times 100 for thousands of steps that add up
-/// like a random walk. Empty where a perturbation grows more than 1e6-fold: there single positions cannot be predicted.
-std::optional<double> round_off_bound(const Scene& scene, double growth);
+/// 1e-15 of the lengths that occur (the scene's size and its motion, m) per step, times the growth of a perturbation,
+/// times 100 for thousands of steps that add up like a random walk. Empty where a perturbation grows more than
+/// 1e6-fold: there single positions cannot be predicted.
+std::optional<double> round_off_bound(const Scene& scene, double motion, double growth);
 
 }  // namespace crosscheck

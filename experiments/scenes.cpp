@@ -13,14 +13,26 @@ namespace crosscheck {
 
 std::span<const std::string_view> shipped_scenes() {
   static constexpr std::string_view table[] = {
-      "circle",       //
-      "spring",       //
-      "pendulum",     //
-      "chain",        //
-      "cloth-hang",   //
-      "cloth-swing",  //
-      "cloth-wind",   //
-      "cloth-sphere",
+      "circle",              //
+      "projectile",          //
+      "spring",              //
+      "normal-modes",        //
+      "pendulum",            //
+      "chain",               //
+      "chain-link",          //
+      "rod",                 //
+      "slide",               //
+      "bounce",              //
+      "cloth-student",       //
+      "cloth-hang",          //
+      "cloth-stiff",         //
+      "cloth-inextensible",  //
+      "cloth-swing",         //
+      "cloth-wind",          //
+      "flag",                //
+      "cloth-sphere",        //
+      "cloth-carried",       //
+      "jelly",
   };
   return table;
 }

@@ -20,7 +20,9 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       h_(std::min(run.step, run.duration)),
       before_(scene.start),
       s_(scene.start),
-      seen_(scene.start) {}
+      seen_(scene.start) {
+  if (s_.v.size()) fastest_ = s_.v.colwise().norm().maxCoeff();
+}
 
 /// Root mean square over all components of estimated over allowed error.
 double AdaptiveWorld::error_ratio() {
@@ -29,8 +31,9 @@ double AdaptiveWorld::error_ratio() {
     const auto allowed = tolerance_ * (scale + from.cwiseAbs().cwiseMax(to.cwiseAbs()).array());
     return e.size() ? (e.array() / allowed).square().mean() : 0.0;
   };
-  if (next.v.size()) fastest_ = std::max(fastest_, next.v.colwise().norm().maxCoeff());
-  const double speed = fastest_ > 0 ? fastest_ : 1;  // nothing moves: any scale will do
+  // from rest: the speed that the forces at the start give in the step
+  const double first = s_.v.size() ? pair_.first_step_speed() : 0;
+  const double speed = std::max({fastest_, first, 1e-300});
   return std::sqrt(std::max(part(error.x, s_.x, next.x, scene_.size()), part(error.v, s_.v, next.v, speed)));
 }
 
@@ -49,6 +52,7 @@ void AdaptiveWorld::advance(double limit) {
     if (ratio <= 1) {
       before_ = s_;
       s_ = pair_.next();
+      if (s_.v.size()) fastest_ = std::max(fastest_, s_.v.colwise().norm().maxCoeff());
       s_.t = h == h_ ? before_.t + h : limit;
       last_h_ = h;
       const double kept = std::max(ratio, 1e-10);

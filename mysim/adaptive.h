@@ -30,7 +30,7 @@ class AdaptiveWorld : public World {
   Contacts contacts_;
   DormandPrince pair_;
   double tolerance_, h_, last_h_ = 0;
-  double fastest_ = 0;        // m/s, largest speed so far
+  double fastest_ = 0;        // m/s, largest speed of an accepted state
   double last_ratio_ = 1e-4;  // of the step before, for the controller
   State before_, s_, seen_;   // start and end of the last accepted step; what was asked for
   long accepted_ = 0;

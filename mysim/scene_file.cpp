@@ -146,6 +146,9 @@ void read_pins(const Section& file, Scene& scene) {
     if (!scene.start.v.col(pin).isZero(0))
       s.fail("particles", fmt::format("pins that start at rest; particle {} has a velocity", pin));
   }
+  // pins keep their distances by themselves
+  if (auto* constraints = scene.model.find<Constraints>())
+    std::erase_if(constraints->list, [&](const auto& c) { return particles.pinned[c.a] && particles.pinned[c.b]; });
   if (static_cast<int>(particles.pins.size()) == particles.size())
     s.fail("particles", "at least one particle left free");
   if (s.has("motion")) {

@@ -55,8 +55,9 @@ void certify_particles(const Scene& scene, const Readback& r, Writer& w) {
 
 void certify_springs(const Scene& scene, const Readback& r, Writer& w) {
   const auto* springs = scene.model.find<Springs>();
-  const size_t asked = springs ? springs->list.size() : 0;
-  bool same = r.links.size() == asked;
+  const auto* constraints = scene.model.find<Constraints>();
+  const size_t asked = springs ? springs->list.size() : 0, hard = constraints ? constraints->list.size() : 0;
+  bool same = r.links.size() == asked + hard;
   double rest = 0, longest = 0, stiffness = 0;
   bool told = same;
   for (size_t i = 0; same && i < asked; ++i) {
@@ -68,14 +69,30 @@ void certify_springs(const Scene& scene, const Readback& r, Writer& w) {
     told = told && link.stiffness;
     if (link.stiffness) stiffness = worse(stiffness, std::abs(*link.stiffness - s.k) / s.k);
   }
-  w.row("springs", fmt::format("{}", asked), fmt::format("{}, {}", r.links.size(), same ? "same ends" : "other ends"),
+  w.row("springs", fmt::format("{}", asked),
+        fmt::format("{}, {}", r.links.size() - std::min(hard, r.links.size()), same ? "same ends" : "other ends"),
         same);
-  if (!same || asked == 0) return;
+  if (!same) return;
+  if (hard > 0) {
+    bool ends = true;
+    double off = 0, scale = 0;
+    for (size_t i = 0; i < hard; ++i) {
+      const auto& [a, b, length] = constraints->list[i];
+      const Readback::Link& link = r.links[asked + i];
+      ends = ends && link.a == a && link.b == b;
+      off = worse(off, std::abs(link.rest - length));
+      scale = std::max(scale, length);
+    }
+    w.row("hard distances", fmt::format("{}", hard), fmt::format("{}, {}", hard, ends ? "same ends" : "other ends"),
+          ends);
+    w.deviation("their lengths", fmt::format("up to {:.6g} m", scale), off, scale);
+  }
+  if (asked == 0) return;
   w.deviation("rest lengths", fmt::format("up to {:.6g} m", longest), rest, std::max(longest, 1e-300));
-  const auto [soft, hard] = std::minmax_element(springs->list.begin(), springs->list.end(),
-                                                [](const Spring& a, const Spring& b) { return a.k < b.k; });
-  const std::string range =
-      soft->k == hard->k ? fmt::format("{:.6g} N/m", soft->k) : fmt::format("{:.6g} to {:.6g} N/m", soft->k, hard->k);
+  const auto [softest, stiffest] = std::minmax_element(springs->list.begin(), springs->list.end(),
+                                                       [](const Spring& a, const Spring& b) { return a.k < b.k; });
+  const std::string range = softest->k == stiffest->k ? fmt::format("{:.6g} N/m", softest->k)
+                                                      : fmt::format("{:.6g} to {:.6g} N/m", softest->k, stiffest->k);
   if (told) {
     // the inverse of a mapping by powers loses what 1 - kLST loses: k h^2/mu may be 1e-6, and eps / 1e-6 is left
     w.row("stiffness", range, fmt::format("largest deviation {:.2g}", stiffness), stiffness <= 1e-8);

@@ -19,9 +19,10 @@ struct Truth {
 };
 
 /// Exact where the scene has a closed form (bar: round-off, 1e-15 x scene size x (1 + radians turned)); otherwise
-/// converged: rk4 at a half and a quarter of the scene's step, bar = the largest RMS difference of the two over time
-/// (one route only). None where rk4 fails or the bar exceeds a hundredth of the motion. Scenes with contact have none:
-/// what they converge to depends on the contact rule.
+/// converged: rk4 at a quarter of the scene's step (or at
+/// h omega = 0.7 of its fastest vibration, if that is less) and at twice that, bar = the largest RMS difference of the
+/// two over time (one route only). None where rk4 fails or the bar exceeds a hundredth of the motion. Scenes with
+/// contact have none: what they converge to depends on the contact rule.
 std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 
 /// sqrt of the mean over the particles of |a_i - b_i|^2, m.

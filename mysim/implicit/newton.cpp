@@ -29,6 +29,12 @@ CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
 void ImplicitStep::minimise() {
   double value = potential_.value(u_);
   descent_.assign(1, value);
+  // free flight is the better guess where no stiff spring stands in its way
+  trial_.setZero(3, u_.cols());
+  if (const double flown = potential_.value(trial_); flown < value) {
+    u_ = trial_;
+    descent_.push_back(value = flown);
+  }
   for (int step = 0; step < most_newton_steps; ++step) {
     potential_.gradient(u_, g_);
     const double left = largest_column(g_),

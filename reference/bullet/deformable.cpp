@@ -20,6 +20,8 @@ namespace {
 class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
  public:
   DeformableWorld(const Scene& scene, double h) : BodyWorld(scene, h) {
+    if (scene.model.find<Constraints>())
+      throw Unsupported("Bullet's deformable world has springs only, no hard distances");
     solver_.setDeformableSolver(&body_solver_);
     world_ = std::make_unique<btDeformableMultiBodyDynamicsWorld>(&stage_.dispatcher, &stage_.broadphase, &solver_,
                                                                   &stage_.configuration, &body_solver_);
@@ -73,7 +75,7 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
     std::set<double> stiffness;
     if (springs)
       for (const Spring& s : springs->list) stiffness.insert(s.k);
-    shipped_ = stiffness.size() <= 2 && rate && h_ * *rate < 1;
+    shipped_ = (!springs || springs->law == SpringLaw::hooke) && stiffness.size() <= 2 && rate && h_ * *rate < 1;
     NetForce::Parts ours;
     if (shipped_) {
       drag_rate_ = *rate;

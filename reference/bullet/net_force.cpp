@@ -12,7 +12,7 @@ void NetForce::addScaledElasticForce(btScalar scale, TVStack& force) {
     const btVector3 d = a.m_q - b.m_q;
     const btScalar length = d.length();
     if (length == 0) continue;
-    const btVector3 f = d * (-scale * parts_.factor * s.k * (length - s.rest) / length);
+    const btVector3 f = d * (-scale * parts_.factor * tension_of(s, parts_.springs->law, length).force / length);
     force[a.index] += f;
     force[b.index] -= f;
   }

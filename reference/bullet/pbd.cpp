@@ -89,24 +89,23 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
 
  private:
   void set_stiffness() {
-    const auto* springs = scene_.model.find<Springs>();
-    if (!springs) return;
     std::map<double, btSoftBody::Material*> materials;
-    for (size_t l = 0; l < springs->list.size(); ++l) {
-      const Spring& s = springs->list[l];
-      const double kLST = link_stiffness(s.k, pair_mass(scene_.model.particles, s), h_, iterations_);
+    int l = 0;
+    auto set = [&](double kLST) {
       auto& material = materials[kLST];
       if (!material) {
         material = body().appendMaterial();
         material->m_kLST = kLST;
       }
-      body().m_links[static_cast<int>(l)].m_material = material;
-    }
+      body().m_links[l++].m_material = material;
+    };
+    if (const auto* springs = scene_.model.find<Springs>())
+      for (const Spring& s : springs->list)
+        set(link_stiffness(s.k, pair_mass(scene_.model.particles, s), h_, iterations_));
+    if (const auto* constraints = scene_.model.find<Constraints>())
+      for (size_t c = 0; c < constraints->list.size(); ++c) set(1);  // the whole distance in each iteration
     body().updateLinkConstants();
-    // updateLinkConstants keeps rest lengths but not their squares as ours; both are set again
-    for (size_t l = 0; l < springs->list.size(); ++l)
-      body().m_links[static_cast<int>(l)].m_c1 = springs->list[l].rest * springs->list[l].rest;
-    body().m_bUpdateRtCst = false;
+    scene_body_->restore_lengths();
   }
 
   int iterations_;
@@ -120,11 +119,15 @@ Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, int iter
   PbdWorld world(scene, plan(run).h, iterations);
   Outcome out = march(world, run, observer);
   out.evaluations = out.steps;
-  if (scene.model.find<Springs>())
+  if (const auto* springs = scene.model.find<Springs>())
     out.different_law.push_back(
-        "springs: position-based links pull with k L (L^2 - r^2) / (L^2 + r^2), about k (L - r) for small strains, and "
-        "are "
-        "solved like an implicit step, one after the other");
+        fmt::format("springs: position-based links {}are solved like an implicit step, one after the other",
+                    springs->law == SpringLaw::hooke
+                        ? "pull with k L (L^2 - r^2) / (L^2 + r^2), about k (L - r) for small strains, and "
+                        : ""));
+  if (scene.model.find<Constraints>())
+    out.different_law.push_back(
+        "hard distances: each is met at its turn, and spoilt by the next ones; more iterations help");
   if (scene.model.find<Spheres>())
     out.different_law.push_back(
         "friction: a touching node loses a fixed share of its tangential motion in each step, whatever "

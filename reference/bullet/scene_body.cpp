@@ -22,6 +22,9 @@ bool connected(const Model& model) {
   if (const auto* springs = model.find<Springs>())
     for (const Spring& s : springs->list)
       if (const int a = root(s.a), b = root(s.b); a != b) parent[a] = b, --pieces;
+  if (const auto* constraints = model.find<Constraints>())
+    for (const auto& c : constraints->list)
+      if (const int a = root(c.a), b = root(c.b); a != b) parent[a] = b, --pieces;
   return pieces == 1;
 }
 
@@ -82,13 +85,12 @@ SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(sce
   const auto* springs = model.find<Springs>();
   if (springs)
     for (const Spring& s : springs->list) body_->appendLink(node_of_[s.a], node_of_[s.b], body_->m_materials[0]);
+  const auto* constraints = model.find<Constraints>();
+  if (constraints)
+    for (const auto& [a, b, length] : constraints->list)
+      body_->appendLink(node_of_[a], node_of_[b], body_->m_materials[0]);
   body_->updateConstants();
-  if (springs)
-    for (int l = 0; l < body_->m_links.size(); ++l) {
-      const double rest = springs->list[l].rest;
-      body_->m_links[l].m_rl = rest;
-      body_->m_links[l].m_c1 = rest * rest;
-    }
+  restore_lengths();
   if (sphere) body_->initializeFaceTree();
   body_->m_bUpdateRtCst = false;
 
@@ -101,6 +103,19 @@ SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(sce
   body_->getCollisionShape()->setMargin(sphere ? sphere->margin : 10.0);
   body_->m_cfg.kDF = 1;
   body_->setActivationState(DISABLE_DEACTIVATION);
+}
+
+void SceneBody::restore_lengths() {
+  int l = 0;
+  auto set = [&](double length) {
+    body_->m_links[l].m_rl = length;
+    body_->m_links[l++].m_c1 = length * length;
+  };
+  if (const auto* springs = scene_.model.find<Springs>())
+    for (const Spring& s : springs->list) set(s.rest);
+  if (const auto* constraints = scene_.model.find<Constraints>())
+    for (const auto& c : constraints->list) set(c.length);
+  body_->m_bUpdateRtCst = false;
 }
 
 void SceneBody::place_pins(double t) {
@@ -158,20 +173,6 @@ double pair_mass(const Particles& particles, const Spring& spring) {
   const double inverse = (particles.pinned[spring.a] ? 0 : 1 / particles.mass[spring.a]) +
                          (particles.pinned[spring.b] ? 0 : 1 / particles.mass[spring.b]);
   return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
-}
-
-std::optional<double> uniform_drag_rate(const Model& model) {
-  const auto* drag = model.find<Drag>();
-  if (!drag) return 0;
-  std::optional<double> rate;
-  for (int i = 0; i < model.particles.size(); ++i) {
-    if (model.particles.pinned[i]) continue;
-    const double gamma = drag->c[i] / model.particles.mass[i];
-    // masses times gamma over masses: equal but for a few roundings
-    if (rate && std::abs(gamma - *rate) > 4 * std::numeric_limits<double>::epsilon() * *rate) return std::nullopt;
-    if (!rate) rate = gamma;
-  }
-  return rate;
 }
 
 }  // namespace crosscheck::bullet

@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include "mysim/frequency.h"
 #include "mysim/march.h"
 
 namespace crosscheck::bullet {
@@ -45,11 +46,13 @@ class SceneBody {
   btSoftBody& body() { return *body_; }
   int node_of(int particle) const { return node_of_[particle]; }
 
+  /// Writes rest lengths and their squares into the links, springs first, then hard distances: Bullet overwrites them.
+  void restore_lengths();
   /// Writes position and velocity of the pins at time t into the nodes. Bullet's forces read m_q.
   void place_pins(double t);
   /// Positions and velocities in the scene's numbering.
   const State& read_state(double t);
-  /// Masses, pins, links with rest lengths; the world adds what it alone knows.
+  /// Masses, pins, links with rest lengths, springs first; the world adds what it alone knows.
   Readback read_back() const;
 
  private:
@@ -61,9 +64,7 @@ class SceneBody {
 
 /// mu of the pair of ends, 1 / (1/m_a + 1/m_b) with pins of infinite mass, kg; infinite between two pins.
 double pair_mass(const Particles& particles, const Spring& spring);
-/// The one drag rate (1/s) of all free particles, 0 without drag, or nothing when they differ.
 /// The scene's one sphere, or null.
 const Sphere* sphere_of(const Model& model);
-std::optional<double> uniform_drag_rate(const Model& model);
 
 }  // namespace crosscheck::bullet

@@ -5,8 +5,20 @@
 #include <numbers>
 
 #include "reference/exact/oscillator.h"
+#include "reference/exact/recognise.h"
 
 namespace crosscheck {
+
+std::optional<Vec3> steady_acceleration(const Model& model) {
+  Vec3 a = Vec3::Zero();
+  if (const auto* gravity = model.find<Gravity>()) a += gravity->acceleration;
+  if (const auto* wind = model.find<Wind>()) {
+    if (wind->acceleration.gusts) return std::nullopt;
+    a += wind->acceleration.mean;
+  }
+  return a;
+}
+
 namespace {
 
 std::optional<ExactSolution> turning_points(const Scene& scene) {
@@ -23,17 +35,6 @@ std::optional<ExactSolution> turning_points(const Scene& scene) {
       }};
 }
 
-/// The constant acceleration of gravity and steady wind, or nothing when the wind has gusts.
-std::optional<Vec3> steady_acceleration(const Model& model) {
-  Vec3 a = Vec3::Zero();
-  if (const auto* gravity = model.find<Gravity>()) a += gravity->acceleration;
-  if (const auto* wind = model.find<Wind>()) {
-    if (wind->acceleration.gusts) return std::nullopt;
-    a += wind->acceleration.mean;
-  }
-  return a;
-}
-
 /// (z - 1 + exp(-z)) / z^2, by its series where that would cancel; 1/2 without drag.
 double fall(double z) {
   if (z > 0.5) return (z + std::expm1(-z)) / (z * z);
@@ -45,7 +46,7 @@ double fall(double z) {
 std::optional<ExactSolution> projectile(const Scene& scene) {
   const Model& model = scene.model;
   const auto a = steady_acceleration(model);
-  if (model.particles.size() != 1 || model.find<Springs>() || model.find<Spheres>() || !a) return std::nullopt;
+  if (model.particles.size() != 1 || !only<Gravity, Wind, Drag>(model) || !a) return std::nullopt;
   const auto* drag = model.find<Drag>();
   const double gamma = drag ? drag->c[0] / model.particles.mass[0] : 0;
   return ExactSolution{gamma > 0 ? "v(t) = a/gamma + (v0 - a/gamma) exp(-gamma t)" : "x(t) = x0 + v0 t + a t^2 / 2",
@@ -65,8 +66,8 @@ std::optional<ExactSolution> vertical_spring(const Scene& scene) {
   const Model& model = scene.model;
   const auto* springs = model.find<Springs>();
   const auto a = steady_acceleration(model);
-  if (model.particles.size() != 2 || !springs || springs->list.size() != 1 || model.find<Spheres>() || !a ||
-      model.particles.pins.size() != 1 || model.particles.move)
+  if (model.particles.size() != 2 || !springs || springs->list.size() != 1 || !a || springs->law != SpringLaw::hooke ||
+      !only<Springs, Gravity, Wind, Drag>(model) || model.particles.pins.size() != 1 || model.particles.move)
     return std::nullopt;
   const Spring& spring = springs->list[0];
   const int anchor = model.particles.pins[0], free = 1 - anchor;
@@ -94,7 +95,7 @@ std::optional<ExactSolution> vertical_spring(const Scene& scene) {
 }  // namespace
 
 std::optional<ExactSolution> exact_solution(const Scene& scene) {
-  for (const auto recognise : {turning_points, projectile, vertical_spring})
+  for (const auto recognise : {turning_points, projectile, vertical_spring, normal_modes, bounces, slide_over_ball})
     if (auto solution = recognise(scene)) return solution;
   return std::nullopt;
 }

@@ -19,7 +19,10 @@ struct ExactSolution {
 ///   - one mass on one vertical spring (start, velocity and gravity along it, never reaching the anchor), with or
 ///   without
 ///     drag: y = y_eq + e^(-gamma t / 2) (A cos w t + B sin w t), and its critical and overdamped forms;
-///   - one free particle under gravity and steady wind, with or without drag: v = v_inf + (v_0 - v_inf) e^(-gamma t).
+///   - one free particle under gravity and steady wind, with or without drag: v = v_inf + (v_0 - v_inf) e^(-gamma t);
+///   - springs and masses on a line, at least one of them pinned, none of which reaches its neighbour: normal modes;
+///   - particles that fall straight on balls, with restitution: parabolas;
+///   - one particle that slides over a ball from a start with speed, with friction, until it flies off.
 std::optional<ExactSolution> exact_solution(const Scene& scene);
 
 /// Period of a rigid pendulum of length L (m) let go at the angle theta0 (rad), s: 2 pi sqrt(L/g) / agm(1,

@@ -44,7 +44,7 @@ bool equal_rules_differ(const Request& request, const Scene& scene, const Result
            ++k)
         largest = std::max(largest, (a.trajectory.x[k] - b.trajectory.x[k]).colwise().norm().maxCoeff());
       const double growth = perturbation_growth(methods[j], scene, run_of(request, scene).step, scene.window);
-      const std::optional<double> allowed = round_off_bound(scene, growth);
+      const std::optional<double> allowed = round_off_bound(scene, motion_of(a.trajectory), growth);
       const bool over = allowed && largest > *allowed;
       fmt::print("\n{} and {} are the same rule: they differ by {:.3g} m, ", b.method, a.method, largest);
       if (allowed)

@@ -1,0 +1,77 @@
+// Accelerations under hard distances, and rk4 over them.
+#include "reference/multipliers.h"
+
+#include "mysim/errors.h"
+
+namespace crosscheck {
+
+MultiplierWorld::MultiplierWorld(const Scene& scene, double h)
+    : scene_(scene),
+      constraints_(*scene.model.find<Constraints>()),
+      h_(h),
+      s_(scene.start),
+      stage_(scene.start),
+      k_{scene.start, scene.start, scene.start, scene.start},
+      inverse_mass_(3 * scene.model.particles.size()) {
+  const Particles& particles = scene.model.particles;
+  forces_.f = Points::Zero(3, particles.size());
+  for (int i = 0; i < particles.size(); ++i)
+    inverse_mass_.segment<3>(3 * i).setConstant(particles.pinned[i] ? 0 : 1 / particles.mass[i]);
+}
+
+void MultiplierWorld::derivative(const State& stage, State& rate) {
+  const Particles& particles = scene_.model.particles;
+  forces_.clear();
+  for (const Term& term : scene_.model.terms)
+    std::visit(
+        [&]<class T>(const T& t) {
+          if constexpr (HasForce<T>) add_force(t, particles, stage, forces_);
+        },
+        term);
+
+  const int n = static_cast<int>(constraints_.list.size());
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd turning(n);  // |d'|^2
+  for (int row = 0; row < n; ++row) {
+    const auto& [a, b, length] = constraints_.list[row];
+    const Vec3 d = stage.x.col(a) - stage.x.col(b);
+    turning[row] = (stage.v.col(a) - stage.v.col(b)).squaredNorm();
+    for (int axis = 0; axis < 3; ++axis) {
+      entries.emplace_back(row, 3 * a + axis, d[axis]);
+      entries.emplace_back(row, 3 * b + axis, -d[axis]);
+    }
+  }
+  Eigen::SparseMatrix<double> j(n, 3 * particles.size());
+  j.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::VectorXd free = inverse_mass_.cwiseProduct(forces_.f.reshaped());
+  const Eigen::SparseMatrix<double> matrix = j * inverse_mass_.asDiagonal() * j.transpose();
+  factor_.compute(matrix);
+  // a dependent distance leaves a pivot at round-off: 1e-12 of the largest
+  const auto pivots = factor_.vectorD();
+  if (factor_.info() != Eigen::Success || !(pivots.minCoeff() > 1e-12 * pivots.maxCoeff()))
+    throw Unsupported("its hard distances depend on each other: their forces are not unique");
+  const Eigen::VectorXd lambda = factor_.solve(-(j * free) - turning);
+  rate.v.reshaped() = free + inverse_mass_.cwiseProduct(j.transpose() * lambda);
+  rate.x = stage.v;
+}
+
+void MultiplierWorld::step(double t, double t_next) {
+  s_.t = t;
+  constexpr double node[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+  for (int i = 0; i < 4; ++i) {
+    stage_ = s_;
+    stage_.t += node[i] * h_;
+    if (i > 0) {
+      stage_.x += node[i] * h_ * k_[i - 1].x;
+      stage_.v += node[i] * h_ * k_[i - 1].v;
+    }
+    derivative(stage_, k_[i]);
+  }
+  for (int i = 0; i < 4; ++i) {
+    s_.x += weight[i] * h_ * k_[i].x;
+    s_.v += weight[i] * h_ * k_[i].v;
+  }
+  s_.t = t_next;
+}
+
+}  // namespace crosscheck
