@@ -24,12 +24,11 @@ Table ledger_table(const std::string& name) {
           {}};
 }
 
-void add_ledger(Table& table, const std::string& method, const Ledger& ledger) {
-  const bool inferred = ledger.contact_inferred();
-  for (const LedgerRow& row : ledger.rows())
+void add_ledger(Table& table, const std::string& method, const std::vector<LedgerRow>& rows, bool inferred) {
+  for (const LedgerRow& row : rows)
     table.add({method, row.t, row.energy.kinetic, row.energy.elastic, row.energy.gravitational, row.dissipated,
                row.contact, inferred ? 1l : 0l, row.wind, row.pins,
-               inferred ? Cell() : Cell(row.balance() - ledger.rows().front().balance())});
+               inferred ? Cell() : Cell(row.balance() - rows.front().balance())});
 }
 
 void energy_experiment(const Request& request, Progress& progress, Result& result) {
@@ -53,22 +52,22 @@ void energy_experiment(const Request& request, Progress& progress, Result& resul
     Table table = ledger_table(scene.name + "-energy");
     for (const Method& method : methods_of(request, scene)) {
       progress.begin(fmt::format("energy: {} by {}", scene.name, method.name));
-      Ledger ledger(scene.model, method.contact);
-      const Outcome out = run_method(method, scene, run_of(request, scene), {&ledger});
+      const Answer& answer = answer_of(request, scene, method, result);
+      const Outcome& out = answer.outcome;
       if (out.verdict == Verdict::unsupported) continue;
-      const double start = ledger.rows().front().balance();
+      const double start = answer.ledger.front().balance();
       double worst = 0, turned_over = 0;
-      add_ledger(table, method.name, ledger);
-      for (const LedgerRow& row : ledger.rows()) {
+      add_ledger(table, method.name, answer.ledger, answer.contact_inferred);
+      for (const LedgerRow& row : answer.ledger) {
         worst = std::max(worst, std::abs(row.balance() - start));
         turned_over = std::max({turned_over, row.energy.kinetic,
-                                std::abs(row.energy.gravitational - ledger.rows()[0].energy.gravitational)});
+                                std::abs(row.energy.gravitational - answer.ledger[0].energy.gravitational)});
       }
       const bool ok = out.verdict == Verdict::ok;
-      const bool claimed = ok && !ledger.contact_inferred();
+      const bool claimed = ok && !answer.contact_inferred;
       summary.add({scene.name, method.name, std::string(name_of(out.verdict)), out.end, turned_over,
                    claimed ? Cell(worst) : Cell(), claimed && turned_over > 0 ? Cell(worst / turned_over) : Cell(),
-                   ledger.contact_inferred() ? 1l : 0l});
+                   answer.contact_inferred ? 1l : 0l});
     }
     result.tables.push_back(std::move(table));
   }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
+#include "mysim/frequency.h"
 
 namespace crosscheck {
 namespace {
@@ -25,6 +27,16 @@ Cell largest(const Table& table, size_t from, const std::string& column, double 
 template <class T>
 Cell cell_of(const std::optional<T>& value) {
   return value ? Cell(static_cast<double>(*value)) : Cell();
+}
+
+/// The largest stable step of the method's rule for the scene's fastest vibration at the start, s; empty where the rule
+/// has none, chooses its own steps, or the particles' drag rates differ.
+Cell predicted_limit(const Method& method, const Scene& scene, double omega) {
+  const auto gamma = uniform_drag_rate(scene.model);
+  for (const Stepper& rule : steppers())
+    if (rule.name == method.rule && !rule.adaptive && omega > 0 && gamma)
+      if (const double limit = rule.limit(omega, *gamma); std::isfinite(limit)) return limit;
+  return {};
 }
 
 }  // namespace
@@ -51,6 +63,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                  {"largest difference of centres", "m"},
                  {"smallest clearance", "m"},
                  {"creep at end", "m/s"},
+                 {"predicted step limit", "s"},
                  {"different law", "1"}},
                 {}};
   Table cost{"engines-cost",
@@ -69,18 +82,18 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                  {"creep", "m/s"}},
                 {}};
     const auto truth = truth_of(scene, run);
-    Recorder reference;
     // differences from a run that failed would tell nothing
-    if (run_method(find_method(reference_rule), scene, run, {&reference}).verdict != Verdict::ok)
-      reference.trajectory = {};
-    const Method probe = find_method(scene.model.first_order() ? scene.method : reference_rule);
+    const Answer& by_rule = answer_of(request, scene, find_method(reference_rule), result);
+    const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
+    const Method probe = find_method(reference.frames() > 0 ? reference_rule : scene.method);
     const double growth = perturbation_growth(probe, scene, run.step, scene.window);
-    const double motion = motion_of(truth ? truth->trajectory : reference.trajectory);
+    const double omega = scene.model.first_order() ? 0 : fastest_frequency(scene.model, scene.start);
+    const double motion = motion_of(truth ? truth->trajectory : reference);
 
     for (const Method& method : methods_of(request, scene)) {
       progress.begin(fmt::format("engines: {} by {}", scene.name, method.name));
-      Recorder recorder;
-      Outcome out = run_method(method, scene, run, {&recorder});
+      Answer& answer = answer_of(request, scene, method, result);
+      Outcome& out = answer.outcome;
       if (out.verdict != Verdict::unsupported && !method.stepper) {
         result.certificates.push_back(certify(method.name, scene, out));
         if (result.certificates.back().mismatch()) {
@@ -89,20 +102,19 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
           out.reason = "it built another scene, see its parity certificate";
         }
       }
-      if (out.verdict == Verdict::unsupported) recorder.trajectory = {};
-      const Trajectory& path = recorder.trajectory;
+      if (out.verdict == Verdict::unsupported) answer.trajectory = {};
+      const Trajectory& path = answer.trajectory;
       const bool unsupported = out.verdict == Verdict::unsupported;
       const size_t first_row = table.rows.size();
       double lowest = 1e300;
       for (int i = 0; i < path.frames() && !unsupported; ++i) {
-        const bool both = i < reference.trajectory.frames() && reference.trajectory.x[i].cols() == path.x[i].cols();
+        const bool both = i < reference.frames() && reference.x[i].cols() == path.x[i].cols();
         const auto gap = clearance(scene, path.t[i], path.x[i]);
         if (gap) lowest = std::min(lowest, *gap);
         table.add(
             {method.name, path.t[i], truth ? Cell(rms_distance(path.x[i], truth->trajectory.x[i])) : Cell(),
-             both ? Cell(rms_distance(path.x[i], reference.trajectory.x[i])) : Cell(),
-             both ? Cell((centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.trajectory.x[i])).norm())
-                  : Cell(),
+             both ? Cell(rms_distance(path.x[i], reference.x[i])) : Cell(),
+             both ? Cell((centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.x[i])).norm()) : Cell(),
              cell_of(gap), cell_of(creep(scene, path.t[i], path.x[i], path.v[i]))});
       }
       std::string laws;
@@ -128,12 +140,12 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                    ok ? largest(table, first_row, "difference of centres", scene.duration) : Cell(),
                    ok && lowest < 1e300 ? Cell(lowest) : Cell(),
                    ok && path.frames() ? cell_of(creep(scene, path.t.back(), path.x.back(), path.v.back())) : Cell(),
+                   predicted_limit(method, scene, omega),
                    laws});
       if (!unsupported)
         cost.add({scene.name, method.name, out.cpu_seconds,
                   out.steps ? Cell(out.cpu_seconds / static_cast<double>(out.steps)) : Cell(),
                   out.cpu_seconds > 0 ? Cell(out.end / out.cpu_seconds) : Cell()});
-      result.answers.push_back({scene.name, method.name, std::move(out), std::move(recorder.trajectory)});
     }
     result.tables.push_back(std::move(table));
   }

@@ -50,6 +50,21 @@ Run run_of(const Request& request, const Scene& scene) {
   return run;
 }
 
+Answer& answer_of(const Request& request, const Scene& scene, const Method& method, Result& result) {
+  for (Answer& a : result.answers)
+    if (a.scene == scene.name && a.method == method.name) return a;
+  Recorder recorder;
+  std::vector<Observer*> observers{&recorder};
+  Ledger ledger(scene.model, method.contact);
+  if (!scene.model.first_order()) observers.push_back(&ledger);
+  Outcome out = run_method(method, scene, run_of(request, scene), observers);
+  const bool unsupported = out.verdict == Verdict::unsupported;  // found out during the run, perhaps
+  if (unsupported) recorder.trajectory = {};
+  return result.answers.emplace_back(Answer{scene.name, method.name, std::move(out), std::move(recorder.trajectory),
+                                            unsupported ? std::vector<LedgerRow>() : ledger.rows(),
+                                            ledger.contact_inferred()});
+}
+
 const Table* Result::table(const std::string& name) const {
   for (const Table& t : tables)
     if (t.name == name) return &t;

@@ -1,6 +1,7 @@
 // Experiments: drivers that run methods over scenes and write tables. The table of them is in experiment.cpp.
 #pragma once
 
+#include <deque>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,16 +23,18 @@ struct Request {
   double step = 0;              // s, of all fixed-step methods; 0: each scene's own
 };
 
-/// One method's answer to one scene, kept for pictures and certificates.
+/// One method's answer to one scene at the request's step, kept: experiments and pictures look at the same run.
 struct Answer {
   std::string scene, method;
   Outcome outcome;
   Trajectory trajectory;
+  std::vector<LedgerRow> ledger;  // empty in first-order scenes and where unsupported
+  bool contact_inferred = false;
 };
 
 struct Result {
   std::vector<Table> tables;
-  std::vector<Answer> answers;
+  std::deque<Answer> answers;  // a deque: references stay valid
   std::vector<Certificate> certificates;
   std::vector<std::string> notes;  // what was left out and why, for people
 
@@ -56,10 +59,13 @@ const Experiment& find_experiment(const std::string& name);
 /// also the assignment's sticky sphere, to be seen failing beside them.
 std::vector<Method> methods_of(const Request& request, const Scene& scene);
 
+/// The method's answer to the scene, from the result or by running it now.
+Answer& answer_of(const Request& request, const Scene& scene, const Method& method, Result& result);
+
 /// The ledger of one run as rows of (method, t, energies, losses, work, balance error); the last is empty where the
 /// contact loss was inferred, as no closure is claimed there.
 Table ledger_table(const std::string& name);
-void add_ledger(Table& table, const std::string& method, const Ledger& ledger);
+void add_ledger(Table& table, const std::string& method, const std::vector<LedgerRow>& rows, bool contact_inferred);
 
 /// A run of the scene at the request's step.
 Run run_of(const Request& request, const Scene& scene);

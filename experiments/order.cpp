@@ -67,6 +67,7 @@ void order_experiment(const Request& request, Progress& progress, Result& result
                 {"from step", "s"},
                 {"to step", "s"}},
                {}};
+  std::string adaptive;  // left out, said once
   const int halvings = request.full ? 9 : 7;
   for (const Scene& scene : request.scenes) {
     progress.begin("order: " + scene.name);
@@ -83,13 +84,18 @@ void order_experiment(const Request& request, Progress& progress, Result& result
     const double motion = motion_of(truth->trajectory);
     for (const Method& method : methods_of(request, scene)) {
       if (!method.stepper || method.name.find('+') != std::string::npos) continue;
+      if (method.stepper->adaptive) {
+        adaptive = method.name;
+        continue;
+      }
       std::vector<Point> good;
+      bool takes_it = true;
       for (int i = 0; i < halvings; ++i) {
         Run run = base;
         run.step = 4 * base.step / (1 << i);
         Recorder recorder;
         const Outcome out = run_method(method, scene, run, {&recorder});
-        if (out.verdict == Verdict::unsupported) break;
+        if (!(takes_it = out.verdict != Verdict::unsupported)) break;
         const double error = error_against(recorder.trajectory, *truth);
         const bool ok = out.verdict == Verdict::ok;
         points.add({scene.name, method.name, out.step, ok ? Cell(error) : Cell(), truth->bar, out.evaluations,
@@ -97,12 +103,15 @@ void order_experiment(const Request& request, Progress& progress, Result& result
         // below 30 truth bars the bar, and below round-off the round-off, bends the slope by more than 0.05
         if (ok && error > 30 * truth->bar && error < 0.1 * motion) good.push_back({out.step, error});
       }
+      if (!takes_it) continue;
       if (const auto fit = asymptotic_order(good))
         slopes.add({scene.name, method.name, static_cast<long>(method.stepper->order), fit->order, fit->from, fit->to});
       else
         result.notes.push_back(fmt::format("order sees no steady slope of {} on {}", method.name, scene.name));
     }
   }
+  if (!adaptive.empty())
+    result.notes.push_back(fmt::format("order leaves out {}: its steps follow a tolerance", adaptive));
   result.tables.push_back(std::move(points));
   result.tables.push_back(std::move(slopes));
 }

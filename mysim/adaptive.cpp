@@ -79,13 +79,14 @@ void AdaptiveWorld::step(double, double t_next) {
       if (contacts_.resolve(s_)) pair_.forget();
     }
   }
-  if (contacts_.any()) {
-    seen_ = s_;
-  } else {
-    pair_.interpolate(before_, last_h_, (t_next - before_.t) / last_h_, seen_);
-    seen_.t = t_next;
-  }
-  if (!scene_.model.first_order()) particles.place_pins(seen_);
+}
+
+const State& AdaptiveWorld::state(double t) {
+  if (contacts_.any() || accepted_ == 0) return s_;
+  pair_.interpolate(before_, last_h_, (t - before_.t) / last_h_, seen_);
+  seen_.t = t;
+  if (!scene_.model.first_order()) scene_.model.particles.place_pins(seen_);
+  return seen_;
 }
 
 }  // namespace crosscheck

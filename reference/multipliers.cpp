@@ -45,7 +45,8 @@ void MultiplierWorld::derivative(const State& stage, State& rate) {
   j.setFromTriplets(entries.begin(), entries.end());
   const Eigen::VectorXd free = inverse_mass_.cwiseProduct(forces_.f.reshaped());
   const Eigen::SparseMatrix<double> matrix = j * inverse_mass_.asDiagonal() * j.transpose();
-  factor_.compute(matrix);
+  if (factor_.rows() == 0) factor_.analyzePattern(matrix);  // who meets whom never changes
+  factor_.factorize(matrix);
   // a dependent distance leaves a pivot at round-off: 1e-12 of the largest
   const auto pivots = factor_.vectorD();
   if (factor_.info() != Eigen::Success || !(pivots.minCoeff() > 1e-12 * pivots.maxCoeff()))

@@ -19,7 +19,7 @@ struct Truth {
 };
 
 /// Exact where the scene has a closed form (bar: round-off, 1e-15 x scene size x (1 + radians turned)); otherwise
-/// converged: rk4 at a quarter of the scene's step (or at
+/// converged: rk4 at a quarter of the scene's step (a sixteenth below 50 particles; at
 /// h omega = 0.7 of its fastest vibration, if that is less) and at twice that, bar = the largest RMS difference of the
 /// two over time (one route only). None where rk4 fails or the bar exceeds a hundredth of the motion. Scenes with
 /// contact have none: what they converge to depends on the contact rule.

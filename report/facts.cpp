@@ -63,6 +63,7 @@ SceneFacts facts_of(const std::string& scene, const Result& result) {
     m.centres = number(engines.at(i, "largest difference of centres"));
     m.clearance = number(engines.at(i, "smallest clearance"));
     m.creep = number(engines.at(i, "creep at end"));
+    m.limit = number(engines.at(i, "predicted step limit"));
     facts.methods.push_back(std::move(m));
   }
   for (MethodFacts& m : facts.methods) {

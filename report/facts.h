@@ -19,8 +19,11 @@ struct MethodFacts {
   std::optional<double> clearance, creep;   // m, m/s
   std::optional<double> cpu, cpu_per_step;  // s
   std::optional<double> energy_error;       // relative
+  std::optional<double> limit;              // s, largest stable step by theory, for the scene's fastest vibration
   bool supported() const { return verdict != "unsupported"; }
   bool ok() const { return verdict == "ok"; }
+  /// "blew up" or "solver gave up", of a run that failed.
+  const char* failure() const { return verdict == "solver" ? "solver gave up" : "blew up"; }
 };
 
 struct SceneFacts {

@@ -62,6 +62,22 @@ std::string element(const Figure& f, const std::string& curve, const std::string
                      single_quoted(id_of(curve)), with, single_quoted(title));
 }
 
+/// True when a curve of that colour is drawn, and so named in the key.
+bool in_key(const Figure& f, const std::string& colour) {
+  return std::any_of(f.curves.begin(), f.curves.end(),
+                     [&](const Curve& c) { return !c.points.empty() && c.style.colour == colour; });
+}
+
+/// Room that the key needs below the plot beyond three rows of three, in parts of the figure's height.
+double key_room(const Figure& f) {
+  std::set<std::string> entries;
+  for (const Curve& c : f.curves)
+    if (!c.points.empty()) entries.insert(c.title);
+  for (const FailureMark& m : f.failures) entries.insert(in_key(f, m.style.colour) ? "failed" : m.title);
+  const int rows = (static_cast<int>(entries.size()) + (f.floor ? 1 : 0) + 2) / 3;
+  return 0.036 * std::max(0, rows - 3);
+}
+
 std::string plot_command(const Figure& f) {
   std::vector<std::string> parts;
   for (const Curve& c : f.curves) {
@@ -73,11 +89,19 @@ std::string plot_command(const Figure& f) {
                                    : "points " + look + " lw 2",
                             c.title));
   }
-  std::set<std::string> marked;  // one element, and one line in the key, for all crosses of a name
-  for (const FailureMark& m : f.failures)
-    if (marked.insert(m.title).second)
-      parts.push_back(element(f, "failed: " + m.title,
-                              fmt::format("points lc rgb \"{}\" pt 2 ps 1.5 lw 3", m.style.colour), m.title));
+  // crosses stand in the colour of their method: where its curve is in the key they need no line of their own
+  std::set<std::string> marked;
+  bool silent = false;
+  for (const FailureMark& m : f.failures) {
+    if (!marked.insert(m.title).second) continue;
+    const bool known = in_key(f, m.style.colour);
+    silent |= known;
+    parts.push_back(element(f, "failed: " + m.title,
+                            fmt::format("points lc rgb \"{}\" pt 2 ps 1.5 lw 3", m.style.colour),
+                            known ? "" : m.title));
+  }
+  if (silent)
+    parts.push_back("keyentry with points lc rgb \"#777777\" pt 2 ps 1.5 lw 3 title 'failed (in its colour)'");
   if (f.floor)
     parts.push_back(fmt::format("{:.6g} with lines lc rgb \"#999999\" lw 1.5 dt (2,3) title {}", f.floor->second,
                                 single_quoted(f.floor->first)));
@@ -124,15 +148,17 @@ std::string script_of(const Figure& f) {
   std::string svg_name = f.name;  // gnuplot takes letters, digits and _ only
   for (char& c : svg_name)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  out += fmt::format("set term svg size 680,500 dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}\n",
-                     single_quoted(svg_name));
+  const double tall = 1 + key_room(f);
+  out += fmt::format("set term svg size 680,{:.0f} dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}\n",
+                     500 * tall, single_quoted(svg_name));
   out += fmt::format("set output {}\n{}", single_quoted(f.name + ".svg"), plot_command(f));
-  out += fmt::format("set term pdfcairo size 17cm,12.5cm font \"DejaVu Sans,11\"\nset output {}\nreplot\n",
-                     single_quoted(f.name + ".pdf"));
+  out += fmt::format("set term pdfcairo size 17cm,{:.4g}cm font \"DejaVu Sans,11\"\nset output {}\nreplot\n",
+                     12.5 * tall, single_quoted(f.name + ".pdf"));
   out += fmt::format(
-      "set term pngcairo size 1360,1000 font \"DejaVu Sans,12\" fontscale 1.6 linewidth 1.7 pointscale 1.6\nset output "
+      "set term pngcairo size 1360,{:.0f} font \"DejaVu Sans,12\" fontscale 1.6 linewidth 1.7 pointscale 1.6\nset "
+      "output "
       "{}\nreplot\nset output\n",
-      single_quoted(f.name + ".png"));
+      1000 * tall, single_quoted(f.name + ".png"));
   return out;
 }
 
@@ -165,6 +191,11 @@ MethodStyle style_of(const std::string& method) {
       {"mysim/explicit-euler", {"#CC79A7", "(10,3,2,3)", 15}},
       {"bullet/deformable-explicit", {"#D55E00", "(14,4)", 5}},
       {"bullet/pbd", {"#7A3B00", "(4,2)", 4}},
+      {"mysim/suzuki4", {"#332288", "(12,3,3,3)", 12}},
+      {"mysim/dopri5", {"#999933", "(3,2)", 6}},
+      {"mysim/implicit-euler", {"#882255", "(18,3)", 14}},
+      {"mysim/implicit-midpoint", {"#CC6677", "(8,2,2,2)", 2}},
+      {"mysim/xpbd", {"#000000", "(5,4)", 1}},
       {"mysim/symplectic-euler+sticky", {"#666666", "(3,3)", 8}},
   };
   for (const Row& row : table)

@@ -87,12 +87,28 @@ void accuracy(const Scene& scene, const SceneFacts& facts, std::vector<Finding>&
 }
 
 void failures(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
-  std::vector<std::string> failed;
-  for (const MethodFacts& m : facts.methods)
-    if (m.supported() && !m.ok()) failed.push_back(fmt::format("{} at {:.3g} s", m.method, m.end));
-  if (!failed.empty())
-    out.push_back({scene.name, "failure",
-                   fmt::format("At a step of {:.3g} s these blew up: {}.", scene.step, joined(failed)), "measured"});
+  std::vector<std::string> failed, held, limits;
+  for (const MethodFacts& m : facts.methods) {
+    if (!m.supported()) continue;
+    if (m.ok()) held.push_back(m.method);
+    if (m.ok()) continue;
+    std::string text = fmt::format("{} at {:.3g} s", m.method, m.end);
+    if (m.limit && *m.limit < m.step) {
+      const std::string limit = *m.limit > 0 ? fmt::format("up to a step of {} s", nice(*m.limit)) : "at no step";
+      text += fmt::format(" (stable {} by theory)", limit);
+      limits.push_back(fmt::format("{} {}", m.method, limit));
+    }
+    failed.push_back(text);
+  }
+  if (failed.empty()) return;
+  // a long list of names tells less than who is left
+  const std::string sentence =
+      failed.size() <= 3 || held.empty()
+          ? fmt::format("At a step of {:.3g} s these failed: {}.", scene.step, joined(failed))
+          : fmt::format("At a step of {:.3g} s {} of {} methods failed; {} came to the end.{}", scene.step,
+                        failed.size(), failed.size() + held.size(), joined(held),
+                        limits.empty() ? "" : " By theory the others are stable: " + joined(limits) + ".");
+  out.push_back({scene.name, "failure", sentence, "measured"});
 }
 
 /// "0.36 mm inside the contact surface"; what is within round-off of the surface is on it.
@@ -116,11 +132,11 @@ void contact(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& 
 
 void sticky(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
   const MethodFacts* m = facts.find("mysim/symplectic-euler+sticky");
-  if (!m || !m->ok() || !m->centres || !facts.touched()) return;
+  if (!m || !m->ok() || !m->centres || !facts.touched() || *m->centres < 10 * scene.tolerance) return;
   out.push_back({scene.name, "failure",
-                 fmt::format("The assignment's sticky sphere, kept for comparison, freezes the cloth where it touches: "
-                             "its centre of mass "
-                             "is up to {} away from where the cloth slides to.",
+                 fmt::format("The assignment's sticky sphere, kept for comparison, freezes what touches it: "
+                             "the centre of mass "
+                             "is up to {} away from where it moves otherwise.",
                              nice_length(*m->centres)),
                  "another engine"});
 }

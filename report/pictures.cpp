@@ -159,7 +159,10 @@ render::View view_of(const Scene& scene, const std::vector<Points>& shown, const
 
 std::string time_text(const Answer& answer, int frame) {
   const std::string t = fmt::format("t = {:.3g} s", answer.trajectory.t[frame]);
-  return answer.outcome.verdict == Verdict::ok ? t : fmt::format("{}, blew up at {:.3g} s", t, answer.outcome.end);
+  return answer.outcome.verdict == Verdict::ok
+             ? t
+             : fmt::format("{}, {} at {:.3g} s", t, answer.outcome.verdict == Verdict::solver ? "gave up" : "blew up",
+                           answer.outcome.end);
 }
 
 std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Shot& shot) {
@@ -185,9 +188,12 @@ Mode mode_named(const std::string& name) {
 
 std::vector<std::string> pictured_methods(const Scene& scene) {
   if (scene.model.first_order()) return {"mysim/explicit-euler", "mysim/trapezoidal", "mysim/rk4"};
-  if (scene.model.find<Spheres>())
-    return {"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd", "mysim/symplectic-euler+sticky"};
-  return {"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd"};
+  if (scene.model.find<Constraints>()) return {"mysim/xpbd", "bullet/pbd"};
+  std::vector<std::string> names{"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd"};
+  if (scene.method.find("implicit") != std::string::npos)
+    names = {scene.method, "mysim/xpbd", "mysim/symplectic-euler"};
+  if (scene.model.find<Spheres>()) names.push_back("mysim/symplectic-euler+sticky");
+  return names;
 }
 
 render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>& answers, const Shot& shot) {

@@ -32,12 +32,13 @@ Figure balance_figure(const Scene& scene, const SceneFacts& facts, const Table& 
         curve.points.emplace_back(t, y);
         lowest = std::min(lowest, y);
       }
-    if (!m.ok()) f.failures.push_back({m.method + ": blew up", style_of(m.method), m.end, 3});
+    if (!m.ok()) f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), m.end, 3});
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   f.finding =
-      "Kinetic, elastic and gravitational energy plus what drag took, less what wind and moved pins gave: its change "
+      "Kinetic, elastic and gravitational energy plus what drag and dashpots took, less what wind and moved pins gave: "
+      "its change "
       "should be zero.";
   return f;
 }
@@ -57,7 +58,8 @@ Figure contact_figure(const Scene& scene, const SceneFacts& facts, const Table& 
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.finding =
-      "What contact took: mysim reports it; for Bullet it is inferred as what is missing from the balance, so no "
+      "What contact took, less what moving balls gave: mysim reports it; for Bullet it is inferred as what is missing "
+      "from the balance, so no "
       "closure is claimed.";
   return f;
 }

@@ -28,7 +28,7 @@ std::vector<Chart> error_charts(const ChartInput& input) {
       for (const auto& [t, error] : points_of(*table, m.method, "error", true))
         if (error < top) curve.points.emplace_back(t, std::max(error, facts.bar));  // below the bar nothing is known
       if (!m.ok()) {
-        f.failures.push_back({m.method + ": blew up", style_of(m.method), m.end,
+        f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), m.end,
                               curve.points.empty() ? top / 3 : std::min(top / 3, curve.points.back().second * 3)});
         failed.push_back(m.method);
       }
@@ -36,7 +36,7 @@ std::vector<Chart> error_charts(const ChartInput& input) {
     }
     f.floor = {"error bar of the truth", facts.bar};
     f.finding = fmt::format("Errors of {} methods over {:.3g} s{}.", f.curves.size(), scene.duration,
-                            failed.empty() ? "" : fmt::format("; blew up: {}", failed.size()));
+                            failed.empty() ? "" : fmt::format("; failed: {}", failed.size()));
     if (f.curves.empty() && f.failures.empty()) continue;
     charts.push_back({scene.name, std::move(f)});
   }

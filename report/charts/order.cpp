@@ -41,8 +41,8 @@ std::vector<Chart> order_charts(const ChartInput& input) {
         if (const auto* error = std::get_if<double>(&points->at(row, "error"))) {
           if (*error > input.facts[i].bar) curve.points.emplace_back(step, *error);
         } else
-          f.failures.push_back(
-              {m.method.substr(m.method.find('/') + 1) + ": blew up", style_of(m.method), step, 10 * scene.size()});
+          f.failures.push_back({m.method.substr(m.method.find('/') + 1) + ": " + m.failure(), style_of(m.method), step,
+                                10 * scene.size()});
       }
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }

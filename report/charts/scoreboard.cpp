@@ -18,7 +18,9 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
   for (const SceneFacts& scene : input.facts) {
     if (scene.tier.empty() || !(scene.motion > 0)) continue;
     f.categories.emplace_back(x, scene.scene);
-    double shift = -0.3;  // side by side, so that equal errors stay apart
+    // side by side, so that equal errors stay apart
+    const double apart = 0.7 / static_cast<double>(std::max<size_t>(1, scene.methods.size()));
+    double shift = -0.35;
     for (const MethodFacts& m : scene.methods) {
       auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == m.method; });
       if (curve == f.curves.end())
@@ -28,9 +30,9 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
         curve->points.emplace_back(x + shift, y);
         lowest = std::min(lowest, y);
       } else if (m.supported() && !m.ok()) {
-        f.failures.push_back({m.method + ": blew up", style_of(m.method), x + shift, 3});
+        f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), x + shift, 3});
       }
-      shift += 0.1;
+      shift += apart;
     }
     x += 1;
   }
@@ -39,7 +41,7 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   f.caption = "All scenes with a known truth; errors below a truth's error bar are drawn at the bar; commit " +
               input.commit + ".";
-  f.finding = fmt::format("Error of {} methods on {} scenes in parts of the motion; runs that blew up: {}.",
+  f.finding = fmt::format("Error of {} methods on {} scenes in parts of the motion; runs that failed: {}.",
                           f.curves.size(), f.categories.size(), f.failures.size());
   return {{"", std::move(f)}};
 }

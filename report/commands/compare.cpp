@@ -29,13 +29,14 @@ std::string shown(const Cell& cell) {
 }
 
 /// Prints what the same rules differ by; true when one differs by more than allowed.
-bool equal_rules_differ(const Request& request, const Scene& scene, const Result& result) {
+bool equal_rules_differ(const Request& request, const Scene& scene, Result& result) {
   const std::vector<Method> methods = methods_of(request, scene);
   bool differ = false;
   for (size_t i = 0; i < methods.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
       const std::string& rule = methods[i].rule;
-      const Answer &a = result.answers[i], &b = result.answers[j];
+      const Answer &a = answer_of(request, scene, methods[i], result),
+                   &b = answer_of(request, scene, methods[j], result);
       if (rule.empty() || rule != methods[j].rule || methods[i].name == methods[j].name) continue;
       if (a.outcome.verdict != Verdict::ok || b.outcome.verdict != Verdict::ok || scene.model.find<Spheres>()) continue;
       double largest = 0;

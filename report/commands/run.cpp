@@ -69,7 +69,7 @@ int run_command(const RunOptions& options) {
   if (!scene.model.first_order()) {
     write_file(options.out / "velocities.npy", npy_bytes(path.v));
     Table energy = ledger_table("energy");
-    add_ledger(energy, method.name, ledger);
+    add_ledger(energy, method.name, ledger.rows(), ledger.contact_inferred());
     write_csv(energy, with_scenes(provenance(options.command_line), {scene}), options.out);
   }
   write_file(options.out / "run.json", run_json(scene, method, out, path));

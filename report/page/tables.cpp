@@ -24,7 +24,7 @@ std::string verdict_cell(const MethodFacts& m) {
   const std::string what = m.verdict == "energy" ? "energy from nothing"
                            : m.verdict == "nan"  ? "not a number"
                                                  : m.verdict;
-  return fmt::format("<td class=\"failed\" title=\"{}\">blew up at {:.3g} s</td>", what, m.end);
+  return fmt::format("<td class=\"failed\" title=\"{}\">{} at {:.3g} s</td>", what, m.failure(), m.end);
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ std::string scene_table_html(const std::vector<ScenePart>& scenes) {
   std::string out =
       "<div class=\"scroll\"><table class=\"scenes\"><thead><tr><th>scene</th><th>what was asked</th><th>Bullet's "
       "explicit world and mysim, "
-      "same rule</th><th>Bullet's position-based world</th><th>nearest to the truth</th><th>blew up</th><th>CPU per "
+      "same rule</th><th>Bullet's position-based world</th><th>nearest to the truth</th><th>failed</th><th>CPU per "
       "step, Bullet / "
       "mysim</th></tr></thead><tbody>\n";
   for (const ScenePart& part : scenes) {
