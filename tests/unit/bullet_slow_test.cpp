@@ -89,8 +89,8 @@ TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {
     mean_apart =
         std::max(mean_apart,
                  (centre_of_mass(scene, ours.trajectory.x[i]) - centre_of_mass(scene, theirs.trajectory.x[i])).norm());
-    closest = std::min(closest, *clearance(scene, theirs.trajectory.x[i]));
-    EXPECT_GE(*clearance(scene, ours.trajectory.x[i]), -1e-13);  // round-off of the radius
+    closest = std::min(closest, *clearance(scene, theirs.trajectory.t[i], theirs.trajectory.x[i]));
+    EXPECT_GE(*clearance(scene, ours.trajectory.t[i], ours.trajectory.x[i]), -1e-13);  // round-off of the radius
   }
   fmt::print("cloth-sphere: touch {:.3g} s, rms {:.3g} m, centre of mass {:.3g} m, clearance {:.3g} m\n", touch.time,
              rms, mean_apart, closest);

@@ -8,16 +8,6 @@ namespace {
 
 using namespace testing_tools;
 
-/// Largest deviation of the balance from its start, J.
-double imbalance(const Stepper& s, const Scene& scene, const Run& run) {
-  Ledger ledger(scene.model, ContactLoss::reported);
-  simulate(s, ContactRule::coulomb, scene, run, ledger);
-  double worst = 0;
-  for (const LedgerRow& row : ledger.rows())
-    worst = std::max(worst, std::abs(row.balance() - ledger.rows()[0].balance()));
-  return worst;
-}
-
 TEST(LedgerOfShippedScenes, ClosesToTheOrderOfTheStepperWithoutContact) {
   for (const auto name : {"pendulum", "chain", "cloth-swing", "cloth-wind"}) {
     const Scene scene = load_scene(name);

@@ -38,16 +38,6 @@ TEST(Integral, HasOrderFourOnSmoothCurves) {
   EXPECT_NEAR(slope(error(40), error(80)), 4, 0.15);  // the next term is h = 0.05 of the leading one
 }
 
-/// Largest deviation of the balance from its start, J.
-double imbalance(const Stepper& s, const Scene& scene, const Run& run) {
-  Ledger ledger(scene.model, ContactLoss::reported);
-  simulate(s, ContactRule::coulomb, scene, run, ledger);
-  double worst = 0;
-  for (const LedgerRow& row : ledger.rows())
-    worst = std::max(worst, std::abs(row.balance() - ledger.rows()[0].balance()));
-  return worst;
-}
-
 TEST(Ledger, ClosesToTheOrderOfTheStepperUnderDragWindAndMovedPins) {
   const Scene scene = small_cloth();
   for (const Stepper& s : steppers()) {

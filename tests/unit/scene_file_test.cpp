@@ -99,7 +99,7 @@ TEST(SceneFile, WholeSceneIsRead) {
   EXPECT_EQ(s.model.terms.size(), 5u);  // springs, gravity, drag, wind, sphere
   ASSERT_TRUE(s.model.particles.move && s.camera);
   EXPECT_EQ(s.model.particles.move->amplitude, Vec3(0, 0, 0.1));
-  EXPECT_EQ(s.model.find<Sphere>()->contact_radius(), 1.02);
+  EXPECT_EQ(s.model.find<Spheres>()->list.at(0).contact_radius(), 1.02);
   EXPECT_EQ(s.start.v.col(13), Vec3(1, 0, 0));
   EXPECT_EQ(s.model.find<Springs>()->list.back().rest, 0.5);
 }

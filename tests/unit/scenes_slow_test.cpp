@@ -45,9 +45,9 @@ std::vector<Removal> removals(const Scene& whole) {
     less.model.find<Wind>()->gusts.reset();
     list.push_back({"gusts", std::move(less)});
   }
-  if (const auto* sphere = whole.model.find<Sphere>(); sphere && sphere->friction > 0) {
+  if (const auto* spheres = whole.model.find<Spheres>(); spheres && spheres->list[0].friction > 0) {
     Scene less = whole;
-    less.model.find<Sphere>()->friction = 0;
+    for (Sphere& sphere : less.model.find<Spheres>()->list) sphere.friction = 0;
     list.push_back({"friction", std::move(less)});
   }
   return list;

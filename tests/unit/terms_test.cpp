@@ -149,20 +149,20 @@ TEST(Terms, DragTakesPowerAndIsLinear) {
   }
 }
 
-Wind gusty(int seed) { return {{3, 0, 1}, Wind::Gusts{0.8, {0, 2, 0}, seed, Gust(seed, 1), Gust(seed, 2)}}; }
+Blowing gusty(int seed) { return {{3, 0, 1}, Blowing::Gusts{0.8, {0, 2, 0}, seed, Gust(seed, 1), Gust(seed, 2)}}; }
 
 TEST(Wind, IsSeededBoundedAndSmooth) {
-  const Wind wind = gusty(7), same = gusty(7), other = gusty(8);
+  const Blowing wind = gusty(7), same = gusty(7), other = gusty(8);
   const double bound = 0.8 * wind.mean.norm() + 2;    // variation times mean, plus side: gusts lie between -1 and 1
   const double fastest = 2 * std::numbers::pi * 1.2;  // rad/s, of the waves
   double difference = 0;
   for (int i = 0; i < 4000; ++i) {
     const double t = 0.005 * i, dt = 1e-4;
-    const Vec3 a = acceleration_at(wind, t);
-    EXPECT_EQ(a, acceleration_at(same, t));
-    difference = std::max(difference, (a - acceleration_at(other, t)).norm());
+    const Vec3 a = wind.at(t);
+    EXPECT_EQ(a, same.at(t));
+    difference = std::max(difference, (a - other.at(t)).norm());
     EXPECT_LE((a - wind.mean).norm(), bound * (1 + 4 * eps));
-    EXPECT_LE((acceleration_at(wind, t + dt) - a).norm(), bound * fastest * dt);
+    EXPECT_LE((wind.at(t + dt) - a).norm(), bound * fastest * dt);
   }
   EXPECT_GT(difference, 0.1 * bound);  // other seeds blow otherwise
 }
@@ -185,42 +185,42 @@ TEST(Wind, GustsAlongAndAcrossDifferAndReachAFairShareOfTheirRange) {
 }
 
 TEST(Wind, SteadyWindIsTheSameAlwaysAndPushesByMass) {
-  const Wind wind{{1, 2, 3}, std::nullopt};
-  EXPECT_EQ(acceleration_at(wind, 0), acceleration_at(wind, 12.3));
+  const Wind wind{{{1, 2, 3}, std::nullopt}};
+  EXPECT_EQ(wind.acceleration.at(0), wind.acceleration.at(12.3));
   Network net = random_network(1);
   net.model.terms.emplace_back(wind);
   const Points f = force_of<Wind>(net.model, net.state);
-  for (int i = 0; i < 6; ++i) EXPECT_EQ(Vec3(f.col(i)), net.model.particles.mass[i] * wind.mean);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(Vec3(f.col(i)), net.model.particles.mass[i] * wind.acceleration.mean);
 }
 
-TEST(PinMotion, VelocityIsTheDerivativeOfDisplacement) {
-  const PinMotion motion{{0.1, -0.2, 0.3}, 0.7, 0.5};
+TEST(PrescribedMotion, VelocityIsTheDerivativeOfDisplacement) {
+  const Motion motion{{0.1, -0.2, 0.3}, 0.7, 0.5};
   const double step = std::cbrt(eps);
   for (double t = 0.01; t < 2; t += 0.0137) {
-    const Vec3 numeric = (pin_displacement(motion, t + step) - pin_displacement(motion, t - step)) / (2 * step);
+    const Vec3 numeric = (displacement_at(motion, t + step) - displacement_at(motion, t - step)) / (2 * step);
     // eps^(2/3) times a sixth of the third derivative, which the ramp makes as large as 60 A / ramp^3 and omega^3 A
-    EXPECT_LT((numeric - pin_velocity(motion, t)).norm(), 200 * std::pow(eps, 2.0 / 3));
+    EXPECT_LT((numeric - velocity_at(motion, t)).norm(), 200 * std::pow(eps, 2.0 / 3));
   }
 }
 
-TEST(PinMotion, StartsAtRestAndIsTwiceContinuousAtBothEndsOfTheRamp) {
-  const PinMotion motion{{0, 0, 0.15}, 0.5, 0.5};
-  EXPECT_EQ(pin_displacement(motion, 0), Vec3::Zero());
-  EXPECT_EQ(pin_velocity(motion, 0), Vec3::Zero());
+TEST(PrescribedMotion, StartsAtRestAndIsTwiceContinuousAtBothEndsOfTheRamp) {
+  const Motion motion{{0, 0, 0.15}, 0.5, 0.5};
+  EXPECT_EQ(displacement_at(motion, 0), Vec3::Zero());
+  EXPECT_EQ(velocity_at(motion, 0), Vec3::Zero());
   auto acceleration = [&](double t) -> Vec3 {
     const double dt = 1e-6;
-    return (pin_velocity(motion, t + dt) - pin_velocity(motion, t)) / dt;
+    return (velocity_at(motion, t + dt) - velocity_at(motion, t)) / dt;
   };
   for (const double joint : {0.0, 0.5}) {
     const double before = joint == 0 ? 0 : acceleration(joint - 2e-6).z(), after = acceleration(joint + 1e-6).z();
     // the jerk beside a joint is at most 60 A / ramp^3 = 72 m/s^3: in 3e-6 s it changes the acceleration by 2.2e-4
     EXPECT_NEAR(before, after, 2.2e-4);
-    EXPECT_LT((pin_displacement(motion, joint + 1e-9) - pin_displacement(motion, std::max(0.0, joint - 1e-9))).norm(),
+    EXPECT_LT((displacement_at(motion, joint + 1e-9) - displacement_at(motion, std::max(0.0, joint - 1e-9))).norm(),
               2e-9);  // speeds stay below 1 m/s
   }
 }
 
-TEST(PinMotion, PinsFollowItInEveryStepper) {
+TEST(PrescribedMotion, PinsFollowItInEveryStepper) {
   const Scene scene = small_cloth();
   const auto& particles = scene.model.particles;
   for (const Stepper& s : steppers()) {
@@ -228,8 +228,8 @@ TEST(PinMotion, PinsFollowItInEveryStepper) {
     const Trajectory t = trajectory_of(s, scene, {1e-3, 0.5, 10});
     for (int i = 0; i < t.frames(); ++i)
       for (int pin : particles.pins) {
-        EXPECT_EQ(Vec3(t.x[i].col(pin)), Vec3(scene.start.x.col(pin) + pin_displacement(*particles.move, t.t[i])));
-        EXPECT_EQ(Vec3(t.v[i].col(pin)), pin_velocity(*particles.move, t.t[i]));
+        EXPECT_EQ(Vec3(t.x[i].col(pin)), Vec3(scene.start.x.col(pin) + displacement_at(*particles.move, t.t[i])));
+        EXPECT_EQ(Vec3(t.v[i].col(pin)), velocity_at(*particles.move, t.t[i]));
       }
   }
 }
