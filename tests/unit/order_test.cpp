@@ -41,10 +41,11 @@ TEST(Orders, OnPendulumPlainDampedAndMovedByHand) {
     for (const Stepper& s : fixed_steppers()) {
       SCOPED_TRACE(c.name + ", " + std::string(s.name));
       ASSERT_LT(h_omega_for(s.order), 0.6);  // above it rk4 does not show its order (facts/scenes.md, section 4)
-      // the next term of the error is smaller by h omega, and amplitude growth (h omega^2 t / 2) bends order 1 by 0.05
+      // the next term of the error is smaller by h omega (0.3 at most: it bends the slope by half of that), and
+      // amplitude growth (h omega^2 t / 2) bends order 1 by 0.05
       const double order = measured_order(s, c.scene, truth, h_omega_for(s.order) / omega, run);
       fmt::print("pendulum, {:18} {:18} order {:.3f}\n", c.name, s.name, order);
-      EXPECT_NEAR(order, s.order, s.order > 4 ? 0.15 : 0.1);
+      EXPECT_NEAR(order, s.order, s.order > 4 ? 0.2 : 0.1);
     }
   }
 }

@@ -3,52 +3,12 @@
 #include <numbers>
 
 #include "mysim/energy.h"
-#include "tests/unit/helpers.h"
+#include "tests/unit/networks.h"
 
 namespace crosscheck {
 namespace {
 
 using namespace testing_tools;
-
-/// Six particles at random, none closer than 0.3 m to another, joined each with each, with random masses.
-struct Network {
-  Model model;
-  State state;
-};
-Network random_network(unsigned seed) {
-  Random random(seed);
-  const int n = 6;
-  Network net;
-  Particles& p = net.model.particles;
-  p.mass.resize(n);
-  p.pinned.assign(n, 0);
-  net.state.x.resize(3, n);
-  net.state.v.resize(3, n);
-  for (int i = 0; i < n; ++i) {
-    p.mass[i] = random.between(0.1, 2);
-    net.state.v.col(i) = random.vector();
-    double nearest = 0;
-    while (nearest < 0.3) {
-      net.state.x.col(i) = random.vector();
-      nearest = INFINITY;
-      for (int j = 0; j < i; ++j) nearest = std::min(nearest, (net.state.x.col(i) - net.state.x.col(j)).norm());
-    }
-  }
-  Springs springs;
-  for (int a = 0; a < n; ++a)
-    for (int b = a + 1; b < n; ++b)
-      springs.list.push_back({a, b, random.between(1, 100), random.between(0, 2), Family::single});
-  net.model.terms.emplace_back(springs);
-  net.model.terms.emplace_back(Gravity{10 * random.vector()});
-  return net;
-}
-
-template <class T>
-Points force_of(const Model& model, const State& state) {
-  Forces forces{Points::Zero(3, model.particles.size())};
-  add_force(*model.find<T>(), model.particles, state, forces);
-  return forces.f;
-}
 
 template <class T>
 void expect_force_is_minus_gradient(const Network& net) {
@@ -148,8 +108,6 @@ TEST(Terms, DragTakesPowerAndIsLinear) {
     EXPECT_TRUE((force_of<Drag>(net.model, faster) - 2 * force_of<Drag>(net.model, net.state)).isZero(0));
   }
 }
-
-Blowing gusty(int seed) { return {{3, 0, 1}, Blowing::Gusts{0.8, {0, 2, 0}, seed, Gust(seed, 1), Gust(seed, 2)}}; }
 
 TEST(Wind, IsSeededBoundedAndSmooth) {
   const Blowing wind = gusty(7), same = gusty(7), other = gusty(8);
