@@ -25,15 +25,20 @@ TEST(Adaptive, ErrorFollowsTheToleranceOverSixDecades) {
       double before = INFINITY, first = 0, last = 0;
       for (int decade = 4; decade <= 10; ++decade) {
         const double tolerance = std::pow(10, -decade);
-        const double error = sup_rms(trajectory_of(s, scene, {1e-3, 1, samples, tolerance}), truth);
-        fmt::print("{:9} {} tolerance {:.0e} error {:.2e} m\n", name, s.name, tolerance, error);
+        Recorder r;
+        const Outcome out = simulate(s, ContactRule::coulomb, scene, {1e-3, 1, samples, tolerance}, r);
+        const double error = sup_rms(r.trajectory, truth);
+        fmt::print("{:9} {} tolerance {:.0e} error {:.2e} m, mean step {:.2e} s\n", name, s.name, tolerance, error,
+                   out.step);
+        EXPECT_LT(error, 10 * tolerance * scene.size());  // a second is some ten turns of the slow motion
         EXPECT_LT(error, before) << tolerance;
         before = error;
-        if (decade == 4) first = error;
+        if (decade == 5) first = error;
         last = error;
       }
-      // error per step R: the error at the end is proportional to R^(p/(p+1)) to R, 0.83 to 1 at p = 5
-      const double decades = std::log10(first / last) / 6;
+      // errors per step of R add up to R^(p/(p+1)) to R at the end, 0.83 to 1 at p = 5. From 1e-5 on: at 1e-4 the
+      // chain's steps are at the edge of stability (h omega = 3), where the error sits at the tolerance itself
+      const double decades = std::log10(first / last) / 5;
       EXPECT_GT(decades, 0.7) << name;
       EXPECT_LT(decades, 1.3) << name;
     }

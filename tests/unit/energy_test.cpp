@@ -41,8 +41,8 @@ TEST(Integral, HasOrderFourOnSmoothCurves) {
 /// Order of the balance between a step that suits the stepper and half of it.
 double order_of_balance(const Stepper& s, const Scene& scene) {
   // steps that divide the ramp, where the third derivative of the pins' motion jumps
-  const double h = s.order == 1 ? 1e-4 : s.order == 2 ? 2.5e-4 : 1.25e-3;
-  const double coarse = imbalance(s, scene, {h, 1, 20}), fine = imbalance(s, scene, {h / 2, 1, 20});
+  const double h = s.order == 1 ? 1.25e-4 : s.order == 2 ? 2.5e-4 : 1.25e-3;
+  const double coarse = imbalance(s, scene, {h, 0.5, 10}), fine = imbalance(s, scene, {h / 2, 0.5, 10});
   EXPECT_GT(fine, 1e-13) << "at round-off the slope is noise";
   return slope(coarse, fine);
 }

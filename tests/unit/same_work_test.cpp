@@ -27,7 +27,7 @@ TEST(SameWork, Suzuki4IsTwiceAsAccurateAsRk4OnTheChain) {
 }
 
 TEST(SameWork, Suzuki4IsTwiceAsAccurateAsRk4OnTheHangingCloth) {
-  for (const double h : {5e-4, 2.5e-4}) EXPECT_GT(advantage(load_scene("cloth-hang"), h, 0.3), 2);
+  for (const double h : {7.5e-4, 3.75e-4}) EXPECT_GT(advantage(load_scene("cloth-hang"), h, 0.15), 2);
 }
 
 }  // namespace
