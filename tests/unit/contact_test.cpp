@@ -157,7 +157,8 @@ TEST(Contact, SymmetricSceneStaysSymmetric) {
     if (auto* spheres = std::get_if<Spheres>(&term)) spheres->list[0].centre = Vec3(0, -0.05, 0);
   const int n = 9;
   for (const Stepper& s : steppers()) {
-    if (s.order == 1 && !s.symplectic) continue;  // explicit Euler is unstable here: it would blow up any rounding
+    if (s.order == 1 && s.first_order) continue;  // explicit Euler is unstable here: it would blow up any rounding
+    if (s.hard_constraints) continue;             // a sweep over the springs begins at one side
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-3, 0.3, 30});
     double worst = 0;
@@ -169,8 +170,9 @@ TEST(Contact, SymmetricSceneStaysSymmetric) {
           worst = std::max(worst, (here - Vec3(-mirrored_x.x(), mirrored_x.y(), mirrored_x.z())).norm());
           worst = std::max(worst, (here - Vec3(mirrored_z.x(), mirrored_z.y(), -mirrored_z.z())).norm());
         }
-    // 300 steps of round-off (eps each, sums in other orders), grown tenfold by the contact
-    EXPECT_LT(worst, 10 * 300 * eps);
+    // 300 steps of round-off (eps each, sums in other orders), grown tenfold by the contact; implicit rules leave 1e-10
+    // of the force m v / (h/2) at 2 m/s, which acts for 0.3 s
+    EXPECT_LT(worst, 10 * (300 * eps + (s.evaluations == 0 ? 1e-10 * 2 / 5e-4 * 0.3 * 0.3 / 2 : 0)));
   }
 }
 

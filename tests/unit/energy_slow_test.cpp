@@ -29,7 +29,8 @@ TEST(LedgerOfShippedScenes, ClosesToTheOrderOfTheStepperWithoutContact) {
 TEST(LedgerOfShippedScenes, ClosesToFirstOrderWithContact) {
   const Scene scene = load_scene("cloth-sphere");
   for (const Stepper& s : steppers()) {
-    if (s.order == 1 && !s.symplectic) continue;  // explicit Euler blows up at these steps
+    if (s.order == 1 && s.first_order) continue;  // explicit Euler blows up at these steps
+    if (s.evaluations == 0) continue;             // implicit rules would take minutes: contact_test.cpp has them
     SCOPED_TRACE(s.name);
     std::vector<double> errors;
     for (const double part : {1, 2, 4, 8}) errors.push_back(imbalance(s, scene, {scene.step / part, 1, 50}));

@@ -41,7 +41,7 @@ TEST(Integral, HasOrderFourOnSmoothCurves) {
 /// Order of the balance between a step that suits the stepper and half of it.
 double order_of_balance(const Stepper& s, const Scene& scene) {
   // steps that divide the ramp, where the third derivative of the pins' motion jumps
-  const double h = s.order == 1 ? 1.25e-4 : s.order == 2 ? 2.5e-4 : 1.25e-3;
+  const double h = s.order == 1 ? 1.25e-4 : s.order == 2 ? 2.5e-4 : 6.25e-4;
   const double coarse = imbalance(s, scene, {h, 0.5, 10}), fine = imbalance(s, scene, {h / 2, 0.5, 10});
   EXPECT_GT(fine, 1e-13) << "at round-off the slope is noise";
   return slope(coarse, fine);
@@ -52,7 +52,8 @@ int shown(const Stepper& s) { return std::min(s.order, 4); }
 TEST(Ledger, ClosesToTheOrderOfTheStepperUnderDragWindAndMovedPins) {
   for (const Stepper& s : fixed_steppers()) {
     SCOPED_TRACE(s.name);
-    // the next term is h times the highest frequency, 0.2 at most
+    // the next term is h times the highest frequency, 0.1 at most; of rk4 it is large, since what it damps is of order
+    // 5
     EXPECT_NEAR(order_of_balance(s, small_cloth()), shown(s), 0.25);
   }
 }

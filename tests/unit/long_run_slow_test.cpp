@@ -27,10 +27,11 @@ double late_over_early(const Stepper& s, double h, long steps) {
 TEST(AMillionSteps, SymplecticRulesKeepTheEnergyBounded) {
   for (const Stepper& s : steppers()) {
     if (!s.symplectic) continue;
-    // implicit rules cost some fifty times as much a step
+    // implicit rules cost some fifty times as much a step; the first tenth must still be longer than the 20 s in which
+    // the chain's swings become irregular and fast
     // a drift would make the last tenth ten times worse than the first; a bounded error repeats itself, and its maximum
     // over a tenth is met to some ten per cent
-    EXPECT_LT(late_over_early(s, 1e-3, s.evaluations > 0 ? 1000000 : 100000), 1.5) << s.name;
+    EXPECT_LT(late_over_early(s, 1e-3, s.evaluations > 0 ? 1000000 : 300000), 1.5) << s.name;
   }
 }
 

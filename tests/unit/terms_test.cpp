@@ -1,5 +1,4 @@
-// Terms: forces are minus the gradient of their energies, internal forces conserve, wind and moved pins are smooth.
-#include <Eigen/Geometry>
+// Terms: ends that meet, drag, wind and prescribed motion. What holds of all forces is in force_test.cpp.
 #include <numbers>
 
 #include "mysim/energy.h"
@@ -9,62 +8,6 @@ namespace crosscheck {
 namespace {
 
 using namespace testing_tools;
-
-template <class T>
-void expect_force_is_minus_gradient(const Network& net) {
-  const Points f = force_of<T>(net.model, net.state);
-  const double step = std::cbrt(eps);  // m: truncation E''' step^2 and round-off eps E / step are then of one size
-  const T& term = *net.model.template find<T>();
-  for (int i = 0; i < f.cols(); ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      State up = net.state, down = net.state;
-      up.x(axis, i) += step;
-      down.x(axis, i) -= step;
-      const double slope_there =
-          (potential_energy(term, net.model.particles, up) - potential_energy(term, net.model.particles, down)) /
-          (up.x(axis, i) - down.x(axis, i));
-      // eps^(2/3) times the size of E''' (up to 5 springs of 3 k r / L^2 = 7000 N/m^2 each, a sixth counts) and of E
-      EXPECT_NEAR(f(axis, i), -slope_there, 6000 * std::pow(eps, 2.0 / 3));
-    }
-}
-
-TEST(Terms, ForcesAreMinusTheGradientOfTheirEnergy) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    SCOPED_TRACE(seed);
-    const Network net = random_network(seed);
-    expect_force_is_minus_gradient<Springs>(net);
-    expect_force_is_minus_gradient<Gravity>(net);
-  }
-}
-
-TEST(Terms, SpringsKeepMomentumAndAngularMomentum) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    const Network net = random_network(seed);
-    const Points f = force_of<Springs>(net.model, net.state);
-    Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
-    for (int i = 0; i < f.cols(); ++i) {
-      sum += f.col(i);
-      torque += Vec3(net.state.x.col(i)).cross(Vec3(f.col(i)));
-    }
-    // thirty additions of forces up to 200 N at points up to 2 m from the origin, half an ulp each
-    EXPECT_LT(sum.norm(), 30 * eps * 200);
-    EXPECT_LT(torque.norm(), 60 * eps * 200 * 2);
-  }
-}
-
-TEST(Terms, SpringForcesTurnAndMoveWithTheNetwork) {
-  for (unsigned seed = 1; seed <= 10; ++seed) {
-    Random random(100 + seed);
-    const Network net = random_network(seed);
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(random.between(0, 6), random.vector().normalized()).toRotationMatrix();
-    State moved = net.state;
-    moved.x = (turn * net.state.x).colwise() + random.vector();
-    const Points expected = turn * force_of<Springs>(net.model, net.state);
-    // lengths lose some ulps of 3 m, each times k of up to 100 N/m in five springs
-    EXPECT_LT((force_of<Springs>(net.model, moved) - expected).cwiseAbs().maxCoeff(), 5 * 100 * 3 * 8 * eps);
-  }
-}
 
 TEST(Terms, EndsThatMeetGetNoForceAndAreCounted) {
   Model model;
