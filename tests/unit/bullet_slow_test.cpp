@@ -50,6 +50,7 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
     const Scene scene = load_scene(std::string(name));
     int stable = 0;
     for (const Stepper& s : steppers()) {
+      if (s.adaptive) continue;  // its steps change with the perturbation: what is seen is its tolerance
       SCOPED_TRACE(fmt::format("{} {}", name, s.name));
       const Method method = find_method(std::string(s.name));
       Recorder r;

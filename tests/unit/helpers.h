@@ -55,6 +55,11 @@ inline std::vector<Stepper> fixed_steppers() {
   return list;
 }
 
+/// Whether the stepper takes scenes with what this one has.
+inline bool takes(const Stepper& s, const Scene& scene) {
+  return (!scene.model.first_order() || s.first_order) && (!scene.model.find<Constraints>() || s.hard_constraints);
+}
+
 /// The heading that every scene file needs; `more` holds particles and terms.
 inline std::string scene_text(const std::string& more, double duration = 1, double step = 1e-3, int samples = 10) {
   return fmt::format(
