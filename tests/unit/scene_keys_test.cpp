@@ -172,6 +172,19 @@ TEST(SceneKeys, AirNeedsTrianglesAndALawNeedsSprings) {
                        "bad.toml:19: sphere.motion.ramp: is missing"));
 }
 
+TEST(SceneKeys, SpheresAreTablesAndNotNone) {
+  for (const auto& [written, expected] :
+       {std::pair{"sphere = []\n", "sphere: expected a table [sphere] or tables [[sphere]]"},
+        {"sphere = 3\n", "sphere: expected tables [[sphere]], got 3"}}) {
+    try {
+      parse_scene(written + scene_text(two_particles), "bad.toml");
+      ADD_FAILURE() << written;
+    } catch (const InputError& e) {
+      EXPECT_TRUE(contains(e.what(), std::string("bad.toml:1: ") + expected));
+    }
+  }
+}
+
 TEST(SceneKeys, MovedPinsBesideHardDistancesAreRefused) {
   EXPECT_TRUE(
       contains(message_of(two_particles + "[[constraint]]\nends = [0, 1]\n[pins]\nparticles = [0]\n[pins.motion]\n"
