@@ -125,6 +125,7 @@ void read_spheres(const Section& file, Scene& scene) {
         s.fail("radius", fmt::format("no particle inside radius + margin at the start, got particle {}", i));
     spheres.list.push_back(sphere);
   }
+  if (spheres.list.empty()) file.fail(Spheres::name, "a table [sphere] or tables [[sphere]]");
   scene.model.terms.emplace_back(std::move(spheres));
 }
 

@@ -74,7 +74,7 @@ bool IncrementalPotential::freeze(const Points& u) {
 double IncrementalPotential::value(const Points& u) {
   const Particles& particles = model_.particles;
   const State& at = end(u);
-  moved_ = at.x - start_.x;
+  moved_ = h_ * at.v;
   double inertia = 0, drag = 0;
   for (int i = 0; i < particles.size(); ++i) {
     if (particles.pinned[i]) continue;
@@ -111,7 +111,7 @@ double IncrementalPotential::value(const Points& u) {
 void IncrementalPotential::gradient(const Points& u, Points& g) {
   const Particles& particles = model_.particles;
   State& at = end(u);
-  moved_ = at.x - start_.x;
+  moved_ = h_ * at.v;
   f_.position_acceleration(at, a_);
   g.setZero(3, particles.size());
   frozen_damping_.add_product(0, 1 / h_, moved_, g);

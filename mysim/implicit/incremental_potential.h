@@ -9,7 +9,7 @@ namespace crosscheck {
 /// With y = x_n + h v_n and the unknown u = x - y (0 at pins, which stand where they are at the end of the step),
 ///   P(u) = sum_i m_i |u_i|^2 / (2 h^2) + c_i |h v_n + u|_i^2 / (2 h)        inertia and drag
 ///        + V(x) - sum_i m_i w . x_i - f_i . x_i                             springs, gravity, wind, air on triangles
-///        + sum_d c_d (n_d . (moved_a - moved_b))^2 / (2 h)                  dashpots, moved = x - x_n
+///        + sum_d c_d (n_d . (moved_a - moved_b))^2 / (2 h)                  dashpots, moved = h v (x - x_n when free)
 /// has the gradient of the implicit Euler equations (J. Martin et al., ACM Trans. Graph. 30 (4), 2011). Air and the
 /// dashpots' directions n_d have no energy: they are frozen at a given position, and the caller repeats the solve with
 /// the new ones until nothing changes.

@@ -58,7 +58,7 @@ std::span<const Stepper> steppers() {
        .first_order = false,
        .symplectic = true,
        .limit = limits::suzuki4,
-       .limit_formula = "h omega < 3.14 without drag; h gamma < 3.04 without springs",
+       .limit_formula = "h omega < 2.72 without drag; h gamma < 3.02 without springs",
        .what = "five leapfrogs; more accurate than rk4 for the same work, and keeps energy for ever"},
       {.name = "dopri5",
        .step = dopri5,

@@ -10,8 +10,8 @@ namespace {
 
 class Sweep {
  public:
-  Sweep(const Particles& particles, const Points& x_n, double h, State& s)
-      : particles_(particles), x_n_(x_n), h_(h), s_(s) {}
+  Sweep(const Particles& particles, const Eigen::ArrayXd& drag_rate, const Points& x_n, double h, State& s)
+      : particles_(particles), drag_rate_(drag_rate), x_n_(x_n), h_(h), s_(s) {}
 
   double inverse_mass(int a, int b) const { return inverse_mass(a) + inverse_mass(b); }
   Vec3 between(int a, int b) const { return s_.x.col(a) - s_.x.col(b); }
@@ -23,13 +23,17 @@ class Sweep {
   }
 
  private:
-  double inverse_mass(int i) const { return particles_.pinned[i] ? 0 : 1 / particles_.mass[i]; }
+  /// Drag is implicit: what a force changes in a step is less by 1 + h gamma, for these forces as for the others.
+  double inverse_mass(int i) const {
+    return particles_.pinned[i] ? 0 : 1 / (particles_.mass[i] * (1 + h_ * drag_rate_[i]));
+  }
   void move(int i, const Vec3& by) {
     s_.x.col(i) += by;
     s_.v.col(i) += by / h_;
   }
 
   const Particles& particles_;
+  const Eigen::ArrayXd& drag_rate_;
   const Points& x_n_;
   double h_;
   State& s_;
@@ -49,7 +53,7 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
   s.t += h;
   model.particles.place_pins(s);
 
-  Sweep sweep(model.particles, x_n, h, s);
+  Sweep sweep(model.particles, f.drag_rate(), x_n, h, s);
   f.count(1);
   if (const auto* dashpots = model.find<Dashpots>())
     for (const auto& [i, j, c] : dashpots->list) {

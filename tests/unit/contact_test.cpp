@@ -21,7 +21,7 @@ Scene on_sphere(double angle, const std::string& surface = "") {
 /// Remembers the angle (rad) at which the last push was needed, and how far inside a particle ever ended a step.
 class Slide : public Observer {
  public:
-  explicit Slide(const Scene& scene) : sphere_(*scene.model.find<Sphere>()) {}
+  explicit Slide(const Scene& scene) : sphere_(scene.model.find<Spheres>()->list.at(0)) {}
   bool every_step() const override { return true; }
   Verdict observe(const State& s, bool) override {
     for (int i = 0; i < s.x.cols(); ++i)
@@ -154,10 +154,11 @@ TEST(Contact, StickyFreezesWhereCoulombSlides) {
 TEST(Contact, SymmetricSceneStaysSymmetric) {
   Scene scene = dropped_cloth(0);
   for (Term& term : scene.model.terms)
-    if (auto* sphere = std::get_if<Sphere>(&term)) sphere->centre = Vec3(0, -0.05, 0);
+    if (auto* spheres = std::get_if<Spheres>(&term)) spheres->list[0].centre = Vec3(0, -0.05, 0);
   const int n = 9;
   for (const Stepper& s : steppers()) {
-    if (s.order == 1 && !s.symplectic) continue;  // explicit Euler is unstable here: it would blow up any rounding
+    if (s.order == 1 && s.first_order) continue;  // explicit Euler is unstable here: it would blow up any rounding
+    if (s.hard_constraints) continue;             // a sweep over the springs begins at one side
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-3, 0.3, 30});
     double worst = 0;
@@ -169,39 +170,40 @@ TEST(Contact, SymmetricSceneStaysSymmetric) {
           worst = std::max(worst, (here - Vec3(-mirrored_x.x(), mirrored_x.y(), mirrored_x.z())).norm());
           worst = std::max(worst, (here - Vec3(mirrored_z.x(), mirrored_z.y(), -mirrored_z.z())).norm());
         }
-    // 300 steps of round-off (eps each, sums in other orders), grown tenfold by the contact
-    EXPECT_LT(worst, 10 * 300 * eps);
+    // 300 steps of round-off (eps each, sums in other orders), grown tenfold by the contact; implicit rules leave 1e-10
+    // of the force m v / (h/2) at 2 m/s, which acts for 0.3 s
+    EXPECT_LT(worst, 10 * (300 * eps + (s.evaluations == 0 ? 1e-10 * 2 / 5e-4 * 0.3 * 0.3 / 2 : 0)));
   }
 }
 
 TEST(Contact, RuleOnOneParticle) {
-  const Sphere sphere{{0, 0, 0}, 1, 0, 0.5, 0};
+  const Sphere sphere{{0, 0, 0}, 1, 0, 0.5, 0, std::nullopt};
   {  // outside and on the surface: nothing happens
     Vec3 x(0, 1, 0), v(1, -1, 0);
-    EXPECT_EQ(resolve_contact(sphere, x, x, v), 0);
+    EXPECT_EQ(resolve_contact(sphere, sphere.centre, x, x, v), 0);
     EXPECT_EQ(v, Vec3(1, -1, 0));
   }
   {  // the push is the depth; a fast slider keeps what friction cannot take: 1 - 0.5 * 0.1
     Vec3 x(0, 0.9, 0), v(1, -0.1, 0);
-    EXPECT_NEAR(resolve_contact(sphere, {0, 1, 0}, x, v), 0.1, 2 * eps);  // 1 - 0.9 as rounded
+    EXPECT_NEAR(resolve_contact(sphere, sphere.centre, {0, 1, 0}, x, v), 0.1, 2 * eps);  // 1 - 0.9 as rounded
     EXPECT_EQ(x, Vec3(0, 1, 0));
     EXPECT_NEAR(v.x(), 0.95, 4 * eps);
     EXPECT_NEAR(v.y(), 0, eps);
   }
   {  // a slow slider stops, in place and velocity
     Vec3 x(0.01, 0.95, 0), v(0.01, -1, 0);
-    resolve_contact(sphere, {0, 1, 0}, x, v);
+    resolve_contact(sphere, sphere.centre, {0, 1, 0}, x, v);
     EXPECT_LT((x - Vec3(0, 1, 0)).norm(), 2e-4);  // the displacement's curvature, d^2 / 2R = 5e-5
     EXPECT_LT(std::abs(v.dot(Vec3(x.y(), -x.x(), 0))), 4 * eps);
   }
   {  // a velocity that already points outward is left alone
     Vec3 x(0, 0.99, 0), v(0.3, 0.2, 0);
-    resolve_contact(sphere, {0, 1, 0}, x, v);
+    resolve_contact(sphere, sphere.centre, {0, 1, 0}, x, v);
     EXPECT_EQ(v, Vec3(0.3, 0.2, 0));
   }
   {  // the very centre: some direction, and finite
     Vec3 x(0, 0, 0), v(0, -1, 0);
-    EXPECT_EQ(resolve_contact(sphere, {0, 0, 0}, x, v), 1);
+    EXPECT_EQ(resolve_contact(sphere, sphere.centre, {0, 0, 0}, x, v), 1);
     EXPECT_NEAR(x.norm(), 1, 2 * eps);
     EXPECT_TRUE(v.allFinite());
   }
@@ -210,10 +212,10 @@ TEST(Contact, RuleOnOneParticle) {
 TEST(Contact, NeverAddsEnergyOfMotion) {
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
-    const Sphere sphere{{0, 0, 0}, 1, 0.1, random.between(0, 2), random.between(0, 1)};
+    const Sphere sphere{{0, 0, 0}, 1, 0.1, random.between(0, 2), random.between(0, 1), std::nullopt};
     const Vec3 x_n = 1.2 * random.vector().normalized(), v0 = 3 * random.vector();
     Vec3 x = random.vector() * 0.6, v = v0;
-    resolve_contact(sphere, x_n, x, v);
+    resolve_contact(sphere, sphere.centre, x_n, x, v);
     EXPECT_LE(v.norm(), v0.norm() * (1 + 8 * eps));
     EXPECT_GE(x.norm(), 1.1 * (1 - 4 * eps));
     EXPECT_GE(v == v0 ? 0.0 : v.dot(x), -16 * eps);  // not inward any more

@@ -38,25 +38,46 @@ TEST(Integral, HasOrderFourOnSmoothCurves) {
   EXPECT_NEAR(slope(error(40), error(80)), 4, 0.15);  // the next term is h = 0.05 of the leading one
 }
 
-/// Largest deviation of the balance from its start, J.
-double imbalance(const Stepper& s, const Scene& scene, const Run& run) {
-  Ledger ledger(scene.model, ContactLoss::reported);
-  simulate(s, ContactRule::coulomb, scene, run, ledger);
-  double worst = 0;
-  for (const LedgerRow& row : ledger.rows())
-    worst = std::max(worst, std::abs(row.balance() - ledger.rows()[0].balance()));
-  return worst;
+/// Order of the balance between a step that suits the stepper and half of it.
+double order_of_balance(const Stepper& s, const Scene& scene) {
+  // steps that divide the ramp, where the third derivative of the pins' motion jumps
+  const double h = s.order == 1 ? 1.25e-4 : s.order == 2 ? 2.5e-4 : 6.25e-4;
+  const double coarse = imbalance(s, scene, {h, 0.5, 10}), fine = imbalance(s, scene, {h / 2, 0.5, 10});
+  EXPECT_GT(fine, 1e-13) << "at round-off the slope is noise";
+  return slope(coarse, fine);
 }
+/// What the balance can show: its integrals are of order 4.
+int shown(const Stepper& s) { return std::min(s.order, 4); }
 
 TEST(Ledger, ClosesToTheOrderOfTheStepperUnderDragWindAndMovedPins) {
-  const Scene scene = small_cloth();
-  for (const Stepper& s : steppers()) {
+  for (const Stepper& s : fixed_steppers()) {
     SCOPED_TRACE(s.name);
-    // steps that divide the ramp, where the third derivative of the pins' motion jumps
-    const double h = s.order == 1 ? 1e-4 : s.order == 2 ? 2.5e-4 : 2.5e-3;
-    const double coarse = imbalance(s, scene, {h, 1, 20}), fine = imbalance(s, scene, {h / 2, 1, 20});
-    EXPECT_GT(fine, 1e-13) << "at round-off the slope is noise";
-    EXPECT_NEAR(slope(coarse, fine), s.order, 0.25);  // the next term is h times the highest frequency, 0.2 here
+    // the next term is h times the highest frequency, 0.1 at most; of rk4 it is large, since what it damps is of order
+    // 5
+    EXPECT_NEAR(order_of_balance(s, small_cloth()), shown(s), 0.25);
+  }
+}
+
+TEST(Ledger, ClosesToTheOrderOfTheStepperUnderDashpotsAndAir) {
+  for (const Stepper& s : fixed_steppers()) {
+    SCOPED_TRACE(s.name);
+    const double order = order_of_balance(s, small_cloth_in_air());
+    fmt::print("balance in air, {:18} order {:.3f}\n", s.name, order);
+    EXPECT_NEAR(order, shown(s), 0.25);  // as above
+  }
+}
+
+TEST(Ledger, OfAnAdaptiveRunFollowsItsTolerance) {
+  const Scene scene = small_cloth_in_air();
+  for (const Stepper& s : steppers()) {
+    if (!s.adaptive) continue;
+    double before = INFINITY;
+    for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+      const double residue = imbalance(s, scene, {1e-3, 1, 20, tolerance});
+      // a hundredth at best; the ledger's integrals at 1e-3 s add their own error, below that
+      EXPECT_LT(residue, before / 10);
+      before = residue;
+    }
   }
 }
 
@@ -148,7 +169,7 @@ TEST(Watch, NoGoodRunIsCondemned) {
   for (const auto name : shipped_scenes())
     for (const auto method : {"rk4", "leapfrog"}) {
       const Scene scene = load_scene(std::string(name));
-      if (scene.model.first_order() && !stepper(method).first_order) continue;
+      if (!takes(stepper(method), scene)) continue;
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       Watch watch(scene.model);
       const double duration = std::min(scene.duration, 0.3);
@@ -181,11 +202,21 @@ TEST(Watch, BlowUpsAreFoundWhetherOrNotTheWindBlowsAndPinsMove) {
   plain.model.particles.move.reset();
   std::erase_if(plain.model.terms, [](const Term& t) { return std::holds_alternative<Wind>(t); });
   for (const Scene& scene : {cloth, plain})
-    for (const Stepper& s : steppers()) {
+    for (const Stepper& s : fixed_steppers()) {
       SCOPED_TRACE(s.name);
       Watch watch(scene.model);
       // omega_max is about sqrt(8 k n / m) = 200 rad/s: h omega = 10 is beyond every explicit rule
       const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.05, 5, 100}, watch);
+      if (std::isinf(s.limit(200, 2))) {
+        // rules that solve the whole step are stable; one sweep leaves springs unsolved, whose energy may pass for a
+        // blow-up, but the cloth stays in one place: within its fall and its size
+        if (s.evaluations == 0) {
+          EXPECT_EQ(out.verdict, Verdict::ok) << out.reason;
+        }
+        const Trajectory t = trajectory_of(s, scene, {0.05, 5, 100});
+        for (const Points& x : t.x) EXPECT_LT(x.cwiseAbs().maxCoeff(), 3);
+        continue;
+      }
       EXPECT_TRUE(out.verdict == Verdict::energy || out.verdict == Verdict::nan) << name_of(out.verdict);
       EXPECT_LT(out.end, 2);
       EXPECT_FALSE(out.reason.empty());

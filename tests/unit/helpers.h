@@ -8,8 +8,10 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "mysim/engine.h"
+#include "mysim/observers/ledger.h"
 #include "mysim/observers/trajectory.h"
 #include "reference/method.h"
 #include "reference/truth.h"
@@ -41,6 +43,23 @@ inline const Stepper& stepper(std::string_view name) {
   throw std::out_of_range("no stepper " + std::string(name));
 }
 
+/// The same rule at a fixed step, where the stepper would choose its steps by itself.
+inline Stepper at_fixed_step(Stepper s) {
+  s.adaptive = false;
+  return s;
+}
+/// Every row of the table, at a fixed step.
+inline std::vector<Stepper> fixed_steppers() {
+  std::vector<Stepper> list;
+  for (const Stepper& s : steppers()) list.push_back(at_fixed_step(s));
+  return list;
+}
+
+/// Whether the stepper takes scenes with what this one has.
+inline bool takes(const Stepper& s, const Scene& scene) {
+  return (!scene.model.first_order() || s.first_order) && (!scene.model.find<Constraints>() || s.hard_constraints);
+}
+
 /// The heading that every scene file needs; `more` holds particles and terms.
 inline std::string scene_text(const std::string& more, double duration = 1, double step = 1e-3, int samples = 10) {
   return fmt::format(
@@ -66,6 +85,22 @@ inline Scene small_cloth() {
                      gravity_text);
 }
 
+/// The same without wind, with springs that damp, in air that streams past.
+inline Scene small_cloth_in_air() {
+  Scene scene = small_cloth();
+  std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Wind>(t); });
+  Dashpots dashpots;
+  for (const Spring& s : scene.model.find<Springs>()->list) dashpots.list.push_back({s.a, s.b, 0.01});
+  const Blowing air{{0, 0, 2}, Blowing::Gusts{0.5, {1, 0, 0}, 3, Gust(3, 1), Gust(3, 2)}};
+  scene.model.terms.emplace_back(dashpots);
+  scene.model.terms.emplace_back(Aerodynamics{1.2, 1, air, scene.triangles});
+  return scene;
+}
+
+inline Scene without_drag(Scene scene) {
+  std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Drag>(t); });
+  return scene;
+}
 inline Scene with_drag(Scene scene, double gamma) {
   scene.model.terms.emplace_back(Drag{gamma * scene.model.particles.mass});
   return scene;
@@ -110,6 +145,16 @@ inline double sup_distance(const Trajectory& a, const Trajectory& b, double unti
     largest = std::isnan(d) ? INFINITY : std::max(largest, d);
   }
   return largest;
+}
+
+/// Largest deviation of the energy balance from its start, J.
+inline double imbalance(const Stepper& s, const Scene& scene, const Run& run) {
+  Ledger ledger(scene.model, ContactLoss::reported);
+  simulate(s, ContactRule::coulomb, scene, run, ledger);
+  double worst = 0;
+  for (const LedgerRow& row : ledger.rows())
+    worst = std::max(worst, std::abs(row.balance() - ledger.rows()[0].balance()));
+  return worst;
 }
 
 /// Same bits in every frame.

@@ -99,7 +99,7 @@ TEST(SceneFile, WholeSceneIsRead) {
   EXPECT_EQ(s.model.terms.size(), 5u);  // springs, gravity, drag, wind, sphere
   ASSERT_TRUE(s.model.particles.move && s.camera);
   EXPECT_EQ(s.model.particles.move->amplitude, Vec3(0, 0, 0.1));
-  EXPECT_EQ(s.model.find<Sphere>()->contact_radius(), 1.02);
+  EXPECT_EQ(s.model.find<Spheres>()->list.at(0).contact_radius(), 1.02);
   EXPECT_EQ(s.start.v.col(13), Vec3(1, 0, 0));
   EXPECT_EQ(s.model.find<Springs>()->list.back().rest, 0.5);
 }
@@ -193,7 +193,7 @@ TEST(SceneFaults, NumbersOutOfRange) {
       {7, "window = 2", "bad.toml:7: time.window: ", "expected a window not longer than the duration"},
       {8, "tolerance = -1", "bad.toml:8: time.tolerance: ", "expected a number above zero, got -1"},
       {11, "size = [3, 1]", "bad.toml:11: grid.size: ", "expected two whole numbers from 2"},
-      {11, "size = [3, 4, 5]", "bad.toml:11: grid.size: ", "expected two whole numbers"},
+      {11, "size = [3, 4, 5, 6]", "bad.toml:11: grid.size: ", "three (a block)"},
       {14, "v = [2, 0, 0]", "bad.toml:14: grid.v: ", "expected a side that is not parallel to u"},
       {15, "mass = 0", "bad.toml:15: grid.mass: ", "expected a number above zero, got 0"},
       {18, "shear = 0", "bad.toml:18: grid.stiffness.shear: ", "expected a number above zero"},

@@ -40,14 +40,24 @@ std::vector<Removal> removals(const Scene& whole) {
     less.model.particles.move.reset();
     list.push_back({"pins' motion", std::move(less)});
   }
-  if (const auto* wind = whole.model.find<Wind>(); wind && wind->gusts) {
+  if (const auto* wind = whole.model.find<Wind>(); wind && wind->acceleration.gusts) {
     Scene less = whole;
-    less.model.find<Wind>()->gusts.reset();
+    less.model.find<Wind>()->acceleration.gusts.reset();
     list.push_back({"gusts", std::move(less)});
   }
-  if (const auto* sphere = whole.model.find<Sphere>(); sphere && sphere->friction > 0) {
+  if (const auto* air = whole.model.find<Aerodynamics>(); air && air->velocity.gusts) {
     Scene less = whole;
-    less.model.find<Sphere>()->friction = 0;
+    less.model.find<Aerodynamics>()->velocity.gusts.reset();
+    list.push_back({"gusts", std::move(less)});
+  }
+  if (const auto* spheres = whole.model.find<Spheres>(); spheres && spheres->moving()) {
+    Scene less = whole;
+    for (Sphere& sphere : less.model.find<Spheres>()->list) sphere.motion.reset();
+    list.push_back({"spheres' motion", std::move(less)});
+  }
+  if (const auto* spheres = whole.model.find<Spheres>(); spheres && spheres->list[0].friction > 0) {
+    Scene less = whole;
+    for (Sphere& sphere : less.model.find<Spheres>()->list) sphere.friction = 0;
     list.push_back({"friction", std::move(less)});
   }
   return list;
@@ -56,7 +66,9 @@ std::vector<Removal> removals(const Scene& whole) {
 TEST(Scenes, EveryIngredientMattersWithinTheWindow) {
   for (const auto name : shipped_scenes()) {
     const Scene scene = load_scene(std::string(name));
-    const Stepper& s = stepper(scene.model.first_order() ? "rk4" : "leapfrog");
+    const Stepper& s = stepper(scene.model.first_order()         ? "rk4"
+                               : scene.model.find<Constraints>() ? "xpbd"
+                                                                 : "leapfrog");
     const int samples = std::max(1, static_cast<int>(scene.samples * scene.window / scene.duration));
     const crosscheck::Run run{scene.step, scene.window, samples};
     const Trajectory whole = trajectory_of(s, scene, run);

@@ -1,110 +1,13 @@
-// Terms: forces are minus the gradient of their energies, internal forces conserve, wind and moved pins are smooth.
-#include <Eigen/Geometry>
+// Terms: ends that meet, drag, wind and prescribed motion. What holds of all forces is in force_test.cpp.
 #include <numbers>
 
 #include "mysim/energy.h"
-#include "tests/unit/helpers.h"
+#include "tests/unit/networks.h"
 
 namespace crosscheck {
 namespace {
 
 using namespace testing_tools;
-
-/// Six particles at random, none closer than 0.3 m to another, joined each with each, with random masses.
-struct Network {
-  Model model;
-  State state;
-};
-Network random_network(unsigned seed) {
-  Random random(seed);
-  const int n = 6;
-  Network net;
-  Particles& p = net.model.particles;
-  p.mass.resize(n);
-  p.pinned.assign(n, 0);
-  net.state.x.resize(3, n);
-  net.state.v.resize(3, n);
-  for (int i = 0; i < n; ++i) {
-    p.mass[i] = random.between(0.1, 2);
-    net.state.v.col(i) = random.vector();
-    double nearest = 0;
-    while (nearest < 0.3) {
-      net.state.x.col(i) = random.vector();
-      nearest = INFINITY;
-      for (int j = 0; j < i; ++j) nearest = std::min(nearest, (net.state.x.col(i) - net.state.x.col(j)).norm());
-    }
-  }
-  Springs springs;
-  for (int a = 0; a < n; ++a)
-    for (int b = a + 1; b < n; ++b)
-      springs.list.push_back({a, b, random.between(1, 100), random.between(0, 2), Family::single});
-  net.model.terms.emplace_back(springs);
-  net.model.terms.emplace_back(Gravity{10 * random.vector()});
-  return net;
-}
-
-template <class T>
-Points force_of(const Model& model, const State& state) {
-  Forces forces{Points::Zero(3, model.particles.size())};
-  add_force(*model.find<T>(), model.particles, state, forces);
-  return forces.f;
-}
-
-template <class T>
-void expect_force_is_minus_gradient(const Network& net) {
-  const Points f = force_of<T>(net.model, net.state);
-  const double step = std::cbrt(eps);  // m: truncation E''' step^2 and round-off eps E / step are then of one size
-  const T& term = *net.model.template find<T>();
-  for (int i = 0; i < f.cols(); ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      State up = net.state, down = net.state;
-      up.x(axis, i) += step;
-      down.x(axis, i) -= step;
-      const double slope_there =
-          (potential_energy(term, net.model.particles, up) - potential_energy(term, net.model.particles, down)) /
-          (up.x(axis, i) - down.x(axis, i));
-      // eps^(2/3) times the size of E''' (up to 5 springs of 3 k r / L^2 = 7000 N/m^2 each, a sixth counts) and of E
-      EXPECT_NEAR(f(axis, i), -slope_there, 6000 * std::pow(eps, 2.0 / 3));
-    }
-}
-
-TEST(Terms, ForcesAreMinusTheGradientOfTheirEnergy) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    SCOPED_TRACE(seed);
-    const Network net = random_network(seed);
-    expect_force_is_minus_gradient<Springs>(net);
-    expect_force_is_minus_gradient<Gravity>(net);
-  }
-}
-
-TEST(Terms, SpringsKeepMomentumAndAngularMomentum) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    const Network net = random_network(seed);
-    const Points f = force_of<Springs>(net.model, net.state);
-    Vec3 sum = Vec3::Zero(), torque = Vec3::Zero();
-    for (int i = 0; i < f.cols(); ++i) {
-      sum += f.col(i);
-      torque += Vec3(net.state.x.col(i)).cross(Vec3(f.col(i)));
-    }
-    // thirty additions of forces up to 200 N at points up to 2 m from the origin, half an ulp each
-    EXPECT_LT(sum.norm(), 30 * eps * 200);
-    EXPECT_LT(torque.norm(), 60 * eps * 200 * 2);
-  }
-}
-
-TEST(Terms, SpringForcesTurnAndMoveWithTheNetwork) {
-  for (unsigned seed = 1; seed <= 10; ++seed) {
-    Random random(100 + seed);
-    const Network net = random_network(seed);
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(random.between(0, 6), random.vector().normalized()).toRotationMatrix();
-    State moved = net.state;
-    moved.x = (turn * net.state.x).colwise() + random.vector();
-    const Points expected = turn * force_of<Springs>(net.model, net.state);
-    // lengths lose some ulps of 3 m, each times k of up to 100 N/m in five springs
-    EXPECT_LT((force_of<Springs>(net.model, moved) - expected).cwiseAbs().maxCoeff(), 5 * 100 * 3 * 8 * eps);
-  }
-}
 
 TEST(Terms, EndsThatMeetGetNoForceAndAreCounted) {
   Model model;
@@ -149,20 +52,18 @@ TEST(Terms, DragTakesPowerAndIsLinear) {
   }
 }
 
-Wind gusty(int seed) { return {{3, 0, 1}, Wind::Gusts{0.8, {0, 2, 0}, seed, Gust(seed, 1), Gust(seed, 2)}}; }
-
 TEST(Wind, IsSeededBoundedAndSmooth) {
-  const Wind wind = gusty(7), same = gusty(7), other = gusty(8);
+  const Blowing wind = gusty(7), same = gusty(7), other = gusty(8);
   const double bound = 0.8 * wind.mean.norm() + 2;    // variation times mean, plus side: gusts lie between -1 and 1
   const double fastest = 2 * std::numbers::pi * 1.2;  // rad/s, of the waves
   double difference = 0;
   for (int i = 0; i < 4000; ++i) {
     const double t = 0.005 * i, dt = 1e-4;
-    const Vec3 a = acceleration_at(wind, t);
-    EXPECT_EQ(a, acceleration_at(same, t));
-    difference = std::max(difference, (a - acceleration_at(other, t)).norm());
+    const Vec3 a = wind.at(t);
+    EXPECT_EQ(a, same.at(t));
+    difference = std::max(difference, (a - other.at(t)).norm());
     EXPECT_LE((a - wind.mean).norm(), bound * (1 + 4 * eps));
-    EXPECT_LE((acceleration_at(wind, t + dt) - a).norm(), bound * fastest * dt);
+    EXPECT_LE((wind.at(t + dt) - a).norm(), bound * fastest * dt);
   }
   EXPECT_GT(difference, 0.1 * bound);  // other seeds blow otherwise
 }
@@ -185,42 +86,42 @@ TEST(Wind, GustsAlongAndAcrossDifferAndReachAFairShareOfTheirRange) {
 }
 
 TEST(Wind, SteadyWindIsTheSameAlwaysAndPushesByMass) {
-  const Wind wind{{1, 2, 3}, std::nullopt};
-  EXPECT_EQ(acceleration_at(wind, 0), acceleration_at(wind, 12.3));
+  const Wind wind{{{1, 2, 3}, std::nullopt}};
+  EXPECT_EQ(wind.acceleration.at(0), wind.acceleration.at(12.3));
   Network net = random_network(1);
   net.model.terms.emplace_back(wind);
   const Points f = force_of<Wind>(net.model, net.state);
-  for (int i = 0; i < 6; ++i) EXPECT_EQ(Vec3(f.col(i)), net.model.particles.mass[i] * wind.mean);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(Vec3(f.col(i)), net.model.particles.mass[i] * wind.acceleration.mean);
 }
 
-TEST(PinMotion, VelocityIsTheDerivativeOfDisplacement) {
-  const PinMotion motion{{0.1, -0.2, 0.3}, 0.7, 0.5};
+TEST(PrescribedMotion, VelocityIsTheDerivativeOfDisplacement) {
+  const Motion motion{{0.1, -0.2, 0.3}, 0.7, 0.5};
   const double step = std::cbrt(eps);
   for (double t = 0.01; t < 2; t += 0.0137) {
-    const Vec3 numeric = (pin_displacement(motion, t + step) - pin_displacement(motion, t - step)) / (2 * step);
+    const Vec3 numeric = (displacement_at(motion, t + step) - displacement_at(motion, t - step)) / (2 * step);
     // eps^(2/3) times a sixth of the third derivative, which the ramp makes as large as 60 A / ramp^3 and omega^3 A
-    EXPECT_LT((numeric - pin_velocity(motion, t)).norm(), 200 * std::pow(eps, 2.0 / 3));
+    EXPECT_LT((numeric - velocity_at(motion, t)).norm(), 200 * std::pow(eps, 2.0 / 3));
   }
 }
 
-TEST(PinMotion, StartsAtRestAndIsTwiceContinuousAtBothEndsOfTheRamp) {
-  const PinMotion motion{{0, 0, 0.15}, 0.5, 0.5};
-  EXPECT_EQ(pin_displacement(motion, 0), Vec3::Zero());
-  EXPECT_EQ(pin_velocity(motion, 0), Vec3::Zero());
+TEST(PrescribedMotion, StartsAtRestAndIsTwiceContinuousAtBothEndsOfTheRamp) {
+  const Motion motion{{0, 0, 0.15}, 0.5, 0.5};
+  EXPECT_EQ(displacement_at(motion, 0), Vec3::Zero());
+  EXPECT_EQ(velocity_at(motion, 0), Vec3::Zero());
   auto acceleration = [&](double t) -> Vec3 {
     const double dt = 1e-6;
-    return (pin_velocity(motion, t + dt) - pin_velocity(motion, t)) / dt;
+    return (velocity_at(motion, t + dt) - velocity_at(motion, t)) / dt;
   };
   for (const double joint : {0.0, 0.5}) {
     const double before = joint == 0 ? 0 : acceleration(joint - 2e-6).z(), after = acceleration(joint + 1e-6).z();
     // the jerk beside a joint is at most 60 A / ramp^3 = 72 m/s^3: in 3e-6 s it changes the acceleration by 2.2e-4
     EXPECT_NEAR(before, after, 2.2e-4);
-    EXPECT_LT((pin_displacement(motion, joint + 1e-9) - pin_displacement(motion, std::max(0.0, joint - 1e-9))).norm(),
+    EXPECT_LT((displacement_at(motion, joint + 1e-9) - displacement_at(motion, std::max(0.0, joint - 1e-9))).norm(),
               2e-9);  // speeds stay below 1 m/s
   }
 }
 
-TEST(PinMotion, PinsFollowItInEveryStepper) {
+TEST(PrescribedMotion, PinsFollowItInEveryStepper) {
   const Scene scene = small_cloth();
   const auto& particles = scene.model.particles;
   for (const Stepper& s : steppers()) {
@@ -228,8 +129,8 @@ TEST(PinMotion, PinsFollowItInEveryStepper) {
     const Trajectory t = trajectory_of(s, scene, {1e-3, 0.5, 10});
     for (int i = 0; i < t.frames(); ++i)
       for (int pin : particles.pins) {
-        EXPECT_EQ(Vec3(t.x[i].col(pin)), Vec3(scene.start.x.col(pin) + pin_displacement(*particles.move, t.t[i])));
-        EXPECT_EQ(Vec3(t.v[i].col(pin)), pin_velocity(*particles.move, t.t[i]));
+        EXPECT_EQ(Vec3(t.x[i].col(pin)), Vec3(scene.start.x.col(pin) + displacement_at(*particles.move, t.t[i])));
+        EXPECT_EQ(Vec3(t.v[i].col(pin)), velocity_at(*particles.move, t.t[i]));
       }
   }
 }
