@@ -24,12 +24,16 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
   if (s_.v.size()) fastest_ = s_.v.colwise().norm().maxCoeff();
 }
 
-/// Root mean square over all components of estimated over allowed error.
+/// Root mean square over the particles of estimated over allowed error.
 double AdaptiveWorld::error_ratio() {
   const State &error = pair_.error(), &next = pair_.next();
   const auto part = [&](const Points& e, const Points& from, const Points& to, double scale) {
-    const auto allowed = tolerance_ * (scale + from.cwiseAbs().cwiseMax(to.cwiseAbs()).array());
-    return e.size() ? (e.array() / allowed).square().mean() : 0.0;
+    double sum = 0;
+    for (int i = 0; i < e.cols(); ++i) {
+      const double allowed = tolerance_ * (scale + std::max(from.col(i).norm(), to.col(i).norm()));
+      sum += e.col(i).squaredNorm() / (allowed * allowed);
+    }
+    return e.cols() > 0 ? sum / static_cast<double>(e.cols()) : 0;
   };
   // from rest: the speed that the forces at the start give in the step
   const double first = s_.v.size() ? pair_.first_step_speed() : 0;

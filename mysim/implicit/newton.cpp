@@ -9,7 +9,7 @@ namespace crosscheck {
 namespace {
 
 constexpr int most_newton_steps = 200, most_repetitions = 100;
-constexpr double force_tolerance = 1e-10;  // of the largest force: six digits below what any step of order 2 resolves
+constexpr double force_tolerance = 1e-12;  // of the largest force; round-off often comes first
 
 double largest_column(const Points& p) { return p.cols() ? p.colwise().norm().maxCoeff() : 0; }
 

@@ -12,7 +12,7 @@ class ImplicitStep {
  public:
   explicit ImplicitStep(System& f) : potential_(f) {}
 
-  /// Solves the implicit Euler equations of a step of h from s, to round-off or 1e-10 of the forces, whichever is
+  /// Solves the implicit Euler equations of a step of h from s, to round-off or 1e-12 of the forces, whichever is
   /// larger; returns the end state. Throws SolverFailure when Newton's method does not get there.
   const State& solve(const State& s, double h);
   /// One Newton step from y = x_n + h v_n with the clamped matrix; the linear system is solved to 1e-12.

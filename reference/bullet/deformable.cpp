@@ -52,7 +52,7 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
     Readback r = scene_body_->read_back();
     if (gravity_force_) r.gravity = from_bullet(gravity_force_->m_gravity) * factor();
     // our own force class would only repeat what it was given: then nothing is attested
-    if (scene_.model.find<Drag>() && shipped_)
+    if (scene_.model.find<Drag>() && shipped_drag_)
       r.drag = std::vector<double>(scene_.model.particles.size(), body().m_cfg.drag / h_);
     if (scene_.model.find<Spheres>()) r.friction = stage_.ball->getFriction() * body().m_cfg.kDF;
     if (scene_.model.find<Springs>()) r.probe = probe();
@@ -75,28 +75,32 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
     std::set<double> stiffness;
     if (springs)
       for (const Spring& s : springs->list) stiffness.insert(s.k);
-    shipped_ = (!springs || springs->law == SpringLaw::hooke) && stiffness.size() <= 2 && rate && h_ * *rate < 1;
+    shipped_springs_ = (!springs || springs->law == SpringLaw::hooke) && stiffness.size() <= 2;
+    shipped_drag_ = rate && h_ * *rate < 1;
     NetForce::Parts ours;
-    if (shipped_) {
+    if (shipped_drag_) {
       drag_rate_ = *rate;
       body().m_cfg.drag = h_ * drag_rate_;
-      if (springs) {
-        const double soft = *stiffness.begin() / factor(), hard = *stiffness.rbegin() / factor();
-        for (int l = 0; l < body().m_links.size(); ++l)
-          body().m_links[l].m_bbending = springs->list[l].k != *stiffness.begin();
-        spring_force_ = std::make_unique<btDeformableMassSpringForce>(soft, 0.0, true, hard);
-        world_->addForce(&body(), spring_force_.get());
-        mapped_["stiffness"] = drag_rate_ > 0 ? "Bullet's own mass-spring force, k / (1 - h gamma)"
-                                              : "Bullet's own mass-spring force, k as it is";
-      }
-      if (drag_rate_ > 0) mapped_["drag"] = fmt::format("body drag factor h gamma = {:.6g}", h_ * drag_rate_);
       ours.factor = 1 / factor();
+      if (drag_rate_ > 0) mapped_["drag"] = fmt::format("body drag factor h gamma = {:.6g}", h_ * drag_rate_);
     } else {
       body().m_cfg.drag = 0;
-      ours.springs = springs;
       ours.drag = model.find<Drag>();
-      mapped_["stiffness"] = "force class of our own: one stiffness per spring";
       mapped_["drag"] = "force class of our own: one coefficient per particle";
+    }
+    if (shipped_springs_ && springs) {
+      const double soft = *stiffness.begin() / factor(), hard = *stiffness.rbegin() / factor();
+      for (int l = 0; l < body().m_links.size(); ++l)
+        body().m_links[l].m_bbending = springs->list[l].k != *stiffness.begin();
+      spring_force_ = std::make_unique<btDeformableMassSpringForce>(soft, 0.0, true, hard);
+      world_->addForce(&body(), spring_force_.get());
+      mapped_["stiffness"] = drag_rate_ > 0 ? "Bullet's own mass-spring force, k / (1 - h gamma)"
+                                            : "Bullet's own mass-spring force, k as it is";
+    } else if (springs) {
+      ours.springs = springs;
+      mapped_["stiffness"] = springs->law == SpringLaw::hooke
+                                 ? "force class of our own: one stiffness per spring"
+                                 : "force class of our own: the scene's law, one stiffness per spring";
     }
     if (wind) {
       ours.wind = wind;
@@ -128,7 +132,7 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
     btAlignedObjectArray<btVector3> force;
     force.resize(n, btVector3(0, 0, 0));
     if (spring_force_) spring_force_->addScaledElasticForce(factor(), force);
-    if (!shipped_ && net_force_) net_force_->addScaledElasticForce(1, force);
+    if (!spring_force_ && net_force_) net_force_->addScaledElasticForce(factor(), force);
     for (int i = 0; i < n; ++i) {
       auto& node = nodes[scene_body_->node_of(i)];
       node.m_q = kept[i];
@@ -137,7 +141,8 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
     return p;
   }
 
-  bool shipped_ = false;               // Bullet's own spring force carries the springs
+  bool shipped_springs_ = false;       // Bullet's own spring force carries the springs
+  bool shipped_drag_ = false;          // the body's drag factor carries the drag
   double drag_rate_ = 0;               // 1/s, as carried by the body's drag factor
   std::optional<double> speed_limit_;  // m/s, when Bullet limited a speed to the body's box over the step
   std::map<std::string, std::string> mapped_;

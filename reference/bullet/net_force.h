@@ -1,5 +1,5 @@
 // A force class of our own in Bullet's deformable world, for what Bullet's mass-spring force cannot carry: more than
-// two stiffnesses, drag that differs between particles, and wind.
+// two stiffnesses, another spring law than Hooke's, drag that differs between particles, and wind.
 #pragma once
 
 #include <BulletSoftBody/btDeformableLagrangianForce.h>

@@ -1,6 +1,7 @@
 // Bullet against mysim on the shipped cloths, in their windows, beside the measured growth of a perturbation.
 #include "experiments/metrics.h"
 #include "experiments/scenes.h"
+#include "mysim/frequency.h"
 #include "reference/certificate.h"
 #include "reference/method.h"
 #include "tests/unit/helpers.h"
@@ -48,8 +49,13 @@ TEST(BulletCloth, ThreeStiffnessesAreIdenticalByOurForceClass) {
 TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStepper) {
   for (const auto name : shipped_scenes()) {
     const Scene scene = load_scene(std::string(name));
+    const double omega = scene.model.first_order() ? 0 : fastest_frequency(scene.model, scene.start);
     int stable = 0;
+    bool own = false;  // the scene's own method holds
     for (const Stepper& s : steppers()) {
+      // implicit steps cost many evaluations: they are tried where a scene is meant for them
+      if (s.evaluations == 0 && s.name != scene.method) continue;
+      if (omega > 0 && s.limit(omega, uniform_drag_rate(scene.model).value_or(0)) < scene.step) continue;
       if (s.adaptive) continue;  // its steps change with the perturbation: what is seen is its tolerance
       SCOPED_TRACE(fmt::format("{} {}", name, s.name));
       const Method method = find_method(std::string(s.name));
@@ -57,6 +63,7 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
       const int samples = std::max(1, static_cast<int>(scene.samples * scene.window / scene.duration));
       if (run_method(method, scene, {scene.step, scene.window, samples}, {&r}).verdict != Verdict::ok) continue;
       ++stable;
+      own |= s.name == scene.method;
       const double growth = perturbation_growth(method, scene, scene.step, scene.window);
       fmt::print("{:12} {:16} growth {:.3g}\n", name, s.name, growth);
       EXPECT_GT(growth, 0);
@@ -64,7 +71,10 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
       // sweeps once a step: 6e3 measured on cloth-hang)
       EXPECT_LT(growth, s.order == 1 && !s.symplectic ? 1e4 : 1e3);
     }
-    EXPECT_GE(stable, 3) << name;  // the two symplectic rules and rk4, or the three that take first-order scenes
+    EXPECT_TRUE(own) << name;
+    // the two symplectic rules and rk4, or the three that take first-order scenes; elsewhere only few rules can do it
+    const bool special = scene.model.find<Constraints>() || scene.method == "implicit-euler";
+    EXPECT_GE(stable, special ? 1 : 3) << name;
   }
 }
 

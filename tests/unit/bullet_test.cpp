@@ -56,7 +56,7 @@ TEST(BulletExplicit, CarriesUnequalMassesUnderOneDragCoefficient) {
   Scene scene = load_scene("chain");
   scene.model.particles.mass << 0.1, 0.3, 0.05, 0.2;
   *scene.model.find<Drag>() = Drag{Eigen::VectorXd::Constant(4, 0.1)};
-  EXPECT_LE(apart(scene, {1e-3, 3, 60}, ours), identity);
+  EXPECT_LE(apart(scene, {1e-3, 3, 60}, own), identity);
   *scene.model.find<Drag>() = Drag{2 * scene.model.particles.mass};  // one rate again
   EXPECT_LE(apart(scene, {1e-3, 3, 60}, own), identity);
 }

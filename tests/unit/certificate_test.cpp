@@ -17,6 +17,7 @@ TEST(Certificate, MatchesOnEveryShippedSceneAndNamesOtherLaws) {
       const Scene scene = load_scene(std::string(name));
       if (scene.model.first_order()) continue;
       const Outcome out = answer(method, scene, {scene.step, 2 * scene.step, 1}).outcome;
+      if (out.verdict == Verdict::unsupported) continue;  // refused with a reason: bullet_link_test.cpp
       ASSERT_TRUE(out.readback);
       for (const CertificateRow& row : certify(method, scene, out).rows)
         EXPECT_EQ(row.parity, row.quantity.starts_with("law of ") ? Parity::different_law : Parity::match)

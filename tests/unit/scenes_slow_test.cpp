@@ -66,9 +66,7 @@ std::vector<Removal> removals(const Scene& whole) {
 TEST(Scenes, EveryIngredientMattersWithinTheWindow) {
   for (const auto name : shipped_scenes()) {
     const Scene scene = load_scene(std::string(name));
-    const Stepper& s = stepper(scene.model.first_order()         ? "rk4"
-                               : scene.model.find<Constraints>() ? "xpbd"
-                                                                 : "leapfrog");
+    const Stepper& s = stepper(scene.method);  // shipped scenes name one of mysim's own
     const int samples = std::max(1, static_cast<int>(scene.samples * scene.window / scene.duration));
     const crosscheck::Run run{scene.step, scene.window, samples};
     const Trajectory whole = trajectory_of(s, scene, run);
