@@ -143,7 +143,7 @@ void cost_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>
   }
   if (dearest > 0)
     out.push_back({"", "cost",
-                   fmt::format("One step of the same rule on cloth costs Bullet {} times the CPU time of mysim's plain "
+                   fmt::format("One step of the same rule on cloth costs Bullet {} times the CPU time of mysim "
                                "loops (Debian's build of "
                                "Bullet; one run each).",
                                range(fmt::format("{:.1f}", cheapest), fmt::format("{:.1f}", dearest))),

@@ -29,15 +29,15 @@ TEST(AMillionSteps, SymplecticRulesKeepTheEnergyBounded) {
     if (!s.symplectic) continue;
     // implicit rules cost some fifty times as much a step; the first tenth must still be longer than the 20 s in which
     // the chain's swings become irregular and fast
-    // a drift would make the last tenth ten times worse than the first; a bounded error repeats itself, and its maximum
-    // over a tenth is met to some ten per cent
-    EXPECT_LT(late_over_early(s, 1e-3, s.evaluations > 0 ? 1000000 : 300000), 1.5) << s.name;
+    // a drift would make the last tenth ten times worse than the first; a bounded error repeats itself, but the chain
+    // swings irregularly and its fastest moment, which makes the error, is met to within a factor of two
+    EXPECT_LT(late_over_early(s, 1e-3, s.evaluations > 0 ? 1000000 : 300000), 3) << s.name;
   }
 }
 
 TEST(AMillionSteps, RulesThatAreNotSymplecticDrift) {
   // rk4 takes (h omega)^6 / 72 of the fastest vibrations' energy in each step (h omega = 0.2): all of it in the end
-  EXPECT_GT(late_over_early(stepper("rk4"), 1e-3, 1000000), 1.5);
+  EXPECT_GT(late_over_early(stepper("rk4"), 1e-3, 1000000), 3);
 }
 
 }  // namespace
