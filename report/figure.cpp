@@ -131,7 +131,7 @@ std::string script_of(const Figure& f) {
   out += fmt::format("set title {}\n", single_quoted(f.title));
   out += axis_commands(closed(f, true), 'x') + axis_commands(closed(f, false), 'y');
   if (!f.categories.empty()) {
-    out += "set xtics rotate by 20 right noenhanced (";
+    out += fmt::format("set xtics rotate by {} right noenhanced (", f.categories.size() > 10 ? 35 : 20);
     for (size_t i = 0; i < f.categories.size(); ++i)
       out += fmt::format("{}{} {:g}", i ? ", " : "", single_quoted(f.categories[i].second), f.categories[i].first);
     out += ")\n";

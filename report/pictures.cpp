@@ -190,9 +190,15 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
   if (scene.model.first_order()) return {"mysim/explicit-euler", "mysim/trapezoidal", "mysim/rk4"};
   if (scene.model.find<Constraints>()) return {"mysim/xpbd", "bullet/pbd"};
   std::vector<std::string> names{"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd"};
+  // what is meant for long steps first, and what fails there beside it
   if (scene.method.find("implicit") != std::string::npos)
-    names = {scene.method, "mysim/xpbd", "mysim/symplectic-euler"};
-  if (scene.model.find<Spheres>()) names.push_back("mysim/symplectic-euler+sticky");
+    names = {"mysim/" + scene.method, "mysim/implicit-midpoint", "mysim/symplectic-euler"};
+  // what Bullet is not given yet is seen by rules of other kinds
+  const auto* spheres = scene.model.find<Spheres>();
+  if (scene.model.find<Dashpots>() || scene.model.find<Aerodynamics>() ||
+      (spheres && (spheres->moving() || spheres->list.size() > 1)))
+    names = {"mysim/symplectic-euler", "mysim/implicit-euler", "mysim/xpbd"};
+  if (spheres) names.push_back("mysim/symplectic-euler+sticky");
   return names;
 }
 
@@ -218,7 +224,7 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
   const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
   std::vector<Points> healthy, all;
   std::vector<render::Ball> balls;
-  double most = 0;
+  double most = 0, most_of_failed = 0;
   if (!strip) picture.rows.emplace_back();
   for (const Answer* a : usable) {
     if (strip) picture.rows.emplace_back();
@@ -231,8 +237,10 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
       panel.balls = balls_of(scene, a->trajectory.t[frames[c]]);
       balls.insert(balls.end(), panel.balls.begin(), panel.balls.end());
       panel.bodies.push_back(body_of(scene, *a, frames[c], mode, &base));
-      for (double v : panel.bodies[0].value) most = std::max(most, v);
-      for (double v : panel.bodies[0].tube_value) most = std::max(most, v);
+      // a run that blew up would leave no colour for the others
+      double& top = a->outcome.verdict == Verdict::ok ? most : most_of_failed;
+      for (double v : panel.bodies[0].value) top = std::max(top, v);
+      for (double v : panel.bodies[0].tube_value) top = std::max(top, v);
       all.push_back(panel.bodies[0].x);
       if (a->outcome.verdict == Verdict::ok) healthy.push_back(panel.bodies[0].x);
       for (const Vec3& p : panel.bodies[0].trail)
@@ -240,6 +248,7 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
       picture.rows.back().push_back(std::move(panel));
     }
   }
+  if (healthy.empty()) most = most_of_failed;
   if (mode == Mode::stretch) picture.scale = render::Scale{"stretch / %", 0, round_up(most)};
   if (mode == Mode::difference)
     picture.scale = render::Scale{"distance from " + usable[0]->method + " / mm", 0, round_up(most)};
