@@ -38,7 +38,8 @@ Method mysim_method(const Stepper& stepper, const std::vector<Option>& options) 
       refuse(name, o, stepper.linear ? "+linear, +sticky or none" : "+sticky or none");
   }
   return {name,
-          fmt::format("{} ({})", stepper.what, stepper.limit_formula),
+          fmt::format("{} (order {}{}; {})", stepper.what, stepper.order, stepper.symplectic ? ", symplectic" : "",
+                      stepper.limit_formula),
           std::string(stepper.name),
           [rule, contact](const Scene& scene, const Run& run, Observer& observer) {
             Outcome out = simulate(rule, contact, scene, run, observer);
