@@ -51,13 +51,15 @@ void agreement(const Scene& scene, const SceneFacts& facts, std::vector<Finding>
 
 void other_law(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
   const MethodFacts* p = facts.find(position_based);
-  if (!p || !p->ok() || !scene.model.find<Springs>() || !(facts.motion > 0)) return;
+  const auto* springs = scene.model.find<Springs>();
+  if (!p || !p->ok() || !springs || !(facts.motion > 0)) return;
+  const char* why = springs->law == SpringLaw::bullet_link
+                        ? "here its springs follow the scene's law, but are solved one after the other in long steps"
+                        : "its springs follow another law and are solved one after the other";
   if (p->error)
     out.push_back({scene.name, "accuracy",
-                   fmt::format("{} differs from the truth by up to {}, {} of the motion: its springs follow another "
-                               "law and are solved one "
-                               "after the other.",
-                               position_based, nice_length(*p->error), percent(*p->error, facts.motion)),
+                   fmt::format("{} differs from the truth by up to {}, {} of the motion: {}.", position_based,
+                               nice_length(*p->error), percent(*p->error, facts.motion), why),
                    facts.tier});
   else if (p->difference)
     out.push_back(

@@ -56,12 +56,18 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneF
     add("accuracy", "Bullet's explicit world cannot model " + joined(alone) + ": see why in the table of runs.");
 }
 
+/// True where the scene's springs follow Hooke's law, which position-based links do not.
+bool hookean(const Scene& scene) {
+  const auto* springs = scene.model.find<Springs>();
+  return springs && springs->law == SpringLaw::hooke;
+}
+
 void other_law_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
                       std::vector<Finding>& out) {
   double best = 1e300, worst = 0;
   for (size_t i = 0; i < scenes.size(); ++i)
     if (const MethodFacts* p = facts[i].find(position_based);
-        p && p->ok() && p->error && facts[i].motion > 0 && scenes[i].model.find<Springs>()) {
+        p && p->ok() && p->error && facts[i].motion > 0 && hookean(scenes[i])) {
       best = std::min(best, *p->error / facts[i].motion);
       worst = std::max(worst, *p->error / facts[i].motion);
     }
@@ -142,12 +148,12 @@ void cost_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>
     dearest = std::max(dearest, *b->cpu_per_step / *a->cpu_per_step);
   }
   if (dearest > 0)
-    out.push_back({"", "cost",
-                   fmt::format("One step of the same rule on cloth costs Bullet {} times the CPU time of mysim "
-                               "loops (Debian's build of "
-                               "Bullet; one run each).",
-                               range(fmt::format("{:.1f}", cheapest), fmt::format("{:.1f}", dearest))),
-                   "measured"});
+    out.push_back(
+        {"", "cost",
+         fmt::format("One step of the same rule on cloth costs Bullet {} times the CPU time of mysim (Debian's "
+                     "build of Bullet; one run each).",
+                     range(fmt::format("{:.1f}", cheapest), fmt::format("{:.1f}", dearest))),
+         "measured"});
 }
 
 }  // namespace

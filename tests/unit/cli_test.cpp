@@ -114,6 +114,7 @@ TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
       {{"run", "chain", "--method", "rk5"}, {"rk5", "mysim/rk4"}},
       {{"run", "chain", "--method", "bullet/pbd+n=0"}, {"+n=0", "+n=1"}},
       {{"run", "chain", "--tol", "1e-6"}, {"--tol", "fixed-step"}},
+      {{"run", "chain", "--method", "dopri5", "--step", "1e-3"}, {"--step", "mysim/dopri5", "--tol"}},
       {{"run", "chain", "--step", "-1"}, {"--step", "above zero", "-1"}},
       {{"run", "chain", "--step", "nan"}, {"--step", "finite", "nan"}},
       {{"run", "chain", "--duration", "inf"}, {"--duration", "finite", "inf"}},

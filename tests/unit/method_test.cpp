@@ -52,6 +52,8 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
   const std::pair<const char*, const char*> cases[] = {
       {"rk4+stick", "method mysim/rk4: unknown option '+stick'; expected +sticky or none"},
       {"implicit-euler+x", "unknown option '+x'; expected +linear, +sticky or none"},
+      {"rk4+linear", "method mysim/rk4: unknown option '+linear'; expected +sticky or none"},
+      {"implicit-euler+line", "unknown option '+line'; expected +linear, +sticky or none"},
       {"rk4+sticky=1", "unknown option '+sticky=1'"},
       {"bullet/deformable-explicit+n=2", "method bullet/deformable-explicit: unknown option '+n=2'; expected none"},
       {"bullet/pbd+n=0", "method bullet/pbd: unknown option '+n=0'; expected +n=1 to +n=1000"},
