@@ -68,13 +68,19 @@ bool in_key(const Figure& f, const std::string& colour) {
                      [&](const Curve& c) { return !c.points.empty() && c.style.colour == colour; });
 }
 
-/// Room that the key needs below the plot beyond three rows of three, in parts of the figure's height.
+/// Room that the key needs below the plot beyond its first three rows, in parts of the figure's height.
 double key_room(const Figure& f) {
   std::set<std::string> entries;
   for (const Curve& c : f.curves)
     if (!c.points.empty()) entries.insert(c.title);
-  for (const FailureMark& m : f.failures) entries.insert(in_key(f, m.style.colour) ? "failed" : m.title);
-  const int rows = (static_cast<int>(entries.size()) + (f.floor ? 1 : 0) + 2) / 3;
+  for (const FailureMark& m : f.failures)
+    entries.insert(in_key(f, m.style.colour) ? "failed (in its colour)" : m.title);
+  if (f.floor) entries.insert(f.floor->first);
+  size_t longest = 0;
+  for (const std::string& e : entries) longest = std::max(longest, e.size());
+  // as many columns as gnuplot finds room for in this width
+  const int columns = longest <= 14 ? 3 : longest <= 28 ? 2 : 1;
+  const int rows = (static_cast<int>(entries.size()) + columns - 1) / columns;
   return 0.036 * std::max(0, rows - 3);
 }
 
