@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
+#include "mysim/uniform.h"
 #include "reference/truth.h"
 
 namespace crosscheck {
@@ -72,10 +72,10 @@ double perturbation_growth(const Method& method, const Scene& scene, double step
   constexpr double size = 1e-10;  // m: far above round-off (1e-16), far below every nonlinearity
   Scene perturbed = scene;
   std::mt19937_64 engine(1);
-  auto uniform = [&] { return 2 * (static_cast<double>(engine() >> 11) * 0x1.0p-53) - 1; };
+  auto part = [&] { return 2 * uniform(engine) - 1; };
   for (int i = 0; i < scene.start.x.cols(); ++i) {
     Vec3 direction;
-    do direction = Vec3(uniform(), uniform(), uniform());
+    do direction = Vec3(part(), part(), part());
     while (direction.norm() > 1 || direction.norm() < 0.1);
     if (!scene.model.particles.pinned[i]) perturbed.start.x.col(i) += size * direction.normalized();
   }
@@ -86,7 +86,7 @@ double perturbation_growth(const Method& method, const Scene& scene, double step
   run_method(method, perturbed, run, {&b});
   double largest = 0;
   for (int i = 0; i < std::min(a.trajectory.frames(), b.trajectory.frames()); ++i)
-    largest = std::max(largest, (a.trajectory.x[i] - b.trajectory.x[i]).colwise().norm().maxCoeff());
+    largest = std::max(largest, largest_column(a.trajectory.x[i] - b.trajectory.x[i]));
   return largest / size;
 }
 

@@ -18,11 +18,10 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       pair_(scene.start),
       tolerance_(run.tolerance),
       h_(std::min(run.step, run.duration)),
+      fastest_(largest_column(scene.start.v)),
       before_(scene.start),
       s_(scene.start),
-      seen_(scene.start) {
-  if (s_.v.size()) fastest_ = s_.v.colwise().norm().maxCoeff();
-}
+      seen_(scene.start) {}
 
 /// Root mean square over the particles of estimated over allowed error.
 double AdaptiveWorld::error_ratio() {
@@ -36,8 +35,7 @@ double AdaptiveWorld::error_ratio() {
     return e.cols() > 0 ? sum / static_cast<double>(e.cols()) : 0;
   };
   // from rest: the speed that the forces at the start give in the step
-  const double first = s_.v.size() ? pair_.first_step_speed() : 0;
-  const double speed = std::max({fastest_, first, 1e-300});
+  const double speed = std::max({fastest_, pair_.first_step_speed(), 1e-300});
   return std::sqrt(std::max(part(error.x, s_.x, next.x, scene_.size()), part(error.v, s_.v, next.v, speed)));
 }
 
@@ -56,7 +54,7 @@ void AdaptiveWorld::advance(double limit) {
     if (ratio <= 1) {
       before_ = s_;
       s_ = pair_.next();
-      if (s_.v.size()) fastest_ = std::max(fastest_, s_.v.colwise().norm().maxCoeff());
+      fastest_ = std::max(fastest_, largest_column(s_.v));
       s_.t = h == h_ ? before_.t + h : limit;
       last_h_ = h;
       const double kept = std::max(ratio, 1e-10);

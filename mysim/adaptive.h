@@ -19,7 +19,7 @@ class AdaptiveWorld : public World {
   const State& state(double t) override;
   void tell_contact(Observer& observer) override { contacts_.tell(observer, s_); }
 
-  System& right_hand_side() { return f_; }
+  const System& right_hand_side() const { return f_; }
   long accepted() const { return accepted_; }
 
  private:
@@ -31,7 +31,7 @@ class AdaptiveWorld : public World {
   Contacts contacts_;
   DormandPrince pair_;
   double tolerance_, h_, last_h_ = 0;
-  double fastest_ = 0;        // m/s, largest speed of an accepted state
+  double fastest_;            // m/s, largest speed of an accepted state
   double last_ratio_ = 1e-4;  // of the step before, for the controller
   State before_, s_, seen_;   // start and end of the last accepted step; what was asked for
   long accepted_ = 0;

@@ -7,7 +7,9 @@ Contacts::Contacts(const Model& model, ContactRule rule)
     : particles_(model.particles), spheres_(model.find<Spheres>()), rule_(rule) {}
 
 void Contacts::begin(const State& s) {
-  if (spheres_) start_ = s;
+  if (!spheres_) return;
+  t_n_ = s.t;
+  x_n_ = s.x;
 }
 
 bool Contacts::resolve(State& s) {
@@ -16,12 +18,12 @@ bool Contacts::resolve(State& s) {
   touched_ = false;
   const auto act = rule_ == ContactRule::sticky ? resolve_contact_sticky : resolve_contact;
   for (const Sphere& sphere : spheres_->list) {
-    const Vec3 centre = sphere.centre_at(s.t), shift = centre - sphere.centre_at(start_.t);
+    const Vec3 centre = sphere.centre_at(s.t), shift = centre - sphere.centre_at(t_n_);
     const Vec3 velocity = sphere.motion ? velocity_at(*sphere.motion, s.t) : Vec3::Zero();
     for (int i = 0; i < particles_.size(); ++i) {
       if (particles_.pinned[i]) continue;
       Vec3 relative = s.v.col(i) - velocity;
-      if (act(sphere, centre, start_.x.col(i) + shift, s.x.col(i), relative) > 0) {
+      if (act(sphere, centre, x_n_.col(i) + shift, s.x.col(i), relative) > 0) {
         s.v.col(i) = relative + velocity;
         touched_ = true;
       }

@@ -23,7 +23,9 @@ class Contacts {
   const Particles& particles_;
   const Spheres* spheres_;
   ContactRule rule_;
-  State start_, proposed_;
+  double t_n_ = 0;  // s, where the step began
+  Points x_n_;      // m, likewise
+  State proposed_;
   bool touched_ = false;
 };
 

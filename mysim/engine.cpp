@@ -19,8 +19,7 @@ class FixedStepWorld : public World {
         s_(scene.start),
         workspace_(scene.start) {}
 
-  void step(double t, double t_next) override {
-    s_.t = t;
+  void step(double, double t_next) override {
     contacts_.begin(s_);
     stepper_.step(f_, s_, h_, workspace_);
     s_.t = t_next;

@@ -3,28 +3,24 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 #include <utility>
+
+#include "mysim/system.h"
+#include "mysim/uniform.h"
 
 namespace crosscheck {
 
 double fastest_frequency(const Model& model, const State& state) {
   const Particles& particles = model.particles;
   Tangent tangent;
-  for (const Term& term : model.terms)
-    std::visit(
-        [&]<class T>(const T& t) {
-          if constexpr (HasTangent<T> && !UsesVelocity<T>)
-            add_tangent(t, particles, state, Curvature::clamped, tangent);
-        },
-        term);
+  add_stiffness(model, state, Curvature::clamped, tangent);
   if (tangent.empty()) return 0;
 
   Eigen::VectorXd root = particles.mass.cwiseSqrt().cwiseInverse();  // 1 / sqrt(m), 0 at pins
   for (int pin : particles.pins) root[pin] = 0;
   std::mt19937_64 engine(1);
   Points v(3, particles.size()), product(3, particles.size());
-  for (double& part : v.reshaped()) part = static_cast<double>(engine() >> 11) * 0x1.0p-53 - 0.5;
+  for (double& part : v.reshaped()) part = uniform(engine) - 0.5;
   double omega2 = 0;
   for (int i = 0; i < 500; ++i) {
     v = v * root.asDiagonal();

@@ -29,17 +29,17 @@ Grid read_grid(const Section& s) {
       s.fail("w", "a side that leaves the plane of u and v, on the side of u x v");
   }
   g.mass = s.positive("mass");
-  if (s.has("inextensible")) {
+  const bool inextensible = s.has("inextensible");
+  if (inextensible) {
     if (s.text("inextensible") != "structural") s.fail("inextensible", "\"structural\"");
-    g.hard = true;
+    g.stiffness.structural = std::numeric_limits<double>::infinity();
   }
-  if (!g.hard || s.has("stiffness")) {
+  if (!inextensible || s.has("stiffness")) {
     const Section k = s.section("stiffness");
-    if (!g.hard) g.stiffness.structural = k.positive("structural");
+    if (!inextensible) g.stiffness.structural = k.positive("structural");
     if (k.has("shear")) g.stiffness.shear = k.positive("shear");
     if (k.has("bend")) g.stiffness.bend = k.positive("bend");
   }
-  if (g.hard) g.stiffness.structural = std::numeric_limits<double>::infinity();
   if (s.has("dashpot")) g.dashpot = s.positive("dashpot");
   return g;
 }

@@ -14,9 +14,8 @@ struct Grid {
   int nu, nv, nw;        // nw = 1: cloth
   Vec3 origin, u, v, w;  // m; u, v and w are the whole sides
   double mass;           // kg, of the whole grid, shared equally
-  bool hard;             // the structural family keeps its lengths: constraints, no springs
   struct {
-    double structural, shear, bend;  // N/m; 0: the family is absent
+    double structural, shear, bend;  // N/m; 0: the family is absent; infinite: it keeps its lengths
   } stiffness;
   double dashpot;  // N s/m along every spring; 0: none
 
@@ -27,7 +26,7 @@ Grid read_grid(const Section& s);
 Points grid_points(const Grid& grid);
 /// Pairs in the order of the particles: for each one, structural along the axes, both shear diagonals of each face of
 /// the cell that starts there, bend (skip one) along the axes. Rest lengths are the distances at the start; stiffness
-/// is infinite for the structural family of a hard grid.
+/// is infinite for the structural family of an inextensible grid.
 std::vector<Spring> grid_springs(const Grid& grid, const Points& x);
 /// The cloth, or the six faces of the block seen from outside.
 std::vector<std::array<int, 3>> grid_triangles(const Grid& grid);

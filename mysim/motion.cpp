@@ -19,6 +19,10 @@ Ramp ramp_at(double t, double length) {
 
 }  // namespace
 
+double top_speed(const Motion& motion) {
+  return motion.amplitude.norm() * (2 * std::numbers::pi * motion.frequency + 1.875 / motion.ramp);
+}
+
 Vec3 displacement_at(const Motion& motion, double t) {
   const double angle = 2 * std::numbers::pi * motion.frequency * t;
   return motion.amplitude * (ramp_at(t, motion.ramp).value * std::sin(angle));

@@ -14,6 +14,8 @@ struct Motion {
   double ramp;       // s
 };
 
+/// A bound of |d'(t)|, m/s: |amplitude| (omega + 15/8 / ramp), 15/8 being the ramp's steepest slope.
+double top_speed(const Motion& motion);
 Vec3 displacement_at(const Motion& motion, double t);  // m
 Vec3 velocity_at(const Motion& motion, double t);      // m/s, the derivative of displacement_at
 

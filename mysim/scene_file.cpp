@@ -13,8 +13,7 @@ namespace crosscheck {
 namespace {
 
 // the table of terms that have a section of their own; springs, dashpots and constraints come from [grid], [[spring]]
-// and
-// [[constraint]]
+// and [[constraint]]
 struct TermReader {
   std::string_view key;
   Term (*read)(const Section&, const Scene&);

@@ -8,6 +8,9 @@
 
 namespace crosscheck {
 
+/// Adds -dF/dx of every term that depends on position alone, at the state's positions.
+void add_stiffness(const Model& model, const State& state, Curvature curvature, Tangent& tangent);
+
 class System {
  public:
   explicit System(const Model& model);
@@ -24,7 +27,7 @@ class System {
   void add_velocity_acceleration(const State& stage, Points& a);
   bool has_velocity_forces() const { return has_velocity_forces_; }
   /// a = F / m of what position-based methods do not treat as constraints: gravity, wind, air on triangles.
-  void external_acceleration(State& stage, Points& a);
+  void external_acceleration(const State& stage, Points& a);
   /// c_i / m_i of each particle (n, 1/s), of the drag; zero without drag.
   const Eigen::ArrayXd& drag_rate() const { return drag_rate_; }
 
@@ -37,7 +40,8 @@ class System {
 
  private:
   template <class Wanted>
-  void sum_forces(const State& stage, Wanted wanted, Points& a);
+  void sum_forces(const State& stage, Wanted wanted);
+  void set_acceleration(Points& a) const;
 
   const Model& model_;
   Forces forces_;

@@ -8,6 +8,11 @@ namespace crosscheck {
 using Vec3 = Eigen::Vector3d;
 using Points = Eigen::Matrix3Xd;  // N (3 x n): one column per particle
 
+/// Length of the longest column; 0 when there is none.
+inline double largest_column(const Points& p) { return p.cols() > 0 ? p.colwise().norm().maxCoeff() : 0; }
+/// Sum of the products of all entries.
+inline double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
+
 /// What changes with time. A first-order scene (x' = f(x, t)) has no velocities: v is then 3 x 0.
 struct State {
   double t = 0;  // s

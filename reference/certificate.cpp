@@ -101,8 +101,8 @@ void certify_springs(const Scene& scene, const Readback& r, Writer& w) {
     State stretched = scene.start;
     stretched.x = r.probe->x;
     add_force(*springs, scene.model.particles, stretched, ours);
-    const double scale = ours.f.colwise().norm().maxCoeff();
-    const double off = (ours.f - r.probe->force).colwise().norm().maxCoeff();
+    const double scale = largest_column(ours.f);
+    const double off = largest_column(ours.f - r.probe->force);
     // forces are differences of lengths near the rest length: 1 % of stretch costs two digits
     w.row("stiffness", range, fmt::format("forces at 1 % stretch off by {:.2g}", off / scale),
           off <= 100 * w.tolerance() * scale);

@@ -2,6 +2,7 @@
 #include "reference/multipliers.h"
 
 #include "mysim/errors.h"
+#include "mysim/steppers/rk4.h"
 
 namespace crosscheck {
 
@@ -58,20 +59,8 @@ void MultiplierWorld::derivative(const State& stage, State& rate) {
 
 void MultiplierWorld::step(double t, double t_next) {
   s_.t = t;
-  constexpr double node[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
-  for (int i = 0; i < 4; ++i) {
-    stage_ = s_;
-    stage_.t += node[i] * h_;
-    if (i > 0) {
-      stage_.x += node[i] * h_ * k_[i - 1].x;
-      stage_.v += node[i] * h_ * k_[i - 1].v;
-    }
-    derivative(stage_, k_[i]);
-  }
-  for (int i = 0; i < 4; ++i) {
-    s_.x += weight[i] * h_ * k_[i].x;
-    s_.v += weight[i] * h_ * k_[i].v;
-  }
+  rk4_step([&](const State& stage, State& rate) { derivative(stage, rate); }, s_, h_, {&k_[0], &k_[1], &k_[2], &k_[3]},
+           stage_);
   s_.t = t_next;
 }
 

@@ -28,12 +28,17 @@ int drawable(const Scene& scene, const Trajectory& path, int frame) {
   return frame;
 }
 
+/// Extension of the line between two particles, % of its length at rest; compression counts as zero.
+double extension(const Points& x, int a, int b, double rest) {
+  return rest > 0 ? std::max(0.0, (x.col(a) - x.col(b)).norm() / rest - 1) * 100 : 0;
+}
+
 /// Mean extension of the springs at each particle, % of their rest length; compression counts as zero.
 std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<double>* per_spring = nullptr) {
   std::vector<double> sum(x.cols(), 0), count(x.cols(), 0);
   if (const auto* springs = scene.model.find<Springs>())
     for (const Spring& s : springs->list) {
-      const double strain = s.rest > 0 ? std::max(0.0, (x.col(s.a) - x.col(s.b)).norm() / s.rest - 1) * 100 : 0;
+      const double strain = extension(x, s.a, s.b, s.rest);
       if (per_spring) per_spring->push_back(strain);
       if (s.family == Family::shear || s.family == Family::bend) continue;
       for (int end : {s.a, s.b}) sum[end] += strain, count[end] += 1;
@@ -41,7 +46,7 @@ std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<
   if (const auto* constraints = scene.model.find<Constraints>())
     for (const auto& [a, b, length] : constraints->list)
       for (int end : {a, b}) {
-        sum[end] += std::max(0.0, (x.col(a) - x.col(b)).norm() / length - 1) * 100;
+        sum[end] += extension(x, a, b, length);
         count[end] += 1;
       }
   for (size_t i = 0; i < sum.size(); ++i) sum[i] /= std::max(1.0, count[i]);
@@ -86,8 +91,7 @@ render::Body body_of(const Scene& scene, const Answer& answer, int frame, Mode m
     if (constraints)
       for (const auto& [a, b, length] : constraints->list) {
         body.tubes.push_back({a, b});
-        if (mode == Mode::stretch)
-          body.tube_value.push_back(std::max(0.0, (body.x.col(a) - body.x.col(b)).norm() / length - 1) * 100);
+        if (mode == Mode::stretch) body.tube_value.push_back(extension(body.x, a, b, length));
       }
   }
   if (surface && mode == Mode::stretch) body.value = stretch_of(scene, body.x);

@@ -19,8 +19,6 @@ struct CgMemory {
   Points r, z, p, q;
 };
 
-inline double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
-
 /// Solves A x = b from x = 0 until |b - A x| <= tolerance |b|. apply(p, q): q = A p. precondition(r, z): z = M^-1 r
 /// with M symmetric positive definite. Stops at once at negative curvature, with the x reached so far.
 template <class Apply, class Precondition>

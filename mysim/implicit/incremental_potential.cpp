@@ -9,8 +9,6 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-double largest_column(const Points& p) { return p.cols() ? p.colwise().norm().maxCoeff() : 0; }
-
 }  // namespace
 
 IncrementalPotential::IncrementalPotential(System& f) : f_(f), model_(f.model()) {
@@ -100,7 +98,7 @@ double IncrementalPotential::value(const Points& u) {
     if (!particles.pinned[i]) given -= frozen_air_.f.col(i).dot(at.x.col(i));
   a_.setZero();
   frozen_damping_.add_product(0, 1, moved_, a_);
-  const double dashpots = moved_.cwiseProduct(a_).sum() / (2 * h_);
+  const double dashpots = dot(moved_, a_) / (2 * h_);
   // a sum of n parts is rounded by at most n eps of their sizes; a spring's energy by k |e| eps |x|, since its ends
   // are, and sum k |e| <= sqrt(sum k e^2) sqrt(sum k)
   rounding_ = particles.size() * eps * (inertia + drag + dashpots + springs + std::abs(given)) +
@@ -131,12 +129,7 @@ void IncrementalPotential::gradient(const Points& u, Points& g) {
 void IncrementalPotential::linearise(const Points& u, Curvature curvature) {
   const State& at = end(u);
   tangent_.clear();
-  for (const Term& term : model_.terms)
-    std::visit(
-        [&]<class T>(const T& t) {
-          if constexpr (HasTangent<T> && !UsesVelocity<T>) add_tangent(t, model_.particles, at, curvature, tangent_);
-        },
-        term);
+  add_stiffness(model_, at, curvature, tangent_);
   const int n = model_.particles.size();
   blocks_.setZero(3, 3 * n);
   tangent_.add_diagonal(1, 0, blocks_);

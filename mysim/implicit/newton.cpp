@@ -11,8 +11,6 @@ namespace {
 constexpr int most_newton_steps = 200, most_repetitions = 100;
 constexpr double force_tolerance = 1e-12;  // of the largest force; round-off often comes first
 
-double largest_column(const Points& p) { return p.cols() ? p.colwise().norm().maxCoeff() : 0; }
-
 }  // namespace
 
 /// p_ = -matrix^-1 g at u_.
@@ -25,16 +23,9 @@ CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
                              3 * static_cast<int>(u_.cols()) + 20, p_, cg_);
 }
 
-/// Descends from u_ to the minimum.
+/// Descends from u_, where the potential is the last of descent_, to the minimum.
 void ImplicitStep::minimise() {
-  double value = potential_.value(u_);
-  descent_.assign(1, value);
-  // free flight is the better guess where no stiff spring stands in its way
-  trial_.setZero(3, u_.cols());
-  if (const double flown = potential_.value(trial_); flown < value) {
-    u_ = trial_;
-    descent_.push_back(value = flown);
-  }
+  double value = descent_.back();
   for (int step = 0; step < most_newton_steps; ++step) {
     potential_.gradient(u_, g_);
     const double left = largest_column(g_),
@@ -68,12 +59,20 @@ const State& ImplicitStep::solve(const State& s, double h) {
   u_ = s.x - potential_.inertial();
   for (int pin : potential_.pins()) u_.col(pin).setZero();
   const bool repeat = potential_.freeze(u_);
+  descent_.assign(1, potential_.value(u_));
+  // free flight is the better guess where no stiff spring stands in its way
+  trial_.setZero(3, u_.cols());
+  if (const double flown = potential_.value(trial_); flown < descent_.back()) {
+    u_ = trial_;
+    descent_.push_back(flown);
+  }
   minimise();
   double change = INFINITY;
   for (int i = 0; repeat && change > 0; ++i) {
     if (i == most_repetitions) throw SolverFailure("the forces on moving particles did not settle within the step");
     const Points before = u_;
     potential_.freeze(u_);
+    descent_.assign(1, potential_.value(u_));
     minimise();
     // below the accuracy of the solves themselves nothing more is gained
     change = descent_.size() == 1 ? 0 : largest_column(u_ - before);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace crosscheck {
 
@@ -11,10 +10,8 @@ Watch::Watch(const Model& model) : model_(model) {
   if (const auto* spheres = model.find<Spheres>())
     for (const Sphere& s : spheres->list)
       if (s.motion) {
-        // |d'| <= amplitude (omega + 15/8 / ramp), the ramp's steepest slope; a particle of restitution e leaves at (1
-        // + e) times that at most, and as much again is allowed for what it stores in springs
-        const double omega = 2 * std::numbers::pi * s.motion->frequency;
-        const double speed = (1 + s.restitution) * s.motion->amplitude.norm() * (omega + 1.875 / s.motion->ramp);
+        // a particle leaves at (1 + e) times the sphere's speed at most; as much energy again may go into springs
+        const double speed = (1 + s.restitution) * top_speed(*s.motion);
         moving_spheres_ += model.particles.mass.sum() * speed * speed;
       }
   if (model.find<Wind>() || model.find<Aerodynamics>() || model.particles.move)

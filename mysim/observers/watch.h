@@ -9,9 +9,9 @@ namespace crosscheck {
 
 /// Verdict::energy when E(t) - E(0) - (work of wind and moved pins) exceeds the energy that the run had to work with:
 /// kinetic + elastic at the start, plus the largest change of gravitational energy and the largest work so far.
-/// No correct motion can exceed it: drag and contact only take away
-/// (a moving sphere gives too: the kinetic energy of all particles at its top speed, twice, is added). Blow-ups pass it
-/// at once, also those of engines that clamp speeds and never become non-finite.
+/// No correct motion can exceed it: drag and contact only take away (a moving sphere gives too: the kinetic energy of
+/// all particles at its top speed, twice, is added). Blow-ups pass it at once, also those of engines that clamp speeds
+/// and never become non-finite.
 class Watch : public Observer {
  public:
   explicit Watch(const Model& model);

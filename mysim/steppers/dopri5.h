@@ -20,7 +20,7 @@ class DormandPrince {
   /// Estimated error of next() in positions (3 x n, m) and velocities (3 x n, m/s): order 5 against order 4.
   const State& error();
   /// Largest speed that the first stage alone would give in the attempted step, m/s.
-  double first_step_speed() const { return stage_.t * k_[0].v.colwise().norm().maxCoeff(); }
+  double first_step_speed() const { return stage_.t * largest_column(k_[0].v); }
   /// The last stage of an accepted step is the first of the next one.
   void accept() { std::swap(k_[0], k_[6]); }
   /// The state was changed from outside: the first stage is evaluated again.

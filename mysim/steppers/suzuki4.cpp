@@ -8,8 +8,7 @@ namespace crosscheck {
 
 void suzuki4(System& f, State& s, double h, Workspace& w) {
   const double p = 1 / (4 - std::cbrt(4.0)), start = s.t;
-  // four passes: what is left of the asymmetry of forces on moving particles is of order h^5, below the rule's own
-  // error
+  // four passes: what is left of the asymmetry of forces on moving particles is of order h^5, as is the rule's error
   constexpr int passes = 4;
   double done = 0;
   for (const double part : {p, p, 1 - 4 * p, p, p}) {

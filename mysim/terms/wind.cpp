@@ -3,18 +3,18 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
+
+#include "mysim/uniform.h"
 
 namespace crosscheck {
 
 Gust::Gust(int seed, int channel) {
-  // raw engine output, not a std distribution: those differ between standard libraries
   std::mt19937_64 engine(1000003ull * static_cast<unsigned>(seed) + static_cast<unsigned>(channel));
-  auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1.0p-53; };
   double total = 0;
   for (Wave& wave : waves) {
     // between 0.2 and 1.2 Hz: slow enough to be resolved by every step in use, fast enough to be felt as gusts
-    wave = {0.5 + uniform(), 2 * std::numbers::pi * (0.2 + uniform()), 2 * std::numbers::pi * uniform()};
+    wave = {0.5 + uniform(engine), 2 * std::numbers::pi * (0.2 + uniform(engine)),
+            2 * std::numbers::pi * uniform(engine)};
     total += wave.weight;
   }
   for (Wave& wave : waves) wave.weight /= total;

@@ -43,7 +43,7 @@ bool equal_rules_differ(const Request& request, const Scene& scene, Result& resu
       for (int k = 0;
            k < std::min(a.trajectory.frames(), b.trajectory.frames()) && a.trajectory.t[k] <= scene.window * (1 + 1e-9);
            ++k)
-        largest = std::max(largest, (a.trajectory.x[k] - b.trajectory.x[k]).colwise().norm().maxCoeff());
+        largest = std::max(largest, largest_column(a.trajectory.x[k] - b.trajectory.x[k]));
       const double growth = perturbation_growth(methods[j], scene, run_of(request, scene).step, scene.window);
       const std::optional<double> allowed = round_off_bound(scene, motion_of(a.trajectory), growth);
       const bool over = allowed && largest > *allowed;

@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "mysim/engine.h"
+#include "mysim/errors.h"
 #include "mysim/observers/ledger.h"
 #include "mysim/observers/trajectory.h"
+#include "mysim/uniform.h"
 #include "reference/method.h"
 #include "reference/truth.h"
 
@@ -24,9 +25,7 @@ inline constexpr double eps = std::numeric_limits<double>::epsilon();
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1.0p-53);
-  }
+  double between(double low, double high) { return low + (high - low) * uniform(engine_); }
   Vec3 vector() {  // each part in [-1, 1]; drawn in a fixed order
     Vec3 v;
     for (double& part : v) part = between(-1, 1);
@@ -70,6 +69,16 @@ inline std::string scene_text(const std::string& more, double duration = 1, doub
 }
 inline Scene small_scene(const std::string& more, double duration = 1, double step = 1e-3, int samples = 10) {
   return parse_scene(scene_text(more, duration, step, samples), "small");
+}
+
+/// The message of the InputError that the text causes; empty when it is a good scene.
+inline std::string message_of(const std::string& text) {
+  try {
+    parse_scene(text, "bad.toml");
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
 }
 
 inline constexpr auto gravity_text = "[gravity]\nacceleration = [0, -9.81, 0]\n";

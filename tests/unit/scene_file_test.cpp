@@ -83,16 +83,6 @@ std::string with_line(int number, const std::string& text) {
   return out;
 }
 
-/// The message of the InputError that the text causes; empty when it is a good scene.
-std::string message_of(const std::string& text) {
-  try {
-    parse_scene(text, "bad.toml");
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
-}
-
 TEST(SceneFile, WholeSceneIsRead) {
   const Scene s = parse_scene(whole, "whole");
   EXPECT_EQ(s.model.particles.size(), 14);
