@@ -20,6 +20,12 @@ std::string_view name_of(Verdict verdict) {
       return "nan";
     case Verdict::solver:
       return "solver";
+    case Verdict::frozen:
+      return "frozen";
+    case Verdict::timeout:
+      return "timeout";
+    case Verdict::crash:
+      return "crash";
     case Verdict::unsupported:
       return "unsupported";
   }
@@ -36,6 +42,12 @@ std::string_view in_words(Verdict verdict) {
       return "blew up (not a number)";
     case Verdict::solver:
       return "the solver gave up";
+    case Verdict::frozen:
+      return "frozen (forces act, nothing moves)";
+    case Verdict::timeout:
+      return "out of time";
+    case Verdict::crash:
+      return "the program failed";
     case Verdict::unsupported:
       return "unsupported";
   }

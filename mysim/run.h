@@ -17,6 +17,9 @@ enum class Verdict {
   energy,       // more energy than everything the run had to work with
   nan,          // a non-finite position or velocity
   solver,       // an equation inside a step had no answer
+  frozen,       // forces act, and nothing moves
+  timeout,      // an outside program did not end in time
+  crash,        // an outside program died, or did not deliver what the protocol asks
   unsupported,  // the method lacks an ingredient of the scene
 };
 std::string_view name_of(Verdict verdict);   // the word in tables and files
@@ -65,10 +68,12 @@ class Observers : public Observer {
   std::vector<Observer*> list_;
 };
 
-/// Spring forces that an engine computes when its springs are stretched in a known way.
+/// Forces that an engine computes when its springs are stretched, and its dashpots moved, in a known way.
 struct SpringProbe {
-  Points x;      // N (3 x n), m: where the particles were put
-  Points force;  // N (3 x n), N: of the springs alone
+  Points x;        // N (3 x n), m: where the particles were put
+  Points force;    // N (3 x n), N: of the springs alone
+  Points v;        // N (3 x n), m/s: how fast they moved; empty where there are no dashpots
+  Points damping;  // N (3 x n), N: of the dashpots alone; empty where there are none
 };
 
 /// What an engine says of the scene it built, read from its own data structures after the first step.
@@ -78,14 +83,21 @@ struct Readback {
     double rest;                      // m
     std::optional<double> stiffness;  // N/m; where the engine does not tell, the probe does
   };
+  struct Ball {
+    Vec3 centre;                        // m, at the start
+    std::optional<double> radius;       // m, at which particles touch: margin included
+    std::optional<double> friction;     // Coulomb's mu
+    std::optional<double> restitution;  // e
+  };
   std::vector<double> mass;  // kg; 0 where the engine holds the particle fixed
   std::vector<char> pinned;  // 1 where fixed
   std::vector<Link> links;   // springs
   std::optional<SpringProbe> probe;
-  std::optional<Vec3> gravity;                // m/s^2
-  std::optional<std::vector<double>> drag;    // 1/s, drag rate gamma of each free particle
-  std::optional<double> contact_radius;       // m
-  std::optional<double> friction;             // Coulomb's mu
+  std::optional<Vec3> gravity;              // m/s^2
+  std::optional<std::vector<double>> drag;  // 1/s, drag rate gamma of each free particle
+  std::optional<std::vector<Ball>> spheres;
+  std::optional<double> margin;               // m, half the thickness of the cloth
+  std::optional<State> start;                 // positions and velocities that the first step began from
   double step = 0;                            // s
   std::string precision;                      // "double" or "single"
   bool may_sleep = false;                     // the engine may freeze slow bodies
@@ -101,7 +113,9 @@ struct Outcome {
   long steps = 0;                          // taken
   long evaluations = 0;                    // of the right-hand side, or the engine's own force passes
   long coincident = 0;                     // springs met at zero length, summed over the evaluations
-  double cpu_seconds = 0;                  // of the stepping thread, observers excluded
+  double cpu_seconds = 0;                  // of the stepping thread, observers excluded; an outside program's own word
+  double process_seconds = 0;              // CPU of a whole outside process, its start and its files included; 0 inside
+  std::string remark;                      // what else a reader should know, e.g. what an outside program complained of
   std::vector<std::string> different_law;  // ingredients that the engine has under another law, one sentence each
   std::optional<Readback> readback;
 };

@@ -111,6 +111,38 @@ void certify_springs(const Scene& scene, const Readback& r, Writer& w) {
   }
 }
 
+void certify_spheres(const Spheres* spheres, const Readback& r, Writer& w) {
+  const size_t asked = spheres ? spheres->list.size() : 0;
+  if (!r.spheres) {
+    if (asked > 0) w.row("spheres", fmt::format("{}", asked), "not told", Parity::unattested);
+    return;
+  }
+  if (asked > 0 || !r.spheres->empty())
+    w.row("spheres", fmt::format("{}", asked), fmt::format("{}", r.spheres->size()), r.spheres->size() == asked);
+  if (r.spheres->size() != asked) return;
+  for (size_t i = 0; i < asked; ++i) {
+    const Sphere& s = spheres->list[i];
+    const Readback::Ball& ball = (*r.spheres)[i];
+    const std::string of = asked > 1 ? fmt::format(" of sphere {}", i + 1) : "";
+    auto vector = [](const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", v.x(), v.y(), v.z()); };
+    w.row("centre" + of, vector(s.centre), vector(ball.centre),
+          (ball.centre - s.centre).norm() <= w.tolerance() * (s.centre.norm() + s.radius));
+    auto number = [&](const std::string& what, double wanted, const std::optional<double>& told, const char* unit,
+                      double scale) {
+      if (told)
+        w.row(what + of, fmt::format("{:.6g}{}", wanted, unit), fmt::format("{:.6g}{}", *told, unit),
+              std::abs(*told - wanted) <= w.tolerance() * scale);
+      else
+        w.row(what + of, fmt::format("{:.6g}{}", wanted, unit), "not told", Parity::unattested);
+    };
+    number("contact radius", s.contact_radius(), ball.radius, " m", s.contact_radius());
+    number("friction", s.friction, ball.friction, "", 1);
+    if (s.restitution > 0 || ball.restitution.value_or(0) != 0)
+      number("restitution", s.restitution, ball.restitution, "", 1);
+    if (i == 0 && r.margin) number("margin", s.margin, r.margin, " m", s.contact_radius());
+  }
+}
+
 void certify_terms(const Scene& scene, const Readback& r, Writer& w) {
   const Model& model = scene.model;
   auto vector = [](const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m/s^2", v.x(), v.y(), v.z()); };
@@ -145,18 +177,7 @@ void certify_terms(const Scene& scene, const Readback& r, Writer& w) {
   if (const auto* wind = model.find<Wind>())
     w.row("wind", "mean " + vector(wind->acceleration.mean) + (wind->acceleration.gusts ? " with gusts" : ""),
           "given to the engine at each step", Parity::match);
-  if (const auto* spheres = model.find<Spheres>()) {
-    const Sphere* sphere = &spheres->list[0];  // engines with a read-back take one sphere
-    const double radius = sphere->contact_radius();
-    if (!r.contact_radius) w.row("contact radius", fmt::format("{:.6g} m", radius), "not told", Parity::unattested);
-    if (!r.friction) w.row("friction", fmt::format("{:.6g}", sphere->friction), "not told", Parity::unattested);
-    if (r.contact_radius)
-      w.row("contact radius", fmt::format("{:.6g} m", radius), fmt::format("{:.6g} m", *r.contact_radius),
-            std::abs(*r.contact_radius - radius) <= w.tolerance() * radius);
-    if (r.friction)
-      w.row("friction", fmt::format("{:.6g}", sphere->friction), fmt::format("{:.6g}", *r.friction),
-            std::abs(*r.friction - sphere->friction) <= w.tolerance());
-  }
+  certify_spheres(model.find<Spheres>(), r, w);
 }
 
 }  // namespace

@@ -26,6 +26,17 @@ class BodyWorld : public World {
     world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the sphere is fixed
   }
 
+  /// What stands in the world: shapes, places and friction of its rigid bodies, and the soft body's margin.
+  void read_obstacle(Readback& r) {
+    r.margin = body().getCollisionShape()->getMargin();
+    r.spheres.emplace();
+    const btCollisionObjectArray& objects = world_->getCollisionObjectArray();
+    for (int i = 0; i < objects.size(); ++i)
+      if (const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape()))
+        r.spheres->push_back({from_bullet(objects[i]->getWorldTransform().getOrigin()), ball->getRadius() + *r.margin,
+                              objects[i]->getFriction() * body().m_cfg.kDF, objects[i]->getRestitution()});
+  }
+
   void tear_down() {
     world_->removeSoftBody(&body());
     scene_body_.reset();

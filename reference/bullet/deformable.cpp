@@ -54,8 +54,8 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
     // our own force class would only repeat what it was given: then nothing is attested
     if (scene_.model.find<Drag>() && shipped_drag_)
       r.drag = std::vector<double>(scene_.model.particles.size(), body().m_cfg.drag / h_);
-    if (scene_.model.find<Spheres>()) r.friction = stage_.ball->getFriction() * body().m_cfg.kDF;
     if (scene_.model.find<Springs>()) r.probe = probe();
+    read_obstacle(r);
     r.mapped = mapped_;
     return r;
   }

@@ -82,7 +82,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     if (scene_.model.find<Gravity>()) r.gravity = from_bullet(world_->getWorldInfo().m_gravity);
     if (scene_.model.find<Drag>())
       r.drag = std::vector<double>(scene_.model.particles.size(), -std::log1p(-cfg.kDP) / h_);
-    if (scene_.model.find<Spheres>()) r.friction = stage_.ball->getFriction() * cfg.kDF;
+    read_obstacle(r);
     r.mapped = mapped_;
     return r;
   }

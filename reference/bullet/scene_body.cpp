@@ -157,8 +157,6 @@ Readback SceneBody::read_back() const {
     const auto& link = body_->m_links[l];
     r.links.push_back({particle_of_[link.m_n[0] - first], particle_of_[link.m_n[1] - first], link.m_rl, std::nullopt});
   }
-  if (const Sphere* sphere = sphere_of(scene_.model))
-    r.contact_radius = sphere->radius + body_->getCollisionShape()->getMargin();
   r.precision = sizeof(btScalar) == sizeof(double) ? "double" : "single";
   r.may_sleep = body_->getActivationState() != DISABLE_DEACTIVATION;
   return r;

@@ -57,9 +57,9 @@ TEST(Certificate, CatchesEveryTampering) {
       {"gravity aside", [](Readback& r) { r.gravity->x() += 1e-6; }},
       {"drag", [](Readback& r) { (*r.drag)[30] *= 1.001; }},
       {"drag is nan", [](Readback& r) { (*r.drag)[30] = NAN; }},
-      {"margin", [](Readback& r) { *r.contact_radius += 0.005; }},
-      {"friction", [](Readback& r) { *r.friction *= 0.9; }},
-      {"friction is nan", [](Readback& r) { *r.friction = NAN; }},
+      {"margin", [](Readback& r) { *r.spheres->at(0).radius += 0.005; }},
+      {"friction", [](Readback& r) { *r.spheres->at(0).friction *= 0.9; }},
+      {"friction is nan", [](Readback& r) { *r.spheres->at(0).friction = NAN; }},
       {"sleeping", [](Readback& r) { r.may_sleep = true; }},
       {"step", [](Readback& r) { r.step *= 1 + 1e-7; }}};
   const Scene scene = load_scene("cloth-sphere");
@@ -98,11 +98,10 @@ TEST(Certificate, CatchesIngredientsThatTheSceneDoesNotHaveAndOnesThatAreGone) {
   EXPECT_TRUE(certified([&](Scene& s) { without(s, "springs"); })) << "springs that nobody asked for";
   // a sphere that the engine does not know of must not pass in silence
   Outcome blind = answer("bullet/deformable-explicit", drape, {1e-3, 2e-3, 1}).outcome;
-  blind.readback->contact_radius.reset();
-  blind.readback->friction.reset();
+  blind.readback->spheres.reset();
   bool said = false;
   for (const CertificateRow& row : certify("bullet/deformable-explicit", drape, blind).rows)
-    said |= row.quantity == "contact radius" && row.parity != Parity::match;
+    said |= row.quantity == "spheres" && row.parity != Parity::match;
   EXPECT_TRUE(said);
 }
 
