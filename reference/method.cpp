@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
-
 #include "mysim/engine.h"
 #include "mysim/errors.h"
 #include "mysim/observers/watch.h"
@@ -28,19 +26,20 @@ struct Option {
 Method mysim_method(const Stepper& stepper, const std::vector<Option>& options) {
   ContactRule contact = ContactRule::coulomb;
   Stepper rule = stepper;
+  std::string same_as(stepper.name);  // another contact rule changes nothing where nothing touches
   const std::string name = fmt::format("mysim/{}", stepper.name);
   for (const Option& o : options) {
     if (o.key == "sticky" && o.value.empty())
       contact = ContactRule::sticky;
     else if (o.key == "linear" && o.value.empty() && stepper.linear)
-      rule.step = stepper.linear;
+      rule.step = stepper.linear, same_as += "+linear";
     else
       refuse(name, o, stepper.linear ? "+linear, +sticky or none" : "+sticky or none");
   }
   return {name,
           fmt::format("{} (order {}{}; {})", stepper.what, stepper.order, stepper.symplectic ? ", symplectic" : "",
                       stepper.limit_formula),
-          std::string(stepper.name),
+          same_as,
           [rule, contact](const Scene& scene, const Run& run, Observer& observer) {
             Outcome out = simulate(rule, contact, scene, run, observer);
             if (contact == ContactRule::sticky && scene.model.find<Spheres>())
@@ -52,25 +51,11 @@ Method mysim_method(const Stepper& stepper, const std::vector<Option>& options) 
           &stepper};
 }
 
-Method deformable_explicit(const std::vector<Option>& options) {
-  const std::string name = "bullet/deformable-explicit";
-  if (!options.empty()) refuse(name, options[0], "none");
-  return {name, "Bullet's deformable world, explicit: springs in N/m, Coulomb friction", "symplectic-euler",
-          bullet::run_deformable_explicit, ContactLoss::inferred};
-}
-
-Method pbd(const std::vector<Option>& options) {
-  const std::string name = "bullet/pbd";
-  int n = 1;
-  for (const Option& o : options) {
-    const auto [end, error] = std::from_chars(o.value.data(), o.value.data() + o.value.size(), n);
-    if (o.key != "n" || error != std::errc() || end != o.value.data() + o.value.size() || n < 1 || n > 1000)
-      refuse(name, o, "+n=1 to +n=1000 (iterations)");
-  }
-  return {
-      name, "Bullet's position-based world, stiffness mapped per link; different link and friction laws", "",
-      [n](const Scene& scene, const Run& run, Observer& observer) { return bullet::run_pbd(scene, run, observer, n); },
-      ContactLoss::inferred};
+Method bullet_method(const std::string& world, const std::vector<Option>& options) {
+  std::vector<std::string> words;
+  for (const Option& o : options) words.push_back(o.value.empty() ? o.key : o.key + "=" + o.value);
+  bullet::WorldChoice chosen = bullet::choose_world(world, words);
+  return {"bullet/" + world, chosen.what, chosen.rule, chosen.engine, ContactLoss::inferred};
 }
 
 /// The best answer known, played through the observer like any other method.
@@ -109,8 +94,8 @@ std::vector<Row> table() {
   for (const Stepper& stepper : steppers())
     rows.push_back({fmt::format("mysim/{}", stepper.name),
                     [&stepper](const auto& options) { return mysim_method(stepper, options); }});
-  rows.push_back({"bullet/deformable-explicit", deformable_explicit});
-  rows.push_back({"bullet/pbd", pbd});
+  for (const std::string& world : bullet::world_names())
+    rows.push_back({"bullet/" + world, [world](const auto& options) { return bullet_method(world, options); }});
   rows.push_back({"truth/exact", [](const auto& options) { return truth_method(Tier::exact, options); }});
   rows.push_back({"truth/converged", [](const auto& options) { return truth_method(Tier::converged, options); }});
   return rows;
@@ -146,7 +131,6 @@ Method find_method(const std::string& text) {
     if (row.name == name) {
       Method method = row.make(options);
       for (size_t i = 1; i < parts.size(); ++i) method.name += "+" + parts[i];
-      if (!options.empty()) method.rule.clear();
       return method;
     }
     known.push_back(row.name);

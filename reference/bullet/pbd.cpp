@@ -8,7 +8,7 @@
 
 #include "mysim/errors.h"
 #include "reference/bullet/body_world.h"
-#include "reference/bullet/worlds.h"
+#include "reference/bullet/pbd.h"
 
 namespace crosscheck::bullet {
 namespace {
@@ -25,49 +25,54 @@ double newton_per_metre(double kLST, double mu, double h, int n) {
 
 class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
  public:
-  PbdWorld(const Scene& scene, double h, int iterations) : BodyWorld(scene, h), iterations_(iterations) {
+  PbdWorld(const Scene& scene, double h, const PbdSettings& settings) : BodyWorld(scene, h), settings_(settings) {
     const Model& model = scene.model;
     const std::optional<double> rate = uniform_drag_rate(model);
     if (!rate) throw Unsupported("Bullet's position-based world has one drag rate for the whole body");
+    if (settings.own_wind && !model.find<Aerodynamics>())
+      throw Unsupported("Bullet's own wind presses on triangles: the scene has none");
 
     world_ = std::make_unique<btSoftRigidDynamicsWorld>(&stage_.dispatcher, &stage_.broadphase, &solver_,
                                                         &stage_.configuration);
     btSoftBodyWorldInfo& info = world_->getWorldInfo();
     // its default voxel of 0.25 m would misplace the sphere by 1.5 cm
-    info.m_sparsesdf.setDefaultVoxelsz(0.02);
+    info.m_sparsesdf.setDefaultVoxelsz(btScalar(0.02));
     info.m_sparsesdf.Reset();
     const auto* gravity = model.find<Gravity>();
     info.m_gravity = gravity ? to_bullet(gravity->acceleration) : btVector3(0, 0, 0);
     info.m_dispatcher = &stage_.dispatcher;
     info.m_broadphase = &stage_.broadphase;
 
-    scene_body_ = std::make_unique<SceneBody>(scene, info);
+    scene_body_ = std::make_unique<SceneBody>(scene, info, settings.defaults);
     set_stiffness();
     auto& cfg = body().m_cfg;
-    cfg.piterations = iterations_;
+    cfg.piterations = settings.iterations;
     cfg.viterations = 0;
-    cfg.kDP = -std::expm1(-*rate * h_);
-    cfg.kKHR = 0.1;  // at 1 contacts bounce, at 0 links pull nodes into the sphere
+    cfg.kDP = static_cast<btScalar>(-std::expm1(-*rate * h_));
+    cfg.kKHR = btScalar(0.1);  // at 1 contacts bounce, at 0 links pull nodes into the sphere
     cfg.collisions = btSoftBody::fCollision::SDF_RS;
+    if (settings.own_wind) use_own_wind(*model.find<Aerodynamics>());
     enter();
 
-    mapped_["stiffness"] = fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", iterations_);
+    mapped_["stiffness"] = settings.demo ? "kLST = 1, the default of Bullet's demos, whatever the scene asks"
+                                         : fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", settings.iterations);
     if (*rate > 0) mapped_["drag"] = fmt::format("kDP = 1 - exp(-gamma h) = {:.6g}", double(cfg.kDP));
     if (gravity) mapped_["gravity"] = "world info, g as it is";
     if (model.find<Wind>()) mapped_["wind"] = "added force m a(t) on each node";
+    if (model.find<Dashpots>()) mapped_["dashpots"] = "added forces on the nodes at x_n, v_n";
+    if (model.find<Aerodynamics>())
+      mapped_["wind on triangles"] = settings.own_wind ? "Bullet's own model of lift and drag on two sides, C as drag"
+                                                       : "added forces on the nodes at x_n, v_n";
   }
 
   ~PbdWorld() override { tear_down(); }
 
   void step(double t, double t_next) override {
-    const Particles& particles = scene_.model.particles;
-    if (const auto* wind = scene_.model.find<Wind>()) {
-      const btVector3 a = to_bullet(wind->acceleration.at(t));
-      for (int i = 0; i < particles.size(); ++i)
-        if (!particles.pinned[i]) body().addForce(a * particles.mass[i], scene_body_->node_of(i));
-    }
+    add_forces(t);
+    if (settings_.own_wind) body().setWindVelocity(to_bullet(scene_.model.find<Aerodynamics>()->velocity.at(t)));
     scene_body_->place_pins(t_next);  // links are solved at the end of the step
-    world_->stepSimulation(h_, 0);
+    obstacles_.place(t_next);
+    world_->stepSimulation(static_cast<btScalar>(h_), 0);
   }
 
   std::optional<Readback> read_back() override {
@@ -79,10 +84,9 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
         const double kLST = body().m_links[static_cast<int>(l)].m_material->m_kLST;
         r.links[l].stiffness = std::isinf(mu) ? springs->list[l].k : newton_per_metre(kLST, mu, h_, cfg.piterations);
       }
-    if (scene_.model.find<Gravity>()) r.gravity = from_bullet(world_->getWorldInfo().m_gravity);
-    if (scene_.model.find<Drag>())
-      r.drag = std::vector<double>(scene_.model.particles.size(), -std::log1p(-cfg.kDP) / h_);
-    read_obstacle(r);
+    r.gravity = from_bullet(world_->getWorldInfo().m_gravity);
+    r.drag = std::vector<double>(scene_.model.particles.size(), -std::log1p(-cfg.kDP) / h_);
+    read_obstacles(*world_, body(), r);
     r.mapped = mapped_;
     return r;
   }
@@ -95,39 +99,70 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
       auto& material = materials[kLST];
       if (!material) {
         material = body().appendMaterial();
-        material->m_kLST = kLST;
+        material->m_kLST = static_cast<btScalar>(kLST);
       }
       body().m_links[l++].m_material = material;
     };
     if (const auto* springs = scene_.model.find<Springs>())
       for (const Spring& s : springs->list)
-        set(link_stiffness(s.k, pair_mass(scene_.model.particles, s), h_, iterations_));
+        set(settings_.demo ? 1 : link_stiffness(s.k, pair_mass(scene_.model.particles, s), h_, settings_.iterations));
     if (const auto* constraints = scene_.model.find<Constraints>())
       for (size_t c = 0; c < constraints->list.size(); ++c) set(1);  // the whole distance in each iteration
     body().updateLinkConstants();
     scene_body_->restore_lengths();
   }
 
-  int iterations_;
+  void use_own_wind(const Aerodynamics& air) {
+    for (const auto& [a, b, c] : air.triangles)
+      body().appendFace(scene_body_->node_of(a), scene_body_->node_of(b), scene_body_->node_of(c));
+    world_->getWorldInfo().air_density = static_cast<btScalar>(air.density);
+    body().m_cfg.aeromodel = btSoftBody::eAeroModel::F_TwoSidedLiftDrag;
+    body().m_cfg.kDG = static_cast<btScalar>(air.coefficient);
+  }
+
+  /// What links cannot do, as forces on the nodes for one step.
+  void add_forces(double t) {
+    const Model& model = scene_.model;
+    const auto* wind = model.find<Wind>();
+    const auto* dashpots = model.find<Dashpots>();
+    const auto* air = settings_.own_wind ? nullptr : model.find<Aerodynamics>();
+    if (!wind && !dashpots && !air) return;
+    added_.f.setZero(3, model.particles.size());
+    const State& now = scene_body_->read_state(t);
+    if (wind) add_force(*wind, model.particles, now, added_);
+    if (dashpots) add_force(*dashpots, model.particles, now, added_);
+    if (air) add_force(*air, model.particles, now, added_);
+    for (int i = 0; i < model.particles.size(); ++i)
+      if (!model.particles.pinned[i]) body().addForce(to_bullet(added_.f.col(i)), scene_body_->node_of(i));
+  }
+
+  PbdSettings settings_;
   std::map<std::string, std::string> mapped_;
+  Forces added_;  // N
   btSequentialImpulseConstraintSolver solver_;
 };
 
 }  // namespace
 
-Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, int iterations) {
-  PbdWorld world(scene, plan(run).h, iterations);
+Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, const PbdSettings& settings) {
+  PbdWorld world(scene, plan(run).h, settings);
   Outcome out = march(world, run, observer);
   out.evaluations = out.steps;
   if (const auto* springs = scene.model.find<Springs>())
     out.different_law.push_back(
-        fmt::format("springs: position-based links {}are solved like an implicit step, one after the other",
-                    springs->law == SpringLaw::hooke
-                        ? "pull with k L (L^2 - r^2) / (L^2 + r^2), about k (L - r) for small strains, and "
-                        : ""));
+        settings.demo
+            ? "springs: links as stiff as the iterations make them, whatever stiffness the scene asks for"
+            : fmt::format("springs: position-based links {}are solved like an implicit step, one after the other",
+                          springs->law == SpringLaw::hooke
+                              ? "pull with k L (L^2 - r^2) / (L^2 + r^2), about k (L - r) for small strains, and "
+                              : ""));
   if (scene.model.find<Constraints>())
     out.different_law.push_back(
         "hard distances: each is met at its turn, and spoilt by the next ones; more iterations help");
+  if (settings.own_wind)
+    out.different_law.push_back(
+        "wind on triangles: Bullet's own drag acts along the wind and is limited by each node's speed, so that it "
+        "does not begin on a cloth at rest");
   if (scene.model.find<Spheres>())
     out.different_law.push_back(
         "friction: a touching node loses a fixed share of its tangential motion in each step, whatever "

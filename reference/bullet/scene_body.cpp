@@ -30,39 +30,25 @@ bool connected(const Model& model) {
 
 }  // namespace
 
-void make_obstacle(const Scene& scene, Stage& stage) {
-  const Sphere* sphere = sphere_of(scene.model);
-  if (!sphere) return;
-  stage.ball_shape = std::make_unique<btSphereShape>(sphere->radius);
-  btTransform place;
-  place.setIdentity();
-  place.setOrigin(to_bullet(sphere->centre));
-  btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, stage.ball_shape.get());
-  info.m_startWorldTransform = place;
-  info.m_friction = sphere->friction;  // multiplied by the body's kDF, which is set to 1
-  info.m_restitution = 0;
-  stage.ball = std::make_unique<btRigidBody>(info);
-}
-
 void require_supported(const Scene& scene) {
   const Model& model = scene.model;
-  const Sphere* sphere = sphere_of(model);
   if (model.first_order()) throw Unsupported("Bullet has no first-order systems: its bodies have mass and velocity");
-  if (model.find<Dashpots>()) throw Unsupported("spring dashpots are not handed over to Bullet yet");
-  if (model.find<Aerodynamics>()) throw Unsupported("wind on triangles is not handed over to Bullet yet");
-  if (const auto* spheres = model.find<Spheres>(); spheres && spheres->list.size() > 1)
-    throw Unsupported("only one sphere is handed over to Bullet yet");
-  if (sphere && sphere->motion) throw Unsupported("moving spheres are not handed over to Bullet yet");
-  if (sphere && sphere->restitution > 0)
-    throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
-  if (sphere && model.particles.size() > 1 && !connected(model))
+  const auto* spheres = model.find<Spheres>();
+  if (!spheres) return;
+  for (const Sphere& s : spheres->list) {
+    if (s.restitution > 0) throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
+    if (s.margin != spheres->list[0].margin)
+      throw Unsupported("a soft body of Bullet has one margin, the scene's spheres have several");
+  }
+  if (model.particles.size() > 1 && !connected(model))
     throw Unsupported("Bullet's contact search hangs on a body whose springs do not join all particles");
 }
 
-SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(scene), state_(scene.start) {
+SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info, const Defaults& defaults)
+    : scene_(scene), defaults_(defaults), state_(scene.start) {
   const Model& model = scene.model;
   const Particles& particles = model.particles;
-  const Sphere* sphere = sphere_of(model);
+  const auto* spheres = model.find<Spheres>();
   const int n = particles.size();
 
   // free particles first, pins last
@@ -78,7 +64,7 @@ SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(sce
   for (int node = 0; node < n; ++node) {
     const int i = particle_of_[node];
     x[node] = to_bullet(scene.start.x.col(i));
-    mass[node] = particles.pinned[i] ? 0 : particles.mass[i];
+    mass[node] = particles.pinned[i] ? 0 : static_cast<btScalar>(particles.mass[i]);
   }
   body_ = std::make_unique<btSoftBody>(&info, n, x.data(), mass.data());
 
@@ -91,8 +77,8 @@ SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(sce
       body_->appendLink(node_of_[a], node_of_[b], body_->m_materials[0]);
   body_->updateConstants();
   restore_lengths();
-  if (sphere) body_->initializeFaceTree();
-  body_->m_bUpdateRtCst = false;
+  if (spheres) body_->initializeFaceTree();
+  body_->m_bUpdateRtCst = defaults.rest;
 
   for (int node = 0; node < n; ++node) {
     const int i = particle_of_[node];
@@ -100,22 +86,29 @@ SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info) : scene_(sce
     body_->m_nodes[node].m_v = body_->m_nodes[node].m_vn = v;
   }
   // without a sphere the margin only bounds speeds (box diagonal over step): large enough to bound nothing
-  body_->getCollisionShape()->setMargin(sphere ? sphere->margin : 10.0);
+  if (!defaults.margin)
+    body_->getCollisionShape()->setMargin(static_cast<btScalar>(spheres ? spheres->list[0].margin : 10.0));
   body_->m_cfg.kDF = 1;
   body_->setActivationState(DISABLE_DEACTIVATION);
+  built_ = read_state(0);
+  // the implicit world starts from m_vn, the explicit one from m_v: one velocity that both hold, or none
+  for (int node = 0; node < n; ++node)
+    if (!(body_->m_nodes[node].m_v == body_->m_nodes[node].m_vn))
+      built_.v.col(particle_of_[node]).setConstant(std::numeric_limits<double>::quiet_NaN());
 }
 
 void SceneBody::restore_lengths() {
   int l = 0;
   auto set = [&](double length) {
-    body_->m_links[l].m_rl = length;
-    body_->m_links[l++].m_c1 = length * length;
+    body_->m_links[l].m_rl = static_cast<btScalar>(length);
+    body_->m_links[l].m_c1 = body_->m_links[l].m_rl * body_->m_links[l].m_rl;
+    ++l;
   };
   if (const auto* springs = scene_.model.find<Springs>())
     for (const Spring& s : springs->list) set(s.rest);
   if (const auto* constraints = scene_.model.find<Constraints>())
     for (const auto& c : constraints->list) set(c.length);
-  body_->m_bUpdateRtCst = false;
+  body_->m_bUpdateRtCst = defaults_.rest;
 }
 
 void SceneBody::place_pins(double t) {
@@ -157,14 +150,10 @@ Readback SceneBody::read_back() const {
     const auto& link = body_->m_links[l];
     r.links.push_back({particle_of_[link.m_n[0] - first], particle_of_[link.m_n[1] - first], link.m_rl, std::nullopt});
   }
+  r.start = built_;
   r.precision = sizeof(btScalar) == sizeof(double) ? "double" : "single";
   r.may_sleep = body_->getActivationState() != DISABLE_DEACTIVATION;
   return r;
-}
-
-const Sphere* sphere_of(const Model& model) {
-  const auto* spheres = model.find<Spheres>();
-  return spheres ? &spheres->list[0] : nullptr;
 }
 
 double pair_mass(const Particles& particles, const Spring& spring) {

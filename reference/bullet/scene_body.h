@@ -1,4 +1,4 @@
-// A scene as one Bullet soft body and one obstacle: the part that both kinds of Bullet world share.
+// A scene as one Bullet soft body: the part that all Bullet worlds share.
 //
 // Traps met here (all measured): pinned nodes go last, since the implicit world shifts its contact prediction by one
 // node for each pin before; the first step overwrites rest lengths unless the update flag is cleared; bodies slower
@@ -18,8 +18,10 @@
 
 namespace crosscheck::bullet {
 
-/// Bullet's double-precision vector from ours, and back.
-inline btVector3 to_bullet(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+/// Bullet's vector from ours, and back.
+inline btVector3 to_bullet(const Vec3& v) {
+  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
+}
 inline Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// What every world needs and what it leaves behind in the right order.
@@ -27,21 +29,22 @@ struct Stage {
   btSoftBodyRigidBodyCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
-  std::unique_ptr<btSphereShape> ball_shape;
-  std::unique_ptr<btRigidBody> ball;  // the scene's sphere, or null
 };
-
-/// Builds stage.ball for the scene's sphere, if it has one.
-void make_obstacle(const Scene& scene, Stage& stage);
 
 /// Throws Unsupported where Bullet would hang (a network in several pieces beside a sphere) or cannot follow
 /// (first-order scenes, restitution). To be asked before a world is built.
 void require_supported(const Scene& scene);
 
+/// What is left at Bullet's defaults, to be seen failing.
+struct Defaults {
+  bool rest = false;    // the first step overwrites rest lengths with the lengths it finds
+  bool margin = false;  // 0.25 m
+};
+
 class SceneBody {
  public:
   /// Nodes, links with rest lengths, start velocities, margin; no forces. The scene must be supported.
-  SceneBody(const Scene& scene, btSoftBodyWorldInfo& info);
+  SceneBody(const Scene& scene, btSoftBodyWorldInfo& info, const Defaults& defaults);
 
   btSoftBody& body() { return *body_; }
   int node_of(int particle) const { return node_of_[particle]; }
@@ -52,19 +55,18 @@ class SceneBody {
   void place_pins(double t);
   /// Positions and velocities in the scene's numbering.
   const State& read_state(double t);
-  /// Masses, pins, links with rest lengths, springs first; the world adds what it alone knows.
+  /// Masses, pins, start, links with rest lengths, springs first; the world adds what it alone knows.
   Readback read_back() const;
 
  private:
   const Scene& scene_;
+  Defaults defaults_;
   std::vector<int> node_of_, particle_of_;
   std::unique_ptr<btSoftBody> body_;
-  State state_;
+  State state_, built_;  // now; as built
 };
 
 /// mu of the pair of ends, 1 / (1/m_a + 1/m_b) with pins of infinite mass, kg; infinite between two pins.
 double pair_mass(const Particles& particles, const Spring& spring);
-/// The scene's one sphere, or null.
-const Sphere* sphere_of(const Model& model);
 
 }  // namespace crosscheck::bullet

@@ -1,20 +1,28 @@
-// Bullet's two soft-body worlds as engines, in double precision.
+// Bullet's soft-body worlds by name, with their options: the table of them is in worlds.cpp. Whether they compute in
+// double or in single precision is decided by the Bullet that they are compiled against.
 #pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "mysim/run.h"
 
 namespace crosscheck::bullet {
 
-/// btDeformableMultiBodyDynamicsWorld in its explicit mode: symplectic Euler with the scene's own laws. Bullet's own
-/// mass-spring force carries the springs wherever it can (at most two stiffnesses, one drag rate); then, with gamma the
-/// drag rate, stiffness and gravity are handed over divided by (1 - h gamma) and the body's drag factor is h gamma,
-/// which makes its rule v' = (v + h f/m)(1 - h gamma) equal to drag as a force at v_n. Throws Unsupported with the
-/// reason.
-Outcome run_deformable_explicit(const Scene& scene, const Run& run, Observer& observer);
+/// One world with its options chosen.
+struct WorldChoice {
+  std::string what;  // one line for people
+  std::string rule;  // of mysim's stepper that it must equal to round-off in contact-free scenes; may be empty
+  Engine engine;
+};
 
-/// btSoftRigidDynamicsWorld: position-based links. Stiffness is mapped per link by kLST = 1 - (1 + k h^2/mu)^(-1/n),
-/// with mu the pair's reduced mass and n the iterations; drag by kDP = 1 - exp(-gamma h). Its link law is not Hooke's
-/// and its friction is not Coulomb's: both are marked as different laws.
-Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, int iterations);
+/// "deformable-explicit", "deformable-implicit", "pbd".
+std::vector<std::string> world_names();
+
+/// options: what stands behind the pluses of a method's name, e.g. {"n=10"}. Throws InputError that lists what there
+/// is.
+WorldChoice choose_world(const std::string& world, const std::vector<std::string>& options);
 
 }  // namespace crosscheck::bullet

@@ -1,0 +1,57 @@
+// Spheres in a Bullet world.
+#include "reference/bullet/obstacles.h"
+
+namespace crosscheck::bullet {
+namespace {
+
+btTransform at(const Vec3& place) {
+  btTransform transform;
+  transform.setIdentity();
+  transform.setOrigin(to_bullet(place));
+  return transform;
+}
+
+}  // namespace
+
+Obstacles::Obstacles(const Model& model) : spheres_(model.find<Spheres>()) {
+  if (!spheres_) return;
+  for (const Sphere& s : spheres_->list) {
+    Ball ball{std::make_unique<btSphereShape>(static_cast<btScalar>(s.radius)), nullptr};
+    btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, ball.shape.get());
+    info.m_startWorldTransform = at(s.centre_at(0));
+    info.m_friction = static_cast<btScalar>(s.friction);  // multiplied by the body's kDF, which is set to 1
+    info.m_restitution = 0;
+    ball.body = std::make_unique<btRigidBody>(info);
+    if (s.motion) {
+      ball.body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+      ball.body->setActivationState(DISABLE_DEACTIVATION);
+    }
+    balls_.push_back(std::move(ball));
+  }
+}
+
+void Obstacles::enter(btDiscreteDynamicsWorld& world) {
+  for (const Ball& ball : balls_) world.addRigidBody(ball.body.get());
+}
+
+void Obstacles::leave(btDiscreteDynamicsWorld& world) {
+  for (const Ball& ball : balls_) world.removeRigidBody(ball.body.get());
+}
+
+void Obstacles::place(double t) {
+  for (size_t i = 0; i < balls_.size(); ++i)
+    if (spheres_->list[i].motion) balls_[i].body->setWorldTransform(at(spheres_->list[i].centre_at(t)));
+}
+
+void read_obstacles(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) {
+  readback.margin = body.getCollisionShape()->getMargin();
+  readback.spheres.emplace();
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i)
+    if (const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape()))
+      readback.spheres->push_back({from_bullet(objects[i]->getWorldTransform().getOrigin()),
+                                   ball->getRadius() + *readback.margin, objects[i]->getFriction() * body.m_cfg.kDF,
+                                   objects[i]->getRestitution()});
+}
+
+}  // namespace crosscheck::bullet

@@ -1,0 +1,34 @@
+// The scene's spheres as Bullet's rigid bodies: fixed, or moved along as kinematic bodies.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "reference/bullet/scene_body.h"
+
+namespace crosscheck::bullet {
+
+class Obstacles {
+ public:
+  explicit Obstacles(const Model& model);
+
+  /// Enters them into the world, or takes them out of it.
+  void enter(btDiscreteDynamicsWorld& world);
+  void leave(btDiscreteDynamicsWorld& world);
+  /// Puts the moving ones where they are at time t (s). To be called before each step with the step's end: Bullet takes
+  /// the speed of a kinematic body from the distance between two of its places.
+  void place(double t);
+
+ private:
+  struct Ball {
+    std::unique_ptr<btSphereShape> shape;
+    std::unique_ptr<btRigidBody> body;
+  };
+  const Spheres* spheres_;  // null: none
+  std::vector<Ball> balls_;
+};
+
+/// What stands in the world: places, radii, friction and restitution of its balls, and the soft body's margin.
+void read_obstacles(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback);
+
+}  // namespace crosscheck::bullet

@@ -1,0 +1,21 @@
+// Bullet's position-based soft-body world.
+#pragma once
+
+#include "mysim/run.h"
+#include "reference/bullet/scene_body.h"
+
+namespace crosscheck::bullet {
+
+struct PbdSettings {
+  int iterations = 1;
+  bool demo = false;      // as in Bullet's own cloth demos: every link at kLST = 1, ten iterations
+  bool own_wind = false;  // Bullet's own wind on triangles instead of the scene's
+  Defaults defaults;
+};
+
+/// btSoftRigidDynamicsWorld: position-based links. Stiffness is mapped per link by kLST = 1 - (1 + k h^2/mu)^(-1/n),
+/// with mu the pair's reduced mass and n the iterations; drag by kDP = 1 - exp(-gamma h). Its link law is not Hooke's
+/// and its friction is not Coulomb's: both are marked as different laws. Throws Unsupported with the reason.
+Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, const PbdSettings& settings);
+
+}  // namespace crosscheck::bullet
