@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "experiments/disagreements/disagreements.h"
 #include "mysim/errors.h"
 
 namespace crosscheck {
@@ -15,6 +16,9 @@ int one_per_run(const Request& request) {
   return runs;
 }
 
+int three_steps_and_two_iterations(const Request&) { return 3 + 2; }
+int one_per_disagreement(const Request&) { return static_cast<int>(disagreements().size()); }
+
 }  // namespace
 
 std::span<const Experiment> experiments() {
@@ -22,6 +26,10 @@ std::span<const Experiment> experiments() {
       {"order", "How fast does the error fall when the step is made smaller?", order_experiment, one_per_scene},
       {"energy", "Where does the energy go, and what does not add up?", energy_experiment, one_per_run},
       {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_experiment, one_per_run},
+      {"stiffness", "How stiff is a position-based link, against the formula that hands it over?", stiffness_experiment,
+       three_steps_and_two_iterations},
+      {"disagreements", "Where does Bullet answer otherwise than it is asked, and by how much?",
+       disagreements_experiment, one_per_disagreement},
   };
   return table;
 }

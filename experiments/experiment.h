@@ -50,6 +50,8 @@ struct Experiment {
 void order_experiment(const Request& request, Progress& progress, Result& result);
 void energy_experiment(const Request& request, Progress& progress, Result& result);
 void engines_experiment(const Request& request, Progress& progress, Result& result);
+void stiffness_experiment(const Request& request, Progress& progress, Result& result);
+void disagreements_experiment(const Request& request, Progress& progress, Result& result);
 
 std::span<const Experiment> experiments();
 /// Throws InputError that lists what there is.

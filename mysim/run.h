@@ -68,12 +68,13 @@ class Observers : public Observer {
   std::vector<Observer*> list_;
 };
 
-/// Forces that an engine computes when its springs are stretched, and its dashpots moved, in a known way.
-struct SpringProbe {
-  Points x;        // N (3 x n), m: where the particles were put
-  Points force;    // N (3 x n), N: of the springs alone
-  Points v;        // N (3 x n), m/s: how fast they moved; empty where there are no dashpots
-  Points damping;  // N (3 x n), N: of the dashpots alone; empty where there are none
+/// Forces that an engine computes in a state that it was put into for the purpose, N (3 x n); each may be empty.
+struct ForceProbe {
+  double t = 0;     // s
+  Points x, v;      // m, m/s: where the particles were put, and how fast
+  Points springs;   // of the springs alone, at x
+  Points dashpots;  // of the dashpots alone, at x and v
+  Points wind;      // of both winds, at x and t, the free particles at rest
 };
 
 /// What an engine says of the scene it built, read from its own data structures after the first step.
@@ -92,7 +93,7 @@ struct Readback {
   std::vector<double> mass;  // kg; 0 where the engine holds the particle fixed
   std::vector<char> pinned;  // 1 where fixed
   std::vector<Link> links;   // springs
-  std::optional<SpringProbe> probe;
+  std::optional<ForceProbe> probe;
   std::optional<Vec3> gravity;              // m/s^2
   std::optional<std::vector<double>> drag;  // 1/s, drag rate gamma of each free particle
   std::optional<std::vector<Ball>> spheres;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mysim/system.h"
+
 namespace crosscheck {
 
 Watch::Watch(const Model& model) : model_(model) {
@@ -16,6 +18,28 @@ Watch::Watch(const Model& model) : model_(model) {
       }
   if (model.find<Wind>() || model.find<Aerodynamics>() || model.particles.move)
     ledger_.emplace(model, ContactLoss::reported);
+}
+
+bool Watch::frozen(const State& state) {
+  const State start = std::move(*first_);
+  first_.reset();
+  asked_ = true;
+  if (model_.find<Constraints>()) return false;
+  for (int i = 0; i < start.x.cols(); ++i)
+    if (!model_.particles.pinned[i] && (state.x.col(i) != start.x.col(i) || state.v.col(i) != start.v.col(i)))
+      return false;
+  System system(model_);
+  State stage = start;
+  Points a(3, stage.x.cols());
+  system.acceleration(stage, a);
+  const auto* spheres = model_.find<Spheres>();
+  // what moves must be seen in the last bit: a way of 1e-12 of the coordinates, well above their rounding
+  const double seen = 1e-12 * (1 + start.x.cwiseAbs().maxCoeff()), t = state.t - start.t;
+  for (int i = 0; i < start.x.cols(); ++i)
+    if (!model_.particles.pinned[i] && (start.v.col(i) * t + a.col(i) * (t * t / 2)).norm() > seen &&
+        !(spheres && clearance_from(*spheres, start.t, start.x.col(i)) < 1e-6))
+      return true;
+  return false;
 }
 
 Verdict Watch::observe(const State& state, bool sample) {
@@ -34,6 +58,10 @@ Verdict Watch::observe(const State& state, bool sample) {
         budget_ += 1e-24 * s.k * (state.x.col(s.a) - state.x.col(s.b)).squaredNorm();
     budget_ += moving_spheres_;
   }
+  if (!first_ && !asked_)
+    first_ = state;
+  else if (first_ && frozen(state))
+    return Verdict::frozen;
   double work = 0;
   if (ledger_) {
     const LedgerRow row = ledger_->now(state);

@@ -12,6 +12,10 @@ namespace crosscheck {
 /// No correct motion can exceed it: drag and contact only take away (a moving sphere gives too: the kinetic energy of
 /// all particles at its top speed, twice, is added). Blow-ups pass it at once, also those of engines that clamp speeds
 /// and never become non-finite.
+///
+/// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
+/// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not
+/// asked of hard distances, whose own forces may balance.)
 class Watch : public Observer {
  public:
   explicit Watch(const Model& model);
@@ -19,10 +23,14 @@ class Watch : public Observer {
   Verdict observe(const State& state, bool sample) override;
 
  private:
+  bool frozen(const State& state);
+
   const Model& model_;
   std::optional<Ledger> ledger_;  // only where wind or moved pins do work
   std::optional<Energy> start_;
-  double moving_spheres_ = 0;  // J, the most that moving spheres are expected to give
+  std::optional<State> first_;  // until the sample after it
+  bool asked_ = false;          // whether anything moved
+  double moving_spheres_ = 0;   // J, the most that moving spheres are expected to give
   double budget_ = 0;
 };
 

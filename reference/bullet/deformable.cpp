@@ -65,7 +65,7 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
 
   std::optional<Readback> read_back() override {
     Readback r = scene_body_->read_back();
-    read_obstacles(*world_, body(), r);
+    obstacles_.read_back(*world_, body(), r);
     forces_->read_back(*body_solver_.getLagrangianForceArray(), r);
     return r;
   }

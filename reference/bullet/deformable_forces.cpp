@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mysim/errors.h"
+#include "reference/bullet/probe_state.h"
 
 namespace crosscheck::bullet {
 namespace {
@@ -120,64 +121,58 @@ void DeformableForces::read_back(btAlignedObjectArray<btDeformableLagrangianForc
     if (in_world[i]->getForceType() == NetForce::type) own = static_cast<NetForce*>(in_world[i]);
   }
   r.gravity = gravity;
-  const int n = scene_.model.particles.size();
-  std::vector<double> rates(n, scene_body_.body().m_cfg.drag / h_);
-  bool told = implicit_ ? own != nullptr : true;
-  if (own && scene_.model.find<Aerodynamics>()) told = told && factor_ != 1;  // the air looks at velocities too
-  if (own && told && !scene_.model.find<Aerodynamics>()) {
-    // what a common velocity changes of our own forces: their drag
-    auto& nodes = scene_body_.body().m_nodes;
-    btAlignedObjectArray<btVector3> kept, still, moving;
-    for (int i = 0; i < nodes.size(); ++i) kept.push_back(nodes[i].m_v), nodes[i].m_v = btVector3(0, 0, 0);
-    still.resize(n, btVector3(0, 0, 0));
-    moving.resize(n, btVector3(0, 0, 0));
-    own->addScaledExplicitForce(1, still);
-    for (int i = 0; i < nodes.size(); ++i) nodes[i].m_v = btVector3(1, 0, 0);
-    own->addScaledExplicitForce(1, moving);
-    for (int i = 0; i < nodes.size(); ++i) nodes[i].m_v = kept[i];
-    for (int i = 0; i < n; ++i) {
-      const auto& node = nodes[scene_body_.node_of(i)];
-      rates[i] += factor_ * (still[node.index].x() - moving[node.index].x()) / scene_.model.particles.mass[i];
-    }
-  }
-  if (told) r.drag = rates;
-  if (scene_.model.find<Springs>() || scene_.model.find<Dashpots>()) r.probe = probe(in_world);
+  if (const auto rates = drag_rates(own)) r.drag = *rates;
+  r.probe = probe(in_world);
   r.mapped.insert(mapped_.begin(), mapped_.end());
 }
 
-SpringProbe DeformableForces::probe(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world) const {
+std::optional<std::vector<double>> DeformableForces::drag_rates(NetForce* own) const {
   const Particles& particles = scene_.model.particles;
   auto& nodes = scene_body_.body().m_nodes;
   const int n = nodes.size();
-  SpringProbe p{1.1 * scene_.start.x, Points::Zero(3, n), Points(3, n), Points::Zero(3, n)};
-  // some velocity that is no rigid motion: the coordinates, turned by one place
-  p.v << p.x.row(1), p.x.row(2), p.x.row(0);
-  std::vector<btSoftBody::Node> kept(n);
-  for (int i = 0; i < n; ++i) {
-    if (particles.pinned[i]) p.v.col(i) = particles.move ? velocity_at(*particles.move, t_) : Vec3::Zero();
-    auto& node = nodes[scene_body_.node_of(i)];
-    kept[i] = node;
-    node.m_q = node.m_x = to_bullet(p.x.col(i));
-    node.m_v = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(p.v.col(i));
+  // the implicit world ignores the body's drag factor
+  std::vector<double> rates(n, implicit_ ? 0 : scene_body_.body().m_cfg.drag / h_);
+  if (!own) return rates;
+  btDeformableLagrangianForce::TVStack still, moving, common;
+  for (auto* stack : {&still, &moving}) stack->resize(n, btVector3(0, 0, 0));
+  common.resize(n, btVector3(1, 0, 0));
+  if (implicit_) {
+    own->addScaledDampingForceDifferential(1, common, moving);
+  } else {
+    // what a common velocity changes of our own forces is their drag, unless air that looks at velocities is there too
+    if (scene_.model.find<Aerodynamics>()) return factor_ != 1 ? std::optional(rates) : std::nullopt;
+    ProbeState placed(scene_, scene_body_, t_);
+    placed.stop();
+    own->addScaledExplicitForce(1, still);
+    for (int i = 0; i < n; ++i) nodes[i].m_v = common[i];
+    own->addScaledExplicitForce(1, moving);
   }
-  btAlignedObjectArray<btVector3> elastic, damping;
-  elastic.resize(n, btVector3(0, 0, 0));
-  damping.resize(n, btVector3(0, 0, 0));
+  for (int i = 0; i < n; ++i) {
+    const int index = nodes[scene_body_.node_of(i)].index;
+    rates[i] += factor_ * (still[index].x() - moving[index].x()) / particles.mass[i];
+  }
+  return rates;
+}
+
+ForceProbe DeformableForces::probe(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world) const {
+  const Particles& particles = scene_.model.particles;
+  const auto by = static_cast<btScalar>(factor_);
+  ProbeState placed(scene_, scene_body_, t_);
+  using Stack = btDeformableLagrangianForce::TVStack;
+  Stack springs, dashpots, all;
+  for (Stack* stack : {&springs, &dashpots, &all}) stack->resize(particles.size(), btVector3(0, 0, 0));
   for (int i = 0; i < in_world.size(); ++i) {
     if (in_world[i]->getForceType() == BT_MASSSPRING_FORCE)
-      static_cast<btDeformableMassSpringForce*>(in_world[i])
-          ->addScaledElasticForce(static_cast<btScalar>(factor_), elastic);
+      static_cast<btDeformableMassSpringForce*>(in_world[i])->addScaledElasticForce(by, springs);
     if (in_world[i]->getForceType() == NetForce::type)
-      static_cast<NetForce*>(in_world[i])->addScaledElasticForce(static_cast<btScalar>(factor_), elastic);
-    in_world[i]->addScaledDampingForce(1, damping);
+      static_cast<NetForce*>(in_world[i])->addScaledElasticForce(by, springs);
+    in_world[i]->addScaledDampingForce(1, dashpots);
   }
-  for (int i = 0; i < n; ++i) {
-    auto& node = nodes[scene_body_.node_of(i)];
-    p.force.col(i) = from_bullet(elastic[node.index]);
-    p.damping.col(i) = from_bullet(damping[node.index]);
-    node.m_x = kept[i].m_x, node.m_q = kept[i].m_q, node.m_v = kept[i].m_v;
-  }
-  return p;
+  placed.stop();
+  for (int i = 0; i < in_world.size(); ++i)
+    if (in_world[i]->getForceType() != BT_GRAVITY_FORCE) in_world[i]->addScaledExplicitForce(by, all);
+  for (int i = 0; i < all.size(); ++i) all[i] -= springs[i];
+  return placed.probe(springs, dashpots, all);
 }
 
 }  // namespace crosscheck::bullet

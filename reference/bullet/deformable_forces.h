@@ -19,13 +19,15 @@ class DeformableForces {
 
   void set_time(double t);  // of wind and pins, s
 
-  /// Gravity, drag rates, and probes of springs and dashpots, from the forces that the world's solver holds.
+  /// Gravity, drag rates, and probes of springs, dashpots and wind, from the forces that the world's solver holds.
   void read_back(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world, Readback& readback) const;
 
  private:
   void carry_drag(NetForce::Parts& ours);
   void carry_springs(NetForce::Parts& ours, bool shipped);
-  SpringProbe probe(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world) const;
+  /// 1/s, of each particle; nothing where they cannot be told from other forces.
+  std::optional<std::vector<double>> drag_rates(NetForce* own) const;
+  ForceProbe probe(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world) const;
 
   const Scene& scene_;
   double h_;

@@ -31,7 +31,10 @@ Obstacles::Obstacles(const Model& model) : spheres_(model.find<Spheres>()) {
 }
 
 void Obstacles::enter(btDiscreteDynamicsWorld& world) {
-  for (const Ball& ball : balls_) world.addRigidBody(ball.body.get());
+  for (const Ball& ball : balls_) {
+    world.addRigidBody(ball.body.get());
+    built_.push_back(from_bullet(ball.body->getWorldTransform().getOrigin()));
+  }
 }
 
 void Obstacles::leave(btDiscreteDynamicsWorld& world) {
@@ -43,15 +46,18 @@ void Obstacles::place(double t) {
     if (spheres_->list[i].motion) balls_[i].body->setWorldTransform(at(spheres_->list[i].centre_at(t)));
 }
 
-void read_obstacles(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) {
+void Obstacles::read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const {
   readback.margin = body.getCollisionShape()->getMargin();
   readback.spheres.emplace();
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i)
-    if (const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape()))
-      readback.spheres->push_back({from_bullet(objects[i]->getWorldTransform().getOrigin()),
-                                   ball->getRadius() + *readback.margin, objects[i]->getFriction() * body.m_cfg.kDF,
-                                   objects[i]->getRestitution()});
+    if (const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape())) {
+      const size_t known = readback.spheres->size();  // one that nobody built here counts where it stands
+      readback.spheres->push_back(
+          {known < built_.size() ? built_[known] : from_bullet(objects[i]->getWorldTransform().getOrigin()),
+           ball->getRadius() + *readback.margin, objects[i]->getFriction() * body.m_cfg.kDF,
+           objects[i]->getRestitution()});
+    }
 }
 
 }  // namespace crosscheck::bullet

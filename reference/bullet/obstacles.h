@@ -19,6 +19,9 @@ class Obstacles {
   /// the speed of a kinematic body from the distance between two of its places.
   void place(double t);
 
+  /// What was built: places, radii, friction and restitution of the balls, and the soft body's margin.
+  void read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const;
+
  private:
   struct Ball {
     std::unique_ptr<btSphereShape> shape;
@@ -26,9 +29,7 @@ class Obstacles {
   };
   const Spheres* spheres_;  // null: none
   std::vector<Ball> balls_;
+  std::vector<Vec3> built_;  // m, where they stood when they entered
 };
-
-/// What stands in the world: places, radii, friction and restitution of its balls, and the soft body's margin.
-void read_obstacles(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback);
 
 }  // namespace crosscheck::bullet

@@ -9,6 +9,7 @@
 #include "mysim/errors.h"
 #include "reference/bullet/body_world.h"
 #include "reference/bullet/pbd.h"
+#include "reference/bullet/probe_state.h"
 
 namespace crosscheck::bullet {
 namespace {
@@ -36,7 +37,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
                                                         &stage_.configuration);
     btSoftBodyWorldInfo& info = world_->getWorldInfo();
     // its default voxel of 0.25 m would misplace the sphere by 1.5 cm
-    info.m_sparsesdf.setDefaultVoxelsz(btScalar(0.02));
+    if (!settings.defaults.voxel) info.m_sparsesdf.setDefaultVoxelsz(btScalar(0.02));
     info.m_sparsesdf.Reset();
     const auto* gravity = model.find<Gravity>();
     info.m_gravity = gravity ? to_bullet(gravity->acceleration) : btVector3(0, 0, 0);
@@ -53,6 +54,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     cfg.collisions = btSoftBody::fCollision::SDF_RS;
     if (settings.own_wind) use_own_wind(*model.find<Aerodynamics>());
     enter();
+    adds_forces_ = model.find<Wind>() || model.find<Dashpots>() || model.find<Aerodynamics>();
 
     mapped_["stiffness"] = settings.demo ? "kLST = 1, the default of Bullet's demos, whatever the scene asks"
                                          : fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", settings.iterations);
@@ -68,7 +70,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
   ~PbdWorld() override { tear_down(); }
 
   void step(double t, double t_next) override {
-    add_forces(t);
+    if (adds_forces_) add_forces(t, true, true);
     if (settings_.own_wind) body().setWindVelocity(to_bullet(scene_.model.find<Aerodynamics>()->velocity.at(t)));
     scene_body_->place_pins(t_next);  // links are solved at the end of the step
     obstacles_.place(t_next);
@@ -78,7 +80,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
   std::optional<Readback> read_back() override {
     Readback r = scene_body_->read_back();
     const auto& cfg = body().m_cfg;
-    if (const auto* springs = scene_.model.find<Springs>())
+    if (const auto* springs = scene_.model.find<Springs>(); springs && !settings_.demo)
       for (size_t l = 0; l < springs->list.size(); ++l) {
         const double mu = pair_mass(scene_.model.particles, springs->list[l]);
         const double kLST = body().m_links[static_cast<int>(l)].m_material->m_kLST;
@@ -86,7 +88,8 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
       }
     r.gravity = from_bullet(world_->getWorldInfo().m_gravity);
     r.drag = std::vector<double>(scene_.model.particles.size(), -std::log1p(-cfg.kDP) / h_);
-    read_obstacles(*world_, body(), r);
+    obstacles_.read_back(*world_, body(), r);
+    r.probe = probe(0);
     r.mapped = mapped_;
     return r;
   }
@@ -120,24 +123,43 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     body().m_cfg.kDG = static_cast<btScalar>(air.coefficient);
   }
 
-  /// What links cannot do, as forces on the nodes for one step.
-  void add_forces(double t) {
+  /// What links cannot do, as forces on the nodes for one step, at the nodes' state.
+  void add_forces(double t, bool winds, bool dashpots) {
     const Model& model = scene_.model;
-    const auto* wind = model.find<Wind>();
-    const auto* dashpots = model.find<Dashpots>();
-    const auto* air = settings_.own_wind ? nullptr : model.find<Aerodynamics>();
-    if (!wind && !dashpots && !air) return;
     added_.f.setZero(3, model.particles.size());
     const State& now = scene_body_->read_state(t);
-    if (wind) add_force(*wind, model.particles, now, added_);
-    if (dashpots) add_force(*dashpots, model.particles, now, added_);
-    if (air) add_force(*air, model.particles, now, added_);
+    auto add = [&](const auto* term) {
+      if (term) add_force(*term, model.particles, now, added_);
+    };
+    if (winds) add(model.find<Wind>());
+    if (winds && !settings_.own_wind) add(model.find<Aerodynamics>());
+    if (dashpots) add(model.find<Dashpots>());
     for (int i = 0; i < model.particles.size(); ++i)
       if (!model.particles.pinned[i]) body().addForce(to_bullet(added_.f.col(i)), scene_body_->node_of(i));
   }
 
+  /// The forces that the nodes hold when they are put into a known state. Springs are no forces here.
+  ForceProbe probe(double t) {
+    ProbeState placed(scene_, *scene_body_, t);
+    using Stack = btAlignedObjectArray<btVector3>;
+    Stack none, dashpots, winds;
+    auto take = [&](Stack& forces) {
+      for (int i = 0; i < body().m_nodes.size(); ++i) {
+        forces.push_back(body().m_nodes[i].m_f);
+        body().m_nodes[i].m_f = btVector3(0, 0, 0);
+      }
+    };
+    add_forces(t, false, true);
+    take(dashpots);
+    placed.stop();
+    add_forces(t, true, false);
+    if (!settings_.own_wind) take(winds);
+    return placed.probe(none, dashpots, winds);
+  }
+
   PbdSettings settings_;
   std::map<std::string, std::string> mapped_;
+  bool adds_forces_ = false;
   Forces added_;  // N
   btSequentialImpulseConstraintSolver solver_;
 };

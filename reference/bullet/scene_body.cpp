@@ -88,6 +88,7 @@ SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info, const Defaul
   // without a sphere the margin only bounds speeds (box diagonal over step): large enough to bound nothing
   if (!defaults.margin)
     body_->getCollisionShape()->setMargin(static_cast<btScalar>(spheres ? spheres->list[0].margin : 10.0));
+  body_->updateBounds();  // of the constructor's margin until now: they bound the speeds of the first step
   body_->m_cfg.kDF = 1;
   body_->setActivationState(DISABLE_DEACTIVATION);
   built_ = read_state(0);

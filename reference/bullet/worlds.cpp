@@ -67,9 +67,11 @@ WorldChoice pbd(const Options& options) {
       settings.own_wind = true;
     } else if (option == "default-rest") {
       settings.defaults.rest = true;
+    } else if (option == "default-voxel") {
+      settings.defaults.voxel = true;
     } else if (!option.starts_with("n=") || std::from_chars(begin, end, settings.iterations).ptr != end ||
                settings.iterations < 1 || settings.iterations > 1000) {
-      refuse("pbd", option, "+n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest");
+      refuse("pbd", option, "+n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest, +default-voxel");
     }
   }
   return {"Bullet's position-based world, stiffness mapped per link; different link and friction laws", "",

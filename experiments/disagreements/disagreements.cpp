@@ -1,0 +1,52 @@
+// Experiment `disagreements`: runs them all, measures, writes tables.
+#include "experiments/disagreements/disagreements.h"
+
+#include <fmt/format.h>
+
+#include "mysim/scene.h"
+
+namespace crosscheck {
+
+Scene scene_of(const Disagreement& disagreement) {
+  return read_scene(std::filesystem::path(CROSSCHECK_SCENES) / "disagreements" / (disagreement.name + ".toml"));
+}
+
+std::vector<Series> play(const Disagreement& disagreement, const Scene& scene) {
+  std::vector<Series> all;
+  for (const Variant& variant : disagreement.variants) {
+    Scene own = scene;
+    if (auto* springs = own.model.find<Springs>()) springs->law = variant.law;
+    Run run = default_run(own);
+    if (variant.step > 0) run.step = variant.step;
+    Recorder recorder;
+    Series series{variant, run_method(find_method(variant.method), own, run, {&recorder}), {}};
+    const Trajectory& path = recorder.trajectory;
+    for (int i = 0; i < path.frames(); ++i)
+      series.points.emplace_back(path.t[i], disagreement.value(own, {path.t[i], path.x[i], path.v[i]}));
+    all.push_back(std::move(series));
+  }
+  return all;
+}
+
+void disagreements_experiment(const Request&, Progress& progress, Result& result) {
+  Table summary{"disagreements",
+                {{"name", "1"}, {"world", "1"}, {"what", "1"}, {"cause", "1"}, {"effect", "1"}, {"scene hash", "1"}},
+                {}};
+  for (const Disagreement& d : disagreements()) {
+    progress.begin("disagreement: " + d.name);
+    const Scene scene = scene_of(d);
+    const std::vector<Series> all = play(d, scene);
+    Table table{d.name + "-disagreement",
+                {{"curve", "1"}, {"method", "1"}, {"step", "s"}, {"verdict", "1"}, {"t", "s"}, {d.quantity, d.unit}},
+                {}};
+    for (const Series& s : all)
+      for (const auto& [t, value] : s.points)
+        table.add(
+            {s.variant.label, s.variant.method, s.outcome.step, std::string(name_of(s.outcome.verdict)), t, value});
+    summary.add({d.name, d.world, d.what, d.cause, d.effect(all), scene.hash});
+    result.tables.push_back(std::move(table));
+  }
+  result.tables.push_back(std::move(summary));
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,257 @@
+// The table of known disagreements.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "experiments/disagreements/disagreements.h"
+#include "experiments/metrics.h"
+#include "mysim/energy.h"
+
+namespace crosscheck {
+namespace {
+
+double moved(const Scene& scene, const State& s) { return (s.x.col(0) - scene.start.x.col(0)).norm(); }
+double sag(const Scene& scene, const State& s) {
+  return 1e3 * (scene.start.x.row(1).minCoeff() - s.x.row(1).minCoeff());
+}
+double length(const Scene&, const State& s) { return (s.x.col(1) - s.x.col(0)).norm(); }
+double along_wind(const Scene&, const State& s) { return s.v.row(2).mean(); }
+double gap(const Scene& scene, const State& s) { return 1e3 * *clearance(scene, s.t, s.x); }
+double energy(const Scene& scene, const State& s) { return energy_of(scene.model, s).total(); }
+
+/// Time between the first and the last upward passage through the middle, over the swings between, s.
+double period(const Series& s) {
+  double low = 1e300, high = -1e300, first = 0, last = 0;
+  int passages = 0;
+  for (const auto& [t, y] : s.points) low = std::min(low, y), high = std::max(high, y);
+  const double middle = (low + high) / 2;
+  for (size_t i = 1; i < s.points.size(); ++i) {
+    const auto& [t0, y0] = s.points[i - 1];
+    const auto& [t1, y1] = s.points[i];
+    if (!(y0 < middle && y1 >= middle)) continue;
+    last = t0 + (middle - y0) / (y1 - y0) * (t1 - t0);
+    if (passages++ == 0) first = last;
+  }
+  return passages > 1 ? (last - first) / (passages - 1) : NAN;
+}
+
+double largest(const Series& s) {
+  double most = -1e300;
+  for (const auto& point : s.points) most = std::max(most, point.second);
+  return most;
+}
+
+std::string friction_effect(const std::vector<Series>& all) {
+  const double asked = all[0].last(), explicit_world = all[1].last(), pbd = all[2].last();
+  return fmt::format(
+      "In {:.2g} s the particle slides {:.4f} m by Coulomb's law and {:.4f} m in the deformable world, but creeps only "
+      "{:.4f} m in the position-based world.",
+      all[0].points.back().first, asked, explicit_world, pbd);
+}
+
+std::string stiffness_effect(const std::vector<Series>& all) {
+  std::string text = fmt::format("Asked: a sag of {:.2f} mm.", all[0].last());
+  for (size_t i = 1; i < all.size(); ++i)
+    text += fmt::format("{} {:.2f} mm with {}", i == 1 ? " Found:" : ",", all[i].last(), all[i].variant.label);
+  return text + ".";
+}
+
+std::string law_effect(const std::vector<Series>& all) {
+  return fmt::format(
+      "The period is {:.3f} s by Hooke's law and {:.3f} s in the position-based world; by the law k L (L^2 - r^2) / "
+      "(L^2 + r^2) in mysim it is {:.3f} s.",
+      period(all[0]), period(all[1]), period(all[2]));
+}
+
+std::string freeze_effect(const std::vector<Series>& all) {
+  return fmt::format("With projection the mass swings to {:.2f} m; without it the run is {} at {:.4f} m.",
+                     largest(all[1]), name_of(all[2].outcome.verdict), all[2].last());
+}
+
+std::string hessian_effect(const std::vector<Series>& all) {
+  const Series& shipped = all[2];
+  return fmt::format(
+      "From {:.0f} J at the start Bullet's own force makes {:.2g} J and is stopped at {:.2g} s ({}); with the negative "
+      "part of the second derivatives left out the energy ends at {:.2g} J.",
+      shipped.points[0].second, shipped.last(), shipped.outcome.end, in_words(shipped.outcome.verdict), all[1].last());
+}
+
+std::string rest_effect(const std::vector<Series>& all) {
+  auto middle = [](const Series& s) {
+    double sum = 0;
+    for (const auto& point : s.points) sum += point.second;
+    return sum / static_cast<double>(s.points.size());
+  };
+  return fmt::format(
+      "Asked: swings about {:.3f} m. Left to itself Bullet swings about {:.3f} m (explicit) and {:.3f} m "
+      "(position-based); the certificate stops such a comparison.",
+      middle(all[0]), middle(all[1]), middle(all[2]));
+}
+
+std::string wind_effect(const std::vector<Series>& all) {
+  // when each has half the speed that is asked for at the end
+  const double half = all[0].last() / 2;
+  auto reached = [&](const Series& s) {
+    for (const auto& [t, v] : s.points)
+      if (v >= half) return fmt::format("after {:.2g} s", t);
+    return fmt::format("not in {:.2g} s", s.points.back().first);
+  };
+  return fmt::format(
+      "Half the final speed, {:.2f} m/s, is reached {}; by Bullet's own wind {}, when rounding has grown into a "
+      "motion; "
+      "by forces added to Bullet's nodes {}.",
+      half, reached(all[0]), reached(all[1]), reached(all[2]));
+}
+
+std::string clamp_effect(const std::vector<Series>& all) {
+  const auto& [t, way] = all[1].points.back();
+  return fmt::format("Thrown at 80 m/s it flies {:.1f} m in {:.2g} s; in Bullet with the default margin {:.1f} m.",
+                     all[0].last(), t, way);
+}
+
+std::string field_effect(const std::vector<Series>& all) {
+  auto place = [](double mm) { return fmt::format("{:.3g} mm {}", std::abs(mm), mm < 0 ? "inside" : "outside"); };
+  return fmt::format("The particle lies {} the surface with the default voxel of 0.25 m and {} with 0.02 m.",
+                     place(all[1].last()), place(all[2].last()));
+}
+
+std::string hop_effect(const std::vector<Series>& all) {
+  double most = 0, touching = 0.6;  // s: until then it slides, see the scene
+  for (const auto& [t, mm] : all[1].points)
+    if (t < touching) most = std::max(most, std::abs(mm));
+  return fmt::format("While it slides the particle leaves the surface by up to {:.2g} mm; mysim by none.", most);
+}
+
+}  // namespace
+
+std::vector<Disagreement> disagreements() {
+  return {
+      {"pbd-friction",
+       "bullet/pbd",
+       "The position-based world sticks where Coulomb's law slides",
+       "A touching node loses a fixed share f of its tangential motion in every step, whatever presses it on: it "
+       "creeps "
+       "at g sin(theta) h (1 - f) / f.",
+       "distance slid",
+       "m",
+       {{"Coulomb's law, mysim", "mysim/leapfrog"},
+        {"Bullet, deformable", "bullet/deformable-explicit"},
+        {"Bullet, position-based", "bullet/pbd"}},
+       moved,
+       friction_effect},
+      {"pbd-stiffness",
+       "bullet/pbd",
+       "The stiffness of position-based links depends on step and iterations",
+       "Each link is solved by itself and in turn; in a network the neighbours spoil it again, so that the map from "
+       "N/m "
+       "to kLST holds only where k h^2 / mu is below about 0.01, and more iterations do not help.",
+       "sag",
+       "mm",
+       {{"what is asked", "mysim/leapfrog"},
+        {"1 iteration, 1/60 s", "bullet/pbd", 1. / 60},
+        {"10 iterations, 1/60 s", "bullet/pbd+n=10", 1. / 60},
+        {"1 iteration, 1/240 s", "bullet/pbd", 1. / 240},
+        {"1 iteration, 1/1920 s", "bullet/pbd", 1. / 1920},
+        {"the demos' settings, 1/60 s", "bullet/pbd+demo", 1. / 60}},
+       sag,
+       stiffness_effect},
+      {"link-law",
+       "bullet/pbd",
+       "Position-based links do not follow Hooke's law",
+       "A link corrects by (L^2 - r^2) / (L^2 + r^2), which is stiffer than Hooke's law where it is pulled and softer "
+       "where it is pushed, however short the step.",
+       "length",
+       "m",
+       {{"Hooke's law, mysim", "mysim/leapfrog"},
+        {"Bullet, position-based", "bullet/pbd"},
+        {"the link law, mysim", "mysim/leapfrog", 0, SpringLaw::bullet_link}},
+       length,
+       law_effect},
+      {"implicit-freeze",
+       "bullet/deformable-implicit",
+       "The implicit world freezes unless its projection is switched on",
+       "Without setUseProjection(true) the solver's preconditioner, not made for the implicit mode, yields no number, "
+       "and the step's change of velocity is set to zero without a message.",
+       "length",
+       "m",
+       {{"implicit Euler, mysim", "mysim/implicit-euler"},
+        {"Bullet, with projection", "bullet/deformable-implicit"},
+        {"Bullet, without it", "bullet/deformable-implicit+unprojected"}},
+       length,
+       freeze_effect},
+      {"indefinite-hessian",
+       "bullet/deformable-implicit",
+       "Bullet's implicit spring force blows up where springs are pushed",
+       "A pushed spring has a negative stiffness across itself; the shipped force hands it over as it is, and one "
+       "Newton "
+       "step on an indefinite matrix may go anywhere.",
+       "total energy",
+       "J",
+       {{"implicit Euler, one Newton step, mysim", "mysim/implicit-euler+linear"},
+        {"Bullet, negative part left out", "bullet/deformable-implicit"},
+        {"Bullet, as shipped", "bullet/deformable-implicit+shipped"}},
+       energy,
+       hessian_effect},
+      {"rest-lengths",
+       "bullet",
+       "Rest lengths are overwritten in the first step",
+       "Adding a node, a link or a mass sets a flag, upon which the first step takes the lengths it finds for the rest "
+       "lengths.",
+       "length",
+       "m",
+       {{"what is asked, mysim", "mysim/leapfrog"},
+        {"Bullet, explicit, flag left", "bullet/deformable-explicit+default-rest"},
+        {"Bullet, position-based, flag left", "bullet/pbd+default-rest"}},
+       length,
+       rest_effect},
+      {"wind-at-rest",
+       "bullet/pbd",
+       "Bullet's wind does not set a cloth at rest in motion",
+       "The force of the air on a node is limited by what would stop the node, and a node at rest is stopped by "
+       "nothing.",
+       "speed along the wind",
+       "m/s",
+       {{"what is asked, mysim", "mysim/leapfrog"},
+        {"Bullet's own wind", "bullet/pbd+own-wind"},
+        {"Bullet, forces added to nodes", "bullet/pbd"}},
+       along_wind,
+       wind_effect},
+      {"speed-clamp",
+       "bullet/deformable-explicit",
+       "The deformable world limits the speed of small bodies",
+       "A node may not move farther in a step than the body's box is wide; a small body in long steps is slowed in "
+       "silence.",
+       "distance",
+       "m",
+       {{"what is asked, mysim", "mysim/leapfrog"},
+        {"Bullet, default margin of 0.25 m", "bullet/deformable-explicit+default-margin"},
+        {"Bullet, margin of 10 m", "bullet/deformable-explicit"}},
+       moved,
+       clamp_effect},
+      {"distance-field",
+       "bullet/pbd",
+       "The default distance field misplaces obstacles",
+       "Distances to an obstacle are read from a grid; on a ball of radius R a voxel of size a is wrong by a^2 / 8R to "
+       "a^2 / 4R.",
+       "height over the surface",
+       "mm",
+       {{"what is asked, mysim", "mysim/leapfrog"},
+        {"Bullet, voxel of 0.25 m", "bullet/pbd+default-voxel"},
+        {"Bullet, voxel of 0.02 m", "bullet/pbd"}},
+       gap,
+       field_effect},
+      {"contact-hop",
+       "bullet/deformable-explicit",
+       "Sliding nodes hop on curved obstacles",
+       "Contact is found at the proposed position, but normal and gap are those of the old one: the node leaves along "
+       "the tangent plane, by (v h)^2 / 2R in a step.",
+       "height over the surface",
+       "mm",
+       {{"mysim", "mysim/leapfrog"}, {"Bullet, deformable", "bullet/deformable-explicit"}},
+       gap,
+       hop_effect},
+  };
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,49 @@
+// How rows of a certificate are written, and who writes which.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "reference/certificate.h"
+
+namespace crosscheck {
+
+/// The larger one; nan where one is nan, so that a deviation that is no number never passes.
+inline double worse(double a, double b) { return std::isnan(b) || b > a ? b : a; }
+
+class CertificateWriter {
+ public:
+  CertificateWriter(Certificate& certificate, const Readback& readback)
+      : certificate_(certificate), readback_(readback) {}
+
+  void row(const std::string& quantity, std::string asked, std::string read_back, Parity parity) {
+    const auto how = readback_.mapped.find(quantity);
+    certificate_.rows.push_back({quantity, std::move(asked), how == readback_.mapped.end() ? "as it is" : how->second,
+                                 std::move(read_back), parity});
+  }
+  void row(const std::string& quantity, std::string asked, std::string read_back, bool same) {
+    row(quantity, std::move(asked), std::move(read_back), same ? Parity::match : Parity::mismatch);
+  }
+  /// A quantity compared by its largest deviation, relative to its scale.
+  void deviation(const std::string& quantity, std::string asked, double largest, double scale) {
+    row(quantity, std::move(asked), fmt::format("largest deviation {:.2g}", scale > 0 ? largest / scale : largest),
+        largest <= tolerance() * scale);
+  }
+  /// Rounding of an engine that computes in this precision, after a mapping and its inverse: some tens of ulps.
+  double tolerance() const { return readback_.precision == "single" ? 1e-5 : 1e-12; }
+
+ private:
+  Certificate& certificate_;
+  const Readback& readback_;
+};
+
+/// "200 N/m", or "75 to 300 N/m".
+inline std::string range_of(double low, double high, const char* unit) {
+  return low == high ? fmt::format("{:.6g} {}", low, unit) : fmt::format("{:.6g} to {:.6g} {}", low, high, unit);
+}
+
+void certify_springs(const Scene& scene, const Readback& r, CertificateWriter& w);
+void certify_terms(const Scene& scene, const Readback& r, CertificateWriter& w);
+
+}  // namespace crosscheck

@@ -1,0 +1,111 @@
+// The certificate's rows of gravity, drag, wind and spheres.
+#include <algorithm>
+
+#include "reference/certificate_writer.h"
+
+namespace crosscheck {
+namespace {
+
+void certify_spheres(const Spheres* spheres, const Readback& r, CertificateWriter& w) {
+  const size_t asked = spheres ? spheres->list.size() : 0;
+  if (!r.spheres) {
+    if (asked > 0) w.row("spheres", fmt::format("{}", asked), "not told", Parity::unattested);
+    return;
+  }
+  if (asked > 0 || !r.spheres->empty())
+    w.row("spheres", fmt::format("{}", asked), fmt::format("{}", r.spheres->size()), r.spheres->size() == asked);
+  if (r.spheres->size() != asked) return;
+  for (size_t i = 0; i < asked; ++i) {
+    const Sphere& s = spheres->list[i];
+    const Readback::Ball& ball = (*r.spheres)[i];
+    const std::string of = asked > 1 ? fmt::format(" of sphere {}", i + 1) : "";
+    auto vector = [](const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", v.x(), v.y(), v.z()); };
+    w.row("centre" + of, vector(s.centre), vector(ball.centre),
+          (ball.centre - s.centre).norm() <= w.tolerance() * (s.centre.norm() + s.radius));
+    auto number = [&](const std::string& what, double wanted, const std::optional<double>& told, const char* unit,
+                      double scale) {
+      if (told)
+        w.row(what + of, fmt::format("{:.6g}{}", wanted, unit), fmt::format("{:.6g}{}", *told, unit),
+              std::abs(*told - wanted) <= w.tolerance() * scale);
+      else
+        w.row(what + of, fmt::format("{:.6g}{}", wanted, unit), "not told", Parity::unattested);
+    };
+    number("contact radius", s.contact_radius(), ball.radius, " m", s.contact_radius());
+    number("friction", s.friction, ball.friction, "", 1);
+    if (s.restitution > 0 || ball.restitution.value_or(0) != 0)
+      number("restitution", s.restitution, ball.restitution, "", 1);
+    if (i == 0 && r.margin) number("margin", s.margin, r.margin, " m", s.contact_radius());
+  }
+}
+
+/// Both winds, by the forces that the engine computed at a known state with the particles at rest.
+void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
+  const auto* wind = scene.model.find<Wind>();
+  const auto* air = scene.model.find<Aerodynamics>();
+  const bool told = r.probe && r.probe->wind.size() > 0;
+  if (!wind && !air) {
+    if (told && largest_column(r.probe->wind) > 0) w.row("wind", "none", "some", false);
+    return;
+  }
+  const Blowing& blowing = wind ? wind->acceleration : air->velocity;
+  const std::string asked = fmt::format("mean ({:.6g}, {:.6g}, {:.6g}) {}{}{}", blowing.mean.x(), blowing.mean.y(),
+                                        blowing.mean.z(), wind ? "m/s^2" : "m/s on triangles",
+                                        blowing.gusts ? ", gusts" : "", wind && air ? ", and on triangles" : "");
+  if (!told) {
+    w.row("wind", asked, "not told", Parity::unattested);
+    return;
+  }
+  State probed = scene.start;
+  probed.t = r.probe->t, probed.x = r.probe->x;
+  probed.v.setZero();
+  for (const int pin : scene.model.particles.pins) probed.v.col(pin) = r.probe->v.col(pin);
+  Forces ours{Points::Zero(3, scene.model.particles.size()), 0};
+  if (wind) add_force(*wind, scene.model.particles, probed, ours);
+  if (air) add_force(*air, scene.model.particles, probed, ours);
+  Points told_forces = r.probe->wind;
+  for (const int pin : scene.model.particles.pins) ours.f.col(pin).setZero(), told_forces.col(pin).setZero();
+  const double scale = largest_column(ours.f), off = largest_column(ours.f - told_forces);
+  // left over when the springs are taken from the sum: their forces' rounding
+  const double springs = r.probe->springs.size() > 0 ? largest_column(r.probe->springs) : 0;
+  w.row("wind", asked, fmt::format("forces at a known state off by {:.2g}", off / scale),
+        off <= 100 * w.tolerance() * (scale + springs));
+}
+
+}  // namespace
+
+void certify_terms(const Scene& scene, const Readback& r, CertificateWriter& w) {
+  const Model& model = scene.model;
+  auto vector = [](const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m/s^2", v.x(), v.y(), v.z()); };
+  if (const auto* gravity = model.find<Gravity>()) {
+    if (r.gravity)
+      w.row("gravity", vector(gravity->acceleration), vector(*r.gravity),
+            (*r.gravity - gravity->acceleration).norm() <= w.tolerance() * gravity->acceleration.norm());
+    else
+      w.row("gravity", vector(gravity->acceleration), "not told", Parity::unattested);
+  }
+  if (const auto* drag = model.find<Drag>()) {
+    const double low = (drag->c.array() / model.particles.mass.array()).minCoeff();
+    const double high = (drag->c.array() / model.particles.mass.array()).maxCoeff();
+    const std::string asked =
+        high - low < 1e-12 * high ? fmt::format("{:.6g} /s", high) : fmt::format("{:.6g} to {:.6g} /s", low, high);
+    if (r.drag && static_cast<int>(r.drag->size()) == model.particles.size()) {
+      double worst = 0;
+      for (int i = 0; i < model.particles.size(); ++i)
+        if (!model.particles.pinned[i])
+          worst = worse(worst, std::abs((*r.drag)[i] - drag->c[i] / model.particles.mass[i]));
+      // gamma comes back from 1 - exp(-gamma h): eps / (gamma h) is left
+      w.row("drag", asked, fmt::format("largest deviation {:.2g} /s", worst),
+            worst <= std::max(w.tolerance(), 1e-9) * high);
+    } else {
+      w.row("drag", asked, "not told", Parity::unattested);
+    }
+  }
+  // what the scene does not have must not be in the engine either
+  if (!model.find<Gravity>() && r.gravity && !r.gravity->isZero(0)) w.row("gravity", "none", vector(*r.gravity), false);
+  if (!model.find<Drag>() && r.drag && std::any_of(r.drag->begin(), r.drag->end(), [](double c) { return c != 0; }))
+    w.row("drag", "none", "some", false);
+  certify_wind(scene, r, w);
+  certify_spheres(model.find<Spheres>(), r, w);
+}
+
+}  // namespace crosscheck
