@@ -187,6 +187,19 @@ TEST(ExactDiscrete, BulletsExplicitWorldIsSymplecticEulerOnTheSpring) {
             1e6 * wrong.bar);
 }
 
+TEST(ExactDiscrete, XpbdHangsAMassOnADashpotTooHigh) {
+  // the sweep takes the dashpot's share of the free step, weight included, before the spring is asked: at rest the
+  // spring carries the weight over 1 + h c / m
+  const Scene scene = spring(0, 2);  // 0.5 kg on 50 N/m: exp(-c t / 2m) is 2e-17 after 20 s
+  for (const double h : {5e-3, 1e-2}) {
+    const crosscheck::Run run{h, 20, 1};
+    const double carried = 0.5 * 9.81 / (1 + h * 2 / 0.5);
+    const Truth truth = discrete_truth(discrete("xpbd"), scene, run);
+    EXPECT_NEAR(truth.trajectory.x.back()(1, 1), -1 - carried / 50, truth.bar);
+    EXPECT_NEAR(trajectory_of(stepper("xpbd"), scene, run).x.back()(1, 1), -1 - carried / 50, truth.bar);
+  }
+}
+
 TEST(ExactDiscrete, PowersAreThoseOfPlainProducts) {
   const Mode modes[] = {{100, 0, 0, -9.81, 0, 0, 0, {}},
                         {100, 20, 0, 1, 0, 0, 0, {}},  // critical: eigenvalues of rk4 coincide

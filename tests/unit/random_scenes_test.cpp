@@ -12,9 +12,11 @@ using namespace testing_tools;
 TEST(RandomScenes, AreTheSameBySeedAndDifferentBySeed) {
   std::set<std::string> hashes;
   for (unsigned seed = 0; seed < 200; ++seed) {
-    EXPECT_EQ(random_exact_scene(seed).hash, random_exact_scene(seed).hash);
-    hashes.insert(random_exact_scene(seed).hash);
-    hashes.insert(random_contact_free_scene(seed).hash);
+    const std::string exact = random_exact_scene(seed).hash, network = random_contact_free_scene(seed).hash;
+    hashes.insert({exact, network});
+    if (seed % 10 > 0) continue;
+    EXPECT_EQ(random_exact_scene(seed).hash, exact);
+    EXPECT_EQ(random_contact_free_scene(seed).hash, network);
   }
   EXPECT_EQ(hashes.size(), 400u);
 }
