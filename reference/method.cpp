@@ -4,10 +4,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "mysim/engine.h"
 #include "mysim/errors.h"
 #include "mysim/observers/watch.h"
 #include "reference/bullet/worlds.h"
+#include "reference/exact/discrete.h"
 #include "reference/truth.h"
 
 namespace crosscheck {
@@ -58,6 +62,16 @@ Method bullet_method(const std::string& world, const std::vector<Option>& option
   return {"bullet/" + world, chosen.what, chosen.rule, chosen.engine, ContactLoss::inferred};
 }
 
+Outcome play(const Truth& truth, const Run& run, Observer& observer) {
+  Outcome out;
+  out.step = plan(run).h;
+  for (int i = 0; i < truth.trajectory.frames() && out.verdict == Verdict::ok; ++i) {
+    out.end = truth.trajectory.t[i];
+    out.verdict = observer.observe({out.end, truth.trajectory.x[i], truth.trajectory.v[i]}, true);
+  }
+  return out;
+}
+
 /// The best answer known, played through the observer like any other method.
 Method truth_method(Tier tier, const std::vector<Option>& options) {
   const std::string name = fmt::format("truth/{}", name_of(tier));
@@ -72,21 +86,45 @@ Method truth_method(Tier tier, const std::vector<Option>& options) {
               throw Unsupported(tier == Tier::exact
                                     ? "the scene has no closed form"
                                     : "the scene has a closed form, or contacts on whose rule the answer depends");
-            Outcome out;
-            out.step = plan(run).h;
-            for (int i = 0; i < truth->trajectory.frames() && out.verdict == Verdict::ok; ++i) {
-              out.end = truth->trajectory.t[i];
-              out.verdict = observer.observe({out.end, truth->trajectory.x[i], truth->trajectory.v[i]}, true);
-            }
-            return out;
+            return play(*truth, run, observer);
           },
           ContactLoss::inferred};
 }
 
-// the table: a name, and how its method is made from the options
+std::vector<std::string> names_of_discrete_rules() {
+  std::vector<std::string> names;
+  for (const DiscreteRule& rule : discrete_rules()) names.emplace_back(rule.name);
+  return names;
+}
+
+/// The closed form of what a rule should produce.
+Method discrete_method(const std::vector<Option>& options) {
+  const std::string name = "truth/exact-discrete";
+  const std::string known = fmt::format("one of the rules +{}", fmt::join(names_of_discrete_rules(), ", +"));
+  if (options.empty()) throw InputError(fmt::format("method {}: no rule; expected {}", name, known));
+  if (options.size() > 1) refuse(name, options[1], known);
+  for (const DiscreteRule& rule : discrete_rules())
+    if (rule.name == options[0].key && options[0].value.empty())
+      return {name, fmt::format("closed form of what {} should produce, on linear scenes", rule.name), "",
+              [&rule](const Scene& scene, const Run& run, Observer& observer) {
+                return play(discrete_truth(rule, scene, run), run, observer);
+              },
+              ContactLoss::inferred};
+  refuse(name, options[0], known);
+}
+
+// the table: a name, how its method is made from the options, and the options one of which must be given: each of them
+// is a method of its own
 struct Row {
   std::string name;
   std::function<Method(const std::vector<Option>&)> make;
+  std::vector<std::string> choices = {};
+
+  std::vector<std::string> full_names() const {
+    std::vector<std::string> names;
+    for (const std::string& choice : choices) names.push_back(name + "+" + choice);
+    return choices.empty() ? std::vector{name} : names;
+  }
 };
 
 std::vector<Row> table() {
@@ -97,6 +135,7 @@ std::vector<Row> table() {
   for (const std::string& world : bullet::world_names())
     rows.push_back({"bullet/" + world, [world](const auto& options) { return bullet_method(world, options); }});
   rows.push_back({"truth/exact", [](const auto& options) { return truth_method(Tier::exact, options); }});
+  rows.push_back({"truth/exact-discrete", discrete_method, names_of_discrete_rules()});
   rows.push_back({"truth/converged", [](const auto& options) { return truth_method(Tier::converged, options); }});
   return rows;
 }
@@ -114,7 +153,8 @@ std::vector<std::string> split(const std::string& text, char at) {
 
 std::vector<Method> all_methods() {
   std::vector<Method> methods;
-  for (const Row& row : table()) methods.push_back(row.make({}));
+  for (const Row& row : table())
+    for (const std::string& name : row.full_names()) methods.push_back(find_method(name));
   return methods;
 }
 
@@ -133,7 +173,7 @@ Method find_method(const std::string& text) {
       for (size_t i = 1; i < parts.size(); ++i) method.name += "+" + parts[i];
       return method;
     }
-    known.push_back(row.name);
+    std::ranges::copy(row.full_names(), std::back_inserter(known));
   }
   throw InputError(fmt::format("unknown method '{}'; expected one of: {}", text, fmt::join(known, ", ")));
 }

@@ -27,7 +27,7 @@ int list_command(const std::string& what, bool json) {
     fmt::print("{}\n", list.dump(2));
     return 0;
   }
-  for (const auto& [name, text] : rows) fmt::print("{:<28} {}\n", name, text);
+  for (const auto& [name, text] : rows) fmt::print("{:<38} {}\n", name, text);
   if (rows.empty()) fmt::print("none in this version\n");
   return 0;
 }

@@ -63,6 +63,11 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
       {"bullet/pbd+n=-1", "'+n=-1'"},
       {"bullet/pbd+n", "'+n'"},
       {"bullet/pbd+m=2", "'+m=2'"},
+      {"truth/exact-discrete",
+       "method truth/exact-discrete: no rule; expected one of the rules +explicit-euler, +trap"},
+      {"truth/exact-discrete+dopri5", "unknown option '+dopri5'; expected one of the rules +explicit-euler, "},
+      {"truth/exact-discrete+rk4=2", "unknown option '+rk4=2'; expected one of the rules +explicit-euler, "},
+      {"truth/exact-discrete+rk4+linear", "unknown option '+linear'; expected one of the rules +explicit-euler, "},
       {"truth/exact+sticky", "method truth/exact: unknown option '+sticky'"}};
   for (const auto& [name, message] : cases) EXPECT_TRUE(contains(refusal(name), message));
   for (const auto name : {"", "bullet/", "/rk4", "rk4 ", "RK4", "bullet/pbd/x"})
