@@ -6,6 +6,14 @@
 #include <cmath>
 
 namespace crosscheck {
+
+std::string failure_word(const std::string& verdict) {
+  static constexpr std::pair<std::string_view, const char*> table[] = {
+      {"solver", "solver gave up"}, {"frozen", "froze"}, {"timeout", "out of time"}, {"crash", "program failed"}};
+  for (const auto& [name, word] : table)
+    if (verdict == name) return word;
+  return "blew up";
+}
 namespace {
 
 std::string text(const Cell& cell) {

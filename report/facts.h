@@ -9,6 +9,9 @@
 
 namespace crosscheck {
 
+/// "blew up", "solver gave up", "froze": what a verdict other than ok says of a run, as the table writes it.
+std::string failure_word(const std::string& verdict);
+
 struct MethodFacts {
   std::string method, verdict, reason, different_law;
   double end = 0, step = 0;  // s
@@ -22,8 +25,8 @@ struct MethodFacts {
   std::optional<double> limit;              // s, largest stable step by theory, for the scene's fastest vibration
   bool supported() const { return verdict != "unsupported"; }
   bool ok() const { return verdict == "ok"; }
-  /// "blew up" or "solver gave up", of a run that failed.
-  const char* failure() const { return verdict == "solver" ? "solver gave up" : "blew up"; }
+  /// "blew up", "solver gave up" and so on, of a run that failed.
+  std::string failure() const { return failure_word(verdict); }
 };
 
 struct SceneFacts {

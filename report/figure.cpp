@@ -196,6 +196,7 @@ MethodStyle style_of(const std::string& method) {
       {"mysim/trapezoidal", {"#E69F00", "(2,2)", 11}},
       {"mysim/explicit-euler", {"#CC79A7", "(10,3,2,3)", 15}},
       {"bullet/deformable-explicit", {"#D55E00", "(14,4)", 5}},
+      {"bullet/deformable-implicit", {"#AA4499", "(20,3,4,3)", 10}},
       {"bullet/pbd", {"#7A3B00", "(4,2)", 4}},
       {"mysim/suzuki4", {"#332288", "(12,3,3,3)", 12}},
       {"mysim/dopri5", {"#999933", "(3,2)", 6}},

@@ -117,10 +117,13 @@ std::string field_effect(const std::vector<Series>& all) {
 }
 
 std::string hop_effect(const std::vector<Series>& all) {
-  double most = 0, touching = 0.6;  // s: until then it slides, see the scene
-  for (const auto& [t, mm] : all[1].points)
-    if (t < touching) most = std::max(most, std::abs(mm));
-  return fmt::format("While it slides the particle leaves the surface by up to {:.2g} mm; mysim by none.", most);
+  auto most = [](const Series& s) {
+    double mm = 0;
+    for (const auto& point : s.points) mm = std::max(mm, std::abs(point.second));
+    return mm;
+  };
+  return fmt::format("While it slides the particle leaves the surface by up to {:.2g} mm, in mysim by {:.2g} mm.",
+                     most(all[1]), most(all[0]));
 }
 
 }  // namespace

@@ -18,8 +18,10 @@ struct ChartInput {
 };
 
 struct Chart {
-  std::string scene;  // where it belongs; empty: the front of the report
+  std::string scene;  // where it belongs; empty: the front of the report, or a chapter
   Figure figure;
+  std::string chapter;  // of the report, by its id; empty: none
+  std::string text;     // in a chapter: what the figure is about, before it
 };
 
 std::vector<Chart> scoreboard_charts(const ChartInput& input);  // error of every method on every scene
@@ -28,6 +30,9 @@ std::vector<Chart> agreement_charts(const ChartInput& input);   // Bullet agains
 std::vector<Chart> contact_charts(const ChartInput& input);     // centres of mass, clearance, creep on a sphere
 std::vector<Chart> energy_charts(const ChartInput& input);      // balance error or contact loss over time
 std::vector<Chart> order_charts(const ChartInput& input);       // error against step
+
+std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links
+std::vector<Chart> disagreement_charts(const ChartInput& input);  // where Bullet answers otherwise than it is asked
 
 std::vector<Chart> all_charts(const ChartInput& input);
 

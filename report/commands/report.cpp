@@ -58,6 +58,14 @@ class Builder {
   Builder(const ReportOptions& options, Request request) : options_(options), request_(std::move(request)) {
     page_.provenance = with_scenes(provenance(options.command_line), request_.scenes);
     fs::create_directories(options.out / "figures");
+    page_.chapters = {
+        {"disagreements",
+         "What cannot be matched, and why",
+         "Where Bullet's worlds answer otherwise than the scene asks, or fail: each in the smallest scene that shows "
+         "it, "
+         "with its cause and the size of its effect, measured in this run.",
+         {}},
+        {"stiffness", "How stiff a position-based link is", "Bullet's position-based world beside the formula.", {}}};
   }
 
   int build() {
@@ -145,7 +153,9 @@ class Builder {
     const PageImage image{options_.out / "figures" / (chart.figure.name + ".svg"),
                           chart.figure.title + ". " + chart.figure.finding,
                           chart.figure.finding + " " + chart.figure.caption};
-    if (chart.scene.empty()) page_.hero.push_back(image);
+    if (chart.scene.empty() && chart.chapter.empty()) page_.hero.push_back(image);
+    for (Chapter& chapter : page_.chapters)
+      if (chapter.id == chart.chapter) chapter.entries.push_back({chart.figure.title, chart.text, image});
     for (ScenePart& part : page_.scenes)
       if (part.scene->name == chart.scene) part.figures.push_back(image);
   }

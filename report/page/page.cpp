@@ -56,12 +56,24 @@ std::string scene_section(const ScenePart& part) {
   return out;
 }
 
+std::string chapter_section(const Chapter& chapter) {
+  std::string out = fmt::format("<section class=\"chapter\" id=\"{}\">\n<h2>{}</h2>\n<p class=\"question\">{}</p>\n",
+                                chapter.id, escaped(chapter.title), escaped(chapter.intro));
+  out += "<div class=\"figures\">\n";
+  for (const Chapter::Entry& entry : chapter.entries)
+    out += fmt::format("<article><h3>{}</h3><p>{}</p>\n{}</article>\n", escaped(entry.heading), escaped(entry.text),
+                       image_html(entry.figure, "chart"));
+  return out + "</div>\n</section>\n";
+}
+
 }  // namespace
 
 std::string page_html(const PageContent& c) {
   std::string out = head() + first_screen(c);
   out += "<section>\n<h2>Scene by scene</h2>\n" + scene_table_html(c.scenes);
   out += "</section>\n";
+  for (const Chapter& chapter : c.chapters)
+    if (!chapter.entries.empty()) out += chapter_section(chapter);
   for (const ScenePart& part : c.scenes) out += scene_section(part);
 
   out +=

@@ -25,10 +25,21 @@ struct ScenePart {
   std::vector<const Certificate*> certificates;
 };
 
+/// A part of the report that belongs to no scene of its own.
+struct Chapter {
+  struct Entry {
+    std::string heading, text;
+    PageImage figure;
+  };
+  std::string id, title, intro;
+  std::vector<Entry> entries;
+};
+
 struct PageContent {
   std::vector<Finding> findings;  // of the whole report
   std::vector<PageImage> hero;    // beside the answer: a picture, and the figures of the whole report
   std::vector<ScenePart> scenes;
+  std::vector<Chapter> chapters;
   std::vector<std::string> notes;     // what was left out, and why
   std::vector<std::string> problems;  // what failed to be made
   Provenance provenance;

@@ -1,0 +1,67 @@
+// Known disagreements: one figure each, what is asked beside what comes out.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "report/charts/charts.h"
+
+namespace crosscheck {
+namespace {
+
+const std::string& text_at(const Table& table, size_t row, const std::string& column) {
+  return std::get<std::string>(table.at(row, column));
+}
+
+/// The method's own style; a method that comes again, with other options, takes a spare colour.
+class Styles {
+ public:
+  MethodStyle of(const std::string& method) {
+    const std::string base = method.substr(0, method.find('+'));
+    const int before = seen_[base]++;
+    MethodStyle style = style_of(base);
+    static constexpr const char* spare[] = {"#E69F00", "#CC79A7", "#332288", "#999933"};
+    static constexpr const char* dashes[] = {"(6,3)", "(2,2)", "(10,3,2,3)", "(16,3,2,3)"};
+    if (before > 0) style = {spare[(before - 1) % 4], dashes[(before - 1) % 4], style.marker + before};
+    return style;
+  }
+
+ private:
+  std::map<std::string, int> seen_;
+};
+
+}  // namespace
+
+std::vector<Chart> disagreement_charts(const ChartInput& input) {
+  std::vector<Chart> charts;
+  const Table* summary = input.result.table("disagreements");
+  for (size_t row = 0; summary && row < summary->rows.size(); ++row) {
+    const std::string& name = text_at(*summary, row, "name");
+    const Table& table = *input.result.table(name + "-disagreement");
+    const Column& quantity = table.columns.back();
+    Figure f;
+    f.name = name + "-disagreement";
+    f.title = text_at(*summary, row, "what");
+    f.finding = text_at(*summary, row, "effect");
+    f.caption = fmt::format("Scene {}, hash {}; commit {}.", name, text_at(*summary, row, "scene hash"), input.commit);
+    f.x = {"t / s", false, 0.0, std::nullopt};
+    f.y = {fmt::format("{} / {}", quantity.name, quantity.unit), false, std::nullopt, std::nullopt};
+    Styles styles;
+    for (size_t i = 0; i < table.rows.size(); ++i) {
+      const std::string& curve = text_at(table, i, "curve");
+      if (f.curves.empty() || f.curves.back().title != curve)
+        f.curves.push_back({curve, styles.of(text_at(table, i, "method")), {}});
+      f.curves.back().points.emplace_back(std::get<double>(table.at(i, "t")),
+                                          std::get<double>(table.at(i, quantity.name)));
+      const std::string& verdict = text_at(table, i, "verdict");
+      const bool last = i + 1 == table.rows.size() || text_at(table, i + 1, "curve") != curve;
+      if (last && verdict != "ok")
+        f.failures.push_back({fmt::format("{}: {}", curve, failure_word(verdict)), f.curves.back().style,
+                              f.curves.back().points.back().first, f.curves.back().points.back().second});
+    }
+    charts.push_back({"", std::move(f), "disagreements", text_at(*summary, row, "cause")});
+  }
+  return charts;
+}
+
+}  // namespace crosscheck
