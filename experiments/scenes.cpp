@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "experiments/disagreements/disagreements.h"
 #include "mysim/errors.h"
 #include "reference/method.h"
 
@@ -56,6 +57,9 @@ Scene load_scene(const std::string& name) {
   const auto shipped = shipped_scenes();
   if (std::find(shipped.begin(), shipped.end(), name) != shipped.end())
     return checked(std::filesystem::path(CROSSCHECK_SCENES) / (name + ".toml"));
+  const auto known = disagreements();
+  if (std::any_of(known.begin(), known.end(), [&](const Disagreement& d) { return d.name == name; }))
+    return checked(file_of_disagreement(name));
   if (name.ends_with(".toml") || std::filesystem::exists(name)) return checked(name);
   throw InputError(fmt::format("unknown scene '{}'; expected one of {}, or the path of a .toml file", name,
                                fmt::join(shipped, ", ")));

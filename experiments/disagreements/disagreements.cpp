@@ -7,9 +7,11 @@
 
 namespace crosscheck {
 
-Scene scene_of(const Disagreement& disagreement) {
-  return read_scene(std::filesystem::path(CROSSCHECK_SCENES) / "disagreements" / (disagreement.name + ".toml"));
+std::filesystem::path file_of_disagreement(const std::string& name) {
+  return std::filesystem::path(CROSSCHECK_SCENES) / "disagreements" / (name + ".toml");
 }
+
+Scene scene_of(const Disagreement& disagreement) { return read_scene(file_of_disagreement(disagreement.name)); }
 
 std::vector<Series> play(const Disagreement& disagreement, const Scene& scene) {
   std::vector<Series> all;

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "experiments/disagreements/disagreements.h"
 #include "experiments/experiment.h"
 #include "experiments/scenes.h"
 #include "mysim/errors.h"
@@ -12,9 +13,10 @@ namespace crosscheck {
 
 int list_command(const std::string& what, bool json) {
   std::vector<std::pair<std::string, std::string>> rows;
-  if (what == "scenes")
+  if (what == "scenes") {
     for (const auto name : shipped_scenes()) rows.emplace_back(name, load_scene(std::string(name)).question);
-  else if (what == "methods")
+    for (const Disagreement& d : disagreements()) rows.emplace_back(d.name, scene_of(d).question);
+  } else if (what == "methods")
     for (const Method& method : all_methods()) rows.emplace_back(method.name, method.what);
   else if (what == "experiments")
     for (const Experiment& experiment : experiments()) rows.emplace_back(experiment.name, experiment.question);
