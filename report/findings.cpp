@@ -25,6 +25,11 @@ void agreement(const Scene& scene, const SceneFacts& facts, std::vector<Finding>
           "within {} over the whole run.",
           nice_length(b->centres.value_or(0)));
     out.push_back({scene.name, "agreement", sentence, "another engine"});
+  } else if (!b->different_law.empty()) {
+    out.push_back({scene.name, "agreement",
+                   fmt::format("{} and {} part {} in {:.3g} s; they are not the same rule here: {}.", ours, theirs,
+                               apart, scene.window, b->different_law),
+                   "another engine"});
   } else if (!facts.round_off) {
     out.push_back({scene.name, "failure",
                    fmt::format("Nothing can be said of agreement: within {:.3g} s a perturbation of 1e-10 m grows "

@@ -29,10 +29,11 @@ inline std::string range(const std::string& low, const std::string& high) {
   return low == high ? low : low + " to " + high;
 }
 
-/// True where no contact and no chaos excuses it: the same rule, more than round-off apart.
+/// True where no contact, no other law and no chaos excuses it: the same rule, more than round-off apart.
 inline bool same_rule_differs(const SceneFacts& facts) {
   const MethodFacts* b = facts.find(theirs);
-  return b && b->ok() && b->difference && !facts.touched() && facts.round_off && *b->difference > *facts.round_off;
+  return b && b->ok() && b->difference && !facts.touched() && b->different_law.empty() && facts.round_off &&
+         *b->difference > *facts.round_off;
 }
 
 inline std::string growth_text(double growth) {

@@ -90,6 +90,8 @@ Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, c
     out.different_law.push_back(
         "contact: Bullet finds it at the proposed position but uses normal and gap of the old one (a tangent plane), "
         "so that nodes hop by (v h)^2 / 2R on a sphere; friction is Coulomb's in both");
+  if (scene.model.find<Dashpots>() && !settings.implicit)
+    out.different_law.push_back("dashpots: Bullet solves them implicitly, at the end of the explicit step");
   if (const auto limit = world.speed_limit(); limit && out.verdict == Verdict::ok) {
     // a run that failed anyway is a failure; one that looks well under a limit of its own answers another question
     if (!settings.defaults.margin)
