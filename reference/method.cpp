@@ -10,6 +10,7 @@
 #include "mysim/errors.h"
 #include "mysim/observers/watch.h"
 #include "reference/bullet/worlds.h"
+#include "reference/independent/integrators.h"
 #include "reference/truth.h"
 
 namespace crosscheck {
@@ -49,7 +50,8 @@ Method mysim_method(const Stepper& stepper, const std::vector<Option>& options) 
             return out;
           },
           ContactLoss::reported,
-          &stepper};
+          &stepper,
+          stepper.adaptive};
 }
 
 Method deformable_explicit(const std::vector<Option>& options) {
@@ -98,6 +100,13 @@ Method truth_method(Tier tier, const std::vector<Option>& options) {
           ContactLoss::inferred};
 }
 
+/// An integrator that is no engine: it solves the scene's equations, written apart, by somebody else's code.
+Method integrator(const std::string& name, const std::string& what, const std::string& rule, Engine engine,
+                  bool adaptive, const std::vector<Option>& options) {
+  if (!options.empty()) refuse(name, options[0], "none");
+  return {name, what, rule, std::move(engine), ContactLoss::inferred, nullptr, adaptive};
+}
+
 // the table: a name, and how its method is made from the options
 struct Row {
   std::string name;
@@ -111,6 +120,16 @@ std::vector<Row> table() {
                     [&stepper](const auto& options) { return mysim_method(stepper, options); }});
   rows.push_back({"bullet/deformable-explicit", deformable_explicit});
   rows.push_back({"bullet/pbd", pbd});
+  auto add = [&](const char* name, const char* what, const char* rule, Engine engine, bool adaptive) {
+    rows.push_back(
+        {name, [=](const auto& options) { return integrator(name, what, rule, engine, adaptive, options); }});
+  };
+  add("odeint/rk4", "Boost's odeint, classic Runge-Kutta, on a right-hand side written apart", "rk4", run_odeint_rk4,
+      false);
+  add("odeint/dopri5", "Boost's odeint, Dormand-Prince 5(4) with error control, on the same: give --tol, not --step",
+      "", run_odeint_dopri5, true);
+  add("sundials/arkode", "SUNDIALS ARKODE, Fehlberg 7(8) with error control, on the same: give --tol, not --step", "",
+      run_arkode, true);
   rows.push_back({"truth/exact", [](const auto& options) { return truth_method(Tier::exact, options); }});
   rows.push_back({"truth/converged", [](const auto& options) { return truth_method(Tier::converged, options); }});
   return rows;
