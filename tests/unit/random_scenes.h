@@ -1,0 +1,208 @@
+// Random scenes, by seed: such as have a closed form, and small contact-free networks.
+#pragma once
+
+#include <fmt/ranges.h>
+
+#include <numbers>
+#include <set>
+
+#include "tests/unit/helpers.h"
+
+namespace crosscheck::testing_tools {
+
+/// Collects the text of a scene file.
+class SceneWriter {
+ public:
+  void particle(const Vec3& x, double mass, const Vec3& v = Vec3::Zero()) {
+    text_ += fmt::format("[[particle]]\nposition = {}\nmass = {}\n", list(x), mass);
+    if (!v.isZero(0)) text_ += fmt::format("velocity = {}\n", list(v));
+  }
+  void spring(int a, int b, double k, double rest, double dashpot = 0) {
+    text_ += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\nrest = {}\n", a, b, k, rest);
+    if (dashpot > 0) text_ += fmt::format("dashpot = {}\n", dashpot);
+  }
+  void pins(const std::vector<int>& pins) { text_ += fmt::format("[pins]\nparticles = {}\n", pins); }
+  /// After pins().
+  void motion(const Vec3& amplitude, double frequency, double ramp) {
+    text_ +=
+        fmt::format("[pins.motion]\namplitude = {}\nfrequency = {}\nramp = {}\n", list(amplitude), frequency, ramp);
+  }
+  void gravity(const Vec3& a) {
+    if (!a.isZero(0)) text_ += fmt::format("[gravity]\nacceleration = {}\n", list(a));
+  }
+  void drag(double gamma) {
+    if (gamma > 0) text_ += fmt::format("[drag]\ngamma = {}\n", gamma);
+  }
+  void wind(const Vec3& a) { text_ += fmt::format("[wind]\nacceleration = {}\n", list(a)); }
+  /// After wind().
+  void gusts(const Vec3& side, int seed) {
+    text_ += fmt::format("[wind.gusts]\nvariation = 1\nside = {}\nseed = {}\n", list(side), seed);
+  }
+  Scene scene(const std::string& name, double duration, double step, int samples) const {
+    return parse_scene(scene_text(text_, duration, step, samples), name);
+  }
+
+ private:
+  static std::string list(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
+  std::string text_;
+};
+
+/// Between low and high, every decade as likely as another.
+inline double decades(Random& random, double low, double high) {
+  return low * std::pow(high / low, random.between(0, 1));
+}
+/// True with the probability.
+inline bool chance(Random& random, double probability) { return random.between(0, 1) < probability; }
+inline int whole(Random& random, int low, int high) { return static_cast<int>(random.between(low, high + 1)); }
+
+/// One mass on one spring along any direction; damped by drag, by a dashpot or by both, up to overdamped; driven by its
+/// pin, if asked for.
+inline Scene random_spring(unsigned seed, bool damped, bool driven) {
+  Random random(seed);
+  SceneWriter w;
+  const Vec3 n = random.vector().normalized();
+  const double mass = decades(random, 0.01, 10), omega = decades(random, 1, 100), rest = decades(random, 0.1, 3);
+  // gravity stretches the spring by up to its own length
+  const double pull = chance(random, 0.7) ? random.between(0, 1) * rest * omega * omega : 0;
+  const double hanging = rest + pull / (omega * omega), amplitude = random.between(0.02, 0.5) * hanging;
+  const double phase = random.between(0, 2 * std::numbers::pi);
+  const double gamma = damped ? omega * decades(random, 0.01, 5) : 0;
+  const double of_drag = chance(random, 0.3) ? 1 : chance(random, 0.5) ? 0 : random.between(0.1, 0.9);
+  w.particle(Vec3::Zero(), mass);
+  w.particle((hanging + amplitude * std::cos(phase)) * n, mass, -amplitude * omega * std::sin(phase) * n);
+  w.spring(0, 1, mass * omega * omega, rest, (1 - of_drag) * gamma * mass);
+  w.pins({0});
+  if (driven) {
+    // an undamped spring is driven off its resonance, so that it stays clear of its anchor
+    const bool below = chance(random, 0.5);
+    const double ratio = gamma > 0.2 * omega ? decades(random, 0.2, 5)
+                         : below             ? decades(random, 0.2, 0.8)
+                                             : decades(random, 1.25, 5);
+    const double shake = random.between(0.01, 0.1) * hanging;
+    w.motion(shake * n, ratio * omega / (2 * std::numbers::pi), decades(random, 0.2, 20) / omega);
+  }
+  w.gravity(pull * n);
+  w.drag(of_drag * gamma);
+  const double period = 2 * std::numbers::pi / omega;
+  return w.scene(fmt::format("random-spring-{}", seed), random.between(2, 6) * period, period / 100, 20);
+}
+
+/// One particle thrown, in drag and a steady wind or not.
+inline Scene random_projectile(unsigned seed) {
+  Random random(seed);
+  SceneWriter w;
+  const double duration = decades(random, 0.3, 10), speed = decades(random, 0.1, 30);
+  w.particle(decades(random, 0.1, 10) * random.vector(), decades(random, 0.01, 10), speed * random.vector());
+  w.gravity({0, -9.81, 0});
+  if (chance(random, 0.7)) w.drag(decades(random, 0.01, 10) / duration);
+  if (chance(random, 0.5)) w.wind(5 * random.vector());
+  return w.scene(fmt::format("random-projectile-{}", seed), duration, duration / 200, 20);
+}
+
+/// Two to six masses between springs on a line, pinned at one end or at both, damped in proportion to mass, to
+/// stiffness, to both or not at all.
+inline Scene random_chain(unsigned seed) {
+  Random random(seed);
+  SceneWriter w;
+  const Vec3 n = random.vector().normalized();
+  const int masses = whole(random, 2, 6);
+  const bool both = chance(random, 0.5);
+  const double mass = decades(random, 0.01, 1), omega = decades(random, 3, 100), rest = decades(random, 0.1, 1);
+  const double stretch = both ? random.between(1, 1.3) : 1, off = random.between(0.005, 0.03) * rest;
+  const double gamma = chance(random, 0.5) ? omega * decades(random, 0.01, 1) : 0;
+  const double beta = chance(random, 0.4) ? decades(random, 0.003, 0.3) / omega : 0;  // s, dashpot over stiffness
+  // all of the weight stretches the first spring by less than a fifth
+  const double pull = random.between(0, 0.05) * rest * omega * omega / masses;
+  double along = 0;
+  w.particle(Vec3::Zero(), mass);
+  for (int i = 1; i <= masses; ++i) {
+    along += rest * stretch;
+    const double x = along + random.between(-off, off), v = omega * random.between(-off, off);
+    w.particle(x * n, mass * random.between(0.6, 1.7), v * n);
+  }
+  if (both) w.particle((along + rest * stretch) * n, mass);
+  for (int i = 0; i < masses + both; ++i) {
+    const double k = mass * omega * omega * random.between(0.6, 1.7);
+    w.spring(i, i + 1, k, rest, beta * k);
+  }
+  w.pins(both ? std::vector<int>{0, masses + 1} : std::vector<int>{0});
+  w.gravity(pull * n);
+  w.drag(gamma);
+  // the slowest mode takes about twice as many periods of one spring as there are masses
+  const double duration = random.between(1, 2) * 2 * masses * 2 * std::numbers::pi / omega;
+  return w.scene(fmt::format("random-chain-{}", seed), duration, 0.06 / omega, 20);
+}
+
+/// A scene that has an exact solution (reference/exact): springs with and without drag, dashpot and driven pin,
+/// projectiles, and chains on a line, with parameters over some decades and a duration of some periods.
+inline Scene random_exact_scene(unsigned seed) {
+  switch (seed % 6) {
+    case 0:
+      return random_spring(seed, false, false);
+    case 1:
+      return random_spring(seed, true, false);
+    case 2:
+      return random_spring(seed, seed % 4 == 0, true);
+    case 3:
+      return random_projectile(seed);
+    default:
+      return random_chain(seed);
+  }
+}
+
+/// The seeds 0 to 199: what the error bars of the converged truth are calibrated on.
+inline std::vector<Scene> random_exact_scenes() {
+  std::vector<Scene> scenes;
+  for (unsigned seed = 0; seed < 200; ++seed) scenes.push_back(random_exact_scene(seed));
+  return scenes;
+}
+
+/// 3 to 30 particles in a connected random network of springs, one or two of them pinned, under gravity; with drag,
+/// steady or gusty wind, moved pins and speeds at the start each in about half of the seeds. 0.5 s, in steps of a tenth
+/// of what is stable.
+inline Scene random_contact_free_scene(unsigned seed) {
+  Random random(seed);
+  SceneWriter w;
+  const int n = whole(random, 3, 30);
+  std::vector<Vec3> x;
+  const double side = 0.35 * std::cbrt(n), speed = chance(random, 0.5) ? 0.5 : 0;
+  while (static_cast<int>(x.size()) < n) {
+    const Vec3 at = side * random.vector();
+    if (std::all_of(x.begin(), x.end(), [&](const Vec3& other) { return (at - other).norm() > 0.25; })) x.push_back(at);
+  }
+  const int pinned = n > 4 && chance(random, 0.5) ? 2 : 1;
+  std::vector<double> mass, load(n, 0);
+  for (int i = 0; i < n; ++i) {
+    mass.push_back(decades(random, 0.05, 1));
+    const Vec3 v = speed * random.vector();
+    w.particle(x[i], mass[i], i < pinned ? Vec3::Zero() : v);
+  }
+  std::set<std::pair<int, int>> joined;
+  const auto join = [&](int a, int b) {
+    if (a == b || !joined.insert(std::minmax(a, b)).second) return;
+    const double k = decades(random, 10, 1000);
+    w.spring(a, b, k, random.between(0.8, 1.2) * (x[a] - x[b]).norm());
+    load[a] += k / mass[a], load[b] += k / mass[b];
+  };
+  for (int i = 1; i < n; ++i) join(whole(random, 0, i - 1), i);  // a tree, then some more
+  for (int i = 0; i < 2 * n; ++i) {
+    const int a = whole(random, 0, n - 1);
+    join(a, whole(random, 0, n - 1));
+  }
+  w.pins(pinned == 2 ? std::vector<int>{0, 1} : std::vector<int>{0});
+  if (chance(random, 0.4)) {
+    const Vec3 amplitude = 0.1 * random.vector();
+    w.motion(amplitude, random.between(0.5, 2), random.between(0.1, 0.5));
+  }
+  w.gravity({0, -9.81, 0});
+  if (chance(random, 0.6)) w.drag(decades(random, 0.2, 5));
+  if (chance(random, 0.5)) {
+    w.wind(3 * random.vector());
+    if (chance(random, 0.6)) w.gusts(2 * random.vector(), whole(random, 1, 1000));
+  }
+  // omega^2 <= 2 max sum k / m (Gershgorin), and a step is stable to 2 / omega
+  const double omega = std::sqrt(2 * *std::max_element(load.begin(), load.end()));
+  return w.scene(fmt::format("random-network-{}", seed), 0.5, 0.2 / omega, 10);
+}
+
+}  // namespace crosscheck::testing_tools
