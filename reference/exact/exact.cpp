@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/exact/oscillator.h"
 #include "reference/exact/recognise.h"
 
 namespace crosscheck {
@@ -62,40 +61,10 @@ std::optional<ExactSolution> projectile(const Scene& scene) {
                        }};
 }
 
-std::optional<ExactSolution> vertical_spring(const Scene& scene) {
-  const Model& model = scene.model;
-  const auto* springs = model.find<Springs>();
-  const auto a = steady_acceleration(model);
-  if (model.particles.size() != 2 || !springs || springs->list.size() != 1 || !a || springs->law != SpringLaw::hooke ||
-      !only<Springs, Gravity, Wind, Drag>(model) || model.particles.pins.size() != 1 || model.particles.move)
-    return std::nullopt;
-  const Spring& spring = springs->list[0];
-  const int anchor = model.particles.pins[0], free = 1 - anchor;
-  const Vec3 along = scene.start.x.col(free) - scene.start.x.col(anchor);
-  const double distance = along.norm(), mass = model.particles.mass[free];
-  const Vec3 n = along / distance, v0 = scene.start.v.col(free);
-  // collinear: what is across the spring is below round-off
-  const double across = (*a - a->dot(n) * n).norm() + (v0 - v0.dot(n) * n).norm();
-  if (distance == 0 || across > 1e-14 * (a->norm() + v0.norm())) return std::nullopt;
-
-  const auto* drag = model.find<Drag>();
-  const double rest_point = spring.rest + mass * a->dot(n) / spring.k;
-  const Oscillator u{spring.k / mass, drag ? drag->c[free] / mass : 0, distance - rest_point, v0.dot(n)};
-  if (!(u.largest() < rest_point)) return std::nullopt;  // it could pass the anchor, where the spring's law has a kink
-  return ExactSolution{"damped harmonic oscillator about the hanging length",
-                       [start = scene.start, u, n, rest_point, anchor, free](double t) {
-                         State s = start;
-                         s.t = t;
-                         s.x.col(free) = start.x.col(anchor) + (rest_point + u.position(t)) * n;
-                         s.v.col(free) = u.velocity(t) * n;
-                         return s;
-                       }};
-}
-
 }  // namespace
 
 std::optional<ExactSolution> exact_solution(const Scene& scene) {
-  for (const auto recognise : {turning_points, projectile, vertical_spring, normal_modes, bounces, slide_over_ball})
+  for (const auto recognise : {turning_points, projectile, normal_modes, bounces, friction_hold, slide_over_ball})
     if (auto solution = recognise(scene)) return solution;
   return std::nullopt;
 }

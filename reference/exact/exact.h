@@ -16,13 +16,18 @@ struct ExactSolution {
 
 /// The closed form of a scene that is one of these, or nothing:
 ///   - rotation: every point turns about the z axis;
-///   - one mass on one vertical spring (start, velocity and gravity along it, never reaching the anchor), with or
-///   without
-///     drag: y = y_eq + e^(-gamma t / 2) (A cos w t + B sin w t), and its critical and overdamped forms;
+///   - one mass on one spring, with start, speed, gravity and steady wind along it, with or without drag and a dashpot:
+///     u = e^(-gamma t / 2) (A cos w t + B sin w t) about the hanging length, gamma = (c_drag + c_dashpot) / m, and its
+///     critical and overdamped forms;
+///   - the same with its pin moved along it (driven.h). Refused where the amplitude is not bounded below the length of
+///     the spring: at resonance without damping, and near it unless the pin moves little;
+///   - springs and masses on a line, at least one of them pinned, gravity and moved pins along it, one drag rate, and
+///     dashpots in proportion to the stiffness: normal modes, each of them such an oscillator;
 ///   - one free particle under gravity and steady wind, with or without drag: v = v_inf + (v_0 - v_inf) e^(-gamma t);
-///   - springs and masses on a line, at least one of them pinned, none of which reaches its neighbour: normal modes;
 ///   - particles that fall straight on balls, with restitution: parabolas;
+///   - particles at rest on balls within the cone of friction: they stay;
 ///   - one particle that slides over a ball from a start with speed, with friction, until it flies off.
+/// Springs follow Hooke's law and must never turn over: what is claimed is bounded for all times.
 std::optional<ExactSolution> exact_solution(const Scene& scene);
 
 /// Period of a rigid pendulum of length L (m) let go at the angle theta0 (rad), s: 2 pi sqrt(L/g) / agm(1,

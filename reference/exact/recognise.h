@@ -19,6 +19,7 @@ std::optional<Vec3> steady_acceleration(const Model& model);
 
 std::optional<ExactSolution> normal_modes(const Scene& scene);
 std::optional<ExactSolution> bounces(const Scene& scene);
+std::optional<ExactSolution> friction_hold(const Scene& scene);
 std::optional<ExactSolution> slide_over_ball(const Scene& scene);
 
 }  // namespace crosscheck

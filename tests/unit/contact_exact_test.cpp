@@ -125,6 +125,49 @@ TEST(ContactExact, MysimConvergesToTheClosedForms) {
   }
 }
 
+/// A particle at rest on a ball, 20 degrees down its side, with friction in parts of the tangent.
+Scene held(double part, const std::string& more = "") {
+  const double angle = 20 * std::numbers::pi / 180;
+  return small_scene(
+      fmt::format("[[particle]]\nposition = [{}, {}, 0]\nmass = 2\n{}[sphere]\ncentre = [0, 0, 0]\n"
+                  "radius = 1\nfriction = {}\n{}",
+                  std::sin(angle), std::cos(angle), gravity_text, part * std::tan(angle), more));
+}
+
+TEST(FrictionHold, StaysWithinTheConeAndIsNotClaimedOutside) {
+  EXPECT_FALSE(exact_solution(held(0.999)));
+  for (const auto more : {"", "[drag]\ngamma = 1\n", "[wind]\nacceleration = [-0.1, 0, 0]\n"}) {
+    const Scene scene = held(1.001, more);
+    const auto exact = exact_solution(scene);
+    ASSERT_TRUE(exact) << more;
+    EXPECT_EQ(exact->at(5).x, scene.start.x);
+    // a wind that adds to the slope drives it out of the cone
+    EXPECT_FALSE(exact_solution(held(1.001, "[wind]\nacceleration = [0.1, 0, 0]\n")));
+  }
+  Scene moving = held(1.001);
+  moving.start.v(2, 0) = 1e-3;
+  EXPECT_FALSE(exact_solution(moving));
+  Scene above = held(1.001);
+  above.start.x *= 1.001;  // it falls first
+  EXPECT_FALSE(exact_solution(above));
+  Scene below = held(2);
+  below.start.x *= -1;  // nothing presses it on
+  EXPECT_FALSE(exact_solution(below));
+  Scene wedged = held(1.001);
+  wedged.model.find<Spheres>()->list.push_back({2 * wedged.start.x.col(0), 1, 0, 0.5, 0, {}});
+  EXPECT_FALSE(exact_solution(wedged));
+}
+
+TEST(FrictionHold, MysimHoldsIt) {
+  for (const auto method : {"explicit-euler", "trapezoidal", "rk4", "symplectic-euler", "leapfrog"}) {
+    const Scene in = held(1.01), out = held(0.99);
+    // a step puts the particle back on the surface to a few roundings of 1 m; friction swallows the rest of the step
+    EXPECT_LT(off(in, *exact_solution(in), method, 1e-3, 1), 1000 * 4 * eps) << method;
+    // outside the cone it goes: g (sin - mu cos) t^2 / 2 = g sin / 200
+    EXPECT_GT(off(out, *exact_solution(in), method, 1e-3, 1), 0.5 * 9.81 * 0.342 / 200) << method;
+  }
+}
+
 TEST(ContactExact, IsNotClaimedElsewhere) {
   Scene moved = load_scene("bounce");
   moved.start.x(0, 1) += 1e-6;  // off the axis: it is thrown aside

@@ -2,6 +2,7 @@
 #include "tests/unit/random_scenes.h"
 
 #include "experiments/metrics.h"
+#include "reference/exact/exact.h"
 
 namespace crosscheck {
 namespace {
@@ -21,6 +22,7 @@ TEST(RandomScenes, AreTheSameBySeedAndDifferentBySeed) {
 TEST(RandomScenes, HaveEachIngredientOftenButNotAlways) {
   int damped = 0, dashpots = 0, driven = 0, several = 0;
   for (const Scene& s : random_exact_scenes()) {
+    EXPECT_TRUE(exact_solution(s)) << s.name;
     damped += s.model.find<Drag>() != nullptr;
     dashpots += s.model.find<Dashpots>() != nullptr;
     driven += s.model.particles.move.has_value();
@@ -46,7 +48,9 @@ TEST(RandomScenes, NetworksHoldTogetherAndArePredictable) {
     EXPECT_LE(m.particles.size(), 30);
     EXPECT_FALSE(m.find<Spheres>());
     // what a window asks of a scene (scene.h); every fourth, for its time
-    if (seed % 4 == 1) EXPECT_LT(perturbation_growth(find_method("symplectic-euler"), s, s.step, s.window), 1e3);
+    if (seed % 4 == 1) {
+      EXPECT_LT(perturbation_growth(find_method("symplectic-euler"), s, s.step, s.window), 1e3);
+    }
   }
   for (const int each : {moved, drag, gusts}) {
     EXPECT_GE(each, 40);
