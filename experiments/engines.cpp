@@ -54,6 +54,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                  {"coincident springs", "1"},
                  {"motion", "m"},
                  {"window", "s"},
+                 {"measured window", "s"},
                  {"perturbation growth", "1"},
                  {"round-off bound", "m"},
                  {"truth tier", "1"},
@@ -86,7 +87,8 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
     const Answer& by_rule = answer_of(request, scene, find_method(reference_rule), result);
     const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
     const Method probe = find_method(reference.frames() > 0 ? reference_rule : scene.method);
-    const double growth = perturbation_growth(probe, scene, run.step, scene.window);
+    const Growth growing = growth_of(probe, scene, run, reference.frames() > 0 ? &reference : nullptr);
+    const double growth = growing.until(scene.window);
     const double omega = scene.model.first_order() ? 0 : fastest_frequency(scene.model, scene.start);
     const double motion = motion_of(truth ? truth->trajectory : reference);
 
@@ -131,6 +133,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                    out.coincident,
                    motion,
                    scene.window,
+                   growing.window(),
                    growth,
                    cell_of(round_off_bound(scene, motion, growth)),
                    truth ? Cell(std::string(name_of(truth->tier))) : Cell(),

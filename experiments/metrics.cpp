@@ -68,26 +68,57 @@ std::optional<double> round_off_bound(const Scene& scene, double motion, double 
   return 1e-13 * std::max(1.0, scene.size() + motion) * std::max(1.0, growth);
 }
 
-double perturbation_growth(const Method& method, const Scene& scene, double step, double until) {
-  constexpr double size = 1e-10;  // m: far above round-off (1e-16), far below every nonlinearity
-  Scene perturbed = scene;
+namespace {
+
+constexpr double perturbation = 1e-10;  // m: far above round-off (1e-16), far below every nonlinearity
+
+Scene perturbed(const Scene& scene) {
+  Scene moved = scene;
   std::mt19937_64 engine(1);
   auto part = [&] { return 2 * uniform(engine) - 1; };
   for (int i = 0; i < scene.start.x.cols(); ++i) {
     Vec3 direction;
     do direction = Vec3(part(), part(), part());
     while (direction.norm() > 1 || direction.norm() < 0.1);
-    if (!scene.model.particles.pinned[i]) perturbed.start.x.col(i) += size * direction.normalized();
+    if (!scene.model.particles.pinned[i]) moved.start.x.col(i) += perturbation * direction.normalized();
   }
-  const int samples = std::max(1, static_cast<int>(std::lround(scene.samples * until / scene.duration)));
-  const Run run{step, until, samples};
-  Recorder a, b;
-  run_method(method, scene, run, {&a});
-  run_method(method, perturbed, run, {&b});
+  return moved;
+}
+
+}  // namespace
+
+double Growth::until(double time) const {
   double largest = 0;
-  for (int i = 0; i < std::min(a.trajectory.frames(), b.trajectory.frames()); ++i)
-    largest = std::max(largest, largest_column(a.trajectory.x[i] - b.trajectory.x[i]));
-  return largest / size;
+  for (size_t i = 0; i < t.size() && t[i] <= time * (1 + 1e-9); ++i) largest = factor[i];
+  return largest;
+}
+
+double Growth::window() const {
+  double last = 0;
+  for (size_t i = 0; i < t.size() && factor[i] <= 1e3; ++i) last = t[i];
+  return last;
+}
+
+Growth growth_of(const Method& method, const Scene& scene, const Run& run, const Trajectory* unperturbed) {
+  Recorder a, b;
+  if (!unperturbed) {
+    run_method(method, scene, run, {&a});
+    unperturbed = &a.trajectory;
+  }
+  run_method(method, perturbed(scene), run, {&b});
+  Growth growth;
+  double largest = 0;
+  for (int i = 0; i < std::min(unperturbed->frames(), b.trajectory.frames()); ++i) {
+    largest = std::max(largest, largest_column(unperturbed->x[i] - b.trajectory.x[i]));
+    growth.t.push_back(b.trajectory.t[i]);
+    growth.factor.push_back(largest / perturbation);
+  }
+  return growth;
+}
+
+double perturbation_growth(const Method& method, const Scene& scene, double step, double until) {
+  const int samples = std::max(1, static_cast<int>(std::lround(scene.samples * until / scene.duration)));
+  return growth_of(method, scene, {step, until, samples}).until(until);
 }
 
 }  // namespace crosscheck

@@ -25,8 +25,21 @@ std::optional<double> creep(const Scene& scene, double t, const Points& x, const
 /// Time of the first sample at which a particle touches the sphere (closer than 1e-9 m), s.
 std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory);
 
-/// By how much a perturbation of 1e-10 m of every free particle, in seeded random directions, grows: the largest
-/// distance of a particle from its unperturbed self at any sample up to `until` (s), over 1e-10 m.
+/// How a perturbation of 1e-10 m of every free particle, in seeded random directions, grows.
+struct Growth {
+  std::vector<double> t;       // s, of the samples
+  std::vector<double> factor;  // largest distance of a particle from its unperturbed self so far, over 1e-10 m
+
+  /// The largest factor up to a time (s); 0 where nothing was sampled.
+  double until(double time) const;
+  /// The window of predictability, s: up to the last sample before the factor exceeds 1e3; the last sample where it
+  /// never does.
+  double window() const;
+};
+/// From two runs of the method; the unperturbed one may be at hand (the same run, with as many samples).
+Growth growth_of(const Method& method, const Scene& scene, const Run& run, const Trajectory* unperturbed = nullptr);
+
+/// The factor up to `until` (s), of runs that end there.
 double perturbation_growth(const Method& method, const Scene& scene, double step, double until);
 
 /// The most that two engines of the same rule may differ by, m, where they sum the same forces in another order: about

@@ -12,6 +12,7 @@
 #include "mysim/observers/watch.h"
 #include "reference/bullet/worlds.h"
 #include "reference/exact/discrete.h"
+#include "reference/independent/integrators.h"
 #include "reference/truth.h"
 
 namespace crosscheck {
@@ -52,7 +53,8 @@ Method mysim_method(const Stepper& stepper, const std::vector<Option>& options) 
             return out;
           },
           ContactLoss::reported,
-          &stepper};
+          &stepper,
+          stepper.adaptive};
 }
 
 Method bullet_method(const std::string& world, const std::vector<Option>& options) {
@@ -113,6 +115,13 @@ Method discrete_method(const std::vector<Option>& options) {
   refuse(name, options[0], known);
 }
 
+/// An integrator that is no engine: it solves the scene's equations, written apart, by somebody else's code.
+Method integrator(const std::string& name, const std::string& what, const std::string& rule, Engine engine,
+                  bool adaptive, const std::vector<Option>& options) {
+  if (!options.empty()) refuse(name, options[0], "none");
+  return {name, what, rule, std::move(engine), ContactLoss::inferred, nullptr, adaptive};
+}
+
 // the table: a name, how its method is made from the options, and the options one of which must be given: each of them
 // is a method of its own
 struct Row {
@@ -134,6 +143,16 @@ std::vector<Row> table() {
                     [&stepper](const auto& options) { return mysim_method(stepper, options); }});
   for (const std::string& world : bullet::world_names())
     rows.push_back({"bullet/" + world, [world](const auto& options) { return bullet_method(world, options); }});
+  auto add = [&](const char* name, const char* what, const char* rule, Engine engine, bool adaptive) {
+    rows.push_back(
+        {name, [=](const auto& options) { return integrator(name, what, rule, engine, adaptive, options); }});
+  };
+  add("odeint/rk4", "Boost's odeint, classic Runge-Kutta, on a right-hand side written apart", "rk4", run_odeint_rk4,
+      false);
+  add("odeint/dopri5", "Boost's odeint, Dormand-Prince 5(4) with error control, on the same: give --tol, not --step",
+      "", run_odeint_dopri5, true);
+  add("sundials/arkode", "SUNDIALS ARKODE, Fehlberg 7(8) with error control, on the same: give --tol, not --step", "",
+      run_arkode, true);
   rows.push_back({"truth/exact", [](const auto& options) { return truth_method(Tier::exact, options); }});
   rows.push_back({"truth/exact-discrete", discrete_method, names_of_discrete_rules()});
   rows.push_back({"truth/converged", [](const auto& options) { return truth_method(Tier::converged, options); }});

@@ -17,6 +17,7 @@ struct Method {
   Engine engine;        // throws Unsupported
   ContactLoss contact;  // whether it reports what contacts took away
   const Stepper* stepper = nullptr;  // of mysim's methods
+  bool adaptive = false;             // follows run.tolerance and not run.step
 };
 
 /// Every method there is, without options.

@@ -19,9 +19,10 @@ class MultiplierWorld : public World {
   void step(double t, double t_next) override;
   const State& state(double) override { return s_; }
 
- private:
+  /// Velocities and accelerations at the stage; nothing in the world changes.
   void derivative(const State& stage, State& rate);
 
+ private:
   const Scene& scene_;
   const Constraints& constraints_;
   double h_;

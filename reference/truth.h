@@ -1,6 +1,7 @@
 // The best answer known for a scene, with its tier and its error bar.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -15,13 +16,15 @@ struct Truth {
   Tier tier;
   std::string how;  // one sentence
   Trajectory trajectory;
-  double bar;  // m, error bar of the RMS position error, at any sample
+  double bar;                // m, error bar of the RMS position error, at any sample
+  std::vector<double> bars;  // m, the same up to each sample; empty where it is one and the same
+  // the answer of the in-house contact rule: what others are apart from it is a difference, and no error
+  bool of_contact_rule = false;
+  double until = INFINITY;  // s, holds up to here; the samples end with it
 };
 
 /// Exact where the scene has a closed form (bar: round-off, 1e-15 x scene size x (1 + radians turned)); otherwise
-/// converged: rk4 at a quarter of the scene's step (a sixteenth below 50 particles; at
-/// h omega = 0.7 of its fastest vibration, if that is less) and at twice that, bar = the largest RMS difference of the
-/// two over time (one route only). None where rk4 fails or the bar exceeds a hundredth of the motion. Scenes with
+/// converged on two independent routes (converged.h), found once and kept in a cache (truth_cache.h). Scenes with
 /// contact have none: what they converge to depends on the contact rule.
 std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 

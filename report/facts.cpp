@@ -53,6 +53,7 @@ SceneFacts facts_of(const std::string& scene, const Result& result) {
     if (text(engines.at(i, "scene")) != scene) continue;
     facts.motion = number(engines.at(i, "motion")).value_or(0);
     facts.window = number(engines.at(i, "window")).value_or(0);
+    facts.measured_window = number(engines.at(i, "measured window")).value_or(0);
     facts.growth = number(engines.at(i, "perturbation growth")).value_or(0);
     facts.round_off = number(engines.at(i, "round-off bound"));
     facts.tier = text(engines.at(i, "truth tier"));

@@ -32,6 +32,7 @@ struct MethodFacts {
 struct SceneFacts {
   std::string scene;
   double motion = 0, window = 0, growth = 0;  // m, s, 1
+  double measured_window = 0;                 // s, until a perturbation of 1e-10 m has grown a thousandfold
   std::optional<double> round_off;  // m, what the same rule may differ by; empty where nothing can be predicted
   std::string tier;                 // of the truth; empty without one
   double bar = 0;                   // m

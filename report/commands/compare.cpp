@@ -105,7 +105,7 @@ int compare_command(const CompareOptions& options) {
   }
   if (options.step > 0)
     for (const Method& method : methods_of(request, scene))
-      if (method.stepper && method.stepper->adaptive)
+      if (method.adaptive)
         fmt::print("\n{} chooses its own steps: --step does not apply to it\n", method.name);
   fmt::print(
       "\nerror: from the truth; diff.: from mysim/symplectic-euler; largest RMS over the particles up to {:.3g} s\n",

@@ -37,7 +37,7 @@ std::string run_json(const Scene& scene, const Method& method, const Outcome& ou
 int run_command(const RunOptions& options) {
   const Scene scene = load_scene(options.scene);
   const Method method = find_method(options.method.empty() ? scene.method : options.method);
-  const bool adaptive = method.stepper && method.stepper->adaptive;
+  const bool adaptive = method.adaptive;
   if (options.tolerance > 0 && !adaptive)
     throw InputError(fmt::format("--tol: {} is a fixed-step method; expected --step (s)", method.name));
   if (options.step > 0 && adaptive)

@@ -47,12 +47,17 @@ std::string scene_section(const ScenePart& part) {
   for (const PageImage& image : part.figures) out += image_html(image, "chart");
   out += "</div>\n" + run_table_html(part);
   for (const Certificate* certificate : part.certificates) out += certificate_html(*certificate);
+  const SceneFacts& facts = *part.facts;
+  const std::string predictable =
+      facts.measured_window < scene.duration * (1 - 1e-9)
+          ? fmt::format("it passes a thousandfold after {:.3g} s: single positions are not predictable from there on",
+                        facts.measured_window)
+          : "it stays below a thousandfold over the whole run";
   out += fmt::format(
       "<p class=\"parameters\"><b>Parameters.</b> {} Step {} s, {:.3g} s of motion; pointwise comparison up to {:.3g} "
-      "s, where a perturbation "
-      "of 1e-10 m has grown {}-fold. Scene hash {}.</p>\n</section>\n",
-      escaped(scene.parameters), nice(part.facts->methods.empty() ? scene.step : part.facts->methods[0].step),
-      scene.duration, scene.window, nice(part.facts->growth), scene.hash);
+      "s, where a perturbation of 1e-10 m has grown {}-fold; {}. Scene hash {}.</p>\n</section>\n",
+      escaped(scene.parameters), nice(facts.methods.empty() ? scene.step : facts.methods[0].step), scene.duration,
+      scene.window, nice(facts.growth), predictable, scene.hash);
   return out;
 }
 

@@ -1,0 +1,28 @@
+// Integrators of others on a right-hand side written apart from mysim's: methods like any other, and one route of
+// truth.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mysim/run.h"
+
+namespace crosscheck {
+
+/// odeint's classic Runge-Kutta rule at run.step.
+Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer);
+/// odeint's Dormand-Prince 5(4) to run.tolerance, with its own interpolant at the times that are looked at.
+Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer);
+/// odeint's Fehlberg 7(8) to run.tolerance; steps end at the times that are looked at.
+Outcome run_odeint_fehlberg78(const Scene& scene, const Run& run, Observer& observer);
+/// SUNDIALS ARKODE, explicit, Fehlberg 7(8), to run.tolerance; steps end at the samples. Throws Unsupported with the
+/// package's name where the suite was built without.
+Outcome run_arkode(const Scene& scene, const Run& run, Observer& observer);
+
+std::string odeint_version();                   // Boost's, e.g. "1.74"
+std::optional<std::string> sundials_version();  // none: the suite was built without
+
+/// All of them keep each step's estimated error of every component below R (scene size + |component|), R =
+/// run.tolerance, numbers in SI units. They throw Unsupported where there is contact.
+
+}  // namespace crosscheck

@@ -1,0 +1,153 @@
+// Boost's odeint, behind the run loop that all engines share.
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/dense_output_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <boost/version.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "mysim/errors.h"
+#include "mysim/march.h"
+#include "reference/independent/integrators.h"
+#include "reference/independent/right_hand_side.h"
+
+namespace crosscheck {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+class OdeintWorld : public World {
+ public:
+  explicit OdeintWorld(const Scene& scene) : f_(scene), y_(f_.start()), seen_(scene.start) {}
+  const State& state(double t) override {
+    f_.write(y_, t, seen_);
+    return seen_;
+  }
+  const RightHandSide& right_hand_side() const { return f_; }
+  long accepted() const { return accepted_; }
+
+ protected:
+  RightHandSide f_;
+  Flat y_;
+  State seen_;
+  long accepted_ = 0;
+};
+
+class Rk4World : public OdeintWorld {
+ public:
+  using OdeintWorld::OdeintWorld;
+  void step(double t, double t_next) override {
+    rule_.do_step(std::ref(f_), y_, t, t_next - t);
+    ++accepted_;
+  }
+
+ private:
+  odeint::runge_kutta4<Flat> rule_;
+};
+
+void require_progress(double t, double h) {
+  if (!(h > 1e-14 * std::max(1.0, t)))
+    throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", t));
+}
+
+class Dopri5World : public OdeintWorld {
+ public:
+  Dopri5World(const Scene& scene, const Run& run)
+      : OdeintWorld(scene),
+        rule_(odeint::make_dense_output(run.tolerance * scene.size(), run.tolerance,
+                                        odeint::runge_kutta_dopri5<Flat>())) {
+    rule_.initialize(y_, 0.0, std::min(run.step, run.duration));
+  }
+  void step(double, double t_next) override {
+    while (rule_.current_time() < t_next) {
+      require_progress(rule_.current_time(), rule_.current_time_step());
+      try {
+        rule_.do_step(std::ref(f_));
+      } catch (const odeint::step_adjustment_error& e) {
+        throw SolverFailure(e.what());
+      }
+      ++accepted_;
+    }
+  }
+  const State& state(double t) override {
+    if (accepted_ > 0) rule_.calc_state(t, y_);
+    return OdeintWorld::state(t);
+  }
+
+ private:
+  odeint::result_of::make_dense_output<odeint::runge_kutta_dopri5<Flat>>::type rule_;
+};
+
+class Fehlberg78World : public OdeintWorld {
+ public:
+  Fehlberg78World(const Scene& scene, const Run& run)
+      : OdeintWorld(scene),
+        rule_(odeint::make_controlled(run.tolerance * scene.size(), run.tolerance,
+                                      odeint::runge_kutta_fehlberg78<Flat>())),
+        h_(std::min(run.step, run.duration)) {}
+  void step(double t, double t_next) override {
+    while (t < t_next) {
+      // a step that would leave a sliver takes the whole way; one cut short says nothing against the one planned
+      const bool last = t + 1.01 * h_ >= t_next;
+      double h = last ? t_next - t : h_;
+      const double tried = h;
+      require_progress(t, h);
+      if (rule_.try_step(std::ref(f_), y_, t, h) == odeint::success) {
+        ++accepted_;
+        h_ = last ? std::max(h_, h) : h;
+        if (last) t = t_next;
+      } else {
+        h_ = std::min(h, 0.9 * tried);
+      }
+    }
+  }
+
+ private:
+  odeint::result_of::make_controlled<odeint::runge_kutta_fehlberg78<Flat>>::type rule_;
+  double h_;
+};
+
+Outcome played(OdeintWorld& world, const Run& run, Observer& observer) {
+  Outcome out = march(world, run, observer);
+  out.evaluations = world.right_hand_side().evaluations();
+  out.coincident = world.right_hand_side().coincident();
+  return out;
+}
+
+Outcome played_adaptively(OdeintWorld& world, Run run, Observer& observer) {
+  const double tolerance = run.tolerance;
+  // the fixed step is then the grid on which observers of every step look
+  if (!observer.every_step()) run.step = run.duration / run.samples;
+  Outcome out = played(world, run, observer);
+  out.steps = world.accepted();
+  out.step = out.steps > 0 ? out.end / static_cast<double>(out.steps) : 0;
+  out.tolerance = tolerance;
+  return out;
+}
+
+}  // namespace
+
+Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer) {
+  Rk4World world(scene);
+  return played(world, run, observer);
+}
+
+Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer) {
+  Dopri5World world(scene, run);
+  return played_adaptively(world, run, observer);
+}
+
+Outcome run_odeint_fehlberg78(const Scene& scene, const Run& run, Observer& observer) {
+  Fehlberg78World world(scene, run);
+  return played_adaptively(world, run, observer);
+}
+
+std::string odeint_version() { return fmt::format("{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000); }
+
+}  // namespace crosscheck

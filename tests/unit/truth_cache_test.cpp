@@ -1,0 +1,147 @@
+// The cache of truths: found again bit for bit, by the same program and question only; damage and lack of room do no
+// harm.
+#include "reference/truth_cache.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "experiments/scenes.h"
+#include "reference/build_id.h"
+#include "tests/unit/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+namespace fs = std::filesystem;
+
+class Cache : public ::testing::Test {
+ protected:
+  Cache() : folder(fs::temp_directory_path() / fmt::format("crosscheck-cache-{}", getpid())), cache(folder, "program") {
+    fs::remove_all(folder);
+  }
+  ~Cache() override { fs::remove_all(folder); }
+
+  /// Asks, and counts how often the answer had to be computed.
+  std::optional<Truth> ask(const TruthCache& of, const Scene& scene, const crosscheck::Run& run) {
+    return of.find_or(scene, run, [&]() -> std::optional<Truth> {
+      ++computed;
+      if (!known) return std::nullopt;
+      Truth truth{Tier::converged, "by two routes", answer("rk4", scene, run).trajectory, 1e-9, {1e-12, 1e-9}};
+      truth.of_contact_rule = true;
+      truth.until = 0.25;
+      return truth;
+    });
+  }
+
+  fs::path folder;
+  TruthCache cache;
+  Scene scene = load_scene("pendulum");
+  crosscheck::Run run{1e-2, 0.1, 4};
+  int computed = 0;
+  bool known = true;
+};
+
+TEST_F(Cache, ReturnsTheSameBitsWithoutComputingAgain) {
+  const auto first = ask(cache, scene, run), again = ask(cache, scene, run);
+  EXPECT_EQ(computed, 1);
+  ASSERT_TRUE(again);
+  EXPECT_TRUE(identical(first->trajectory, again->trajectory));
+  EXPECT_EQ(again->tier, Tier::converged);
+  EXPECT_EQ(again->how, "by two routes");
+  EXPECT_EQ(again->bar, 1e-9);
+  EXPECT_EQ(again->bars, (std::vector{1e-12, 1e-9}));
+  EXPECT_TRUE(again->of_contact_rule);
+  EXPECT_EQ(again->until, 0.25);
+  // one file, and no half one beside it
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+TEST_F(Cache, RemembersThatNothingIsKnown) {
+  known = false;
+  EXPECT_FALSE(ask(cache, scene, run));
+  EXPECT_FALSE(ask(cache, scene, run));
+  EXPECT_EQ(computed, 1);
+}
+
+TEST_F(Cache, AnotherQuestionOrProgramIsAnotherAnswer) {
+  ask(cache, scene, run);
+  Scene heavier = scene, finer = scene;
+  heavier.model.particles.mass[1] *= 1 + 1e-15;  // one bit, and the hash of the file is kept
+  finer.step /= 2;
+  ask(cache, heavier, run);
+  ask(cache, finer, run);
+  ask(cache, scene, {1e-2, 0.2, 4});
+  ask(cache, scene, {1e-2, 0.1, 5});
+  ask(TruthCache(folder, "another program"), scene, run);
+  EXPECT_EQ(computed, 6);
+  // the step of what is compared does not matter
+  ask(cache, scene, {1e-4, 0.1, 4});
+  EXPECT_EQ(computed, 6);
+}
+
+TEST_F(Cache, DamagedFilesAreComputedAgain) {
+  const auto first = ask(cache, scene, run);
+  const fs::path file = cache.file_of(scene, run);
+  std::ifstream in(file, std::ios::binary);
+  const std::string whole((std::istreambuf_iterator<char>(in)), {});
+  std::string flipped = whole;
+  flipped[whole.size() / 2] ^= 1;
+  int expected = 1;
+  for (const std::string& damaged :
+       {std::string(), whole.substr(0, 7), whole.substr(0, whole.size() - 1), whole + "x", flipped}) {
+    std::ofstream(file, std::ios::binary) << damaged;
+    const auto again = ask(cache, scene, run);
+    EXPECT_EQ(computed, ++expected);
+    EXPECT_TRUE(identical(first->trajectory, again->trajectory));
+    ask(cache, scene, run);
+    EXPECT_EQ(computed, expected);  // whole again
+  }
+}
+
+TEST_F(Cache, AFolderThatCannotBeWrittenToDoesNoHarm) {
+  std::ofstream(folder) << "a file where the folder should be";
+  EXPECT_TRUE(ask(cache, scene, run));
+  EXPECT_TRUE(ask(cache, scene, run));
+  EXPECT_EQ(computed, 2);
+}
+
+TEST_F(Cache, OldAnswersGoAndOtherFilesStay) {
+  ask(cache, scene, run);
+  const fs::path old = cache.file_of(scene, run), other = folder / "notes.txt";
+  std::ofstream(other) << "mine";
+  for (const fs::path& file : {old, other})
+    fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(31 * 24));
+  ask(cache, scene, {1e-2, 0.2, 4});
+  EXPECT_FALSE(fs::exists(old));
+  EXPECT_TRUE(fs::exists(other));
+}
+
+TEST(BuildId, IsThatOfTheProgramAndStaysTheSame) {
+  EXPECT_EQ(build_id().size(), 40u);  // SHA-1
+  EXPECT_EQ(build_id(), build_id());
+  EXPECT_EQ(build_id().find_first_not_of("0123456789abcdef"), std::string::npos);
+}
+
+TEST(CacheFolder, FollowsTheEnvironment) {
+  const auto folder_with = [](const char* own, const char* xdg, const char* home) -> std::string {
+    const std::pair<const char*, const char*> wanted[] = {
+        {"CROSSCHECK_CACHE", own}, {"XDG_CACHE_HOME", xdg}, {"HOME", home}};
+    std::vector<std::pair<const char*, std::optional<std::string>>> before;
+    for (const auto& [name, value] : wanted) {
+      const char* was = std::getenv(name);
+      before.emplace_back(name, was ? std::optional<std::string>(was) : std::nullopt);
+      value ? setenv(name, value, 1) : unsetenv(name);
+    }
+    const auto cache = TruthCache::of_environment();
+    for (const auto& [name, value] : before) value ? setenv(name, value->c_str(), 1) : unsetenv(name);
+    return cache ? cache->file_of(load_scene("circle"), {1, 1, 1}).parent_path().string() : "none";
+  };
+  EXPECT_EQ(folder_with("/a", "/b", "/c"), "/a");
+  EXPECT_EQ(folder_with("", "/b", "/c"), "/b/crosscheck");
+  EXPECT_EQ(folder_with(nullptr, nullptr, "/c"), "/c/.cache/crosscheck");
+  EXPECT_EQ(folder_with(nullptr, nullptr, nullptr), "none");
+}
+
+}  // namespace
+}  // namespace crosscheck
