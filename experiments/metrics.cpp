@@ -39,7 +39,7 @@ std::optional<double> clearance(const Scene& scene, double t, const Points& x) {
 
 std::optional<double> creep(const Scene& scene, double t, const Points& x, const Points& v) {
   const auto* spheres = scene.model.find<Spheres>();
-  if (!spheres) return std::nullopt;
+  if (!spheres || v.cols() != x.cols()) return std::nullopt;
   double sum = 0;
   int touching = 0;
   for (const Sphere& sphere : spheres->list) {

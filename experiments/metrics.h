@@ -19,7 +19,7 @@ double motion_of(const Trajectory& trajectory);
 std::optional<double> clearance(const Scene& scene, double t, const Points& x);
 
 /// Mean speed along the surface, as seen from the sphere, of the particles that touch one (closer than 1 mm), m/s;
-/// empty when none does.
+/// empty when none does, and without velocities.
 std::optional<double> creep(const Scene& scene, double t, const Points& x, const Points& v);
 
 /// Time of the first sample at which a particle touches the sphere (closer than 1e-9 m), s.

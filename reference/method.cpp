@@ -10,6 +10,8 @@
 #include "mysim/errors.h"
 #include "mysim/observers/watch.h"
 #include "reference/bullet/worlds.h"
+#include "reference/protocol/delivery.h"
+#include "reference/protocol/exec_engine.h"
 #include "reference/truth.h"
 
 namespace crosscheck {
@@ -98,6 +100,15 @@ Method truth_method(Tier tier, const std::vector<Option>& options) {
           ContactLoss::inferred};
 }
 
+/// An outside program; it sees samples only, so that nothing is known of what happened between them.
+Method exec_method(const std::string& text) {
+  return {"exec:" + text, "an outside program that speaks the engine protocol", "",
+          [program = find_program(text)](const Scene& scene, const Run& run, Observer& observer) {
+            return run_program(program, scene, run, observer);
+          },
+          ContactLoss::sampled};
+}
+
 // the table: a name, and how its method is made from the options
 struct Row {
   std::string name;
@@ -134,6 +145,7 @@ std::vector<Method> all_methods() {
 }
 
 Method find_method(const std::string& text) {
+  if (text.starts_with("exec:")) return exec_method(text.substr(5));
   const std::vector<std::string> parts = split(text, '+');
   const std::string name = parts[0].find('/') == std::string::npos ? "mysim/" + parts[0] : parts[0];
   std::vector<Option> options;
@@ -151,7 +163,18 @@ Method find_method(const std::string& text) {
     }
     known.push_back(row.name);
   }
-  throw InputError(fmt::format("unknown method '{}'; expected one of: {}", text, fmt::join(known, ", ")));
+  throw InputError(fmt::format("unknown method '{}'; expected one of: {}, exec:PATH", text, fmt::join(known, ", ")));
+}
+
+Method trajectory_method(const std::filesystem::path& file, const Scene& scene, const Run& run) {
+  Frames frames{read_positions(file, scene, run), {}};
+  return {"file:" + file.filename().string(), "a trajectory from a file", "",
+          [frames = std::move(frames)](const Scene& s, const Run& r, Observer& observer) {
+            Outcome out;
+            play(frames, s, r, observer, out);
+            return out;
+          },
+          ContactLoss::sampled};
 }
 
 std::vector<Method> find_methods(const std::string& list) {

@@ -31,6 +31,13 @@ const MethodFacts* SceneFacts::find(const std::string& method) const {
   return nullptr;
 }
 
+const char* MethodFacts::failure() const {
+  if (verdict == "solver") return "solver gave up";
+  if (verdict == "frozen") return "frozen";
+  if (verdict == "timeout") return "out of time";
+  return verdict == "crash" ? "program failed" : "blew up";
+}
+
 bool SceneFacts::touched() const {
   for (const MethodFacts& m : methods)
     if (m.ok() && m.clearance && *m.clearance < 1e-3) return true;

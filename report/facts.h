@@ -22,8 +22,8 @@ struct MethodFacts {
   std::optional<double> limit;              // s, largest stable step by theory, for the scene's fastest vibration
   bool supported() const { return verdict != "unsupported"; }
   bool ok() const { return verdict == "ok"; }
-  /// "blew up" or "solver gave up", of a run that failed.
-  const char* failure() const { return verdict == "solver" ? "solver gave up" : "blew up"; }
+  /// "blew up", "solver gave up" and the like, of a run that failed.
+  const char* failure() const;
 };
 
 struct SceneFacts {

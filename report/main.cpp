@@ -76,6 +76,7 @@ int run(int argc, char** argv) {
   compare->add_option("SCENE", compare_options.scene, "a shipped scene or a TOML file")->required();
   compare->add_option("--methods", compare_options.methods, "A,B,...");
   compare->add_option("--step", compare_options.step, "s")->check(above_zero);
+  compare->add_option("--trajectory", compare_options.trajectory, "FILE.npy of an engine that cannot be driven");
   compare->add_option("--out", compare_options.out, "folder (out/compare)");
   compare->callback([&] { compare_options.command_line = line, status = compare_command(compare_options); });
 

@@ -20,7 +20,7 @@ Watch::Watch(const Model& model) : model_(model) {
 
 Verdict Watch::observe(const State& state, bool sample) {
   if (!state.x.allFinite() || !state.v.allFinite()) return Verdict::nan;
-  if (model_.first_order()) return Verdict::ok;
+  if (model_.first_order() || state.v.cols() == 0) return Verdict::ok;  // no energy to judge by
   if (ledger_) ledger_->observe(state, false);
   if (!sample) return Verdict::ok;
 

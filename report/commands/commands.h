@@ -22,6 +22,7 @@ int run_command(const RunOptions& options);
 struct CompareOptions {
   std::string scene, methods;
   double step = 0;
+  std::filesystem::path trajectory;  // may be empty
   std::filesystem::path out = "out/compare";
   std::string command_line;
 };
