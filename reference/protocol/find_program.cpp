@@ -42,18 +42,11 @@ double seconds_of(const std::string& text, const std::string& value) {
 
 Program find_program(const std::string& text) {
   Program program;
-  // the longest name that is a file; pluses in folders belong to the folder
-  const size_t base = text.rfind('/') == std::string::npos ? 0 : text.rfind('/') + 1;
+  // the longest part of it that is a file: names may hold pluses, and values of options may hold slashes
   size_t end = text.size();
   std::optional<fs::path> found = file_named(text);
-  while (!found && end > base) {
-    end = text.rfind('+', end - 1);
-    if (end == std::string::npos || end < base) break;
+  while (!found && end > 0 && (end = text.rfind('+', end - 1)) != std::string::npos)
     found = file_named(text.substr(0, end));
-  }
-  // a value of an option may hold slashes: then the base name is not behind the last one
-  for (size_t plus = text.find('+'); !found && plus != std::string::npos; plus = text.find('+', plus + 1))
-    if ((found = file_named(text.substr(0, plus)))) end = plus;
   if (!found)
     throw InputError(
         fmt::format("method exec:{}: no such file; expected the path of a program, or a program in PATH", text));
