@@ -41,6 +41,7 @@ int doctor_command() {
       {"gnuplot", "gnuplot-nox", "draws the figures", true},
       {"git", "git", "names the commit in tables and captions", false},
       {"ctest", "cmake", "runs the tests", true},
+      {"python3", "python3-numpy", "runs the example of an outside engine, with NumPy; the tests need it", false},
       {"chromium", "chromium", "prints the page as PDF by hand; nothing here needs it", false},
   };
   bool complete = true;

@@ -105,6 +105,18 @@ TEST_F(SceneJson, RefusesWhatIsBrokenAndNamesThePlace) {
   EXPECT_TRUE(contains(refusal_of([&] { read_scene_json(folder_ / "none.json"); }), "cannot be read"));
 }
 
+TEST_F(SceneJson, TheExampleOfThePageIsWhatIsWritten) {
+  const std::string page = read(std::string(CROSSCHECK_SOURCE) + "/reference/protocol/PROTOCOL.md");
+  const std::string begin = "```json\n";
+  const size_t at = page.find(begin) + begin.size();
+  const std::string example = page.substr(at, page.find("```", at) - at);
+  const Task task = read_scene_json(write("scene.json", example));
+  EXPECT_EQ(scene_json(task.scene, task.run, task.options), example);
+  for (const char* key :
+       {"springs", "dashpots", "constraints", "gravity", "drag", "wind", "aerodynamics", "sphere", "rotation"})
+    EXPECT_TRUE(contains(page, fmt::format("| `{}` |", key)));
+}
+
 TEST_F(RunJson, GivesAnOutcomeBack) {
   const Scene scene = small_cloth();
   Outcome out = answer("bullet/deformable-explicit", scene, {1e-3, 0.1, 2}).outcome;
