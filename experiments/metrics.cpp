@@ -68,6 +68,11 @@ std::optional<double> round_off_bound(const Scene& scene, double motion, double 
   return 1e-13 * std::max(1.0, scene.size() + motion) * std::max(1.0, growth);
 }
 
+std::optional<double> single_precision_bound(const Scene& scene, double motion, double growth, long steps) {
+  if (!(growth < 1e6)) return std::nullopt;
+  return 10 * 6e-8 * (scene.size() + motion) * std::sqrt(static_cast<double>(steps)) * std::max(1.0, growth);
+}
+
 double perturbation_growth(const Method& method, const Scene& scene, double step, double until) {
   constexpr double size = 1e-10;  // m: far above round-off (1e-16), far below every nonlinearity
   Scene perturbed = scene;

@@ -35,4 +35,9 @@ double perturbation_growth(const Method& method, const Scene& scene, double step
 /// 1e6-fold: there single positions cannot be predicted.
 std::optional<double> round_off_bound(const Scene& scene, double motion, double growth);
 
+/// The same for an engine in single precision against one in double, m: each step rounds places to 6e-8 of the lengths
+/// that occur and speeds to 6e-8 of theirs, which is as much again by the end of the run; over the steps the roundings
+/// add up like a random walk, each grows like a perturbation, and there are about ten of them in a step.
+std::optional<double> single_precision_bound(const Scene& scene, double motion, double growth, long steps);
+
 }  // namespace crosscheck

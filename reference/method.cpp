@@ -100,6 +100,25 @@ Method truth_method(Tier tier, const std::vector<Option>& options) {
           ContactLoss::inferred};
 }
 
+/// A method of Bullet as the program in single precision runs it. It is no longer of the same rule: its round-off is
+/// of another size.
+Method in_single_precision(Method method, const std::vector<Option>& options) {
+  const std::string world = method.name.substr(method.name.find('/') + 1);
+  Program program{CROSSCHECK_BULLET32, {"world=" + world}};
+  for (const Option& o : options) program.options.push_back(o.key + (o.value.empty() ? "" : "=" + o.value));
+  method.name = "bullet32/" + world;
+  method.what += "; in single precision, as a program of its own";
+  method.rule.clear();
+  method.contact = ContactLoss::sampled;
+  method.engine = [program](const Scene& scene, const Run& run, Observer& observer) {
+    if (!std::filesystem::exists(program.path))
+      throw Unsupported(
+          fmt::format("{} is not there; it is the build's target bullet32_engine", program.path.string()));
+    return run_program(program, scene, run, observer);
+  };
+  return method;
+}
+
 /// An outside program; it sees samples only, so that nothing is known of what happened between them.
 Method exec_method(const std::string& text) {
   return {"exec:" + text, "an outside program that speaks the engine protocol", "",
@@ -122,6 +141,10 @@ std::vector<Row> table() {
                     [&stepper](const auto& options) { return mysim_method(stepper, options); }});
   rows.push_back({"bullet/deformable-explicit", deformable_explicit});
   rows.push_back({"bullet/pbd", pbd});
+  for (const Row& row : std::vector<Row>(rows))
+    if (row.name.starts_with("bullet/"))
+      rows.push_back({"bullet32/" + row.name.substr(7),
+                      [row](const auto& options) { return in_single_precision(row.make(options), options); }});
   rows.push_back({"truth/exact", [](const auto& options) { return truth_method(Tier::exact, options); }});
   rows.push_back({"truth/converged", [](const auto& options) { return truth_method(Tier::converged, options); }});
   return rows;

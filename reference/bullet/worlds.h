@@ -1,4 +1,4 @@
-// Bullet's two soft-body worlds as engines, in double precision.
+// Bullet's two soft-body worlds as engines, in the precision they are compiled in.
 #pragma once
 
 #include "mysim/run.h"
@@ -16,5 +16,10 @@ Outcome run_deformable_explicit(const Scene& scene, const Run& run, Observer& ob
 /// with mu the pair's reduced mass and n the iterations; drag by kDP = 1 - exp(-gamma h). Its link law is not Hooke's
 /// and its friction is not Coulomb's: both are marked as different laws.
 Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, int iterations);
+
+/// Any of them by name, with the options behind the pluses of a method. Throws InputError for names and options that it
+/// does not know, Unsupported with the reason.
+Outcome run_world(const std::string& world, const std::vector<std::string>& options, const Scene& scene, const Run& run,
+                  Observer& observer);
 
 }  // namespace crosscheck::bullet

@@ -63,6 +63,7 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
       {"bullet/pbd+n=-1", "'+n=-1'"},
       {"bullet/pbd+n", "'+n'"},
       {"bullet/pbd+m=2", "'+m=2'"},
+      {"bullet32/pbd+n=0", "unknown option '+n=0'"},
       {"truth/exact+sticky", "method truth/exact: unknown option '+sticky'"}};
   for (const auto& [name, message] : cases) EXPECT_TRUE(contains(refusal(name), message));
   for (const auto name : {"", "bullet/", "/rk4", "rk4 ", "RK4", "bullet/pbd/x"})
@@ -98,7 +99,9 @@ TEST(Methods, EveryOneMeetsEveryShippedScene) {
       ASSERT_EQ(r.trajectory.frames(), 3);
       EXPECT_NEAR(out.end, 0.05, 4 * eps);
       for (const Points& x : r.trajectory.x) EXPECT_TRUE(x.allFinite());
-      EXPECT_EQ(r.trajectory.x[0], scene.start.x);
+      // single precision holds the start rounded to 24 bits
+      const double rounding = m.name.starts_with("bullet32/") ? 6e-8 * largest_column(scene.start.x) : 0;
+      EXPECT_LE(largest_column(r.trajectory.x[0] - scene.start.x), rounding);
     }
     // every stepper that takes the scene, at least
     for (const Stepper& s : steppers()) answers -= takes(s, scene);
