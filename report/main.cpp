@@ -109,6 +109,13 @@ int run(int argc, char** argv) {
   render->add_option("-o", render_options.file, "FILE.png")->required();
   render->callback([&] { status = render_command(render_options); });
 
+  EngineOptions engine_options;
+  auto* engine = app.add_subcommand("engine", "builds the Bullet adapter against another Bullet tree, for exec:");
+  engine->add_option("NAME", engine_options.what, "bullet")->required();
+  engine->add_option("--prefix", engine_options.prefix, "an installation or a source tree of Bullet")->required();
+  engine->add_option("-o", engine_options.program, "PROG")->required();
+  engine->callback([&] { status = engine_command(engine_options); });
+
   if (argc > 1 && argv[1][0] != '-') {
     std::string known;
     bool found = false;

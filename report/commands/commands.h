@@ -28,6 +28,12 @@ struct CompareOptions {
 };
 int compare_command(const CompareOptions& options);
 
+struct EngineOptions {
+  std::string what;
+  std::filesystem::path prefix, program;
+};
+int engine_command(const EngineOptions& options);
+
 struct ExperimentOptions {
   std::vector<std::string> names;  // of experiments, then of scenes
   std::string methods;
