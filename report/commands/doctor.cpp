@@ -34,7 +34,7 @@ int doctor_command() {
   fmt::print("built with: {}\n", CROSSCHECK_COMPILER);
   fmt::print("  {:<14} {:<10} {}\n", "Eigen", CROSSCHECK_EIGEN_VERSION, "vectors and matrices");
   fmt::print("  {:<14} {:<10} {}\n", "Bullet", CROSSCHECK_BULLET_VERSION,
-             "the engine that mysim is compared with (double precision)");
+             "the engine that mysim is compared with (double precision; single in a program of its own)");
   fmt::print("  {:<14} {:<10} {}\n\n", "OSMesa", "linked", "renders pictures without a display");
 
   static constexpr Tool tools[] = {

@@ -1,6 +1,7 @@
 // engine bullet: builds the Bullet adapter against another Bullet tree, as a program for exec:.
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -71,12 +72,13 @@ int engine_command(const EngineOptions& options) {
   std::error_code none;
   fs::remove(build / "CMakeCache.txt", none);
   const unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
-  if (!cmake({"-S", (source / "reference/bullet/adapter").string(), "-B", build.string(), "-G", "Ninja",
-              "-DCMAKE_BUILD_TYPE=Release", "-DBULLET_PREFIX=" + prefix.string(),
-              "-DCROSSCHECK_BUILD=" CROSSCHECK_BINARY_DIR, "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
-             "cmake") ||
-      !cmake({"--build", build.string(), "--parallel", std::to_string(jobs)}, "the build"))
-    return 1;
+  const bool configured =
+      cmake({"-S", (source / "reference/bullet/adapter").string(), "-B", build.string(), "-G", "Ninja",
+             "-DCMAKE_BUILD_TYPE=Release", "-DBULLET_PREFIX=" + prefix.string(),
+             "-DCROSSCHECK_BUILD=" CROSSCHECK_BINARY_DIR, "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
+            "cmake");
+  if (!configured) fs::remove_all(build, none);
+  if (!configured || !cmake({"--build", build.string(), "--parallel", std::to_string(jobs)}, "the build")) return 1;
   install(build / "bullet_engine", options.program);
   fmt::print("{}\n", options.program.string());
   return 0;
