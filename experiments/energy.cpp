@@ -55,6 +55,11 @@ void energy_experiment(const Request& request, Progress& progress, Result& resul
       const Answer& answer = answer_of(request, scene, method, result);
       const Outcome& out = answer.outcome;
       if (out.verdict == Verdict::unsupported) continue;
+      if (answer.ledger.empty()) {
+        result.notes.push_back(
+            fmt::format("energy leaves out {} on {}: it gave no velocities", method.name, scene.name));
+        continue;
+      }
       const double start = answer.ledger.front().balance();
       double worst = 0, turned_over = 0;
       add_ledger(table, method.name, answer.ledger, answer.contact_inferred);

@@ -68,7 +68,12 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                  {"different law", "1"}},
                 {}};
   Table cost{"engines-cost",
-             {{"scene", "1"}, {"method", "1"}, {"cpu", "s"}, {"cpu per step", "s"}, {"simulated per cpu", "s/s"}},
+             {{"scene", "1"},
+              {"method", "1"},
+              {"cpu", "s"},
+              {"cpu per step", "s"},
+              {"simulated per cpu", "s/s"},
+              {"cpu of process", "s"}},
              {}};
 
   for (const Scene& scene : request.scenes) {
@@ -145,10 +150,14 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                    ok && path.frames() ? cell_of(creep(scene, path.t.back(), path.x.back(), path.v.back())) : Cell(),
                    predicted_limit(method, scene, omega),
                    laws});
+      if (!out.remark.empty()) result.notes.push_back(fmt::format("{} on {}: {}", method.name, scene.name, out.remark));
+      // an outside program need not tell its own time
+      const bool told = out.process_seconds == 0 || out.cpu_seconds > 0;
       if (!unsupported)
-        cost.add({scene.name, method.name, out.cpu_seconds,
-                  out.steps ? Cell(out.cpu_seconds / static_cast<double>(out.steps)) : Cell(),
-                  out.cpu_seconds > 0 ? Cell(out.end / out.cpu_seconds) : Cell()});
+        cost.add({scene.name, method.name, told ? Cell(out.cpu_seconds) : Cell(),
+                  told && out.steps ? Cell(out.cpu_seconds / static_cast<double>(out.steps)) : Cell(),
+                  out.cpu_seconds > 0 ? Cell(out.end / out.cpu_seconds) : Cell(),
+                  out.process_seconds > 0 ? Cell(out.process_seconds) : Cell()});
     }
     result.tables.push_back(std::move(table));
   }

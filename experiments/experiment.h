@@ -28,7 +28,7 @@ struct Answer {
   std::string scene, method;
   Outcome outcome;
   Trajectory trajectory;
-  std::vector<LedgerRow> ledger;  // empty in first-order scenes and where unsupported
+  std::vector<LedgerRow> ledger;  // empty in first-order scenes, without velocities and where unsupported
   bool contact_inferred = false;
 };
 

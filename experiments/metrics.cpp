@@ -39,7 +39,7 @@ std::optional<double> clearance(const Scene& scene, double t, const Points& x) {
 
 std::optional<double> creep(const Scene& scene, double t, const Points& x, const Points& v) {
   const auto* spheres = scene.model.find<Spheres>();
-  if (!spheres) return std::nullopt;
+  if (!spheres || v.cols() != x.cols()) return std::nullopt;
   double sum = 0;
   int touching = 0;
   for (const Sphere& sphere : spheres->list) {
@@ -66,6 +66,11 @@ std::optional<double> first_contact(const Scene& scene, const Trajectory& trajec
 std::optional<double> round_off_bound(const Scene& scene, double motion, double growth) {
   if (!(growth < 1e6)) return std::nullopt;
   return 1e-13 * std::max(1.0, scene.size() + motion) * std::max(1.0, growth);
+}
+
+std::optional<double> single_precision_bound(const Scene& scene, double motion, double growth, long steps) {
+  if (!(growth < 1e6)) return std::nullopt;
+  return 10 * 6e-8 * (scene.size() + motion) * std::sqrt(static_cast<double>(steps)) * std::max(1.0, growth);
 }
 
 namespace {

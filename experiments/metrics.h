@@ -19,7 +19,7 @@ double motion_of(const Trajectory& trajectory);
 std::optional<double> clearance(const Scene& scene, double t, const Points& x);
 
 /// Mean speed along the surface, as seen from the sphere, of the particles that touch one (closer than 1 mm), m/s;
-/// empty when none does.
+/// empty when none does, and without velocities.
 std::optional<double> creep(const Scene& scene, double t, const Points& x, const Points& v);
 
 /// Time of the first sample at which a particle touches the sphere (closer than 1e-9 m), s.
@@ -47,5 +47,10 @@ double perturbation_growth(const Method& method, const Scene& scene, double step
 /// times 100 for thousands of steps that add up like a random walk. Empty where a perturbation grows more than
 /// 1e6-fold: there single positions cannot be predicted.
 std::optional<double> round_off_bound(const Scene& scene, double motion, double growth);
+
+/// The same for an engine in single precision against one in double, m: each step rounds places to 6e-8 of the lengths
+/// that occur and speeds to 6e-8 of theirs, which is as much again by the end of the run; over the steps the roundings
+/// add up like a random walk, each grows like a perturbation, and there are about ten of them in a step.
+std::optional<double> single_precision_bound(const Scene& scene, double motion, double growth, long steps);
 
 }  // namespace crosscheck

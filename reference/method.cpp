@@ -4,158 +4,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <iterator>
-
-#include "mysim/engine.h"
 #include "mysim/errors.h"
 #include "mysim/observers/watch.h"
-#include "reference/bullet/worlds.h"
-#include "reference/exact/discrete.h"
-#include "reference/independent/integrators.h"
-#include "reference/truth.h"
+#include "reference/methods/families.h"
 
 namespace crosscheck {
 namespace {
 
-/// An option behind a plus: "sticky" or "n=10".
-struct Option {
-  std::string key, value;
-};
-
-[[noreturn]] void refuse(const std::string& method, const Option& option, const std::string& known) {
-  throw InputError(fmt::format("method {}: unknown option '+{}{}{}'; expected {}", method, option.key,
-                               option.value.empty() ? "" : "=", option.value, known));
-}
-
-Method mysim_method(const Stepper& stepper, const std::vector<Option>& options) {
-  ContactRule contact = ContactRule::coulomb;
-  Stepper rule = stepper;
-  std::string same_as(stepper.name);  // another contact rule changes nothing where nothing touches
-  const std::string name = fmt::format("mysim/{}", stepper.name);
-  for (const Option& o : options) {
-    if (o.key == "sticky" && o.value.empty())
-      contact = ContactRule::sticky;
-    else if (o.key == "linear" && o.value.empty() && stepper.linear)
-      rule.step = stepper.linear, same_as += "+linear";
-    else
-      refuse(name, o, stepper.linear ? "+linear, +sticky or none" : "+sticky or none");
-  }
-  return {name,
-          fmt::format("{} (order {}{}; {})", stepper.what, stepper.order, stepper.symplectic ? ", symplectic" : "",
-                      stepper.limit_formula),
-          same_as,
-          [rule, contact](const Scene& scene, const Run& run, Observer& observer) {
-            Outcome out = simulate(rule, contact, scene, run, observer);
-            if (contact == ContactRule::sticky && scene.model.find<Spheres>())
-              out.different_law.push_back(
-                  "contact: a touching particle is put back to where it came from and loses all its velocity");
-            return out;
-          },
-          ContactLoss::reported,
-          &stepper,
-          stepper.adaptive};
-}
-
-Method bullet_method(const std::string& world, const std::vector<Option>& options) {
-  std::vector<std::string> words;
-  for (const Option& o : options) words.push_back(o.value.empty() ? o.key : o.key + "=" + o.value);
-  bullet::WorldChoice chosen = bullet::choose_world(world, words);
-  return {"bullet/" + world, chosen.what, chosen.rule, chosen.engine, ContactLoss::inferred};
-}
-
-Outcome play(const Truth& truth, const Run& run, Observer& observer) {
-  Outcome out;
-  out.step = plan(run).h;
-  for (int i = 0; i < truth.trajectory.frames() && out.verdict == Verdict::ok; ++i) {
-    out.end = truth.trajectory.t[i];
-    out.verdict = observer.observe({out.end, truth.trajectory.x[i], truth.trajectory.v[i]}, true);
-  }
-  return out;
-}
-
-/// The best answer known, played through the observer like any other method.
-Method truth_method(Tier tier, const std::vector<Option>& options) {
-  const std::string name = fmt::format("truth/{}", name_of(tier));
-  if (!options.empty()) refuse(name, options[0], "none");
-  return {name,
-          tier == Tier::exact ? "closed form, where the scene has one"
-                              : "rk4 refined until its own step halving tells the error bar",
-          "",
-          [tier](const Scene& scene, const Run& run, Observer& observer) {
-            const auto truth = truth_of(scene, run);
-            if (!truth || truth->tier != tier)
-              throw Unsupported(tier == Tier::exact
-                                    ? "the scene has no closed form"
-                                    : "the scene has a closed form, or contacts on whose rule the answer depends");
-            return play(*truth, run, observer);
-          },
-          ContactLoss::inferred};
-}
-
-std::vector<std::string> names_of_discrete_rules() {
-  std::vector<std::string> names;
-  for (const DiscreteRule& rule : discrete_rules()) names.emplace_back(rule.name);
-  return names;
-}
-
-/// The closed form of what a rule should produce.
-Method discrete_method(const std::vector<Option>& options) {
-  const std::string name = "truth/exact-discrete";
-  const std::string known = fmt::format("one of the rules +{}", fmt::join(names_of_discrete_rules(), ", +"));
-  if (options.empty()) throw InputError(fmt::format("method {}: no rule; expected {}", name, known));
-  if (options.size() > 1) refuse(name, options[1], known);
-  for (const DiscreteRule& rule : discrete_rules())
-    if (rule.name == options[0].key && options[0].value.empty())
-      return {name, fmt::format("closed form of what {} should produce, on linear scenes", rule.name), "",
-              [&rule](const Scene& scene, const Run& run, Observer& observer) {
-                return play(discrete_truth(rule, scene, run), run, observer);
-              },
-              ContactLoss::inferred};
-  refuse(name, options[0], known);
-}
-
-/// An integrator that is no engine: it solves the scene's equations, written apart, by somebody else's code.
-Method integrator(const std::string& name, const std::string& what, const std::string& rule, Engine engine,
-                  bool adaptive, const std::vector<Option>& options) {
-  if (!options.empty()) refuse(name, options[0], "none");
-  return {name, what, rule, std::move(engine), ContactLoss::inferred, nullptr, adaptive};
-}
-
-// the table: a name, how its method is made from the options, and the options one of which must be given: each of them
-// is a method of its own
-struct Row {
-  std::string name;
-  std::function<Method(const std::vector<Option>&)> make;
-  std::vector<std::string> choices = {};
-
-  std::vector<std::string> full_names() const {
-    std::vector<std::string> names;
-    for (const std::string& choice : choices) names.push_back(name + "+" + choice);
-    return choices.empty() ? std::vector{name} : names;
-  }
-};
-
-std::vector<Row> table() {
-  std::vector<Row> rows;
-  for (const Stepper& stepper : steppers())
-    rows.push_back({fmt::format("mysim/{}", stepper.name),
-                    [&stepper](const auto& options) { return mysim_method(stepper, options); }});
-  for (const std::string& world : bullet::world_names())
-    rows.push_back({"bullet/" + world, [world](const auto& options) { return bullet_method(world, options); }});
-  auto add = [&](const char* name, const char* what, const char* rule, Engine engine, bool adaptive) {
-    rows.push_back(
-        {name, [=](const auto& options) { return integrator(name, what, rule, engine, adaptive, options); }});
-  };
-  add("odeint/rk4", "Boost's odeint, classic Runge-Kutta, on a right-hand side written apart", "rk4", run_odeint_rk4,
-      false);
-  add("odeint/dopri5", "Boost's odeint, Dormand-Prince 5(4) with error control, on the same: give --tol, not --step",
-      "", run_odeint_dopri5, true);
-  add("sundials/arkode", "SUNDIALS ARKODE, Fehlberg 7(8) with error control, on the same: give --tol, not --step", "",
-      run_arkode, true);
-  rows.push_back({"truth/exact", [](const auto& options) { return truth_method(Tier::exact, options); }});
-  rows.push_back({"truth/exact-discrete", discrete_method, names_of_discrete_rules()});
-  rows.push_back({"truth/converged", [](const auto& options) { return truth_method(Tier::converged, options); }});
+/// The table: one family after the other.
+std::vector<MethodRow> table() {
+  std::vector<MethodRow> rows;
+  for (const auto family : {mysim_methods, bullet_methods, integrator_methods, truth_methods})
+    for (MethodRow& row : family()) rows.push_back(std::move(row));
   return rows;
 }
 
@@ -170,31 +30,31 @@ std::vector<std::string> split(const std::string& text, char at) {
 
 }  // namespace
 
+void refuse_option(const std::string& method, const std::string& option, const std::string& known) {
+  throw InputError(fmt::format("method {}: unknown option '+{}'; expected {}", method, option, known));
+}
+
 std::vector<Method> all_methods() {
   std::vector<Method> methods;
-  for (const Row& row : table())
+  for (const MethodRow& row : table())
     for (const std::string& name : row.full_names()) methods.push_back(find_method(name));
   return methods;
 }
 
 Method find_method(const std::string& text) {
+  if (text.starts_with("exec:")) return exec_method(text.substr(5));
   const std::vector<std::string> parts = split(text, '+');
   const std::string name = parts[0].find('/') == std::string::npos ? "mysim/" + parts[0] : parts[0];
-  std::vector<Option> options;
-  for (size_t i = 1; i < parts.size(); ++i) {
-    const size_t equals = parts[i].find('=');
-    options.push_back({parts[i].substr(0, equals), equals == std::string::npos ? "" : parts[i].substr(equals + 1)});
-  }
   std::vector<std::string> known;
-  for (const Row& row : table()) {
+  for (const MethodRow& row : table()) {
     if (row.name == name) {
-      Method method = row.make(options);
+      Method method = row.make({parts.begin() + 1, parts.end()});
       for (size_t i = 1; i < parts.size(); ++i) method.name += "+" + parts[i];
       return method;
     }
-    std::ranges::copy(row.full_names(), std::back_inserter(known));
+    for (const std::string& full : row.full_names()) known.push_back(full);
   }
-  throw InputError(fmt::format("unknown method '{}'; expected one of: {}", text, fmt::join(known, ", ")));
+  throw InputError(fmt::format("unknown method '{}'; expected one of: {}, exec:PATH", text, fmt::join(known, ", ")));
 }
 
 std::vector<Method> find_methods(const std::string& list) {

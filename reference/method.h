@@ -1,6 +1,7 @@
 // Methods: everything that answers a scene, by name. The families stand in one table (method.cpp).
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,13 @@ struct Method {
 /// Every method there is, without options.
 std::vector<Method> all_methods();
 
-/// A method by name: "rk4" (short for "mysim/rk4"), "bullet/pbd+n=10". Throws InputError that lists what there is.
+/// A method by name: "rk4" (short for "mysim/rk4"), "bullet/pbd+n=10", "exec:./program". Throws InputError that lists
+/// what there is.
 Method find_method(const std::string& text);
+
+/// The positions in a .npy file (samples + 1 frames x particles x 3, m) as a method, "file:NAME". Throws InputError
+/// that names the file and what was expected.
+Method trajectory_method(const std::filesystem::path& file, const Scene& scene, const Run& run);
 
 /// Splits "a,b,c" and finds each.
 std::vector<Method> find_methods(const std::string& list);

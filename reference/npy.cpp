@@ -1,9 +1,14 @@
-// Writes .npy by its published format: magic, version, padded header, data.
+// Writes and reads .npy by its published format: magic, version, padded header, data.
 #include "reference/npy.h"
 
 #include <fmt/format.h>
 
 #include <bit>
+#include <cctype>
+#include <fstream>
+#include <optional>
+
+#include "mysim/errors.h"
 
 namespace crosscheck {
 
@@ -23,6 +28,102 @@ std::string npy_bytes(const std::vector<Points>& frames) {
   // a 3 x n column-major frame is n x 3 in C order
   for (const Points& x : frames) out.append(reinterpret_cast<const char*>(x.data()), sizeof(double) * x.size());
   return out;
+}
+
+namespace {
+
+struct Header {
+  std::string type;  // "<f8"
+  bool fortran_order;
+  std::vector<long> shape;
+};
+
+/// What stands behind 'key': in the header's dictionary, from the first character that is no space.
+std::optional<std::string> behind(const std::string& dictionary, const std::string& key) {
+  size_t at = dictionary.find("'" + key + "'");
+  if (at == std::string::npos || (at = dictionary.find(':', at)) == std::string::npos) return std::nullopt;
+  at = dictionary.find_first_not_of(' ', at + 1);
+  return at == std::string::npos ? std::nullopt : std::optional(dictionary.substr(at));
+}
+
+std::optional<Header> parse(const std::string& dictionary) {
+  const auto type = behind(dictionary, "descr"), order = behind(dictionary, "fortran_order"),
+             shape = behind(dictionary, "shape");
+  if (!type || !order || !shape || (*type)[0] != '\'' || (*shape)[0] != '(') return std::nullopt;
+  Header header{type->substr(1, type->find('\'', 1) - 1), order->starts_with("True"), {}};
+  if (!header.fortran_order && !order->starts_with("False")) return std::nullopt;
+  for (size_t i = 1; i < shape->size() && (*shape)[i] != ')';) {
+    if (!std::isdigit(static_cast<unsigned char>((*shape)[i]))) {
+      if ((*shape)[i] != ',' && (*shape)[i] != ' ') return std::nullopt;
+      ++i;
+      continue;
+    }
+    const size_t digits = shape->find_first_not_of("0123456789", i) - i;
+    if (digits > 15) return std::nullopt;
+    header.shape.push_back(std::stol(shape->substr(i, digits)));
+    i += digits;
+  }
+  return header;
+}
+
+template <class T>
+Points frame_from(std::ifstream& in, int particles) {
+  Eigen::Matrix<T, 3, Eigen::Dynamic> x(3, particles);
+  in.read(reinterpret_cast<char*>(x.data()), static_cast<std::streamsize>(sizeof(T)) * x.size());
+  return x.template cast<double>();
+}
+
+std::string text_of(const std::vector<long>& shape) {
+  std::string text;
+  for (long length : shape) text += (text.empty() ? "" : ", ") + std::to_string(length);
+  return "(" + text + (shape.size() == 1 ? ",)" : ")");
+}
+
+}  // namespace
+
+std::vector<Points> read_npy(const std::filesystem::path& file, int least, int most, int particles) {
+  auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", file.string(), what)); };
+  std::ifstream in(file, std::ios::binary);
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (!in || error) fail("cannot be read; expected a .npy file");
+  unsigned char head[12] = {};
+  in.read(reinterpret_cast<char*>(head), 10);
+  if (!in || std::string(reinterpret_cast<char*>(head), 6) != "\x93NUMPY") fail("expected a .npy file");
+  if ((head[6] != 1 && head[6] != 2) || head[7] != 0)
+    fail(fmt::format("expected .npy format 1.0 or 2.0, got {}.{}", head[6], head[7]));
+  size_t length = head[8] + 256u * head[9], begin = 10 + length;
+  if (head[6] == 2) {
+    in.read(reinterpret_cast<char*>(head + 10), 2);
+    length += 65536u * head[10] + 16777216u * head[11];
+    begin = 12 + length;
+  }
+  std::string dictionary(begin <= size ? length : 0, ' ');
+  in.read(dictionary.data(), static_cast<std::streamsize>(dictionary.size()));
+  const auto header = parse(dictionary);
+  if (!in || !header) fail("expected a .npy header with descr, fortran_order and shape");
+  if (header->type != "<f8" && header->type != "<f4")
+    fail(fmt::format("expected float64 or float32, little endian ('<f8' or '<f4'), got '{}'", header->type));
+  if (header->fortran_order) fail("expected C order, got Fortran order");
+
+  const std::vector<long>& shape = header->shape;
+  const std::string frames = least == most ? std::to_string(most) : fmt::format("{} to {}", least, most);
+  const std::string expected = fmt::format("shape ({0}, {1}, 3): {0} frames of {1} particles", frames, particles);
+  if (shape.size() != 3 || shape[2] != 3) fail(fmt::format("expected {}, got {}", expected, text_of(shape)));
+  if (shape[1] != particles)
+    fail(fmt::format("expected {}, got {}: another number of particles", expected, text_of(shape)));
+  if (shape[0] < least || shape[0] > most)
+    fail(fmt::format("expected {}, got {}: another number of frames", expected, text_of(shape)));
+  const size_t word = header->type == "<f8" ? 8 : 4;
+  const size_t bytes = begin + word * 3 * static_cast<size_t>(shape[0]) * static_cast<size_t>(particles);
+  if (size != bytes)
+    fail(fmt::format("expected {} bytes for shape {}, got {}: {} than its header says", bytes, text_of(shape), size,
+                     size < bytes ? "shorter" : "longer"));
+  std::vector<Points> list;
+  for (long i = 0; i < shape[0]; ++i)
+    list.push_back(word == 8 ? frame_from<double>(in, particles) : frame_from<float>(in, particles));
+  if (!in) fail("cannot be read to its end");
+  return list;
 }
 
 }  // namespace crosscheck

@@ -1,6 +1,7 @@
 // NumPy's .npy files: what trajectories are stored in.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,5 +11,10 @@ namespace crosscheck {
 
 /// Frames x particles x 3, float64, little endian, C order (format 1.0).
 std::string npy_bytes(const std::vector<Points>& frames);
+
+/// Reads frames x particles x 3 numbers: float64 or float32, little endian, C order, format 1.0 or 2.0. Throws
+/// InputError that names the file and what was expected when it is something else, or has another number of particles,
+/// or fewer than least_frames or more than most_frames frames, or is shorter or longer than its header says.
+std::vector<Points> read_npy(const std::filesystem::path& file, int least_frames, int most_frames, int particles);
 
 }  // namespace crosscheck

@@ -56,10 +56,17 @@ std::string axis_commands(const Axis& axis, char letter) {
   return out;
 }
 
+/// Titles in the key: of outside programs the base name, without the folder.
+std::string shown(const std::string& title) {
+  if (!title.starts_with("exec:")) return title;
+  const size_t slash = title.rfind('/', title.find('+'));
+  return title.substr(slash == std::string::npos ? 5 : slash + 1);
+}
+
 /// One plot element that picks the rows of one curve from the file.
 std::string element(const Figure& f, const std::string& curve, const std::string& with, const std::string& title) {
   return fmt::format("{} using (strcol(1) eq {} ? $2 : NaN):3 with {} title {}", single_quoted(f.name + ".csv"),
-                     single_quoted(id_of(curve)), with, single_quoted(title));
+                     single_quoted(id_of(curve)), with, single_quoted(shown(title)));
 }
 
 /// True when a curve of that colour is drawn, and so named in the key.
@@ -77,7 +84,7 @@ double key_room(const Figure& f) {
     entries.insert(in_key(f, m.style.colour) ? "failed (in its colour)" : m.title);
   if (f.floor) entries.insert(f.floor->first);
   size_t longest = 0;
-  for (const std::string& e : entries) longest = std::max(longest, e.size());
+  for (const std::string& e : entries) longest = std::max(longest, shown(e).size());
   // as many columns as gnuplot finds room for in this width
   const int columns = longest <= 14 ? 3 : longest <= 28 ? 2 : 1;
   const int rows = (static_cast<int>(entries.size()) + columns - 1) / columns;
@@ -198,6 +205,8 @@ MethodStyle style_of(const std::string& method) {
       {"bullet/deformable-explicit", {"#D55E00", "(14,4)", 5}},
       {"bullet/deformable-implicit", {"#AA4499", "(20,3,4,3)", 10}},
       {"bullet/pbd", {"#7A3B00", "(4,2)", 4}},
+      {"bullet32/deformable-explicit", {"#F0A070", "(14,2,2,2)", 4}},
+      {"bullet32/pbd", {"#B08050", "(4,2,1,2)", 6}},
       {"mysim/suzuki4", {"#332288", "(12,3,3,3)", 12}},
       {"mysim/dopri5", {"#999933", "(3,2)", 6}},
       {"mysim/implicit-euler", {"#882255", "(18,3)", 14}},
@@ -207,7 +216,15 @@ MethodStyle style_of(const std::string& method) {
   };
   for (const Row& row : table)
     if (method == row.name) return row.style;
-  return {"#333333", "(8,2,2,2,2,2)", 3};
+  // others, like outside programs, are told apart as far as five looks go
+  static const MethodStyle others[] = {{"#333333", "(8,2,2,2,2,2)", 3},
+                                       {"#AA3377", "(6,2,2,2)", 10},
+                                       {"#117733", "(10,2,4,2)", 8},
+                                       {"#44AA99", "(4,3,1,3)", 14},
+                                       {"#6699CC", "(12,2,1,2)", 12}};
+  unsigned sum = 0;
+  for (char c : method) sum = 31 * sum + static_cast<unsigned char>(c);
+  return others[sum % std::size(others)];
 }
 
 void draw_figure(const Figure& figure, const Provenance& provenance, const std::filesystem::path& folder) {

@@ -76,6 +76,7 @@ int run(int argc, char** argv) {
   compare->add_option("SCENE", compare_options.scene, "a shipped scene or a TOML file")->required();
   compare->add_option("--methods", compare_options.methods, "A,B,...");
   compare->add_option("--step", compare_options.step, "s")->check(above_zero);
+  compare->add_option("--trajectory", compare_options.trajectory, "FILE.npy of an engine that cannot be driven");
   compare->add_option("--out", compare_options.out, "folder (out/compare)");
   compare->callback([&] { compare_options.command_line = line, status = compare_command(compare_options); });
 
@@ -107,6 +108,13 @@ int run(int argc, char** argv) {
   render->add_option("--size", render_options.size, "WxH, pixels");
   render->add_option("-o", render_options.file, "FILE.png")->required();
   render->callback([&] { status = render_command(render_options); });
+
+  EngineOptions engine_options;
+  auto* engine = app.add_subcommand("engine", "builds the Bullet adapter against another Bullet tree, for exec:");
+  engine->add_option("NAME", engine_options.what, "bullet")->required();
+  engine->add_option("--prefix", engine_options.prefix, "an installation or a source tree of Bullet")->required();
+  engine->add_option("-o", engine_options.program, "PROG")->required();
+  engine->callback([&] { status = engine_command(engine_options); });
 
   if (argc > 1 && argv[1][0] != '-') {
     std::string known;

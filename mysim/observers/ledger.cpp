@@ -24,7 +24,9 @@ void Integral::add(double value, double h) {
 }
 
 Ledger::Ledger(const Model& model, ContactLoss contact)
-    : model_(model), inferred_(contact == ContactLoss::inferred && model.find<Spheres>() != nullptr) {
+    : model_(model), inferred_(contact != ContactLoss::reported && model.find<Spheres>() != nullptr) {
+  estimated_ = contact == ContactLoss::sampled && (model.find<Drag>() || model.find<Dashpots>() || model.find<Wind>() ||
+                                                   model.find<Aerodynamics>() || model.particles.move);
   scratch_.f = Points::Zero(3, model.particles.size());
 }
 
@@ -33,6 +35,7 @@ LedgerRow Ledger::now(const State& state) const {
 }
 
 Verdict Ledger::observe(const State& state, bool sample) {
+  if (state.v.cols() != state.x.cols()) return Verdict::ok;
   const Power power = power_of(model_, state, scratch_);
   const double h = state.t - last_t_;
   dissipated_.add(power.dissipated, h);

@@ -25,6 +25,7 @@ class Integral {
 enum class ContactLoss {
   reported,  // the engine shows the state before and after contact
   inferred,  // it does not: what is missing from the balance is called contact loss, and no closure is claimed
+  sampled,   // nor is more seen than samples: what drag and air took between them is an estimate, no closure either
 };
 
 struct LedgerRow {
@@ -37,6 +38,7 @@ struct LedgerRow {
   double balance() const { return energy.total() + dissipated + contact - wind - pins; }
 };
 
+/// States without velocities leave no row: they have no energy.
 class Ledger : public Observer {
  public:
   Ledger(const Model& model, ContactLoss contact);
@@ -45,12 +47,14 @@ class Ledger : public Observer {
   void contact(const State& proposed, const State& resolved) override;
 
   const std::vector<LedgerRow>& rows() const { return rows_; }
-  bool contact_inferred() const { return inferred_; }
+  /// True where no closure of the balance is claimed.
+  bool contact_inferred() const { return inferred_ || estimated_; }
   LedgerRow now(const State& state) const;
 
  private:
   const Model& model_;
-  bool inferred_;  // a sphere is there and the engine does not report its losses
+  bool inferred_;   // a sphere is there and the engine does not report its losses
+  bool estimated_;  // integrals from samples alone
   Forces scratch_;
   Integral dissipated_, wind_, pins_;
   double contact_ = 0, last_t_ = 0;

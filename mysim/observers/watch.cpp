@@ -44,7 +44,7 @@ bool Watch::frozen(const State& state) {
 
 Verdict Watch::observe(const State& state, bool sample) {
   if (!state.x.allFinite() || !state.v.allFinite()) return Verdict::nan;
-  if (model_.first_order()) return Verdict::ok;
+  if (model_.first_order() || state.v.cols() == 0) return Verdict::ok;  // no energy to judge by
   if (ledger_) ledger_->observe(state, false);
   if (!sample) return Verdict::ok;
 

@@ -11,7 +11,7 @@ namespace crosscheck {
 /// kinetic + elastic at the start, plus the largest change of gravitational energy and the largest work so far.
 /// No correct motion can exceed it: drag and contact only take away (a moving sphere gives too: the kinetic energy of
 /// all particles at its top speed, twice, is added). Blow-ups pass it at once, also those of engines that clamp speeds
-/// and never become non-finite.
+/// and never become non-finite. States without velocities are judged by being finite alone.
 ///
 /// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
 /// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not

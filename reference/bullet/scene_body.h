@@ -18,10 +18,8 @@
 
 namespace crosscheck::bullet {
 
-/// Bullet's vector from ours, and back.
-inline btVector3 to_bullet(const Vec3& v) {
-  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
-}
+/// Bullet's vector, in the precision that it was built with, from ours, and back.
+inline btVector3 to_bullet(const Vec3& v) { return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())}; }
 inline Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// What every world needs and what it leaves behind in the right order.

@@ -22,10 +22,17 @@ int run_command(const RunOptions& options);
 struct CompareOptions {
   std::string scene, methods;
   double step = 0;
+  std::filesystem::path trajectory;  // may be empty
   std::filesystem::path out = "out/compare";
   std::string command_line;
 };
 int compare_command(const CompareOptions& options);
+
+struct EngineOptions {
+  std::string what;
+  std::filesystem::path prefix, program;
+};
+int engine_command(const EngineOptions& options);
 
 struct ExperimentOptions {
   std::vector<std::string> names;  // of experiments, then of scenes

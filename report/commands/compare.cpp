@@ -65,6 +65,11 @@ int compare_command(const CompareOptions& options) {
   request.scenes.push_back(load_scene(options.scene));
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
   request.step = options.step;
+  if (!options.trajectory.empty()) {
+    const Scene& asked = request.scenes[0];
+    if (request.methods.empty()) request.methods = methods_of(request, asked);
+    request.methods.push_back(trajectory_method(options.trajectory, asked, run_of(request, asked)));
+  }
   require_writable(options.out);
   const Scene& scene = request.scenes[0];
 
@@ -100,13 +105,15 @@ int compare_command(const CompareOptions& options) {
                std::get<std::string>(table.at(i, "verdict")), shown(table.at(i, "largest error")),
                shown(table.at(i, "largest difference")), shown(table.at(i, "largest difference of centres")),
                shown(table.at(i, "step")), shown(table.at(i, "end")));
-    if (std::get<std::string>(table.at(i, "verdict")) == "unsupported")
+    if (const std::string verdict = std::get<std::string>(table.at(i, "verdict"));
+        verdict == "unsupported" || verdict == "crash" || verdict == "timeout")
       fmt::print("    {}\n", std::get<std::string>(table.at(i, "reason")));
   }
+  for (const Answer& answer : result.answers)
+    if (!answer.outcome.remark.empty()) fmt::print("\n{}: {}\n", answer.method, answer.outcome.remark);
   if (options.step > 0)
     for (const Method& method : methods_of(request, scene))
-      if (method.adaptive)
-        fmt::print("\n{} chooses its own steps: --step does not apply to it\n", method.name);
+      if (method.adaptive) fmt::print("\n{} chooses its own steps: --step does not apply to it\n", method.name);
   fmt::print(
       "\nerror: from the truth; diff.: from mysim/symplectic-euler; largest RMS over the particles up to {:.3g} s\n",
       scene.window);

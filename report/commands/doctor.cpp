@@ -34,13 +34,14 @@ int doctor_command() {
   fmt::print("built with: {}\n", CROSSCHECK_COMPILER);
   fmt::print("  {:<14} {:<10} {}\n", "Eigen", CROSSCHECK_EIGEN_VERSION, "vectors and matrices");
   fmt::print("  {:<14} {:<10} {}\n", "Bullet", CROSSCHECK_BULLET_VERSION,
-             "the engine that mysim is compared with (double precision)");
+             "the engine that mysim is compared with (double precision; single in a program of its own)");
   fmt::print("  {:<14} {:<10} {}\n\n", "OSMesa", "linked", "renders pictures without a display");
 
   static constexpr Tool tools[] = {
       {"gnuplot", "gnuplot-nox", "draws the figures", true},
       {"git", "git", "names the commit in tables and captions", false},
       {"ctest", "cmake", "runs the tests", true},
+      {"python3", "python3-numpy", "runs the example of an outside engine, with NumPy; the tests need it", false},
       {"chromium", "chromium", "prints the page as PDF by hand; nothing here needs it", false},
   };
   bool complete = true;

@@ -10,6 +10,18 @@
 #include "report/commands/commands.h"
 
 namespace crosscheck {
+namespace {
+
+/// For people also what is no name yet; programs get names that can be run.
+std::vector<std::pair<std::string, std::string>> method_rows(bool json) {
+  std::vector<std::pair<std::string, std::string>> rows;
+  for (const Method& method : all_methods()) rows.emplace_back(method.name, method.what);
+  if (!json)
+    rows.emplace_back("exec:PATH", "any program that speaks the engine protocol (reference/protocol/PROTOCOL.md)");
+  return rows;
+}
+
+}  // namespace
 
 int list_command(const std::string& what, bool json) {
   std::vector<std::pair<std::string, std::string>> rows;
@@ -17,7 +29,7 @@ int list_command(const std::string& what, bool json) {
     for (const auto name : shipped_scenes()) rows.emplace_back(name, load_scene(std::string(name)).question);
     for (const Disagreement& d : disagreements()) rows.emplace_back(d.name, scene_of(d).question);
   } else if (what == "methods")
-    for (const Method& method : all_methods()) rows.emplace_back(method.name, method.what);
+    rows = method_rows(json);
   else if (what == "experiments")
     for (const Experiment& experiment : experiments()) rows.emplace_back(experiment.name, experiment.question);
   else if (what != "assignments")  // none is shipped yet: an empty list says so

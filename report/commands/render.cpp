@@ -53,6 +53,11 @@ int render_command(const RenderOptions& options) {
       refused = true;
       continue;
     }
+    if (recorder.trajectory.frames() == 0) {
+      fmt::print(stderr, "crosscheck: {} on {}: {}\n", method.name, scene.name, out.reason);
+      refused = true;
+      continue;
+    }
     answers.push_back({scene.name, method.name, std::move(out), std::move(recorder.trajectory)});
   }
   if (answers.empty() && refused) return 1;

@@ -28,6 +28,8 @@ std::string run_json(const Scene& scene, const Method& method, const Outcome& ou
                               {"force_evaluations", out.evaluations},
                               {"coincident_springs", out.coincident},
                               {"cpu_seconds", out.cpu_seconds},
+                              {"process_seconds", out.process_seconds},
+                              {"remark", out.remark},
                               {"different_law", out.different_law}};
   return json.dump(1) + "\n";
 }
@@ -66,7 +68,7 @@ int run_command(const RunOptions& options) {
 
   const Trajectory& path = recorder.trajectory;
   write_file(options.out / "trajectory.npy", npy_bytes(path.x));
-  if (!scene.model.first_order()) {
+  if (!ledger.rows().empty()) {  // none without velocities
     write_file(options.out / "velocities.npy", npy_bytes(path.v));
     Table energy = ledger_table("energy");
     add_ledger(energy, method.name, ledger.rows(), ledger.contact_inferred());
@@ -78,6 +80,7 @@ int run_command(const RunOptions& options) {
   fmt::print("  {} steps of {:.6g} s{}, {} force evaluations, {:.3g} s of CPU time, {} frames\n", out.steps, out.step,
              adaptive ? fmt::format(" in the mean (relative tolerance {:.3g})", out.tolerance) : "", out.evaluations,
              out.cpu_seconds, path.frames());
+  if (!out.remark.empty()) fmt::print("  {}\n", out.remark);
   if (out.coincident > 0) fmt::print("  springs met at zero length {} times and got no force there\n", out.coincident);
   fmt::print("  {}\n", options.out.string());
   return 0;

@@ -136,6 +136,13 @@ TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
       {{"render", "chain", "-o", "p.png", "--at", "99"}, {"--at 99"}},
       {{"render", "chain", "-o", "a-file/p.png"}, {"a-file"}},
       {{"list", "colours"}, {"colours", "methods"}},
+      {{"run", "chain", "--method", "exec:./no-engine"}, {"exec:./no-engine", "no such file"}},
+      {{"compare", "chain", "--trajectory", "none.npy"}, {"none.npy", "cannot be read"}},
+      {{"compare", "chain", "--trajectory", "a-file"}, {"a-file", "expected a .npy file"}},
+      {{"engine", "unreal", "--prefix", ".", "-o", "p"}, {"engine unreal", "expected bullet"}},
+      {{"engine", "bullet", "--prefix", ".", "-o", "p"},
+       {"--prefix .", "include/bullet/btBulletDynamicsCommon.h", "src/btBulletDynamicsCommon.h"}},
+      {{"engine", "bullet", "--prefix", "/usr", "-o", "."}, {"-o .", "folder"}},
       {{"fly"}, {"fly"}},
       {{}, {"subcommand"}},
   };
@@ -183,6 +190,35 @@ TEST_F(Cli, CompareShowsParityAndThatEqualRulesAgree) {
   EXPECT_NE(result.out.find("same rule"), std::string::npos);
   EXPECT_EQ(result.out.find("NOT THE SAME"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "out/certificate-bullet-pbd.json"));
+}
+
+TEST_F(Cli, CompareTakesATrajectoryFromAFile) {
+  ASSERT_EQ(call({"run", "chain", "--method", "symplectic-euler", "--out", "theirs"}).status, 0);
+  const ProgramResult result = call({"compare", "chain", "--methods", "symplectic-euler,leapfrog", "--trajectory",
+                                     "theirs/trajectory.npy", "--out", "out"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  const size_t at = result.out.find("\nfile:trajectory.npy");
+  ASSERT_NE(at, std::string::npos) << result.out;
+  std::istringstream row(result.out.substr(at));
+  std::string name, verdict, error, difference;
+  row >> name >> verdict >> error >> difference;
+  EXPECT_EQ(verdict, "ok");
+  EXPECT_EQ(difference, "0") << "the same run";
+  EXPECT_NE(result.out.find("parity of file:trajectory.npy"), std::string::npos);
+  ASSERT_EQ(call({"run", "chain", "--duration", "1", "--out", "short"}).status, 0);
+  const ProgramResult refused = call({"compare", "chain", "--trajectory", "short/trajectory.npy"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("expected shape (151, 4, 3)"), std::string::npos) << refused.err;
+}
+
+TEST_F(Cli, AnEngineThatDoesNotBuildSaysWhatTheCompilerSaid) {
+  fs::create_directories(folder_ / "tree/include/bullet/BulletSoftBody");
+  write("tree/include/bullet/btBulletDynamicsCommon.h", "");
+  const ProgramResult result = call({"engine", "bullet", "--prefix", "tree", "-o", "engine"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.err.find("libBulletSoftBody"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("tree/lib*"), std::string::npos) << result.err;
+  EXPECT_FALSE(fs::exists(folder_ / "engine"));
 }
 
 TEST_F(Cli, ListsAreReadableByProgramsToo) {

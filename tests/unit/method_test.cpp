@@ -68,6 +68,7 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
       {"truth/exact-discrete+dopri5", "unknown option '+dopri5'; expected one of the rules +explicit-euler, "},
       {"truth/exact-discrete+rk4=2", "unknown option '+rk4=2'; expected one of the rules +explicit-euler, "},
       {"truth/exact-discrete+rk4+linear", "unknown option '+linear'; expected one of the rules +explicit-euler, "},
+      {"bullet32/pbd+n=0", "unknown option '+n=0'"},
       {"truth/exact+sticky", "method truth/exact: unknown option '+sticky'"}};
   for (const auto& [name, message] : cases) EXPECT_TRUE(contains(refusal(name), message));
   for (const auto name : {"", "bullet/", "/rk4", "rk4 ", "RK4", "bullet/pbd/x"})
@@ -103,7 +104,9 @@ TEST(Methods, EveryOneMeetsEveryShippedScene) {
       ASSERT_EQ(r.trajectory.frames(), 3);
       EXPECT_NEAR(out.end, 0.05, 4 * eps);
       for (const Points& x : r.trajectory.x) EXPECT_TRUE(x.allFinite());
-      EXPECT_EQ(r.trajectory.x[0], scene.start.x);
+      // single precision holds the start rounded to 24 bits
+      const double rounding = m.name.starts_with("bullet32/") ? 6e-8 * largest_column(scene.start.x) : 0;
+      EXPECT_LE(largest_column(r.trajectory.x[0] - scene.start.x), rounding);
     }
     // every stepper that takes the scene, at least
     for (const Stepper& s : steppers()) answers -= takes(s, scene);

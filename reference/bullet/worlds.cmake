@@ -1,0 +1,17 @@
+# The room of Bullet, for any Bullet: add_bullet_worlds(NAME BULLET) makes a library against the target BULLET.
+set(BULLET_WORLDS_DIR ${CMAKE_CURRENT_LIST_DIR})
+function(add_bullet_worlds name bullet)
+  list(TRANSFORM BULLET_WORLDS_SOURCES PREPEND ${BULLET_WORLDS_DIR}/)
+  add_library(${name} STATIC ${BULLET_WORLDS_SOURCES})
+  # Bullet headers trip the maybe-uninitialized check where they are inlined
+  target_compile_options(${name} PRIVATE -Wno-maybe-uninitialized)
+  target_link_libraries(${name} PUBLIC mysim PRIVATE ${bullet})
+endfunction()
+set(BULLET_WORLDS_SOURCES
+  deformable.cpp
+  deformable_forces.cpp
+  net_force.cpp
+  obstacles.cpp
+  pbd.cpp
+  scene_body.cpp
+  worlds.cpp)

@@ -1,0 +1,46 @@
+// Bullet's worlds as methods: here in double precision, and in single precision as a program of their own, since one
+// program cannot hold both.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "mysim/errors.h"
+#include "reference/bullet/worlds.h"
+#include "reference/methods/families.h"
+#include "reference/protocol/exec_engine.h"
+
+namespace crosscheck {
+namespace {
+
+Method in_double_precision(const std::string& world, const MethodOptions& options) {
+  bullet::WorldChoice chosen = bullet::choose_world(world, options);
+  return {"bullet/" + world, chosen.what, chosen.rule, chosen.engine, ContactLoss::inferred};
+}
+
+/// No longer of the same rule: its round-off is of another size.
+Method in_single_precision(const std::string& world, const MethodOptions& options) {
+  const std::string what = bullet::choose_world(world, options).what;  // refuses bad options before a program is run
+  Program program{CROSSCHECK_BULLET32, {"world=" + world}};
+  program.options.insert(program.options.end(), options.begin(), options.end());
+  return {"bullet32/" + world, what + "; in single precision, as a program of its own", "",
+          [program](const Scene& scene, const Run& run, Observer& observer) {
+            if (!std::filesystem::exists(program.path))
+              throw Unsupported(
+                  fmt::format("{} is not there; it is the build's target bullet32_engine", program.path.string()));
+            return run_program(program, scene, run, observer);
+          },
+          ContactLoss::sampled};
+}
+
+}  // namespace
+
+std::vector<MethodRow> bullet_methods() {
+  std::vector<MethodRow> rows;
+  for (const std::string& world : bullet::world_names())
+    rows.push_back({"bullet/" + world, [world](const auto& options) { return in_double_precision(world, options); }});
+  for (const std::string& world : bullet::world_names())
+    rows.push_back({"bullet32/" + world, [world](const auto& options) { return in_single_precision(world, options); }});
+  return rows;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,72 @@
+// The best answers known, played through the observer like any other method.
+#include "reference/truth.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "mysim/errors.h"
+#include "reference/exact/discrete.h"
+#include "reference/methods/families.h"
+
+namespace crosscheck {
+namespace {
+
+Outcome play(const Truth& truth, const Run& run, Observer& observer) {
+  Outcome out;
+  out.step = plan(run).h;
+  for (int i = 0; i < truth.trajectory.frames() && out.verdict == Verdict::ok; ++i) {
+    out.end = truth.trajectory.t[i];
+    out.verdict = observer.observe({out.end, truth.trajectory.x[i], truth.trajectory.v[i]}, true);
+  }
+  return out;
+}
+
+Method truth_method(Tier tier, const MethodOptions& options) {
+  const std::string name = fmt::format("truth/{}", name_of(tier));
+  if (!options.empty()) refuse_option(name, options[0], "none");
+  return {name,
+          tier == Tier::exact ? "closed form, where the scene has one"
+                              : "rk4 refined until its own step halving tells the error bar",
+          "",
+          [tier](const Scene& scene, const Run& run, Observer& observer) {
+            const auto truth = truth_of(scene, run);
+            if (!truth || truth->tier != tier)
+              throw Unsupported(tier == Tier::exact
+                                    ? "the scene has no closed form"
+                                    : "the scene has a closed form, or contacts on whose rule the answer depends");
+            return play(*truth, run, observer);
+          },
+          ContactLoss::inferred};
+}
+
+MethodOptions names_of_discrete_rules() {
+  MethodOptions names;
+  for (const DiscreteRule& rule : discrete_rules()) names.emplace_back(rule.name);
+  return names;
+}
+
+/// The closed form of what a rule should produce.
+Method discrete_method(const MethodOptions& options) {
+  const std::string name = "truth/exact-discrete";
+  const std::string known = fmt::format("one of the rules +{}", fmt::join(names_of_discrete_rules(), ", +"));
+  if (options.empty()) throw InputError(fmt::format("method {}: no rule; expected {}", name, known));
+  if (options.size() > 1) refuse_option(name, options[1], known);
+  for (const DiscreteRule& rule : discrete_rules())
+    if (rule.name == options[0])
+      return {name, fmt::format("closed form of what {} should produce, on linear scenes", rule.name), "",
+              [&rule](const Scene& scene, const Run& run, Observer& observer) {
+                return play(discrete_truth(rule, scene, run), run, observer);
+              },
+              ContactLoss::inferred};
+  refuse_option(name, options[0], known);
+}
+
+}  // namespace
+
+std::vector<MethodRow> truth_methods() {
+  return {{"truth/exact", [](const auto& options) { return truth_method(Tier::exact, options); }},
+          {"truth/exact-discrete", discrete_method, names_of_discrete_rules()},
+          {"truth/converged", [](const auto& options) { return truth_method(Tier::converged, options); }}};
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""An engine for crosscheck in NumPy: symplectic Euler with springs, drag, gravity and moved pins. See PROTOCOL.md."""
+import json
+import sys
+import time
+
+import numpy as np
+
+task = json.load(open(sys.argv[1]))
+terms = {term["type"]: term for term in task["terms"]}
+lacking = set(terms) - {"springs", "drag", "gravity"}
+if lacking:
+    print("this example has no " + ", ".join(sorted(lacking)), file=sys.stderr)
+    sys.exit(3)
+
+h, per_sample = task["run"]["step"], task["run"]["steps_per_sample"]
+x, v = np.array(task["particles"]["x"]), np.array(task["particles"]["v"])
+mass = np.array(task["particles"]["mass"])[:, None]
+pins = task.get("pins", {"particles": [], "home": np.empty((0, 3))})
+held, home = np.array(pins["particles"], int), np.array(pins["home"])
+springs = terms.get("springs", {"law": "hooke", "list": []})
+a, b, k, rest = (np.array([s[key] for s in springs["list"]]) for key in ("a", "b", "stiffness", "rest_length"))
+a, b = a.astype(int), b.astype(int)
+drag = np.array(terms["drag"]["coefficient"])[:, None] if "drag" in terms else 0
+gravity = np.array(terms["gravity"]["acceleration"]) if "gravity" in terms else 0
+
+
+def pins_at(t):
+    """Where the pins are, and how fast: d(t) = amplitude r(t / ramp) sin(2 pi frequency t)."""
+    if "motion" not in pins:
+        return home, 0
+    move = pins["motion"]
+    s, omega = min(t / move["ramp"], 1), 2 * np.pi * move["frequency"]
+    r, slope = s**3 * (10 + s * (6 * s - 15)), 30 * s**2 * (1 - s) ** 2 / move["ramp"]
+    amplitude = np.array(move["amplitude"])
+    return home + amplitude * r * np.sin(omega * t), amplitude * (slope * np.sin(omega * t) + r * omega * np.cos(omega * t))
+
+
+def force():
+    f = mass * gravity - drag * v
+    d = x[a] - x[b]
+    length = np.linalg.norm(d, axis=1)
+    pull = k * (length - rest)
+    if springs["law"] == "bullet-link":
+        pull = k * length * (length**2 - rest**2) / (length**2 + rest**2)
+    on_a = -(np.divide(pull, length, out=np.zeros_like(pull), where=length > 0))[:, None] * d
+    np.add.at(f, a, on_a)
+    np.add.at(f, b, -on_a)
+    return f
+
+
+frames, speeds, start = [x.copy()], [v.copy()], time.process_time()
+for step in range(1, task["run"]["samples"] * per_sample + 1):
+    v += h * force() / mass
+    x += h * v
+    x[held], v[held] = pins_at(step * h)
+    if step % per_sample == 0:
+        frames.append(x.copy())
+        speeds.append(v.copy())
+steps = task["run"]["samples"] * per_sample
+np.save(sys.argv[2] + "/trajectory.npy", np.array(frames))
+np.save(sys.argv[2] + "/velocities.npy", np.array(speeds))
+json.dump({"cpu_seconds": time.process_time() - start, "steps": steps, "force_evaluations": steps},
+          open(sys.argv[2] + "/run.json", "w"))

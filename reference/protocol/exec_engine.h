@@ -1,0 +1,28 @@
+// Any program as an engine: exec:PATH. What the program must do is in PROTOCOL.md.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "mysim/run.h"
+
+namespace crosscheck {
+
+struct Program {
+  std::filesystem::path path;
+  std::vector<std::string> options;  // handed over in scene.json
+  double timeout = 600;              // s of wall-clock time
+};
+
+/// Reads "PATH+option+option". PATH is relative to the working directory; a bare word is looked for there, then in
+/// PATH. What follows the longest part that is a file are options; timeout=SECONDS is meant for us, the others for the
+/// program. Throws InputError when there is no such program.
+Program find_program(const std::string& text);
+
+/// Runs the program on the scene and plays what it delivered to the observer. Verdict::timeout and Verdict::crash, with
+/// the reason, when it does not deliver; throws Unsupported when it says so. What a good run wrote on stderr is the
+/// outcome's remark. Without velocities the states have none.
+Outcome run_program(const Program& program, const Scene& scene, const Run& run, Observer& observer);
+
+}  // namespace crosscheck

@@ -1,0 +1,152 @@
+// Outcomes as JSON, and back.
+#include "reference/protocol/run_json.h"
+
+#include "mysim/errors.h"
+#include "reference/protocol/json_fields.h"
+
+namespace crosscheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+void add(Json& json, const char* key, const std::optional<T>& value) {
+  if (!value) return;
+  if constexpr (std::is_same_v<T, Vec3>)
+    json[key] = json_of(*value);
+  else
+    json[key] = *value;
+}
+
+Json readback_json(const Readback& r) {
+  Json json{{"mass", r.mass},           {"pinned", Json::array()}, {"links", Json::array()}, {"precision", r.precision},
+            {"may_sleep", r.may_sleep}, {"step", r.step},          {"mapped", r.mapped}};
+  for (char pinned : r.pinned) json["pinned"].push_back(int(pinned));
+  for (const Readback::Link& link : r.links) {
+    json["links"].push_back({{"a", link.a}, {"b", link.b}, {"rest_length", link.rest}});
+    add(json["links"].back(), "stiffness", link.stiffness);
+  }
+  add(json, "gravity", r.gravity);
+  add(json, "drag", r.drag);
+  add(json, "margin", r.margin);
+  if (r.spheres) {
+    json["spheres"] = Json::array();
+    for (const Readback::Ball& ball : *r.spheres) {
+      Json& entry = json["spheres"].emplace_back(Json{{"centre", json_of(ball.centre)}});
+      add(entry, "radius", ball.radius);
+      add(entry, "friction", ball.friction);
+      add(entry, "restitution", ball.restitution);
+    }
+  }
+  if (r.start) json["start"] = {{"x", json_of(r.start->x)}, {"v", json_of(r.start->v)}};
+  if (r.probe) {
+    json["probe"] = {{"t", r.probe->t}};
+    const std::pair<const char*, const Points*> parts[] = {{"x", &r.probe->x},
+                                                           {"v", &r.probe->v},
+                                                           {"springs", &r.probe->springs},
+                                                           {"dashpots", &r.probe->dashpots},
+                                                           {"wind", &r.probe->wind}};
+    for (const auto& [key, points] : parts)
+      if (points->cols() > 0) json["probe"][key] = json_of(*points);
+  }
+  return json;
+}
+
+std::optional<double> optional_number(const JsonField& f, std::string_view key) {
+  const auto found = f.find(key);
+  return found ? std::optional(found->number()) : std::nullopt;
+}
+
+ForceProbe probe_of(const JsonField& f, int n) {
+  ForceProbe probe;
+  if (const auto t = f.find("t")) probe.t = t->number();
+  probe.x = f["x"].points(n);
+  probe.v = f["v"].points(n);
+  const std::pair<const char*, Points*> parts[] = {
+      {"springs", &probe.springs}, {"dashpots", &probe.dashpots}, {"wind", &probe.wind}};
+  for (const auto& [key, points] : parts)
+    if (const auto found = f.find(key)) *points = found->points(n);
+  return probe;
+}
+
+Readback readback_of(const JsonField& f, double step) {
+  Readback r;
+  r.mass = f["mass"].numbers();
+  const int n = static_cast<int>(r.mass.size());
+  for (const JsonField& pinned : f["pinned"].elements()) r.pinned.push_back(char(pinned.whole_number(0, 1)));
+  if (static_cast<int>(r.pinned.size()) != n) f["pinned"].fail("as many entries as there are masses");
+  for (const JsonField& link : f["links"].elements())
+    r.links.push_back({link["a"].whole_number(0, n - 1), link["b"].whole_number(0, n - 1), link["rest_length"].number(),
+                       optional_number(link, "stiffness")});
+  r.precision = f["precision"].text();
+  if (r.precision != "double" && r.precision != "single") f["precision"].fail("double or single");
+  if (const auto sleep = f.find("may_sleep")) r.may_sleep = sleep->truth();
+  r.step = optional_number(f, "step").value_or(step);
+  if (const auto gravity = f.find("gravity")) r.gravity = gravity->vec3();
+  if (const auto drag = f.find("drag")) r.drag = drag->numbers();
+  r.margin = optional_number(f, "margin");
+  if (const auto spheres = f.find("spheres")) {
+    r.spheres.emplace();
+    for (const JsonField& s : spheres->elements())
+      r.spheres->push_back({s["centre"].vec3(), optional_number(s, "radius"), optional_number(s, "friction"),
+                            optional_number(s, "restitution")});
+  }
+  if (const auto start = f.find("start")) r.start = State{0, (*start)["x"].points(n), (*start)["v"].points(n)};
+  if (const auto probe = f.find("probe")) r.probe = probe_of(*probe, n);
+  if (const auto mapped = f.find("mapped")) {
+    for (const auto& [quantity, how] : mapped->items()) r.mapped[quantity] = how.text();
+  }
+  return r;
+}
+
+Verdict verdict_of(const JsonField& f) {
+  const std::string text = f.text();
+  for (const Verdict verdict : {Verdict::ok, Verdict::energy, Verdict::nan, Verdict::solver, Verdict::frozen})
+    if (text == name_of(verdict)) return verdict;
+  f.fail("ok, energy, nan, solver or frozen");
+}
+
+}  // namespace
+
+std::string run_json(const Outcome& out) {
+  Json json{{"verdict", name_of(out.verdict)},
+            {"reason", out.reason},
+            {"end", out.end},
+            {"step", out.step},
+            {"steps", out.steps},
+            {"force_evaluations", out.evaluations},
+            {"coincident_springs", out.coincident},
+            {"cpu_seconds", out.cpu_seconds},
+            {"different_law", out.different_law}};
+  if (out.readback) json["readback"] = readback_json(*out.readback);
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void read_run_json(const std::filesystem::path& path, Outcome& out) {
+  const nlohmann::json json = JsonField::parse_file(path.string());
+  const JsonField f(json, path.filename().string());
+  auto count = [&](const char* key, long& value) {
+    if (const auto found = f.find(key)) value = static_cast<long>(found->number_from(0));
+  };
+  auto number = [&](const char* key, double& value) {
+    if (const auto found = f.find(key)) value = found->number_from(0);
+  };
+  if (const auto verdict = f.find("verdict")) out.verdict = verdict_of(*verdict);
+  if (const auto reason = f.find("reason")) out.reason = reason->text();
+  number("end", out.end);
+  number("step", out.step);
+  number("cpu_seconds", out.cpu_seconds);
+  count("steps", out.steps);
+  count("force_evaluations", out.evaluations);
+  count("coincident_springs", out.coincident);
+  if (const auto laws = f.find("different_law")) {
+    for (const JsonField& law : laws->elements()) {
+      // "ingredient: how it differs", as the certificate prints it
+      if (law.text().find(": ") == std::string::npos) law.fail("a sentence \"ingredient: how its law differs\"");
+      out.different_law.push_back(law.text());
+    }
+  }
+  if (const auto readback = f.find("readback")) out.readback = readback_of(*readback, out.step);
+}
+
+}  // namespace crosscheck

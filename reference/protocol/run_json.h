@@ -1,0 +1,19 @@
+// run.json of the engine protocol: what a program says of its run, beside the trajectory. Its format is described in
+// PROTOCOL.md.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "mysim/run.h"
+
+namespace crosscheck {
+
+/// The file's content: verdict, cost, laws and read-back of the outcome.
+std::string run_json(const Outcome& outcome);
+
+/// Reads what is there into the outcome and leaves the rest as it is. `readback` is taken whole or not at all: masses,
+/// pins, links and precision belong to it. Throws InputError: "FILE: PLACE: expected ...".
+void read_run_json(const std::filesystem::path& file, Outcome& outcome);
+
+}  // namespace crosscheck

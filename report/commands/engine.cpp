@@ -1,0 +1,87 @@
+// engine bullet: builds the Bullet adapter against another Bullet tree, as a program for exec:.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "mysim/errors.h"
+#include "mysim/files.h"
+#include "report/commands/commands.h"
+#include "report/run_program.h"
+
+namespace crosscheck {
+namespace fs = std::filesystem;
+namespace {
+
+/// Throws InputError unless the folder holds what the adapter's CMakeLists.txt looks for.
+void require_bullet(const fs::path& prefix) {
+  for (const char* header :
+       {"src/btBulletDynamicsCommon.h", "include/bullet/btBulletDynamicsCommon.h", "include/btBulletDynamicsCommon.h"})
+    if (fs::exists(prefix / header)) return;
+  throw InputError(
+      fmt::format("--prefix {}: expected an installed Bullet (include/bullet/btBulletDynamicsCommon.h or "
+                  "include/btBulletDynamicsCommon.h, and lib*/) or its source tree (src/btBulletDynamicsCommon.h)",
+                  prefix.string()));
+}
+
+std::string last_lines(const std::string& text, int count) {
+  size_t at = text.find_last_not_of('\n');
+  for (; at != std::string::npos && count > 0; --count) at = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
+  return text.substr(at == std::string::npos ? 0 : at + 1);
+}
+
+/// Runs cmake; on failure prints the end of what it said. True when all went well.
+bool cmake(const std::vector<std::string>& words, const std::string& what) {
+  std::vector<std::string> argv{"cmake"};
+  argv.insert(argv.end(), words.begin(), words.end());
+  const ProgramResult result = run_program(argv, fs::current_path());
+  if (result.status == 0) return true;
+  fmt::print(stderr, "crosscheck: engine bullet: {} failed; the last lines of its output:\n{}\n", what,
+             last_lines(result.out + result.err, 30));
+  return false;
+}
+
+/// Under a temporary name first, so that no half program is ever started.
+void install(const fs::path& program, const fs::path& as) {
+  std::ifstream in(program, std::ios::binary);
+  std::stringstream content;
+  content << in.rdbuf();
+  write_file(as, content.str());
+  fs::permissions(as, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
+                          fs::perms::others_exec);
+}
+
+}  // namespace
+
+int engine_command(const EngineOptions& options) {
+  if (options.what != "bullet") throw InputError(fmt::format("engine {}: expected bullet", options.what));
+  require_bullet(options.prefix);
+  const fs::path prefix = fs::canonical(options.prefix), source = fs::path(CROSSCHECK_SOURCE_DIR).parent_path();
+  if (fs::is_directory(options.program))
+    throw InputError(fmt::format("-o {}: expected the name of a program, got a folder", options.program.string()));
+  require_writable(options.program.has_parent_path() ? options.program.parent_path() : ".");
+
+  std::uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a
+  for (unsigned char c : prefix.string()) hash = (hash ^ c) * 0x100000001b3ull;
+  const fs::path build = source / "build" / "engines" / fmt::format("{:016x}", hash);
+  fmt::print(stderr, "crosscheck: building the adapter against {} in {}\n", prefix.string(), build.string());
+  // a precision or a library found once may be another after the tree was built again
+  std::error_code none;
+  fs::remove(build / "CMakeCache.txt", none);
+  const unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  const bool configured =
+      cmake({"-S", (source / "reference/bullet/adapter").string(), "-B", build.string(), "-G", "Ninja",
+             "-DCMAKE_BUILD_TYPE=Release", "-DBULLET_PREFIX=" + prefix.string(),
+             "-DCROSSCHECK_BUILD=" CROSSCHECK_BINARY_DIR, "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
+            "cmake");
+  if (!configured) fs::remove_all(build, none);
+  if (!configured || !cmake({"--build", build.string(), "--parallel", std::to_string(jobs)}, "the build")) return 1;
+  install(build / "bullet_engine", options.program);
+  fmt::print("{}\n", options.program.string());
+  return 0;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,213 @@
+// scene.json, run.json and .npy: what is written is read back to the last bit, and what is broken is named.
+#include <nlohmann/json.hpp>
+
+#include "experiments/scenes.h"
+#include "reference/npy.h"
+#include "reference/protocol/run_json.h"
+#include "reference/protocol/scene_json.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+using SceneJson = InFolder;
+using RunJson = InFolder;
+using Npy = InFolder;
+
+/// The message of the InputError that f throws; empty when it throws none.
+template <class F>
+std::string refusal_of(F f) {
+  try {
+    f();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST_F(SceneJson, GivesEveryShippedSceneAndItsRunBackToTheBit) {
+  std::vector<Scene> scenes{small_cloth(), small_cloth_in_air()};
+  scenes[1].hash = hash_of(scenes[1]);
+  for (const auto name : shipped_scenes()) scenes.push_back(load_scene(std::string(name)));
+  for (const Scene& scene : scenes) {
+    SCOPED_TRACE(scene.name);
+    crosscheck::Run run = default_run(scene);
+    run.step *= 0.7;  // does not divide the sampling interval
+    const Task task = read_scene_json(write("scene.json", scene_json(scene, run, {"n=10", "shipped"})));
+    EXPECT_EQ(task.scene.hash, scene.hash);
+    EXPECT_EQ(task.scene.start.x, scene.start.x);
+    EXPECT_EQ(task.scene.start.v, scene.start.v);
+    EXPECT_EQ(task.scene.triangles, scene.triangles);
+    EXPECT_EQ(task.scene.model.particles.pin_home, scene.model.particles.pin_home);
+    EXPECT_EQ(plan(task.run).h, plan(run).h);
+    EXPECT_EQ(plan(task.run).steps_per_sample, plan(run).steps_per_sample);
+    EXPECT_EQ(task.run.tolerance, run.tolerance);
+    EXPECT_EQ(task.options, (std::vector<std::string>{"n=10", "shipped"}));
+    // the same scene does the same: bits of trajectories, for what the hash does not see
+    const Stepper& rule = stepper(scene.model.first_order() ? "rk4" : "symplectic-euler");
+    if (!takes(rule, scene)) continue;
+    const crosscheck::Run few{scene.step, 10 * scene.step, 10};
+    EXPECT_TRUE(identical(trajectory_of(rule, task.scene, few), trajectory_of(rule, scene, few)));
+  }
+}
+
+TEST_F(SceneJson, SaysPinsAndGustsOutright) {
+  const Scene scene = small_cloth();
+  const nlohmann::json json = nlohmann::json::parse(scene_json(scene, default_run(scene), {}));
+  const auto& times = json["run"]["times"];
+  ASSERT_EQ(times.size(), 11u);
+  EXPECT_EQ(json["run"]["steps_per_sample"].get<int>() * json["run"]["step"].get<double>() * 10, times[10]);
+  const auto& pins = json["pins"];
+  const auto& wind =
+      *std::find_if(json["terms"].begin(), json["terms"].end(), [](const auto& t) { return t["type"] == "wind"; });
+  const Blowing& blowing = scene.model.find<Wind>()->acceleration;
+  for (size_t i = 0; i < times.size(); ++i) {
+    const double t = times[i];
+    for (int j = 0; j < 3; ++j)
+      EXPECT_EQ(pins["displacement"][i][j].get<double>(), displacement_at(*scene.model.particles.move, t)[j]);
+    // an outsider's own sum of the waves
+    auto gust = [&](const char* which) {
+      double sum = 0;
+      for (const auto& w : wind["gusts"][which])
+        sum += w["weight"].get<double>() * std::sin(w["omega"].get<double>() * t + w["phase"].get<double>());
+      return sum;
+    };
+    const Vec3 sum = blowing.mean * (1 + wind["gusts"]["variation"].get<double>() * gust("along")) +
+                     blowing.gusts->side * gust("across");
+    EXPECT_LE((sum - blowing.at(t)).norm(), 1e-14 * blowing.mean.norm());  // a handful of roundings
+  }
+}
+
+TEST_F(SceneJson, RefusesWhatIsBrokenAndNamesThePlace) {
+  const Scene scene = small_cloth();
+  const std::string good = scene_json(scene, default_run(scene), {});
+  const struct {
+    std::string from, to, message;
+  } cases[] = {{"\"version\": 1", "\"version\": 2", "version: expected a whole number from 1 to 1"},
+               {"\"crosscheck-scene\"", "\"other\"", "format: expected crosscheck-scene"},
+               {"\"hooke\"", "\"cubic\"", "terms[0].law: expected hooke or bullet-link"},
+               {"\"type\":\"gravity\"", "\"type\":\"magnet\"", "].type: expected a term of PROTOCOL.md"},
+               {"\"stiffness\":40.0", "\"stiffness\":\"40\"", "terms[0].list[0].stiffness: expected a number"},
+               {"\"a\":0", "\"a\":25", "terms[0].list[0].a: expected a whole number from 0 to 24"},
+               {"\"rest_length\"", "\"length\"", "terms[0].list[0]: expected the key \"rest_length\""},
+               {"\"particles\": {\"count\":25", "\"particles\": {\"count\":24", "particles.x: expected 24 triples"},
+               {"{\n", "[\n", "expected one JSON object"}};
+  for (const auto& [from, to, message] : cases) {
+    std::string text = good;
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.find(from), from.size(), to);
+    const std::string said = refusal_of([&] { read_scene_json(write("scene.json", text)); });
+    EXPECT_TRUE(contains(said, message));
+    EXPECT_TRUE(begins(said, (folder_ / "scene.json").string()));
+  }
+  EXPECT_TRUE(contains(refusal_of([&] { read_scene_json(folder_ / "none.json"); }), "cannot be read"));
+}
+
+TEST_F(SceneJson, TheExampleOfThePageIsWhatIsWritten) {
+  const std::string page = read(std::string(CROSSCHECK_SOURCE) + "/reference/protocol/PROTOCOL.md");
+  const std::string begin = "```json\n";
+  const size_t at = page.find(begin) + begin.size();
+  const std::string example = page.substr(at, page.find("```", at) - at);
+  const Task task = read_scene_json(write("scene.json", example));
+  EXPECT_EQ(scene_json(task.scene, task.run, task.options), example);
+  for (const char* key :
+       {"springs", "dashpots", "constraints", "gravity", "drag", "wind", "aerodynamics", "sphere", "rotation"})
+    EXPECT_TRUE(contains(page, fmt::format("| `{}` |", key)));
+}
+
+TEST_F(RunJson, GivesAnOutcomeBack) {
+  const Scene scene = small_cloth();
+  Outcome out = answer("bullet/deformable-explicit", scene, {1e-3, 0.1, 2}).outcome;
+  ASSERT_TRUE(out.readback && out.readback->probe);
+  out.readback->start = scene.start;
+  out.readback->spheres.emplace().push_back({{1, 2, 3}, 0.5, std::nullopt, 0.25});
+  out.readback->margin = 0.01;
+  out.readback->drag = std::vector<double>(25, 2);
+  out.readback->links[3].stiffness = 1.0 / 3;
+  out.different_law = {"springs: otherwise"};
+  Outcome back;
+  read_run_json(write("run.json", run_json(out)), back);
+  EXPECT_EQ(run_json(back), run_json(out));  // the file holds all that is known of it
+  EXPECT_EQ(back.readback->mass, out.readback->mass);
+  EXPECT_EQ(back.readback->pinned, out.readback->pinned);
+  EXPECT_EQ(back.readback->probe->springs, out.readback->probe->springs);
+  EXPECT_EQ(back.readback->start->x, scene.start.x);
+  EXPECT_EQ(back.readback->mapped, out.readback->mapped);
+  EXPECT_EQ(*back.readback->links[3].stiffness, 1.0 / 3);
+  EXPECT_EQ(back.cpu_seconds, out.cpu_seconds);
+  EXPECT_EQ(back.steps, out.steps);
+}
+
+TEST_F(RunJson, RefusesWhatIsBrokenAndNamesThePlace) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"", "expected one JSON object"},
+      {"{\"steps\": NaN}", "expected one JSON object"},
+      {"{\"cpu_seconds\": -1}", "run.json: cpu_seconds: expected a number not below 0"},
+      {"{\"verdict\": \"timeout\"}", "run.json: verdict: expected ok, energy, nan, solver or frozen"},
+      {"{\"different_law\": [\"springs\"]}", "different_law[0]: expected a sentence"},
+      {"{\"readback\": {\"mass\": [1, 2], \"pinned\": [0]}}", "readback.pinned: expected as many entries"},
+      {"{\"readback\": {\"mass\": [1], \"pinned\": [0]}}", "readback: expected the key \"links\""},
+      {"{\"readback\": {\"mass\": [1], \"pinned\": [0], \"links\": [], \"precision\": \"half\"}}",
+       "readback.precision: expected double or single"},
+      {"{\"readback\": {\"mass\": [1], \"pinned\": [0], \"links\": [{\"a\": 0, \"b\": 1}]}}", "links[0].b: expected"}};
+  for (const auto& [text, message] : cases) {
+    Outcome out;
+    EXPECT_TRUE(contains(refusal_of([&] { read_run_json(write("run.json", text), out); }), message));
+  }
+}
+
+/// A .npy file with this header and so many bytes behind it.
+std::string npy_file(const std::string& dictionary, size_t bytes, int version = 1) {
+  std::string text = "\x93NUMPY";
+  text += static_cast<char>(version);
+  text += '\0';
+  text += static_cast<char>(dictionary.size());
+  text += std::string(version == 1 ? 1 : 3, '\0');
+  return text + dictionary + std::string(bytes, '\0');
+}
+
+TEST_F(Npy, IsReadBackToTheBitInBothPrecisionsAndFormats) {
+  Random random(1);
+  std::vector<Points> frames(3, Points(3, 2));
+  for (Points& x : frames)
+    for (double& value : x.reshaped()) value = random.between(-1, 1);
+  EXPECT_EQ(read_npy(write("f8.npy", npy_bytes(frames)), 3, 3, 2), frames);
+  std::string single = npy_file("{'descr': '<f4', 'fortran_order': False, 'shape': (3, 2, 3), }", 0, 2);
+  for (const Points& x : frames) {
+    const Eigen::Matrix3Xf rounded = x.cast<float>();
+    single.append(reinterpret_cast<const char*>(rounded.data()), sizeof(float) * rounded.size());
+  }
+  const std::vector<Points> back = read_npy(write("f4.npy", single), 1, 5, 2);
+  ASSERT_EQ(back.size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(back[i], frames[i].cast<float>().cast<double>());
+}
+
+TEST_F(Npy, RefusesEverythingElseAndSaysWhatWasExpected) {
+  const std::string head = "{'descr': '<f8', 'fortran_order': False, 'shape': ";
+  const struct {
+    std::string text, message;
+  } cases[] = {{"nonsense", "expected a .npy file"},
+               {npy_file("{'descr': '<f8'}", 48), "expected a .npy header"},
+               {npy_file(head + "(1, 2, 3)}", 48, 3), "expected .npy format 1.0 or 2.0, got 3.0"},
+               {npy_file("{'descr': '>f8', 'fortran_order': False, 'shape': (1, 2, 3)}", 48), "little endian"},
+               {npy_file("{'descr': '<i8', 'fortran_order': False, 'shape': (1, 2, 3)}", 48), "got '<i8'"},
+               {npy_file("{'descr': '<f8', 'fortran_order': True, 'shape': (1, 2, 3)}", 48), "expected C order"},
+               {npy_file(head + "(6,)}", 48), "expected shape (1, 2, 3): 1 frames of 2 particles, got (6,)"},
+               {npy_file(head + "(1, 3, 2)}", 48), "got (1, 3, 2)"},
+               {npy_file(head + "(1, 4, 3)}", 96), "got (1, 4, 3): another number of particles"},
+               {npy_file(head + "(2, 2, 3)}", 96), "got (2, 2, 3): another number of frames"},
+               {npy_file(head + "(1, 2, 3)}", 40), "shorter than its header says"},
+               {npy_file(head + "(1, 2, 3)}", 56), "longer than its header says"},
+               {npy_file(head + "(999999999999999999999, 2, 3)}", 48), "expected a .npy header"},
+               {std::string("\x93NUMPY\x02\0\xff\xff\xff\xff", 12), "expected a .npy header"}};
+  for (const auto& [text, message] : cases) {
+    const std::string said = refusal_of([&] { read_npy(write("x.npy", text), 1, 1, 2); });
+    EXPECT_TRUE(contains(said, message));
+    EXPECT_TRUE(begins(said, (folder_ / "x.npy").string()));
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck
