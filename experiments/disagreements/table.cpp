@@ -235,7 +235,7 @@ std::vector<Disagreement> disagreements() {
       {"distance-field",
        "bullet/pbd",
        "The default distance field misplaces obstacles",
-       "Distances to an obstacle are read from a grid; on a ball of radius R a voxel of size a is wrong by a^2 / 8R to "
+       "Distances to an obstacle are read from a grid; on a ball of radius R a voxel of size a is wrong by up to "
        "a^2 / 4R.",
        "height over the surface",
        "mm",

@@ -183,6 +183,18 @@ TEST_F(Cli, UnsupportedMethodIsANoWithItsReason) {
   EXPECT_FALSE(fs::exists(folder_ / "out/run.json"));
 }
 
+TEST_F(Cli, CompareStopsAtAMismatch) {
+  const ProgramResult result =
+      call({"compare", "spring", "--methods", "leapfrog,bullet/deformable-explicit+default-rest", "--out", "out"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_NE(result.out.find("mismatch       springs: rest lengths"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("MISMATCH: bullet/deformable-explicit+default-rest was given another scene"),
+            std::string::npos)
+      << result.out;
+  // the other side of it
+  EXPECT_EQ(call({"compare", "spring", "--methods", "leapfrog,bullet/deformable-explicit", "--out", "out"}).status, 0);
+}
+
 TEST_F(Cli, CompareShowsParityAndThatEqualRulesAgree) {
   const ProgramResult result = call({"compare", "chain", "--out", "out"});
   EXPECT_EQ(result.status, 0) << result.err;

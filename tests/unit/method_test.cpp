@@ -38,9 +38,14 @@ TEST(Methods, ABareNameMeansMysimAndOptionsFollowAPlus) {
   EXPECT_EQ(find_method("rk4").stepper, &stepper("rk4"));
   EXPECT_EQ(find_method("leapfrog+sticky").name, "mysim/leapfrog+sticky");
   EXPECT_EQ(find_method("bullet/pbd+n=10").name, "bullet/pbd+n=10");
-  // only the plain rules are declared equal: an option makes another rule
+  // what must be equal where nothing touches: a contact rule changes nothing there, all else makes another rule
   EXPECT_EQ(find_method("symplectic-euler").rule, find_method("bullet/deformable-explicit").rule);
-  EXPECT_EQ(find_method("symplectic-euler+sticky").rule, "");
+  EXPECT_EQ(find_method("symplectic-euler+sticky").rule, find_method("symplectic-euler").rule);
+  EXPECT_EQ(find_method("implicit-euler+linear").rule, find_method("bullet/deformable-implicit+tight").rule);
+  EXPECT_NE(find_method("implicit-euler+linear").rule, find_method("implicit-euler").rule);
+  for (const auto other : {"bullet/deformable-explicit+default-rest", "bullet/deformable-explicit+default-margin",
+                           "bullet/deformable-implicit", "bullet/deformable-implicit+tight+shipped", "bullet/pbd"})
+    EXPECT_EQ(find_method(other).rule, "") << other;
   const auto several = find_methods("rk4,bullet/pbd,truth/exact");
   ASSERT_EQ(several.size(), 3u);
   EXPECT_EQ(several[1].name, "bullet/pbd");
@@ -55,7 +60,14 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
       {"rk4+linear", "method mysim/rk4: unknown option '+linear'; expected +sticky or none"},
       {"implicit-euler+line", "unknown option '+line'; expected +linear, +sticky or none"},
       {"rk4+sticky=1", "unknown option '+sticky=1'"},
-      {"bullet/deformable-explicit+n=2", "method bullet/deformable-explicit: unknown option '+n=2'; expected none"},
+      {"bullet/deformable-explicit+n=2",
+       "method bullet/deformable-explicit: unknown option '+n=2'; expected +default-rest, +default-margin or none"},
+      {"bullet/deformable-implicit+n=2",
+       "method bullet/deformable-implicit: unknown option '+n=2'; expected +tight, +shipped, +unprojected or none"},
+      {"bullet/deformable-implicit+tight=1", "'+tight=1'"},
+      {"bullet/deformable-explicit+tight", "'+tight'"},
+      {"bullet/pbd+demos", "'+demos'; expected +n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest, +def"},
+      {"bullet/pbd+", "'+'"},
       {"bullet/pbd+n=0", "method bullet/pbd: unknown option '+n=0'; expected +n=1 to +n=1000"},
       {"bullet/pbd+n=1001", "'+n=1001'"},
       {"bullet/pbd+n=ten", "'+n=ten'"},
