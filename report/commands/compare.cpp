@@ -91,7 +91,9 @@ int compare_command(const CompareOptions& options) {
                                ? std::get<std::string>(table.at(0, "truth tier"))
                                : "none";
   fmt::print("\n{}: {}\ntruth: {}{}\n\n", scene.name, scene.question, tier,
-             tier == "none" ? "" : fmt::format(", error bar {} m", shown(table.at(0, "truth bar"))));
+             tier == "none" ? ""
+                            : fmt::format(", error bar {} m ({})", shown(table.at(0, "truth bar")),
+                                          std::get<std::string>(table.at(0, "truth"))));
   fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "method", "verdict", "error/m", "diff./m",
              "centres/m", "step/s", "until/s");
   for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -104,8 +106,7 @@ int compare_command(const CompareOptions& options) {
   }
   if (options.step > 0)
     for (const Method& method : methods_of(request, scene))
-      if (method.adaptive)
-        fmt::print("\n{} chooses its own steps: --step does not apply to it\n", method.name);
+      if (method.adaptive) fmt::print("\n{} chooses its own steps: --step does not apply to it\n", method.name);
   fmt::print(
       "\nerror: from the truth; diff.: from mysim/symplectic-euler; largest RMS over the particles up to {:.3g} s\n",
       scene.window);
