@@ -7,6 +7,7 @@
 
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
+#include "experiments/statistics.h"
 #include "mysim/frequency.h"
 
 namespace crosscheck {
@@ -39,6 +40,31 @@ Cell predicted_limit(const Method& method, const Scene& scene, double omega) {
   return {};
 }
 
+/// Table SCENE-statistics: what perturbed runs have in common.
+void add_statistics(const Request& request, const Scene& scene, const Run& run, Result& result) {
+  Table table{scene.name + "-statistics",
+              {{"method", "1"}, {"quantity", "1"}, {"unit", "1"}, {"mean", "see unit"}, {"deviation", "see unit"}},
+              {}};
+  // the rules that stand for the two engines: sixteen runs of every method would tell no more
+  for (const char* name : {reference_rule, "bullet/deformable-explicit"}) {
+    const auto methods = methods_of(request, scene);
+    const auto asked = std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
+    if (asked == methods.end()) continue;
+    // 1.5e7 particle steps take about 0.3 s
+    if (!request.full && cost_of_run(*asked, scene, run) > 1.5e7) {
+      result.notes.push_back(
+          fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them", name, scene.name));
+      continue;
+    }
+    // who cannot take the scene, or failed on it, has no statistics
+    const Answer& answer = answer_of(request, scene, *asked, result);
+    if (answer.outcome.verdict != Verdict::ok) continue;
+    for (const Statistic& s : contact_statistics(*asked, scene, run))
+      table.add({asked->name, s.quantity, s.unit, s.mean, s.deviation});
+  }
+  if (!table.rows.empty()) result.tables.push_back(std::move(table));
+}
+
 }  // namespace
 
 void engines_experiment(const Request& request, Progress& progress, Result& result) {
@@ -57,9 +83,12 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                  {"measured window", "s"},
                  {"perturbation growth", "1"},
                  {"round-off bound", "m"},
+                 {"truth", "1"},
                  {"truth tier", "1"},
                  {"truth bar", "m"},
+                 {"truth until", "s"},
                  {"largest error", "m"},
+                 {"largest difference from converged contact", "m"},
                  {"largest difference", "m"},
                  {"largest difference of centres", "m"},
                  {"smallest clearance", "m"},
@@ -82,6 +111,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                 {{"method", "1"},
                  {"t", "s"},
                  {"error", "m"},
+                 {"difference from converged contact", "m"},
                  {"difference", "m"},
                  {"difference of centres", "m"},
                  {"clearance", "m"},
@@ -95,7 +125,9 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
     const Growth growing = growth_of(probe, scene, run, reference.frames() > 0 ? &reference : nullptr);
     const double growth = growing.until(scene.window);
     const double omega = scene.model.first_order() ? 0 : fastest_frequency(scene.model, scene.start);
-    const double motion = motion_of(truth ? truth->trajectory : reference);
+    // what others are apart from the converged in-house contact rule is a difference, no error
+    const bool of_rule = truth && truth->of_contact_rule;
+    const double motion = motion_of(truth && !of_rule ? truth->trajectory : reference);
 
     for (const Method& method : methods_of(request, scene)) {
       progress.begin(fmt::format("engines: {} by {}", scene.name, method.name));
@@ -118,8 +150,10 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
         const bool both = i < reference.frames() && reference.x[i].cols() == path.x[i].cols();
         const auto gap = clearance(scene, path.t[i], path.x[i]);
         if (gap) lowest = std::min(lowest, *gap);
+        const Cell apart =
+            truth && i < truth->trajectory.frames() ? Cell(rms_distance(path.x[i], truth->trajectory.x[i])) : Cell();
         table.add(
-            {method.name, path.t[i], truth ? Cell(rms_distance(path.x[i], truth->trajectory.x[i])) : Cell(),
+            {method.name, path.t[i], of_rule ? Cell() : apart, of_rule ? apart : Cell(),
              both ? Cell(rms_distance(path.x[i], reference.x[i])) : Cell(),
              both ? Cell((centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.x[i])).norm()) : Cell(),
              cell_of(gap), cell_of(creep(scene, path.t[i], path.x[i], path.v[i]))});
@@ -127,29 +161,33 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
       std::string laws;
       for (const std::string& law : out.different_law) laws += (laws.empty() ? "" : "; ") + law;
       const bool ok = out.verdict == Verdict::ok;
-      summary.add({scene.name,
-                   method.name,
-                   std::string(name_of(out.verdict)),
-                   out.reason,
-                   out.end,
-                   out.step,
-                   out.steps,
-                   out.evaluations,
-                   out.coincident,
-                   motion,
-                   scene.window,
-                   growing.window(),
-                   growth,
-                   cell_of(round_off_bound(scene, motion, growth)),
-                   truth ? Cell(std::string(name_of(truth->tier))) : Cell(),
-                   truth ? Cell(truth->bar) : Cell(),
-                   ok ? largest(table, first_row, "error", scene.window) : Cell(),
-                   ok ? largest(table, first_row, "difference", scene.window) : Cell(),
-                   ok ? largest(table, first_row, "difference of centres", scene.duration) : Cell(),
-                   ok && lowest < 1e300 ? Cell(lowest) : Cell(),
-                   ok && path.frames() ? cell_of(creep(scene, path.t.back(), path.x.back(), path.v.back())) : Cell(),
-                   predicted_limit(method, scene, omega),
-                   laws});
+      summary.add(
+          {scene.name,
+           method.name,
+           std::string(name_of(out.verdict)),
+           out.reason,
+           out.end,
+           out.step,
+           out.steps,
+           out.evaluations,
+           out.coincident,
+           motion,
+           scene.window,
+           growing.window(),
+           growth,
+           cell_of(round_off_bound(scene, motion, growth)),
+           truth ? Cell(truth->how) : Cell(),
+           truth ? Cell(std::string(name_of(truth->tier)) + (of_rule ? ", in-house contact rule" : "")) : Cell(),
+           truth ? Cell(truth->bar) : Cell(),
+           of_rule ? Cell(truth->until) : Cell(),
+           ok ? largest(table, first_row, "error", scene.window) : Cell(),
+           ok ? largest(table, first_row, "difference from converged contact", scene.window) : Cell(),
+           ok ? largest(table, first_row, "difference", scene.window) : Cell(),
+           ok ? largest(table, first_row, "difference of centres", scene.duration) : Cell(),
+           ok && lowest < 1e300 ? Cell(lowest) : Cell(),
+           ok && path.frames() ? cell_of(creep(scene, path.t.back(), path.x.back(), path.v.back())) : Cell(),
+           predicted_limit(method, scene, omega),
+           laws});
       if (!out.remark.empty()) result.notes.push_back(fmt::format("{} on {}: {}", method.name, scene.name, out.remark));
       // an outside program need not tell its own time
       const bool told = out.process_seconds == 0 || out.cpu_seconds > 0;
@@ -160,6 +198,7 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
                   out.process_seconds > 0 ? Cell(out.process_seconds) : Cell()});
     }
     result.tables.push_back(std::move(table));
+    if (scene.model.find<Spheres>() && scene.model.particles.size() > 1) add_statistics(request, scene, run, result);
   }
   result.tables.push_back(std::move(summary));
   result.tables.push_back(std::move(cost));

@@ -73,24 +73,18 @@ std::optional<double> single_precision_bound(const Scene& scene, double motion, 
   return 10 * 6e-8 * (scene.size() + motion) * std::sqrt(static_cast<double>(steps)) * std::max(1.0, growth);
 }
 
-namespace {
-
-constexpr double perturbation = 1e-10;  // m: far above round-off (1e-16), far below every nonlinearity
-
-Scene perturbed(const Scene& scene) {
+Scene perturbed(const Scene& scene, double size, unsigned seed) {
   Scene moved = scene;
-  std::mt19937_64 engine(1);
+  std::mt19937_64 engine(seed);
   auto part = [&] { return 2 * uniform(engine) - 1; };
   for (int i = 0; i < scene.start.x.cols(); ++i) {
     Vec3 direction;
     do direction = Vec3(part(), part(), part());
     while (direction.norm() > 1 || direction.norm() < 0.1);
-    if (!scene.model.particles.pinned[i]) moved.start.x.col(i) += perturbation * direction.normalized();
+    if (!scene.model.particles.pinned[i]) moved.start.x.col(i) += size * direction.normalized();
   }
   return moved;
 }
-
-}  // namespace
 
 double Growth::until(double time) const {
   double largest = 0;
@@ -105,18 +99,19 @@ double Growth::window() const {
 }
 
 Growth growth_of(const Method& method, const Scene& scene, const Run& run, const Trajectory* unperturbed) {
+  constexpr double size = 1e-10;  // m: far above round-off (1e-16), far below every nonlinearity
   Recorder a, b;
   if (!unperturbed) {
     run_method(method, scene, run, {&a});
     unperturbed = &a.trajectory;
   }
-  run_method(method, perturbed(scene), run, {&b});
+  run_method(method, perturbed(scene, size, 1), run, {&b});
   Growth growth;
   double largest = 0;
   for (int i = 0; i < std::min(unperturbed->frames(), b.trajectory.frames()); ++i) {
     largest = std::max(largest, largest_column(unperturbed->x[i] - b.trajectory.x[i]));
     growth.t.push_back(b.trajectory.t[i]);
-    growth.factor.push_back(largest / perturbation);
+    growth.factor.push_back(largest / size);
   }
   return growth;
 }

@@ -25,6 +25,9 @@ std::optional<double> creep(const Scene& scene, double t, const Points& x, const
 /// Time of the first sample at which a particle touches the sphere (closer than 1e-9 m), s.
 std::optional<double> first_contact(const Scene& scene, const Trajectory& trajectory);
 
+/// The scene with every free particle moved by `size` (m) in a seeded random direction.
+Scene perturbed(const Scene& scene, double size, unsigned seed);
+
 /// How a perturbation of 1e-10 m of every free particle, in seeded random directions, grows.
 struct Growth {
   std::vector<double> t;       // s, of the samples

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "reference/contact_truth.h"
 #include "reference/converged.h"
 #include "reference/exact/exact.h"
 #include "reference/truth_cache.h"
@@ -46,9 +47,9 @@ double rms_distance(const Points& a, const Points& b) { return (a - b).norm() / 
 
 std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
   if (const auto exact = exact_solution(scene)) return from_closed_form(*exact, scene, run);
-  if (scene.model.find<Spheres>()) return std::nullopt;
-
-  const auto find = [&] { return converged_truth(scene, run); };
+  const auto find = [&] {
+    return scene.model.find<Spheres>() ? contact_truth(scene, run) : converged_truth(scene, run);
+  };
   const auto cache = TruthCache::of_environment();
   return cache ? cache->find_or(scene, run, find) : find();
 }

@@ -24,8 +24,8 @@ struct Truth {
 };
 
 /// Exact where the scene has a closed form (bar: round-off, 1e-15 x scene size x (1 + radians turned)); otherwise
-/// converged on two independent routes (converged.h), found once and kept in a cache (truth_cache.h). Scenes with
-/// contact have none: what they converge to depends on the contact rule.
+/// converged on two independent routes (converged.h), found once and kept in a cache (truth_cache.h). Of other
+/// scenes with contact only what the in-house contact rule converges to is known, for a while (contact_truth.h).
 std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 
 /// sqrt of the mean over the particles of |a_i - b_i|^2, m.

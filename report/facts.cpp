@@ -56,7 +56,9 @@ SceneFacts facts_of(const std::string& scene, const Result& result) {
     facts.measured_window = number(engines.at(i, "measured window")).value_or(0);
     facts.growth = number(engines.at(i, "perturbation growth")).value_or(0);
     facts.round_off = number(engines.at(i, "round-off bound"));
-    facts.tier = text(engines.at(i, "truth tier"));
+    facts.truth = text(engines.at(i, "truth"));
+    facts.contact_until = number(engines.at(i, "truth until"));
+    if (!facts.contact_until) facts.tier = text(engines.at(i, "truth tier"));
     facts.bar = number(engines.at(i, "truth bar")).value_or(0);
     MethodFacts m;
     m.method = text(engines.at(i, "method"));
@@ -68,6 +70,7 @@ SceneFacts facts_of(const std::string& scene, const Result& result) {
     m.evaluations = whole(engines.at(i, "evaluations"));
     m.coincident = whole(engines.at(i, "coincident springs"));
     m.error = number(engines.at(i, "largest error"));
+    m.from_contact = number(engines.at(i, "largest difference from converged contact"));
     m.difference = number(engines.at(i, "largest difference"));
     m.centres = number(engines.at(i, "largest difference of centres"));
     m.clearance = number(engines.at(i, "smallest clearance"));

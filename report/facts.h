@@ -17,6 +17,7 @@ struct MethodFacts {
   double end = 0, step = 0;  // s
   long evaluations = 0, coincident = 0;
   std::optional<double> error;              // m, largest RMS error from the truth in the window
+  std::optional<double> from_contact;       // m, the same from what the in-house contact rule converges to: no error
   std::optional<double> difference;         // m, largest RMS difference from mysim/symplectic-euler in the window
   std::optional<double> centres;            // m, largest difference of the centres of mass over the run
   std::optional<double> clearance, creep;   // m, m/s
@@ -36,6 +37,9 @@ struct SceneFacts {
   std::optional<double> round_off;  // m, what the same rule may differ by; empty where nothing can be predicted
   std::string tier;                 // of the truth; empty without one
   double bar = 0;                   // m
+  std::string truth;                // how it was found, one sentence
+  // of scenes with contact: what the in-house rule converges to is known up to here (s), to `bar`; tier is then empty
+  std::optional<double> contact_until;
   std::vector<MethodFacts> methods;
   const MethodFacts* find(const std::string& method) const;
   /// True when some run came within a millimetre of the sphere's contact surface.

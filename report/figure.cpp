@@ -212,6 +212,9 @@ MethodStyle style_of(const std::string& method) {
       {"mysim/implicit-euler", {"#882255", "(18,3)", 14}},
       {"mysim/implicit-midpoint", {"#CC6677", "(8,2,2,2)", 2}},
       {"mysim/xpbd", {"#000000", "(5,4)", 1}},
+      {"odeint/rk4", {"#44AA99", "(9,3)", 12}},
+      {"odeint/dopri5", {"#88CCEE", "(3,4)", 8}},
+      {"sundials/arkode", {"#DDCC77", "(12,2,2,2)", 10}},
       {"mysim/symplectic-euler+sticky", {"#666666", "(3,3)", 8}},
   };
   for (const Row& row : table)

@@ -93,6 +93,21 @@ void accuracy(const Scene& scene, const SceneFacts& facts, std::vector<Finding>&
   out.push_back({scene.name, "accuracy", sentence + ".", facts.tier});
 }
 
+/// Differences from the converged in-house contact rule: no errors, as other rules converge to something else.
+void converged_contact(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
+  if (!facts.contact_until) return;
+  std::string parts;
+  for (const char* name : {ours, "mysim/leapfrog", theirs})
+    if (const MethodFacts* m = facts.find(name); m && m->ok() && m->from_contact)
+      parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", name, nice_length(*m->from_contact));
+  if (!parts.empty())
+    out.push_back({scene.name, "contact",
+                   fmt::format("Until {:.3g} s the motion under the in-house contact rule is converged in the step, to "
+                               "{}; other rules converge to something else. Differences from it: {}.",
+                               *facts.contact_until, nice_length(facts.bar), parts),
+                   "converged, in-house contact rule"});
+}
+
 void failures(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
   std::vector<std::string> failed, held, limits;
   for (const MethodFacts& m : facts.methods) {
@@ -164,7 +179,8 @@ void cost(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out
 
 std::vector<Finding> findings_of(const Scene& scene, const SceneFacts& facts) {
   std::vector<Finding> out;
-  for (const auto part : {agreement, accuracy, other_law, failures, contact, sticky, cost}) part(scene, facts, out);
+  for (const auto part : {agreement, accuracy, other_law, failures, contact, converged_contact, sticky, cost})
+    part(scene, facts, out);
   return out;
 }
 

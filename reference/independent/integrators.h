@@ -9,6 +9,10 @@
 
 namespace crosscheck {
 
+// All of them throw Unsupported where there is contact. Those under error control keep the estimated error of each step
+// below R (scene size + |component|), with R = run.tolerance and numbers in SI units: odeint in every component,
+// SUNDIALS in the root mean square.
+
 /// odeint's classic Runge-Kutta rule at run.step.
 Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's Dormand-Prince 5(4) to run.tolerance, with its own interpolant at the times that are looked at.
@@ -21,8 +25,5 @@ Outcome run_arkode(const Scene& scene, const Run& run, Observer& observer);
 
 std::string odeint_version();                   // Boost's, e.g. "1.74"
 std::optional<std::string> sundials_version();  // none: the suite was built without
-
-/// All of them keep each step's estimated error of every component below R (scene size + |component|), R =
-/// run.tolerance, numbers in SI units. They throw Unsupported where there is contact.
 
 }  // namespace crosscheck

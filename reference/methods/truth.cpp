@@ -26,11 +26,11 @@ Method truth_method(Tier tier, const MethodOptions& options) {
   if (!options.empty()) refuse_option(name, options[0], "none");
   return {name,
           tier == Tier::exact ? "closed form, where the scene has one"
-                              : "rk4 refined until its own step halving tells the error bar",
+                              : "two independent routes, refined until they tell the error bar",
           "",
           [tier](const Scene& scene, const Run& run, Observer& observer) {
             const auto truth = truth_of(scene, run);
-            if (!truth || truth->tier != tier)
+            if (!truth || truth->tier != tier || truth->of_contact_rule)
               throw Unsupported(tier == Tier::exact
                                     ? "the scene has no closed form"
                                     : "the scene has a closed form, or contacts on whose rule the answer depends");

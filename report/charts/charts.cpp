@@ -26,7 +26,8 @@ std::vector<std::pair<double, double>> points_of(const Table& table, const std::
 
 std::string caption_of(const Scene& scene, const SceneFacts& facts, const std::string& commit, bool with_truth) {
   std::string text = "Scene " + scene.name;
-  if (with_truth) text += fmt::format("; truth: {}, error bar {}", facts.tier, nice_length(facts.bar));
+  if (with_truth)
+    text += fmt::format("; truth: {}, error bar {} ({})", facts.tier, nice_length(facts.bar), facts.truth);
   return text + fmt::format("; step {} s; commit {}.", nice(facts.methods.empty() ? scene.step : facts.methods[0].step),
                             commit);
 }

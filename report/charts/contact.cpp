@@ -1,4 +1,6 @@
 // What can be compared after contact has made single positions unpredictable: centre of mass, clearance, creep.
+#include <fmt/format.h>
+
 #include "report/charts/charts.h"
 
 namespace crosscheck {
@@ -15,6 +17,10 @@ struct Quantity {
 };
 
 constexpr Quantity quantities[] = {
+    {"difference from converged contact", "converged", "distance from the converged in-house contact rule",
+     "RMS difference / mm", 1e3, true,
+     "How far each method is from what the in-house contact rule converges to in the step. Other rules converge to "
+     "something else: these are differences, no errors."},
     {"difference of centres", "centres", "distance of the centre of mass from mysim/symplectic-euler",
      "distance of centres / mm", 1e3, true, "How far the centres of mass of the engines are apart over time."},
     {"clearance", "clearance", "smallest distance from the contact surface", "clearance / mm (negative: inside)", 1e3,
@@ -47,6 +53,12 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
         if (std::string(q.column) == "clearance")
           std::erase_if(curve.points, [](const auto& p) { return p.second > 1; });
         if (!curve.points.empty()) f.curves.push_back(std::move(curve));
+      }
+      if (!f.curves.empty() && std::string(q.column) == "difference from converged contact") {
+        const SceneFacts& facts = input.facts[i];
+        f.x.high = *facts.contact_until;
+        f.floor = {"what is left to converge", facts.bar * q.factor};
+        f.caption += fmt::format(" Until {:.3g} s; {}.", *facts.contact_until, facts.truth);
       }
       if (!f.curves.empty()) charts.push_back({scene.name, std::move(f)});
     }

@@ -97,7 +97,9 @@ int compare_command(const CompareOptions& options) {
                                ? std::get<std::string>(table.at(0, "truth tier"))
                                : "none";
   fmt::print("\n{}: {}\ntruth: {}{}\n\n", scene.name, scene.question, tier,
-             tier == "none" ? "" : fmt::format(", error bar {} m", shown(table.at(0, "truth bar"))));
+             tier == "none" ? ""
+                            : fmt::format(", error bar {} m ({})", shown(table.at(0, "truth bar")),
+                                          std::get<std::string>(table.at(0, "truth"))));
   fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "method", "verdict", "error/m", "diff./m",
              "centres/m", "step/s", "until/s");
   for (size_t i = 0; i < table.rows.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "reference/independent/integrators.h"
 #include "report/commands/commands.h"
 #include "report/run_program.h"
 
@@ -35,6 +36,11 @@ int doctor_command() {
   fmt::print("  {:<14} {:<10} {}\n", "Eigen", CROSSCHECK_EIGEN_VERSION, "vectors and matrices");
   fmt::print("  {:<14} {:<10} {}\n", "Bullet", CROSSCHECK_BULLET_VERSION,
              "the engine that mysim is compared with (double precision; single in a program of its own)");
+  fmt::print("  {:<14} {:<10} {}\n", "odeint", odeint_version(),
+             "an independent integrator, of Boost: truth's other route");
+  fmt::print("  {:<14} {:<10} {}{}\n", "SUNDIALS", sundials_version().value_or("absent"),
+             "optional: a better one, in odeint's place",
+             sundials_version() ? "" : "; apt-get install libsundials-dev, then build anew");
   fmt::print("  {:<14} {:<10} {}\n\n", "OSMesa", "linked", "renders pictures without a display");
 
   static constexpr Tool tools[] = {

@@ -84,6 +84,7 @@ class Builder {
     for (size_t i = 0; i < request_.scenes.size(); ++i) {
       const Scene& scene = request_.scenes[i];
       page_.scenes.push_back({&scene, &facts_[i], findings_of(scene, facts_[i]), {}, {}, {}});
+      page_.scenes.back().statistics = result_.table(scene.name + "-statistics");
       for (const Certificate& c : result_.certificates)
         if (c.scene == scene.name) page_.scenes.back().certificates.push_back(&c);
       progress.begin("picture: " + scene.name);

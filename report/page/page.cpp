@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "reference/independent/integrators.h"
 #include "report/assets.h"
 #include "report/provenance.h"
 
@@ -46,6 +47,7 @@ std::string scene_section(const ScenePart& part) {
   out += "<div class=\"figures\">\n";
   for (const PageImage& image : part.figures) out += image_html(image, "chart");
   out += "</div>\n" + run_table_html(part);
+  if (part.statistics) out += statistics_html(*part.statistics);
   for (const Certificate* certificate : part.certificates) out += certificate_html(*certificate);
   const SceneFacts& facts = *part.facts;
   const std::string predictable =
@@ -84,11 +86,17 @@ std::string page_html(const PageContent& c) {
   out +=
       "<section class=\"made\"><h2>How this was made</h2>\n<p>An error is the distance from the truth: the closed form "
       "where the scene has one, "
-      "otherwise a converged solution with an error bar. A difference is the distance between two engines. Lengths are "
+      "otherwise a solution converged on two independent routes, whose error bar is the largest of their difference "
+      "and "
+      "of what refining each still changes. A difference is the distance between two engines, or from what the "
+      "in-house contact rule converges to. Lengths are "
       "RMS over all "
       "particles, the largest over time. A run has blown up when it shows more energy than all it had to work with. "
       "Data, figures and scripts lie "
       "beside this page in <code>data/</code> and <code>figures/</code>.</p>\n";
+  out += fmt::format(
+      "<p>The second route is {} on a right-hand side written apart from mysim's.</p>\n",
+      sundials_version() ? "SUNDIALS ARKODE" : "odeint; SUNDIALS is not there (Debian's package libsundials-dev)");
   for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", escaped(note));
   out += "<table class=\"provenance\">\n";
   for (const auto& [key, value] : c.provenance)

@@ -23,6 +23,7 @@ struct ScenePart {
   std::vector<PageImage> pictures;  // renders
   std::vector<PageImage> figures;   // charts
   std::vector<const Certificate*> certificates;
+  const Table* statistics = nullptr;  // of perturbed runs, where there is contact
 };
 
 /// A part of the report that belongs to no scene of its own.
@@ -56,6 +57,8 @@ std::string image_html(const PageImage& image, const std::string& css_class);
 
 /// The run table of one scene, and its parity certificates.
 std::string run_table_html(const ScenePart& part);
+/// Means and spreads over perturbed runs.
+std::string statistics_html(const Table& statistics);
 std::string certificate_html(const Certificate& certificate);
 /// The table on the first screen: one row per scene.
 std::string scene_table_html(const std::vector<ScenePart>& scenes);

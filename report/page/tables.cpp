@@ -27,6 +27,14 @@ std::string verdict_cell(const MethodFacts& m) {
   return fmt::format("<td class=\"failed\" title=\"{}\">{} at {:.3g} s</td>", what, m.failure(), m.end);
 }
 
+/// The mean to the digits that its spread leaves it.
+std::string with_digits_of(double mean, double spread) {
+  if (std::abs(mean) < 1e-12) return "0";
+  if (!(spread > 0) || std::abs(mean) < 1e-3) return nice(mean);
+  const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(spread))), 0, 9);
+  return fmt::format("{:.{}f}", mean, decimals);
+}
+
 }  // namespace
 
 std::string scene_table_html(const std::vector<ScenePart>& scenes) {
@@ -96,6 +104,35 @@ std::string run_table_html(const ScenePart& part) {
     out += m.energy_error ? fmt::format("<td>{} %</td>", nice(100 * *m.energy_error)) : "<td class=\"none\">–</td>";
     out += m.supported() ? fmt::format("<td>{}</td><td>{}</td>", m.evaluations, m.cpu ? nice(*m.cpu) : "–")
                          : "<td class=\"none\">–</td><td class=\"none\">–</td>";
+    out += "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string statistics_html(const Table& table) {
+  std::string out = "<div class=\"scroll\"><table><thead><tr><th>mean over 16 perturbed runs ± their spread</th>";
+  std::vector<std::string> quantities, methods;
+  auto note = [](std::vector<std::string>& list, const Cell& cell) {
+    const auto& text = std::get<std::string>(cell);
+    if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
+  };
+  for (size_t i = 0; i < table.rows.size(); ++i)
+    note(quantities, table.at(i, "quantity")), note(methods, table.at(i, "method"));
+  for (const std::string& m : methods) out += fmt::format("<th>{}</th>", escaped(m));
+  out += "</tr></thead><tbody>\n";
+  for (const std::string& quantity : quantities) {
+    out += fmt::format("<tr><th scope=\"row\">{}</th>", escaped(quantity));
+    // a method's rows come in one order, so that its cells stand below its name
+    for (const std::string& m : methods)
+      for (size_t i = 0; i < table.rows.size(); ++i) {
+        if (std::get<std::string>(table.at(i, "quantity")) != quantity ||
+            std::get<std::string>(table.at(i, "method")) != m)
+          continue;
+        const double mean = std::get<double>(table.at(i, "mean")), spread = std::get<double>(table.at(i, "deviation"));
+        const auto& unit = std::get<std::string>(table.at(i, "unit"));
+        out += fmt::format("<td>{} {} ± {}</td>", with_digits_of(mean, spread), unit,
+                           unit == "m" ? nice_length(spread) : nice(spread) + " " + unit);
+      }
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";

@@ -23,11 +23,11 @@ class Cache : public ::testing::Test {
   ~Cache() override { fs::remove_all(folder); }
 
   /// Asks, and counts how often the answer had to be computed.
-  std::optional<Truth> ask(const TruthCache& of, const Scene& scene, const crosscheck::Run& run) {
-    return of.find_or(scene, run, [&]() -> std::optional<Truth> {
+  std::optional<Truth> ask(const TruthCache& of, const Scene& asked, const crosscheck::Run& at) {
+    return of.find_or(asked, at, [&]() -> std::optional<Truth> {
       ++computed;
       if (!known) return std::nullopt;
-      Truth truth{Tier::converged, "by two routes", answer("rk4", scene, run).trajectory, 1e-9, {1e-12, 1e-9}};
+      Truth truth{Tier::converged, "by two routes", answer("rk4", asked, at).trajectory, 1e-9, {1e-12, 1e-9}};
       truth.of_contact_rule = true;
       truth.until = 0.25;
       return truth;
