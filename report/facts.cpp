@@ -119,4 +119,8 @@ std::string nice_length(double metres) {
   return nice(metres) + " m";
 }
 
+bool costs_compare(const Scene& scene) {
+  return scene.model.particles.size() >= 50 && !scene.model.find<Aerodynamics>();
+}
+
 }  // namespace crosscheck

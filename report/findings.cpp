@@ -165,9 +165,7 @@ void sticky(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& o
 
 void cost(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
   const MethodFacts *a = facts.find(ours), *b = facts.find(theirs), *p = facts.find(position_based);
-  // below 50 particles a step takes less than the clock can tell
-  if (scene.model.particles.size() < 50 || !a || !a->cpu_per_step || !b || !b->cpu_per_step || !a->ok() || !b->ok())
-    return;
+  if (!costs_compare(scene) || !a || !a->cpu_per_step || !b || !b->cpu_per_step || !a->ok() || !b->ok()) return;
   std::string sentence = fmt::format("One step costs {} {} µs of CPU time and {} {:.1f} times as much", ours,
                                      nice(1e6 * *a->cpu_per_step), theirs, *b->cpu_per_step / *a->cpu_per_step);
   if (p && p->ok() && p->cpu_per_step)

@@ -143,9 +143,7 @@ void cost_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>
   double cheapest = 1e300, dearest = 0;
   for (size_t i = 0; i < scenes.size(); ++i) {
     const MethodFacts *a = facts[i].find(ours), *b = facts[i].find(theirs);
-    if (!a || !b || !a->ok() || !b->ok() || !a->cpu_per_step || !b->cpu_per_step ||
-        scenes[i].model.particles.size() < 50)
-      continue;
+    if (!a || !b || !a->ok() || !b->ok() || !a->cpu_per_step || !b->cpu_per_step || !costs_compare(scenes[i])) continue;
     cheapest = std::min(cheapest, *b->cpu_per_step / *a->cpu_per_step);
     dearest = std::max(dearest, *b->cpu_per_step / *a->cpu_per_step);
   }

@@ -59,7 +59,8 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
         f.failures.push_back({fmt::format("{}: {}", curve, failure_word(verdict)), f.curves.back().style,
                               f.curves.back().points.back().first, f.curves.back().points.back().second});
     }
-    charts.push_back({"", std::move(f), "disagreements", text_at(*summary, row, "cause")});
+    charts.push_back({"", std::move(f), "disagreements",
+                      fmt::format("{}: {}", text_at(*summary, row, "world"), text_at(*summary, row, "cause"))});
   }
   return charts;
 }

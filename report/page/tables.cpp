@@ -73,8 +73,7 @@ std::string scene_table_html(const std::vector<ScenePart>& scenes) {
     for (const MethodFacts& m : part.facts->methods)
       if (m.supported() && !m.ok()) names += (names.empty() ? "" : "<br>") + escaped(m.method);
     out += failed ? fmt::format("<td class=\"failed\">{}</td>", names) : "<td class=\"ok\">none</td>";
-    // below 50 particles a step takes less than the clock can tell
-    if (a && b && a->ok() && b->ok() && a->cpu_per_step && b->cpu_per_step && part.scene->model.particles.size() >= 50)
+    if (a && b && a->ok() && b->ok() && a->cpu_per_step && b->cpu_per_step && costs_compare(*part.scene))
       out += fmt::format("<td>{:.1f}</td>", *b->cpu_per_step / *a->cpu_per_step);
     else
       out += "<td class=\"none\">–</td>";
