@@ -115,6 +115,33 @@ const Mutation of_the_drape[] = {
     {"one start position", [](Scene& s) { s.start.x(1, 14) += 1e-6; }, {"start positions"}},
     {"one start velocity", [](Scene& s) { s.start.v(1, 14) += 1e-6; }, {"start velocities"}},
 };
+const Mutation of_the_swing[] = {
+    {"pins moved farther", [](Scene& s) { s.model.particles.move->amplitude *= 1.001; }, {"motion of pins"}},
+    {"pins moved faster", [](Scene& s) { s.model.particles.move->frequency *= 1.001; }, {"motion of pins"}},
+    {"pins left alone", [](Scene& s) { s.model.particles.move.reset(); }, {"motion of pins"}},
+    {"gusts of another seed",
+     [](Scene& s) {
+       auto& g = *s.model.find<Wind>()->acceleration.gusts;
+       g = {g.variation, g.side, 4, Gust(4, 1), Gust(4, 2)};
+     },
+     {"wind"}},
+};
+const Mutation of_the_carried[] = {
+    {"sphere moved farther", [](Scene& s) { ball(s).motion->amplitude *= 1.001; }, {"motion of the sphere"}},
+    {"sphere left alone", [](Scene& s) { ball(s).motion.reset(); }, {"motion of the sphere"}},
+};
+const Mutation of_a_still_one[] = {
+    {"pins led",
+     [](Scene& s) {
+       s.model.particles.move = Motion{{0.1, 0, 0}, 1, 0.5};
+     },
+     {"motion of pins"}},
+    {"sphere led",
+     [](Scene& s) {
+       ball(s).motion = Motion{{0.1, 0, 0}, 1, 0.5};
+     },
+     {"motion of the sphere"}},
+};
 const Mutation of_the_sheet[] = {
     {"air denser", [](Scene& s) { s.model.find<Aerodynamics>()->density *= 1.001; }, {"wind"}},
     {"another coefficient", [](Scene& s) { s.model.find<Aerodynamics>()->coefficient = 1.1; }, {"wind"}},
@@ -162,6 +189,21 @@ void expect_caught(const Scene& honest, std::span<const Mutation> mutations) {
 TEST(SeededMismatch, OfEveryIngredientIsCaughtInEveryWorldThatCanTell) { expect_caught(draped(), of_the_drape); }
 TEST(SeededMismatch, OfTheAirIsCaught) { expect_caught(in_air(), of_the_sheet); }
 
+TEST(SeededMismatch, OfPrescribedMotionsIsCaught) {
+  expect_caught(small_cloth(), of_the_swing);
+  expect_caught(load_scene("cloth-carried"), of_the_carried);
+  expect_caught(draped(), of_a_still_one);
+  // an engine that does not tell them is not taken to have them
+  for (const Scene& scene : {small_cloth(), load_scene("cloth-carried")}) {
+    Outcome silent = answer("bullet/pbd", scene, {1e-3, 2e-3, 1}).outcome;
+    silent.readback->later.reset();
+    bool said = false;
+    for (const CertificateRow& row : certify("bullet/pbd", scene, silent).rows)
+      said |= row.quantity.starts_with("motion of") && row.parity == Parity::unattested;
+    EXPECT_TRUE(said);
+  }
+}
+
 TEST(SeededMismatch, OfTheStepIsCaught) {
   for (const std::string& world : worlds) {
     const Scene scene = draped();
@@ -178,6 +220,8 @@ TEST(SeededMismatch, ByBulletsOwnDefaultsIsCaught) {
   EXPECT_TRUE(
       contains(mismatches(certificate_of("bullet/deformable-explicit+default-margin", drape, drape)), "[margin]"));
   EXPECT_EQ(mismatches(certificate_of("bullet/deformable-explicit+default-margin", spring, spring)), "");
+  for (const Scene& scene : {drape, spring})
+    EXPECT_EQ(mismatches(certificate_of("bullet/deformable-explicit+default-sleep", scene, scene)), "[sleeping] ");
 }
 
 }  // namespace
