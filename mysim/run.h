@@ -90,6 +90,12 @@ struct Readback {
     std::optional<double> friction;     // Coulomb's mu
     std::optional<double> restitution;  // e
   };
+  /// Where the engine puts its pins and spheres at another time.
+  struct Places {
+    double t;                   // s
+    Points pins;                // m, in the scene's order
+    std::vector<Vec3> centres;  // m
+  };
   std::vector<double> mass;  // kg; 0 where the engine holds the particle fixed
   std::vector<char> pinned;  // 1 where fixed
   std::vector<Link> links;   // springs
@@ -97,6 +103,7 @@ struct Readback {
   std::optional<Vec3> gravity;              // m/s^2
   std::optional<std::vector<double>> drag;  // 1/s, drag rate gamma of each free particle
   std::optional<std::vector<Ball>> spheres;
+  std::optional<Places> later;                // what a prescribed motion leads, at a later time
   std::optional<double> margin;               // m, half the thickness of the cloth
   std::optional<State> start;                 // positions and velocities that the first step began from
   double step = 0;                            // s

@@ -26,6 +26,34 @@ void certify_particles(const Scene& scene, const Readback& r, CertificateWriter&
         std::equal(r.pinned.begin(), r.pinned.end(), p.pinned.begin(), p.pinned.end()));
 }
 
+/// Where the engine leads pins and spheres by a prescribed motion; a row for still ones only where they are led away.
+void certify_motion(const Scene& scene, const Readback& r, CertificateWriter& w) {
+  const Particles& p = scene.model.particles;
+  const auto* spheres = scene.model.find<Spheres>();
+  auto row = [&](const std::string& quantity, const std::optional<Motion>& motion, const Points& ours,
+                 const Points& told) {
+    const double off = told.cols() == ours.cols() ? largest_column(ours - told) : NAN;
+    const bool same = off <= w.tolerance() * (1 + largest_column(ours));
+    if (!motion && same) return;
+    w.row(quantity,
+          motion ? fmt::format("({:.6g}, {:.6g}, {:.6g}) m at {:.6g} Hz", motion->amplitude.x(), motion->amplitude.y(),
+                               motion->amplitude.z(), motion->frequency)
+                 : "none",
+          fmt::format("at {:.3g} s off by {:.2g} m", r.later->t, off), same);
+  };
+  if (!r.later) {
+    if (p.move) w.row("motion of pins", "as in the scene", "not told", Parity::unattested);
+    if (spheres && spheres->moving()) w.row("motion of spheres", "as in the scene", "not told", Parity::unattested);
+    return;
+  }
+  const double t = r.later->t;
+  row("motion of pins", p.move, p.pin_home.colwise() + (p.move ? displacement_at(*p.move, t) : Vec3::Zero()),
+      r.later->pins);
+  for (size_t i = 0; spheres && i < std::min(spheres->list.size(), r.later->centres.size()); ++i)
+    row(spheres->list.size() > 1 ? fmt::format("motion of sphere {}", i + 1) : "motion of the sphere",
+        spheres->list[i].motion, spheres->list[i].centre_at(t), r.later->centres[i]);
+}
+
 /// Where the engine began.
 void certify_start(const Scene& scene, const Readback& r, CertificateWriter& w) {
   if (!r.start || r.start->x.cols() != scene.start.x.cols()) {
@@ -75,6 +103,7 @@ Certificate certify(const std::string& method, const Scene& scene, const Outcome
   CertificateWriter w(certificate, r);
   certify_particles(scene, r, w);
   certify_start(scene, r, w);
+  certify_motion(scene, r, w);
   certify_springs(scene, r, w);
   certify_terms(scene, r, w);
   w.row("step", fmt::format("{:.6g} s", outcome.step), fmt::format("{:.6g} s", r.step), r.step == outcome.step);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "reference/bullet/obstacles.h"
+#include "reference/bullet/probe_state.h"
 
 namespace crosscheck::bullet {
 
@@ -23,6 +25,21 @@ class BodyWorld : public World {
     obstacles_.enter(*world_);
     world_->addSoftBody(&body());
     world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the spheres are fixed or led
+  }
+
+  /// What a prescribed motion leads, at a time at which no round frequency has brought it back.
+  Readback::Places places_later() {
+    const double t = 0.382 * scene_.duration;
+    std::optional<ProbeState> kept;  // puts the nodes back at the end
+    if (scene_.model.particles.move) kept.emplace(scene_, *scene_body_, t);
+    scene_body_->place_pins(t);
+    const std::vector<int>& pins = scene_.model.particles.pins;
+    Readback::Places places{t, Points(3, pins.size()), obstacles_.centres_at(t)};
+    for (size_t p = 0; p < pins.size(); ++p) {
+      const auto& node = body().m_nodes[scene_body_->node_of(pins[p])];
+      places.pins.col(static_cast<int>(p)) = from_bullet(node.m_x);
+    }
+    return places;
   }
 
   void tear_down() {

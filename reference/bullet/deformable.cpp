@@ -66,6 +66,7 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
   std::optional<Readback> read_back() override {
     Readback r = scene_body_->read_back();
     obstacles_.read_back(*world_, body(), r);
+    r.later = places_later();
     forces_->read_back(*body_solver_.getLagrangianForceArray(), r);
     return r;
   }

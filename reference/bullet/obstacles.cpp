@@ -46,6 +46,18 @@ void Obstacles::place(double t) {
     if (spheres_->list[i].motion) balls_[i].body->setWorldTransform(at(spheres_->list[i].centre_at(t)));
 }
 
+std::vector<Vec3> Obstacles::centres_at(double t) {
+  std::vector<btTransform> now;
+  for (const Ball& ball : balls_) now.push_back(ball.body->getWorldTransform());
+  place(t);
+  std::vector<Vec3> centres;
+  for (size_t i = 0; i < balls_.size(); ++i) {
+    centres.push_back(from_bullet(balls_[i].body->getWorldTransform().getOrigin()));
+    balls_[i].body->setWorldTransform(now[i]);
+  }
+  return centres;
+}
+
 void Obstacles::read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const {
   readback.margin = body.getCollisionShape()->getMargin();
   readback.spheres.emplace();

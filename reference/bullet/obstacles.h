@@ -18,6 +18,8 @@ class Obstacles {
   /// Puts the moving ones where they are at time t (s). To be called before each step with the step's end: Bullet takes
   /// the speed of a kinematic body from the distance between two of its places.
   void place(double t);
+  /// Where that is, m. All stands as before afterwards.
+  std::vector<Vec3> centres_at(double t);
 
   /// What was built: places, radii, friction and restitution of the balls, and the soft body's margin.
   void read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const;

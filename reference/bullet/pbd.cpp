@@ -89,6 +89,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     r.gravity = from_bullet(world_->getWorldInfo().m_gravity);
     r.drag = std::vector<double>(scene_.model.particles.size(), -std::log1p(-cfg.kDP) / h_);
     obstacles_.read_back(*world_, body(), r);
+    r.later = places_later();
     r.probe = probe(0);
     r.mapped = mapped_;
     return r;

@@ -90,7 +90,7 @@ SceneBody::SceneBody(const Scene& scene, btSoftBodyWorldInfo& info, const Defaul
     body_->getCollisionShape()->setMargin(static_cast<btScalar>(spheres ? spheres->list[0].margin : 10.0));
   body_->updateBounds();  // of the constructor's margin until now: they bound the speeds of the first step
   body_->m_cfg.kDF = 1;
-  body_->setActivationState(DISABLE_DEACTIVATION);
+  if (!defaults.sleep) body_->setActivationState(DISABLE_DEACTIVATION);
   built_ = read_state(0);
   // the implicit world starts from m_vn, the explicit one from m_v: one velocity that both hold, or none
   for (int node = 0; node < n; ++node)

@@ -32,8 +32,10 @@ WorldChoice deformable_explicit(const Options& options) {
       settings.defaults.rest = true;
     else if (option == "default-margin")
       settings.defaults.margin = true;
+    else if (option == "default-sleep")
+      settings.defaults.sleep = true;
     else
-      refuse("deformable-explicit", option, "+default-rest, +default-margin");
+      refuse("deformable-explicit", option, "+default-rest, +default-margin, +default-sleep");
   }
   return {"Bullet's deformable world, explicit: springs in N/m, Coulomb friction",
           options.empty() ? "symplectic-euler" : "", deformable(settings)};

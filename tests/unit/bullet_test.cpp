@@ -166,6 +166,14 @@ TEST(Bullet, RefusesWhatItLacksWithTheReason) {
       EXPECT_EQ(out.verdict, Verdict::unsupported);
       EXPECT_TRUE(contains(out.reason, c.reason));
     }
+  const std::pair<std::string, std::string> options[] = {
+      {"bullet/deformable-implicit+shipped", "Hooke's law and two stiffnesses at most"},
+      {"bullet/pbd+own-wind", "presses on triangles: the scene has none"}};
+  for (const auto& [method, reason] : options) {
+    const Outcome out = answer(method, small_cloth(), {1e-3, 2e-3, 1}).outcome;
+    EXPECT_EQ(out.verdict, Verdict::unsupported);
+    EXPECT_TRUE(contains(out.reason, reason));
+  }
   Scene uneven = load_scene("chain");
   uneven.model.particles.mass[1] = 0.3;
   uneven.model.find<Drag>()->c.setConstant(0.1);

@@ -115,6 +115,13 @@ TEST(BulletTraps, SlowBodiesStayAwake) {
       }
     EXPECT_NEAR((high - low) / 2, 1e-3 * kept, 3e-5) << method;
   }
+  // left to itself it stops after two seconds, wherever it is
+  const Answered asleep = play("bullet/deformable-explicit+default-sleep", scene);
+  EXPECT_TRUE(asleep.outcome.readback->may_sleep);
+  for (int i = 1; i < asleep.trajectory.frames(); ++i)
+    if (const double t = asleep.trajectory.t[i]; t < 1.5 || t > 2.5) {
+      EXPECT_EQ(asleep.trajectory.x[i] == asleep.trajectory.x[i - 1], t > 2.5) << t;
+    }
 }
 
 TEST(Frozen, IsWhatGetsForcesAndDoesNotMove) {

@@ -44,7 +44,8 @@ TEST(Methods, ABareNameMeansMysimAndOptionsFollowAPlus) {
   EXPECT_EQ(find_method("implicit-euler+linear").rule, find_method("bullet/deformable-implicit+tight").rule);
   EXPECT_NE(find_method("implicit-euler+linear").rule, find_method("implicit-euler").rule);
   for (const auto other : {"bullet/deformable-explicit+default-rest", "bullet/deformable-explicit+default-margin",
-                           "bullet/deformable-implicit", "bullet/deformable-implicit+tight+shipped", "bullet/pbd"})
+                           "bullet/deformable-explicit+default-sleep", "bullet/deformable-implicit",
+                           "bullet/deformable-implicit+tight+shipped", "bullet/pbd"})
     EXPECT_EQ(find_method(other).rule, "") << other;
   const auto several = find_methods("rk4,bullet/pbd,truth/exact");
   ASSERT_EQ(several.size(), 3u);
@@ -61,7 +62,8 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
       {"implicit-euler+line", "unknown option '+line'; expected +linear, +sticky or none"},
       {"rk4+sticky=1", "unknown option '+sticky=1'"},
       {"bullet/deformable-explicit+n=2",
-       "method bullet/deformable-explicit: unknown option '+n=2'; expected +default-rest, +default-margin or none"},
+       "method bullet/deformable-explicit: unknown option '+n=2'; expected +default-rest, +default-margin, "
+       "+default-sleep or none"},
       {"bullet/deformable-implicit+n=2",
        "method bullet/deformable-implicit: unknown option '+n=2'; expected +tight, +shipped, +unprojected or none"},
       {"bullet/deformable-implicit+tight=1", "'+tight=1'"},
