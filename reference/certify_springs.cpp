@@ -51,7 +51,7 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
     for (const int pin : scene.model.particles.pins) ours.f.col(pin).setZero(), others.col(pin).setZero();
     const double scale = largest_column(ours.f), off = largest_column(ours.f - others);
     // forces are differences of lengths at a tenth of stretch: that costs a digit, sums of a dozen springs another
-    w.row(quantity, asked, fmt::format("forces at a known state off by {:.2g}", off / scale),
+    w.row(quantity, asked, fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off),
           off <= 100 * w.tolerance() * scale);
   };
   if (springs && r.probe && r.probe->springs.size() > 0)

@@ -67,7 +67,7 @@ void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const double scale = largest_column(ours.f), off = largest_column(ours.f - told_forces);
   // left over when the springs are taken from the sum: their forces' rounding
   const double springs = r.probe->springs.size() > 0 ? largest_column(r.probe->springs) : 0;
-  w.row("wind", asked, fmt::format("forces at a known state off by {:.2g}", off / scale),
+  w.row("wind", asked, fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off),
         off <= 100 * w.tolerance() * (scale + springs));
 }
 

@@ -16,6 +16,8 @@ Watch::Watch(const Model& model) : model_(model) {
         const double speed = (1 + s.restitution) * top_speed(*s.motion);
         moving_spheres_ += model.particles.mass.sum() * speed * speed;
       }
+  if (const auto* gravity = model.find<Gravity>(); gravity && model.find<Spheres>())
+    contact_ = 1e-3 * model.particles.mass.sum() * gravity->acceleration.norm();
   if (model.find<Wind>() || model.find<Aerodynamics>() || model.particles.move)
     ledger_.emplace(model, ContactLoss::reported);
 }
@@ -56,7 +58,7 @@ Verdict Watch::observe(const State& state, bool sample) {
     if (const auto* springs = model_.find<Springs>())
       for (const Spring& s : springs->list)
         budget_ += 1e-24 * s.k * (state.x.col(s.a) - state.x.col(s.b)).squaredNorm();
-    budget_ += moving_spheres_;
+    budget_ += moving_spheres_ + contact_;
   }
   if (!first_ && !asked_)
     first_ = state;

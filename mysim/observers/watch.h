@@ -10,8 +10,9 @@ namespace crosscheck {
 /// Verdict::energy when E(t) - E(0) - (work of wind and moved pins) exceeds the energy that the run had to work with:
 /// kinetic + elastic at the start, plus the largest change of gravitational energy and the largest work so far.
 /// No correct motion can exceed it: drag and contact only take away (a moving sphere gives too: the kinetic energy of
-/// all particles at its top speed, twice, is added). Blow-ups pass it at once, also those of engines that clamp speeds
-/// and never become non-finite. States without velocities are judged by being finite alone.
+/// all particles at its top speed, twice, is added; and beside a sphere a fall by a millimetre, since an engine that
+/// pushes a resting particle out of a contact hands it a little speed). Blow-ups pass it at once, also those of engines
+/// that clamp speeds and never become non-finite. States without velocities are judged by being finite alone.
 ///
 /// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
 /// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not
@@ -31,6 +32,7 @@ class Watch : public Observer {
   std::optional<State> first_;  // until the sample after it
   bool asked_ = false;          // whether anything moved
   double moving_spheres_ = 0;   // J, the most that moving spheres are expected to give
+  double contact_ = 0;          // J, what corrections at contacts may give
   double budget_ = 0;
 };
 

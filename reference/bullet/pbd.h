@@ -8,7 +8,7 @@ namespace crosscheck::bullet {
 
 struct PbdSettings {
   int iterations = 1;
-  bool demo = false;      // as in Bullet's own cloth demos: every link at kLST = 1, ten iterations
+  bool demo = false;      // as in Bullet's own cloth demos: every link at kLST = 1
   bool own_wind = false;  // Bullet's own wind on triangles instead of the scene's
   Defaults defaults;
 };

@@ -60,22 +60,22 @@ WorldChoice deformable_implicit(const Options& options) {
 
 WorldChoice pbd(const Options& options) {
   PbdSettings settings;
+  int asked = 0;  // iterations
   for (const std::string& option : options) {
     const char *begin = option.data() + 2, *end = option.data() + option.size();
-    if (option == "demo") {
+    if (option == "demo")
       settings.demo = true;
-      settings.iterations = 10;
-    } else if (option == "own-wind") {
+    else if (option == "own-wind")
       settings.own_wind = true;
-    } else if (option == "default-rest") {
+    else if (option == "default-rest")
       settings.defaults.rest = true;
-    } else if (option == "default-voxel") {
+    else if (option == "default-voxel")
       settings.defaults.voxel = true;
-    } else if (!option.starts_with("n=") || std::from_chars(begin, end, settings.iterations).ptr != end ||
-               settings.iterations < 1 || settings.iterations > 1000) {
+    else if (!option.starts_with("n=") || asked != 0 || std::from_chars(begin, end, asked).ptr != end || asked < 1 ||
+             asked > 1000)
       refuse("pbd", option, "+n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest, +default-voxel");
-    }
   }
+  settings.iterations = asked > 0 ? asked : settings.demo ? 10 : 1;
   return {"Bullet's position-based world, stiffness mapped per link; different link and friction laws", "",
           [settings](const Scene& scene, const Run& run, Observer& observer) {
             return run_pbd(scene, run, observer, settings);
