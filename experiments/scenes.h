@@ -13,7 +13,8 @@ namespace crosscheck {
 /// Names of the shipped scenes, from simple to rich.
 std::span<const std::string_view> shipped_scenes();
 
-/// A shipped scene by name, the scene of a known disagreement by name, or any TOML file by path. Throws InputError that lists what there is.
+/// A shipped scene by name, the scene of a known disagreement by name, or any TOML file by path. Throws InputError that
+/// lists what there is.
 Scene load_scene(const std::string& name_or_path);
 
 /// Several at once; none given: all shipped ones. Throws InputError when two have the same name, under which their rows
