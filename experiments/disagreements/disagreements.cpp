@@ -15,6 +15,7 @@ Scene scene_of(const Disagreement& disagreement) { return read_scene(file_of_dis
 
 std::vector<Series> play(const Disagreement& disagreement, const Scene& scene) {
   std::vector<Series> all;
+  Trajectory first;
   for (const Variant& variant : disagreement.variants) {
     Scene own = scene;
     if (auto* springs = own.model.find<Springs>()) springs->law = variant.law;
@@ -23,8 +24,11 @@ std::vector<Series> play(const Disagreement& disagreement, const Scene& scene) {
     Recorder recorder;
     Series series{variant, run_method(find_method(variant.method), own, run, {&recorder}), {}};
     const Trajectory& path = recorder.trajectory;
-    for (int i = 0; i < path.frames(); ++i)
-      series.points.emplace_back(path.t[i], disagreement.value(own, {path.t[i], path.x[i], path.v[i]}));
+    if (all.empty()) first = path;
+    for (int i = 0; i < path.frames() && i < first.frames(); ++i)
+      series.points.emplace_back(path.t[i], disagreement.value
+                                                ? disagreement.value(own, {path.t[i], path.x[i], path.v[i]})
+                                                : largest_column(path.x[i] - first.x[i]));
     all.push_back(std::move(series));
   }
   return all;

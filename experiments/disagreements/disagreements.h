@@ -33,6 +33,8 @@ struct Disagreement {
   std::string cause;  // one sentence
   std::string quantity, unit;
   std::vector<Variant> variants;  // first what the scene asks for
+  /// The quantity; none: the largest distance of a particle from its place in the first variant's run (m), on a
+  /// logarithmic axis.
   std::function<double(const Scene&, const State&)> value;
   std::function<std::string(const std::vector<Series>&)> effect;  // the measured size, one sentence
 };

@@ -126,6 +126,16 @@ std::string hop_effect(const std::vector<Series>& all) {
                      most(all[1]), most(all[0]));
 }
 
+std::string precision_effect(const std::vector<Series>& all) {
+  // numbers of 24 bits are rounded by 6e-8 of their size; some ten roundings a step, that add up like a random walk
+  constexpr double length = 2;  // m, of the positions in the scene
+  const double expected = 10 * 6e-8 * length * std::sqrt(static_cast<double>(all[2].outcome.steps));
+  return fmt::format(
+      "From mysim, in double precision, Bullet parts by {:.1g} m in double and by {:.1g} m in single precision; the "
+      "rounding of 24 bits lets one expect up to {:.1g} m.",
+      largest(all[1]), largest(all[2]), expected);
+}
+
 }  // namespace
 
 std::vector<Disagreement> disagreements() {
@@ -254,6 +264,19 @@ std::vector<Disagreement> disagreements() {
        {{"mysim", "mysim/leapfrog"}, {"Bullet, deformable", "bullet/deformable-explicit"}},
        gap,
        hop_effect},
+      {"single-precision",
+       "bullet32",
+       "Single precision loses half of the digits",
+       "Bullet's usual build keeps 24 bits of each number: every position is rounded by 6e-8 of its size in every "
+       "step, "
+       "whatever the rule.",
+       "distance from mysim",
+       "m",
+       {{"mysim, double precision", "mysim/symplectic-euler"},
+        {"Bullet, double precision", "bullet/deformable-explicit"},
+        {"Bullet, single precision", "bullet32/deformable-explicit"}},
+       nullptr,
+       precision_effect},
   };
 }
 

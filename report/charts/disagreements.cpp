@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "experiments/disagreements/disagreements.h"
 #include "report/charts/charts.h"
 
 namespace crosscheck {
@@ -46,19 +47,23 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
     f.caption = fmt::format("Scene {}, hash {}; commit {}.", name, text_at(*summary, row, "scene hash"), input.commit);
     f.x = {"t / s", false, 0.0, std::nullopt};
     f.y = {fmt::format("{} / {}", quantity.name, quantity.unit), false, std::nullopt, std::nullopt};
+    const auto known = disagreements();
+    const auto found = std::find_if(known.begin(), known.end(), [&](const Disagreement& d) { return d.name == name; });
+    f.y.logarithmic = found != known.end() && !found->value;
     Styles styles;
     for (size_t i = 0; i < table.rows.size(); ++i) {
       const std::string& curve = text_at(table, i, "curve");
       if (f.curves.empty() || f.curves.back().title != curve)
         f.curves.push_back({curve, styles.of(text_at(table, i, "method")), {}});
-      f.curves.back().points.emplace_back(std::get<double>(table.at(i, "t")),
-                                          std::get<double>(table.at(i, quantity.name)));
+      const double t = std::get<double>(table.at(i, "t")), y = std::get<double>(table.at(i, quantity.name));
+      if (y > 0 || !f.y.logarithmic) f.curves.back().points.emplace_back(t, y);
       const std::string& verdict = text_at(table, i, "verdict");
       const bool last = i + 1 == table.rows.size() || text_at(table, i + 1, "curve") != curve;
-      if (last && verdict != "ok")
+      if (last && verdict != "ok" && !f.curves.back().points.empty())
         f.failures.push_back({fmt::format("{}: {}", curve, failure_word(verdict)), f.curves.back().style,
                               f.curves.back().points.back().first, f.curves.back().points.back().second});
     }
+    std::erase_if(f.curves, [](const Curve& c) { return c.points.empty(); });  // what is held against itself
     charts.push_back({"", std::move(f), "disagreements",
                       fmt::format("{}: {}", text_at(*summary, row, "world"), text_at(*summary, row, "cause"))});
   }
