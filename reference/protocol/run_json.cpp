@@ -38,6 +38,10 @@ Json readback_json(const Readback& r) {
       add(entry, "restitution", ball.restitution);
     }
   }
+  if (r.later) {
+    json["later"] = {{"t", r.later->t}, {"pins", json_of(r.later->pins)}, {"centres", Json::array()}};
+    for (const Vec3& centre : r.later->centres) json["later"]["centres"].push_back(json_of(centre));
+  }
   if (r.start) json["start"] = {{"x", json_of(r.start->x)}, {"v", json_of(r.start->v)}};
   if (r.probe) {
     json["probe"] = {{"t", r.probe->t}};
@@ -55,6 +59,12 @@ Json readback_json(const Readback& r) {
 std::optional<double> optional_number(const JsonField& f, std::string_view key) {
   const auto found = f.find(key);
   return found ? std::optional(found->number()) : std::nullopt;
+}
+
+Readback::Places places_of(const JsonField& f) {
+  Readback::Places places{f["t"].number(), f["pins"].points(static_cast<int>(f["pins"].elements().size())), {}};
+  for (const JsonField& centre : f["centres"].elements()) places.centres.push_back(centre.vec3());
+  return places;
 }
 
 ForceProbe probe_of(const JsonField& f, int n) {
@@ -91,6 +101,7 @@ Readback readback_of(const JsonField& f, double step) {
       r.spheres->push_back({s["centre"].vec3(), optional_number(s, "radius"), optional_number(s, "friction"),
                             optional_number(s, "restitution")});
   }
+  if (const auto later = f.find("later")) r.later = places_of(*later);
   if (const auto start = f.find("start")) r.start = State{0, (*start)["x"].points(n), (*start)["v"].points(n)};
   if (const auto probe = f.find("probe")) r.probe = probe_of(*probe, n);
   if (const auto mapped = f.find("mapped")) {

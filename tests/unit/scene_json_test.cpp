@@ -123,6 +123,8 @@ TEST_F(RunJson, GivesAnOutcomeBack) {
   ASSERT_TRUE(out.readback && out.readback->probe);
   out.readback->start = scene.start;
   out.readback->spheres.emplace().push_back({{1, 2, 3}, 0.5, std::nullopt, 0.25});
+  ASSERT_TRUE(out.readback->later);
+  out.readback->later->centres = {{1, 2, 4}};
   out.readback->margin = 0.01;
   out.readback->drag = std::vector<double>(25, 2);
   out.readback->links[3].stiffness = 1.0 / 3;
@@ -134,6 +136,8 @@ TEST_F(RunJson, GivesAnOutcomeBack) {
   EXPECT_EQ(back.readback->pinned, out.readback->pinned);
   EXPECT_EQ(back.readback->probe->springs, out.readback->probe->springs);
   EXPECT_EQ(back.readback->start->x, scene.start.x);
+  EXPECT_EQ(back.readback->later->pins, out.readback->later->pins);
+  EXPECT_EQ(back.readback->later->centres, out.readback->later->centres);
   EXPECT_EQ(back.readback->mapped, out.readback->mapped);
   EXPECT_EQ(*back.readback->links[3].stiffness, 1.0 / 3);
   EXPECT_EQ(back.cpu_seconds, out.cpu_seconds);
