@@ -3,7 +3,7 @@
 
 #include "mysim/adaptive.h"
 #include "mysim/errors.h"
-#include "mysim/march.h"
+#include "mysim/march_adaptively.h"
 
 namespace crosscheck {
 namespace {
@@ -50,16 +50,7 @@ void require_supported(const Stepper& stepper, const Model& model) {
 
 Outcome simulate_adaptively(ContactRule contact, const Scene& scene, const Run& run, Observer& observer) {
   AdaptiveWorld world(scene, run, contact);
-  Run seen = run;
-  // the fixed step is then the grid on which observers of every step look, and what bounds steps beside a sphere
-  if (!observer.every_step() && !scene.model.find<Spheres>()) seen.step = run.duration / run.samples;
-  Outcome out = march(world, seen, observer);
-  out.evaluations = world.right_hand_side().evaluations();
-  out.coincident = world.right_hand_side().coincident();
-  out.steps = world.accepted();
-  out.step = out.steps > 0 ? out.end / static_cast<double>(out.steps) : 0;
-  out.tolerance = run.tolerance;
-  return out;
+  return march_adaptively(world, run, observer, scene.model.find<Spheres>() != nullptr);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "mysim/fnv.h"
 #include "mysim/scene.h"
 
 namespace crosscheck {
@@ -12,7 +13,7 @@ namespace {
 class Hash {
  public:
   void add(std::uint64_t word) {
-    for (int i = 0; i < 8; ++i) state_ = (state_ ^ (word >> (8 * i) & 0xff)) * 0x100000001b3ull;
+    for (int i = 0; i < 8; ++i) bytes_.add(static_cast<unsigned char>(word >> (8 * i)));
   }
   void add(int value) { add(static_cast<std::uint64_t>(static_cast<std::int64_t>(value))); }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
@@ -54,7 +55,7 @@ class Hash {
   }
   void motion(const Motion& m) { add(m.amplitude), add(m.frequency), add(m.ramp); }
 
-  std::uint64_t value() const { return state_; }
+  std::uint64_t value() const { return bytes_.value(); }
 
  private:
   void blowing(const Blowing& b) {
@@ -62,7 +63,7 @@ class Hash {
     if (b.gusts) add(b.gusts->variation), add(b.gusts->side), add(b.gusts->seed);
   }
 
-  std::uint64_t state_ = 0xcbf29ce484222325ull;
+  Fnv1a bytes_;
 };
 
 }  // namespace

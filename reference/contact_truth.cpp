@@ -6,21 +6,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "mysim/engine.h"
-#include "mysim/observers/watch.h"
+#include "reference/method.h"
 
 namespace crosscheck {
 namespace {
 
 std::optional<Trajectory> by_leapfrog(const Scene& scene, const Run& run) {
-  const auto all = steppers();
-  const Stepper& leapfrog =
-      *std::find_if(all.begin(), all.end(), [](const Stepper& s) { return s.name == "leapfrog"; });
   Recorder recorder;
-  Watch watch(scene.model);
-  Observers look({&recorder, &watch});
-  const Outcome out = simulate(leapfrog, ContactRule::coulomb, scene, run, look);
-  if (out.verdict != Verdict::ok) return std::nullopt;
+  if (run_method(find_method("mysim/leapfrog"), scene, run, {&recorder}).verdict != Verdict::ok) return std::nullopt;
   return std::move(recorder.trajectory);
 }
 

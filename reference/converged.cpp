@@ -9,11 +9,11 @@
 #include <limits>
 #include <utility>
 
-#include "mysim/engine.h"
 #include "mysim/errors.h"
 #include "mysim/frequency.h"
 #include "mysim/observers/watch.h"
 #include "reference/independent/integrators.h"
+#include "reference/method.h"
 #include "reference/multipliers.h"
 
 namespace crosscheck {
@@ -36,29 +36,18 @@ double first_step(const Scene& scene, bool hard) {
   return std::min(2 * scene.step / part, omega > 0 ? 1.4 / omega : scene.step);
 }
 
-double largest_difference(const Trajectory& a, const Trajectory& b) {
-  double largest = 0;
-  for (int i = 0; i < a.frames(); ++i) largest = std::max(largest, rms_distance(a.x[i], b.x[i]));
-  return largest;
-}
-
-const Stepper& rk4_of_mysim() {
-  const auto all = steppers();
-  return *std::find_if(all.begin(), all.end(), [](const Stepper& s) { return s.name == "rk4"; });
-}
-
 /// mysim's run at one step, under a watch for failures; nothing if it failed. Throws Unsupported where the hard
 /// distances depend on each other.
 std::optional<Trajectory> by_rk4(const Scene& scene, const Run& run, bool hard) {
   Recorder recorder;
-  Watch watch(scene.model);
-  Observers look({&recorder, &watch});
   Outcome out;
   if (hard) {
+    Watch watch(scene.model);
+    Observers look({&recorder, &watch});
     MultiplierWorld world(scene, plan(run).h);
     out = march(world, run, look);
   } else {
-    out = simulate(rk4_of_mysim(), ContactRule::coulomb, scene, run, look);
+    out = run_method(find_method("mysim/rk4"), scene, run, {&recorder});
   }
   if (out.verdict != Verdict::ok) return std::nullopt;
   return std::move(recorder.trajectory);
@@ -76,7 +65,7 @@ std::optional<Route> by_mysim(const Scene& scene, const Run& run) {
     h /= 2;
     auto fine = by_rk4(scene, {h, run.duration, run.samples}, hard);
     if (!fine) return std::nullopt;
-    const double before = std::exchange(change, largest_difference(*coarse, *fine));
+    const double before = std::exchange(change, largest_rms_distance(*coarse, *fine));
     // where halving no longer helps, round-off or chaos is what is left
     if (change < enough || change > before / 2)
       return Route{

@@ -1,6 +1,7 @@
 // Finds the truth of a scene.
 #include "reference/truth.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "reference/contact_truth.h"
@@ -44,6 +45,13 @@ std::string_view name_of(Tier tier) {
 }
 
 double rms_distance(const Points& a, const Points& b) { return (a - b).norm() / std::sqrt(double(a.cols())); }
+
+double largest_rms_distance(const Trajectory& a, const Trajectory& b, double until) {
+  double largest = 0;
+  for (int i = 0; i < std::min(a.frames(), b.frames()) && a.t[i] <= until * (1 + 1e-9); ++i)
+    largest = std::max(largest, rms_distance(a.x[i], b.x[i]));
+  return largest;
+}
 
 std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
   if (const auto exact = exact_solution(scene)) return from_closed_form(*exact, scene, run);

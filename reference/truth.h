@@ -30,5 +30,7 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 
 /// sqrt of the mean over the particles of |a_i - b_i|^2, m.
 double rms_distance(const Points& a, const Points& b);
+/// Its largest value over the samples that both have, up to `until` (s), m.
+double largest_rms_distance(const Trajectory& a, const Trajectory& b, double until = INFINITY);
 
 }  // namespace crosscheck

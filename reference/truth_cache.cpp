@@ -10,6 +10,7 @@
 
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/fnv.h"
 #include "reference/build_id.h"
 #include "reference/independent/integrators.h"
 
@@ -18,12 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto extension = ".truth";
-
-std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t sum = 0xcbf29ce484222325ull;
-  for (const char c : bytes) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
-  return sum;
-}
 
 class Writer {
  public:
@@ -110,14 +105,14 @@ std::string packed(const std::string& key, const std::optional<Truth>& truth) {
     w.add(truth->until);
   }
   Writer sum;
-  sum.add(checksum(w.bytes()));
+  sum.add(Fnv1a::of(w.bytes()));
   return sum.bytes() + w.bytes();
 }
 
 /// The answer in the file; throws Damaged where it is none, or another one's.
 std::optional<Truth> unpacked(const std::string& key, const std::string& file) {
   Reader r(file);
-  if (r.count() != checksum(std::string_view(file).substr(sizeof(std::uint64_t))) || r.text() != key) throw Damaged();
+  if (r.count() != Fnv1a::of(std::string_view(file).substr(sizeof(std::uint64_t))) || r.text() != key) throw Damaged();
   if (r.count() == 0) return std::nullopt;
   Truth truth{};
   truth.tier = static_cast<Tier>(r.count());
@@ -164,14 +159,16 @@ std::string TruthCache::key_of(const Scene& scene, const Run& run) const {
                      scene.step, run.duration, run.samples, scene.window);
 }
 
-fs::path TruthCache::file_of(const Scene& scene, const Run& run) const {
-  return folder_ / fmt::format("{:016x}{}", checksum(key_of(scene, run)), extension);
+fs::path TruthCache::file_at(const std::string& key) const {
+  return folder_ / fmt::format("{:016x}{}", Fnv1a::of(key), extension);
 }
+
+fs::path TruthCache::file_of(const Scene& scene, const Run& run) const { return file_at(key_of(scene, run)); }
 
 std::optional<Truth> TruthCache::find_or(const Scene& scene, const Run& run,
                                          const std::function<std::optional<Truth>()>& compute) const {
   const std::string key = key_of(scene, run);
-  const fs::path file = file_of(scene, run);
+  const fs::path file = file_at(key);
   if (std::ifstream in(file, std::ios::binary); in) {
     const std::string content((std::istreambuf_iterator<char>(in)), {});
     try {

@@ -27,6 +27,7 @@ class TruthCache {
 
  private:
   std::string key_of(const Scene& scene, const Run& run) const;
+  std::filesystem::path file_at(const std::string& key) const;
   std::filesystem::path folder_;
   std::string program_;
 };

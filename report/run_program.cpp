@@ -12,24 +12,10 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "reference/protocol/pipe.h"
+
 namespace crosscheck {
 namespace {
-
-struct Pipe {
-  int read_end = -1, write_end = -1;
-  Pipe() {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
-    read_end = ends[0], write_end = ends[1];
-  }
-  ~Pipe() { close_end(read_end), close_end(write_end); }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-  static void close_end(int& end) {
-    if (end >= 0) close(end);
-    end = -1;
-  }
-};
 
 struct FileActions {
   posix_spawn_file_actions_t list;

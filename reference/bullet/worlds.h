@@ -2,9 +2,7 @@
 // double or in single precision is decided by the Bullet that they are compiled against.
 #pragma once
 
-#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "mysim/run.h"

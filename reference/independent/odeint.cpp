@@ -13,7 +13,7 @@
 #include <functional>
 
 #include "mysim/errors.h"
-#include "mysim/march.h"
+#include "mysim/march_adaptively.h"
 #include "reference/independent/integrators.h"
 #include "reference/independent/right_hand_side.h"
 
@@ -113,39 +113,24 @@ class Fehlberg78World : public OdeintWorld {
   double h_;
 };
 
-Outcome played(OdeintWorld& world, const Run& run, Observer& observer) {
+}  // namespace
+
+Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer) {
+  Rk4World world(scene);
   Outcome out = march(world, run, observer);
   out.evaluations = world.right_hand_side().evaluations();
   out.coincident = world.right_hand_side().coincident();
   return out;
 }
 
-Outcome played_adaptively(OdeintWorld& world, Run run, Observer& observer) {
-  const double tolerance = run.tolerance;
-  // the fixed step is then the grid on which observers of every step look
-  if (!observer.every_step()) run.step = run.duration / run.samples;
-  Outcome out = played(world, run, observer);
-  out.steps = world.accepted();
-  out.step = out.steps > 0 ? out.end / static_cast<double>(out.steps) : 0;
-  out.tolerance = tolerance;
-  return out;
-}
-
-}  // namespace
-
-Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer) {
-  Rk4World world(scene);
-  return played(world, run, observer);
-}
-
 Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer) {
   Dopri5World world(scene, run);
-  return played_adaptively(world, run, observer);
+  return march_adaptively(world, run, observer);
 }
 
 Outcome run_odeint_fehlberg78(const Scene& scene, const Run& run, Observer& observer) {
   Fehlberg78World world(scene, run);
-  return played_adaptively(world, run, observer);
+  return march_adaptively(world, run, observer);
 }
 
 std::string odeint_version() { return fmt::format("{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000); }

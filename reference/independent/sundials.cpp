@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "mysim/errors.h"
-#include "mysim/march.h"
+#include "mysim/march_adaptively.h"
 #include "reference/independent/integrators.h"
 #include "reference/independent/right_hand_side.h"
 
@@ -115,16 +115,7 @@ class ArkodeWorld : public World {
 
 Outcome run_arkode(const Scene& scene, const Run& run, Observer& observer) {
   ArkodeWorld world(scene, run);
-  Run seen = run;
-  // the fixed step is then the grid on which observers of every step look
-  if (!observer.every_step()) seen.step = run.duration / run.samples;
-  Outcome out = march(world, seen, observer);
-  out.evaluations = world.right_hand_side().evaluations();
-  out.coincident = world.right_hand_side().coincident();
-  out.steps = world.accepted();
-  out.step = out.steps > 0 ? out.end / static_cast<double>(out.steps) : 0;
-  out.tolerance = run.tolerance;
-  return out;
+  return march_adaptively(world, run, observer);
 }
 
 std::optional<std::string> sundials_version() { return SUNDIALS_VERSION; }

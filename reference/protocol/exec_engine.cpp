@@ -9,6 +9,7 @@
 
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/temporary_folder.h"
 #include "reference/npy.h"
 #include "reference/protocol/delivery.h"
 #include "reference/protocol/process.h"
@@ -18,23 +19,6 @@
 namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "crosscheck-engine-XXXXXX").string();
-    if (!mkdtemp(name.data()))
-      throw InputError(fmt::format("{}: no folder can be made there; expected a place for temporary files", name));
-    path = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  fs::path path;
-};
 
 /// The last line that says something: valid UTF-8, no control characters, not too long for a table.
 std::string last_line(const std::string& text) {
@@ -83,7 +67,7 @@ Frames read_delivery(const fs::path& folder, const Scene& scene, const Run& run,
 }  // namespace
 
 Outcome run_program(const Program& program, const Scene& scene, const Run& run, Observer& observer) {
-  const TemporaryFolder folder;
+  const TemporaryFolder folder("engine");
   const fs::path task = folder.path / "scene.json", results = folder.path / "out";
   write_file(task, scene_json(scene, run, program.options));
   fs::create_directory(results);

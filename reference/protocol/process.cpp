@@ -15,6 +15,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "reference/protocol/pipe.h"
+
 namespace crosscheck {
 namespace {
 
@@ -25,34 +27,18 @@ constexpr size_t kept = 65536;
   throw std::runtime_error(what + ": " + std::strerror(error));
 }
 
-struct Pipe {
-  int read_end = -1, write_end = -1;
-  Pipe() {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0) fail("pipe", errno);
-    read_end = ends[0], write_end = ends[1];
+/// Takes what is there without waiting; closes at the end of the stream.
+void drain(Pipe& pipe, std::string& text) {
+  std::array<char, 4096> chunk;
+  while (pipe.read_end >= 0) {
+    const ssize_t n = read(pipe.read_end, chunk.data(), chunk.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno == EAGAIN) return;
+    if (n <= 0) return Pipe::close_end(pipe.read_end);
+    text.append(chunk.data(), static_cast<size_t>(n));
+    if (text.size() > 2 * kept) text.erase(0, text.size() - kept);
   }
-  ~Pipe() { close_end(read_end), close_end(write_end); }
-  Pipe(const Pipe&) = delete;
-  Pipe& operator=(const Pipe&) = delete;
-  static void close_end(int& end) {
-    if (end >= 0) close(end);
-    end = -1;
-  }
-  bool open() const { return read_end >= 0; }
-  /// Takes what is there without waiting; closes at the end of the stream.
-  void drain(std::string& text) {
-    std::array<char, 4096> chunk;
-    while (open()) {
-      const ssize_t n = read(read_end, chunk.data(), chunk.size());
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0 && errno == EAGAIN) return;
-      if (n <= 0) return close_end(read_end);
-      text.append(chunk.data(), static_cast<size_t>(n));
-      if (text.size() > 2 * kept) text.erase(0, text.size() - kept);
-    }
-  }
-};
+}
 
 /// In the child; only what is allowed between fork and exec. An error goes back as its number.
 [[noreturn]] void become(char* const* argv, pid_t parent, int in, const Pipe& out, const Pipe& err,
@@ -123,10 +109,10 @@ ProcessEnd run_process(const std::vector<std::string>& words, double timeout) {
   Clock::time_point patience{};  // how long a child of the ended program may take to close its output
   for (int pause = 1;; pause = std::min(20, pause + 1)) {
     const bool ended = child.ended();
-    out.drain(end.out), err.drain(end.err);
+    drain(out, end.out), drain(err, end.err);
     const Clock::time_point now = Clock::now();
     if (ended) {
-      if (!out.open() && !err.open()) break;
+      if (out.read_end < 0 && err.read_end < 0) break;
       if (patience == Clock::time_point{}) patience = now + std::chrono::milliseconds(200);
       if ((end.left_children = now >= patience)) break;
     } else if ((end.timed_out = now >= limit)) {
@@ -136,7 +122,7 @@ ProcessEnd run_process(const std::vector<std::string>& words, double timeout) {
     poll(wait, 2, pause);  // ms; the end of a program that closed its output is seen by looking again
   }
   child.bury();
-  out.drain(end.out), err.drain(end.err);
+  drain(out, end.out), drain(err, end.err);
   for (std::string* text : {&end.out, &end.err})
     if (text->size() > kept) text->erase(0, text->size() - kept);
   end.cpu_seconds = seconds(child.usage.ru_utime) + seconds(child.usage.ru_stime);

@@ -36,6 +36,7 @@ class Styles {
 std::vector<Chart> disagreement_charts(const ChartInput& input) {
   std::vector<Chart> charts;
   const Table* summary = input.result.table("disagreements");
+  const auto known = disagreements();
   for (size_t row = 0; summary && row < summary->rows.size(); ++row) {
     const std::string& name = text_at(*summary, row, "name");
     const Table& table = *input.result.table(name + "-disagreement");
@@ -47,7 +48,6 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
     f.caption = fmt::format("Scene {}, hash {}; commit {}.", name, text_at(*summary, row, "scene hash"), input.commit);
     f.x = {"t / s", false, 0.0, std::nullopt};
     f.y = {fmt::format("{} / {}", quantity.name, quantity.unit), false, std::nullopt, std::nullopt};
-    const auto known = disagreements();
     const auto found = std::find_if(known.begin(), known.end(), [&](const Disagreement& d) { return d.name == name; });
     f.y.logarithmic = found != known.end() && !found->value;
     Styles styles;

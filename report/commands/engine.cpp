@@ -9,6 +9,7 @@
 
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/fnv.h"
 #include "report/commands/commands.h"
 #include "report/run_program.h"
 
@@ -64,9 +65,7 @@ int engine_command(const EngineOptions& options) {
     throw InputError(fmt::format("-o {}: expected the name of a program, got a folder", options.program.string()));
   require_writable(options.program.has_parent_path() ? options.program.parent_path() : ".");
 
-  std::uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a
-  for (unsigned char c : prefix.string()) hash = (hash ^ c) * 0x100000001b3ull;
-  const fs::path build = source / "build" / "engines" / fmt::format("{:016x}", hash);
+  const fs::path build = source / "build" / "engines" / fmt::format("{:016x}", Fnv1a::of(prefix.string()));
   fmt::print(stderr, "crosscheck: building the adapter against {} in {}\n", prefix.string(), build.string());
   // a precision or a library found once may be another after the tree was built again
   std::error_code none;

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "mysim/temporary_folder.h"
 #include "report/render/colour.h"
 #include "report/render/layout.h"
 #include "report/render/lettering.h"
@@ -17,22 +18,6 @@ namespace crosscheck::render {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A private folder that goes away with the object.
-struct TemporaryFolder {
-  fs::path path;
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "crosscheck-render-XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a temporary folder like " + name);
-    path = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
 
 /// A file beside the final one, opened before any drawing so that a bad place is known at once.
 struct FileInWaiting {
@@ -92,7 +77,7 @@ void write_png(const Picture& picture, const fs::path& file, Studio& studio) {
   Image image = studio.draw(picture);
   if (picture.scale) paint_bar(*picture.scale, layout, image);
 
-  const TemporaryFolder folder;
+  const TemporaryFolder folder("render");
   const std::string script = lettering_script(picture, layout, "pixels", "picture.png");
   write(folder.path / "pixels", image.rgb.data(), image.rgb.size());
   write(folder.path / "letters.gp", script.data(), script.size());

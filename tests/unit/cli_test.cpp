@@ -1,86 +1,12 @@
 // The program as people and scripts call it: exit statuses, messages of one line, files, and the same bytes twice.
-#include <gtest/gtest.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
-#include "report/run_program.h"
+#include "tests/unit/cli.h"
 
 namespace crosscheck {
 namespace {
-namespace fs = std::filesystem;
 
-class Cli : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("crosscheck-cli-" + std::to_string(getpid()) + "-" +
-                                           testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  ProgramResult call(std::vector<std::string> words) const {
-    words.insert(words.begin(), CROSSCHECK_PROGRAM);
-    return run_program(words, folder_, {"ASAN_OPTIONS=detect_leaks=0"});
-  }
-  fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  static std::string read(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::stringstream text;
-    text << in.rdbuf();
-    return text.str();
-  }
-  /// The rows of a table, without the provenance lines (they hold the date).
-  static std::string rows(const fs::path& file) {
-    std::istringstream in(read(file));
-    std::string out;
-    for (std::string line; std::getline(in, line);)
-      if (!line.starts_with("#")) out += line + "\n";
-    return out;
-  }
-  int files() const {
-    return static_cast<int>(
-        std::distance(fs::recursive_directory_iterator(folder_), fs::recursive_directory_iterator()));
-  }
-  fs::path folder_;
-};
-
-constexpr auto own_scene = R"(
-question = "Does a scene that nobody shipped work everywhere?"
-parameters = "Two masses on springs, picked at random."
-[time]
-duration = 0.4
-samples = 20
-step = 1e-3
-window = 0.4
-tolerance = 1e-3
-method = "leapfrog"
-[[particle]]
-position = [0, 0, 0]
-mass = 1
-[[particle]]
-position = [0.3, -0.4, 0]
-mass = 0.5
-[[particle]]
-position = [0.3, -0.9, 0.1]
-mass = 0.25
-[[spring]]
-ends = [0, 1]
-stiffness = 150
-[[spring]]
-ends = [1, 2]
-stiffness = 90
-[pins]
-particles = [0]
-[gravity]
-acceleration = [0, -9.81, 0]
-)";
+using namespace testing_tools;
 
 TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
   const std::string good = own_scene;
@@ -181,56 +107,6 @@ TEST_F(Cli, UnsupportedMethodIsANoWithItsReason) {
   EXPECT_EQ(result.status, 1);
   EXPECT_NE(result.err.find("first-order"), std::string::npos) << result.err;
   EXPECT_FALSE(fs::exists(folder_ / "out/run.json"));
-}
-
-TEST_F(Cli, CompareStopsAtAMismatch) {
-  const ProgramResult result =
-      call({"compare", "spring", "--methods", "leapfrog,bullet/deformable-explicit+default-rest", "--out", "out"});
-  EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.out.find("mismatch       springs: rest lengths"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("MISMATCH: bullet/deformable-explicit+default-rest was given another scene"),
-            std::string::npos)
-      << result.out;
-  // the other side of it
-  EXPECT_EQ(call({"compare", "spring", "--methods", "leapfrog,bullet/deformable-explicit", "--out", "out"}).status, 0);
-}
-
-TEST_F(Cli, CompareShowsParityAndThatEqualRulesAgree) {
-  const ProgramResult result = call({"compare", "chain", "--out", "out"});
-  EXPECT_EQ(result.status, 0) << result.err;
-  EXPECT_NE(result.out.find("parity of bullet/deformable-explicit"), std::string::npos);
-  EXPECT_NE(result.out.find("same rule"), std::string::npos);
-  EXPECT_EQ(result.out.find("NOT THE SAME"), std::string::npos);
-  EXPECT_TRUE(fs::exists(folder_ / "out/certificate-bullet-pbd.json"));
-}
-
-TEST_F(Cli, CompareTakesATrajectoryFromAFile) {
-  ASSERT_EQ(call({"run", "chain", "--method", "symplectic-euler", "--out", "theirs"}).status, 0);
-  const ProgramResult result = call({"compare", "chain", "--methods", "symplectic-euler,leapfrog", "--trajectory",
-                                     "theirs/trajectory.npy", "--out", "out"});
-  EXPECT_EQ(result.status, 0) << result.err;
-  const size_t at = result.out.find("\nfile:trajectory.npy");
-  ASSERT_NE(at, std::string::npos) << result.out;
-  std::istringstream row(result.out.substr(at));
-  std::string name, verdict, error, difference;
-  row >> name >> verdict >> error >> difference;
-  EXPECT_EQ(verdict, "ok");
-  EXPECT_EQ(difference, "0") << "the same run";
-  EXPECT_NE(result.out.find("parity of file:trajectory.npy"), std::string::npos);
-  ASSERT_EQ(call({"run", "chain", "--duration", "1", "--out", "short"}).status, 0);
-  const ProgramResult refused = call({"compare", "chain", "--trajectory", "short/trajectory.npy"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("expected shape (151, 4, 3)"), std::string::npos) << refused.err;
-}
-
-TEST_F(Cli, AnEngineThatDoesNotBuildSaysWhatTheCompilerSaid) {
-  fs::create_directories(folder_ / "tree/include/bullet/BulletSoftBody");
-  write("tree/include/bullet/btBulletDynamicsCommon.h", "");
-  const ProgramResult result = call({"engine", "bullet", "--prefix", "tree", "-o", "engine"});
-  EXPECT_EQ(result.status, 1);
-  EXPECT_NE(result.err.find("libBulletSoftBody"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("tree/lib*"), std::string::npos) << result.err;
-  EXPECT_FALSE(fs::exists(folder_ / "engine"));
 }
 
 TEST_F(Cli, ListsAreReadableByProgramsToo) {
