@@ -31,7 +31,10 @@ void add_ledger(Table& table, const std::string& method, const std::vector<Ledge
                inferred ? Cell() : Cell(row.balance() - rows.front().balance())});
 }
 
-void energy_experiment(const Request& request, Progress& progress, Result& result) {
+namespace {
+
+void energy_of(const Request& request, const Scene& scene, Rows& rows) {
+  Answers answers;
   Table summary{"energy",
                 {{"scene", "1"},
                  {"method", "1"},
@@ -42,41 +45,40 @@ void energy_experiment(const Request& request, Progress& progress, Result& resul
                  {"relative balance error", "1"},
                  {"contact loss inferred", "1"}},
                 {}};
-  for (const Scene& scene : request.scenes) {
-    if (scene.model.first_order()) {
-      progress.expect(1 - static_cast<int>(methods_of(request, scene).size()));
-      progress.begin("energy: " + scene.name);
-      result.notes.push_back(fmt::format("energy leaves out {}: a first-order system has no energy", scene.name));
+  if (scene.model.first_order()) {
+    rows.notes.push_back(fmt::format("energy leaves out {}: a first-order system has no energy", scene.name));
+    rows.add(summary);
+    return;
+  }
+  Table table = ledger_table(scene.name + "-energy");
+  for (const Method& method : methods_of(request, scene)) {
+    const Answer& answer = answer_of(request, scene, method, answers);
+    const Outcome& out = answer.outcome;
+    if (out.verdict == Verdict::unsupported) continue;
+    if (answer.ledger.empty()) {
+      rows.notes.push_back(fmt::format("energy leaves out {} on {}: it gave no velocities", method.name, scene.name));
       continue;
     }
-    Table table = ledger_table(scene.name + "-energy");
-    for (const Method& method : methods_of(request, scene)) {
-      progress.begin(fmt::format("energy: {} by {}", scene.name, method.name));
-      const Answer& answer = answer_of(request, scene, method, result);
-      const Outcome& out = answer.outcome;
-      if (out.verdict == Verdict::unsupported) continue;
-      if (answer.ledger.empty()) {
-        result.notes.push_back(
-            fmt::format("energy leaves out {} on {}: it gave no velocities", method.name, scene.name));
-        continue;
-      }
-      const double start = answer.ledger.front().balance();
-      double worst = 0, turned_over = 0;
-      add_ledger(table, method.name, answer.ledger, answer.contact_inferred);
-      for (const LedgerRow& row : answer.ledger) {
-        worst = std::max(worst, std::abs(row.balance() - start));
-        turned_over = std::max({turned_over, row.energy.kinetic,
-                                std::abs(row.energy.gravitational - answer.ledger[0].energy.gravitational)});
-      }
-      const bool ok = out.verdict == Verdict::ok;
-      const bool claimed = ok && !answer.contact_inferred;
-      summary.add({scene.name, method.name, std::string(name_of(out.verdict)), out.end, turned_over,
-                   claimed ? Cell(worst) : Cell(), claimed && turned_over > 0 ? Cell(worst / turned_over) : Cell(),
-                   answer.contact_inferred ? 1l : 0l});
+    const double start = answer.ledger.front().balance();
+    double worst = 0, turned_over = 0;
+    add_ledger(table, method.name, answer.ledger, answer.contact_inferred);
+    for (const LedgerRow& row : answer.ledger) {
+      worst = std::max(worst, std::abs(row.balance() - start));
+      turned_over = std::max({turned_over, row.energy.kinetic,
+                              std::abs(row.energy.gravitational - answer.ledger[0].energy.gravitational)});
     }
-    result.tables.push_back(std::move(table));
+    const bool ok = out.verdict == Verdict::ok;
+    const bool claimed = ok && !answer.contact_inferred;
+    summary.add({scene.name, method.name, std::string(name_of(out.verdict)), out.end, turned_over,
+                 claimed ? Cell(worst) : Cell(), claimed && turned_over > 0 ? Cell(worst / turned_over) : Cell(),
+                 answer.contact_inferred ? 1l : 0l});
   }
-  result.tables.push_back(std::move(summary));
+  rows.add(table);
+  rows.add(summary);
 }
+
+}  // namespace
+
+std::vector<Point> energy_points(const Request& request) { return one_point_per_scene(request, "energy", energy_of); }
 
 }  // namespace crosscheck

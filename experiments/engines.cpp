@@ -41,7 +41,7 @@ Cell predicted_limit(const Method& method, const Scene& scene, double omega) {
 }
 
 /// Table SCENE-statistics: what perturbed runs have in common.
-void add_statistics(const Request& request, const Scene& scene, const Run& run, Result& result) {
+void add_statistics(const Request& request, const Scene& scene, const Run& run, Answers& answers, Rows& rows) {
   Table table{scene.name + "-statistics",
               {{"method", "1"}, {"quantity", "1"}, {"unit", "1"}, {"mean", "see unit"}, {"deviation", "see unit"}},
               {}};
@@ -52,22 +52,22 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     if (asked == methods.end()) continue;
     // 1.5e7 particle steps take about 0.3 s
     if (!request.full && cost_of_run(*asked, scene, run) > 1.5e7) {
-      result.notes.push_back(
+      rows.notes.push_back(
           fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them", name, scene.name));
       continue;
     }
     // who cannot take the scene, or failed on it, has no statistics
-    const Answer& answer = answer_of(request, scene, *asked, result);
+    const Answer& answer = answer_of(request, scene, *asked, answers);
     if (answer.outcome.verdict != Verdict::ok) continue;
     for (const Statistic& s : contact_statistics(*asked, scene, run))
       table.add({asked->name, s.quantity, s.unit, s.mean, s.deviation});
   }
-  if (!table.rows.empty()) result.tables.push_back(std::move(table));
+  if (!table.rows.empty()) rows.add(table);
 }
 
 }  // namespace
 
-void engines_experiment(const Request& request, Progress& progress, Result& result) {
+void engines_on(const Request& request, const Scene& scene, Answers& answers, Rows& rows) {
   Table summary{"engines",
                 {{"scene", "1"},
                  {"method", "1"},
@@ -105,103 +105,107 @@ void engines_experiment(const Request& request, Progress& progress, Result& resu
               {"cpu of process", "s"}},
              {}};
 
-  for (const Scene& scene : request.scenes) {
-    const Run run = run_of(request, scene);
-    Table table{scene.name + "-engines",
-                {{"method", "1"},
-                 {"t", "s"},
-                 {"error", "m"},
-                 {"difference from converged contact", "m"},
-                 {"difference", "m"},
-                 {"difference of centres", "m"},
-                 {"clearance", "m"},
-                 {"creep", "m/s"}},
-                {}};
-    const auto truth = truth_of(scene, run);
-    // differences from a run that failed would tell nothing
-    const Answer& by_rule = answer_of(request, scene, find_method(reference_rule), result);
-    const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
-    const Method probe = find_method(reference.frames() > 0 ? reference_rule : scene.method);
-    const Growth growing = growth_of(probe, scene, run, reference.frames() > 0 ? &reference : nullptr);
-    const double growth = growing.until(scene.window);
-    const double omega = scene.model.first_order() ? 0 : fastest_frequency(scene.model, scene.start);
-    // what others are apart from the converged in-house contact rule is a difference, no error
-    const bool of_rule = truth && truth->of_contact_rule;
-    const double motion = motion_of(truth && !of_rule ? truth->trajectory : reference);
+  const Run run = run_of(request, scene);
+  Table table{scene.name + "-engines",
+              {{"method", "1"},
+               {"t", "s"},
+               {"error", "m"},
+               {"difference from converged contact", "m"},
+               {"difference", "m"},
+               {"difference of centres", "m"},
+               {"clearance", "m"},
+               {"creep", "m/s"}},
+              {}};
+  const auto truth = truth_of(scene, run);
+  // differences from a run that failed would tell nothing
+  const Answer& by_rule = answer_of(request, scene, find_method(reference_rule), answers);
+  const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
+  const Method probe = find_method(reference.frames() > 0 ? reference_rule : scene.method);
+  const Growth growing = growth_of(probe, scene, run, reference.frames() > 0 ? &reference : nullptr);
+  const double growth = growing.until(scene.window);
+  const double omega = scene.model.first_order() ? 0 : fastest_frequency(scene.model, scene.start);
+  // what others are apart from the converged in-house contact rule is a difference, no error
+  const bool of_rule = truth && truth->of_contact_rule;
+  const double motion = motion_of(truth && !of_rule ? truth->trajectory : reference);
 
-    for (const Method& method : methods_of(request, scene)) {
-      progress.begin(fmt::format("engines: {} by {}", scene.name, method.name));
-      Answer& answer = answer_of(request, scene, method, result);
-      Outcome& out = answer.outcome;
-      if (out.verdict != Verdict::unsupported && !method.stepper) {
-        result.certificates.push_back(certify(method.name, scene, out));
-        if (result.certificates.back().mismatch()) {
-          // what answers another scene is no answer: no number of it is kept
-          out.verdict = Verdict::unsupported;
-          out.reason = "it built another scene, see its parity certificate";
-        }
+  for (const Method& method : methods_of(request, scene)) {
+    Answer& answer = answer_of(request, scene, method, answers);
+    Outcome& out = answer.outcome;
+    if (out.verdict != Verdict::unsupported && !method.stepper) {
+      rows.certificates.push_back(certify(method.name, scene, out));
+      if (rows.certificates.back().mismatch()) {
+        // what answers another scene is no answer: no number of it is kept
+        out.verdict = Verdict::unsupported;
+        out.reason = "it built another scene, see its parity certificate";
       }
-      if (out.verdict == Verdict::unsupported) answer.trajectory = {};
-      const Trajectory& path = answer.trajectory;
-      const bool unsupported = out.verdict == Verdict::unsupported;
-      const size_t first_row = table.rows.size();
-      double lowest = 1e300;
-      for (int i = 0; i < path.frames() && !unsupported; ++i) {
-        const bool both = i < reference.frames() && reference.x[i].cols() == path.x[i].cols();
-        const auto gap = clearance(scene, path.t[i], path.x[i]);
-        if (gap) lowest = std::min(lowest, *gap);
-        const Cell apart =
-            truth && i < truth->trajectory.frames() ? Cell(rms_distance(path.x[i], truth->trajectory.x[i])) : Cell();
-        table.add(
-            {method.name, path.t[i], of_rule ? Cell() : apart, of_rule ? apart : Cell(),
-             both ? Cell(rms_distance(path.x[i], reference.x[i])) : Cell(),
-             both ? Cell((centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.x[i])).norm()) : Cell(),
-             cell_of(gap), cell_of(creep(scene, path.t[i], path.x[i], path.v[i]))});
-      }
-      std::string laws;
-      for (const std::string& law : out.different_law) laws += (laws.empty() ? "" : "; ") + law;
-      const bool ok = out.verdict == Verdict::ok;
-      summary.add(
-          {scene.name,
-           method.name,
-           std::string(name_of(out.verdict)),
-           out.reason,
-           out.end,
-           out.step,
-           out.steps,
-           out.evaluations,
-           out.coincident,
-           motion,
-           scene.window,
-           growing.window(),
-           growth,
-           cell_of(round_off_bound(scene, motion, growth)),
-           truth ? Cell(truth->how) : Cell(),
-           truth ? Cell(std::string(name_of(truth->tier)) + (of_rule ? ", in-house contact rule" : "")) : Cell(),
-           truth ? Cell(truth->bar) : Cell(),
-           of_rule ? Cell(truth->until) : Cell(),
-           ok ? largest(table, first_row, "error", scene.window) : Cell(),
-           ok ? largest(table, first_row, "difference from converged contact", scene.window) : Cell(),
-           ok ? largest(table, first_row, "difference", scene.window) : Cell(),
-           ok ? largest(table, first_row, "difference of centres", scene.duration) : Cell(),
-           ok && lowest < 1e300 ? Cell(lowest) : Cell(),
-           ok && path.frames() ? cell_of(creep(scene, path.t.back(), path.x.back(), path.v.back())) : Cell(),
-           predicted_limit(method, scene, omega),
-           laws});
-      if (!out.remark.empty()) result.notes.push_back(fmt::format("{} on {}: {}", method.name, scene.name, out.remark));
-      // an outside program need not tell its own time
-      const bool told = out.process_seconds == 0 || out.cpu_seconds > 0;
-      if (!unsupported)
-        cost.add({scene.name, method.name, told ? Cell(out.cpu_seconds) : Cell(),
-                  told && out.steps ? Cell(out.cpu_seconds / static_cast<double>(out.steps)) : Cell(),
-                  out.cpu_seconds > 0 ? Cell(out.end / out.cpu_seconds) : Cell(),
-                  out.process_seconds > 0 ? Cell(out.process_seconds) : Cell()});
     }
-    result.tables.push_back(std::move(table));
-    if (scene.model.find<Spheres>() && scene.model.particles.size() > 1) add_statistics(request, scene, run, result);
+    if (out.verdict == Verdict::unsupported) answer.trajectory = {};
+    const Trajectory& path = answer.trajectory;
+    const bool unsupported = out.verdict == Verdict::unsupported;
+    const size_t first_row = table.rows.size();
+    double lowest = 1e300;
+    for (int i = 0; i < path.frames() && !unsupported; ++i) {
+      const bool both = i < reference.frames() && reference.x[i].cols() == path.x[i].cols();
+      const auto gap = clearance(scene, path.t[i], path.x[i]);
+      if (gap) lowest = std::min(lowest, *gap);
+      const Cell apart =
+          truth && i < truth->trajectory.frames() ? Cell(rms_distance(path.x[i], truth->trajectory.x[i])) : Cell();
+      table.add(
+          {method.name, path.t[i], of_rule ? Cell() : apart, of_rule ? apart : Cell(),
+           both ? Cell(rms_distance(path.x[i], reference.x[i])) : Cell(),
+           both ? Cell((centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.x[i])).norm()) : Cell(),
+           cell_of(gap), cell_of(creep(scene, path.t[i], path.x[i], path.v[i]))});
+    }
+    std::string laws;
+    for (const std::string& law : out.different_law) laws += (laws.empty() ? "" : "; ") + law;
+    const bool ok = out.verdict == Verdict::ok;
+    summary.add({scene.name,
+                 method.name,
+                 std::string(name_of(out.verdict)),
+                 out.reason,
+                 out.end,
+                 out.step,
+                 out.steps,
+                 out.evaluations,
+                 out.coincident,
+                 motion,
+                 scene.window,
+                 growing.window(),
+                 growth,
+                 cell_of(round_off_bound(scene, motion, growth)),
+                 truth ? Cell(truth->how) : Cell(),
+                 truth ? Cell(std::string(name_of(truth->tier)) + (of_rule ? ", in-house contact rule" : "")) : Cell(),
+                 truth ? Cell(truth->bar) : Cell(),
+                 of_rule ? Cell(truth->until) : Cell(),
+                 ok ? largest(table, first_row, "error", scene.window) : Cell(),
+                 ok ? largest(table, first_row, "difference from converged contact", scene.window) : Cell(),
+                 ok ? largest(table, first_row, "difference", scene.window) : Cell(),
+                 ok ? largest(table, first_row, "difference of centres", scene.duration) : Cell(),
+                 ok && lowest < 1e300 ? Cell(lowest) : Cell(),
+                 ok && path.frames() ? cell_of(creep(scene, path.t.back(), path.x.back(), path.v.back())) : Cell(),
+                 predicted_limit(method, scene, omega),
+                 laws});
+    if (!out.remark.empty()) rows.notes.push_back(fmt::format("{} on {}: {}", method.name, scene.name, out.remark));
+    // an outside program need not tell its own time
+    const bool told = out.process_seconds == 0 || out.cpu_seconds > 0;
+    if (!unsupported)
+      cost.add({scene.name, method.name, told ? Cell(out.cpu_seconds) : Cell(),
+                told && out.steps ? Cell(out.cpu_seconds / static_cast<double>(out.steps)) : Cell(),
+                out.cpu_seconds > 0 ? Cell(out.end / out.cpu_seconds) : Cell(),
+                out.process_seconds > 0 ? Cell(out.process_seconds) : Cell()});
   }
-  result.tables.push_back(std::move(summary));
-  result.tables.push_back(std::move(cost));
+  rows.add(table);
+  if (scene.model.find<Spheres>() && scene.model.particles.size() > 1)
+    add_statistics(request, scene, run, answers, rows);
+  rows.add(summary);
+  rows.add(cost);
+}
+
+std::vector<Point> engines_points(const Request& request) {
+  return one_point_per_scene(request, "engines", [](const Request& alone, const Scene& scene, Rows& rows) {
+    Answers answers;
+    engines_on(alone, scene, answers, rows);
+  });
 }
 
 }  // namespace crosscheck

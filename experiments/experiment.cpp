@@ -3,33 +3,17 @@
 
 #include <fmt/format.h>
 
-#include "experiments/disagreements/disagreements.h"
+#include "experiments/scenes.h"
 #include "mysim/errors.h"
 
 namespace crosscheck {
-namespace {
-
-int one_per_scene(const Request& request) { return static_cast<int>(request.scenes.size()); }
-int one_per_run(const Request& request) {
-  int runs = 0;
-  for (const Scene& scene : request.scenes) runs += static_cast<int>(methods_of(request, scene).size());
-  return runs;
-}
-
-int three_steps_and_two_iterations(const Request&) { return 3 + 2; }
-int one_per_disagreement(const Request&) { return static_cast<int>(disagreements().size()); }
-
-}  // namespace
-
 std::span<const Experiment> experiments() {
   static constexpr Experiment table[] = {
-      {"order", "How fast does the error fall when the step is made smaller?", order_experiment, one_per_scene},
-      {"energy", "Where does the energy go, and what does not add up?", energy_experiment, one_per_run},
-      {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_experiment, one_per_run},
-      {"stiffness", "How stiff is a position-based link, against the formula that hands it over?", stiffness_experiment,
-       three_steps_and_two_iterations},
-      {"disagreements", "Where does Bullet answer otherwise than it is asked, and by how much?",
-       disagreements_experiment, one_per_disagreement},
+      {"order", "How fast does the error fall when the step is made smaller?", order_points},
+      {"energy", "Where does the energy go, and what does not add up?", energy_points},
+      {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_points},
+      {"stiffness", "How stiff is a position-based link, against the formula that hands it over?", stiffness_points},
+      {"disagreements", "Where does Bullet answer otherwise than it is asked, and by how much?", disagreements_points},
   };
   return table;
 }
@@ -41,6 +25,11 @@ const Experiment& find_experiment(const std::string& name) {
     known += (known.empty() ? "" : ", ") + std::string(e.name);
   }
   throw InputError(fmt::format("unknown experiment '{}'; expected one of: {}", name, known));
+}
+
+std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full) {
+  if (!names.empty() || full) return load_scenes(names);
+  return load_scenes({experiment.quick_scenes.begin(), experiment.quick_scenes.end()});
 }
 
 std::vector<Method> methods_of(const Request& request, const Scene& scene) {
@@ -60,8 +49,8 @@ Run run_of(const Request& request, const Scene& scene) {
   return run;
 }
 
-Answer& answer_of(const Request& request, const Scene& scene, const Method& method, Result& result) {
-  for (Answer& a : result.answers)
+Answer& answer_of(const Request& request, const Scene& scene, const Method& method, Answers& answers) {
+  for (Answer& a : answers)
     if (a.scene == scene.name && a.method == method.name) return a;
   Recorder recorder;
   std::vector<Observer*> observers{&recorder};
@@ -70,15 +59,28 @@ Answer& answer_of(const Request& request, const Scene& scene, const Method& meth
   Outcome out = run_method(method, scene, run_of(request, scene), observers);
   const bool unsupported = out.verdict == Verdict::unsupported;  // found out during the run, perhaps
   if (unsupported) recorder.trajectory = {};
-  return result.answers.emplace_back(Answer{scene.name, method.name, std::move(out), std::move(recorder.trajectory),
-                                            unsupported ? std::vector<LedgerRow>() : ledger.rows(),
-                                            ledger.contact_inferred()});
+  return answers.emplace_back(Answer{scene.name, method.name, std::move(out), std::move(recorder.trajectory),
+                                     unsupported ? std::vector<LedgerRow>() : ledger.rows(),
+                                     ledger.contact_inferred()});
 }
 
-const Table* Result::table(const std::string& name) const {
-  for (const Table& t : tables)
-    if (t.name == name) return &t;
-  return nullptr;
+std::string content_of(const Request& request, const Scene& scene) {
+  std::string text = fmt::format("{} full={} step={}", content_of(scene), request.full, exact_text(request.step));
+  for (const Method& method : methods_of(request, scene))
+    text += fmt::format(" {} {}", method.name, method.fingerprint);
+  return text;
+}
+
+std::vector<Point> one_point_per_scene(const Request& request, const std::string& experiment,
+                                       void (*compute)(const Request&, const Scene&, Rows&)) {
+  std::vector<Point> points;
+  for (const Scene& scene : request.scenes) {
+    Request alone = request;
+    alone.scenes = {scene};
+    points.push_back({fmt::format("{}: {}", experiment, scene.name), content_of(request, scene),
+                      [alone = std::move(alone), compute](Rows& rows) { compute(alone, alone.scenes[0], rows); }});
+  }
+  return points;
 }
 
 }  // namespace crosscheck

@@ -7,10 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/progress.h"
-#include "experiments/table.h"
+#include "experiments/point.h"
 #include "mysim/observers/trajectory.h"
-#include "reference/certificate.h"
 #include "reference/method.h"
 #include "reference/truth.h"
 
@@ -32,37 +30,50 @@ struct Answer {
   bool contact_inferred = false;
 };
 
-struct Result {
-  std::vector<Table> tables;
-  std::deque<Answer> answers;  // a deque: references stay valid
-  std::vector<Certificate> certificates;
-  std::vector<std::string> notes;  // what was left out and why, for people
-
-  const Table* table(const std::string& name) const;
-};
-
 struct Experiment {
   std::string_view name, question;
-  void (*run)(const Request&, Progress&, Result&);
-  int (*steps)(const Request&);  // how many times it calls Progress::begin
+  /// The list of its points; the same request gives the same list.
+  std::vector<Point> (*points)(const Request&);
+  /// The scenes that stand for all in a quick run where nobody names any; empty: all shipped ones.
+  std::span<const std::string_view> quick_scenes = {};
+  /// Adds the tables that are made of the rows of all points.
+  void (*conclude)(Rows&) = nullptr;
 };
 
-void order_experiment(const Request& request, Progress& progress, Result& result);
-void energy_experiment(const Request& request, Progress& progress, Result& result);
-void engines_experiment(const Request& request, Progress& progress, Result& result);
-void stiffness_experiment(const Request& request, Progress& progress, Result& result);
-void disagreements_experiment(const Request& request, Progress& progress, Result& result);
+std::vector<Point> order_points(const Request& request);
+std::vector<Point> energy_points(const Request& request);
+std::vector<Point> engines_points(const Request& request);
+std::vector<Point> stiffness_points(const Request& request);
+std::vector<Point> disagreements_points(const Request& request);
 
 std::span<const Experiment> experiments();
 /// Throws InputError that lists what there is.
 const Experiment& find_experiment(const std::string& name);
 
+/// The scenes that an experiment looks at: the named ones; where none is named, all shipped ones or, in a quick run,
+/// its quick ones.
+std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full);
+
 /// The methods that a request runs on a scene: the ones it names, or all of mysim and Bullet; on a scene with a sphere
 /// also the assignment's sticky sphere, to be seen failing beside them.
 std::vector<Method> methods_of(const Request& request, const Scene& scene);
 
-/// The method's answer to the scene, from the result or by running it now.
-Answer& answer_of(const Request& request, const Scene& scene, const Method& method, Result& result);
+/// Answers that are at hand: a deque, so that references stay valid.
+using Answers = std::deque<Answer>;
+
+/// The method's answer to the scene at the request's step, from those at hand or by running it now.
+Answer& answer_of(const Request& request, const Scene& scene, const Method& method, Answers& answers);
+
+/// Experiment `engines` on one scene, with the answers that it looked at.
+void engines_on(const Request& request, const Scene& scene, Answers& answers, Rows& rows);
+
+/// One point per scene: `compute` is given a request of that scene alone. Its content is the scene's and the request's.
+std::vector<Point> one_point_per_scene(const Request& request, const std::string& experiment,
+                                       void (*compute)(const Request&, const Scene&, Rows&));
+
+/// The parts of a request that a scene's rows depend on: the methods, outside programs with the fingerprint of their
+/// file, the step and the number of points.
+std::string content_of(const Request& request, const Scene& scene);
 
 /// The ledger of one run as rows of (method, t, energies, losses, work, balance error); the last is empty where the
 /// contact loss was inferred, as no closure is claimed there.

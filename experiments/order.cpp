@@ -13,17 +13,9 @@
 namespace crosscheck {
 namespace {
 
-struct Point {
+struct ErrorAtStep {
   double step, error;
 };
-
-/// Largest RMS distance over the samples up to `until` (s).
-double largest_distance(const Trajectory& a, const Trajectory& b, double until) {
-  double largest = 0;
-  for (int i = 0; i < std::min(a.frames(), b.frames()) && a.t[i] <= until * (1 + 1e-9); ++i)
-    largest = std::max(largest, rms_distance(a.x[i], b.x[i]));
-  return largest;
-}
 
 /// One method at one step.
 struct Refinement {
@@ -38,10 +30,10 @@ struct Fit {
 
 /// The slope of the finest three points, if it is steady there: two successive slopes within 0.3 of each other.
 /// Elsewhere the error is not yet, or no longer, a power of the step, and no order can be read off.
-std::optional<Fit> asymptotic_order(const std::vector<Point>& points) {
+std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
   if (points.size() < 3) return std::nullopt;
-  const Point *p = &points[points.size() - 3], *q = p + 1, *r = p + 2;
-  const auto slope = [](const Point* a, const Point* b) {
+  const ErrorAtStep *p = &points[points.size() - 3], *q = p + 1, *r = p + 2;
+  const auto slope = [](const ErrorAtStep* a, const ErrorAtStep* b) {
     return std::log(a->error / b->error) / std::log(a->step / b->step);
   };
   if (!(std::abs(slope(p, q) - slope(q, r)) < 0.3)) return std::nullopt;
@@ -56,9 +48,7 @@ std::string why_not(const Scene& scene) {
   return "";
 }
 
-}  // namespace
-
-void order_experiment(const Request& request, Progress& progress, Result& result) {
+void order_on(const Request& request, const Scene& scene, Rows& rows) {
   Table points{"order",
                {{"scene", "1"},
                 {"method", "1"},
@@ -79,62 +69,62 @@ void order_experiment(const Request& request, Progress& progress, Result& result
                {}};
   std::set<std::string> adaptive;  // left out, said once
   const int halvings = request.full ? 9 : 7;
-  for (const Scene& scene : request.scenes) {
-    progress.begin("order: " + scene.name);
-    if (const std::string why = why_not(scene); !why.empty()) {
-      result.notes.push_back(fmt::format("order leaves out {}: {}", scene.name, why));
+  if (const std::string why = why_not(scene); !why.empty()) {
+    rows.notes.push_back(fmt::format("order leaves out {}: {}", scene.name, why));
+    return;
+  }
+  const Run base = run_of(request, scene);
+  const auto truth = truth_of(scene, base);
+  if (!truth) {
+    rows.notes.push_back(fmt::format("order leaves out {}: no truth is known for it", scene.name));
+    return;
+  }
+  const double motion = motion_of(truth->trajectory);
+  for (const Method& method : methods_of(request, scene)) {
+    if (method.name.starts_with("truth/") || (method.stepper && method.name.find('+') != std::string::npos)) continue;
+    if (method.adaptive) {
+      adaptive.insert(method.name);
       continue;
     }
-    const Run base = run_of(request, scene);
-    const auto truth = truth_of(scene, base);
-    if (!truth) {
-      result.notes.push_back(fmt::format("order leaves out {}: no truth is known for it", scene.name));
-      continue;
+    // engines of others cost ten times as much a step, and no order is promised for them
+    const int steps = method.stepper ? halvings : std::min(halvings, 5);
+    std::vector<Refinement> runs;
+    for (int i = 0; i < steps; ++i) {
+      Run run = base;
+      run.step = 4 * base.step / (1 << i);
+      Recorder recorder;
+      Outcome out = run_method(method, scene, run, {&recorder});
+      if (out.verdict == Verdict::unsupported) break;
+      runs.push_back({std::move(out), std::move(recorder.trajectory)});
     }
-    const double motion = motion_of(truth->trajectory);
-    for (const Method& method : methods_of(request, scene)) {
-      if (method.name.starts_with("truth/") || (method.stepper && method.name.find('+') != std::string::npos)) continue;
-      if (method.adaptive) {
-        adaptive.insert(method.name);
-        continue;
-      }
-      // engines of others cost ten times as much a step, and no order is promised for them
-      const int steps = method.stepper ? halvings : std::min(halvings, 5);
-      std::vector<Refinement> runs;
-      for (int i = 0; i < steps; ++i) {
-        Run run = base;
-        run.step = 4 * base.step / (1 << i);
-        Recorder recorder;
-        Outcome out = run_method(method, scene, run, {&recorder});
-        if (out.verdict == Verdict::unsupported) break;
-        runs.push_back({std::move(out), std::move(recorder.trajectory)});
-      }
-      if (runs.empty()) continue;
-      std::vector<Point> good;
-      for (const Refinement& r : runs) {
-        const Outcome& out = r.outcome;
-        const double error = largest_distance(r.trajectory, truth->trajectory, scene.window);
-        const bool finest = &r == &runs.back();
-        points.add({scene.name, method.name, out.step, r.ok() ? Cell(error) : Cell(),
-                    r.ok() && runs.back().ok() && !finest
-                        ? Cell(largest_distance(r.trajectory, runs.back().trajectory, scene.window))
-                        : Cell(),
-                    truth->bar, out.evaluations, std::string(name_of(out.verdict))});
-        // below 30 truth bars the bar, and below round-off the round-off, bends the slope by more than 0.05
-        if (r.ok() && error > 30 * truth->bar && error < 0.1 * motion) good.push_back({out.step, error});
-      }
-      if (!method.stepper) continue;
-      if (const auto fit = asymptotic_order(good))
-        slopes.add({scene.name, method.name, static_cast<long>(method.stepper->order), fit->order, fit->from, fit->to});
-      else
-        result.notes.push_back(fmt::format("order sees no steady slope of {} on {}", method.name, scene.name));
+    if (runs.empty()) continue;
+    std::vector<ErrorAtStep> good;
+    for (const Refinement& r : runs) {
+      const Outcome& out = r.outcome;
+      const double error = largest_rms_distance(r.trajectory, truth->trajectory, scene.window);
+      const bool finest = &r == &runs.back();
+      points.add({scene.name, method.name, out.step, r.ok() ? Cell(error) : Cell(),
+                  r.ok() && runs.back().ok() && !finest
+                      ? Cell(largest_rms_distance(r.trajectory, runs.back().trajectory, scene.window))
+                      : Cell(),
+                  truth->bar, out.evaluations, std::string(name_of(out.verdict))});
+      // below 30 truth bars the bar, and below round-off the round-off, bends the slope by more than 0.05
+      if (r.ok() && error > 30 * truth->bar && error < 0.1 * motion) good.push_back({out.step, error});
     }
+    if (!method.stepper) continue;
+    if (const auto fit = asymptotic_order(good))
+      slopes.add({scene.name, method.name, static_cast<long>(method.stepper->order), fit->order, fit->from, fit->to});
+    else
+      rows.notes.push_back(fmt::format("order sees no steady slope of {} on {}", method.name, scene.name));
   }
   if (!adaptive.empty())
-    result.notes.push_back(
-        fmt::format("order leaves out {}: steps that follow a tolerance", fmt::join(adaptive, ", ")));
-  result.tables.push_back(std::move(points));
-  result.tables.push_back(std::move(slopes));
+    rows.notes.push_back(fmt::format("order leaves out {}: steps that follow a tolerance", fmt::join(adaptive, ", ")));
+  rows.add(points);
+  rows.add(slopes);
 }
+
+}  // namespace
+
+std::vector<Point> order_points(const Request& request) { return one_point_per_scene(request, "order", order_on); }
 
 }  // namespace crosscheck

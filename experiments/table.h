@@ -17,6 +17,7 @@ using Provenance = std::vector<std::pair<std::string, std::string>>;
 
 struct Column {
   std::string name, unit;  // unit "1" when dimensionless
+  bool operator==(const Column&) const = default;
 };
 
 struct Table {

@@ -19,6 +19,7 @@ struct Method {
   ContactLoss contact;  // whether it reports what contacts took away
   const Stepper* stepper = nullptr;  // of mysim's methods
   bool adaptive = false;             // follows run.tolerance and not run.step
+  std::string fingerprint = {};      // of an outside program's or trajectory's file; empty for what is built in
 };
 
 /// Every method there is, without options.

@@ -45,7 +45,7 @@ bool SceneFacts::touched() const {
   return false;
 }
 
-SceneFacts facts_of(const std::string& scene, const Result& result) {
+SceneFacts facts_of(const std::string& scene, const Rows& result) {
   SceneFacts facts;
   facts.scene = scene;
   const Table& engines = *result.table("engines");

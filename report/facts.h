@@ -47,7 +47,7 @@ struct SceneFacts {
 };
 
 /// Facts of a scene from the tables `engines`, `engines-cost` and `energy`.
-SceneFacts facts_of(const std::string& scene, const Result& result);
+SceneFacts facts_of(const std::string& scene, const Rows& result);
 
 /// "3.2e-05" as "3.2e-5", small and large numbers plain where that is short: for sentences.
 std::string nice(double value);

@@ -17,13 +17,23 @@
 #include "report/run_program.h"
 
 namespace crosscheck {
-namespace {
 
 std::string single_quoted(const std::string& text) {
   std::string out = "'";
   for (char c : text) out += c == '\'' ? "''" : std::string(1, c);
   return out + "'";
 }
+
+std::string axis_commands(const Axis& axis, const std::string& letter) {
+  std::string out = fmt::format("set {}label {}\n", letter, single_quoted(axis.label));
+  if (axis.logarithmic) out += fmt::format("set logscale {0} 10\nset format {0} \"10^{{%L}}\"\n", letter);
+  if (axis.low || axis.high)
+    out += fmt::format("set {}range [{}:{}]\n", letter, axis.low ? fmt::format("{:.6g}", *axis.low) : "",
+                       axis.high ? fmt::format("{:.6g}", *axis.high) : "");
+  return out;
+}
+
+namespace {
 
 /// How a curve is called in the data file: gnuplot splits even quoted fields at commas.
 std::string id_of(std::string title) {
@@ -45,15 +55,6 @@ Table data_of(const Figure& f) {
   for (const FailureMark& mark : f.failures) add("failed: " + mark.title, mark.x, mark.y);
   if (table.rows.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", f.name));
   return table;
-}
-
-std::string axis_commands(const Axis& axis, char letter) {
-  std::string out = fmt::format("set {}label {}\n", letter, single_quoted(axis.label));
-  if (axis.logarithmic) out += fmt::format("set logscale {0} 10\nset format {0} \"10^{{%L}}\"\n", letter);
-  if (axis.low || axis.high)
-    out += fmt::format("set {}range [{}:{}]\n", letter, axis.low ? fmt::format("{:.6g}", *axis.low) : "",
-                       axis.high ? fmt::format("{:.6g}", *axis.high) : "");
-  return out;
 }
 
 /// Titles in the key: of outside programs the base name, without the folder.
@@ -142,7 +143,7 @@ Axis closed(const Figure& f, bool of_x) {
 std::string script_of(const Figure& f) {
   std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", f.title, f.name);
   out += fmt::format("set title {}\n", single_quoted(f.title));
-  out += axis_commands(closed(f, true), 'x') + axis_commands(closed(f, false), 'y');
+  out += axis_commands(closed(f, true), "x") + axis_commands(closed(f, false), "y");
   if (!f.categories.empty()) {
     out += fmt::format("set xtics rotate by {} right noenhanced (", f.categories.size() > 10 ? 35 : 20);
     for (size_t i = 0; i < f.categories.size(); ++i)
@@ -158,21 +159,7 @@ std::string script_of(const Figure& f) {
         "\"#777777\" front\n",
         single_quoted(f.window->second), f.window->first);
   }
-  std::string svg_name = f.name;  // gnuplot takes letters, digits and _ only
-  for (char& c : svg_name)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  const double tall = 1 + key_room(f);
-  out += fmt::format("set term svg size 680,{:.0f} dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}\n",
-                     500 * tall, single_quoted(svg_name));
-  out += fmt::format("set output {}\n{}", single_quoted(f.name + ".svg"), plot_command(f));
-  out += fmt::format("set term pdfcairo size 17cm,{:.4g}cm font \"DejaVu Sans,11\"\nset output {}\nreplot\n",
-                     12.5 * tall, single_quoted(f.name + ".pdf"));
-  out += fmt::format(
-      "set term pngcairo size 1360,{:.0f} font \"DejaVu Sans,12\" fontscale 1.6 linewidth 1.7 pointscale 1.6\nset "
-      "output "
-      "{}\nreplot\nset output\n",
-      1000 * tall, single_quoted(f.name + ".png"));
-  return out;
+  return out + terminals(f.name, 1 + key_room(f), plot_command(f));
 }
 
 /// Sets the one date in a PDF that Debian's cairo writes (it knows no SOURCE_DATE_EPOCH) to 1970, so that two runs
@@ -230,8 +217,26 @@ MethodStyle style_of(const std::string& method) {
   return others[sum % std::size(others)];
 }
 
-void draw_figure(const Figure& figure, const Provenance& provenance, const std::filesystem::path& folder) {
-  const Table data = data_of(figure);
+Drawing drawing_of(const Figure& figure) { return {figure.name, data_of(figure), script_of(figure)}; }
+
+std::string terminals(const std::string& name, double tall, const std::string& plot) {
+  std::string svg_name = name;  // gnuplot takes letters, digits and _ only
+  for (char& c : svg_name)
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  std::string out =
+      fmt::format("set term svg size 680,{:.0f} dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}\n",
+                  500 * tall, single_quoted(svg_name));
+  out += fmt::format("set output {}\n{}", single_quoted(name + ".svg"), plot);
+  out += fmt::format("set term pdfcairo size 17cm,{:.4g}cm font \"DejaVu Sans,11\"\nset output {}\nreplot\n",
+                     12.5 * tall, single_quoted(name + ".pdf"));
+  return out +
+         fmt::format(
+             "set term pngcairo size 1360,{:.0f} font \"DejaVu Sans,12\" fontscale 1.6 linewidth 1.7 pointscale 1.6\n"
+             "set output {}\nreplot\nset output\n",
+             1000 * tall, single_quoted(name + ".png"));
+}
+
+void draw(const Drawing& figure, const Provenance& provenance, const std::filesystem::path& folder) {
   // gnuplot writes its files bit by bit: in a folder of its own, so that no half figure is ever seen
   const std::filesystem::path work = folder / fmt::format(".{}.{}.part", figure.name, getpid());
   struct Remove {
@@ -242,8 +247,8 @@ void draw_figure(const Figure& figure, const Provenance& provenance, const std::
     }
   } remove{work};
   write_file(work / "style.gp", asset("style.gp"));
-  write_csv(data, provenance, work);
-  write_file(work / (figure.name + ".gp"), script_of(figure));
+  write_csv(figure.data, provenance, work);
+  write_file(work / (figure.name + ".gp"), figure.script);
   const ProgramResult drawn = run_program({"gnuplot", figure.name + ".gp"}, work);
   if (drawn.status != 0 || !drawn.err.empty())
     throw std::runtime_error(

@@ -39,22 +39,43 @@ struct Axis {
   std::optional<double> low, high;
 };
 
-struct Figure {
-  std::string name;     // file name without ending
-  std::string title;    // what it shows
-  std::string caption;  // scene, truth tier, error bar, step, commit
-  std::string finding;  // what one sees in it, in a sentence: the alternative text
+/// What every figure has, whatever it draws.
+struct FigureWords {
+  std::string name;         // file name without ending
+  std::string title;        // what it shows
+  std::string caption;      // scene, truth tier, error bar, step, commit
+  std::string finding;      // what one sees in it, in a sentence: the alternative text
+  bool from_costs = false;  // drawn from timings: not the same in each run
+};
+
+/// Curves, points and crosses over two axes.
+struct Figure : FigureWords {
   Axis x, y;
   std::vector<Curve> curves;
   std::vector<FailureMark> failures;
   std::optional<std::pair<std::string, double>> floor;     // horizontal line: name, y
   std::optional<std::pair<double, std::string>> window;    // grey from x on: x, why
   std::vector<std::pair<double, std::string>> categories;  // tick texts on x instead of numbers
-  bool from_costs = false;                                 // drawn from timings: not the same in each run
 };
 
-/// Writes and draws the figure into the folder (style.gp is put beside it). Throws std::runtime_error that names the
-/// figure when there is nothing to draw, a number is not finite, or gnuplot complains.
-void draw_figure(const Figure& figure, const Provenance& provenance, const std::filesystem::path& folder);
+/// A figure made ready: its data, and the script that draws NAME.svg, NAME.pdf and NAME.png from NAME.csv.
+struct Drawing {
+  std::string name;
+  Table data;
+  std::string script;
+};
+/// Throws std::runtime_error that names the figure when there is nothing to draw or a number is not finite.
+Drawing drawing_of(const Figure& figure);
+
+/// Writes and draws it into the folder (style.gp is put beside it). Throws std::runtime_error that names the figure
+/// when gnuplot complains.
+void draw(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
+
+/// The end of a script: the terminals for a figure so much taller than the usual one, each with the plot command.
+std::string terminals(const std::string& name, double tall, const std::string& plot);
+/// Text in gnuplot's single quotes.
+std::string single_quoted(const std::string& text);
+/// Commands for label, scale and range of the axis x, y or cb.
+std::string axis_commands(const Axis& axis, const std::string& letter);
 
 }  // namespace crosscheck

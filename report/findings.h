@@ -19,6 +19,6 @@ struct Finding {
 std::vector<Finding> findings_of(const Scene& scene, const SceneFacts& facts);
 /// What all scenes together showed, first things first.
 std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
-                                      const Result& result);
+                                      const Rows& result);
 
 }  // namespace crosscheck

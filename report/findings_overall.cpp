@@ -117,7 +117,7 @@ void failures_of_all(const std::vector<SceneFacts>& facts, std::vector<Finding>&
                    "measured"});
 }
 
-void orders(const Result& result, std::vector<Finding>& out) {
+void orders(const Rows& result, std::vector<Finding>& out) {
   const Table* slopes = result.table("order-slopes");
   if (!slopes || slopes->rows.empty()) return;
   double off = -1;
@@ -159,7 +159,7 @@ void cost_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>
 }  // namespace
 
 std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
-                                      const Result& result) {
+                                      const Rows& result) {
   std::vector<Finding> out;
   agreement_of_all(scenes, facts, out);
   other_law_of_all(scenes, facts, out);

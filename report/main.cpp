@@ -86,9 +86,19 @@ int run(int argc, char** argv) {
       ->required();
   experiment->add_option("--methods", experiment_options.methods, "A,B,...");
   experiment->add_option("--out", experiment_options.out, "folder (out/experiment)");
+  experiment->add_option("--shard", experiment_options.shard, "I/N: only this part of the points; join with merge");
+  experiment->add_flag("--resume", experiment_options.resume, "keep the points that an earlier run finished");
+  experiment->add_option("--jobs", experiment_options.jobs, "processes at a time (one per core)")
+      ->check(CLI::Range(1, 256));
   quick_or_full(experiment, experiment_options.full);
   experiment->callback(
       [&] { experiment_options.command_line = line, status = experiment_command(experiment_options); });
+
+  MergeOptions merge_options;
+  auto* merge = app.add_subcommand("merge", "joins the shards of an experiment into its tables");
+  merge->add_option("DIR", merge_options.folders, "output folders of `experiment --shard`")->required();
+  merge->add_option("--out", merge_options.out, "folder")->required();
+  merge->callback([&] { status = merge_command(merge_options); });
 
   ReportOptions report_options;
   auto* report = app.add_subcommand("report", "the main job: a page with findings, figures, pictures and data");

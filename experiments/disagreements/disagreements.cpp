@@ -34,25 +34,30 @@ std::vector<Series> play(const Disagreement& disagreement, const Scene& scene) {
   return all;
 }
 
-void disagreements_experiment(const Request&, Progress& progress, Result& result) {
-  Table summary{"disagreements",
-                {{"name", "1"}, {"world", "1"}, {"what", "1"}, {"cause", "1"}, {"effect", "1"}, {"scene hash", "1"}},
-                {}};
-  for (const Disagreement& d : disagreements()) {
-    progress.begin("disagreement: " + d.name);
-    const Scene scene = scene_of(d);
-    const std::vector<Series> all = play(d, scene);
-    Table table{d.name + "-disagreement",
-                {{"curve", "1"}, {"method", "1"}, {"step", "s"}, {"verdict", "1"}, {"t", "s"}, {d.quantity, d.unit}},
-                {}};
-    for (const Series& s : all)
-      for (const auto& [t, value] : s.points)
-        table.add(
-            {s.variant.label, s.variant.method, s.outcome.step, std::string(name_of(s.outcome.verdict)), t, value});
-    summary.add({d.name, d.world, d.what, d.cause, d.effect(all), scene.hash});
-    result.tables.push_back(std::move(table));
-  }
-  result.tables.push_back(std::move(summary));
+std::vector<Point> disagreements_points(const Request&) {
+  std::vector<Point> points;
+  for (const Disagreement& d : disagreements())
+    points.push_back(
+        {"disagreement: " + d.name, scene_of(d).hash, [d](Rows& rows) {
+           const Scene scene = scene_of(d);
+           const std::vector<Series> all = play(d, scene);
+           Table table{
+               d.name + "-disagreement",
+               {{"curve", "1"}, {"method", "1"}, {"step", "s"}, {"verdict", "1"}, {"t", "s"}, {d.quantity, d.unit}},
+               {}};
+           for (const Series& s : all)
+             for (const auto& [t, value] : s.points)
+               table.add({s.variant.label, s.variant.method, s.outcome.step, std::string(name_of(s.outcome.verdict)), t,
+                          value});
+           Table summary{
+               "disagreements",
+               {{"name", "1"}, {"world", "1"}, {"what", "1"}, {"cause", "1"}, {"effect", "1"}, {"scene hash", "1"}},
+               {}};
+           summary.add({d.name, d.world, d.what, d.cause, d.effect(all), scene.hash});
+           rows.add(table);
+           rows.add(summary);
+         }});
+  return points;
 }
 
 }  // namespace crosscheck

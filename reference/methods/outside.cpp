@@ -1,29 +1,48 @@
 // Programs and trajectories from outside. Of them samples alone are seen: nothing is known of what happened between.
 #include <fmt/format.h>
 
+#include <fstream>
+#include <iterator>
+
+#include "mysim/fnv.h"
 #include "reference/methods/families.h"
 #include "reference/protocol/delivery.h"
 #include "reference/protocol/exec_engine.h"
 
 namespace crosscheck {
+namespace {
+
+std::string fingerprint_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return fmt::format("{:016x}", Fnv1a::of(std::string(std::istreambuf_iterator<char>(in), {})));
+}
+
+}  // namespace
 
 Method exec_method(const std::string& text) {
-  return {"exec:" + text, "an outside program that speaks the engine protocol", "",
-          [program = find_program(text)](const Scene& scene, const Run& run, Observer& observer) {
-            return run_program(program, scene, run, observer);
-          },
-          ContactLoss::sampled};
+  const auto program = find_program(text);
+  return {.name = "exec:" + text,
+          .what = "an outside program that speaks the engine protocol",
+          .rule = "",
+          .engine = [program](const Scene& scene, const Run& run,
+                              Observer& observer) { return run_program(program, scene, run, observer); },
+          .contact = ContactLoss::sampled,
+          .fingerprint = fingerprint_of(program.path)};
 }
 
 Method trajectory_method(const std::filesystem::path& file, const Scene& scene, const Run& run) {
   Frames frames{read_positions(file, scene, run), {}};
-  return {"file:" + file.filename().string(), "a trajectory from a file", "",
-          [frames = std::move(frames)](const Scene& s, const Run& r, Observer& observer) {
-            Outcome out;
-            play(frames, s, r, observer, out);
-            return out;
-          },
-          ContactLoss::sampled};
+  return {.name = "file:" + file.filename().string(),
+          .what = "a trajectory from a file",
+          .rule = "",
+          .engine =
+              [frames = std::move(frames)](const Scene& s, const Run& r, Observer& observer) {
+                Outcome out;
+                play(frames, s, r, observer, out);
+                return out;
+              },
+          .contact = ContactLoss::sampled,
+          .fingerprint = fingerprint_of(file)};
 }
 
 }  // namespace crosscheck

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <concepts>
+
 namespace crosscheck {
 
 std::vector<Chart> all_charts(const ChartInput& input) {
@@ -11,6 +13,15 @@ std::vector<Chart> all_charts(const ChartInput& input) {
                           energy_charts, stiffness_charts, disagreement_charts})
     for (Chart& chart : make(input)) all.push_back(std::move(chart));
   return all;
+}
+
+const FigureWords* words_of(const Chart& chart) {
+  return std::visit(
+      [](const auto& figure) -> const FigureWords* {
+        if constexpr (std::derived_from<std::decay_t<decltype(figure)>, FigureWords>) return &figure;
+        return nullptr;
+      },
+      chart.figure);
 }
 
 std::vector<std::pair<double, double>> points_of(const Table& table, const std::string& method,

@@ -3,26 +3,54 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "report/facts.h"
 #include "report/figure.h"
+#include "report/pictures.h"
 
 namespace crosscheck {
 
 struct ChartInput {
   const std::vector<Scene>& scenes;
   const std::vector<SceneFacts>& facts;  // one per scene
-  const Result& result;
+  const Rows& result;
   std::string commit;
 };
 
-struct Chart {
-  std::string scene;  // where it belongs; empty: the front of the report, or a chapter
-  Figure figure;
-  std::string chapter;  // of the report, by its id; empty: none
-  std::string text;     // in a chapter: what the figure is about, before it
+/// A small table on the page, in words and numbers as people read them.
+struct PageTable {
+  std::string caption;
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
 };
+
+/// A render that belongs to a chapter: runs of a scene side by side.
+struct Snapshot {
+  struct Panel {
+    std::string method;
+    Run run;
+  };
+  std::string name;     // of the file, without ending
+  std::string caption;  // and alternative text
+  Scene scene;
+  std::vector<Panel> panels;
+  Shot shot;
+};
+
+/// A piece of a scene's part, of a chapter, or of the front: a figure, a small table, renders, or several of these.
+struct Chart {
+  std::string scene;                            // where it belongs; empty: the front of the report, or a chapter
+  std::variant<Figure, std::monostate> figure;  // a new kind of figure is a struct and its drawing_of()
+  std::string chapter = {};                     // of the report, by its id (chapters.cpp); empty: none
+  std::string text = {};                        // in a chapter: what it is about, before it
+  std::string heading = {};                     // in a chapter; empty: the figure's title
+  std::vector<PageTable> tables = {};
+  std::vector<Snapshot> snapshots = {};
+};
+/// The words of its figure, or null.
+const FigureWords* words_of(const Chart& chart);
 
 std::vector<Chart> scoreboard_charts(const ChartInput& input);  // error of every method on every scene
 std::vector<Chart> error_charts(const ChartInput& input);       // error over time, per scene with a truth

@@ -37,11 +37,19 @@ int engine_command(const EngineOptions& options);
 struct ExperimentOptions {
   std::vector<std::string> names;  // of experiments, then of scenes
   std::string methods;
-  bool full = false;
+  bool full = false, resume = false;
+  std::string shard;  // I/N, or empty: all
+  int jobs = 0;       // processes at a time; 0: one per core
   std::filesystem::path out = "out/experiment";
   std::string command_line;
 };
 int experiment_command(const ExperimentOptions& options);
+
+struct MergeOptions {
+  std::vector<std::filesystem::path> folders;
+  std::filesystem::path out;
+};
+int merge_command(const MergeOptions& options);
 
 struct ReportOptions {
   std::vector<std::string> scenes;

@@ -29,14 +29,14 @@ std::string shown(const Cell& cell) {
 }
 
 /// Prints what the same rules differ by; true when one differs by more than allowed.
-bool equal_rules_differ(const Request& request, const Scene& scene, Result& result) {
+bool equal_rules_differ(const Request& request, const Scene& scene, Answers& answers) {
   const std::vector<Method> methods = methods_of(request, scene);
   bool differ = false;
   for (size_t i = 0; i < methods.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
       const std::string& rule = methods[i].rule;
-      const Answer &a = answer_of(request, scene, methods[i], result),
-                   &b = answer_of(request, scene, methods[j], result);
+      const Answer &a = answer_of(request, scene, methods[i], answers),
+                   &b = answer_of(request, scene, methods[j], answers);
       if (rule.empty() || rule != methods[j].rule || methods[i].name == methods[j].name) continue;
       if (a.outcome.verdict != Verdict::ok || b.outcome.verdict != Verdict::ok) continue;
       if (!a.outcome.different_law.empty() || !b.outcome.different_law.empty()) continue;  // contact, for one
@@ -73,10 +73,9 @@ int compare_command(const CompareOptions& options) {
   require_writable(options.out);
   const Scene& scene = request.scenes[0];
 
-  Progress progress(find_experiment("engines").steps(request));
-  Result result;
-  engines_experiment(request, progress, result);
-  progress.done();
+  Answers answers;
+  Rows result;
+  engines_on(request, scene, answers, result);
   const Provenance lines = with_scenes(provenance(options.command_line), request.scenes);
   for (const Table& table : result.tables) write_csv(table, lines, options.out);
 
@@ -111,7 +110,7 @@ int compare_command(const CompareOptions& options) {
         verdict == "unsupported" || verdict == "crash" || verdict == "timeout")
       fmt::print("    {}\n", std::get<std::string>(table.at(i, "reason")));
   }
-  for (const Answer& answer : result.answers)
+  for (const Answer& answer : answers)
     if (!answer.outcome.remark.empty()) fmt::print("\n{}: {}\n", answer.method, answer.outcome.remark);
   if (options.step > 0)
     for (const Method& method : methods_of(request, scene))
@@ -119,7 +118,7 @@ int compare_command(const CompareOptions& options) {
   fmt::print(
       "\nerror: from the truth; diff.: from mysim/symplectic-euler; largest RMS over the particles up to {:.3g} s\n",
       scene.window);
-  const bool differ = equal_rules_differ(request, scene, result);
+  const bool differ = equal_rules_differ(request, scene, answers);
   fmt::print("\n{}\n", options.out.string());
   return differ ? 1 : 0;
 }

@@ -1,10 +1,11 @@
-// experiment: runs experiments over scenes and writes their tables.
+// experiment: runs experiments over scenes and writes their tables; merge: joins the parts of a sweep.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "experiments/experiment.h"
 #include "experiments/scenes.h"
+#include "experiments/sweep/sweep.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "report/certificate_json.h"
@@ -12,10 +13,23 @@
 #include "report/provenance.h"
 
 namespace crosscheck {
+namespace {
+
+void write_tables(const Rows& rows, const Provenance& lines, const std::filesystem::path& out) {
+  for (const Table& table : rows.tables) {
+    write_csv(table, lines, out);
+    fmt::print("{}  {} rows\n", (out / (table.name + ".csv")).string(), table.rows.size());
+  }
+  for (const Certificate& c : rows.certificates)
+    write_file(out / fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method)), certificate_json(c));
+  for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
+}
+
+}  // namespace
 
 int experiment_command(const ExperimentOptions& options) {
   std::vector<const Experiment*> chosen;
-  std::vector<std::string> scenes;
+  std::vector<std::string> scenes, names;
   Request request;
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
@@ -23,31 +37,61 @@ int experiment_command(const ExperimentOptions& options) {
     const auto all = experiments();
     const auto found = std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return e.name == name; });
     if (found != all.end())
-      chosen.push_back(&*found);
+      chosen.push_back(&*found), names.push_back(name);
     else if (chosen.empty())
       find_experiment(name);  // throws: the first word must be an experiment
     else
       scenes.push_back(name);
   }
-  request.scenes = load_scenes(scenes);
-  require_writable(options.out);
-
-  int steps = 0;
-  for (const Experiment* experiment : chosen) steps += experiment->steps(request);
-  Progress progress(steps);
-  Result result;
-  for (const Experiment* experiment : chosen) experiment->run(request, progress, result);
-  progress.done();
-
-  const Provenance lines = with_scenes(provenance(options.command_line), request.scenes);
-  for (const Table& table : result.tables) {
-    write_csv(table, lines, options.out);
-    fmt::print("{}  {} rows\n", (options.out / (table.name + ".csv")).string(), table.rows.size());
+  SweepOptions sweep{options.jobs, options.shard.empty() ? Shard{} : shard_from(options.shard)};
+  std::vector<Point> points;
+  std::vector<Scene> looked_at;
+  for (const Experiment* experiment : chosen) {
+    request.scenes = scenes_for(*experiment, scenes, options.full);
+    for (const Scene& scene : request.scenes)
+      if (std::none_of(looked_at.begin(), looked_at.end(), [&](const Scene& s) { return s.name == scene.name; }))
+        looked_at.push_back(scene);
+    for (Point& point : experiment->points(request)) points.push_back(std::move(point));
   }
-  for (const Certificate& c : result.certificates)
-    write_file(options.out / fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method)),
-               certificate_json(c));
-  for (const std::string& note : result.notes) fmt::print("note: {}\n", note);
+  require_writable(options.out);
+  const Store store(store_in(options.out));
+  if (!options.resume) store.clear();
+  const Plan plan = plan_of(names, points, with_scenes(provenance(options.command_line), looked_at));
+  write_plan(plan, options.out);
+
+  Progress progress(static_cast<int>(points.size()));
+  const std::vector<FailedPoint> failed = run_points(points, sweep, store, progress);
+  progress.done();
+  for (const FailedPoint& f : failed) fmt::print(stderr, "crosscheck: {}: {}\n", f.name, f.why);
+  if (sweep.shard.count > 1) {
+    fmt::print("part {} of {} points is in {}; join the parts with: crosscheck merge DIR... --out DIR\n", options.shard,
+               points.size(), store.folder().string());
+    return failed.empty() ? 0 : 1;
+  }
+  std::vector<std::string> missing;
+  write_tables(joined(plan, {&store, 1}, missing), plan.provenance, options.out);
+  return failed.empty() ? 0 : 1;
+}
+
+int merge_command(const MergeOptions& options) {
+  const Plan plan = read_plan(options.folders.at(0));
+  std::vector<Store> stores;
+  for (const auto& folder : options.folders) {
+    if (read_plan(folder).points != plan.points)
+      throw InputError(fmt::format("{}: expected the points of {}: the same command, scenes and program",
+                                   (folder / "plan.json").string(), options.folders[0].string()));
+    stores.emplace_back(store_in(folder));
+  }
+  std::vector<std::string> missing;
+  const Rows rows = joined(plan, stores, missing);
+  if (!missing.empty()) {
+    for (const std::string& name : missing) fmt::print(stderr, "crosscheck: missing: {}\n", name);
+    fmt::print(stderr, "crosscheck: {} of {} points are missing; nothing is written\n", missing.size(),
+               plan.points.size());
+    return 1;
+  }
+  require_writable(options.out);
+  write_tables(rows, plan.provenance, options.out);
   return 0;
 }
 

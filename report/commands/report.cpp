@@ -1,9 +1,11 @@
 // report: the main job. Runs the experiments, draws figures and pictures, writes data, report.json and the page.
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "experiments/scenes.h"
+#include "experiments/sweep/sweep.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "report/certificate_json.h"
@@ -20,10 +22,10 @@ namespace {
 /// Files of an earlier report in the same folder would pass for this one's.
 void clear_former_report(const fs::path& out) {
   if (!fs::exists(out / "report.json")) return;
-  for (const char* part : {"data", "figures"}) fs::remove_all(out / part);
+  for (const char* part : {"data", "figures", "points", "report.json"}) fs::remove_all(out / part);
 }
 
-void write_data(const Result& result, const Provenance& lines, const fs::path& folder) {
+void write_data(const Rows& result, const Provenance& lines, const fs::path& folder) {
   for (const Table& table : result.tables) write_csv(table, lines, folder);
   for (const Certificate& c : result.certificates)
     write_file(folder / fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method)), certificate_json(c));
@@ -46,53 +48,68 @@ std::string report_json(const PageContent& page, const std::vector<Chart>& chart
   }
   json["figures"] = nlohmann::ordered_json::array();
   for (const Chart& c : charts)
-    json["figures"].push_back(
-        {{"name", c.figure.name}, {"scene", c.scene}, {"caption", c.figure.caption}, {"finding", c.figure.finding}});
+    if (const FigureWords* f = words_of(c))
+      json["figures"].push_back(
+          {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"finding", f->finding}});
   json["notes"] = page.notes;
   json["problems"] = page.problems;
   return json.dump(1) + "\n";
 }
 
+void write_picture(const Scene& scene, const std::vector<const Answer*>& shown, const Shot& shot,
+                   const fs::path& file) {
+  render::Studio studio;
+  render::write_png(picture_of(scene, shown, shot), file, studio);
+}
+
+/// The picture at the head of a scene's part.
+Shot shot_of(const Scene& scene, bool full) {
+  Shot shot;
+  shot.at = scene.camera && scene.camera->at ? *scene.camera->at : -1;
+  // soft light is worth its seconds on cloth; a few beads look the same without
+  shot.quality = full || !scene.triangles.empty() ? render::Quality::still : render::Quality::fast;
+  shot.mode = scene.triangles.empty() ? Mode::shaded : Mode::stretch;
+  shot.width = 1440;
+  shot.height = 560;
+  return shot;
+}
+
 class Builder {
  public:
-  Builder(const ReportOptions& options, Request request) : options_(options), request_(std::move(request)) {
+  Builder(const ReportOptions& options, Request request)
+      : options_(options), request_(std::move(request)), figures_(options.out / "figures") {
     page_.provenance = with_scenes(provenance(options.command_line), request_.scenes);
-    fs::create_directories(options.out / "figures");
-    page_.chapters = {
-        {"disagreements",
-         "What cannot be matched, and why",
-         "Where Bullet's worlds answer otherwise than the scene asks, or fail: each in the smallest scene that shows "
-         "it, "
-         "with its cause and the size of its effect, measured in this run.",
-         {}},
-        {"stiffness", "How stiff a position-based link is", "Bullet's position-based world beside the formula.", {}}};
+    fs::create_directories(figures_);
+    page_.chapters = chapters();
   }
 
   int build() {
-    int steps = static_cast<int>(request_.scenes.size()) + 1;
-    for (const Experiment& e : experiments()) steps += e.steps(request_);
-    Progress progress(steps);
-    for (const Experiment& e : experiments()) e.run(request_, progress, result_);
-    for (const Certificate& c : result_.certificates)
+    Plan plan{{}, {}, page_.provenance};
+    std::vector<Point> points = picture_points();  // the longest first
+    const size_t pictures = points.size();
+    for (const Experiment& e : experiments()) {
+      Request request = request_;
+      request.scenes = scenes_for(e, options_.scenes, options_.full);
+      plan.experiments.emplace_back(e.name);
+      for (Point& point : e.points(request)) points.push_back(std::move(point));
+    }
+    for (size_t i = pictures; i < points.size(); ++i) plan.points.push_back({points[i].name, points[i].hash()});
+    compute(points);
+    std::vector<std::string> missing;  // named already as what failed
+    rows_ = joined(plan, {&store_, 1}, missing);
+
+    for (const Certificate& c : rows_.certificates)
       if (c.mismatch())
         page_.problems.push_back(
             fmt::format("{} on {}: it built another scene, see its certificate", c.method, c.scene));
-    write_data(result_, page_.provenance, options_.out / "data");
-    for (const Scene& scene : request_.scenes) facts_.push_back(facts_of(scene.name, result_));
-    page_.notes = result_.notes;
-    page_.findings = overall_findings(request_.scenes, facts_, result_);
-    for (size_t i = 0; i < request_.scenes.size(); ++i) {
-      const Scene& scene = request_.scenes[i];
-      page_.scenes.push_back({&scene, &facts_[i], findings_of(scene, facts_[i]), {}, {}, {}});
-      page_.scenes.back().statistics = result_.table(scene.name + "-statistics");
-      for (const Certificate& c : result_.certificates)
-        if (c.scene == scene.name) page_.scenes.back().certificates.push_back(&c);
-      progress.begin("picture: " + scene.name);
-      attempt("picture of " + scene.name, [&] { take_picture(scene, page_.scenes.back()); });
-    }
-    progress.begin("figures");
-    charts_ = all_charts({request_.scenes, facts_, result_, value_of(page_.provenance, "commit")});
-    for (const Chart& chart : charts_) attempt("figure " + chart.figure.name, [&] { draw(chart); });
+    write_data(rows_, page_.provenance, options_.out / "data");
+    for (const Scene& scene : request_.scenes) facts_.push_back(facts_of(scene.name, rows_));
+    page_.notes = rows_.notes;
+    page_.findings = overall_findings(request_.scenes, facts_, rows_);
+    for (size_t i = 0; i < request_.scenes.size(); ++i) add_part(request_.scenes[i], facts_[i]);
+    charts_ = all_charts({request_.scenes, facts_, rows_, value_of(page_.provenance, "commit")});
+    take_snapshots();
+    for (const Chart& chart : charts_) add(chart);
     // beside the answer stands the last scene that Bullet answers too
     const ScenePart* shown = nullptr;
     for (const ScenePart& part : page_.scenes) {
@@ -100,10 +117,10 @@ class Builder {
       if (!part.pictures.empty() && (!shown || (bullet && bullet->ok()))) shown = &part;
     }
     if (shown) page_.hero.insert(page_.hero.begin(), shown->pictures[0]);
-    progress.done();
 
     write_file(options_.out / "report.json", report_json(page_, charts_));
     write_file(options_.out / "index.html", page_html(page_));
+    store_.clear();
     for (const std::string& problem : page_.problems)
       fmt::print(stderr, "crosscheck: missing in the report: {}\n", problem);
     for (const Finding& f : page_.findings) fmt::print("- {}\n", f.sentence);
@@ -114,60 +131,118 @@ class Builder {
   }
 
  private:
-  template <class F>
-  void attempt(const std::string& what, F make) {
-    try {
-      make();
-    } catch (const std::exception& error) {
-      page_.problems.push_back(what + ": " + error.what());
-    }
+  void compute(const std::vector<Point>& points) {
+    Progress progress(static_cast<int>(points.size()));
+    for (const FailedPoint& f : run_points(points, {}, store_, progress))
+      page_.problems.push_back(fmt::format("{}: {}", f.name, f.why));
+    progress.done();
   }
 
-  void take_picture(const Scene& scene, ScenePart& part) {
-    std::vector<const Answer*> shown;
+  fs::path picture_of_scene(const Scene& scene) const { return figures_ / (file_name_of(scene.name) + "-picture.png"); }
+
+  std::vector<std::string> methods_pictured(const Scene& scene) const {
+    std::vector<std::string> names, asked;
+    for (const Method& m : methods_of(request_, scene)) asked.push_back(m.name);
     for (const std::string& name : pictured_methods(scene))
-      for (const Answer& a : result_.answers)
-        if (a.scene == scene.name && a.method == name) shown.push_back(&a);
-    if (shown.empty())
-      for (const Answer& a : result_.answers)
-        if (a.scene == scene.name && a.trajectory.frames() > 0 && shown.size() < 3) shown.push_back(&a);
-    Shot shot;
-    shot.at = scene.camera && scene.camera->at ? *scene.camera->at : -1;
-    // soft light is worth its seconds on cloth; a few beads look the same without
-    shot.quality = options_.full || !scene.triangles.empty() ? render::Quality::still : render::Quality::fast;
-    shot.mode = scene.triangles.empty() ? Mode::shaded : Mode::stretch;
-    shot.width = 1440;
-    shot.height = 560;
-    const fs::path file = options_.out / "figures" / (file_name_of(scene.name) + "-picture.png");
-    render::write_png(picture_of(scene, shown, shot), file, studio_);
-    std::string names;
-    for (const Answer* a : shown) names += (names.empty() ? "" : ", ") + a->method;
+      if (std::find(asked.begin(), asked.end(), name) != asked.end()) names.push_back(name);
+    if (names.empty()) names.assign(asked.begin(), asked.begin() + std::min<long>(3, std::ssize(asked)));
+    return names;
+  }
+
+  /// Pictures are work like any other: drawn by the same processes, kept as files.
+  std::vector<Point> picture_points() const {
+    std::vector<Point> points;
+    for (const Scene& scene : request_.scenes)
+      points.push_back({"picture: " + scene.name, content_of(request_, scene), [this, &scene](Rows& rows) {
+                          Answers answers;
+                          std::vector<const Answer*> shown;
+                          std::string names;
+                          for (const std::string& name : methods_pictured(scene)) {
+                            const Answer& a = answer_of(request_, scene, find_method(name), answers);
+                            if (a.trajectory.frames() == 0) continue;
+                            shown.push_back(&a);
+                            names += (names.empty() ? "" : ", ") + name;
+                          }
+                          write_picture(scene, shown, shot_of(scene, options_.full), picture_of_scene(scene));
+                          Table table{"pictures", {{"scene", "1"}, {"methods", "1"}}, {}};
+                          table.add({scene.name, names});
+                          rows.add(table);
+                        }});
+    return points;
+  }
+
+  void add_part(const Scene& scene, const SceneFacts& facts) {
+    page_.scenes.push_back({&scene, &facts, findings_of(scene, facts), {}, {}, {}});
+    ScenePart& part = page_.scenes.back();
+    part.statistics = rows_.table(scene.name + "-statistics");
+    for (const Certificate& c : rows_.certificates)
+      if (c.scene == scene.name) part.certificates.push_back(&c);
+    if (!fs::exists(picture_of_scene(scene))) return;  // why not, is among the problems
     part.pictures.push_back(
-        {file, fmt::format("{} by {} side by side, seen by one camera", scene.name, names),
+        {picture_of_scene(scene),
+         fmt::format("{} by {} side by side, seen by one camera", scene.name, fmt::join(methods_pictured(scene), ", ")),
          fmt::format("{}, one camera, true sizes; {}", scene.name,
                      scene.triangles.empty() ? "the line is the path of the last particle"
                                              : "coloured by the stretch of the structural springs")});
   }
 
-  void draw(const Chart& chart) {
-    draw_figure(chart.figure, page_.provenance, options_.out / "figures");
-    const PageImage image{options_.out / "figures" / (chart.figure.name + ".svg"),
-                          chart.figure.title + ". " + chart.figure.finding,
-                          chart.figure.finding + " " + chart.figure.caption};
-    if (chart.scene.empty() && chart.chapter.empty()) page_.hero.push_back(image);
+  fs::path file_of(const Snapshot& s) const { return figures_ / (file_name_of(s.name) + ".png"); }
+
+  void take_snapshots() {
+    std::vector<Point> points;
+    for (const Chart& chart : charts_)
+      for (const Snapshot& s : chart.snapshots)
+        points.push_back(
+            {"picture: " + s.name, content_of(request_, s.scene), [this, &s](Rows&) {
+               std::deque<Answer> answers;
+               std::vector<const Answer*> shown;
+               for (const Snapshot::Panel& panel : s.panels) {
+                 Recorder recorder;
+                 Outcome out = run_method(find_method(panel.method), s.scene, panel.run, {&recorder});
+                 answers.push_back({s.scene.name, panel.method, std::move(out), std::move(recorder.trajectory)});
+                 shown.push_back(&answers.back());
+               }
+               write_picture(s.scene, shown, s.shot, file_of(s));
+             }});
+    if (!points.empty()) compute(points);
+  }
+
+  void add(const Chart& chart) {
+    Chapter::Entry entry{chart.heading, chart.text, {}, chart.tables};
+    if (const FigureWords* words = words_of(chart)) {
+      if (entry.heading.empty()) entry.heading = words->title;
+      try {
+        std::visit([this](const auto& figure) { draw_if_any(figure); }, chart.figure);
+        entry.images.push_back({figures_ / (words->name + ".svg"), words->title + ". " + words->finding,
+                                words->finding + " " + words->caption});
+      } catch (const std::exception& error) {
+        page_.problems.push_back(fmt::format("figure {}: {}", words->name, error.what()));
+      }
+    }
+    for (const Snapshot& s : chart.snapshots)
+      if (fs::exists(file_of(s))) entry.images.push_back({file_of(s), s.caption, s.caption});
+    if (chart.scene.empty() && chart.chapter.empty())
+      page_.hero.insert(page_.hero.end(), entry.images.begin(), entry.images.end());
     for (Chapter& chapter : page_.chapters)
-      if (chapter.id == chart.chapter) chapter.entries.push_back({chart.figure.title, chart.text, image});
+      if (chapter.id == chart.chapter) chapter.entries.push_back(entry);
     for (ScenePart& part : page_.scenes)
-      if (part.scene->name == chart.scene) part.figures.push_back(image);
+      if (part.scene->name == chart.scene)
+        part.figures.insert(part.figures.end(), entry.images.begin(), entry.images.end());
+  }
+
+  template <class F>
+  void draw_if_any(const F& figure) {
+    if constexpr (std::derived_from<F, FigureWords>) draw(drawing_of(figure), page_.provenance, figures_);
   }
 
   const ReportOptions& options_;
   Request request_;
-  Result result_;
+  fs::path figures_;
+  Store store_{store_in(options_.out)};
+  Rows rows_;
   std::vector<SceneFacts> facts_;
   std::vector<Chart> charts_;
   PageContent page_;
-  render::Studio studio_;  // keeps compiled shaders from picture to picture
 };
 
 }  // namespace

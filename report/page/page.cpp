@@ -67,9 +67,13 @@ std::string chapter_section(const Chapter& chapter) {
   std::string out = fmt::format("<section class=\"chapter\" id=\"{}\">\n<h2>{}</h2>\n<p class=\"question\">{}</p>\n",
                                 chapter.id, escaped(chapter.title), escaped(chapter.intro));
   out += "<div class=\"figures\">\n";
-  for (const Chapter::Entry& entry : chapter.entries)
-    out += fmt::format("<article><h3>{}</h3><p>{}</p>\n{}</article>\n", escaped(entry.heading), escaped(entry.text),
-                       image_html(entry.figure, "chart"));
+  for (const Chapter::Entry& entry : chapter.entries) {
+    out += fmt::format("<article><h3>{}</h3><p>{}</p>\n", escaped(entry.heading), escaped(entry.text));
+    for (const PageImage& image : entry.images)
+      out += image_html(image, image.file.extension() == ".png" ? "render" : "chart");
+    for (const PageTable& table : entry.tables) out += page_table_html(table);
+    out += "</article>\n";
+  }
   return out + "</div>\n</section>\n";
 }
 

@@ -30,7 +30,8 @@ struct ScenePart {
 struct Chapter {
   struct Entry {
     std::string heading, text;
-    PageImage figure;
+    std::vector<PageImage> images;
+    std::vector<PageTable> tables;
   };
   std::string id, title, intro;
   std::vector<Entry> entries;
@@ -51,6 +52,11 @@ std::string page_html(const PageContent& content);
 
 /// Text made safe for HTML.
 std::string escaped(const std::string& text);
+
+/// The chapters of the report, in order, without entries. A new one is a row.
+std::vector<Chapter> chapters();
+
+std::string page_table_html(const PageTable& table);
 
 /// <figure> with the image inside the page as base64.
 std::string image_html(const PageImage& image, const std::string& css_class);

@@ -37,6 +37,22 @@ std::string with_digits_of(double mean, double spread) {
 
 }  // namespace
 
+std::string page_table_html(const PageTable& table) {
+  std::string out =
+      fmt::format("<div class=\"scroll\"><table><caption>{}</caption><thead><tr>", escaped(table.caption));
+  for (const std::string& head : table.header) out += fmt::format("<th>{}</th>", escaped(head));
+  out += "</tr></thead><tbody>\n";
+  for (const auto& row : table.rows) {
+    out += "<tr>";
+    for (size_t i = 0; i < row.size(); ++i)
+      out += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", escaped(row[i]))
+                    : fmt::format("<td{}>{}</td>", row[i].empty() ? " class=\"none\"" : "",
+                                  row[i].empty() ? "–" : escaped(row[i]));
+    out += "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
 std::string scene_table_html(const std::vector<ScenePart>& scenes) {
   std::string out =
       "<div class=\"scroll\"><table class=\"scenes\"><thead><tr><th>scene</th><th>what was asked</th><th>Bullet's "

@@ -1,6 +1,7 @@
 // Bullet's position-based world: the stiffness of its links, the law its networks converge to, drag and added forces.
 #include "experiments/experiment.h"
 #include "experiments/scenes.h"
+#include "experiments/sweep/sweep.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {
@@ -8,20 +9,14 @@ namespace {
 
 using namespace testing_tools;
 
-Result stiffness() {
-  const Experiment& experiment = find_experiment("stiffness");
-  Progress progress(experiment.steps({}));
-  Result result;
-  experiment.run({}, progress, result);
-  return result;
-}
+Rows stiffness() { return computed(find_experiment("stiffness").points({})); }
 double number(const Table& table, size_t row, const std::string& column) {
   const Cell& cell = table.at(row, column);
   return std::holds_alternative<long>(cell) ? static_cast<double>(std::get<long>(cell)) : std::get<double>(cell);
 }
 
 TEST(BulletPbdStiffness, OfOneLinkIsTheFormulas) {
-  const Result result = stiffness();
+  const Rows result = stiffness();
   const Table& table = *result.table("stiffness");
   int asked = 0;
   for (size_t row = 0; row < table.rows.size(); ++row) {
@@ -37,7 +32,7 @@ TEST(BulletPbdStiffness, OfOneLinkIsTheFormulas) {
 }
 
 TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
-  const Result result = stiffness();
+  const Rows result = stiffness();
   const Table& table = *result.table("stiffness-network");
   for (const double n : {1., 10.}) {
     double largest = 0, smallest = INFINITY, at_largest = 0, at_smallest = 0, before = 0, last_slope = 0;

@@ -58,9 +58,9 @@ TEST(ContactTruth, IsCalledADifferenceInTheTables) {
   request.scenes[0].samples = 20;
   request.scenes[0].window = 0.4;
   request.methods = find_methods("leapfrog,symplectic-euler");
-  Progress progress(2);
-  Result result;
-  engines_experiment(request, progress, result);
+  Answers answers;
+  Rows result;
+  engines_on(request, request.scenes[0], answers, result);
   const Table& summary = *result.table("engines");
   for (size_t i = 0; i < summary.rows.size(); ++i) {
     EXPECT_TRUE(std::holds_alternative<std::monostate>(summary.at(i, "largest error")));

@@ -4,6 +4,7 @@
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
 #include "experiments/scenes.h"
+#include "experiments/sweep/sweep.h"
 #include "reference/npy.h"
 #include "reference/protocol/exec_engine.h"
 #include "reference/protocol/process.h"
@@ -139,11 +140,11 @@ TEST_F(Exec, WithoutVelocitiesThereIsNoEnergy) {
   const std::string which = "case $(cat \"$1\") in *'\"name\": \"slide\"'*) f=slide.npy;; *) f=x.npy;; esac\n";
   const std::string engine = script("engine", which + "cp '" + folder_.string() + "'/$f \"$2/trajectory.npy\"\n");
   request.methods = {find_method("symplectic-euler"), find_method("exec:" + engine)};
-  Result result;
-  Progress progress(100);
-  engines_experiment(request, progress, result);
-  energy_experiment(request, progress, result);
-  for (const Answer& a : result.answers) {
+  Rows result;
+  Answers answers;
+  for (const Scene& scene : request.scenes) engines_on(request, scene, answers, result);
+  result.append(computed(energy_points(request)));
+  for (const Answer& a : answers) {
     EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
     EXPECT_EQ(a.ledger.empty(), a.method != "mysim/symplectic-euler");
   }

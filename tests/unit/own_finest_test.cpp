@@ -1,6 +1,7 @@
 // Distance to a method's own finest run: it tells who converges to something else than the truth.
 #include "experiments/experiment.h"
 #include "experiments/scenes.h"
+#include "experiments/sweep/sweep.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {
@@ -14,12 +15,11 @@ struct Row {
 };
 
 /// Rows of one method in the table that experiment `order` writes, from long steps to short ones.
-std::vector<Row> rows_of(const Scene& scene, const std::string& method, Result& result) {
+std::vector<Row> rows_of(const Scene& scene, const std::string& method, Rows& result) {
   Request request;
   request.scenes = {scene};
   request.methods = find_methods(method);
-  Progress progress(1);
-  order_experiment(request, progress, result);
+  result.append(computed(order_points(request)));
   const Table& table = *result.table("order");
   std::vector<Row> rows;
   for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -36,7 +36,7 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
   of_hooke.model.find<Springs>()->law = SpringLaw::hooke;
   for (const auto& [scene, same_law] : {std::pair{&of_their_law, true}, std::pair{&of_hooke, false}}) {
     SCOPED_TRACE(same_law);
-    Result result;
+    Rows result;
     const std::vector<Row> rows = rows_of(*scene, "bullet/pbd", result);
     ASSERT_EQ(rows.size(), 5u);
     EXPECT_FALSE(rows.back().own);  // no distance from itself
@@ -57,7 +57,7 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
 }
 
 TEST(OwnFinest, OfAStepperFallsWithItsErrorAndRulesOfToleranceAreNamed) {
-  Result result;
+  Rows result;
   const std::vector<Row> rows = rows_of(load_scene("pendulum"), "leapfrog,dopri5,odeint/dopri5", result);
   ASSERT_EQ(rows.size(), 7u);
   // order 2: the distance is the error less what is left at the finest step

@@ -1,0 +1,191 @@
+// Worker processes that draw points from one shared counter.
+#include "experiments/sweep/sweep.h"
+
+#include <fmt/format.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cstring>
+#include <new>
+#include <system_error>
+
+#include "experiments/experiment.h"
+#include "experiments/sweep/cores.h"
+#include "mysim/errors.h"
+
+namespace crosscheck {
+namespace {
+
+/// What parent and workers share. A worker that dies leaves the number of its point behind.
+struct Board {
+  static constexpr int most_workers = 256;
+  std::atomic<int> next{0};
+  std::atomic<int> current[most_workers];  // point that the worker is at, or -1
+};
+
+class SharedBoard {
+ public:
+  SharedBoard() {
+    memory_ = mmap(nullptr, sizeof(Board), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory_ == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "mmap");
+    board_ = new (memory_) Board;
+    for (auto& c : board_->current) c = -1;
+  }
+  ~SharedBoard() { munmap(memory_, sizeof(Board)); }
+  SharedBoard(const SharedBoard&) = delete;
+  SharedBoard& operator=(const SharedBoard&) = delete;
+  Board* operator->() { return board_; }
+
+ private:
+  void* memory_;
+  Board* board_;
+};
+
+/// One batch of points, timed or not, worked off by `jobs` processes.
+class Batch {
+ public:
+  Batch(std::vector<const Point*> points, int jobs, const Store& store, Progress& progress)
+      : points_(std::move(points)), store_(store), progress_(progress), pids_(static_cast<size_t>(jobs), -1) {}
+
+  std::vector<FailedPoint> run() {
+    for (size_t w = 0; w < pids_.size(); ++w) start(w);
+    int running = static_cast<int>(pids_.size());
+    while (running > 0) {
+      announce();
+      int status = 0;
+      const pid_t pid = waitpid(-1, &status, WNOHANG);
+      if (pid <= 0) {
+        usleep(20000);
+        continue;
+      }
+      const auto worker = std::find(pids_.begin(), pids_.end(), pid);
+      if (worker == pids_.end()) continue;
+      const size_t w = static_cast<size_t>(worker - pids_.begin());
+      *worker = -1;
+      --running;
+      if (WIFEXITED(status) && WEXITSTATUS(status) == 0) continue;
+      const int at = board_->current[w].exchange(-1);
+      if (at >= 0)
+        failed_.push_back({points_[static_cast<size_t>(at)]->name,
+                           WIFSIGNALED(status)
+                               ? fmt::format("it died of signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))
+                               : "it ended early"});
+      if (board_->next < static_cast<int>(points_.size())) {
+        start(w);
+        ++running;
+      }
+    }
+    announce();
+    for (const Point* point : points_)
+      if (const auto why = store_.failure_of(point->hash())) failed_.push_back({point->name, *why});
+    return std::move(failed_);
+  }
+
+ private:
+  void announce() {
+    const int begun = std::min(board_->next.load(), static_cast<int>(points_.size()));
+    while (announced_ < begun) progress_.begin(points_[static_cast<size_t>(announced_++)]->name);
+  }
+
+  void start(size_t worker) {
+    std::fflush(nullptr);  // or the child prints it again
+    const pid_t pid = fork();
+    if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
+    if (pid == 0) {
+      work(worker);
+      _exit(0);  // no destructor of the parent's runs twice
+    }
+    pids_[worker] = pid;
+  }
+
+  void work(size_t worker) {
+    for (int i; (i = board_->next++) < static_cast<int>(points_.size());) {
+      const Point& point = *points_[static_cast<size_t>(i)];
+      board_->current[worker] = i;
+      if (point.timed) pin_to_one_core();
+      try {
+        Rows rows;
+        point.compute(rows);
+        store_.keep(point.hash(), rows);
+      } catch (const std::exception& error) {
+        store_.keep_failure(point.hash(), error.what());
+      }
+      board_->current[worker] = -1;
+    }
+  }
+
+  std::vector<const Point*> points_;
+  const Store& store_;
+  Progress& progress_;
+  std::vector<pid_t> pids_;
+  SharedBoard board_;
+  std::vector<FailedPoint> failed_;
+  int announced_ = 0;
+};
+
+}  // namespace
+
+Shard shard_from(const std::string& text) {
+  Shard shard;
+  const size_t slash = text.find('/');
+  auto number = [](std::string_view part, int& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc() && end == part.data() + part.size();
+  };
+  if (slash == std::string::npos || !number(std::string_view(text).substr(0, slash), shard.index) ||
+      !number(std::string_view(text).substr(slash + 1), shard.count) || shard.index < 1 || shard.index > shard.count)
+    throw InputError(fmt::format("--shard {}: expected I/N with 1 <= I <= N", text));
+  return shard;
+}
+
+std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOptions& options, const Store& store,
+                                    Progress& progress) {
+  const int jobs = std::clamp(options.jobs > 0 ? options.jobs : cores_allowed(), 1, Board::most_workers);
+  std::vector<FailedPoint> failed;
+  for (const bool timed : {false, true}) {
+    std::vector<const Point*> todo;
+    for (size_t i = 0; i < points.size(); ++i)
+      if (points[i].timed == timed && options.shard.holds(i)) {
+        if (store.has(points[i].hash()))
+          progress.expect(-1);
+        else
+          todo.push_back(&points[i]);
+      }
+    if (todo.empty()) continue;
+    const int workers = timed ? 1 : std::min(jobs, static_cast<int>(todo.size()));
+    for (FailedPoint& f : Batch(std::move(todo), workers, store, progress).run()) failed.push_back(std::move(f));
+  }
+  return failed;
+}
+
+Rows joined(const Plan& plan, std::span<const Store> stores, std::vector<std::string>& missing) {
+  Rows all;
+  for (const Plan::Entry& point : plan.points) {
+    std::optional<Rows> rows;
+    for (size_t i = 0; i < stores.size() && !rows; ++i) rows = stores[i].find(point.hash);
+    if (rows)
+      all.append(*rows);
+    else
+      missing.push_back(point.name);
+  }
+  for (const std::string& name : plan.experiments)
+    if (const Experiment& experiment = find_experiment(name); experiment.conclude) experiment.conclude(all);
+  return all;
+}
+
+Rows computed(std::span<const Point> points) {
+  Rows all;
+  for (const Point& point : points) {
+    Rows rows;
+    point.compute(rows);
+    all.append(rows);
+  }
+  return all;
+}
+
+}  // namespace crosscheck

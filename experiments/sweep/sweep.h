@@ -1,0 +1,44 @@
+// Computes the points of a sweep: what is finished is not repeated, what fails is named, and other points go on.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/progress.h"
+#include "experiments/sweep/plan.h"
+#include "experiments/sweep/store.h"
+
+namespace crosscheck {
+
+/// Part I of N of a list: its points I-1, I-1+N, I-1+2N, ...
+struct Shard {
+  int index = 1, count = 1;
+  bool holds(size_t point) const { return static_cast<int>(point % static_cast<size_t>(count)) == index - 1; }
+};
+/// "2/8". Throws InputError, "expected I/N with 1 <= I <= N".
+Shard shard_from(const std::string& text);
+
+struct SweepOptions {
+  int jobs = 0;  // processes at a time; 0: as many as cores that this process may use
+  Shard shard;
+};
+
+struct FailedPoint {
+  std::string name, why;
+};
+
+/// Computes the shard's points that the store has not, and keeps what they give. Points run in processes of their own
+/// (an engine that crashes takes one point with it, and Bullet keeps state per process); timed points after all others,
+/// one at a time, pinned to a core. Returns the points that threw or crashed; no rows are kept of these.
+std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOptions& options, const Store& store,
+                                    Progress& progress);
+
+/// The rows of all points of the plan in their order, each from the first store that has it, and what the plan's
+/// experiments conclude from them; the names of points that no store has are added to `missing`.
+Rows joined(const Plan& plan, std::span<const Store> stores, std::vector<std::string>& missing);
+
+/// Computes all points here and now, without a store: for a few, and for tests. Lets exceptions through.
+Rows computed(std::span<const Point> points);
+
+}  // namespace crosscheck
