@@ -1,7 +1,10 @@
 // One file: checksum, key, answer, in the machine's own byte order (it never leaves the machine).
 #include "reference/truth_cache.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -133,10 +136,42 @@ void forget_old(const fs::path& folder) {
   const auto limit = fs::file_time_type::clock::now() - std::chrono::hours(30 * 24);
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     std::error_code each;
-    if (entry.path().extension() == extension && entry.last_write_time(each) < limit && !each)
+    const auto kind = entry.path().extension();
+    if ((kind == extension || kind == ".lock") && entry.last_write_time(each) < limit && !each)
       fs::remove(entry.path(), each);
   }
 }
+
+/// The stored answer, or nothing where there is none or it is damaged.
+std::optional<std::optional<Truth>> stored_in(const fs::path& file, const std::string& key) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  const std::string content((std::istreambuf_iterator<char>(in)), {});
+  try {
+    return unpacked(key, content);
+  } catch (const Damaged&) {
+    return std::nullopt;
+  }
+}
+
+/// Holds a file's lock while it lives; a process that dies lets go of it. Where no lock can be had, nobody waits.
+class Lock {
+ public:
+  explicit Lock(const fs::path& file) {
+    std::error_code ignored;
+    fs::create_directories(file.parent_path(), ignored);
+    handle_ = open((file.string() + ".lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+    if (handle_ >= 0) flock(handle_, LOCK_EX);
+  }
+  ~Lock() {
+    if (handle_ >= 0) close(handle_);
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+ private:
+  int handle_;
+};
 
 }  // namespace
 
@@ -169,13 +204,10 @@ std::optional<Truth> TruthCache::find_or(const Scene& scene, const Run& run,
                                          const std::function<std::optional<Truth>()>& compute) const {
   const std::string key = key_of(scene, run);
   const fs::path file = file_at(key);
-  if (std::ifstream in(file, std::ios::binary); in) {
-    const std::string content((std::istreambuf_iterator<char>(in)), {});
-    try {
-      return unpacked(key, content);
-    } catch (const Damaged&) {
-    }
-  }
+  if (auto stored = stored_in(file, key)) return *stored;
+  // processes of one sweep ask for the same answer at the same time: one computes, the others wait
+  const Lock lock(file);
+  if (auto stored = stored_in(file, key)) return *stored;
   std::optional<Truth> truth = compute();
   try {
     write_file(file, packed(key, truth));

@@ -2,6 +2,9 @@
 // harm.
 #include "reference/truth_cache.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -53,8 +56,25 @@ TEST_F(Cache, ReturnsTheSameBitsWithoutComputingAgain) {
   EXPECT_EQ(again->bars, (std::vector{1e-12, 1e-9}));
   EXPECT_TRUE(again->of_contact_rule);
   EXPECT_EQ(again->until, 0.25);
-  // one file, and no half one beside it
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+  // one file and its lock, and no half one beside it
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
+  EXPECT_TRUE(fs::exists(cache.file_of(scene, run).string() + ".lock"));
+}
+
+TEST_F(Cache, OfSeveralProcessesOneComputesAndTheOthersWait) {
+  std::vector<pid_t> children;
+  for (int i = 0; i < 4; ++i)
+    if (children.push_back(fork()); children.back() == 0) {
+      cache.find_or(scene, run, [&]() -> std::optional<Truth> {
+        std::ofstream(folder / "computed", std::ios::app) << "x";
+        usleep(50000);
+        return std::nullopt;
+      });
+      _exit(0);
+    }
+  for (const pid_t child : children) waitpid(child, nullptr, 0);
+  std::ifstream in(folder / "computed");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "x");
 }
 
 TEST_F(Cache, RemembersThatNothingIsKnown) {
