@@ -4,18 +4,21 @@
 #include <fmt/format.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <charconv>
+#include <csignal>
 #include <cstring>
 #include <new>
 #include <system_error>
 
 #include "experiments/experiment.h"
 #include "experiments/sweep/cores.h"
+#include "experiments/sweep/machine_lock.h"
 #include "mysim/errors.h"
 
 namespace crosscheck {
@@ -94,9 +97,12 @@ class Batch {
 
   void start(size_t worker) {
     std::fflush(nullptr);  // or the child prints it again
-    const pid_t pid = fork();
+    const pid_t parent = getpid(), pid = fork();
     if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid == 0) {
+      // no worker goes on when the sweep is killed, or a resumed one would compute the same points beside it
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (getppid() != parent) _exit(1);
       work(worker);
       _exit(0);  // no destructor of the parent's runs twice
     }
@@ -108,6 +114,7 @@ class Batch {
       const Point& point = *points_[static_cast<size_t>(i)];
       board_->current[worker] = i;
       if (point.timed) pin_to_one_core();
+      const MachineLock lock(point.timed ? MachineLock::Hold::alone : MachineLock::Hold::with_others);
       try {
         Rows rows;
         point.compute(rows);

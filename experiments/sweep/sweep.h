@@ -30,7 +30,8 @@ struct FailedPoint {
 
 /// Computes the shard's points that the store has not, and keeps what they give. Points run in processes of their own
 /// (an engine that crashes takes one point with it, and Bullet keeps state per process); timed points after all others,
-/// one at a time, pinned to a core. Returns the points that threw or crashed; no rows are kept of these.
+/// one at a time, pinned to a core, and while no other sweep of this user computes on the machine. Returns the points
+/// that threw or crashed; no rows are kept of these.
 std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOptions& options, const Store& store,
                                     Progress& progress);
 

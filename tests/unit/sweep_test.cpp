@@ -156,18 +156,18 @@ TEST_F(Sweep, KilledInTheMiddleItLosesNothingThatWasFinished) {
   std::vector<Point> points = several(8);
   points[5].compute = [this](Rows&) {
     note("slow");
-    sleep(60);
+    sleep(2);
+    note("went on");
   };
   const pid_t child = fork();
   if (child == 0) {
-    setpgid(0, 0);
     run(points, {1, {}});
     _exit(0);
   }
-  setpgid(child, child);
   while (ran().size() < 6) usleep(1000);  // five points, and the slow one has begun
-  kill(-child, SIGKILL);
+  kill(child, SIGKILL);                   // the worker dies with it
   waitpid(child, nullptr, 0);
+  sleep(3);
   run(several(8), {1, {}});
   const std::vector<std::string> names = ran();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 9u);
@@ -188,6 +188,28 @@ TEST_F(Sweep, TimedPointsRunAfterAllOthersOneAtATime) {
   run(points, {4, {}});
   const std::vector<std::string> names = ran(), timed(names.end() - 6, names.end());
   EXPECT_EQ(timed, (std::vector<std::string>{"begin 0", "end 0", "begin 3", "end 3", "begin 4", "end 4"}));
+}
+
+TEST_F(Sweep, TimedPointsOfOneSweepWaitForThePointsOfAnother) {
+  std::vector<Point> others = several(3), timed = {point("timed", 1)};
+  for (Point& p : others)
+    p.compute = [this, name = p.name](Rows&) {
+      note("begin " + name);
+      usleep(50000);
+      note("end " + name);
+    };
+  timed[0].timed = true;
+  const pid_t child = fork();
+  if (child == 0) {
+    run(others, {3, {}});
+    _exit(0);
+  }
+  while (ran().size() < 3) usleep(1000);
+  Progress progress(1);
+  run_points(timed, {1, {}}, Store(folder_ / "timed"), progress);
+  waitpid(child, nullptr, 0);
+  ASSERT_EQ(ran().size(), 7u);
+  EXPECT_EQ(ran().back(), "timed");
 }
 
 TEST_F(Sweep, ShardsAreDisjointAndJoinToTheWhole) {

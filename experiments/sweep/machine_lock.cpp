@@ -1,0 +1,25 @@
+// One file in the machine's own temporary folder; a process that dies lets go of it.
+#include "experiments/sweep/machine_lock.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+namespace crosscheck {
+
+MachineLock::MachineLock(Hold hold) {
+  std::error_code error;
+  const auto folder = std::filesystem::temp_directory_path(error);
+  const auto file = (error ? "/tmp" : folder) / fmt::format("crosscheck-{}.lock", getuid());
+  handle_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (handle_ >= 0) flock(handle_, hold == Hold::alone ? LOCK_EX : LOCK_SH);
+}
+
+MachineLock::~MachineLock() {
+  if (handle_ >= 0) close(handle_);
+}
+
+}  // namespace crosscheck

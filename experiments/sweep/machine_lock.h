@@ -1,0 +1,20 @@
+// Who may compute on this machine: many untimed points side by side, or one timed point alone, over all sweeps of this
+// user, so that shards on one machine do not spoil each other's timings.
+#pragma once
+
+namespace crosscheck {
+
+class MachineLock {
+ public:
+  enum class Hold { with_others, alone };
+  /// Waits until it is had. Where no lock file can be made, nobody waits.
+  explicit MachineLock(Hold hold);
+  ~MachineLock();
+  MachineLock(const MachineLock&) = delete;
+  MachineLock& operator=(const MachineLock&) = delete;
+
+ private:
+  int handle_;
+};
+
+}  // namespace crosscheck
