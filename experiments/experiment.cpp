@@ -29,7 +29,8 @@ const Experiment& find_experiment(const std::string& name) {
 
 std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full) {
   if (!names.empty() || full) return load_scenes(names);
-  return load_scenes({experiment.quick_scenes.begin(), experiment.quick_scenes.end()});
+  const auto quick = experiment.quick_scenes.empty() ? quick_scenes() : experiment.quick_scenes;
+  return load_scenes({quick.begin(), quick.end()});
 }
 
 std::vector<Method> methods_of(const Request& request, const Scene& scene) {

@@ -34,7 +34,7 @@ struct Experiment {
   std::string_view name, question;
   /// The list of its points; the same request gives the same list.
   std::vector<Point> (*points)(const Request&);
-  /// The scenes that stand for all in a quick run where nobody names any; empty: all shipped ones.
+  /// The scenes that stand for all in a quick run where nobody names any; empty: quick_scenes().
   std::span<const std::string_view> quick_scenes = {};
   /// Adds the tables that are made of the rows of all points.
   void (*conclude)(Rows&) = nullptr;

@@ -38,6 +38,26 @@ std::span<const std::string_view> shipped_scenes() {
   return table;
 }
 
+std::span<const std::string_view> quick_scenes() {
+  static constexpr std::string_view table[] = {
+      "circle",         //
+      "projectile",     //
+      "spring",         //
+      "normal-modes",   //
+      "pendulum",       //
+      "chain",          //
+      "chain-link",     //
+      "rod",            //
+      "slide",          //
+      "bounce",         //
+      "cloth-student",  //
+      "cloth-hang",     //
+      "cloth-inextensible",
+      "cloth-sphere",
+  };
+  return table;
+}
+
 namespace {
 
 /// Reads the file and makes sure that its default method is one.

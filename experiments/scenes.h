@@ -13,6 +13,9 @@ namespace crosscheck {
 /// Names of the shipped scenes, from simple to rich.
 std::span<const std::string_view> shipped_scenes();
 
+/// Those of them that a quick run looks at when nobody names any: each kind of scene once, and of several cloths one.
+std::span<const std::string_view> quick_scenes();
+
 /// A shipped scene by name, the scene of a known disagreement by name, or any TOML file by path. Throws InputError that
 /// lists what there is.
 Scene load_scene(const std::string& name_or_path);

@@ -105,6 +105,7 @@ class Builder {
     write_data(rows_, page_.provenance, options_.out / "data");
     for (const Scene& scene : request_.scenes) facts_.push_back(facts_of(scene.name, rows_));
     page_.notes = rows_.notes;
+    if (options_.scenes.empty() && !options_.full) page_.notes.insert(page_.notes.begin(), left_out());
     page_.findings = overall_findings(request_.scenes, facts_, rows_);
     for (size_t i = 0; i < request_.scenes.size(); ++i) add_part(request_.scenes[i], facts_[i]);
     charts_ = all_charts({request_.scenes, facts_, rows_, value_of(page_.provenance, "commit")});
@@ -136,6 +137,15 @@ class Builder {
     for (const FailedPoint& f : run_points(points, {}, store_, progress))
       page_.problems.push_back(fmt::format("{}: {}", f.name, f.why));
     progress.done();
+  }
+
+  std::string left_out() const {
+    std::vector<std::string_view> names;
+    for (const auto name : shipped_scenes())
+      if (std::none_of(request_.scenes.begin(), request_.scenes.end(), [&](const Scene& s) { return s.name == name; }))
+        names.push_back(name);
+    return fmt::format("this is the short form of the report: {} are left out; --full has all scenes",
+                       fmt::join(names, ", "));
   }
 
   fs::path picture_of_scene(const Scene& scene) const { return figures_ / (file_name_of(scene.name) + "-picture.png"); }
@@ -251,7 +261,7 @@ int report_command(const ReportOptions& options) {
   Request request;
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
-  request.scenes = load_scenes(options.scenes);
+  request.scenes = scenes_for({}, options.scenes, options.full);
   require_writable(options.out);
   clear_former_report(options.out);
   return Builder(options, std::move(request)).build();

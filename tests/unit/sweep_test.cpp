@@ -156,7 +156,7 @@ TEST_F(Sweep, KilledInTheMiddleItLosesNothingThatWasFinished) {
   std::vector<Point> points = several(8);
   points[5].compute = [this](Rows&) {
     note("slow");
-    sleep(2);
+    usleep(500000);
     note("went on");
   };
   const pid_t child = fork();
@@ -167,7 +167,7 @@ TEST_F(Sweep, KilledInTheMiddleItLosesNothingThatWasFinished) {
   while (ran().size() < 6) usleep(1000);  // five points, and the slow one has begun
   kill(child, SIGKILL);                   // the worker dies with it
   waitpid(child, nullptr, 0);
-  sleep(3);
+  usleep(700000);
   run(several(8), {1, {}});
   const std::vector<std::string> names = ran();
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 9u);
