@@ -56,7 +56,7 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input);  // error of ever
 std::vector<Chart> error_charts(const ChartInput& input);       // error over time, per scene with a truth
 std::vector<Chart> agreement_charts(const ChartInput& input);   // Bullet against the same rule of mysim, over time
 std::vector<Chart> contact_charts(const ChartInput& input);     // centres of mass, clearance, creep on a sphere
-std::vector<Chart> energy_charts(const ChartInput& input);      // balance error or contact loss over time
+std::vector<Chart> balance_charts(const ChartInput& input);     // balance error or contact loss over time
 std::vector<Chart> order_charts(const ChartInput& input);       // error against step
 
 std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links

@@ -67,9 +67,9 @@ Figure contact_figure(const Scene& scene, const SceneFacts& facts, const Table& 
 
 }  // namespace
 
-std::vector<Chart> energy_charts(const ChartInput& input) {
+std::vector<Chart> balance_charts(const ChartInput& input) {
   std::vector<Chart> charts;
-  const Table* summary = input.result.table("energy");
+  const Table* summary = input.result.table("engines-energy");
   for (size_t i = 0; i < input.scenes.size() && summary; ++i) {
     const Scene& scene = input.scenes[i];
     const Table* table = input.result.table(scene.name + "-energy");
