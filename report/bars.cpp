@@ -32,10 +32,10 @@ Drawing drawing_of(const Bars& bars) {
   Drawing drawing{bars.name, data_of(bars), ""};
   std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", bars.title, bars.name);
   out += fmt::format("set title {}\n", single_quoted(bars.title));
-  out += axis_commands({bars.label}, "y");
-  out += fmt::format("set xrange [0.4:{:.1f}]\nset xzeroaxis lt 1 lc rgb \"#333333\" lw 1.5\n",
+  out += axis_commands({bars.label}, "x");
+  out += fmt::format("set yrange [{:.1f}:0.4]\nset yzeroaxis lt 1 lc rgb \"#333333\" lw 1.5\nset grid noytics\n",
                      static_cast<double>(bars.names.size()) + 0.6);
-  out += fmt::format("set xtics rotate by 35 right noenhanced (");
+  out += "set ytics noenhanced (";
   for (size_t i = 0; i < bars.names.size(); ++i)
     out += fmt::format("{}{} {}", i ? ", " : "", single_quoted(bars.names[i]), i + 1);
   out += ")\n";
@@ -45,12 +45,12 @@ Drawing drawing_of(const Bars& bars) {
     for (const double height : part.height) any |= height != 0;
     if (!any) continue;
     plot += fmt::format(
-        "{}{} using (strcol(1) eq {} ? $3 : NaN):4:($3-0.36):($3+0.36):4:5 with boxxyerror lc rgb \"{}\" fs {} border "
+        "{}{} using (strcol(1) eq {} ? $4 : NaN):3:4:5:($3-0.36):($3+0.36) with boxxyerror lc rgb \"{}\" fs {} border "
         "lc rgb \"{}\" title {}",
         plot.empty() ? "plot " : ", \\\n     ", single_quoted(bars.name + ".csv"), single_quoted(part.title),
         part.colour, part.hatched ? "transparent pattern 4" : "solid 0.85", part.colour, single_quoted(part.title));
   }
-  drawing.script = out + terminals(bars.name, 1.12, plot + "\n");
+  drawing.script = out + terminals(bars.name, 0.45 + 0.06 * static_cast<double>(bars.names.size()), plot + "\n");
   return drawing;
 }
 

@@ -1,4 +1,4 @@
-// Stacked bars: one per method, what came in below zero, where it went above.
+// Stacked bars: one line per method, what came in to the left of zero, where it went to the right.
 #pragma once
 
 #include "report/figure.h"

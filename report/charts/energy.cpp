@@ -78,7 +78,7 @@ std::optional<Chart> where_it_went(const Table& table, const std::string& scene,
   Bars bars;
   bars.name = scene + "-energy-budget";
   bars.title = scene + ": where the energy came from and where it went";
-  bars.label = "energy / J (below zero: came in)";
+  bars.label = "energy / J (left of zero: came in)";
   bars.parts = parts_for(shown.size());
   bool inferred = false;
   for (size_t b = 0; b < shown.size(); ++b) {
@@ -99,7 +99,7 @@ std::optional<Chart> where_it_went(const Table& table, const std::string& scene,
                               -number_at(table, i, "pins gave")};
     for (size_t p = 0; p < bars.parts.size(); ++p) bars.parts[p].height[b] = heights[p];
   }
-  bars.finding = "What each run was given, below zero, and where it went, above.";
+  bars.finding = "What each run was given, left of zero, and where it went, right of it.";
   if (inferred)
     bars.finding +=
         " Hatched: an engine that does not tell its impulses; what is missing is called contact, and no closure is "
@@ -152,7 +152,7 @@ Chart drift(const Table& table, const Table& rows, const std::string& scene, con
       continue;
     }
     const bool symplectic = flag_at(table, i, "symplectic");
-    const std::string title = method + (symplectic ? ", symplectic" : "");
+    const std::string title = method + (symplectic ? " S" : "");
     const double turned = number_at(table, i, "energy turned over"), end = number_at(table, i, "end");
     const std::string what = behaviour(table, i);
     (what == "bounded" || what.starts_with("zero") ? bounded : drifting).push_back(method);
@@ -175,7 +175,7 @@ Chart drift(const Table& table, const Table& rows, const std::string& scene, con
       "proportion to time (slope 1), or takes all there is. Bounded here: {}.",
       bounded.empty() ? "none" : joined(bounded));
   f.caption = fmt::format(
-      "Scene {}, nothing damps it; {}; rules that solve the whole step at ten times the step; "
+      "Scene {}, nothing damps it; {}; S: symplectic; rules that solve the whole step at ten times the step; "
       "commit {}.",
       scene, length_text(table, scene), commit);
   Chart chart{"", std::move(f), "energy"};
@@ -193,15 +193,15 @@ Chart damping(const Table& table, const std::string& commit) {
   double worst = 0;
   size_t checked = 0;
   std::vector<std::pair<double, double>> implicit_euler, rk4;
-  for (int i = 0; i <= 60; ++i) {
-    const double y = 0.01 * std::pow(500, i / 60.);
+  for (int i = 0; i <= 240; ++i) {
+    const double y = 0.01 * std::pow(500, i / 240.);
     implicit_euler.emplace_back(y, std::log1p(y * y) / y);
     const double lost = std::pow(y, 6) / 72 - std::pow(y, 8) / 576;
     if (lost > 0 && lost < 1 && y < 2.7) rk4.emplace_back(y, -std::log1p(-lost) / y);
   }
   std::erase_if(rk4, [](const auto& p) { return p.second < 1e-9; });
-  f.curves.push_back({"backward Euler by theory: ln(1 + h²ω²) / h", {"#555555", "1", -1}, implicit_euler});
-  f.curves.push_back({"rk4 by theory", {"#009E73", "(6,3)", -1}, rk4});
+  f.curves.push_back({"backward Euler, theory", {"#555555", "1", -1}, implicit_euler});
+  f.curves.push_back({"rk4, theory", {"#009E73", "(6,3)", -1}, rk4});
   std::vector<std::string> methods;
   for (size_t i = 0; i < table.rows.size(); ++i)
     if (const std::string& m = text_at(table, i, "method");
