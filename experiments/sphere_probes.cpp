@@ -121,16 +121,23 @@ std::optional<ConeAnswer> cone(const Method& method, double degrees, double fric
   return answer;
 }
 
-Scene falling_cloth(int n, double aside, double friction) {
+namespace {
+
+Scene falling_cloth(const std::string& name, double aside, double friction, double gamma, double duration) {
   Scene scene =
-      probe(aside == 0 ? "drop-centred" : "drop-aside", 3,
+      probe(name, duration,
             fmt::format("[camera]\neye = [2.4, 1.3, 2.9]\ntarget = [0, -0.2, 0]\n"
-                        "[grid]\nsize = [{0}, {0}]\norigin = [{1}, 0.65, -0.5]\nu = [1, 0, 0]\nv = [0, 0, 1]\n"
-                        "mass = 1\n[grid.stiffness]\nstructural = 150\nshear = 150\nbend = 30\n{2}[drag]\n"
-                        "gamma = 2\n[sphere]\ncentre = [0, 0, 0]\nradius = 0.48\nmargin = 0.02\nfriction = {3}\n",
-                        n, aside - 0.5, downwards, friction));
-  scene.samples = 150;
+                        "[grid]\nsize = [13, 13]\norigin = [{}, 0.65, -0.5]\nu = [1, 0, 0]\nv = [0, 0, 1]\n"
+                        "mass = 1\n[grid.stiffness]\nstructural = 150\nshear = 150\nbend = 30\n{}[drag]\n"
+                        "gamma = {}\n[sphere]\ncentre = [0, 0, 0]\nradius = 0.48\nmargin = 0.02\nfriction = {}\n",
+                        aside - 0.5, downwards, gamma, friction));
+  scene.samples = static_cast<int>(std::lround(50 * duration));
   return scene;
 }
+
+}  // namespace
+
+Scene drop_centred() { return falling_cloth("drop-centred", 0, 0.5, 4, 3); }
+Scene drop_aside() { return falling_cloth("drop-aside", 0.12, 0.25, 2, 1.6); }
 
 }  // namespace crosscheck

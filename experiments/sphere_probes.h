@@ -38,7 +38,10 @@ struct ConeAnswer {
 std::optional<ConeAnswer> cone(const Method& method, double degrees, double friction, double step, Outcome& out);
 
 // ---- drape ----
-/// A cloth of 1 m, n x n particles, dropped on a ball of 0.5 m with its centre `aside` (m) of the ball's.
-Scene falling_cloth(int n, double aside, double friction);
+/// Cloths of 1 m, 13 x 13 particles, dropped on a ball of 0.5 m. Centred, with friction 0.5: it hangs over the ball and
+/// must stay as symmetric as it starts.
+Scene drop_centred();
+/// With its centre 0.12 m aside of the ball's and a friction of 0.25: by Coulomb's law it slides off.
+Scene drop_aside();
 
 }  // namespace crosscheck

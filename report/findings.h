@@ -23,5 +23,7 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
 
 /// Of experiment `energy`.
 std::vector<Finding> energy_findings(const Rows& result);
+/// Of experiment `sphere`.
+std::vector<Finding> sphere_findings(const Rows& result);
 
 }  // namespace crosscheck

@@ -5,6 +5,12 @@ namespace crosscheck {
 
 std::vector<Chapter> chapters() {
   return {
+      {"sphere",
+       "How do they answer a ball?",
+       "Contact is where engines differ most. Small scenes with one known answer each, exact where it says by theory, "
+       "and two cloths that fall on a ball. Beside the engines stands the sticky sphere of the assignment, to be seen "
+       "failing.",
+       {}},
       {"energy",
        "Where does the energy go?",
        "The energy of runs of a hundred thousand steps, added up by the suite's own formulas from the positions and "
