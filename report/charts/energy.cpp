@@ -77,7 +77,7 @@ std::optional<Chart> where_it_went(const Table& table, const std::string& scene,
   if (shown.empty()) return std::nullopt;
   Bars bars;
   bars.name = scene + "-energy-budget";
-  bars.title = scene + ": where the energy came from and where it went";
+  bars.title = scene + ": where energy came from and went";
   bars.label = "energy / J (left of zero: came in)";
   bars.parts = parts_for(shown.size());
   bool inferred = false;
