@@ -105,12 +105,13 @@ std::optional<Chart> where_it_went(const Table& table, const std::string& scene,
         " Hatched: an engine that does not tell its impulses; what is missing is called contact, and no closure is "
         "claimed.";
   bars.finding +=
-      " A part that changes sides has changed its sign: contact that pushes particles out of a ball gives "
-      "energy.";
+      " A part that changes sides has changed its sign: where a particle rests, rules of first order let it sink in "
+      "every "
+      "step and contact lifts it again, so that contact gives what the rule loses; both fall with the step.";
   bars.caption = fmt::format("Scene {}; {}; commit {}.", scene, length_text(table, scene), commit);
   const std::string about =
       scene == "all-at-once"
-          ? "One small scene with everything that takes or gives energy: a cloth of 6 x 6 particles, held by two moved "
+          ? "One small scene with everything that takes or gives energy: a cloth of 5 x 5 particles, held by two moved "
             "corners, swings in gusts against a ball, with drag, springs that damp, and friction."
           : "";
   return Chart{"", std::move(bars), "energy", about + failed};
