@@ -2,6 +2,7 @@
 #include "experiments/experiment.h"
 #include "experiments/scenes.h"
 #include "experiments/sweep/sweep.h"
+#include "report/findings.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {
@@ -58,6 +59,10 @@ TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
     EXPECT_LT(number(energy, failed, "end"), 50);
   }
   EXPECT_GT(rows.table("energy-damping")->rows.size(), 20u);
+
+  const std::vector<Finding> findings = energy_findings(rows);
+  ASSERT_EQ(findings.size(), 1u);  // no method that damps by itself was asked
+  EXPECT_TRUE(contains(findings[0].sentence, "without drift; on spring mysim/explicit-euler blows up after 14 s."));
 }
 
 TEST(SphereExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoBall) {
@@ -90,6 +95,13 @@ TEST(SphereExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoBall) {
   EXPECT_LT(number(depth, ours, "triangles"), 0.9);
   EXPECT_GT(number(depth, pbd, "particles"), 0.1);
   EXPECT_GT(number(depth, pbd, "triangles"), number(depth, pbd, "particles"));
+
+  const std::vector<Finding> findings = sphere_findings(rows);
+  ASSERT_EQ(findings.size(), 3u);
+  EXPECT_TRUE(contains(findings[0].sentence, "mysim/symplectic-euler in 72 of 72"));
+  EXPECT_TRUE(contains(findings[1].sentence, "bullet/pbd still holds it, creeping at"));
+  EXPECT_TRUE(contains(findings[1].sentence, "+sticky still holds it"));
+  EXPECT_TRUE(energy_findings(rows).empty());
 
   const Table& cone = *rows.table("sphere-cone");
   for (size_t i = 0; i < cone.rows.size(); ++i)
