@@ -24,6 +24,7 @@ void drift(const Table& table, std::vector<Finding>& out) {
     if (std::get<long>(table.at(i, "undamped")) == 0 || std::get<long>(table.at(i, "closure claimed")) == 0) continue;
     const std::string &method = std::get<std::string>(table.at(i, "method")),
                       &verdict = std::get<std::string>(table.at(i, "verdict"));
+    if (!(number(table, i, "energy turned over") > 0)) continue;  // at rest, or left out
     const double share = number(table, i, "largest residual") / number(table, i, "energy turned over");
     if (std::get<long>(table.at(i, "symplectic")) != 0) {
       if (verdict == "ok" && share > kept) kept = share, which = method;

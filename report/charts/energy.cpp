@@ -152,6 +152,10 @@ Chart drift(const Table& table, const Table& rows, const std::string& scene, con
       page.rows.push_back({method, nice(number_at(table, i, "step")), "no closure claimed", "", ""});
       continue;
     }
+    if (!(number_at(table, i, "energy turned over") > 0)) {
+      page.rows.push_back({method, nice(number_at(table, i, "step")), "nothing moves", "", ""});
+      continue;
+    }
     const bool symplectic = flag_at(table, i, "symplectic");
     const std::string title = method + (symplectic ? " S" : "");
     const double turned = number_at(table, i, "energy turned over"), end = number_at(table, i, "end");
@@ -179,7 +183,9 @@ Chart drift(const Table& table, const Table& rows, const std::string& scene, con
       "Scene {}, nothing damps it; {}; S: symplectic; rules that solve the whole step at ten times the step; "
       "commit {}.",
       scene, length_text(table, scene), commit);
-  Chart chart{"", std::move(f), "energy"};
+  Chart chart{"", std::monostate{}, "energy", "", f.title};
+  // nothing can be drawn of a scene at rest, or of engines that claim no closure
+  if (!f.curves.empty()) chart.figure = std::move(f);
   chart.tables.push_back(std::move(page));
   return chart;
 }
