@@ -199,6 +199,7 @@ void engines_on(const Request& request, const Scene& scene, Answers& answers, Ro
     add_statistics(request, scene, run, answers, rows);
   rows.add(summary);
   rows.add(cost);
+  add_energies(request, scene, answers, rows);
 }
 
 std::vector<Point> engines_points(const Request& request) {

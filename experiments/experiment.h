@@ -45,6 +45,7 @@ std::vector<Point> energy_points(const Request& request);
 std::vector<Point> engines_points(const Request& request);
 std::vector<Point> stiffness_points(const Request& request);
 std::vector<Point> disagreements_points(const Request& request);
+std::vector<Point> sphere_points(const Request& request);
 
 std::span<const Experiment> experiments();
 /// Throws InputError that lists what there is.
@@ -63,6 +64,9 @@ using Answers = std::deque<Answer>;
 
 /// The method's answer to the scene at the request's step, from those at hand or by running it now.
 Answer& answer_of(const Request& request, const Scene& scene, const Method& method, Answers& answers);
+
+/// Tables SCENE-energy and engines-energy: the ledgers of the answers at the request's step.
+void add_energies(const Request& request, const Scene& scene, Answers& answers, Rows& rows);
 
 /// Experiment `engines` on one scene, with the answers that it looked at.
 void engines_on(const Request& request, const Scene& scene, Answers& answers, Rows& rows);

@@ -31,7 +31,7 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
     add_force(term, particles, state, scratch);
     return scratch.f;
   };
-  if (const auto* drag = model.find<Drag>()) p.dissipated = -free_power(particles, force_of(*drag), state.v);
+  if (const auto* drag = model.find<Drag>()) p.drag = -free_power(particles, force_of(*drag), state.v);
   if (const auto* wind = model.find<Wind>()) p.wind = free_power(particles, force_of(*wind), state.v);
   if (const auto* air = model.find<Aerodynamics>()) p.wind += free_power(particles, force_of(*air), state.v);
   auto on_pins = [&](const Points& f) {
@@ -44,7 +44,7 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
     const Points& f = force_of(*dashpots);
     const double given = particles.move ? -on_pins(f) : 0;
     // pairs lose what free ends lose and what moved pins put in
-    p.dissipated += given - free_power(particles, f, state.v);
+    p.dashpots = given - free_power(particles, f, state.v);
     p.pins += given;
   }
   return p;

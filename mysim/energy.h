@@ -14,9 +14,11 @@ struct Energy {
 
 /// What flows in and out of a state each second.
 struct Power {
-  double dissipated = 0;  // W, taken by drag and dashpots (not negative)
-  double wind = 0;        // W, given by the wind, uniform or on triangles
+  double drag = 0;      // W, taken by drag (not negative)
+  double dashpots = 0;  // W, taken by dashpots (not negative)
+  double wind = 0;      // W, given by the wind, uniform or on triangles
   double pins = 0;  // W, given by moved pins: minus the force of springs and dashpots on each pin times its velocity
+  double dissipated() const { return drag + dashpots; }
 };
 
 Energy energy_of(const Model& model, const State& state);

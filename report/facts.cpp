@@ -85,7 +85,7 @@ SceneFacts facts_of(const std::string& scene, const Rows& result) {
           m.cpu = number(cost->at(i, "cpu"));
           m.cpu_per_step = number(cost->at(i, "cpu per step"));
         }
-    if (const Table* energy = result.table("energy"))
+    if (const Table* energy = result.table("engines-energy"))
       for (size_t i = 0; i < energy->rows.size(); ++i)
         if (text(energy->at(i, "scene")) == scene && text(energy->at(i, "method")) == m.method)
           m.energy_error = number(energy->at(i, "relative balance error"));

@@ -46,7 +46,7 @@ struct SceneFacts {
   bool touched() const;
 };
 
-/// Facts of a scene from the tables `engines`, `engines-cost` and `energy`.
+/// Facts of a scene from the tables `engines`, `engines-cost` and `engines-energy`.
 SceneFacts facts_of(const std::string& scene, const Rows& result);
 
 /// "3.2e-05" as "3.2e-5", small and large numbers plain where that is short: for sentences.

@@ -21,4 +21,9 @@ std::vector<Finding> findings_of(const Scene& scene, const SceneFacts& facts);
 std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
                                       const Rows& result);
 
+/// Of experiment `energy`.
+std::vector<Finding> energy_findings(const Rows& result);
+/// Of experiment `sphere`.
+std::vector<Finding> sphere_findings(const Rows& result);
+
 }  // namespace crosscheck

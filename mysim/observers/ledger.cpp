@@ -31,14 +31,15 @@ Ledger::Ledger(const Model& model, ContactLoss contact)
 }
 
 LedgerRow Ledger::now(const State& state) const {
-  return {state.t, energy_of(model_, state), dissipated_.value(), contact_, wind_.value(), pins_.value()};
+  return {state.t, energy_of(model_, state), drag_.value(), dashpots_.value(), contact_, wind_.value(), pins_.value()};
 }
 
 Verdict Ledger::observe(const State& state, bool sample) {
   if (state.v.cols() != state.x.cols()) return Verdict::ok;
   const Power power = power_of(model_, state, scratch_);
   const double h = state.t - last_t_;
-  dissipated_.add(power.dissipated, h);
+  drag_.add(power.drag, h);
+  dashpots_.add(power.dashpots, h);
   wind_.add(power.wind, h);
   pins_.add(power.pins, h);
   last_t_ = state.t;

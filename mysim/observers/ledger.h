@@ -29,13 +29,14 @@ enum class ContactLoss {
 };
 
 struct LedgerRow {
-  double t;           // s
-  Energy energy;      // J
-  double dissipated;  // J, taken by drag since the start
-  double contact;     // J, lost in contact since the start
-  double wind, pins;  // J, work done by the wind and by moved pins since the start
+  double t;               // s
+  Energy energy;          // J
+  double drag, dashpots;  // J, taken by them since the start
+  double contact;         // J, lost in contact since the start
+  double wind, pins;      // J, work done by the wind and by moved pins since the start
+  double dissipated() const { return drag + dashpots; }
   /// total + dissipated + contact - wind - pins, J: constant up to the method's error.
-  double balance() const { return energy.total() + dissipated + contact - wind - pins; }
+  double balance() const { return energy.total() + dissipated() + contact - wind - pins; }
 };
 
 /// States without velocities leave no row: they have no energy.
@@ -56,7 +57,7 @@ class Ledger : public Observer {
   bool inferred_;   // a sphere is there and the engine does not report its losses
   bool estimated_;  // integrals from samples alone
   Forces scratch_;
-  Integral dissipated_, wind_, pins_;
+  Integral drag_, dashpots_, wind_, pins_;
   double contact_ = 0, last_t_ = 0;
   std::vector<LedgerRow> rows_;
 };

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "report/bars.h"
 #include "report/facts.h"
 #include "report/figure.h"
 #include "report/pictures.h"
@@ -41,11 +42,11 @@ struct Snapshot {
 
 /// A piece of a scene's part, of a chapter, or of the front: a figure, a small table, renders, or several of these.
 struct Chart {
-  std::string scene;                            // where it belongs; empty: the front of the report, or a chapter
-  std::variant<Figure, std::monostate> figure;  // a new kind of figure is a struct and its drawing_of()
-  std::string chapter = {};                     // of the report, by its id (chapters.cpp); empty: none
-  std::string text = {};                        // in a chapter: what it is about, before it
-  std::string heading = {};                     // in a chapter; empty: the figure's title
+  std::string scene;                                  // where it belongs; empty: the front of the report, or a chapter
+  std::variant<Figure, Bars, std::monostate> figure;  // a new kind of figure is a struct and its drawing_of()
+  std::string chapter = {};                           // of the report, by its id (chapters.cpp); empty: none
+  std::string text = {};                              // in a chapter: what it is about, before it
+  std::string heading = {};                           // in a chapter; empty: the figure's title
   std::vector<PageTable> tables = {};
   std::vector<Snapshot> snapshots = {};
 };
@@ -56,9 +57,11 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input);  // error of ever
 std::vector<Chart> error_charts(const ChartInput& input);       // error over time, per scene with a truth
 std::vector<Chart> agreement_charts(const ChartInput& input);   // Bullet against the same rule of mysim, over time
 std::vector<Chart> contact_charts(const ChartInput& input);     // centres of mass, clearance, creep on a sphere
-std::vector<Chart> energy_charts(const ChartInput& input);      // balance error or contact loss over time
+std::vector<Chart> balance_charts(const ChartInput& input);     // balance error or contact loss over time
 std::vector<Chart> order_charts(const ChartInput& input);       // error against step
 
+std::vector<Chart> energy_charts(const ChartInput& input);        // where it went, drift, numerical damping
+std::vector<Chart> sphere_charts(const ChartInput& input);        // contact: friction, rebound, depth, drapes
 std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links
 std::vector<Chart> disagreement_charts(const ChartInput& input);  // where Bullet answers otherwise than it is asked
 

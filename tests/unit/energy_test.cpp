@@ -88,7 +88,7 @@ TEST(Ledger, EveryEntryIsNeeded) {
   simulate(stepper("rk4"), ContactRule::coulomb, scene, {1e-3, 1, 20}, ledger);
   const double residue = imbalance(stepper("rk4"), scene, {1e-3, 1, 20});
   const LedgerRow& end = ledger.rows().back();
-  for (const double entry : {end.dissipated, end.wind, end.pins}) EXPECT_GT(std::abs(entry), 1e4 * residue);
+  for (const double entry : {end.drag, end.wind, end.pins}) EXPECT_GT(std::abs(entry), 1e4 * residue);
   EXPECT_EQ(end.contact, 0);
 }
 

@@ -209,7 +209,7 @@ TEST(Dashpots, TakeThePowerOfWhatStretches) {
     Forces scratch{Points::Zero(3, 6)};
     const Power power = power_of(net.model, net.state, scratch);
     EXPECT_GT(expected, 0);
-    EXPECT_NEAR(power.dissipated, expected, 1e3 * eps * expected);  // 15 pairs, sums of forces that partly cancel
+    EXPECT_NEAR(power.dashpots, expected, 1e3 * eps * expected);  // 15 pairs, sums of forces that partly cancel
     EXPECT_EQ(power.pins, 0);
   }
 }

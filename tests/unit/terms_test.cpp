@@ -45,7 +45,8 @@ TEST(Terms, DragTakesPowerAndIsLinear) {
     Forces scratch{Points::Zero(3, 6)};
     double expected = 0;
     for (int i = 0; i < 6; ++i) expected += c[i] * net.state.v.col(i).squaredNorm();
-    EXPECT_NEAR(power_of(net.model, net.state, scratch).dissipated, expected, 32 * eps * expected);  // 6 x 3 roundings
+    EXPECT_NEAR(power_of(net.model, net.state, scratch).dissipated(), expected,
+                32 * eps * expected);  // 6 x 3 roundings
     State faster = net.state;
     faster.v *= 2;
     EXPECT_TRUE((force_of<Drag>(net.model, faster) - 2 * force_of<Drag>(net.model, net.state)).isZero(0));

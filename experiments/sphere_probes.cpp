@@ -1,0 +1,143 @@
+// The probes' scenes, and what is read off their runs.
+#include "experiments/sphere_probes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "experiments/metrics.h"
+#include "reference/exact/exact.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr double g = 9.81, drop = 0.3, ball = 1.02, gap = 1e-3;
+
+Scene probe(const std::string& name, double duration, const std::string& more) {
+  return parse_scene(fmt::format("question = \"q\"\nparameters = \"p\"\n[time]\nduration = {}\nsamples = 1\n"
+                                 "step = 1e-3\nwindow = {}\ntolerance = 1e-3\nmethod = \"leapfrog\"\n{}",
+                                 duration, duration, more),
+                     name);
+}
+
+constexpr auto downwards = "[gravity]\nacceleration = [0, -9.81, 0]\n";
+
+/// A run that is sampled at every step.
+Trajectory each_step(const Method& method, const Scene& scene, double step, Outcome& out) {
+  Recorder recorder;
+  out = run_method(method, scene, {step, scene.duration, static_cast<int>(std::lround(scene.duration / step))},
+                   {&recorder});
+  return std::move(recorder.trajectory);
+}
+
+/// Angle from the top (degrees) and speed where the gap passes `gap`, given the states at both ends of an interval.
+Leaving passing(const Vec3& x0, const Vec3& v0, const Vec3& x1, const Vec3& v1) {
+  const double before = x0.norm() - ball - gap, after = x1.norm() - ball - gap, part = before / (before - after);
+  const Vec3 x = x0 + part * (x1 - x0);
+  return {std::atan2(x.x(), x.y()) * 180 / std::numbers::pi, (v0 + part * (v1 - v0)).norm()};
+}
+
+}  // namespace
+
+Scene drop_on_ball(double restitution) {
+  return probe("drop-on-ball", 0.9,
+               fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = 1\n{}[sphere]\ncentre = [0, -0.5, 0]\n"
+                           "radius = 0.48\nmargin = 0.02\nrestitution = {}\n",
+                           drop, downwards, restitution));
+}
+
+std::optional<double> rebound(const Method& method, const Scene& scene, double step, Outcome& out) {
+  const Trajectory path = each_step(method, scene, step, out);
+  if (out.verdict != Verdict::ok) return std::nullopt;
+  const double fall = std::sqrt(2 * drop / g);  // s
+  // the highest point of the first rebound, which lasts 2 e of the fall and begins within two steps of it; what hangs
+  // above the surface before is the fall itself
+  double highest = 0;
+  bool landed = false;
+  for (int i = 0; i < path.frames(); ++i) {
+    const double y = path.x[i](1, 0);
+    landed |= path.t[i] > fall - 2 * step && (y < 1e-3 || path.v[i](1, 0) > 0);
+    if (landed) highest = std::max(highest, y);
+  }
+  return highest;
+}
+
+Scene frictionless_slide() {
+  const double angle = std::numbers::pi / 180, speed = std::sqrt(2 * g * ball * (1 - std::cos(angle)));
+  return probe(
+      "frictionless-slide", 2.2,
+      fmt::format("[[particle]]\nposition = [{:.17g}, {:.17g}, 0]\nmass = 1\nvelocity = [{:.17g}, {:.17g}, 0]\n"
+                  "{}[sphere]\ncentre = [0, 0, 0]\nradius = 1\nmargin = 0.02\n",
+                  ball * std::sin(angle), ball * std::cos(angle), speed * std::cos(angle), -speed * std::sin(angle),
+                  downwards));
+}
+
+std::optional<Leaving> leaving(const Method& method, double step, Outcome& out) {
+  const Trajectory path = each_step(method, frictionless_slide(), step, out);
+  for (int i = 1; i < path.frames() && path.v[i].cols() > 0; ++i)
+    if (path.x[i].col(0).norm() > ball + gap)
+      return passing(path.x[i - 1].col(0), path.v[i - 1].col(0), path.x[i].col(0), path.v[i].col(0));
+  return std::nullopt;
+}
+
+Leaving leaving_by_theory() {
+  const auto exact = exact_solution(frictionless_slide());
+  double low = 0, high = 2.2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (exact->at(middle).x.col(0).norm() > ball + gap ? high : low) = middle;
+  }
+  const State at = exact->at(high);
+  return {std::atan2(at.x(0, 0), at.x(1, 0)) * 180 / std::numbers::pi, at.v.col(0).norm()};
+}
+
+Scene on_slope(double degrees, double friction) {
+  const double angle = degrees * std::numbers::pi / 180;
+  return probe("on-slope", 0.5,
+               fmt::format("[[particle]]\nposition = [0, 1000.02, 0]\nmass = 1\n[gravity]\nacceleration = [{:.17g}, "
+                           "{:.17g}, 0]\n[sphere]\ncentre = [0, 0, 0]\nradius = 1000\nmargin = 0.02\nfriction = "
+                           "{:.17g}\n",
+                           g * std::sin(angle), -g * std::cos(angle), friction));
+}
+
+std::string_view name_of(Hold hold) {
+  return hold == Hold::sticks ? "sticks" : hold == Hold::slides ? "slides" : "neither";
+}
+
+std::optional<ConeAnswer> cone(const Method& method, double degrees, double friction, double step, Outcome& out) {
+  const Scene scene = on_slope(degrees, friction);
+  Recorder recorder;
+  out = run_method(method, scene, {step, scene.duration, 10}, {&recorder});
+  if (out.verdict != Verdict::ok) return std::nullopt;
+  const Trajectory& path = recorder.trajectory;
+  const double angle = degrees * std::numbers::pi / 180, t = scene.duration;
+  ConeAnswer answer{(path.x.back() - path.x.front()).norm(),
+                    std::max(0.0, g * (std::sin(angle) - friction * std::cos(angle))) * t * t / 2, Hold::neither};
+  if (answer.way < 1e-3)
+    answer.hold = Hold::sticks;
+  else if (std::abs(answer.way - answer.coulomb) < 0.1 * answer.coulomb + 1e-3)
+    answer.hold = Hold::slides;
+  return answer;
+}
+
+namespace {
+
+Scene falling_cloth(const std::string& name, double aside, double friction, double gamma, double duration) {
+  Scene scene =
+      probe(name, duration,
+            fmt::format("[camera]\neye = [2.4, 1.3, 2.9]\ntarget = [0, -0.2, 0]\n"
+                        "[grid]\nsize = [13, 13]\norigin = [{}, 0.65, -0.5]\nu = [1, 0, 0]\nv = [0, 0, 1]\n"
+                        "mass = 1\n[grid.stiffness]\nstructural = 150\nshear = 150\nbend = 30\n{}[drag]\n"
+                        "gamma = {}\n[sphere]\ncentre = [0, 0, 0]\nradius = 0.48\nmargin = 0.02\nfriction = {}\n",
+                        aside - 0.5, downwards, gamma, friction));
+  scene.samples = static_cast<int>(std::lround(50 * duration));
+  return scene;
+}
+
+}  // namespace
+
+Scene drop_centred() { return falling_cloth("drop-centred", 0, 0.5, 4, 3); }
+Scene drop_aside() { return falling_cloth("drop-aside", 0.12, 0.25, 2, 1.6); }
+
+}  // namespace crosscheck

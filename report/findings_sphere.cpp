@@ -1,0 +1,100 @@
+// Sentences on experiment `sphere`.
+#include <algorithm>
+#include <cmath>
+
+#include "report/findings.h"
+#include "report/findings_text.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr auto sticky = "mysim/symplectic-euler+sticky";
+
+const std::string& text_at(const Table& table, size_t row, const std::string& column) {
+  return std::get<std::string>(table.at(row, column));
+}
+double number_at(const Table& table, size_t row, const std::string& column) {
+  const auto* value = std::get_if<double>(&table.at(row, column));
+  return value ? *value : NAN;
+}
+
+void cone(const Table& table, std::vector<Finding>& out) {
+  struct Count {
+    const char* method;
+    int right = 0, all = 0;
+  } counts[] = {{ours}, {theirs}, {position_based}, {sticky}};
+  for (size_t i = 0; i < table.rows.size(); ++i)
+    for (Count& count : counts)
+      if (text_at(table, i, "method") == count.method && text_at(table, i, "verdict") == "ok") {
+        ++count.all;
+        count.right += text_at(table, i, "answer") == text_at(table, i, "answer by theory");
+      }
+  std::vector<std::string> parts;
+  for (const Count& count : counts)
+    if (count.all > 0) parts.push_back(fmt::format("{} in {} of {}", count.method, count.right, count.all));
+  if (!parts.empty())
+    out.push_back({"", "contact",
+                   "On slopes a particle sticks or slides as Coulomb's law says with " + joined(parts) + " cases.",
+                   "exact"});
+}
+
+/// The cloth that should slide off, at the finest step.
+void slide_off(const Table& table, std::vector<Finding>& out) {
+  double reference = NAN, step = INFINITY;
+  for (size_t i = 0; i < table.rows.size(); ++i)
+    if (text_at(table, i, "scene") == "drop-aside" && text_at(table, i, "verdict") == "ok" &&
+        text_at(table, i, "method") == ours && number_at(table, i, "step") < step)
+      step = number_at(table, i, "step"), reference = number_at(table, i, "centre height");
+  std::vector<std::string> parts;
+  for (const char* method : {theirs, position_based, sticky})
+    for (size_t i = 0; i < table.rows.size(); ++i) {
+      if (text_at(table, i, "scene") != "drop-aside" || text_at(table, i, "method") != method ||
+          text_at(table, i, "verdict") != "ok" || std::abs(number_at(table, i, "step") / step - 1) > 1e-6)
+        continue;
+      const double height = number_at(table, i, "centre height"), creep = number_at(table, i, "creep");
+      parts.push_back(std::isfinite(creep)
+                          ? fmt::format("{} still holds it, {}", method,
+                                        creep < 1e-6 ? "frozen" : fmt::format("creeping at {} mm/s", nice(1e3 * creep)))
+                          : fmt::format("{} lets it fall as well (centres {} apart)", method,
+                                        nice_length(std::abs(height - reference))));
+    }
+  if (!parts.empty() && std::isfinite(reference) && reference < 0)
+    out.push_back({"", "contact",
+                   fmt::format("A cloth dropped aside with too little friction slides off the ball in {}; {}.", ours,
+                               joined(parts)),
+                   "another engine"});
+}
+
+void depth(const Table& table, std::vector<Finding>& out) {
+  double particles = 0, of_pbd = 0, triangles = 0;
+  bool any = false;
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    if (text_at(table, i, "scene") != "drop-centred" || text_at(table, i, "verdict") != "ok") continue;
+    const std::string& method = text_at(table, i, "method");
+    const double nodes = number_at(table, i, "particles");
+    if (method == position_based) of_pbd = std::max(of_pbd, nodes);
+    if (!method.starts_with("mysim/") || method == sticky) continue;
+    any = true;
+    particles = std::max(particles, nodes);
+    triangles = std::max(triangles, number_at(table, i, "triangles"));
+  }
+  if (any && of_pbd > 0)
+    out.push_back(
+        {"", "contact",
+         fmt::format("On a ball no particle of mysim sinks in ({}), the triangles between them do by {:.2g} % "
+                     "of the radius; Bullet's position-based world lets particles in by up to {:.2g} %.",
+                     particles < 1e-9 ? "but for rounding" : fmt::format("{:.2g} %", particles), triangles, of_pbd),
+         "measured"});
+}
+
+}  // namespace
+
+std::vector<Finding> sphere_findings(const Rows& result) {
+  std::vector<Finding> out;
+  if (const Table* table = result.table("sphere-cone")) cone(*table, out);
+  if (const Table* table = result.table("sphere-drape")) slide_off(*table, out);
+  if (const Table* table = result.table("sphere-penetration")) depth(*table, out);
+  return out;
+}
+
+}  // namespace crosscheck
