@@ -45,6 +45,7 @@ std::vector<Point> energy_points(const Request& request);
 std::vector<Point> engines_points(const Request& request);
 std::vector<Point> stiffness_points(const Request& request);
 std::vector<Point> disagreements_points(const Request& request);
+std::vector<Point> speed_accuracy_points(const Request& request);
 
 std::span<const Experiment> experiments();
 /// Throws InputError that lists what there is.
