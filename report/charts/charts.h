@@ -59,8 +59,9 @@ std::vector<Chart> contact_charts(const ChartInput& input);     // centres of ma
 std::vector<Chart> energy_charts(const ChartInput& input);      // balance error or contact loss over time
 std::vector<Chart> order_charts(const ChartInput& input);       // error against step
 
-std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links
-std::vector<Chart> disagreement_charts(const ChartInput& input);  // where Bullet answers otherwise than it is asked
+std::vector<Chart> stiffness_charts(const ChartInput& input);       // of position-based links
+std::vector<Chart> disagreement_charts(const ChartInput& input);    // where Bullet answers otherwise than it is asked
+std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // error against cost, chapter of its own
 
 std::vector<Chart> all_charts(const ChartInput& input);
 
