@@ -19,6 +19,7 @@ std::span<const Experiment> experiments() {
       {"disagreements", "Where does Bullet answer otherwise than it is asked, and by how much?", disagreements_points},
       {"speed-accuracy", "What accuracy does each method give for its cost, and where does it fail?",
        speed_accuracy_points, speed_scenes, conclude_speed_accuracy},
+      {"cost", "What does a step cost, against size and beside what the machine can do?", cost_points},
   };
   return table;
 }
