@@ -43,11 +43,39 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   out.push_back({"", "cost", sentence + ".", "measured"});
 }
 
+/// The same rule in both engines, over the sizes.
+void step_of_both(const Rows& result, std::vector<Finding>& out) {
+  const Table* t = result.table("size-cost");
+  if (!t) return;
+  std::map<long, std::pair<double, double>> per_side;  // ours, theirs: s per step
+  for (size_t i = 0; i < t->rows.size(); ++i) {
+    const auto& method = std::get<std::string>(t->at(i, "method"));
+    auto& both = per_side[std::get<long>(t->at(i, "side"))];
+    if (method == ours) both.first = std::get<double>(t->at(i, "cpu per step"));
+    if (method == theirs) both.second = std::get<double>(t->at(i, "cpu per step"));
+  }
+  std::erase_if(per_side, [](const auto& s) { return !(s.second.first > 0 && s.second.second > 0); });
+  if (per_side.empty()) return;
+  double low = 1e300, high = 0;
+  for (const auto& [side, both] : per_side) {
+    low = std::min(low, both.second / both.first);
+    high = std::max(high, both.second / both.first);
+  }
+  out.push_back(
+      {"", "cost",
+       fmt::format("On cloth of {0} x {0} to {1} x {1} particles a step of symplectic Euler costs Bullet (Debian's "
+                   "build) {2} times the CPU time of mysim.",
+                   per_side.begin()->first, per_side.rbegin()->first,
+                   range(fmt::format("{:.2g}", low), fmt::format("{:.2g}", high))),
+       "measured"});
+}
+
 }  // namespace
 
 std::vector<Finding> speed_findings(const Rows& result) {
   std::vector<Finding> out;
   cheapest_for_one_percent(result, out);
+  step_of_both(result, out);
   return out;
 }
 

@@ -36,7 +36,8 @@ double estimated_seconds(const Method& method, const Scene& scene, const Run& ru
   double evaluations = 1;  // per step
   // implicit rules: conjugate gradients take more products with the matrix at longer steps (measured on cloth-hang)
   const double longer = std::sqrt(asked.step / scene.step);
-  if (method.stepper) evaluations = method.stepper->evaluations > 0 ? method.stepper->evaluations : 60 * longer;
+  for (const Stepper& rule : steppers())
+    if (rule.name == method.rule) evaluations = rule.evaluations > 0 ? rule.evaluations : 60 * longer;
   if (method.name.starts_with("bullet/deformable-implicit")) evaluations = 10 * longer;
   if (method.adaptive) evaluations = 7;
   return evaluations * run.duration / plan(asked).h * seconds_of_evaluation(method, scene);

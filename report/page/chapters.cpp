@@ -13,6 +13,12 @@ std::vector<Chapter> chapters() {
        "same on every machine, and as CPU time, which is what is paid. Bullet does not tell what its solvers do inside "
        "a step: there a step counts as one evaluation.",
        {}},
+      {"cost",
+       "What does a step cost?",
+       "The same cloth at more and more particles, in every engine; where the time goes, and how much of it the "
+       "machine "
+       "itself asks for.",
+       {}},
       {"disagreements",
        "What cannot be matched, and why",
        "Where Bullet's worlds answer otherwise than the scene asks, or fail: each in the smallest scene that shows it, "
