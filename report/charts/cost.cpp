@@ -91,7 +91,7 @@ Chart roofline_chart(const Table& t, const std::string& commit) {
   f.from_costs = true;
   f.title = "The spring kernel beside what the machine can do";
   f.x = {"floating-point operations per byte moved", true, 0.03, 10.};
-  f.y = {"10^9 floating-point operations a second", true, std::nullopt, std::nullopt};
+  f.y = {"billions of floating-point operations a second", true, 0.3, std::nullopt};
   static const MethodStyle roofs[] = {{"#56B4E9", "1", -1}, {"#0072B2", "(6,3)", -1}, {"#332288", "(2,2)", -1}};
   double peak = 0, best = 0, at = 0;
   size_t roof = 0;
