@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "experiments/scenes.h"
+#include "experiments/speed_accuracy/speed_accuracy.h"
 #include "mysim/errors.h"
 
 namespace crosscheck {
@@ -12,6 +13,8 @@ std::span<const Experiment> experiments() {
   static constexpr std::string_view long_runs[] = {"spring", "pendulum"};
   // particles on balls: the cloths that show more are the experiment's own probes
   static constexpr std::string_view on_balls[] = {"slide", "bounce"};
+  // moving scenes from small to large; the last is the one that the other questions are asked of too
+  static constexpr std::string_view speed_scenes[] = {"pendulum", "chain", "cloth-hang"};
   static constexpr Experiment table[] = {
       {"order", "How fast does the error fall when the step is made smaller?", order_points},
       {"energy", "Where does the energy go, and what does not add up?", energy_points, long_runs},
@@ -19,6 +22,9 @@ std::span<const Experiment> experiments() {
       {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_points},
       {"stiffness", "How stiff is a position-based link, against the formula that hands it over?", stiffness_points},
       {"disagreements", "Where does Bullet answer otherwise than it is asked, and by how much?", disagreements_points},
+      {"speed-accuracy", "What accuracy does each method give for its cost, and where does it fail?",
+       speed_accuracy_points, speed_scenes, conclude_speed_accuracy},
+      {"cost", "What does a step cost, against size and beside what the machine can do?", cost_points},
   };
   return table;
 }

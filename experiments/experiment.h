@@ -46,6 +46,8 @@ std::vector<Point> engines_points(const Request& request);
 std::vector<Point> stiffness_points(const Request& request);
 std::vector<Point> disagreements_points(const Request& request);
 std::vector<Point> sphere_points(const Request& request);
+std::vector<Point> speed_accuracy_points(const Request& request);
+std::vector<Point> cost_points(const Request& request);
 
 std::span<const Experiment> experiments();
 /// Throws InputError that lists what there is.

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -35,6 +36,11 @@ std::string axis_commands(const Axis& axis, const std::string& letter) {
 
 namespace {
 
+constexpr auto pareto_title = "nothing better at less cost";
+
+/// The words in the key for all crosses of a kind.
+std::string kind_in_key(const FailureMark& mark) { return mark.kind + " (in its colour)"; }
+
 /// How a curve is called in the data file: gnuplot splits even quoted fields at commas.
 std::string id_of(std::string title) {
   for (char& c : title)
@@ -50,6 +56,7 @@ Table data_of(const Figure& f) {
       throw std::runtime_error(fmt::format("figure {}: a value is not finite", f.name));
     table.add({id_of(curve), x, y});
   };
+  for (const auto& [x, y] : f.pareto) add(pareto_title, x, y);
   for (const Curve& curve : f.curves)
     for (const auto& [x, y] : curve.points) add(curve.title, x, y);
   for (const FailureMark& mark : f.failures) add("failed: " + mark.title, mark.x, mark.y);
@@ -81,9 +88,9 @@ double key_room(const Figure& f) {
   std::set<std::string> entries;
   for (const Curve& c : f.curves)
     if (!c.points.empty()) entries.insert(c.title);
-  for (const FailureMark& m : f.failures)
-    entries.insert(in_key(f, m.style.colour) ? "failed (in its colour)" : m.title);
+  for (const FailureMark& m : f.failures) entries.insert(in_key(f, m.style.colour) ? kind_in_key(m) : m.title);
   if (f.floor) entries.insert(f.floor->first);
+  if (!f.pareto.empty()) entries.insert(pareto_title);
   size_t longest = 0;
   for (const std::string& e : entries) longest = std::max(longest, shown(e).size());
   // as many columns as gnuplot finds room for in this width
@@ -94,6 +101,7 @@ double key_room(const Figure& f) {
 
 std::string plot_command(const Figure& f) {
   std::vector<std::string> parts;
+  if (!f.pareto.empty()) parts.push_back(element(f, pareto_title, "steps lw 7 lc rgb \"#DDDDDD\"", pareto_title));
   for (const Curve& c : f.curves) {
     if (c.points.empty()) continue;
     const int gap = c.markers ? 1 : std::max<int>(1, static_cast<int>(c.points.size()) / 8);
@@ -105,17 +113,18 @@ std::string plot_command(const Figure& f) {
   }
   // crosses stand in the colour of their method: where its curve is in the key they need no line of their own
   std::set<std::string> marked;
-  bool silent = false;
+  std::map<std::string, int> silent;  // kinds that are named in the key once, and their crosses
   for (const FailureMark& m : f.failures) {
     if (!marked.insert(m.title).second) continue;
     const bool known = in_key(f, m.style.colour);
-    silent |= known;
+    if (known) silent.emplace(kind_in_key(m), m.cross);
     parts.push_back(element(f, "failed: " + m.title,
-                            fmt::format("points lc rgb \"{}\" pt 2 ps 1.5 lw 3", m.style.colour),
+                            fmt::format("points lc rgb \"{}\" pt {} ps 1.5 lw 3", m.style.colour, m.cross),
                             known ? "" : m.title));
   }
-  if (silent)
-    parts.push_back("keyentry with points lc rgb \"#777777\" pt 2 ps 1.5 lw 3 title 'failed (in its colour)'");
+  for (const auto& [kind, cross] : silent)
+    parts.push_back(
+        fmt::format("keyentry with points lc rgb \"#777777\" pt {} ps 1.5 lw 3 title {}", cross, single_quoted(kind)));
   if (f.floor)
     parts.push_back(fmt::format("{:.6g} with lines lc rgb \"#999999\" lw 1.5 dt (2,3) title {}", f.floor->second,
                                 single_quoted(f.floor->first)));

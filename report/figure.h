@@ -31,6 +31,8 @@ struct FailureMark {
   std::string title;
   MethodStyle style;
   double x, y;
+  std::string kind = "failed";  // in the key, where the colour tells the method
+  int cross = 2;                // gnuplot point type, one for each kind
 };
 
 struct Axis {
@@ -53,6 +55,7 @@ struct Figure : FigureWords {
   Axis x, y;
   std::vector<Curve> curves;
   std::vector<FailureMark> failures;
+  std::vector<std::pair<double, double>> pareto;           // thick stairs beneath the curves, from left to right
   std::optional<std::pair<std::string, double>> floor;     // horizontal line: name, y
   std::optional<std::pair<double, std::string>> window;    // grey from x on: x, why
   std::vector<std::pair<double, std::string>> categories;  // tick texts on x instead of numbers

@@ -20,6 +20,8 @@ std::vector<Finding> findings_of(const Scene& scene, const SceneFacts& facts);
 /// What all scenes together showed, first things first.
 std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
                                       const Rows& result);
+/// Who is cheapest for a given accuracy, and by how much.
+std::vector<Finding> speed_findings(const Rows& result);
 
 /// Of experiment `energy`.
 std::vector<Finding> energy_findings(const Rows& result);

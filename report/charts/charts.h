@@ -62,8 +62,10 @@ std::vector<Chart> order_charts(const ChartInput& input);       // error against
 
 std::vector<Chart> energy_charts(const ChartInput& input);        // where it went, drift, numerical damping
 std::vector<Chart> sphere_charts(const ChartInput& input);        // contact: friction, rebound, depth, drapes
-std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links
-std::vector<Chart> disagreement_charts(const ChartInput& input);  // where Bullet answers otherwise than it is asked
+std::vector<Chart> stiffness_charts(const ChartInput& input);       // of position-based links
+std::vector<Chart> disagreement_charts(const ChartInput& input);    // where Bullet answers otherwise than it is asked
+std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // error against cost, chapter of its own
+std::vector<Chart> cost_charts(const ChartInput& input);            // of a step
 
 std::vector<Chart> all_charts(const ChartInput& input);
 

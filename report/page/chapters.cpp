@@ -5,11 +5,13 @@ namespace crosscheck {
 
 std::vector<Chapter> chapters() {
   return {
-      {"sphere",
-       "How do they answer a ball?",
-       "Contact is where engines differ most. Small scenes with one known answer each, exact where it says by theory, "
-       "and two cloths that fall on a ball. Beside the engines stands the sticky sphere of the assignment, to be seen "
-       "failing.",
+      {"speed-accuracy",
+       "Speed against accuracy",
+       "Every method at many steps, or tolerances: how far it ends up from the truth, and what that took. Lower and "
+       "further left is better; the grey stairs join the runs that no cheaper run beats. Runs that failed are crosses "
+       "at the top, at the cost they had already spent. Costs are counted twice: as force evaluations, which are the "
+       "same on every machine, and as CPU time, which is what is paid. Bullet does not tell what its solvers do inside "
+       "a step: there a step counts as one evaluation.",
        {}},
       {"energy",
        "Where does the energy go?",
@@ -17,6 +19,18 @@ std::vector<Chapter> chapters() {
        "speeds of every engine at every step: what it has, what drag, dashpots and contact took, what wind and moved "
        "pins gave, and the residual that does not add up. A rule that solves the whole step is run at ten times the "
        "step, over the same time.",
+       {}},
+      {"sphere",
+       "How do they answer a ball?",
+       "Contact is where engines differ most. Small scenes with one known answer each, exact where it says by theory, "
+       "and two cloths that fall on a ball. Beside the engines stands the sticky sphere of the assignment, to be seen "
+       "failing.",
+       {}},
+      {"cost",
+       "What does a step cost?",
+       "The same cloth at more and more particles, in every engine; where the time goes, and how much of it the "
+       "machine "
+       "itself asks for.",
        {}},
       {"disagreements",
        "What cannot be matched, and why",

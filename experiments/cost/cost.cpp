@@ -1,0 +1,249 @@
+// The timed points of experiment `cost`.
+#include "experiments/cost/cost.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/cost/roofline.h"
+#include "experiments/cost/sized_cloth.h"
+#include "experiments/speed_accuracy/ladder.h"
+#include "experiments/speed_accuracy/speed_accuracy.h"
+#include "experiments/timing.h"
+#include "mysim/clock.h"
+#include "mysim/spring_kernel.h"
+
+namespace crosscheck {
+namespace {
+
+class Nobody : public Observer {
+ public:
+  Verdict observe(const State&, bool) override { return Verdict::ok; }
+};
+
+/// A run of so many steps, without a look in between.
+Run steps_of(const Scene& scene, long steps) { return {scene.step, scene.step * static_cast<double>(steps), 1}; }
+
+/// As many steps as take about 10 ms by the estimate; at least 2.
+long steps_to_time(const Method& method, const Scene& scene) {
+  const double each = estimated_seconds(method, scene, steps_of(scene, 1), {false, scene.step});
+  return std::clamp(std::lround(0.01 / each), 2L, 2000L);
+}
+
+/// CPU time of one step, s, of a run of so many; 0 where the method does not take the scene.
+std::function<double()> step_of(const Method& method, const Scene& scene, long steps, Outcome* told = nullptr) {
+  return [&method, &scene, steps, told] {
+    Nobody nobody;
+    Outcome out = method.engine(scene, steps_of(scene, steps), nobody);
+    const double each = out.steps > 0 ? out.cpu_seconds / static_cast<double>(out.steps) : 0;
+    if (told) *told = std::move(out);
+    return each;
+  };
+}
+
+/// What the runs say is the time of a step and not of themselves: they are long enough as they are.
+std::vector<std::vector<double>> steps_timed(std::span<const std::function<double()>> runs, bool full) {
+  const int repetitions = full ? 9 : 5;
+  return timed_in_turns(runs, {.least = repetitions, .most = repetitions, .resolution = 0});
+}
+
+long springs_of(const Scene& scene) { return static_cast<long>(scene.model.find<Springs>()->list.size()); }
+
+}  // namespace
+
+void cost_of_size(const Request& request, int n, Rows& rows) {
+  const Scene scene = sized_cloth(n);
+  std::vector<Method> methods;
+  for (Method& method : methods_of(request, scene)) {
+    if (method.adaptive) continue;  // how long its steps are is its own choice
+    if (run_method(method, scene, steps_of(scene, 1), {}).verdict != Verdict::unsupported)
+      methods.push_back(std::move(method));
+  }
+  std::vector<std::function<double()>> runs;
+  std::vector<Outcome> told(methods.size());
+  for (size_t i = 0; i < methods.size(); ++i)
+    runs.push_back(step_of(methods[i], scene, steps_to_time(methods[i], scene), &told[i]));
+  const auto times = steps_timed(runs, request.full);
+  const double noise = noise_floor(times);
+  Table table{"size-cost",
+              {{"method", "1"},
+               {"side", "1"},
+               {"particles", "1"},
+               {"springs", "1"},
+               {"step", "s"},
+               {"steps timed", "1"},
+               {"evaluations per step", "1"},
+               {"cpu per step", "s"},
+               {"cpu low", "s"},
+               {"cpu high", "s"},
+               {"cpu per step and particle", "s"},
+               {"repetitions", "1"},
+               {"noise", "1"},
+               {"build", "1"}},
+              {}};
+  const auto particles = static_cast<long>(scene.start.x.cols());
+  for (size_t i = 0; i < methods.size(); ++i) {
+    const Timing t = timing_of(times[i]);
+    if (!(t.median > 0)) {
+      rows.notes.push_back(fmt::format("{} does not tell what CPU time it took", methods[i].name));
+      continue;
+    }
+    table.add({methods[i].name, static_cast<long>(n), particles, springs_of(scene), scene.step, told[i].steps,
+               static_cast<double>(told[i].evaluations) / static_cast<double>(std::max(1L, told[i].steps)), t.median,
+               t.low, t.high, t.median / static_cast<double>(particles), t.repetitions, noise,
+               build_of(methods[i].name)});
+  }
+  rows.add(table);
+}
+
+namespace {
+
+/// The kernel alone, per call, s.
+std::function<double()> springs_alone(const Scene& scene) {
+  auto kernel = std::make_shared<SpringKernel>(*scene.model.find<Springs>(), static_cast<int>(scene.start.x.cols()));
+  auto forces = std::make_shared<Forces>(Forces{Points::Zero(3, scene.start.x.cols())});
+  const int calls = std::max(2, static_cast<int>(2e6 / static_cast<double>(springs_of(scene))));
+  return [kernel, forces, &scene, calls] {
+    CpuClock clock;
+    clock.start();
+    for (int i = 0; i < calls; ++i) kernel->add_force(scene.start.x, *forces);
+    clock.stop();
+    return clock.seconds() / calls;
+  };
+}
+
+/// All forces, as the stepper asks for them, per call, s.
+std::function<double()> forces_alone(const Scene& scene) {
+  auto system = std::make_shared<System>(scene.model);
+  auto state = std::make_shared<State>(scene.start);
+  auto a = std::make_shared<Points>(Points::Zero(3, scene.start.x.cols()));
+  const int calls = std::max(2, static_cast<int>(2e6 / static_cast<double>(springs_of(scene))));
+  return [system, state, a, calls] {
+    CpuClock clock;
+    clock.start();
+    for (int i = 0; i < calls; ++i) system->position_acceleration(*state, *a);
+    clock.stop();
+    return clock.seconds() / calls;
+  };
+}
+
+/// a - b, as wide as both.
+Timing minus(const Timing& a, const Timing& b) {
+  return {a.median - b.median, a.low - b.high, a.high - b.low, std::min(a.repetitions, b.repetitions)};
+}
+
+}  // namespace
+
+void cost_of_phases(const Request& request, int n, Rows& rows) {
+  const Scene plain = sized_cloth(n), above = sized_cloth(n, true);
+  Table table{"phases-cost",
+              {{"method", "1"},
+               {"side", "1"},
+               {"phase", "1"},
+               {"cpu per step", "s"},
+               {"cpu low", "s"},
+               {"cpu high", "s"},
+               {"share", "1"},
+               {"how", "1"}},
+              {}};
+  const Method ours = find_method("mysim/leapfrog");
+  std::vector<Method> others;
+  for (Method& m : methods_of(request, above))
+    if (m.name.starts_with("bullet/") && run_method(m, above, steps_of(above, 1), {}).verdict != Verdict::unsupported)
+      others.push_back(std::move(m));
+  const long steps = steps_to_time(ours, above);
+  std::vector<std::function<double()>> runs{springs_alone(plain), forces_alone(plain), step_of(ours, plain, steps),
+                                            step_of(ours, above, steps)};
+  for (const Method& m : others) runs.push_back(step_of(m, above, steps_to_time(m, above)));
+  std::vector<Timing> t;
+  for (const auto& times : steps_timed(runs, request.full)) t.push_back(timing_of(times));
+  const double whole = t[3].median;
+  auto add = [&](const std::string& method, const char* phase, const Timing& time, double all, const char* how) {
+    table.add({method, static_cast<long>(n), std::string(phase), time.median, time.low, time.high, time.median / all,
+               std::string(how)});
+  };
+  add(ours.name, "springs", t[0], whole, "the spring kernel alone");
+  add(ours.name, "other forces", minus(t[1], t[0]), whole, "all forces at a position, less the springs");
+  add(ours.name, "integration and loop", minus(t[2], t[1]), whole, "a step without sphere, less its forces");
+  add(ours.name, "contact", minus(t[3], t[2]), whole, "a step with the sphere, less one without");
+  add(ours.name, "whole step", t[3], whole, "with the sphere");
+  for (size_t i = 0; i < others.size(); ++i)
+    add(others[i].name, "whole step", t[4 + i], t[4 + i].median, "what it does inside cannot be told from outside");
+  rows.add(table);
+}
+
+namespace {
+
+Cell cell_if(bool there, double value) {
+  if (there) return value;
+  return {};
+}
+
+}  // namespace
+
+void cost_against_roofline(bool full, Rows& rows) {
+  std::vector<int> sides{16, 32, 64, 128};
+  if (full) sides.insert(sides.end(), {256, 512});
+  std::vector<Scene> scenes;
+  for (const int n : sides) scenes.push_back(sized_cloth(n));
+  struct Row {
+    std::string name;
+    double flop, bytes;
+  };
+  std::vector<Row> what;
+  std::vector<std::function<double()>> runs;
+  const auto add = [&](const std::string& name, const Kernel& k) {
+    what.push_back({name, k.flop, k.bytes});
+    runs.push_back(k.run);
+  };
+  add("peak of multiplications and additions", multiply_add_kernel());
+  add("bandwidth, 24 kB", triad_kernel(24e3));
+  add("bandwidth, 1 MB", triad_kernel(1e6));
+  add("bandwidth, 96 MB", triad_kernel(96e6));
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    const auto springs = static_cast<double>(springs_of(scenes[i]));
+    what.push_back({fmt::format("springs, {0} x {0}", sides[i]), flop_per_spring * springs,
+                    bytes_per_spring * springs + bytes_per_particle * static_cast<double>(scenes[i].start.x.cols())});
+    runs.push_back(springs_alone(scenes[i]));
+  }
+  Table table{"roofline-cost",
+              {{"what", "1"},
+               {"work", "flop"},
+               {"bytes", "B"},
+               {"intensity", "flop/B"},
+               {"cpu", "s"},
+               {"cpu low", "s"},
+               {"cpu high", "s"},
+               {"rate", "flop/s"},
+               {"bandwidth", "B/s"}},
+              {}};
+  const auto times = steps_timed(runs, full);
+  for (size_t i = 0; i < what.size(); ++i) {
+    const Timing t = timing_of(times[i]);
+    table.add({what[i].name, what[i].flop, what[i].bytes, cell_if(what[i].bytes > 0, what[i].flop / what[i].bytes),
+               t.median, t.low, t.high, what[i].flop / t.median, cell_if(what[i].bytes > 0, what[i].bytes / t.median)});
+  }
+  rows.add(table);
+}
+
+std::vector<Point> cost_points(const Request& request) {
+  std::vector<int> sides{8, 16, 32, 64, 128};
+  if (request.full) sides.insert(sides.end(), {256, 512});
+  std::string content = request.full ? "full" : "quick";
+  for (const Method& m : request.methods) content += fmt::format(" {} {}", m.name, m.fingerprint);
+  Request alone = request;  // no scenes: the cloth is its own
+  alone.scenes.clear();
+  std::vector<Point> points;
+  for (const int n : sides)
+    points.push_back({fmt::format("cost: {0} x {0}", n), content, [=](Rows& rows) { cost_of_size(alone, n, rows); }});
+  for (const int n : {32, 64})
+    points.push_back(
+        {fmt::format("cost: phases, {0} x {0}", n), content, [=](Rows& rows) { cost_of_phases(alone, n, rows); }});
+  points.push_back(
+      {"cost: roofline", content, [full = request.full](Rows& rows) { cost_against_roofline(full, rows); }});
+  for (Point& point : points) point.timed = true;
+  return points;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,25 @@
+// Experiment `cost`: what a step costs, against size, by phase, and beside what the machine can do.
+#pragma once
+
+#include "experiments/experiment.h"
+
+namespace crosscheck {
+
+/// `size-cost`: time per step of every method on a cloth of n x n particles.
+void cost_of_size(const Request& request, int n, Rows& rows);
+/// `phases-cost`: of mysim's leapfrog on a cloth above a sphere, what springs, other forces, contact and the rest of
+/// the step take; of Bullet's worlds the whole step, since what they do inside cannot be told from outside.
+void cost_of_phases(const Request& request, int n, Rows& rows);
+/// `roofline-cost`: the machine's peaks and the spring kernel at several sizes.
+void cost_against_roofline(bool full, Rows& rows);
+
+/// Work of the spring kernel per spring, in floating-point operations: 3 differences, 5 for the squared length, 1
+/// difference and 1 product for the tension, 3 products, 6 to add the force to both ends; a root and a quotient count
+/// as 7 each, as the multiplications and additions that they take the place of.
+inline constexpr double flop_per_spring = 33;
+/// Bytes that it moves for one spring, and for one particle: two ends (8), stiffness and rest length (16), the force
+/// written once and read twice (3 x 32), the index of its second end (4); a position copied (24 + 32) and read from
+/// there (32), a force read and written (48), two ranges (16).
+inline constexpr double bytes_per_spring = 124, bytes_per_particle = 152;
+
+}  // namespace crosscheck

@@ -1,0 +1,201 @@
+// Pareto lines and the cheapest methods, from the rows of all points.
+#include "experiments/speed_accuracy/conclude.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "experiments/speed_accuracy/speed_accuracy.h"
+
+namespace crosscheck {
+
+std::vector<WorkPoint> pareto_line(std::vector<WorkPoint> points, double floor) {
+  std::erase_if(points, [](const WorkPoint& p) { return !p.ok || !p.error; });
+  for (WorkPoint& p : points) p.error = std::max(*p.error, floor);
+  // among equal costs the better one first: the other then is no step down
+  std::stable_sort(points.begin(), points.end(), [](const WorkPoint& a, const WorkPoint& b) {
+    return a.cost != b.cost ? a.cost < b.cost : *a.error < *b.error;
+  });
+  std::vector<WorkPoint> line;
+  for (WorkPoint& p : points)
+    if (line.empty() || *p.error < *line.back().error) line.push_back(std::move(p));
+  return line;
+}
+
+const WorkPoint* cheapest(const std::vector<WorkPoint>& points, double bound, const std::string& prefix) {
+  const WorkPoint* best = nullptr;
+  for (const WorkPoint& p : points)
+    if (p.ok && p.error && *p.error <= bound && p.method.starts_with(prefix) && (!best || p.cost < best->cost))
+      best = &p;
+  return best;
+}
+
+std::vector<std::string> as_cheap(const std::vector<WorkPoint>& points, const WorkPoint& best, double bound,
+                                  double noise) {
+  std::vector<std::string> names;
+  for (const WorkPoint& p : points)
+    if (p.ok && p.error && *p.error <= bound && p.method != best.method && p.time && best.time &&
+        !differ(*p.time, *best.time, noise) && std::find(names.begin(), names.end(), p.method) == names.end())
+      names.push_back(p.method);
+  return names;
+}
+
+namespace {
+
+std::optional<double> number(const Table& t, size_t i, const char* column) {
+  const auto* value = std::get_if<double>(&t.at(i, column));
+  return value ? std::optional(*value) : std::nullopt;
+}
+std::string text(const Table& t, size_t i, const char* column) {
+  const auto* value = std::get_if<std::string>(&t.at(i, column));
+  return value ? *value : "";
+}
+
+/// The runs of one scene, in evaluations, and what is known of its truth.
+struct SceneRuns {
+  std::string scene;
+  double motion = 0;
+  std::optional<double> bar;  // m; none: no truth
+  bool difference = false;    // from the answer of the in-house contact rule: no error
+  std::vector<size_t> rows;   // in the table, of the points
+  std::vector<WorkPoint> points;
+};
+
+std::vector<SceneRuns> runs_of(const Table& t) {
+  std::vector<SceneRuns> scenes;
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    if (scenes.empty() || scenes.back().scene != text(t, i, "scene")) {
+      scenes.push_back({text(t, i, "scene"), *number(t, i, "motion"), number(t, i, "truth bar")});
+      scenes.back().difference = text(t, i, "truth").find("contact rule") != std::string::npos;
+    }
+    SceneRuns& s = scenes.back();
+    const auto error = number(t, i, s.difference ? "largest difference from converged contact" : "largest error");
+    s.rows.push_back(i);
+    s.points.push_back({text(t, i, "method"), text(t, i, "setting"), *number(t, i, "asked"),
+                        text(t, i, "verdict") == "ok", error,
+                        static_cast<double>(std::get<long>(t.at(i, "evaluations")))});
+  }
+  return scenes;
+}
+
+/// The same runs with the time they took; what was not timed is left out. Fills `noise`.
+std::vector<WorkPoint> timed_points(const SceneRuns& s, const Table& timing, double& noise, Table& cost) {
+  std::vector<WorkPoint> points;
+  for (const WorkPoint& p : s.points)
+    for (size_t i = 0; i < timing.rows.size(); ++i) {
+      if (text(timing, i, "scene") != s.scene || text(timing, i, "method") != p.method ||
+          text(timing, i, "setting") != p.setting || *number(timing, i, "asked") != p.asked)
+        continue;
+      const auto measured = static_cast<double>(std::get<long>(timing.at(i, "evaluations")));
+      const double part = *number(timing, i, "part of the run");
+      // a failed run ended earlier than its timed twin, which nobody watched, or later
+      const double factor = measured > 0 && p.cost > 0 ? p.cost / measured : 1 / part;
+      WorkPoint timed = p;
+      timed.time = Timing{*number(timing, i, "cpu"), *number(timing, i, "cpu low"), *number(timing, i, "cpu high"),
+                          std::get<long>(timing.at(i, "repetitions"))}
+                       .times(factor);
+      timed.cost = timed.time->median;
+      noise = *number(timing, i, "noise");
+      cost.add({s.scene, p.method, p.setting, p.asked, std::string(p.ok ? "ok" : "failed"), timed.cost, timed.time->low,
+                timed.time->high, timed.time->repetitions, part, noise, build_of(p.method)});
+      points.push_back(std::move(timed));
+    }
+  return points;
+}
+
+void add_pareto(const SceneRuns& s, const std::vector<WorkPoint>& points, Table& table) {
+  if (!s.bar) return;
+  for (const WorkPoint& p : pareto_line(points, *s.bar))
+    table.add({s.scene, p.cost, *p.error, p.method, p.setting, p.asked});
+}
+
+void add_cheapest(const SceneRuns& s, const std::vector<WorkPoint>& points, double noise, Table& table) {
+  if (!s.bar) return;
+  for (const double part : {0.1, 0.01, 0.001}) {
+    const double bound = part * s.motion;
+    std::vector<Cell> row{s.scene, part, bound, std::string(s.difference ? "difference" : "error")};
+    const WorkPoint* best = bound >= *s.bar ? cheapest(points, bound) : nullptr;
+    const WorkPoint* bullet = bound >= *s.bar ? cheapest(points, bound, "bullet/") : nullptr;
+    for (const WorkPoint* p : {best, bullet}) {
+      if (p)
+        row.insert(row.end(), {p->method, p->setting, p->asked, p->cost, *p->error});
+      else
+        row.insert(row.end(), {Cell(), Cell(), Cell(), Cell(), Cell()});
+    }
+    row.push_back(best && bullet ? Cell(bullet->cost / best->cost) : Cell());
+    row.push_back(best ? Cell(fmt::format("{}", fmt::join(as_cheap(points, *best, bound, noise), ", "))) : Cell());
+    row.push_back(bound < *s.bar ? Cell(std::string("below the error bar of the truth"))
+                  : best         ? Cell()
+                                 : Cell(std::string("no run tried meets it")));
+    table.add(std::move(row));
+  }
+}
+
+Table pareto_table(const std::string& name, const Column& cost) {
+  return {
+      name, {{"scene", "1"}, cost, {"distance", "m"}, {"method", "1"}, {"setting", "1"}, {"asked", "see setting"}}, {}};
+}
+
+Table cheapest_table(const std::string& name, const std::string& cost, const std::string& unit) {
+  return {name,
+          {{"scene", "1"},
+           {"part of motion", "1"},
+           {"bound", "m"},
+           {"measure", "1"},
+           {"method", "1"},
+           {"setting", "1"},
+           {"asked", "see setting"},
+           {cost, unit},
+           {"distance", "m"},
+           {"best of Bullet", "1"},
+           {"setting of Bullet", "1"},
+           {"asked of Bullet", "see setting"},
+           {cost + " of Bullet", unit},
+           {"distance of Bullet", "m"},
+           {"Bullet / best", "1"},
+           {"as cheap within noise", "1"},
+           {"remark", "1"}},
+          {}};
+}
+
+}  // namespace
+
+void conclude_speed_accuracy(Rows& rows) {
+  const Table* results = rows.table("speed-accuracy");
+  if (!results) return;  // a part of a sweep
+  const Table* timing = rows.table("speed-accuracy-timing-cost");
+  Table pareto = pareto_table("speed-accuracy-pareto", {"evaluations", "1"}),
+        pareto_time = pareto_table("speed-accuracy-pareto-cost", {"cpu", "s"}),
+        best = cheapest_table("speed-accuracy-cheapest", "evaluations", "1"),
+        best_time = cheapest_table("speed-accuracy-cheapest-cost", "cpu", "s"),
+        cost{"speed-accuracy-cost",
+             {{"scene", "1"},
+              {"method", "1"},
+              {"setting", "1"},
+              {"asked", "see setting"},
+              {"verdict", "1"},
+              {"cpu", "s"},
+              {"cpu low", "s"},
+              {"cpu high", "s"},
+              {"repetitions", "1"},
+              {"part timed", "1"},
+              {"noise", "1"},
+              {"build", "1"}},
+             {}};
+  for (const SceneRuns& s : runs_of(*results)) {
+    // an outside program need not count its evaluations
+    std::vector<WorkPoint> counted = s.points;
+    std::erase_if(counted, [](const WorkPoint& p) { return !(p.cost > 0); });
+    add_pareto(s, counted, pareto);
+    add_cheapest(s, counted, 0, best);
+    if (!timing) continue;
+    double noise = 0;
+    const std::vector<WorkPoint> points = timed_points(s, *timing, noise, cost);
+    add_pareto(s, points, pareto_time);
+    add_cheapest(s, points, noise, best_time);
+  }
+  for (const Table& table : {pareto, best, cost, pareto_time, best_time}) rows.add(table);
+}
+
+}  // namespace crosscheck

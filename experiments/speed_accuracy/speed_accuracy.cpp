@@ -1,0 +1,250 @@
+// The runs of experiment `speed-accuracy`.
+#include "experiments/speed_accuracy/speed_accuracy.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/metrics.h"
+#include "experiments/speed_accuracy/ladder.h"
+#include "experiments/timing.h"
+
+namespace crosscheck {
+
+Apart distance_over_time(const Trajectory& a, const Trajectory& b, double until) {
+  Apart apart;
+  double squares = 0;
+  int samples = 0;
+  for (int i = 0; i < std::min(a.frames(), b.frames()) && a.t[i] <= until * (1 + 1e-9); ++i, ++samples) {
+    const double d = rms_distance(a.x[i], b.x[i]);
+    apart.largest = std::max(apart.largest, d);
+    squares += d * d;
+  }
+  if (samples > 0) apart.over_time = std::sqrt(squares / samples);
+  return apart;
+}
+
+namespace {
+
+struct Try {
+  Setting setting;
+  Outcome outcome;
+  Trajectory trajectory;
+  bool ok() const { return outcome.verdict == Verdict::ok; }
+};
+
+/// The runs of one method; empty where it does not take the scene, or built another one.
+std::vector<Try> tries_of(const Method& method, const Scene& scene, const Run& base, const std::vector<Setting>& ladder,
+                          std::vector<std::string>& notes) {
+  std::vector<Try> tries;
+  for (const Setting& setting : ladder) {
+    Recorder recorder;
+    Outcome out = run_method(method, scene, setting.applied_to(base), {&recorder});
+    if (out.verdict == Verdict::unsupported) continue;  // at this step, perhaps not at others
+    if (!method.stepper && certify(method.name, scene, out).mismatch()) {
+      notes.push_back(fmt::format("speed-accuracy leaves out {} on {}: it built another scene, see its certificate",
+                                  method.name, scene.name));
+      return {};
+    }
+    tries.push_back({setting, std::move(out), std::move(recorder.trajectory)});
+  }
+  return tries;
+}
+
+/// All of mysim and Bullet, and who solves the same equations with a library's integrator.
+std::vector<Method> methods_for(const Request& request, const Scene& scene) {
+  std::vector<Method> methods = methods_of(request, scene);
+  if (!request.methods.empty()) return methods;
+  for (Method& method : all_methods())
+    if (method.name.starts_with("odeint/") || method.name.starts_with("sundials/"))
+      methods.push_back(std::move(method));
+  return methods;
+}
+
+/// Why there is nothing to be fast at, or empty.
+std::string why_not(const Scene& scene, double motion) {
+  // 1e-6 of its size: where nothing moves a run of one step is as right as any other
+  if (!(motion > 1e-6 * scene.size())) return "nothing moves there";
+  return "";
+}
+
+Cell cell_of(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
+
+Table results_table() {
+  return {"speed-accuracy",
+          {{"scene", "1"},
+           {"method", "1"},
+           {"setting", "1"},
+           {"asked", "see setting"},
+           {"step", "s"},
+           {"steps", "1"},
+           {"evaluations", "1"},
+           {"verdict", "1"},
+           {"end", "s"},
+           {"largest error", "m"},
+           {"error over time", "m"},
+           {"largest difference from converged contact", "m"},
+           {"difference from converged contact over time", "m"},
+           {"distance to own finest", "m"},
+           {"motion", "m"},
+           {"until", "s"},
+           {"truth", "1"},
+           {"truth bar", "m"},
+           {"different law", "1"}},
+          {}};
+}
+
+}  // namespace
+
+void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
+  const Run base = run_of(request, scene);
+  const auto truth = truth_of(scene, base);
+  const bool of_rule = truth && truth->of_contact_rule;
+  Recorder plain;
+  if (!truth) run_method(find_method(scene.method), scene, base, {&plain});
+  const double motion = motion_of(truth ? truth->trajectory : plain.trajectory);
+  if (const std::string why = why_not(scene, motion); !why.empty()) {
+    rows.notes.push_back(fmt::format("speed-accuracy leaves out {}: {}", scene.name, why));
+    return;
+  }
+  if (!truth)
+    rows.notes.push_back(
+        fmt::format("speed-accuracy knows no truth of {}: only distances to each method's own finest run", scene.name));
+  const double until = truth ? std::min(scene.window, truth->until) : scene.window;
+  const std::string tier = truth ? std::string(name_of(truth->tier)) + (of_rule ? ", in-house contact rule" : "") : "";
+
+  Table table = results_table();
+  std::vector<std::string> shortened;
+  for (const Method& method : methods_for(request, scene)) {
+    int dropped = 0;
+    const auto settings = ladder(method, scene, base, request.full, &dropped);
+    const std::vector<Try> tries = tries_of(method, scene, base, settings, rows.notes);
+    if (!tries.empty() && dropped > 0) shortened.push_back(fmt::format("{} ({})", method.name, dropped));
+    for (const Try& run : tries) {
+      const Outcome& out = run.outcome;
+      std::optional<double> largest, over_time, own;
+      if (run.ok() && truth) {
+        const Apart apart = distance_over_time(run.trajectory, truth->trajectory, until);
+        largest = apart.largest, over_time = apart.over_time;
+      }
+      if (run.ok() && tries.back().ok() && &run != &tries.back())
+        own = distance_over_time(run.trajectory, tries.back().trajectory, scene.window).largest;
+      table.add({scene.name, method.name, std::string(run.setting.tolerance ? "tolerance [1]" : "step [s]"),
+                 run.setting.value, out.step, out.steps, out.evaluations, std::string(name_of(out.verdict)), out.end,
+                 of_rule ? Cell() : cell_of(largest), of_rule ? Cell() : cell_of(over_time),
+                 of_rule ? cell_of(largest) : Cell(), of_rule ? cell_of(over_time) : Cell(), cell_of(own), motion,
+                 until, tier.empty() ? Cell() : Cell(tier), truth ? Cell(truth->bar) : Cell(),
+                 fmt::format("{}", fmt::join(out.different_law, "; "))});
+    }
+  }
+  if (!shortened.empty())
+    rows.notes.push_back(fmt::format("speed-accuracy on {} leaves out runs that would cost much{}: {}", scene.name,
+                                     request.full ? "" : "; --full has more of them", fmt::join(shortened, ", ")));
+  rows.add(table);
+}
+
+namespace {
+
+/// What is timed of a run: the whole, or its first part.
+struct Part {
+  Run run;
+  double share = 1;
+};
+Part part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting) {
+  Run run = setting.applied_to(base);
+  const double enough = 0.02;  // s: a hundred thousand ticks of the clock
+  const double share = std::min(1., enough / estimated_seconds(method, scene, base, setting));
+  if (!method.fingerprint.empty()) return {run};  // a program of its own: what its start costs is not known
+  const bool whole = share > 0.7 || scene.model.find<Spheres>();  // touching may cost more than falling
+  if (method.adaptive) {
+    if (whole) return {run};
+    run.samples = std::max(1, static_cast<int>(std::ceil(share * run.samples)));
+    run.duration = base.duration * run.samples / base.samples;
+    return {run, static_cast<double>(run.samples) / base.samples};
+  }
+  // the clock is read at each sample, which takes 0.3 microseconds: one in 100 is often enough to tell a blow-up
+  const long all = static_cast<long>(plan(run).steps_per_sample) * run.samples;
+  long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
+  const double seconds = share * estimated_seconds(method, scene, base, setting);
+  const int samples = std::clamp(static_cast<int>(seconds / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
+  steps = steps / samples * samples;
+  return {{plan(run).h, plan(run).h * static_cast<double>(steps), samples},
+          static_cast<double>(steps) / static_cast<double>(all)};
+}
+
+}  // namespace
+
+void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows) {
+  const Run base = run_of(request, scene);
+  struct Timed {
+    std::string method;
+    Setting setting;
+    double share;
+    long evaluations = 0;
+  };
+  std::vector<Timed> timed;
+  std::vector<std::function<double()>> runs;
+  const std::vector<Method> methods = methods_for(request, scene);
+  for (const Method& method : methods)
+    for (const Setting& setting : ladder(method, scene, base, request.full)) {
+      const Part part = part_of(method, scene, base, setting);
+      if (timed.empty() || timed.back().method != method.name) {  // asked once whether it takes the scene
+        if (run_method(method, scene, part.run, {}).verdict == Verdict::unsupported) break;
+      }
+      timed.push_back({method.name, setting, part.share});
+      runs.push_back([&method, &scene, part, &timed, at = timed.size() - 1] {
+        // watched: what Bullet's worlds do after a blow-up takes many times as long as a step
+        const Outcome out = run_method(method, scene, part.run, {});
+        timed[at].evaluations = out.evaluations;
+        return out.cpu_seconds;
+      });
+    }
+  const auto times = timed_in_turns(runs, {.least = 3, .most = request.full ? 9 : 7, .enough = 0.05});
+  const double noise = times.empty() ? 0 : noise_floor(times);
+  Table table{"speed-accuracy-timing-cost",
+              {{"scene", "1"},
+               {"method", "1"},
+               {"setting", "1"},
+               {"asked", "see setting"},
+               {"part of the run", "1"},
+               {"evaluations", "1"},
+               {"cpu", "s"},
+               {"cpu low", "s"},
+               {"cpu high", "s"},
+               {"repetitions", "1"},
+               {"noise", "1"}},
+              {}};
+  for (size_t i = 0; i < timed.size(); ++i) {
+    const Timing t = timing_of(times[i]);
+    if (!(t.median > 0)) {
+      if (timed[i].evaluations > 0)
+        rows.notes.push_back(fmt::format("{} does not tell what CPU time it took", timed[i].method));
+      continue;
+    }
+    table.add({scene.name, timed[i].method, std::string(timed[i].setting.tolerance ? "tolerance [1]" : "step [s]"),
+               timed[i].setting.value, timed[i].share, timed[i].evaluations, t.median, t.low, t.high, t.repetitions,
+               noise});
+  }
+  rows.add(table);
+}
+
+std::string build_of(const std::string& method) {
+  if (method.starts_with("mysim/")) return "this build";
+  if (method.starts_with("bullet/")) return "Debian's library (generic x86-64, -O2), called from this build";
+  if (method.starts_with("odeint/")) return "headers of the library, compiled in this build";
+  if (method.starts_with("sundials/"))
+    return "Debian's library (generic x86-64, -O2), on a right-hand side of this build";
+  return "a program of its own";
+}
+
+std::vector<Point> speed_accuracy_points(const Request& request) {
+  std::vector<Point> points = one_point_per_scene(request, "speed-accuracy", speed_accuracy_on);
+  for (Point& point : one_point_per_scene(request, "speed-accuracy, timed", time_speed_accuracy)) {
+    point.timed = true;
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,41 @@
+// Honest timing: runs measured in turns, a median with an interval, and what is within the noise.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace crosscheck {
+
+/// CPU time of one run, s.
+struct Timing {
+  double median = 0, low = 0, high = 0;  // low to high: 90 % interval of the median, see timing_of()
+  long repetitions = 0;
+  /// The same, each time multiplied.
+  Timing times(double factor) const { return {median * factor, low * factor, high * factor, repetitions}; }
+};
+
+/// Median and interval of repeated times. The interval lies between the k-th smallest and the k-th largest time, with
+/// the largest k for which it holds the true median with probability 0.9 or more whatever the distribution is (the
+/// number of times below the median is binomial; H. A. David and H. N. Nagaraja, Order Statistics, 7.1). Fewer than
+/// five times cannot promise that: there it is smallest to largest. Throws std::invalid_argument without times.
+Timing timing_of(std::vector<double> seconds);
+
+struct TimingPlan {
+  int least = 5, most = 11;    // repetitions of each run
+  double enough = 0.2;         // s: a run that has taken as much is repeated `least` times only
+  double resolution = 100e-6;  // s: shorter runs are repeated within a repetition until they have taken as much
+};
+
+/// Times of every repetition of every run. A run does its work once and says what CPU time it took, s; first each is
+/// run once unmeasured, then one after the other, round by round, so that a slow spell of the machine falls on all.
+std::vector<std::vector<double>> timed_in_turns(std::span<const std::function<double()>> runs, const TimingPlan& plan);
+
+/// What two measurements of the same thing differ by here, relative: the 90 % quantile over the runs of the difference
+/// between the medians of their even and their odd repetitions; at least 1 %.
+double noise_floor(std::span<const std::vector<double>> times);
+
+/// Whether two timings tell different costs: their intervals are apart, and their medians by more than the noise.
+bool differ(const Timing& a, const Timing& b, double noise);
+
+}  // namespace crosscheck

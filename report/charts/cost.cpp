@@ -1,0 +1,142 @@
+// What a step costs: against size, by phase, and beside what the machine can do.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/charts/charts.h"
+
+namespace crosscheck {
+namespace {
+
+double number(const Table& t, size_t i, const char* column) {
+  if (const auto* whole = std::get_if<long>(&t.at(i, column))) return static_cast<double>(*whole);
+  const auto* value = std::get_if<double>(&t.at(i, column));
+  return value ? *value : 0;
+}
+const std::string& text(const Table& t, size_t i, const char* column) { return std::get<std::string>(t.at(i, column)); }
+
+constexpr auto builds =
+    "thread CPU time, medians of runs taken in turns on one pinned core; mysim is compiled in this build for any "
+    "x86-64, "
+    "Bullet is Debian's generic x86-64 build";
+
+Chart size_chart(const Table& t, const std::string& commit) {
+  Figure f;
+  f.name = "size-cost";
+  f.from_costs = true;
+  f.title = "CPU time of a step per particle, against the size of a cloth";
+  f.x = {"particles", true, std::nullopt, std::nullopt};
+  f.y = {"CPU time per step and particle / ns", true, std::nullopt, std::nullopt};
+  double largest = 0;
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    const std::string& method = text(t, i, "method");
+    auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
+    if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {method, style_of(method), {}, true, true});
+    curve->points.emplace_back(number(t, i, "particles"), 1e9 * number(t, i, "cpu per step and particle"));
+    largest = std::max(largest, number(t, i, "side"));
+  }
+  PageTable page{fmt::format("At {0:.0f} x {0:.0f} particles", largest),
+                 {"method", "CPU per step / ms", "90 % interval", "evaluations per step", "ns per particle",
+                  "times the cheapest", "build"},
+                 {}};
+  double cheapest = 1e300;
+  for (size_t i = 0; i < t.rows.size(); ++i)
+    if (number(t, i, "side") == largest) cheapest = std::min(cheapest, number(t, i, "cpu per step"));
+  for (size_t i = 0; i < t.rows.size(); ++i)
+    if (number(t, i, "side") == largest)
+      page.rows.push_back(
+          {text(t, i, "method"), fmt::format("{:.3g}", 1e3 * number(t, i, "cpu per step")),
+           fmt::format("{:.3g} to {:.3g}", 1e3 * number(t, i, "cpu low"), 1e3 * number(t, i, "cpu high")),
+           fmt::format("{:.3g}", number(t, i, "evaluations per step")),
+           fmt::format("{:.3g}", 1e9 * number(t, i, "cpu per step and particle")),
+           fmt::format("{:.2g}", number(t, i, "cpu per step") / cheapest), text(t, i, "build")});
+  f.finding = "A flat line is a cost in proportion to the number of particles.";
+  f.caption = fmt::format(
+      "The cloth of cloth-hang at other resolutions, without contact, each at 0.7 of the explicit limit of its size; "
+      "{}; "
+      "commit {}.",
+      builds, commit);
+  Chart chart{"", std::move(f), "cost"};
+  chart.text =
+      "All methods take the same step here, as long as an explicit rule can take; an implicit one may take a longer "
+      "one "
+      "for its money. What that buys is the matter of the chapter on speed against accuracy.";
+  chart.tables.push_back(std::move(page));
+  return chart;
+}
+
+Chart phases_chart(const Table& t) {
+  Chart chart{"", std::monostate{}, "cost"};
+  chart.heading = "Where the time of a step goes";
+  chart.text =
+      "mysim's leapfrog on a cloth that touches a sphere. Springs are timed alone; the other phases are differences of "
+      "two timings, with the widest interval that follows: one that reaches below zero cannot be told from nothing. "
+      "Bullet's worlds show the whole step only.";
+  PageTable page{"CPU time of the phases of a step",
+                 {"method", "particles", "phase", "µs per step", "interval", "share", "how"},
+                 {}};
+  for (size_t i = 0; i < t.rows.size(); ++i)
+    page.rows.push_back({text(t, i, "method"), fmt::format("{0:.0f} x {0:.0f}", number(t, i, "side")),
+                         text(t, i, "phase"), fmt::format("{:.3g}", 1e6 * number(t, i, "cpu per step")),
+                         fmt::format("{:.3g} to {:.3g}", 1e6 * number(t, i, "cpu low"), 1e6 * number(t, i, "cpu high")),
+                         fmt::format("{:.0f} %", 100 * number(t, i, "share")), text(t, i, "how")});
+  chart.tables.push_back(std::move(page));
+  return chart;
+}
+
+Chart roofline_chart(const Table& t, const std::string& commit) {
+  Figure f;
+  f.name = "roofline-cost";
+  f.from_costs = true;
+  f.title = "The spring kernel beside what the machine can do";
+  f.x = {"floating-point operations per byte moved", true, 0.03, 10.};
+  f.y = {"billions of floating-point operations a second", true, 0.3, std::nullopt};
+  static const MethodStyle roofs[] = {{"#56B4E9", "1", -1}, {"#0072B2", "(6,3)", -1}, {"#332288", "(2,2)", -1}};
+  double peak = 0, best = 0, at = 0;
+  size_t roof = 0;
+  Curve springs{"springs, 16 x 16 to", {"#D55E00", "1", 7}, {}, true, true};
+  std::string last;
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    const std::string& what = text(t, i, "what");
+    const double rate = number(t, i, "rate") / 1e9;
+    if (what.starts_with("peak")) peak = rate;
+    if (what.starts_with("bandwidth")) {
+      const double bandwidth = number(t, i, "bandwidth") / 1e9, ridge = peak / bandwidth;
+      f.curves.push_back({fmt::format("{}: {:.0f} GB/s", what, bandwidth),
+                          roofs[std::min(roof++, std::size(roofs) - 1)],
+                          {{0.03, 0.03 * bandwidth}, {ridge, peak}, {10, peak}}});
+    }
+    if (what.starts_with("springs")) {
+      springs.points.emplace_back(number(t, i, "intensity"), rate);
+      last = what.substr(what.find(',') + 2);
+      if (rate > best) best = rate, at = number(t, i, "intensity");
+    }
+  }
+  springs.title += " " + last;
+  f.curves.push_back(std::move(springs));
+  f.finding = fmt::format(
+      "The spring kernel does {:.2g} billion operations a second at {:.2g} per byte moved, {:.0f} % of the measured "
+      "peak of {:.2g} billion.",
+      best, at, 100 * best / peak, peak);
+  f.caption = fmt::format(
+      "Lines: what measured bandwidth and peak allow, for data of that size. The build is for any x86-64 (SSE2, two "
+      "numbers at a time, no fused operations), and so is the peak: the processor itself can do more. Springs are "
+      "counted as 33 operations and 124 bytes each, particles as 152 bytes; commit {}.",
+      commit);
+  return {"", std::move(f), "cost"};
+}
+
+}  // namespace
+
+std::vector<Chart> cost_charts(const ChartInput& input) {
+  std::vector<Chart> charts;
+  if (const Table* t = input.result.table("size-cost"); t && !t->rows.empty())
+    charts.push_back(size_chart(*t, input.commit));
+  if (const Table* t = input.result.table("phases-cost"); t && !t->rows.empty()) charts.push_back(phases_chart(*t));
+  if (const Table* t = input.result.table("roofline-cost"); t && !t->rows.empty())
+    charts.push_back(roofline_chart(*t, input.commit));
+  return charts;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,233 @@
+// Error against cost, once in evaluations and once in CPU time: curves of all methods, the Pareto line, the floor of
+// the truth, crosses for failed runs; and beside each figure who is cheapest.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "report/charts/charts.h"
+
+namespace crosscheck {
+namespace {
+
+std::optional<double> number(const Table& t, size_t i, const char* column) {
+  if (const auto* value = std::get_if<double>(&t.at(i, column))) return *value;
+  if (const auto* whole = std::get_if<long>(&t.at(i, column))) return static_cast<double>(*whole);
+  return std::nullopt;
+}
+std::string text(const Table& t, size_t i, const char* column) {
+  const auto* value = std::get_if<std::string>(&t.at(i, column));
+  return value ? *value : "";
+}
+bool same_run(const Table& a, size_t i, const Table& b, size_t j) {
+  for (const char* column : {"scene", "method", "setting", "asked"})
+    if (a.at(i, column) != b.at(j, column)) return false;
+  return true;
+}
+
+/// "1.2 ms": a time in the unit that suits it.
+std::string nice_time(double seconds) {
+  if (seconds >= 1) return fmt::format("{:.3g} s", seconds);
+  if (seconds >= 1e-3) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return fmt::format("{:.3g} µs", 1e6 * seconds);
+}
+std::string setting_text(const std::string& setting, double asked) {
+  return setting.starts_with("tolerance") ? "tolerance " + nice(asked) : nice_time(asked);
+}
+
+/// Both costs of a chart, told apart by these.
+struct Cost {
+  bool time;
+  std::string suffix() const { return time ? "-cost" : ""; }
+  std::string column() const { return time ? "cpu" : "evaluations"; }
+  std::string text_of(double value) const {
+    return time ? nice_time(value) : value < 1e6 ? fmt::format("{:.0f}", value) : nice(value);
+  }
+};
+
+/// What one scene's rows say as a whole.
+struct SceneRows {
+  const Table& runs;
+  const Table* cost;  // of CPU times
+  std::string scene, truth;
+  std::vector<size_t> rows;
+  double motion = 0;
+  std::optional<double> bar;
+  bool difference() const { return truth.find("contact rule") != std::string::npos; }
+  /// What is drawn over the cost.
+  const char* column() const {
+    return !bar           ? "distance to own finest"
+           : difference() ? "largest difference from converged contact"
+                          : "largest error";
+  }
+  std::string measure() const {
+    return !bar ? "distance from own finest run" : difference() ? "difference from the in-house contact rule" : "error";
+  }
+  std::optional<double> cost_of(size_t row, const Cost& kind) const {
+    if (!kind.time) return number(runs, row, "evaluations");
+    for (size_t i = 0; cost && i < cost->rows.size(); ++i)
+      if (same_run(runs, row, *cost, i)) return number(*cost, i, "cpu");
+    return std::nullopt;
+  }
+};
+
+SceneRows rows_of(const ChartInput& input, const Table& runs, const std::string& scene) {
+  SceneRows s{runs, input.result.table("speed-accuracy-cost"), scene, "", {}};
+  for (size_t i = 0; i < runs.rows.size(); ++i)
+    if (text(runs, i, "scene") == scene) {
+      s.rows.push_back(i);
+      s.motion = *number(runs, i, "motion");
+      s.bar = number(runs, i, "truth bar");
+      s.truth = text(runs, i, "truth");
+    }
+  return s;
+}
+
+int cross_of(const std::string& word) { return word == "blew up" ? 2 : word == "solver gave up" ? 1 : 3; }
+
+Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) {
+  Figure f;
+  f.name = s.scene + "-speed-accuracy" + kind.suffix();
+  f.from_costs = kind.time;
+  f.title = fmt::format("{}: {} against {}", s.scene, s.measure(), kind.time ? "CPU time" : "force evaluations");
+  f.x = {kind.time ? "CPU time of the run / s" : "force evaluations of the run", true, std::nullopt, std::nullopt};
+  const double top = 10 * s.motion;
+  double lowest = s.bar ? std::max(*s.bar, 1e-16) : 1, furthest = 0;
+  int failed = 0, good = 0;
+  for (const size_t i : s.rows) {
+    const auto cost = s.cost_of(i, kind);
+    if (!cost || !(*cost > 0)) continue;
+    const std::string method = text(s.runs, i, "method"), verdict = text(s.runs, i, "verdict");
+    furthest = std::max(furthest, *cost);
+    if (verdict != "ok") {
+      const std::string word = failure_word(verdict);
+      f.failures.push_back({method + ": " + word, style_of(method), *cost, 4 * s.motion, word, cross_of(word)});
+      ++failed;
+      continue;
+    }
+    const auto apart = number(s.runs, i, s.column());
+    if (!apart || (!s.bar && !(*apart > 0))) continue;
+    auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
+    if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {method, style_of(method), {}, true, true});
+    // below its bar the truth tells nothing
+    const double y = std::min(3 * s.motion, s.bar ? std::max(*apart, *s.bar) : *apart);
+    curve->points.emplace_back(*cost, y);
+    lowest = std::min(lowest, y);
+    ++good;
+  }
+  f.y = {fmt::format("largest RMS {} / m", s.difference() ? "difference"
+                                           : s.bar        ? "error"
+                                                          : "distance"),
+         true, lowest / 3, top};
+  if (const Table* pareto = input.result.table("speed-accuracy-pareto" + kind.suffix()))
+    for (size_t i = 0; i < pareto->rows.size(); ++i)
+      if (text(*pareto, i, "scene") == s.scene)
+        f.pareto.emplace_back(*number(*pareto, i, kind.column().c_str()),
+                              std::min(3 * s.motion, *number(*pareto, i, "distance")));
+  if (!f.pareto.empty()) f.pareto.emplace_back(furthest, f.pareto.back().second);
+  if (s.bar) f.floor = {s.difference() ? "how far that answer is known" : "error bar of the truth", *s.bar};
+  f.finding = fmt::format("{} runs of {} methods; {} failed.", good + failed, f.curves.size(), failed);
+  f.caption = fmt::format(
+      "Scene {}; {}; {}commit {}.", s.scene,
+      s.bar ? fmt::format("{}: {}, error bar {}", s.difference() ? "compared with" : "truth", s.truth,
+                          nice_length(*s.bar))
+            : "no truth is known, so that only the way to each method's own finest run is shown",
+      kind.time
+          ? "thread CPU time, medians of runs taken in turns on one pinned core; mysim and odeint are compiled in "
+            "this build, Bullet and SUNDIALS are Debian's generic x86-64 builds; "
+          : "",
+      input.commit);
+  return f;
+}
+
+/// The table "cheapest that meets 10 %, 1 %, 0.1 % of the motion".
+std::optional<PageTable> cheapest_of(const SceneRows& s, const Cost& kind, const ChartInput& input) {
+  const Table* t = input.result.table("speed-accuracy-cheapest" + kind.suffix());
+  if (!t || !s.bar) return std::nullopt;
+  PageTable page;
+  page.caption = fmt::format("The cheapest run of those tried with {} of at most a part of the motion ({}), in {}",
+                             s.difference() ? "a difference" : "an error", nice_length(s.motion),
+                             kind.time ? "CPU time" : "force evaluations");
+  page.header = {"at most", "cheapest", "step", "cost", "best of Bullet", "its step", "its cost", "times as much"};
+  if (kind.time) page.header.emplace_back("as cheap, within noise");
+  const std::string column = kind.column();
+  for (size_t i = 0; i < t->rows.size(); ++i) {
+    if (text(*t, i, "scene") != s.scene) continue;
+    std::vector<std::string> row{
+        fmt::format("{:g} % ({})", 100 * *number(*t, i, "part of motion"), nice_length(*number(*t, i, "bound")))};
+    const std::string remark = text(*t, i, "remark");
+    row.push_back(remark.empty() ? text(*t, i, "method") : remark);
+    const auto asked = number(*t, i, "asked"), theirs = number(*t, i, "asked of Bullet");
+    row.push_back(asked ? setting_text(text(*t, i, "setting"), *asked) : "");
+    row.push_back(asked ? kind.text_of(*number(*t, i, column.c_str())) : "");
+    row.push_back(theirs ? text(*t, i, "best of Bullet") : "");
+    row.push_back(theirs ? setting_text(text(*t, i, "setting of Bullet"), *theirs) : "");
+    row.push_back(theirs ? kind.text_of(*number(*t, i, (column + " of Bullet").c_str())) : "");
+    const auto factor = number(*t, i, "Bullet / best");
+    row.push_back(factor ? fmt::format("{:.3g}", *factor) : "");
+    if (kind.time) row.push_back(text(*t, i, "as cheap within noise"));
+    page.rows.push_back(std::move(row));
+  }
+  if (page.rows.empty()) return std::nullopt;
+  return page;
+}
+
+/// Every run: a row for each method, a column for each step or tolerance.
+std::optional<PageTable> all_runs(const SceneRows& s, const std::string& setting) {
+  std::set<double, std::greater<>> values;
+  std::vector<std::string> methods;
+  for (const size_t i : s.rows) {
+    if (text(s.runs, i, "setting") != setting) continue;
+    values.insert(*number(s.runs, i, "asked"));
+    if (const std::string m = text(s.runs, i, "method"); methods.empty() || methods.back() != m) methods.push_back(m);
+  }
+  if (methods.empty()) return std::nullopt;
+  PageTable page;
+  page.caption = fmt::format("All runs at {}: largest RMS {}, or how the run failed and when",
+                             setting.starts_with("tolerance") ? "a tolerance" : "fixed steps", s.measure());
+  page.header = {"method"};
+  for (const double value : values) page.header.push_back(setting_text(setting, value));
+  for (const std::string& method : methods) {
+    std::vector<std::string> row(values.size() + 1);
+    row[0] = method;
+    for (const size_t i : s.rows) {
+      if (text(s.runs, i, "setting") != setting || text(s.runs, i, "method") != method) continue;
+      const std::string verdict = text(s.runs, i, "verdict");
+      const auto apart = number(s.runs, i, s.column());
+      const auto at = std::distance(values.begin(), values.find(*number(s.runs, i, "asked")));
+      row[static_cast<size_t>(at) + 1] =
+          verdict != "ok"            ? fmt::format("{} at {:.3g} s", failure_word(verdict), *number(s.runs, i, "end"))
+          : !apart                   ? "the finest"
+          : s.bar && *apart < *s.bar ? "< " + nice_length(*s.bar)
+                                     : nice_length(*apart);
+    }
+    page.rows.push_back(std::move(row));
+  }
+  return page;
+}
+
+}  // namespace
+
+std::vector<Chart> speed_accuracy_charts(const ChartInput& input) {
+  std::vector<Chart> charts;
+  const Table* runs = input.result.table("speed-accuracy");
+  for (size_t i = 0; runs && i < input.scenes.size(); ++i) {
+    const SceneRows s = rows_of(input, *runs, input.scenes[i].name);
+    if (s.rows.empty()) continue;
+    for (const Cost kind : {Cost{true}, Cost{false}}) {
+      Figure f = figure_of(s, kind, input);
+      if (f.curves.empty() && f.failures.empty()) continue;
+      Chart chart{"", std::move(f), "speed-accuracy"};
+      if (kind.time) chart.text = input.scenes[i].question;
+      if (auto table = cheapest_of(s, kind, input)) chart.tables.push_back(std::move(*table));
+      if (!kind.time)
+        for (const char* setting : {"step [s]", "tolerance [1]"})
+          if (auto table = all_runs(s, setting)) chart.tables.push_back(std::move(*table));
+      charts.push_back(std::move(chart));
+    }
+  }
+  return charts;
+}
+
+}  // namespace crosscheck
