@@ -99,6 +99,10 @@ std::optional<Chart> where_it_went(const Table& table, const std::string& scene,
                               -number_at(table, i, "pins gave")};
     for (size_t p = 0; p < bars.parts.size(); ++p) bars.parts[p].height[b] = heights[p];
   }
+  const auto nothing = [](const Bars::Part& part) {
+    return std::all_of(part.height.begin(), part.height.end(), [](double height) { return height == 0; });
+  };
+  if (std::all_of(bars.parts.begin(), bars.parts.end(), nothing)) return std::nullopt;  // at rest
   bars.finding = "What each run was given, left of zero, and where it went, right of it.";
   if (inferred)
     bars.finding +=

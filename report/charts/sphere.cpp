@@ -100,7 +100,7 @@ Chart cone_law(const Table& table, const std::string& commit) {
 }
 
 /// Which cell sticks, which slides, which does neither: of those that stand for the others, side by side in each cell.
-Chart cone_map(const Table& table, const std::string& commit) {
+std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
   Figure f;
   f.name = "sphere-cone-map";
   f.title = "Who sticks, who slides, who creeps";
@@ -127,12 +127,13 @@ Chart cone_map(const Table& table, const std::string& commit) {
       }
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }
+  if (f.curves.size() == 1) return std::nullopt;  // none of these was asked
   f.finding =
       "Above the line it must stick (filled), below it slide (open); a triangle does neither: it moves at a "
       "steady creep.";
   f.caption = fmt::format("The same runs as above, methods side by side at each slope; step {} s; commit {}.",
                           nice(step), commit);
-  return {"", std::move(f), "sphere"};
+  return Chart{"", std::move(f), "sphere"};
 }
 
 Chart rebounds(const Table& table, const std::string& commit) {
@@ -179,8 +180,9 @@ Chart rebounds(const Table& table, const std::string& commit) {
       "Dropped by 0.3 m on a ball, e = 0.5 where nothing is said; truth: exact (parabolas); commit "
       "{}.",
       commit);
-  Chart chart{"", std::move(f), "sphere",
-              "A ball that returns the part e of the speed throws back to e² of the height."};
+  Chart chart{"", std::monostate{}, "sphere",
+              "A ball that returns the part e of the speed throws back to e² of the height.", f.title};
+  if (!f.curves.empty()) chart.figure = std::move(f);  // none where all are within 0.01 mm, or fail
   chart.tables.push_back(std::move(page));
   return chart;
 }
@@ -221,7 +223,8 @@ Chart leavings(const Table& table, const std::string& commit) {
       "flight). "
       "The gap of 1 mm is compared, as some engines let the particle hop before it leaves; commit {}.",
       commit);
-  Chart chart{"", std::move(f), "sphere"};
+  Chart chart{"", std::monostate{}, "sphere", "", f.title};
+  if (!f.curves.empty()) chart.figure = std::move(f);  // none where no particle leaves
   chart.tables.push_back(std::move(page));
   return chart;
 }
