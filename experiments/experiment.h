@@ -45,6 +45,8 @@ std::vector<Point> energy_points(const Request& request);
 std::vector<Point> engines_points(const Request& request);
 std::vector<Point> stiffness_points(const Request& request);
 std::vector<Point> disagreements_points(const Request& request);
+std::vector<Point> adequacy_points(const Request& request);
+void conclude_adequacy(Rows& rows);
 
 std::span<const Experiment> experiments();
 /// Throws InputError that lists what there is.
