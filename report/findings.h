@@ -20,5 +20,7 @@ std::vector<Finding> findings_of(const Scene& scene, const SceneFacts& facts);
 /// What all scenes together showed, first things first.
 std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
                                       const Rows& result);
+/// How little model is enough.
+std::vector<Finding> adequacy_findings(const Rows& result);
 
 }  // namespace crosscheck

@@ -61,6 +61,7 @@ std::vector<Chart> order_charts(const ChartInput& input);       // error against
 
 std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links
 std::vector<Chart> disagreement_charts(const ChartInput& input);  // where Bullet answers otherwise than it is asked
+std::vector<Chart> adequacy_charts(const ChartInput& input);      // what each ingredient and the grid are worth
 
 std::vector<Chart> all_charts(const ChartInput& input);
 
