@@ -8,7 +8,7 @@
 
 namespace crosscheck {
 std::span<const Experiment> experiments() {
-  static constexpr std::string_view simple_and_cloth[] = {"circle", "pendulum", "chain", "cloth-hang"};
+  static constexpr std::string_view simple_and_cloth[] = {"circle", "pendulum", "chain", "cloth-hang", "cloth-swing"};
   static constexpr Experiment table[] = {
       {"order", "How fast does the error fall when the step is made smaller?", order_points},
       {"energy", "Where does the energy go, and what does not add up?", energy_points},

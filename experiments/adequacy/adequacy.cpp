@@ -140,6 +140,7 @@ void resolution_on(const Request& request, const Scene& scene, Rows& rows) {
   Table table{"adequacy-resolution",
               {{"scene", "1"},
                {"particles along a side", "1"},
+               {"cells", "1"},
                {"error against the finest", "m"},
                {"sag", "m"},
                {"stiffness factor for the finest's sag", "1"},
@@ -151,18 +152,19 @@ void resolution_on(const Request& request, const Scene& scene, Rows& rows) {
   std::vector<int> sizes{8, 12, 16, 24, 32};
   if (request.full) sizes.insert(sizes.end(), {48, 64, 96, 128});
   for (const Resolved& r : resolved(scene, sizes))
-    table.add({scene.name, static_cast<long>(r.n), r.error ? Cell(*r.error) : Cell(), r.sag ? Cell(*r.sag) : Cell(),
-               r.factor ? Cell(*r.factor) : Cell(), r.verdict, r.evaluations, r.springs,
+    table.add({scene.name, static_cast<long>(r.n), r.n - 1., r.error ? Cell(*r.error) : Cell(),
+               r.sag ? Cell(*r.sag) : Cell(), r.factor ? Cell(*r.factor) : Cell(), r.verdict, r.evaluations, r.springs,
                static_cast<double>(r.evaluations) * static_cast<double>(r.springs)});
   rows.add(table);
 }
 
 void bending_on(const Request& request, Rows& rows) {
-  Table table{
-      "adequacy-bending", {{"particles along a side", "1"}, {"stiffness of bend springs", "N/m"}, {"droop", "m"}}, {}};
+  Table table{"adequacy-bending",
+              {{"particles along a line", "1"}, {"cells", "1"}, {"stiffness of bend springs", "N/m"}, {"droop", "m"}},
+              {}};
   std::vector<int> sizes{8, 10, 12, 16};
   if (request.full) sizes.insert(sizes.end(), {20, 24});
-  for (const Bending& b : bending_stiffness(sizes)) table.add({static_cast<long>(b.n), b.stiffness, b.droop});
+  for (const Bending& b : bending_stiffness(sizes)) table.add({static_cast<long>(b.n), b.cells, b.stiffness, b.droop});
   rows.add(table);
 }
 
@@ -189,17 +191,12 @@ void conclude_adequacy(Rows& rows) {
   Table table{"adequacy-scaling",
               {{"scene", "1"}, {"quantity", "1"}, {"exponent", "1"}, {"standard error", "1"}, {"derived", "1"}},
               {}};
-  const auto number = [](const Cell& cell) {
-    const auto* whole = std::get_if<long>(&cell);
-    const auto* real = std::get_if<double>(&cell);
-    return whole ? std::optional(static_cast<double>(*whole)) : real ? std::optional(*real) : std::nullopt;
-  };
   const auto fit = [&](const Table& t, const std::string& scene, const char* column, const char* what, Cell derived) {
     std::vector<std::pair<double, double>> points;
     for (size_t i = 0; i < t.rows.size(); ++i) {
       if (!scene.empty() && std::get<std::string>(t.at(i, "scene")) != scene) continue;
-      if (const auto y = number(t.at(i, column)); y && *y > 0)
-        points.emplace_back(*number(t.at(i, "particles along a side")) - 1, *y);
+      if (const auto* y = std::get_if<double>(&t.at(i, column)); y && *y > 0)
+        points.emplace_back(std::get<double>(t.at(i, "cells")), *y);
     }
     if (const auto law = power_law(points))
       table.add({scene, std::string(what), law->exponent, law->deviation, std::move(derived)});
@@ -211,8 +208,7 @@ void conclude_adequacy(Rows& rows) {
         scenes.push_back(s);
     for (const std::string& s : scenes) {
       fit(*grids, s, "error against the finest", "error of the motion against cells along a side", Cell());
-      // a sheet's line of springs gets softer by its cells, and there are as many lines more
-      fit(*grids, s, "stiffness factor for the finest's sag", "stiffness of all springs for the same sag", 0.);
+      fit(*grids, s, "stiffness factor for the finest's sag", "stiffness of all springs for the same sag", Cell());
     }
   }
   if (const Table* bending = rows.table("adequacy-bending"))

@@ -45,6 +45,13 @@ std::string name_without(const std::vector<std::string>& out) {
 
 std::optional<double> model_error(const Scene& model, const Yardstick& y, const Trajectory& truth, Outcome& outcome) {
   Recorder recorder;
+  if (model.start.v.cols() == 0 && !model.model.first_order()) {  // of x' = f nothing is left: it stays where it is
+    outcome = {};
+    double largest = 0;
+    for (int i = 0; i < truth.frames() && truth.t[i] <= y.run.duration * (1 + 1e-9); ++i)
+      largest = std::max(largest, rms_distance(truth.x[i], model.start.x));
+    return largest;
+  }
   outcome = run_method(y.method, model, y.run, {&recorder});
   if (outcome.verdict != Verdict::ok) return std::nullopt;
   return largest_rms_distance(recorder.trajectory, truth, y.run.duration);

@@ -105,13 +105,14 @@ std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& 
 std::vector<Bending> bending_stiffness(const std::vector<int>& sizes) {
   // a line of a sheet of 1 m x 1 m and 0.1 kg
   const auto line = [](int n, double bend) {
-    const double d = 1. / (n - 1);
+    const double d = 1 / (n - 1.5);
     std::string text = fmt::format(
         "question = \"How stiff must bend springs be?\"\nparameters = \"One line of a sheet.\"\n[time]\nduration = 1\n"
         "samples = 1\nstep = 1e-3\nwindow = 1\ntolerance = 1e-3\nmethod = \"leapfrog\"\n[pins]\nparticles = [0, 1]\n"
         "[gravity]\nacceleration = [0, -9.81, 0]\n");
     for (int i = 0; i < n; ++i)
-      text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = {}\n", i * d, 0.1 * d * d);
+      text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = {}\n", (i - 0.5) * d,
+                          (i == n - 1 ? 0.05 : 0.1) * d * d);
     // ten times the bend springs at every n: what it still gives is then the same part everywhere
     for (int i = 0; i + 1 < n; ++i)
       text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\n", i, i + 1, 10 * bend);
@@ -130,7 +131,7 @@ std::vector<Bending> bending_stiffness(const std::vector<int>& sizes) {
   for (const int n : sizes) {
     if (list.empty()) {
       constexpr double first = 40;  // N/m: droops by some tenths of its length
-      if (const auto d = droop(n, first)) list.push_back({n, first, *d});
+      if (const auto d = droop(n, first)) list.push_back({n, n - 1.5, first, *d});
       if (list.empty()) return list;
       continue;
     }
@@ -144,7 +145,7 @@ std::vector<Bending> bending_stiffness(const std::vector<int>& sizes) {
       if (!d) return list;
       (*d > list.front().droop ? low : high) = middle;
     }
-    list.push_back({n, std::sqrt(low * high), *d});
+    list.push_back({n, n - 1.5, std::sqrt(low * high), *d});
   }
   return list;
 }

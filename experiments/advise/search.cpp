@@ -64,6 +64,13 @@ class Search {
   bool hopeless(const Trial& t) const {
     return t.outcome.verdict == Verdict::unsupported || t.cost() > std::min(4 * best_, 1e9);
   }
+  /// What so many steps between two samples cost at least: nothing is run to see that it is too much.
+  bool too_dear(long steps) const {
+    const int evaluations = method_->stepper ? std::max(1, method_->stepper->evaluations) : 1;
+    return static_cast<double>(steps) * advice_.scene.samples * evaluations *
+               static_cast<double>(springs_of(model_->scene.model)) >
+           std::min(4 * best_, 1e9);
+  }
   /// Whether a refinement of a run that meets could still be the cheapest.
   bool worth(double cost, double ratio) const { return cost * ratio < best_; }
 
@@ -75,6 +82,7 @@ class Search {
     constexpr long most = 1l << 22;  // where a run fails at once, however short its steps
     double cost = 0;
     for (bool confirmed = false; !confirmed;) {
+      if (too_dear(meets)) return;
       const Trial& t = at(meets);
       if (t.meets) {
         cost = t.cost();

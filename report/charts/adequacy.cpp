@@ -153,7 +153,9 @@ Chart grids(const Table& t, const std::string& commit) {
       std::move(f),
       "adequacy",
       "A sheet of total mass M keeps its stiffness against stretching and shearing whatever its grid, as k stays: a "
-      "finer line of springs has more of them in series, and there are as many lines more.",
+      "finer line of springs has more of them in series, and there are as many lines more. Where it hangs from single "
+      "particles it does not: all its weight then pulls at one particle, about which a finer grid gives more (the "
+      "stretch about a point load grows without end as the grid is refined).",
       "",
       {std::move(sags)}};
 }
@@ -179,10 +181,9 @@ Chart scaling(const Table& t, const Table* bending, const Table* exponents, cons
   if (bending && !bending->rows.empty()) {
     Curve measured{"bend springs of a clamped sheet, for the same droop", {"#000000", "1", 7}, {}, false, true},
         derived{"derived: cells to the power 4", {"#777777", "(6,3)", -1}, {}};
-    const double k0 = *number_at(*bending, 0, "stiffness of bend springs"),
-                 n0 = *number_at(*bending, 0, "particles along a side") - 1;
+    const double k0 = *number_at(*bending, 0, "stiffness of bend springs"), n0 = *number_at(*bending, 0, "cells");
     for (size_t i = 0; i < bending->rows.size(); ++i) {
-      const double n = *number_at(*bending, i, "particles along a side") - 1;
+      const double n = *number_at(*bending, i, "cells");
       measured.points.emplace_back(n, *number_at(*bending, i, "stiffness of bend springs") / k0);
       derived.points.emplace_back(n, std::pow(n / n0, 4));
     }

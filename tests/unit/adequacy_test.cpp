@@ -154,7 +154,7 @@ TEST(Rest, OfASpringIsWhereItsForceIsTheWeight) {
 
 TEST(Bending, SkipOneSpringsStiffenAsTheFourthPowerOfTheCells) {
   std::vector<std::pair<double, double>> points;
-  for (const Bending& b : bending_stiffness({8, 10, 13})) points.emplace_back(b.n - 1, b.stiffness);
+  for (const Bending& b : bending_stiffness({8, 10, 13})) points.emplace_back(b.cells, b.stiffness);
   const auto law = power_law(points);
   ASSERT_TRUE(law);
   // the first cell is clamped: (n - 2) cells bend, which moves the exponent of so few by some tenths
