@@ -136,15 +136,26 @@ class Fit {
     return r;
   }
 
-  /// The best of a grid of one value per decade, or per other decade where there are several unknowns.
+  /// The best of a grid of one value per decade, or per other decade where there are several unknowns. Of one unknown
+  /// the first decade in which the wish is passed counts: a drag so small or so large may settle in the same time.
   Eigen::VectorXd coarse() const {
     const double pace = std::log(size() == 1 ? 10. : 100.);
     std::optional<Eigen::VectorXd> best;
+    std::optional<double> before;
+    bool found = false;
     double least = INFINITY;
     Eigen::VectorXd p(size());
     const std::function<void(int)> over = [&](int i) {
       if (i == size()) {
-        if (const auto r = residual(p); r && r->norm() < least) best = p, least = r->norm();
+        const auto r = found ? std::nullopt : residual(p);
+        if (r && r->norm() < least) best = p, least = r->norm();
+        if (r && size() == 1) {
+          if (before && *before * (*r)[0] < 0) {
+            found = true;
+            best = std::abs(*before) < std::abs((*r)[0]) ? Eigen::VectorXd(p.array() - pace) : p;
+          }
+          before = (*r)[0];
+        }
         return;
       }
       for (double x = std::log(kinds_[i]->low); x <= std::log(kinds_[i]->high) + 1e-9; x += pace) p[i] = x, over(i + 1);

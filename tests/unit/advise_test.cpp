@@ -172,7 +172,7 @@ TEST(Advise, LeavesOutOfTheModelWhatTheToleranceAllows) {
   const Advice a = advise(scene, 1e-3, {find_method("leapfrog"), find_method("rk4")});
   EXPECT_EQ(a.left_out, std::vector<std::string>{"wind"});
   EXPECT_FALSE(parse_scene(a.toml, "less").model.find<Wind>());
-  EXPECT_TRUE(advise(scene, 2e-6, {find_method("leapfrog"), find_method("rk4")}).left_out.empty());
+  EXPECT_TRUE(advise(scene, 1e-6, {find_method("leapfrog"), find_method("rk4")}).left_out.empty());
   EXPECT_TRUE(a.second);
 }
 
