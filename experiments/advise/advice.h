@@ -26,6 +26,7 @@ struct Trial {
   Outcome outcome;
   long springs;
   std::optional<double> limit;  // s, the largest stable step that theory predicts; empty where none does
+  bool by_luck = false;         // within the tolerance, but a shorter step of the same method and model is not
   bool meets = false;           // error + error bar of the truth within the tolerance, over a whole run that held
   /// Force evaluations times springs.
   double cost() const { return static_cast<double>(outcome.evaluations) * static_cast<double>(springs); }

@@ -38,6 +38,10 @@ class Search {
  private:
   /// The run with that many steps between two samples, or with that relative tolerance.
   const Trial& run(const Run& run) {
+    for (const Trial& t : advice_.trials)  // done before
+      if (t.model == model_->name && t.method == method_->name &&
+          (method_->adaptive ? t.relative == run.tolerance : std::abs(t.step - run.step) < 1e-9 * run.step))
+        return t;
     Recorder recorder;
     Trial t{model_->name, method_->name, 0, 0, {}, {}, springs_of(model_->scene.model), limit_};
     t.outcome = run_method(*method_, model_->scene, run, {&recorder});
@@ -259,6 +263,12 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
   for (const Candidate& model : models)
     for (const Method& method : methods) search.over(model, method);
 
+  // what a shorter step does not confirm was met by luck
+  for (Trial& t : a.trials)
+    for (const Trial& o : a.trials)
+      t.by_luck |= t.meets && !o.meets && !o.by_luck && o.model == t.model && o.method == t.method &&
+                   (t.relative > 0 ? o.relative < t.relative : o.step < t.step * (1 - 1e-9));
+  for (Trial& t : a.trials) t.meets &= !t.by_luck;
   // taken: met by it and by all shorter steps (or tighter tolerances) of the same method and model
   const auto sound = [&](const Trial& t) {
     bool shorter = false;

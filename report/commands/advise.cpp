@@ -45,8 +45,12 @@ Table trials_table(const Advice& a) {
   for (size_t i = 0; i < a.trials.size(); ++i) {
     const Trial& t = a.trials[i];
     table.add({t.model, t.method, t.step, t.relative > 0 ? Cell(t.relative) : Cell(), t.error ? Cell(*t.error) : Cell(),
-               a.tolerance, a.bar, t.meets ? 1l : 0l, i == a.chosen ? 1l : 0l, std::string(name_of(t.outcome.verdict)),
-               t.limit ? Cell(*t.limit) : Cell(), t.outcome.evaluations, t.springs, t.cost()});
+               a.tolerance, a.bar,
+               std::string(t.meets     ? "yes"
+                           : t.by_luck ? "by luck"
+                                       : "no"),
+               i == a.chosen ? 1l : 0l, std::string(name_of(t.outcome.verdict)), t.limit ? Cell(*t.limit) : Cell(),
+               t.outcome.evaluations, t.springs, t.cost()});
   }
   return table;
 }
