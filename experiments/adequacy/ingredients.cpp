@@ -85,7 +85,7 @@ const std::vector<Row>& table() {
       {{"shear springs", {"grid.stiffness.shear"}, drop_family<Family::shear>}, has_family<Family::shear>},
       {{"bend springs", {"grid.stiffness.bend"}, drop_family<Family::bend>}, has_family<Family::bend>},
       {{"single springs", {"spring"}, drop_family<Family::single>}, has_family<Family::single>},
-      {{"springs", {}, drop<Springs>}, has<Springs>},
+      {{"all springs", {}, drop<Springs>}, has<Springs>},
       {{"dashpots", {"grid.dashpot", "spring[].dashpot"}, drop<Dashpots>}, has<Dashpots>},
       {{"hard distances", {}, drop<Constraints>}, has<Constraints>},
       {{"drag", {"drag"}, drop<Drag>}, has<Drag>},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "report/charts/charts.h"
 
@@ -22,6 +23,12 @@ std::vector<std::string> scenes_in(const Table& t) {
   for (size_t i = 0; i < t.rows.size(); ++i)
     if (scenes.empty() || scenes.back() != text_at(t, i, "scene")) scenes.push_back(text_at(t, i, "scene"));
   return scenes;
+}
+
+std::set<double> values_of(const Table& t, const char* column) {
+  std::set<double> values;
+  for (size_t i = 0; i < t.rows.size(); ++i) values.insert(*number_at(t, i, column));
+  return values;
 }
 
 /// The last of "a, b, c".
@@ -71,6 +78,7 @@ Chart ladder(const Table& t, const Table* least, const std::string& scene, const
     const auto error = number_at(t, i, "error");
     tolerance = *number_at(t, i, "tolerance"), bar = *number_at(t, i, "truth bar"), truth = text_at(t, i, "truth");
     f.categories.emplace_back(x, kind == "full" ? "full" : kind == "single" ? out : "… and " + last_of(out));
+    if (kind == "cumulative") cumulative.title = fmt::format("this one too, after {}", out.substr(0, out.find(", ")));
     Curve& curve = kind == "full" ? full : kind == "single" ? single : cumulative;
     if (error && *error > 0) {
       curve.points.emplace_back(x, *error);
@@ -131,6 +139,7 @@ Chart grids(const Table& t, const std::string& commit) {
   f.y = {"largest RMS distance from the finest grid / m", true, std::nullopt, std::nullopt};
   PageTable sags{"Sag at rest, pins standing still, without wind: lowest below highest point.", {"particles"}, {}};
   std::map<long, std::vector<std::string>> rows;
+  for (const double n : values_of(t, "particles along a side")) f.categories.emplace_back(n, fmt::format("{:g}", n));
   size_t style = 0;
   for (const std::string& scene : scenes_in(t)) {
     f.curves.push_back(column_of(t, scene, "error against the finest", looks[style++ % std::size(looks)]));
@@ -165,7 +174,8 @@ Chart scaling(const Table& t, const Table* bending, const Table* exponents, cons
   f.name = "adequacy-scaling";
   f.title = "Stiffness for the same cloth on another grid";
   f.x = {"cells along the longer side", true, std::nullopt, std::nullopt};
-  f.y = {"stiffness / stiffness on the coarsest grid", true, std::nullopt, std::nullopt};
+  f.y = {"stiffness / stiffness on the coarsest grid", true, 0.5, std::nullopt};
+  for (const double n : values_of(t, "cells")) f.categories.emplace_back(n, fmt::format("{:g}", n));
   size_t style = 0;
   std::string finding;
   for (const std::string& scene : scenes_in(t)) {

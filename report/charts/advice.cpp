@@ -37,7 +37,12 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
   }
   for (Curve& c : f.curves) std::sort(c.points.begin(), c.points.end());
   const Trial& chosen = a.trials[a.chosen];
-  f.curves.push_back({"advised", {"#000000", "1", 6}, {{chosen.cost(), std::max(*chosen.error, a.bar)}}, false, true});
+  double lowest = *chosen.error;
+  for (const Curve& c : f.curves)
+    for (const auto& [x, y] : c.points) lowest = std::min(lowest, y);
+  // a line down from it to the axis, as a marker among many would be lost
+  const double error = std::max(*chosen.error, a.bar);
+  f.curves.push_back({"advised", {"#000000", "1", 3}, {{chosen.cost(), error}, {chosen.cost(), lowest / 2}}, true});
   f.floor = {fmt::format("asked: {}", nice_length(a.tolerance)), a.tolerance};
   f.finding = fmt::format("{} at {} meets {} at the least cost.", chosen.method,
                           chosen.relative > 0 ? fmt::format("a relative tolerance of {:.2g}", chosen.relative)
