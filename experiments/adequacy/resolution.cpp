@@ -25,21 +25,24 @@ Scene for_rest(Scene scene) {
   return scene;
 }
 
-/// How far the lowest point hangs below the highest, along gravity, m.
-std::optional<double> sag_of(const Scene& scene) {
+/// How far the lowest point hangs below the highest, along gravity, m. The scene's start becomes its rest, from where
+/// another rest of much the same cloth is near.
+std::optional<double> sag_of(Scene& scene) {
   const auto* gravity = scene.model.find<Gravity>();
   if (!gravity || gravity->acceleration.isZero(0)) return std::nullopt;
   const auto rest = rest_of(for_rest(scene));
   if (!rest) return std::nullopt;
+  scene.start.x = rest->x;
   const Eigen::RowVectorXd depth = gravity->acceleration.normalized().transpose() * rest->x;
   return depth.maxCoeff() - depth.minCoeff();
 }
 
 /// The factor at which the scene sags as wished, by the secant rule in its logarithm: sag is nearly linear in 1 / k.
-std::optional<double> factor_for(const Scene& scene, double wished, double sag_at_1) {
+std::optional<double> factor_for(const Scene& at_rest, double wished, double sag_at_1) {
   double a = 1, of_a = sag_at_1, b = 1.1;
   for (int i = 0; i < 12; ++i) {
-    const auto of_b = sag_of(with_stiffness(scene, b));
+    Scene stiffer = with_stiffness(at_rest, b);
+    const auto of_b = sag_of(stiffer);
     if (!of_b) return std::nullopt;
     if (std::abs(*of_b - wished) < 2e-6 * wished) return b;
     const double slope = (*of_b - of_a) / (1 / b - 1 / a), inverse = 1 / b + (wished - *of_b) / slope;
@@ -60,7 +63,7 @@ std::vector<Resolved> resolved(const Scene& scene, const std::vector<int>& sizes
   const double interval = scene.duration / scene.samples;
   const int samples = std::max(1, static_cast<int>(scene.window / interval * (1 + 1e-9)));
   for (const int n : sizes) {
-    const Scene& now = scenes.emplace_back(with_resolution(scene, n));
+    Scene& now = scenes.emplace_back(with_resolution(scene, n));
     const Grid grid = *sheet_of(now);
     Recorder recorder;
     const Run run{std::min(now.step, interval), samples * interval, samples};
