@@ -15,6 +15,7 @@ std::span<const Experiment> experiments() {
   static constexpr std::string_view on_balls[] = {"slide", "bounce"};
   // moving scenes from small to large; the last is the one that the other questions are asked of too
   static constexpr std::string_view speed_scenes[] = {"pendulum", "chain", "cloth-hang"};
+  static constexpr std::string_view simple_and_cloth[] = {"circle", "pendulum", "chain", "cloth-hang", "cloth-swing"};
   static constexpr Experiment table[] = {
       {"order", "How fast does the error fall when the step is made smaller?", order_points},
       {"energy", "Where does the energy go, and what does not add up?", energy_points, long_runs},
@@ -25,6 +26,7 @@ std::span<const Experiment> experiments() {
       {"speed-accuracy", "What accuracy does each method give for its cost, and where does it fail?",
        speed_accuracy_points, speed_scenes, conclude_speed_accuracy},
       {"cost", "What does a step cost, against size and beside what the machine can do?", cost_points},
+      {"adequacy", "How little model is enough for a scene?", adequacy_points, simple_and_cloth, conclude_adequacy},
   };
   return table;
 }

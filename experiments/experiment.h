@@ -19,6 +19,7 @@ struct Request {
   std::vector<Method> methods;  // empty: the default ones of each scene
   bool full = false;            // more points, for the same questions
   double step = 0;              // s, of all fixed-step methods; 0: each scene's own
+  bool scenes_only = false;     // only what is asked of these scenes, not what experiments ask of scenes of their own
 };
 
 /// One method's answer to one scene at the request's step, kept: experiments and pictures look at the same run.
@@ -48,6 +49,8 @@ std::vector<Point> disagreements_points(const Request& request);
 std::vector<Point> sphere_points(const Request& request);
 std::vector<Point> speed_accuracy_points(const Request& request);
 std::vector<Point> cost_points(const Request& request);
+std::vector<Point> adequacy_points(const Request& request);
+void conclude_adequacy(Rows& rows);
 
 std::span<const Experiment> experiments();
 /// Throws InputError that lists what there is.

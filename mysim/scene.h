@@ -18,6 +18,17 @@ struct Camera {
   std::optional<double> at;  // s, when the picture is taken; none: at the end
 };
 
+/// What a scene is wished to do, in plain measures (experiments/advise/measures.h): what unset parameters are fitted
+/// to.
+struct Wish {
+  std::optional<double> sag;          // m
+  std::optional<double> period;       // s
+  std::optional<double> settle_time;  // s
+  std::optional<double> max_stretch;  // 1
+
+  int count() const { return sag.has_value() + period.has_value() + settle_time.has_value() + max_stretch.has_value(); }
+};
+
 struct Scene {
   std::string name;
   std::string question;    // what the scene asks, one sentence for a reader
@@ -35,7 +46,10 @@ struct Scene {
   std::vector<std::array<int, 3>> triangles;  // surface of grids, for pictures
   std::optional<Camera> camera;               // none: chosen so that everything is seen
 
-  std::string hash;  // 16 hexadecimal digits, of everything that engines see
+  Wish wish;  // nothing that engines see
+
+  std::string source;  // the TOML that it was read from; a scene changed in memory keeps it
+  std::string hash;    // 16 hexadecimal digits, of everything that engines see
 
   /// Length of the diagonal of the box around the start, m; 1 for a single particle. The scale of round-off.
   double size() const;

@@ -172,12 +172,22 @@ void read_time(const Section& file, Scene& scene) {
   scene.method = s.text("method");
 }
 
+void read_wish(const Section& file, Scene& scene) {
+  if (!file.has("wish")) return;
+  const Section s = file.section("wish");
+  const auto wished = [&](std::string_view key) { return s.has(key) ? std::optional(s.positive(key)) : std::nullopt; };
+  scene.wish = {wished("sag"), wished("period"), wished("settle_time"), wished("max_stretch")};
+  if (scene.wish.count() == 0) file.fail("wish", "at least one of sag, period, settle_time and max_stretch");
+}
+
 Scene expand(const Section& file, const std::string& name) {
   Scene scene{};
   scene.name = name;
   scene.question = file.text("question");
   scene.parameters = file.text("parameters");
+  scene.source = file.source();
   read_time(file, scene);
+  read_wish(file, scene);
 
   const bool first_order = file.has(Rotation::name);
   std::optional<Grid> grid;

@@ -16,6 +16,7 @@ namespace crosscheck {
 
 struct Section::Node {
   std::shared_ptr<const toml::table> root;  // keeps the tree alive
+  std::shared_ptr<const std::string> text;
   const toml::table* table = nullptr;
   std::string file;
   std::string path;                                     // dotted name of this table; empty at the root
@@ -39,6 +40,9 @@ struct Section::Node {
 
   double finite(const toml::node& n, std::string_view key, const char* expected) const {
     const auto value = n.value<double>();
+    if (const auto* word = n.as_string(); word && word->get() == "fit")
+      fail_at(n.source(), key,
+              fmt::format("expected {}; \"fit\" is for `crosscheck advise`, which finds it from [wish]", expected));
     if (!value || !(n.is_floating_point() || n.is_integer()) || !std::isfinite(*value))
       fail_at(n.source(), key, fmt::format("expected {}, got {}", expected, shown(n)));
     return *value;
@@ -47,6 +51,7 @@ struct Section::Node {
   std::shared_ptr<Node> child(const toml::table& t, const std::string& name) const {
     auto node = std::make_shared<Node>();
     node->root = root;
+    node->text = text;
     node->table = &t;
     node->file = file;
     node->path = name;
@@ -79,6 +84,7 @@ Section::Section(std::shared_ptr<Node> node) : node_(std::move(node)) {}
 Section Section::parse_text(std::string_view text, const std::string& name) {
   auto node = std::make_shared<Node>();
   node->root = parse(text, name);
+  node->text = std::make_shared<const std::string>(text);
   node->table = node->root.get();
   node->file = name;
   return Section(node);
@@ -91,6 +97,8 @@ Section Section::parse_file(const std::filesystem::path& file) {
     throw InputError(fmt::format("{}: cannot be read; expected a scene file (TOML)", file.string()));
   return parse_text(text.str(), file.string());
 }
+
+const std::string& Section::source() const { return *node_->text; }
 
 bool Section::has(std::string_view key) const {
   node_->read.emplace(key);
@@ -206,6 +214,78 @@ void Section::finish() const {
                                    node_->full(key.str()), known));
     }
   for (const auto& child : node_->children) Section(child).finish();
+}
+
+struct Document::Tree {
+  toml::table root;
+  std::string file;
+
+  /// The table that a path's last key stands in, and that key.
+  std::pair<toml::table&, std::string_view> parent(std::string_view path) {
+    const size_t dot = path.rfind('.');
+    if (dot == std::string_view::npos) return {root, path};
+    auto* table = root.at_path(path.substr(0, dot)).as_table();
+    if (!table) throw InputError(fmt::format("{}: {}: no such table", file, path.substr(0, dot)));
+    return {*table, path.substr(dot + 1)};
+  }
+  template <class T>
+  void assign(std::string_view path, T&& value) {
+    auto [table, key] = parent(path);
+    table.insert_or_assign(key, std::forward<T>(value));
+  }
+};
+
+namespace {
+void erase_from(toml::node* node, std::string_view path) {
+  if (!node || !node->is_table()) return;
+  toml::table& table = *node->as_table();
+  const size_t dot = path.find('.');
+  if (dot == std::string_view::npos) {
+    table.erase(path);
+    return;
+  }
+  std::string_view key = path.substr(0, dot);
+  if (key.ends_with("[]")) key.remove_suffix(2);
+  toml::node* below = table.get(key);
+  if (below && below->is_array())
+    for (toml::node& item : *below->as_array()) erase_from(&item, path.substr(dot + 1));
+  else
+    erase_from(below, path.substr(dot + 1));
+}
+
+void find_text(const toml::node& node, std::string_view value, const std::string& path, std::vector<std::string>& out) {
+  if (const auto* text = node.as_string(); text && text->get() == value) out.push_back(path);
+  if (const auto* table = node.as_table())
+    for (const auto& [key, below] : *table)
+      find_text(below, value, path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str()), out);
+  if (const auto* array = node.as_array())
+    for (size_t i = 0; i < array->size(); ++i) find_text((*array)[i], value, fmt::format("{}[{}]", path, i), out);
+}
+}  // namespace
+
+Document::Document(std::string_view text, const std::string& name)
+    : tree_(std::make_shared<Tree>(Tree{*parse(text, name), name})) {}
+
+bool Document::has(std::string_view path) const { return static_cast<bool>(tree_->root.at_path(path)); }
+void Document::set(std::string_view path, double value) { tree_->assign(path, value); }
+void Document::set(std::string_view path, const std::string& value) { tree_->assign(path, value); }
+void Document::set(std::string_view path, const std::vector<int>& values) {
+  toml::array list;
+  for (const int value : values) list.push_back(value);
+  tree_->assign(path, std::move(list));
+}
+void Document::erase(std::string_view path) { erase_from(&tree_->root, path); }
+
+std::vector<std::string> Document::where(std::string_view value) const {
+  std::vector<std::string> out;
+  find_text(tree_->root, value, "", out);
+  return out;
+}
+
+std::string Document::text() const {
+  std::ostringstream out;
+  out << tree_->root << "\n";
+  return out.str();
 }
 
 }  // namespace crosscheck

@@ -13,7 +13,8 @@
 namespace crosscheck {
 
 /// A table of a TOML file. Every look-up throws InputError ("FILE:LINE: KEY: expected ..., got ...") when the value is
-/// missing, of the wrong type, not finite or out of range. finish() throws on the first key that nobody asked for.
+/// missing, of the wrong type, not finite or out of range; of a number written as "fit" it says who fits it. finish()
+/// throws on the first key that nobody asked for.
 class Section {
  public:
   /// Reads and parses a file. Throws InputError when it is missing or no TOML.
@@ -21,6 +22,7 @@ class Section {
   /// The same from text; name stands in for the file in messages.
   static Section parse_text(std::string_view text, const std::string& name);
 
+  const std::string& source() const;     // the text of the whole file
   bool has(std::string_view key) const;  // also makes the key a known one
 
   double number(std::string_view key) const;        // any finite number
@@ -44,6 +46,30 @@ class Section {
   struct Node;
   explicit Section(std::shared_ptr<Node> node);
   std::shared_ptr<Node> node_;
+};
+
+/// A TOML file that is changed key by key and written again (without its comments). A path is a dotted name:
+/// "grid.stiffness.bend", "spring[2].stiffness".
+class Document {
+ public:
+  /// Throws InputError when it is no TOML; name stands in for the file.
+  Document(std::string_view text, const std::string& name);
+
+  bool has(std::string_view path) const;
+  /// Sets a value, new or not, in a table that is there. Throws InputError that names the path when it is not.
+  void set(std::string_view path, double value);
+  void set(std::string_view path, const std::string& value);
+  void set(std::string_view path, const std::vector<int>& values);
+  /// Takes the key out; nothing happens where there is none. "sphere[].friction" means that of every [[sphere]], and
+  /// of [sphere].
+  void erase(std::string_view path);
+  /// Paths of all values that are this text, in the order of the keys.
+  std::vector<std::string> where(std::string_view value) const;
+  std::string text() const;
+
+ private:
+  struct Tree;
+  std::shared_ptr<Tree> tree_;
 };
 
 }  // namespace crosscheck

@@ -27,5 +27,7 @@ std::vector<Finding> speed_findings(const Rows& result);
 std::vector<Finding> energy_findings(const Rows& result);
 /// Of experiment `sphere`.
 std::vector<Finding> sphere_findings(const Rows& result);
+/// How little model is enough.
+std::vector<Finding> adequacy_findings(const Rows& result);
 
 }  // namespace crosscheck

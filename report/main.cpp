@@ -119,6 +119,16 @@ int run(int argc, char** argv) {
   render->add_option("-o", render_options.file, "FILE.png")->required();
   render->callback([&] { status = render_command(render_options); });
 
+  AdviseOptions advise_options;
+  auto* advise = app.add_subcommand("advise", "cheapest model, method and step that meet a tolerance, with the proof");
+  advise->add_option("SCENE", advise_options.scene, "a shipped scene or a TOML file; \"fit\" values follow its [wish]")
+      ->required();
+  advise->add_option("--tolerance", advise_options.tolerance, "m, RMS over the particles; may be left out when fitting")
+      ->check(above_zero);
+  advise->add_option("--methods", advise_options.methods, "A,B,... (default: all of mysim)");
+  advise->add_option("--out", advise_options.out, "folder (out/advise)");
+  advise->callback([&] { advise_options.command_line = line, status = advise_command(advise_options); });
+
   EngineOptions engine_options;
   auto* engine = app.add_subcommand("engine", "builds the Bullet adapter against another Bullet tree, for exec:");
   engine->add_option("NAME", engine_options.what, "bullet")->required();

@@ -66,6 +66,7 @@ std::vector<Chart> stiffness_charts(const ChartInput& input);       // of positi
 std::vector<Chart> disagreement_charts(const ChartInput& input);    // where Bullet answers otherwise than it is asked
 std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // error against cost, chapter of its own
 std::vector<Chart> cost_charts(const ChartInput& input);            // of a step
+std::vector<Chart> adequacy_charts(const ChartInput& input);      // what each ingredient and the grid are worth
 
 std::vector<Chart> all_charts(const ChartInput& input);
 

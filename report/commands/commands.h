@@ -60,6 +60,14 @@ struct ReportOptions {
 };
 int report_command(const ReportOptions& options);
 
+struct AdviseOptions {
+  std::string scene, methods;
+  double tolerance = 0;  // m; 0: only parameters are fitted
+  std::filesystem::path out = "out/advise";
+  std::string command_line;
+};
+int advise_command(const AdviseOptions& options);
+
 struct RenderOptions {
   std::string scene, methods, mode = "shaded", quality = "still", size = "1280x720";
   double at = -1;  // s; negative: the end

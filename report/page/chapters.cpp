@@ -26,6 +26,12 @@ std::vector<Chapter> chapters() {
        "and two cloths that fall on a ball. Beside the engines stands the sticky sphere of the assignment, to be seen "
        "failing.",
        {}},
+      {"adequacy",
+       "How little model is enough?",
+       "Each scene is run again without each of its ingredients, then with one after the other left out, and held "
+       "against the truth of the full scene while single positions can be compared. Cost is counted in force "
+       "evaluations times springs.",
+       {}},
       {"cost",
        "What does a step cost?",
        "The same cloth at more and more particles, in every engine; where the time goes, and how much of it the "

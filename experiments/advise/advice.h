@@ -1,0 +1,59 @@
+// Advice: the cheapest model, method and step that answer a scene to a tolerance, found by measured search.
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "reference/method.h"
+#include "reference/truth.h"
+
+namespace crosscheck {
+
+/// Nothing that was tried meets what is asked, or nothing can tell whether it does. what() is the reason, one line.
+struct CannotPromise : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// One run of the search.
+struct Trial {
+  std::string model;  // "full", or "without ..."
+  std::string method;
+  double step;                  // s, as used; the mean of adaptive methods
+  double relative;              // relative tolerance of adaptive methods; 0 elsewhere
+  std::optional<double> error;  // m, largest RMS distance from the truth in the window; empty where it failed
+  Outcome outcome;
+  long springs;
+  std::optional<double> limit;  // s, the largest stable step that theory predicts; empty where none does
+  bool by_luck = false;         // within the tolerance, but a shorter step of the same method and model is not
+  bool meets = false;           // error + error bar of the truth within the tolerance, over a whole run that held
+  /// Force evaluations times springs.
+  double cost() const { return static_cast<double>(outcome.evaluations) * static_cast<double>(springs); }
+};
+
+struct Advice {
+  Scene scene;       // as asked
+  double tolerance;  // m
+  Tier tier;
+  std::string truth;             // how it was found
+  double bar;                    // m, the truth's, in the window
+  bool of_contact_rule;          // what is met is a difference, no error
+  double until;                  // s, the promise ends here
+  std::vector<Trial> trials;     // everything tried, in order
+  size_t chosen;                 // of the trials
+  std::optional<size_t> second;  // the cheapest other method that meets it
+  std::vector<std::string> left_out;
+  std::string toml;  // a scene file that runs as advised
+  double checked;    // m, the error of that file's own run
+  std::vector<std::string> caveats;
+};
+
+/// Tries each method on the scene, and on the least model whose own error is half the tolerance at most. A step is
+/// taken when it meets the tolerance, every smaller one that was tried does so too, and among them one of half its
+/// length; steps are refined to 5 %. Methods that already cost four times the best are left. Throws CannotPromise where
+/// no truth is known, its bar is above a third of the tolerance, the tolerance is above the scene's motion, or no
+/// method meets it.
+Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods);
+
+}  // namespace crosscheck

@@ -1,0 +1,209 @@
+// From wishes to parameters.
+#include "experiments/advise/fit.h"
+
+#include <fmt/ranges.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "experiments/advise/advice.h"
+#include "experiments/advise/measures.h"
+#include "mysim/errors.h"
+#include "mysim/frequency.h"
+
+namespace crosscheck {
+namespace {
+
+/// The kinds of parameters that can be fitted, by the end of their path, with the range that is searched.
+struct Kind {
+  std::string_view ending, name, unit;
+  double low, high;
+};
+constexpr Kind kinds[] = {
+    {"stiffness", "stiffness", "N/m", 1e-1, 1e6},
+    {"stiffness.structural", "stiffness", "N/m", 1e-1, 1e6},
+    {"stiffness.shear", "stiffness", "N/m", 1e-1, 1e6},
+    {"stiffness.bend", "stiffness", "N/m", 1e-1, 1e6},
+    {"mass", "mass", "kg", 1e-4, 1e3},
+    {"drag.gamma", "drag rate", "1/s", 1e-2, 1e3},
+    {"drag.coefficient", "drag coefficient", "N s/m", 1e-5, 1e2},
+    {"dashpot", "dashpot", "N s/m", 1e-5, 1e2},
+};
+
+const Kind* kind_of(std::string_view path) {
+  for (const Kind& k : kinds)
+    if (path == k.ending || path.ends_with(fmt::format(".{}", k.ending))) return &k;
+  return nullptr;
+}
+
+using Measure = std::function<std::optional<double>(const Scene&)>;
+struct Aim {
+  Wished wished;
+  Measure measure;
+};
+
+std::vector<Aim> aims_of(const Wish& wish) {
+  std::vector<Aim> aims;
+  if (wish.sag) aims.push_back({{"sag", "m", *wish.sag, 0}, sag_of});
+  if (wish.period)
+    aims.push_back({{"period", "s", *wish.period, 0}, [w = *wish.period](const Scene& s) { return period_of(s, w); }});
+  if (wish.settle_time)
+    aims.push_back({{"settle time", "s", *wish.settle_time, 0},
+                    [w = *wish.settle_time](const Scene& s) { return settle_time_of(s, w); }});
+  if (wish.max_stretch) aims.push_back({{"max stretch", "1", *wish.max_stretch, 0}, max_stretch_of});
+  return aims;
+}
+
+class Fit {
+ public:
+  Fit(std::string_view text, const std::string& name) : name_(name), file_(text, name) {
+    for (const std::string& path : file_.where("fit")) {
+      const Kind* kind = kind_of(path);
+      if (!kind)
+        throw InputError(
+            fmt::format("{}: {}: expected a value; only stiffness, mass, drag and dashpot can be fitted", name, path));
+      auto known =
+          std::find_if(unknowns_.begin(), unknowns_.end(), [&](const Unknown& u) { return u.name == kind->name; });
+      if (known == unknowns_.end()) {
+        known = unknowns_.insert(known, Unknown{std::string(kind->name), std::string(kind->unit), {}, 0});
+        kinds_.push_back(kind);
+      }
+      known->paths.push_back(path);
+    }
+    // the wishes, read with values put in where there are none yet
+    Eigen::VectorXd middle(size());
+    for (int i = 0; i < size(); ++i) middle[i] = 0.5 * std::log(kinds_[i]->low * kinds_[i]->high);
+    aims_ = aims_of(scene_at(middle).wish);
+    if (std::ssize(aims_) != size()) {
+      std::vector<std::string> names;
+      for (const Unknown& u : unknowns_) names.push_back(u.name);
+      throw InputError(
+          fmt::format("{}: wish: expected as many wishes (sag, period, settle_time, max_stretch) as there "
+                      "are values to fit ({}: {}), got {}",
+                      name, size(), fmt::join(names, ", "), aims_.size()));
+    }
+  }
+
+  Fitted run() {
+    Eigen::VectorXd p = coarse();
+    Eigen::VectorXd r = *residual(p);
+    for (int i = 0; i < 30 && r.lpNorm<Eigen::Infinity>() > 0.002; ++i) {
+      const auto next = better(p, r);
+      if (!next) break;
+      std::tie(p, r) = *next;
+    }
+    for (int i = 0; i < size(); ++i) {
+      unknowns_[i].value = std::exp(p[i]);
+      aims_[i].wished.reached = aims_[i].wished.wished * std::exp(r[i]);
+      if (!(std::abs(std::expm1(r[i])) <= 0.02))
+        throw CannotPromise(fmt::format("{} = {:.4g} {} cannot be reached: the nearest is {:.4g}", aims_[i].wished.name,
+                                        aims_[i].wished.wished, unit_of(i), aims_[i].wished.reached));
+    }
+    Fitted fitted{scene_at(p), "", unknowns_, {}};
+    for (const Aim& aim : aims_) fitted.wishes.push_back(aim.wished);
+    Document file = file_at(p);
+    const double omega = fastest_frequency(fitted.scene.model, fitted.scene.start);
+    if (omega > 0 && fitted.scene.step > 1 / omega) file.set("time.step", 1 / omega);
+    fitted.toml = fmt::format("# Fitted by crosscheck to its wishes.\n{}", file.text());
+    fitted.scene = parse_scene(fitted.toml, name_);
+    return fitted;
+  }
+
+ private:
+  int size() const { return static_cast<int>(unknowns_.size()); }
+  std::string unit_of(int i) const { return aims_[i].wished.unit == "1" ? "" : aims_[i].wished.unit; }
+
+  Document file_at(const Eigen::VectorXd& p) const {
+    Document file(file_.text(), name_);
+    for (int i = 0; i < size(); ++i)
+      for (const std::string& path : unknowns_[i].paths) file.set(path, std::exp(p[i]));
+    return file;
+  }
+  Scene scene_at(const Eigen::VectorXd& p) const { return parse_scene(file_at(p).text(), name_); }
+
+  /// log(measured / wished) of each wish; nothing where one cannot be measured.
+  std::optional<Eigen::VectorXd> residual(const Eigen::VectorXd& p) const {
+    const Scene scene = scene_at(p);
+    Eigen::VectorXd r(size());
+    for (int i = 0; i < size(); ++i) {
+      const auto measured = aims_[i].measure(scene);
+      if (!measured || !(*measured > 0)) return std::nullopt;
+      r[i] = std::log(*measured / aims_[i].wished.wished);
+    }
+    return r;
+  }
+
+  /// The best of a grid of one value per decade, or per other decade where there are several unknowns. Of one unknown
+  /// the first decade in which the wish is passed counts: a drag so small or so large may settle in the same time.
+  Eigen::VectorXd coarse() const {
+    const double pace = std::log(size() == 1 ? 10. : 100.);
+    std::optional<Eigen::VectorXd> best;
+    std::optional<double> before;
+    bool found = false;
+    double least = INFINITY;
+    Eigen::VectorXd p(size());
+    const std::function<void(int)> over = [&](int i) {
+      if (i == size()) {
+        const auto r = found ? std::nullopt : residual(p);
+        if (r && r->norm() < least) best = p, least = r->norm();
+        if (r && size() == 1) {
+          if (before && *before * (*r)[0] < 0) {
+            found = true;
+            best = std::abs(*before) < std::abs((*r)[0]) ? Eigen::VectorXd(p.array() - pace) : p;
+          }
+          before = (*r)[0];
+        }
+        return;
+      }
+      for (double x = std::log(kinds_[i]->low); x <= std::log(kinds_[i]->high) + 1e-9; x += pace) p[i] = x, over(i + 1);
+    };
+    over(0);
+    if (!best) {
+      std::vector<std::string> names;
+      for (const Aim& aim : aims_) names.push_back(aim.wished.name);
+      throw CannotPromise(
+          fmt::format("{} cannot be measured in this scene, whatever the parameters: it does not swing, "
+                      "or has no rest (hard distances, spheres, gusts, moving pins, nothing pinned)",
+                      fmt::join(names, ", ")));
+    }
+    return *best;
+  }
+
+  /// A damped Gauss-Newton step that lessens the residual.
+  std::optional<std::pair<Eigen::VectorXd, Eigen::VectorXd>> better(const Eigen::VectorXd& p,
+                                                                    const Eigen::VectorXd& r) const {
+    constexpr double nudge = 0.02;  // above the noise of the measures
+    Eigen::MatrixXd slope(size(), size());
+    for (int j = 0; j < size(); ++j) {
+      Eigen::VectorXd moved = p;
+      moved[j] += nudge;
+      const auto there = residual(moved);
+      if (!there) return std::nullopt;
+      slope.col(j) = (*there - r) / nudge;
+    }
+    Eigen::VectorXd step = slope.completeOrthogonalDecomposition().solve(-r);
+    constexpr double longest = 2.3;  // a decade
+    if (step.norm() > longest) step *= longest / step.norm();
+    for (int halvings = 0; halvings < 8; ++halvings, step /= 2)
+      if (const auto there = residual(p + step); there && there->norm() < r.norm())
+        return std::pair(Eigen::VectorXd(p + step), *there);
+    return std::nullopt;
+  }
+
+  std::string name_;
+  Document file_;
+  std::vector<Unknown> unknowns_;
+  std::vector<const Kind*> kinds_;  // of the unknowns
+  std::vector<Aim> aims_;
+};
+
+}  // namespace
+
+bool has_unknowns(std::string_view text, const std::string& name) { return !Document(text, name).where("fit").empty(); }
+
+Fitted fit_to_wishes(std::string_view text, const std::string& name) { return Fit(text, name).run(); }
+
+}  // namespace crosscheck

@@ -1,0 +1,40 @@
+// Fits a scene's unset parameters to its wishes.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mysim/scene.h"
+
+namespace crosscheck {
+
+/// A parameter written as "fit" in the file; all that are of one kind are one value: every stiffness, every mass.
+struct Unknown {
+  std::string name, unit;          // "stiffness", "N/m"
+  std::vector<std::string> paths;  // where it stands in the file
+  double value = 0;
+};
+
+struct Wished {
+  std::string name, unit;
+  double wished, reached;
+};
+
+struct Fitted {
+  Scene scene;
+  std::string toml;
+  std::vector<Unknown> unknowns;
+  std::vector<Wished> wishes;
+};
+
+/// True when the text of a scene file holds values to be fitted. Throws InputError when it is no TOML.
+bool has_unknowns(std::string_view text, const std::string& name);
+
+/// Finds the values by simulation: on a coarse grid over decades first, then by damped Gauss-Newton steps in the
+/// logarithms of the parameters and of the measures, until each wish is met within 0.2 %. The step becomes at most half
+/// of leapfrog's limit. Throws InputError where values are to be fitted without as many wishes, or that cannot be
+/// fitted, and CannotPromise where a wish cannot be measured or is not met within 2 %.
+Fitted fit_to_wishes(std::string_view text, const std::string& name);
+
+}  // namespace crosscheck

@@ -1,0 +1,174 @@
+// advise: fits what is unset to the scene's wishes, then finds the cheapest model, method and step for a tolerance.
+#include <fmt/ranges.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "experiments/advise/advice.h"
+#include "experiments/advise/fit.h"
+#include "experiments/scenes.h"
+#include "mysim/errors.h"
+#include "mysim/files.h"
+#include "report/charts/advice.h"
+#include "report/commands/commands.h"
+#include "report/facts.h"
+#include "report/provenance.h"
+
+namespace crosscheck {
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+Table trials_table(const Advice& a) {
+  Table table{"advice",
+              {{"model", "1"},
+               {"method", "1"},
+               {"step", "s"},
+               {"relative tolerance", "1"},
+               {"error", "m"},
+               {"asked", "m"},
+               {"truth bar", "m"},
+               {"meets", "1"},
+               {"advised", "1"},
+               {"verdict", "1"},
+               {"stability limit", "s"},
+               {"evaluations", "1"},
+               {"springs", "1"},
+               {"cost", "spring evaluations"}},
+              {}};
+  for (size_t i = 0; i < a.trials.size(); ++i) {
+    const Trial& t = a.trials[i];
+    table.add({t.model, t.method, t.step, t.relative > 0 ? Cell(t.relative) : Cell(), t.error ? Cell(*t.error) : Cell(),
+               a.tolerance, a.bar,
+               std::string(t.meets     ? "yes"
+                           : t.by_luck ? "by luck"
+                                       : "no"),
+               i == a.chosen ? 1l : 0l, std::string(name_of(t.outcome.verdict)), t.limit ? Cell(*t.limit) : Cell(),
+               t.outcome.evaluations, t.springs, t.cost()});
+  }
+  return table;
+}
+
+Table costs_table(const Advice& a) {
+  Table table{"advice-cost", {{"model", "1"}, {"method", "1"}, {"step", "s"}, {"cpu", "s"}}, {}};
+  for (const Trial& t : a.trials) table.add({t.model, t.method, t.step, t.outcome.cpu_seconds});
+  return table;
+}
+
+std::string how_of(const Trial& t) {
+  return t.relative > 0 ? fmt::format("{} at a relative tolerance of {:.3g}", t.method, t.relative)
+                        : fmt::format("{} at a step of {:.6g} s", t.method, t.step);
+}
+
+std::string margin_text(const Trial& t) {
+  if (t.relative > 0) return "its steps follow the tolerance";
+  if (!t.limit) return "no limit is predicted";
+  if (*t.limit == 0) return "no step is stable by theory";
+  return fmt::format("{:.3g} times the step ({:.4g} s)", *t.limit / t.step, *t.limit);
+}
+
+nlohmann::ordered_json json_of(const Trial& t) {
+  return {{"model", t.model},
+          {"method", t.method},
+          {"step", t.step},
+          {"relative_tolerance", t.relative > 0 ? nlohmann::ordered_json(t.relative) : nullptr},
+          {"error", *t.error},
+          {"stability_limit", t.limit ? nlohmann::ordered_json(*t.limit) : nullptr},
+          {"force_evaluations", t.outcome.evaluations},
+          {"cost", t.cost()}};
+}
+
+std::string json_of(const Advice& a) {
+  nlohmann::ordered_json json{{"scene", a.scene.name},
+                              {"scene_hash", a.scene.hash},
+                              {"tolerance", a.tolerance},
+                              {"truth", a.truth},
+                              {"tier", static_cast<int>(a.tier)},
+                              {"of_contact_rule", a.of_contact_rule},
+                              {"bar", a.bar},
+                              {"until", a.until},
+                              {"left_out", a.left_out},
+                              {"advised", json_of(a.trials[a.chosen])},
+                              {"second", a.second ? json_of(a.trials[*a.second]) : nullptr},
+                              {"error_of_the_file", a.checked},
+                              {"caveats", a.caveats}};
+  return json.dump(1) + "\n";
+}
+
+void print(const Advice& a) {
+  const Trial& t = a.trials[a.chosen];
+  fmt::print("{} to {} until {:.3g} s\n", a.scene.name, nice_length(a.tolerance), a.until);
+  fmt::print("  model     {}\n", a.left_out.empty() ? "full" : t.model);
+  fmt::print("  method    {}\n", how_of(t));
+  fmt::print("  {} {} (largest RMS over time; truth: {}, error bar {})\n",
+             a.of_contact_rule ? "differs  " : "error    ", nice_length(*t.error),
+             a.of_contact_rule ? "the in-house contact rule" : name_of(a.tier), nice_length(a.bar));
+  fmt::print("  margin    stability limit: {}\n", margin_text(t));
+  fmt::print("  cost      {} force evaluations x {} springs; {:.2g} s of CPU time here\n", t.outcome.evaluations,
+             t.springs, t.outcome.cpu_seconds);
+  if (a.second) {
+    const Trial& s = a.trials[*a.second];
+    fmt::print("  next best {}, {:.3g} times the cost\n", how_of(s), s.cost() / t.cost());
+  }
+  for (const std::string& c : a.caveats) fmt::print("  note: {}\n", c);
+}
+
+void print(const Fitted& fitted) {
+  fmt::print("{} fitted to its wishes\n", fitted.scene.name);
+  for (const Unknown& u : fitted.unknowns) fmt::print("  {} = {:.6g} {}\n", u.name, u.value, u.unit);
+  for (const Wished& w : fitted.wishes)
+    fmt::print("  {}: wished {:.6g}{}, reached {:.6g} ({:+.2g} %)\n", w.name, w.wished,
+               w.unit == "1" ? "" : " " + w.unit, w.reached, 100 * (w.reached / w.wished - 1));
+}
+
+}  // namespace
+
+int advise_command(const AdviseOptions& options) try {
+  std::optional<Scene> scene;
+  std::string toml;
+  if (options.scene.ends_with(".toml") && std::filesystem::exists(options.scene)) {
+    const std::string text = text_of(options.scene);
+    if (has_unknowns(text, options.scene)) {
+      require_writable(options.out);
+      Fitted fitted = fit_to_wishes(text, options.scene);
+      fitted.scene.name = file_name_of(std::filesystem::path(options.scene).stem().string());
+      print(fitted);
+      toml = fitted.toml;
+      scene = std::move(fitted.scene);
+    }
+  }
+  if (!scene) scene = load_scene(options.scene);
+  if (options.tolerance == 0 && toml.empty())
+    throw InputError(
+        fmt::format("--tolerance: expected a length above zero (m), as {} has nothing to be fitted", options.scene));
+  require_writable(options.out);
+  const auto file = options.out / "advice.toml";
+  if (!toml.empty()) write_file(file, toml);
+  if (options.tolerance > 0) {
+    std::vector<Method> methods;
+    if (!options.methods.empty()) methods = find_methods(options.methods);
+    for (Method& m : all_methods())
+      if (options.methods.empty() && m.name.starts_with("mysim/")) methods.push_back(std::move(m));
+    const Advice a = advise(*scene, options.tolerance, std::move(methods));
+    const Provenance lines = with_scenes(provenance(options.command_line), {*scene});
+    write_csv(trials_table(a), lines, options.out);
+    write_csv(costs_table(a), lines, options.out);
+    write_file(file, a.toml);
+    write_file(options.out / "advice.json", json_of(a));
+    draw(drawing_of(advice_figure(a, value_of(lines, "commit"))), lines, options.out);
+    print(a);
+  }
+  fmt::print("  {}\n", file.string());
+  return 0;
+} catch (const CannotPromise& why) {
+  fmt::print(stderr, "crosscheck: cannot promise on {}: {}\n", options.scene, why.what());
+  return 1;
+}
+
+}  // namespace crosscheck

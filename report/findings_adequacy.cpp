@@ -1,0 +1,95 @@
+// Sentences on how little model is enough.
+#include <map>
+
+#include "report/findings.h"
+#include "report/findings_text.h"
+
+namespace crosscheck {
+namespace {
+
+std::string text_at(const Table& t, size_t row, const char* column) { return std::get<std::string>(t.at(row, column)); }
+double number_at(const Table& t, size_t row, const char* column) { return std::get<double>(t.at(row, column)); }
+
+void least_models(const Table& t, std::vector<Finding>& out) {
+  std::vector<std::string> whole, less, unsure;
+  std::map<std::string, std::vector<std::string>> at_tenth;  // what can go -> scenes
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    const std::string scene = text_at(t, i, "scene"), gone = text_at(t, i, "left out"),
+                      is = text_at(t, i, "tolerance is");
+    const bool holds = std::get<long>(t.at(i, "holds")) > 0;
+    if (is == "the scene's own") {
+      if (!holds)
+        unsure.push_back(scene);
+      else if (gone.empty())
+        whole.push_back(scene);
+      else
+        less.push_back(fmt::format("{} ({})", scene, gone));
+    } else if (is.starts_with("10 %") && holds && !gone.empty()) {
+      at_tenth[gone].push_back(scene);
+    }
+  }
+  std::string sentence;
+  if (!whole.empty())
+    sentence += fmt::format("Nothing can be left out of {} within their tolerances, also from three other starts. ",
+                            joined(whole));
+  if (!less.empty()) sentence += fmt::format("Within their tolerances these can do with less: {}. ", joined(less));
+  if (!unsure.empty()) sentence += fmt::format("From other starts that does not hold for {}. ", joined(unsure));
+  for (const auto& [gone, scenes] : at_tenth)
+    sentence += fmt::format("At 10 % of the motion {} can do without {}. ", joined(scenes), gone);
+  if (sentence.empty()) return;
+  sentence.pop_back();
+  out.push_back({"", "adequacy", sentence, "see each scene"});
+}
+
+void families(const Table& t, std::vector<Finding>& out) {
+  std::map<std::string, std::string> per_scene;
+  std::vector<std::string> order;
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    const std::string scene = text_at(t, i, "scene"), gone = text_at(t, i, "left out");
+    const bool family = gone == "structural springs" || gone == "shear springs" || gone == "bend springs";
+    const auto* error = std::get_if<double>(&t.at(i, "error"));
+    if (!family || text_at(t, i, "kind") != "single" || !error) continue;
+    if (per_scene[scene].empty()) order.push_back(scene);
+    per_scene[scene] += fmt::format("{}{} {}", per_scene[scene].empty() ? "" : ", ", gone.substr(0, gone.find(' ')),
+                                    percent(*error, number_at(t, i, "motion")));
+  }
+  std::string sentence;
+  for (const std::string& scene : order)
+    sentence += fmt::format("{}{}: {}", sentence.empty() ? "" : "; ", scene, per_scene[scene]);
+  if (!sentence.empty())
+    out.push_back({"", "adequacy",
+                   fmt::format("What leaving out a family of springs costs, in parts of the motion: {}.", sentence),
+                   "see each scene"});
+}
+
+void grids(const Table& t, std::vector<Finding>& out) {
+  std::vector<std::string> all;
+  std::string bend;
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    const std::string quantity = text_at(t, i, "quantity");
+    const std::string power =
+        fmt::format("{:.2f} ± {:.2f}", number_at(t, i, "exponent"), number_at(t, i, "standard error"));
+    if (quantity.starts_with("stiffness of all")) all.push_back(fmt::format("{} on {}", power, text_at(t, i, "scene")));
+    if (quantity.starts_with("stiffness of bend")) bend = power;
+  }
+  std::string sentence;
+  if (!all.empty())
+    sentence = fmt::format(
+        "For the same sag on a finer grid all stiffnesses go as the number of cells to the power {}. ", joined(all));
+  if (!bend.empty())
+    sentence +=
+        fmt::format("Against bending they must grow as the number of cells to the power {} (derived: 4).", bend);
+  if (!sentence.empty()) out.push_back({"", "adequacy", sentence, "measured"});
+}
+
+}  // namespace
+
+std::vector<Finding> adequacy_findings(const Rows& result) {
+  std::vector<Finding> out;
+  if (const Table* t = result.table("adequacy-least")) least_models(*t, out);
+  if (const Table* t = result.table("adequacy")) families(*t, out);
+  if (const Table* t = result.table("adequacy-scaling")) grids(*t, out);
+  return out;
+}
+
+}  // namespace crosscheck
