@@ -56,7 +56,7 @@ std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run&
     const Setting setting{false, plan({run.step * std::pow(2, halving), run.duration, run.samples}).h};
     if (setting.value == last) continue;
     last = setting.value;
-    const double most = full ? 1.5 : halving >= 0 ? 1.2 : 0.15;
+    const double most = full ? 1.5 : halving >= 0 ? 1.2 : 0.35;
     if (estimated_seconds(method, scene, run, setting) > most) {
       if (dropped) ++*dropped;
       continue;
