@@ -53,13 +53,14 @@ Chart size_chart(const Table& t, const std::string& commit) {
            fmt::format("{:.2g}", number(t, i, "cpu per step") / cheapest), text(t, i, "build")});
   f.finding = "A flat line is a cost in proportion to the number of particles.";
   f.caption = fmt::format(
-      "The cloth of cloth-hang at other resolutions, without contact, each at 0.7 of the explicit limit of its size; "
+      "The cloth of cloth-hang at other resolutions, without contact, each at 0.45 of the explicit limit of its size; "
       "{}; "
       "commit {}.",
       builds, commit);
   Chart chart{"", std::move(f), "cost"};
   chart.text =
-      "All methods take the same step here, as long as an explicit rule can take; an implicit one may take a longer "
+      "All methods take the same step here, about half of what an explicit rule can take; an implicit one may take a "
+      "longer "
       "one "
       "for its money. What that buys is the matter of the chapter on speed against accuracy.";
   chart.tables.push_back(std::move(page));
