@@ -8,10 +8,12 @@
 
 namespace crosscheck {
 std::span<const Experiment> experiments() {
+  static constexpr std::string_view stability_scenes[] = {"spring", "normal-modes", "cloth-hang"};
   static constexpr Experiment table[] = {
       {"order", "How fast does the error fall when the step is made smaller?", order_points},
       {"energy", "Where does the energy go, and what does not add up?", energy_points},
       {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_points},
+      {"stability", "Where does each method break?", stability_points, stability_scenes},
       {"stiffness", "How stiff is a position-based link, against the formula that hands it over?", stiffness_points},
       {"disagreements", "Where does Bullet answer otherwise than it is asked, and by how much?", disagreements_points},
   };
