@@ -21,4 +21,7 @@ std::vector<Finding> findings_of(const Scene& scene, const SceneFacts& facts);
 std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
                                       const Rows& result);
 
+/// What experiment `stability` showed.
+std::vector<Finding> stability_findings(const Rows& rows);
+
 }  // namespace crosscheck

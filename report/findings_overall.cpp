@@ -166,6 +166,7 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
   failures_of_all(facts, out);
   orders(result, out);
   cost_of_all(scenes, facts, out);
+  for (Finding& f : stability_findings(result)) out.push_back(std::move(f));
   return out;
 }
 

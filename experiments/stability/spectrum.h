@@ -50,9 +50,9 @@ struct Spectrum {
 /// without drag. Modes that the stiffness pushes away from the state count as omega = 0.
 Spectrum spectrum_of(const Scene& scene, const State& state);
 
-/// Where the scene comes to rest: relaxed by implicit Euler steps until no particle is accelerated by more than 1e-9 of
-/// what its springs could do. Empty where nothing is pinned, pins or spheres or the wind move, something may touch, or
-/// distances are hard. A rotation rests at the origin.
+/// Where the scene comes to rest: relaxed by implicit Euler steps, then by Newton's on the balance of forces, until no
+/// particle is accelerated by more than 1e-11 of what its springs could do. Empty where nothing is pinned, pins or
+/// spheres or the wind move, something may touch, or distances are hard. A rotation rests at the origin.
 std::optional<State> rest_of(const Scene& scene);
 
 }  // namespace crosscheck

@@ -151,11 +151,10 @@ void limit_on(const Scene& scene, const Method& method, bool full, Rows& rows) {
 }
 
 /// Why a method is not asked, or nothing.
-std::string why_not(const Method& method, const Scene& scene) {
+std::string why_not(const Method& method) {
   if (method.name.starts_with("truth/")) return "truth takes no steps";
   if (method.adaptive) return "steps that follow a tolerance";
   if (method.name.ends_with("+sticky")) return "its contact rule changes no limit";
-  if (scene.model.find<Constraints>()) return "";
   return "";
 }
 
@@ -183,7 +182,7 @@ std::vector<Point> stability_points(const Request& request) {
     const auto small = map_scene(scene, request.full);
     for (const Method& method : methods_of(request, scene)) {
       const std::string name = fmt::format("{} on {}", method.name, scene.name);
-      if (const std::string why = why_not(method, scene); !why.empty()) {
+      if (const std::string why = why_not(method); !why.empty()) {
         points.push_back({"stability: " + name, "", [=](Rows& rows) {
                             rows.notes.push_back(fmt::format("stability leaves out {}: {}", method.name, why));
                           }});
@@ -201,7 +200,7 @@ std::vector<Point> stability_points(const Request& request) {
                             map_on(kind, *small, method, map_size(method, *small, full), rows);
                           }});
     }
-    if (!small)
+    if (!small && scene.model.find<Springs>())
       points.push_back({"stability: maps of " + scene.name, "", [name = scene.name](Rows& rows) {
                           rows.notes.push_back(fmt::format(
                               "stability draws no map of {}: its hundreds of runs cost much; --full has them", name));
@@ -211,7 +210,7 @@ std::vector<Point> stability_points(const Request& request) {
 }
 
 std::optional<Scene> map_scene(const Scene& scene, bool full) {
-  if (!scene.model.find<Springs>() && !full) return std::nullopt;
+  if (!scene.model.find<Springs>()) return std::nullopt;
   if (scene.start.x.cols() <= 64 || full) return scene;
   if (scene.name == "cloth-hang")
     return read_scene(std::filesystem::path(CROSSCHECK_SCENES) / "stability/cloth-hang-6.toml");

@@ -8,6 +8,7 @@
 
 #include "report/facts.h"
 #include "report/figure.h"
+#include "report/heat_map.h"
 #include "report/pictures.h"
 
 namespace crosscheck {
@@ -41,11 +42,11 @@ struct Snapshot {
 
 /// A piece of a scene's part, of a chapter, or of the front: a figure, a small table, renders, or several of these.
 struct Chart {
-  std::string scene;                            // where it belongs; empty: the front of the report, or a chapter
-  std::variant<Figure, std::monostate> figure;  // a new kind of figure is a struct and its drawing_of()
-  std::string chapter = {};                     // of the report, by its id (chapters.cpp); empty: none
-  std::string text = {};                        // in a chapter: what it is about, before it
-  std::string heading = {};                     // in a chapter; empty: the figure's title
+  std::string scene;  // where it belongs; empty: the front of the report, or a chapter
+  std::variant<Figure, HeatMap, std::monostate> figure;  // a new kind of figure is a struct and its drawing_of()
+  std::string chapter = {};                              // of the report, by its id (chapters.cpp); empty: none
+  std::string text = {};                                 // in a chapter: what it is about, before it
+  std::string heading = {};                              // in a chapter; empty: the figure's title
   std::vector<PageTable> tables = {};
   std::vector<Snapshot> snapshots = {};
 };
@@ -59,6 +60,7 @@ std::vector<Chart> contact_charts(const ChartInput& input);     // centres of ma
 std::vector<Chart> energy_charts(const ChartInput& input);      // balance error or contact loss over time
 std::vector<Chart> order_charts(const ChartInput& input);       // error against step
 
+std::vector<Chart> stability_charts(const ChartInput& input);     // where methods break
 std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links
 std::vector<Chart> disagreement_charts(const ChartInput& input);  // where Bullet answers otherwise than it is asked
 

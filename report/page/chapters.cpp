@@ -5,6 +5,11 @@ namespace crosscheck {
 
 std::vector<Chapter> chapters() {
   return {
+      {"stability",
+       "Where does each method break?",
+       "The largest step that each method can take on a scene, found by running it, beside what theory predicts; and "
+       "maps of how runs fail when springs get stiffer or drag stronger.",
+       {}},
       {"disagreements",
        "What cannot be matched, and why",
        "Where Bullet's worlds answer otherwise than the scene asks, or fail: each in the smallest scene that shows it, "
