@@ -203,7 +203,7 @@ std::optional<State> rest_of(const Scene& scene) {
       s.t = 0;
       s.v *= i < 60 ? 0.9 : 0;
       f.acceleration(s, a);
-      if (i > 60 && largest_column(a) <= 1e-9 * stiffest * scene.size()) break;
+      if (i > 60 && largest_column(a) <= 1e-12 * stiffest * scene.size()) break;
     }
   } catch (const SolverFailure&) {
     return std::nullopt;

@@ -52,8 +52,11 @@ struct Effort {
 /// Engines of others cost about twelve times as much a step.
 Effort effort_for(const Method& method, const Scene& scene, bool full) {
   if (full) return {20000, 0.001};
-  if (method.stepper || scene.start.x.cols() <= 50) return {4000, 0.002};
-  return {1000, 0.01};
+  const bool small = scene.start.x.cols() <= 50, theirs = !method.stepper;
+  const Stepper* rule = rule_of(method);
+  // who is stable at every step solves an equation in each, and is asked coarsely whether it is so
+  if (!small && (!rule || std::isinf(rule->limit(1, 0)))) return {100, 0.5};
+  return theirs && !small ? Effort{1000, 0.01} : Effort{4000, 0.002};
 }
 
 /// Growth per step of the binding mode around the limit, or at a few steps where none is stable: the excess is tiny
