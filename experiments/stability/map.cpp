@@ -18,9 +18,10 @@ Scene with_gamma(Scene scene, double gamma) {
   return scene;
 }
 
-/// Cells show blow-ups as they are: kicked by a thousandth of the springs' length, a hundred thousand times what limits
-/// are measured with, so that growth comes to where energy and finiteness judge it.
-constexpr double visible = 1e-3;
+/// Cells show blow-ups as they are: kicked by a ten-thousandth of the springs' length, so that growth comes to where
+/// energy and finiteness judge it, and yet far below the stretch at rest, beside whose energy the swinging energy of
+/// neutral rules at long steps must stay small.
+constexpr double visible = 1e-4;
 
 }  // namespace
 

@@ -133,7 +133,8 @@ Trial try_step(const Method& method, const Subject& subject, double h, long step
   if (subject.at_rest) observers.push_back(&departure);
   const Outcome out = run_method(method, kicked(subject, kick), run, observers);
   Trial trial{out.verdict, out.reason, out.end};
-  if (departure.first > 0) trial.growth = departure.last / departure.first;
+  // a rule of its own may rest elsewhere, and what moves there is no growth
+  if (departure.first > 0 && rule) trial.growth = departure.last / departure.first;
   trial.of_mode = out.verdict == Verdict::ok && departure.of_mode();
   if (trial.of_mode) {
     trial.amplitude = departure.end / departure.start;

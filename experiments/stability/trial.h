@@ -26,7 +26,7 @@ struct Trial {
   Verdict verdict = Verdict::ok;
   std::string reason;
   double end = 0;        // s
-  double growth = 0;     // of the norm sqrt(|w'|^2 + w K w), from the first to the last tenth of the run
+  double growth = 0;     // of the norm sqrt(|w'|^2 + w K w), from the first to the last tenth of the run; 0: not told
   double per_step = 1;   // of the kicked mode's amplitude: the mean factor; 1 where it cannot be told
   double amplitude = 1;  // of the kicked mode, at the end over at the start
   bool of_mode = false;  // whether the two above are known
