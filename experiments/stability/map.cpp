@@ -23,6 +23,15 @@ Scene with_gamma(Scene scene, double gamma) {
 /// neutral rules at long steps must stay small.
 constexpr double visible = 1e-4;
 
+/// That kick, or a smaller one whose energy is a thousandth of what the springs hold at rest.
+double kick_for(const Subject& subject, int mode) {
+  const Model& model = subject.scene.model;
+  const Energy rest = energy_of(model, subject.scene.start),
+               moved = energy_of(model, kicked(subject, {mode, visible}).start);
+  const double given = moved.total() - rest.total();
+  return rest.elastic > 0 && given > 0 ? visible * std::min(1.0, std::sqrt(1e-3 * rest.elastic / given)) : visible;
+}
+
 }  // namespace
 
 std::span<const MapKind> map_kinds() {
@@ -66,7 +75,7 @@ void map_on(const MapKind& kind, const Scene& scene, const Method& method, const
     const Stepper* rule = rule_of(method);
     Prediction predicted{0, -1, "no rule"};
     if (rule) predicted = predicted_limit(*rule, subject.spectrum);
-    const Kick kick{predicted.mode, visible};
+    const Kick kick{predicted.mode, kick_for(subject, predicted.mode)};
     double held = 0, failed = 0;  // the last cell that held before the first that failed
     for (int c = 0; c < size.columns; ++c) {
       // h omega from 1/50 to 20 of the scene as it is
