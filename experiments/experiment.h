@@ -44,6 +44,7 @@ struct Experiment {
 std::vector<Point> order_points(const Request& request);
 std::vector<Point> energy_points(const Request& request);
 std::vector<Point> engines_points(const Request& request);
+std::vector<Point> stability_points(const Request& request);
 std::vector<Point> stiffness_points(const Request& request);
 std::vector<Point> disagreements_points(const Request& request);
 std::vector<Point> sphere_points(const Request& request);

@@ -201,7 +201,7 @@ std::vector<Point> sphere_points(const Request& request) {
   const Scene centred = drop_centred(), aside = drop_aside();
   for (const Scene& scene : {aside, centred})
     for (const Method& method : methods_of(request, scene))
-      add(scene.name, method, scene, [scene](const Request& alone, const Method& m, Rows& rows) {
+      if (!request.scenes_only) add(scene.name, method, scene, [scene](const Request& alone, const Method& m, Rows& rows) {
         std::vector<double> steps = {2e-3, 1e-3};
         if (alone.full) steps = {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4};
         for (const double h : steps) drape(scene, m, h, rows);
@@ -218,6 +218,7 @@ std::vector<Point> sphere_points(const Request& request) {
         drape(scene, m, run_of(alone, scene).step, rows);
       });
   }
+  if (request.scenes_only) return points;
   for (const Method& method : methods_of(request, centred)) {
     add("rebound", method, drop_on_ball(0), rebounds);
     add("leaving", method, frictionless_slide(), leavings);

@@ -75,6 +75,7 @@ Table networks(bool full, int n) {
 }  // namespace
 
 std::vector<Point> stiffness_points(const Request& request) {
+  if (request.scenes_only) return {};
   const bool full = request.full;
   const std::string content = full ? "full" : "quick";
   std::vector<Point> points;

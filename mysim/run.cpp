@@ -18,6 +18,8 @@ std::string_view name_of(Verdict verdict) {
       return "energy";
     case Verdict::nan:
       return "nan";
+    case Verdict::stretch:
+      return "stretch";
     case Verdict::solver:
       return "solver";
     case Verdict::frozen:
@@ -40,6 +42,8 @@ std::string_view in_words(Verdict verdict) {
       return "blew up (energy from nothing)";
     case Verdict::nan:
       return "blew up (not a number)";
+    case Verdict::stretch:
+      return "overstretched (longer than its energy allows)";
     case Verdict::solver:
       return "the solver gave up";
     case Verdict::frozen:

@@ -16,6 +16,7 @@ enum class Verdict {
   ok,
   energy,       // more energy than everything the run had to work with
   nan,          // a non-finite position or velocity
+  stretch,      // springs longer than the energy at hand could make them
   solver,       // an equation inside a step had no answer
   frozen,       // forces act, and nothing moves
   timeout,      // an outside program did not end in time

@@ -30,6 +30,8 @@ class Tangent {
   /// Adds the 3 x 3 blocks on the diagonal of (stiffness K + damping C) to blocks (3 x 3n).
   void add_diagonal(double stiffness, double damping, Eigen::Matrix3Xd& blocks) const;
   bool empty() const { return stiffness_.empty() && damping_.empty(); }
+  const std::vector<Pair>& stiffness() const { return stiffness_; }
+  const std::vector<Pair>& damping() const { return damping_; }
 
  private:
   std::vector<Pair> stiffness_, damping_;

@@ -9,7 +9,7 @@ namespace crosscheck {
 
 std::string failure_word(const std::string& verdict) {
   static constexpr std::pair<std::string_view, const char*> table[] = {
-      {"solver", "solver gave up"}, {"frozen", "froze"}, {"timeout", "out of time"}, {"crash", "program failed"}};
+      {"stretch", "overstretched"}, {"solver", "solver gave up"}, {"frozen", "froze"}, {"timeout", "out of time"}, {"crash", "program failed"}};
   for (const auto& [name, word] : table)
     if (verdict == name) return word;
   return "blew up";

@@ -185,7 +185,7 @@ std::vector<Point> adequacy_points(const Request& request) {
     points.push_back({fmt::format("adequacy: grids of {}", scene.name), content_of(request, scene) + scene.source,
                       [alone = std::move(alone)](Rows& rows) { resolution_on(alone, alone.scenes[0], rows); }});
   }
-  if (any)
+  if (any && !request.scenes_only)
     points.push_back({"adequacy: bend springs", fmt::format("full={}", request.full),
                       [request](Rows& rows) { bending_on(request, rows); }});
   return points;

@@ -228,6 +228,7 @@ void cost_against_roofline(bool full, Rows& rows) {
 }
 
 std::vector<Point> cost_points(const Request& request) {
+  if (request.scenes_only) return {};
   std::vector<int> sides{8, 16, 32, 64, 128};
   if (request.full) sides.insert(sides.end(), {256, 512});
   std::string content = request.full ? "full" : "quick";

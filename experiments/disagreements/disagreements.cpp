@@ -34,7 +34,8 @@ std::vector<Series> play(const Disagreement& disagreement, const Scene& scene) {
   return all;
 }
 
-std::vector<Point> disagreements_points(const Request&) {
+std::vector<Point> disagreements_points(const Request& request) {
+  if (request.scenes_only) return {};
   std::vector<Point> points;
   for (const Disagreement& d : disagreements())
     points.push_back(

@@ -59,6 +59,8 @@ Verdict Watch::observe(const State& state, bool sample) {
       for (const Spring& s : springs->list)
         budget_ += 1e-24 * s.k * (state.x.col(s.a) - state.x.col(s.b)).squaredNorm();
     budget_ += moving_spheres_ + contact_;
+    given_ = budget_;
+    stretch_.emplace(model_, state);
   }
   if (!first_ && !asked_)
     first_ = state;
@@ -70,8 +72,10 @@ Verdict Watch::observe(const State& state, bool sample) {
     work = row.wind + row.pins;
   }
   if (!std::isfinite(energy.total()) || !std::isfinite(work)) return Verdict::nan;
-  budget_ = std::max({budget_, std::abs(energy.gravitational - start_->gravitational), std::abs(work)});
-  return energy.total() - start_->total() - work > budget_ ? Verdict::energy : Verdict::ok;
+  worked_ = std::max(worked_, std::abs(work));
+  budget_ = std::max({budget_, std::abs(energy.gravitational - start_->gravitational), worked_});
+  if (energy.total() - start_->total() - work > budget_) return Verdict::energy;
+  return stretch_->exceeded(state, given_ + worked_) ? Verdict::stretch : Verdict::ok;
 }
 
 }  // namespace crosscheck

@@ -1,9 +1,11 @@
-// Tells when a run has failed: a non-finite state, or more energy than everything it had to work with.
+// Tells when a run has failed: a non-finite state, more energy than everything it had to work with, or springs longer
+// than that energy could make them.
 #pragma once
 
 #include <optional>
 
 #include "mysim/observers/ledger.h"
+#include "mysim/observers/stretch.h"
 
 namespace crosscheck {
 
@@ -13,6 +15,9 @@ namespace crosscheck {
 /// all particles at its top speed, twice, is added; and beside a sphere a fall by a millimetre, since an engine that
 /// pushes a resting particle out of a contact hands it a little speed). Blow-ups pass it at once, also those of engines
 /// that clamp speeds and never become non-finite. States without velocities are judged by being finite alone.
+///
+/// Verdict::stretch when a spring of a hanging net is longer than any motion could make it that keeps the energy
+/// balance (stretch.h): the net sinks and sinks, and what gravity gives is lost.
 ///
 /// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
 /// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not
@@ -29,10 +34,13 @@ class Watch : public Observer {
   const Model& model_;
   std::optional<Ledger> ledger_;  // only where wind or moved pins do work
   std::optional<Energy> start_;
+  std::optional<StretchBound> stretch_;
   std::optional<State> first_;  // until the sample after it
   bool asked_ = false;          // whether anything moved
   double moving_spheres_ = 0;   // J, the most that moving spheres are expected to give
   double contact_ = 0;          // J, what corrections at contacts may give
+  double given_ = 0;            // J, kinetic and elastic at the start and what moving spheres and contacts may give
+  double worked_ = 0;           // J, the largest work of wind and moved pins so far
   double budget_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "report/bars.h"
 #include "report/facts.h"
 #include "report/figure.h"
+#include "report/heat_map.h"
 #include "report/pictures.h"
 
 namespace crosscheck {
@@ -42,11 +43,11 @@ struct Snapshot {
 
 /// A piece of a scene's part, of a chapter, or of the front: a figure, a small table, renders, or several of these.
 struct Chart {
-  std::string scene;                                  // where it belongs; empty: the front of the report, or a chapter
-  std::variant<Figure, Bars, std::monostate> figure;  // a new kind of figure is a struct and its drawing_of()
-  std::string chapter = {};                           // of the report, by its id (chapters.cpp); empty: none
-  std::string text = {};                              // in a chapter: what it is about, before it
-  std::string heading = {};                           // in a chapter; empty: the figure's title
+  std::string scene;  // where it belongs; empty: the front of the report, or a chapter
+  std::variant<Figure, Bars, HeatMap, std::monostate> figure;  // a new kind of figure is a struct and its drawing_of()
+  std::string chapter = {};                              // of the report, by its id (chapters.cpp); empty: none
+  std::string text = {};                                 // in a chapter: what it is about, before it
+  std::string heading = {};                              // in a chapter; empty: the figure's title
   std::vector<PageTable> tables = {};
   std::vector<Snapshot> snapshots = {};
 };
@@ -67,6 +68,7 @@ std::vector<Chart> disagreement_charts(const ChartInput& input);    // where Bul
 std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // error against cost, chapter of its own
 std::vector<Chart> cost_charts(const ChartInput& input);            // of a step
 std::vector<Chart> adequacy_charts(const ChartInput& input);      // what each ingredient and the grid are worth
+std::vector<Chart> stability_charts(const ChartInput& input);     // where methods break
 
 std::vector<Chart> all_charts(const ChartInput& input);
 

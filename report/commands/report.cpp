@@ -105,7 +105,7 @@ class Builder {
     write_data(rows_, page_.provenance, options_.out / "data");
     for (const Scene& scene : request_.scenes) facts_.push_back(facts_of(scene.name, rows_));
     page_.notes = rows_.notes;
-    if (options_.scenes.empty() && !options_.full) page_.notes.insert(page_.notes.begin(), left_out());
+    if (!options_.full) page_.notes.insert(page_.notes.begin(), left_out());
     page_.findings = overall_findings(request_.scenes, facts_, rows_);
     for (size_t i = 0; i < request_.scenes.size(); ++i) add_part(request_.scenes[i], facts_[i]);
     charts_ = all_charts({request_.scenes, facts_, rows_, value_of(page_.provenance, "commit")});
@@ -140,6 +140,9 @@ class Builder {
   }
 
   std::string left_out() const {
+    if (request_.scenes_only)
+      return "this is the report of the named scenes: what experiments ask of scenes of their own (balls, known "
+             "disagreements, the stiffness of links, the cost of a step) is in the report without names, and with --full";
     std::vector<std::string_view> names;
     for (const auto name : shipped_scenes())
       if (std::none_of(request_.scenes.begin(), request_.scenes.end(), [&](const Scene& s) { return s.name == name; }))
@@ -262,6 +265,7 @@ int report_command(const ReportOptions& options) {
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
   request.scenes = scenes_for({}, options.scenes, options.full);
+  request.scenes_only = !options.scenes.empty() && !options.full;
   require_writable(options.out);
   clear_former_report(options.out);
   return Builder(options, std::move(request)).build();

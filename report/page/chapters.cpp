@@ -13,6 +13,11 @@ std::vector<Chapter> chapters() {
        "same on every machine, and as CPU time, which is what is paid. Bullet does not tell what its solvers do inside "
        "a step: there a step counts as one evaluation, and the implicit world does not compete by them.",
        {}},
+      {"stability",
+       "Where does each method break?",
+       "The largest step that each method can take on a scene, found by running it, beside what theory predicts; and "
+       "maps of how runs fail when springs get stiffer or drag stronger.",
+       {}},
       {"energy",
        "Where does the energy go?",
        "The energy of runs of a hundred thousand steps, added up by the suite's own formulas from the positions and "

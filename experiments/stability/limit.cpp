@@ -1,0 +1,137 @@
+// Limits of scenes from the limits of single modes, and from step matrices where modes do not stay apart.
+#include "experiments/stability/limit.h"
+
+#include <Spectra/MatOp/SparseSymMatProd.h>
+#include <Spectra/SymEigsSolver.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "reference/exact/discrete.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double largest_eigenvalue(const Eigen::SparseMatrix<double>& m) {
+  if (m.rows() <= 400)
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(m), Eigen::EigenvaluesOnly)
+        .eigenvalues()[m.rows() - 1];
+  Spectra::SparseSymMatProd<double> product(m);
+  Spectra::SymEigsSolver<Spectra::SparseSymMatProd<double>> solver(product, 1, 40);
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestAlge, 2000, 1e-9);
+  return solver.info() == Spectra::CompInfo::Successful ? solver.eigenvalues()[0] : std::nan("");
+}
+
+/// The h in (0, top] at which `excess`, which rises with h, passes zero; top where it does not.
+template <class Excess>
+double root_below(double top, Excess excess) {
+  if (excess(top) <= 0) return top;
+  double low = 0, high = top;
+  while (high - low > 1e-9 * top) {
+    const double middle = (low + high) / 2;
+    (excess(middle) > 0 ? high : low) = middle;
+  }
+  return low;
+}
+
+/// Leapfrog as the code steps it, on (w, w') of the whole scene; h of either sign.
+class LeapfrogMatrix {
+ public:
+  explicit LeapfrogMatrix(const Linearised& s) : k_(s.k), dashpots_(s.dashpots), drag_(s.drag) {}
+
+  void step(Eigen::MatrixXd& y, double h, int passes) const {
+    const auto n = k_.rows();
+    y.topRows(n) += h / 2 * y.bottomRows(n);
+    const Eigen::MatrixXd old = y.bottomRows(n), pull = -(k_ * y.topRows(n));
+    Eigen::MatrixXd middle = old, fresh;
+    for (int pass = 0; pass < passes; ++pass) {
+      if (pass > 0) middle = (old + fresh) / 2;
+      const Eigen::MatrixXd a = pull - dashpots_ * middle;
+      fresh = (1 + h / 2 * drag_.array()).inverse().matrix().asDiagonal() *
+              ((1 - h / 2 * drag_.array()).matrix().asDiagonal() * old + h * a);
+    }
+    y.bottomRows(n) = fresh;
+    y.topRows(n) += h / 2 * fresh;
+  }
+
+ private:
+  Eigen::MatrixXd k_, dashpots_;
+  Eigen::VectorXd drag_;
+};
+
+double radius_of(const Stepper& rule, const LeapfrogMatrix& leapfrog, int n, double h) {
+  Eigen::MatrixXd y = Eigen::MatrixXd::Identity(2 * n, 2 * n);
+  if (rule.name == "leapfrog") {
+    leapfrog.step(y, h, 2);
+  } else {
+    const double p = 1 / (4 - std::cbrt(4.0));
+    for (const double part : {p, p, 1 - 4 * p, p, p}) leapfrog.step(y, part * h, 4);
+  }
+  return Eigen::EigenSolver<Eigen::MatrixXd>(y, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+Prediction of_mixed_modes(const Stepper& rule, const Spectrum& s) {
+  if (s.omega == 0) return {0, -1, "no springs hold the particles, and their drag rates differ"};
+  const Linearised& system = s.system;
+  const double top = 2 / s.omega;
+  if (rule.name == "symplectic-euler") {
+    const Eigen::SparseMatrix<double> c = system.damping();
+    return {root_below(top, [&](double h) { return largest_eigenvalue(h * h * system.k + 2 * h * c) - 4; }), -1, ""};
+  }
+  if (rule.name == "leapfrog" && !system.has_dashpots()) return {top, -1, ""};
+  if (system.size() > 90)
+    return {0, -1, "damping and stiffness have different modes, and the step matrix of the whole scene is too large"};
+  const LeapfrogMatrix leapfrog(system);
+  // a neutral step's eigenvalues sit at 1 but for the root of the rounding, where two of them meet
+  auto unstable = [&](double h) { return radius_of(rule, leapfrog, system.size(), h) > 1 + 1e-6; };
+  constexpr int walk = 60;
+  for (int i = 1; i <= 2 * walk; ++i)
+    if (unstable(top * i / walk))
+      return {root_below(top * i / walk, [&](double h) { return h > top * (i - 1) / walk && unstable(h) ? 1. : -1.; }),
+              -1, ""};
+  return {0, -1, "no limit up to twice that of the fastest mode without damping"};
+}
+
+}  // namespace
+
+const Stepper* rule_of(const Method& method) {
+  const std::string name = method.rule.empty() && method.name == "mysim/dopri5" ? "dopri5" : method.rule;
+  for (const Stepper& rule : steppers())
+    if (rule.name == name) return &rule;
+  // one Newton step is the whole step where forces are linear
+  if (name == "implicit-euler+linear")
+    for (const Stepper& rule : steppers())
+      if (rule.name == "implicit-euler") return &rule;
+  return nullptr;
+}
+
+Prediction predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
+  if (std::isinf(rule.limit(1, 0))) return {infinity, -1, ""};
+  if (!spectrum.commuting && !is_runge_kutta(rule)) return of_mixed_modes(rule, spectrum);
+  Prediction least{infinity, -1, ""};
+  for (size_t i = 0; i < spectrum.modes.size(); ++i) {
+    const auto [omega, gamma] = spectrum.modes[i];
+    // rounding makes modes of free motion a little stiff or soft: 1e-7 is the root of it
+    const double limit = rule.limit(omega > 1e-7 * spectrum.omega ? omega : 0, gamma);
+    if (limit <= least.limit && std::isfinite(limit)) least = {limit, static_cast<int>(i), ""};
+  }
+  return least;
+}
+
+double growth_per_step(const Stepper& rule, const Vibration& vibration, double h) {
+  for (const DiscreteRule& each : discrete_rules())
+    if (each.name == rule.name) {
+      const Mode mode{vibration.omega * vibration.omega, vibration.gamma, 0, 0, 0, 0, 0, {}};
+      Eigen::Matrix2d m = each.of_mode(mode, h).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
+      const double unit = vibration.omega > 0 ? vibration.omega : 1;
+      m(0, 1) *= unit, m(1, 0) /= unit;
+      return m.eigenvalues().cwiseAbs().maxCoeff();
+    }
+  return 1;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,34 @@
+// Maps: over step and stiffness, or step and drag, one run in each cell with what became of it; and the limit, measured
+// and predicted, on every row.
+#pragma once
+
+#include "experiments/experiment.h"
+#include "experiments/stability/trial.h"
+
+namespace crosscheck {
+
+/// What a map's rows change.
+struct MapKind {
+  std::string_view name;  // "stiffness", "drag"
+  std::string_view unit;
+  /// The value of row 0 <= part <= 1, logarithmic; omega: the scene's fastest vibration as it is, rad/s.
+  double (*value)(double part, double omega);
+  Scene (*with)(Scene, double value);
+};
+/// Stiffness: all springs times 1/100 to 100. Drag: gamma from omega/100 to 10 omega, for all particles.
+std::span<const MapKind> map_kinds();
+
+struct MapSize {
+  int rows, columns;
+  long steps;  // of each run
+  bool check;  // runs each cell ten times longer too, and counts those that change
+};
+
+/// Tables stability-map (cells), stability-map-limit (limits of the rows) and, where asked, stability-map-check.
+void map_on(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows);
+
+/// The scene that maps of a scene are made of: itself, if it has at most 64 particles or in a full run; for cloth-hang
+/// its small version; else nothing.
+std::optional<Scene> map_scene(const Scene& scene, bool full);
+
+}  // namespace crosscheck

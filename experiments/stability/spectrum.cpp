@@ -1,0 +1,233 @@
+// Jacobians and eigenvalues.
+#include "experiments/stability/spectrum.h"
+
+#include <Spectra/GenEigsSolver.h>
+#include <Spectra/MatOp/SparseGenMatProd.h>
+#include <Spectra/MatOp/SparseSymMatProd.h>
+#include <Spectra/MatOp/SparseSymShiftSolve.h>
+#include <Spectra/SymEigsShiftSolver.h>
+#include <Spectra/SymEigsSolver.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
+#include <cmath>
+
+#include "mysim/errors.h"
+#include "mysim/frequency.h"
+#include "mysim/steppers/stepper.h"
+
+namespace crosscheck {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+Sparse assembled(const std::vector<Tangent::Pair>& pairs, const std::vector<int>& row_of, const Eigen::VectorXd& root) {
+  std::vector<Eigen::Triplet<double>> parts;
+  for (const Tangent::Pair& p : pairs) {
+    const Eigen::Matrix3d block = p.across * Eigen::Matrix3d::Identity() + (p.along - p.across) * p.n * p.n.transpose();
+    for (const int a : {p.a, p.b})
+      for (const int b : {p.a, p.b})
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) {
+            const int row = row_of[3 * a + i], column = row_of[3 * b + j];
+            if (row < 0 || column < 0) continue;
+            parts.emplace_back(row, column, (a == b ? 1 : -1) * block(i, j) / (root[row] * root[column]));
+          }
+  }
+  Sparse matrix(root.size(), root.size());
+  matrix.setFromTriplets(parts.begin(), parts.end());
+  return matrix;
+}
+
+double root_or_zero(double square) { return std::sqrt(std::max(0.0, square)); }
+
+void dense_modes(Spectrum& s, double gamma) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(s.system.k)};
+  s.shapes = solver.eigenvectors();
+  for (const double w2 : solver.eigenvalues()) s.modes.push_back({root_or_zero(w2), gamma});
+}
+
+/// The slowest and the fastest one.
+void extreme_modes(Spectrum& s, double gamma) {
+  const int n = s.system.size();
+  Spectra::SparseSymMatProd<double> product(s.system.k);
+  Spectra::SymEigsSolver<Spectra::SparseSymMatProd<double>> fast(product, 1, std::min(n, 40));
+  fast.init();
+  fast.compute(Spectra::SortRule::LargestAlge, 2000, 1e-10);
+  if (fast.info() != Spectra::CompInfo::Successful) throw SolverFailure("the fastest mode was not found");
+  const double w2 = fast.eigenvalues()[0];
+  Spectra::SparseSymShiftSolve<double> inverse(s.system.k);
+  // beside zero, so that a free motion does not make it singular
+  Spectra::SymEigsShiftSolver<Spectra::SparseSymShiftSolve<double>> slow(inverse, 1, std::min(n, 20), -1e-6 * w2);
+  slow.init();
+  slow.compute(Spectra::SortRule::LargestMagn, 1000, 1e-8);
+  if (slow.info() != Spectra::CompInfo::Successful) throw SolverFailure("the slowest mode was not found");
+  s.modes = {{root_or_zero(slow.eigenvalues()[0]), gamma}, {root_or_zero(w2), gamma}};
+  s.shapes.resize(n, 2);
+  s.shapes << slow.eigenvectors(), fast.eigenvectors();
+  s.complete = false;
+}
+
+/// Eigenvalues of ((0, I), (-K, -C)).
+void quadratic_modes(Spectrum& s) {
+  const int n = s.system.size();
+  const Sparse c = s.system.damping();
+  Eigen::VectorXcd rates;
+  if (n <= 200) {
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    a.topRightCorner(n, n).setIdentity();
+    a.bottomLeftCorner(n, n) = -Eigen::MatrixXd(s.system.k);
+    a.bottomRightCorner(n, n) = -Eigen::MatrixXd(c);
+    rates = Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
+  } else {
+    // velocities in units of the fastest mode, so that both halves are of one size
+    const double unit = s.omega;
+    std::vector<Eigen::Triplet<double>> parts;
+    for (int i = 0; i < n; ++i) parts.emplace_back(i, n + i, unit);
+    for (int i = 0; i < n; ++i) {
+      for (Sparse::InnerIterator it(s.system.k, i); it; ++it)
+        parts.emplace_back(n + it.row(), it.col(), -it.value() / unit);
+      for (Sparse::InnerIterator it(c, i); it; ++it) parts.emplace_back(n + it.row(), n + it.col(), -it.value());
+    }
+    Sparse a(2 * n, 2 * n);
+    a.setFromTriplets(parts.begin(), parts.end());
+    Spectra::SparseGenMatProd<double> product(a);
+    Spectra::GenEigsSolver<Spectra::SparseGenMatProd<double>> solver(product, 4, 60);
+    solver.init();
+    solver.compute(Spectra::SortRule::LargestMagn, 2000, 1e-8);
+    if (solver.info() != Spectra::CompInfo::Successful) throw SolverFailure("the fastest rates were not found");
+    rates = solver.eigenvalues();
+    s.complete = false;
+  }
+  for (const std::complex<double> z : rates)
+    if (z.imag() >= 0) s.modes.push_back({std::abs(z), std::max(0.0, -2 * z.real())});
+  std::sort(s.modes.begin(), s.modes.end(), [](const Vibration& a, const Vibration& b) { return a.omega < b.omega; });
+  s.commuting = false;
+}
+
+}  // namespace
+
+Sparse Linearised::damping() const {
+  Sparse c = dashpots;
+  for (int i = 0; i < size(); ++i) c.coeffRef(i, i) += drag[i];
+  return c;
+}
+
+Points Linearised::offsets(const Eigen::VectorXd& w, int particles) const {
+  Points u = Points::Zero(3, particles);
+  for (int i = 0; i < size(); ++i) u(free[i] % 3, free[i] / 3) = w[i] / root_mass[i];
+  return u;
+}
+
+Eigen::VectorXd Linearised::weighted(const Points& u) const {
+  Eigen::VectorXd w(size());
+  for (int i = 0; i < size(); ++i) w[i] = u(free[i] % 3, free[i] / 3) * root_mass[i];
+  return w;
+}
+
+Linearised linearised(const Model& model, const State& state) {
+  const Particles& particles = model.particles;
+  Linearised l;
+  std::vector<int> row_of(3 * particles.size(), -1);
+  for (int i = 0; i < particles.size(); ++i)
+    for (int axis = 0; axis < 3 && !particles.pinned[i]; ++axis) {
+      row_of[3 * i + axis] = l.size();
+      l.free.push_back(3 * i + axis);
+    }
+  l.root_mass.resize(l.size());
+  l.drag = Eigen::VectorXd::Zero(l.size());
+  const auto* drag = model.find<Drag>();
+  for (int i = 0; i < l.size(); ++i) {
+    const double mass = particles.mass[l.free[i] / 3];
+    l.root_mass[i] = std::sqrt(mass);
+    if (drag) l.drag[i] = drag->c[l.free[i] / 3] / mass;
+  }
+  Tangent tangent;
+  add_stiffness(model, state, Curvature::exact, tangent);
+  if (const auto* dashpots = model.find<Dashpots>())
+    add_tangent(*dashpots, particles, state, Curvature::exact, tangent);
+  l.k = assembled(tangent.stiffness(), row_of, l.root_mass);
+  l.dashpots = assembled(tangent.damping(), row_of, l.root_mass);
+  return l;
+}
+
+Spectrum spectrum_of(const Scene& scene, const State& state) {
+  Spectrum s;
+  if (const auto* rotation = scene.model.find<Rotation>()) {
+    s.omega = std::abs(rotation->rate);
+    s.modes = {{s.omega, 0}};
+    return s;
+  }
+  s.system = linearised(scene.model, state);
+  const auto gamma = uniform_drag_rate(scene.model);
+  const int n = s.system.size();
+  if (n == 0) return s;
+  const bool springs = s.system.k.nonZeros() > 0;
+  if (n <= 400 || !springs)
+    dense_modes(s, gamma.value_or(0));
+  else
+    extreme_modes(s, gamma.value_or(0));
+  s.omega = s.modes.back().omega;
+  s.fastest = s.shapes.col(s.shapes.cols() - 1);
+  if (gamma && !s.system.has_dashpots()) return s;
+  s.modes.clear();
+  s.shapes.resize(0, 0);
+  quadratic_modes(s);
+  return s;
+}
+
+std::optional<State> rest_of(const Scene& scene) {
+  const Model& model = scene.model;
+  if (model.first_order()) return State{0, Points::Zero(3, scene.start.x.cols()), scene.start.v};
+  const auto* wind = model.find<Wind>();
+  const auto* air = model.find<Aerodynamics>();
+  if (model.particles.pins.empty() || model.particles.move || model.find<Spheres>() || model.find<Constraints>() ||
+      !model.find<Springs>() || (wind && wind->acceleration.gusts) || (air && air->velocity.gusts))
+    return std::nullopt;
+
+  System f(model);
+  State s = scene.start;
+  s.v.setZero();
+  Workspace w(s);
+  Points a(3, s.x.cols());
+  // 1/s^2: what a particle's springs could do to it over the scene's size
+  double stiffest = 0;
+  for (const Spring& spring : model.find<Springs>()->list)
+    for (const int end : {spring.a, spring.b})
+      if (!model.particles.pinned[end]) stiffest = std::max(stiffest, spring.k / model.particles.mass[end]);
+  try {
+    // short steps let it fall, long ones are Newton's steps towards the rest
+    for (int i = 0; i < 400; ++i) {
+      const double h = i < 60 ? 0.05 : 5;
+      implicit_euler(f, s, h, w);
+      s.t = 0;
+      s.v *= i < 60 ? 0.9 : 0;
+      f.acceleration(s, a);
+      if (i > 60 && largest_column(a) <= 1e-12 * stiffest * scene.size()) break;
+    }
+  } catch (const SolverFailure&) {
+    return std::nullopt;
+  }
+  s.v.setZero();
+  f.acceleration(s, a);
+  // the implicit steps stop at 1e-10 of the forces; kicks as small as 1e-8 of a spring need the rest to its last digits
+  for (double left = largest_column(a); left > 0;) {
+    const Linearised l = linearised(model, s);
+    Sparse k = l.k;
+    // beside zero, so that a free motion does not make it singular
+    for (int i = 0; i < l.size(); ++i) k.coeffRef(i, i) += 1e-9 * stiffest;
+    const Eigen::SimplicialLDLT<Sparse> solver(k);
+    if (solver.info() != Eigen::Success) return std::nullopt;
+    State next = s;
+    next.x += l.offsets(solver.solve(l.weighted(a)), static_cast<int>(s.x.cols()));
+    f.acceleration(next, a);
+    if (!(largest_column(a) < 0.5 * left)) break;
+    left = largest_column(a);
+    s = std::move(next);
+  }
+  f.acceleration(s, a);
+  if (!(largest_column(a) <= 1e-11 * stiffest * scene.size())) return std::nullopt;
+  return s;
+}
+
+}  // namespace crosscheck

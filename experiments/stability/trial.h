@@ -1,0 +1,61 @@
+// Runs that ask one thing: does what is off from rest grow?
+#pragma once
+
+#include <functional>
+
+#include "experiments/stability/limit.h"
+
+namespace crosscheck {
+
+/// A scene as its stability is asked: at rest where it has a rest, else as it starts.
+struct Subject {
+  Scene scene;  // its start is the state
+  bool at_rest = false;
+  Spectrum spectrum;   // about the state
+  double spacing = 1;  // m, the shortest spring: the scale beside which a kick is small
+};
+Subject subject_of(const Scene& scene);
+
+struct Kick {
+  int mode = -1;         // of the spectrum's; -1: the fastest shape of the stiffness
+  double size = 1.5e-8;  // of the shortest spring: at the root of the rounding, rounding (eps / size in a step) and
+                         // nonlinearity (size) disturb linear motion equally
+};
+
+struct Trial {
+  Verdict verdict = Verdict::ok;
+  std::string reason;
+  double end = 0;        // s
+  double growth = 0;     // of the norm sqrt(|w'|^2 + w K w), from the first to the last tenth of the run; 0: not told
+  double per_step = 1;   // of the kicked mode's amplitude: the mean factor; 1 where it cannot be told
+  double amplitude = 1;  // of the kicked mode, at the end over at the start
+  bool of_mode = false;  // whether the two above are known
+  bool unsupported() const { return verdict == Verdict::unsupported; }
+  /// Whether the step held: no failure, and nothing that grew. Rest that is kicked is judged by growth too: by 1/20
+  /// over the run (beats of a neutral rule's modes look like a thousandth), and, where a Runge-Kutta rule multiplies
+  /// the mode by a constant factor, by 1e-6 of the mode's amplitude (what rounding and nonlinearity do to a kick).
+  bool held() const;
+  /// The verdict, or `energy` where the run ended before what grew had passed the energy budget.
+  Verdict fate() const;
+};
+
+/// Runs the method from the subject's state, kicked (or from the start, unkicked, where the scene has no rest).
+Trial try_step(const Method& method, const Subject& subject, double h, long steps, const Kick& kick);
+/// The run of such a trial.
+Run run_of_trial(double h, long steps);
+/// The subject's scene with the kick in its start.
+Scene kicked(const Subject& subject, const Kick& kick);
+
+struct Measured {
+  enum Kind { found, no_step, every_step, unsupported } kind = found;
+  double held = 0, failed = 0;  // s: the bracket; 0 where there is none
+  std::string reason;           // of unsupported
+  double limit() const;         // s, the bracket's geometric middle
+};
+/// The largest step that `holds`: doubled and halved from `first` until one holds and one fails, then halved in the
+/// logarithm until failed / held - 1 <= precision. Not below `lowest`, not above `highest`.
+Measured largest_step(const std::function<bool(double)>& holds, double first, double lowest, double highest,
+                      double precision);
+Measured measured_limit(const Method& method, const Subject& subject, long steps, const Kick& kick, double precision);
+
+}  // namespace crosscheck

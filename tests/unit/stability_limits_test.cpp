@@ -1,0 +1,284 @@
+// Limits of whole scenes: spectra against closed forms and against the code's own Jacobian, and runs that hold just
+// below the predicted limit and fail just above.
+#include <Eigen/Eigenvalues>
+
+#include "experiments/stability/trial.h"
+#include "mysim/observers/watch.h"
+#include "tests/unit/declared.h"
+#include "tests/unit/networks.h"
+#include "tests/unit/resized.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+/// Four masses on a vertical line of springs below a pin, with drag.
+Scene vertical_chain(double gamma) {
+  std::string text = gravity_text;
+  for (int i = 0; i <= 4; ++i) text += fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = 0.2\n", -0.5 * i);
+  for (int i = 0; i < 4; ++i)
+    text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = 80\nrest = 0.5\n", i, i + 1);
+  text += "[pins]\nparticles = [0]\n";
+  if (gamma > 0) text += fmt::format("[drag]\ngamma = {}\n", gamma);
+  return small_scene(text);
+}
+
+std::vector<double> frequencies(const Spectrum& s) {
+  std::vector<double> all;
+  for (const Vibration& v : s.modes) all.push_back(v.omega);
+  return all;
+}
+
+TEST(Spectrum, OfAStretchedChainIsItsClosedForm) {
+  const Subject subject = subject_of(load_scene("normal-modes"));
+  ASSERT_TRUE(subject.at_rest);
+  std::vector<double> expected;
+  for (int i = 1; i <= 8; ++i) {
+    const double sine = 2 * std::sin(i * M_PI / 18);
+    expected.push_back(std::sqrt(100 / 0.1) * sine);  // along
+    for (int side : {0, 1})
+      (void)side, expected.push_back(std::sqrt(2.5 / 0.275 / 0.1) * sine);  // across: tension over length
+  }
+  std::sort(expected.begin(), expected.end());
+  const auto found = frequencies(subject.spectrum);
+  ASSERT_EQ(found.size(), expected.size());
+  // the rest is found to 1e-9 of what the springs could do; frequencies come as roots
+  for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-6 * expected.back());
+}
+
+/// Eigenvalues of the code's Jacobian by central differences of its own accelerations, offsets and speeds.
+Eigen::VectorXcd rates_by_differences(const Scene& scene) {
+  System f(scene.model);
+  const Linearised l = linearised(scene.model, scene.start);
+  const int n = l.size();
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  a.topRightCorner(n, n).setIdentity();
+  constexpr double d = 1e-5;
+  for (int j = 0; j < 2 * n; ++j) {
+    Points side[2];
+    for (const int s : {0, 1}) {
+      State state = scene.start;
+      Points& moved = j < n ? state.x : state.v;
+      moved(l.free[j % n] % 3, l.free[j % n] / 3) += s == 0 ? d : -d;
+      side[s].resize(3, state.x.cols());
+      f.acceleration(state, side[s]);
+    }
+    for (int i = 0; i < n; ++i)
+      a(n + i, j) = (side[0](l.free[i] % 3, l.free[i] / 3) - side[1](l.free[i] % 3, l.free[i] / 3)) / (2 * d);
+  }
+  return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
+}
+
+/// A small net at rest whose drag rates differ and whose springs damp: damping and stiffness have different modes.
+Scene mixed_net() {
+  Scene scene = small_scene(std::string("[grid]\nsize = [3, 3]\norigin = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, 0, 1]\n"
+                                        "mass = 0.9\n[grid.stiffness]\nstructural = 100\nshear = 60\nbend = 40\n"
+                                        "[pins]\nparticles = [0, 2]\n") +
+                            gravity_text);
+  Eigen::VectorXd c(9);
+  for (int i = 0; i < 9; ++i) c[i] = 0.1 + 0.05 * i;
+  scene.model.terms.emplace_back(Drag{c});
+  Dashpots dashpots;
+  for (const Spring& s : scene.model.find<Springs>()->list)
+    if (s.family == Family::structural) dashpots.list.push_back({s.a, s.b, 0.3});
+  scene.model.terms.emplace_back(dashpots);
+  return scene;
+}
+
+TEST(Spectrum, OfMixedDampingHasTheRatesOfTheCode) {
+  const Subject subject = subject_of(mixed_net());
+  ASSERT_TRUE(subject.at_rest);
+  EXPECT_FALSE(subject.spectrum.commuting);
+  const Eigen::VectorXcd rates = rates_by_differences(subject.scene);
+  for (const std::complex<double> z : rates) {
+    double nearest = INFINITY;
+    for (const Vibration& v : subject.spectrum.modes)
+      nearest = std::min(nearest, std::hypot(v.omega - std::abs(z), v.gamma + 2 * z.real()));
+    // differences over 1e-5 m of accelerations of thousands of m/s^2, third derivatives included
+    EXPECT_LT(nearest, 1e-4 * subject.spectrum.omega) << z.real() << " + " << z.imag() << " i";
+  }
+}
+
+TEST(Spectrum, LanczosFindsTheEndsOfTheDenseSpectrum) {
+  const Subject subject = subject_of(with_grid("cloth-hang", 13));
+  ASSERT_TRUE(subject.at_rest);
+  ASSERT_FALSE(subject.spectrum.complete);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense(Eigen::MatrixXd(subject.spectrum.system.k),
+                                                             Eigen::EigenvaluesOnly);
+  const auto found = frequencies(subject.spectrum);
+  EXPECT_NEAR(found.back(), std::sqrt(dense.eigenvalues().tail(1)[0]), 1e-6 * found.back());
+  EXPECT_NEAR(found.front(), std::sqrt(dense.eigenvalues()[0]), 1e-4 * found.front());
+}
+
+/// Largest absolute eigenvalue of one step of the code about the state, by central differences.
+double step_radius(const Stepper& rule, const Scene& scene, double h) {
+  const Linearised l = linearised(scene.model, scene.start);
+  const int n = l.size();
+  constexpr double d = 1e-6;
+  Eigen::MatrixXd a(2 * n, 2 * n);
+  const double unit = 1 / h;  // velocities in units of offsets a step
+  for (int j = 0; j < 2 * n; ++j) {
+    State side[2] = {scene.start, scene.start};
+    for (const int s : {0, 1}) {
+      (j < n ? side[s].x : side[s].v)(l.free[j % n] % 3, l.free[j % n] / 3) += (s == 0 ? d : -d) * (j < n ? 1 : unit);
+      System f(scene.model);
+      Workspace w(side[s]);
+      rule.step(f, side[s], h, w);
+    }
+    for (int i = 0; i < n; ++i) {
+      const int axis = l.free[i] % 3, particle = l.free[i] / 3;
+      a(i, j) = (side[0].x(axis, particle) - side[1].x(axis, particle)) / (2 * d);
+      a(n + i, j) = (side[0].v(axis, particle) - side[1].v(axis, particle)) / (2 * d * unit);
+    }
+  }
+  return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+TEST(PredictedLimit, OfMixedDampingIsWhereTheStepMatrixTurnsUnstable) {
+  const Subject subject = subject_of(mixed_net());
+  int finite = 0;
+  for (const Stepper& rule : fixed_steppers()) {
+    SCOPED_TRACE(rule.name);
+    const Prediction p = predicted_limit(rule, subject.spectrum);
+    EXPECT_EQ(p.missing, "");
+    if (!std::isfinite(p.limit)) continue;
+    ++finite;
+    ASSERT_GT(p.limit, 0);
+    // differences: some 1e-9; eigenvalues that meet are known to the root of that
+    EXPECT_LE(step_radius(rule, subject.scene, 0.98 * p.limit), 1 + 1e-4);
+    EXPECT_GT(step_radius(rule, subject.scene, 1.02 * p.limit), 1 + 1e-4);
+  }
+  EXPECT_EQ(finite, 7);
+}
+
+TEST(PredictedLimit, SaysWhyWhereThereIsNone) {
+  Scene net = with_grid("cloth-hang", 8);
+  Eigen::VectorXd c = net.model.find<Drag>()->c;
+  c[20] *= 3;
+  net.model.find<Drag>()->c = c;
+  const Subject subject = subject_of(net);
+  EXPECT_TRUE(contains(predicted_limit(stepper("suzuki4"), subject.spectrum).missing, "different modes"));
+  EXPECT_EQ(predicted_limit(stepper("symplectic-euler"), subject.spectrum).missing, "");
+}
+
+TEST(PredictedLimit, BelongsToTheRuleThatAMethodFollows) {
+  EXPECT_EQ(rule_of(find_method("bullet/deformable-explicit"))->name, "symplectic-euler");
+  EXPECT_EQ(rule_of(find_method("odeint/rk4"))->name, "rk4");
+  EXPECT_EQ(rule_of(find_method("mysim/implicit-euler+linear"))->name, "implicit-euler");
+  EXPECT_EQ(rule_of(find_method("bullet/pbd")), nullptr);
+  EXPECT_EQ(rule_of(find_method("bullet/deformable-implicit")), nullptr);
+}
+
+TEST(LargestStep, IsBracketedFromBothSides) {
+  for (const double limit : {1e-3, 0.3, 1.0, 2.5, 40.0}) {
+    const Measured m = largest_step([&](double h) { return h <= limit; }, 1, 1e-4, 100, 0.001);
+    EXPECT_EQ(m.kind, Measured::found);
+    EXPECT_LE(m.held, limit);
+    EXPECT_GT(m.failed, limit);
+    EXPECT_LE(m.failed / m.held, 1.001);
+  }
+  EXPECT_EQ(largest_step([](double) { return true; }, 1, 1e-4, 100, 0.01).kind, Measured::every_step);
+  EXPECT_EQ(largest_step([](double) { return false; }, 1, 1e-4, 100, 0.01).kind, Measured::no_step);
+}
+
+/// Every fixed-step method of mysim's, and those of others that follow one of their rules.
+std::vector<Method> methods_with_limits() {
+  std::vector<Method> methods;
+  for (Method& m : all_methods())
+    if (const Stepper* rule = rule_of(m);
+        rule && !m.adaptive && std::isfinite(rule->limit(1, 0)) && !m.name.starts_with("bullet32"))
+      methods.push_back(std::move(m));
+  return methods;
+}
+
+TEST(MeasuredLimit, OnLinearScenesHoldsTwoPerCentBelowAndFailsTwoPerCentAbove) {
+  int tried = 0;
+  for (const Scene& scene : {load_scene("spring"), with_drag(load_scene("spring"), 2), load_scene("normal-modes"),
+                             with_drag(load_scene("normal-modes"), 5), vertical_chain(0), vertical_chain(3)}) {
+    const Subject subject = subject_of(scene);
+    ASSERT_TRUE(subject.at_rest);
+    for (const Method& method : methods_with_limits()) {
+      SCOPED_TRACE(fmt::format("{} on {} {}", method.name, scene.name, scene.model.terms.size()));
+      const Prediction p = predicted_limit(*rule_of(method), subject.spectrum);
+      if (p.limit == 0) continue;
+      ++tried;
+      EXPECT_TRUE(try_step(method, subject, 0.98 * p.limit, 2000, {p.mode}).held());
+      const Trial above = try_step(method, subject, 1.02 * p.limit, 2000, {p.mode});
+      EXPECT_FALSE(above.held()) << name_of(above.verdict) << ", growth " << above.growth;
+    }
+  }
+  EXPECT_EQ(tried, 3 * 6 + 3 * 8);  // without drag explicit Euler and trapezoidal have no stable step
+}
+
+TEST(MeasuredLimit, IsThePredictedOneToOnePerCent) {
+  for (const Scene& scene : {with_drag(load_scene("spring"), 2), with_drag(load_scene("normal-modes"), 5)}) {
+    const Subject subject = subject_of(scene);
+    for (const Method& method : methods_with_limits()) {
+      if (!method.stepper) continue;  // theirs are tried above
+      SCOPED_TRACE(fmt::format("{} on {}", method.name, scene.name));
+      const Prediction p = predicted_limit(*method.stepper, subject.spectrum);
+      const Measured m = measured_limit(method, subject, 1000, {p.mode}, 0.005);
+      ASSERT_EQ(m.kind, Measured::found);
+      EXPECT_NEAR(m.limit() / p.limit, 1, 0.01);
+    }
+  }
+}
+
+TEST(MeasuredLimit, WithoutDragTwoRulesHaveNoStableStepAndGrowAsTheFormulaSays) {
+  for (const char* name : {"spring", "normal-modes"}) {
+    const Subject subject = subject_of(load_scene(name));
+    const int mode = static_cast<int>(subject.spectrum.modes.size()) - 1;
+    const double omega = subject.spectrum.omega;
+    for (const char* rule : {"explicit-euler", "trapezoidal"}) {
+      SCOPED_TRACE(fmt::format("{} on {}", rule, name));
+      const Method method = find_method(rule);
+      EXPECT_EQ(predicted_limit(stepper(rule), subject.spectrum).limit, 0);
+      EXPECT_EQ(measured_limit(method, subject, 2000, {mode}, 0.01).kind, Measured::no_step);
+      for (const double z : {0.1, 0.3}) {
+        const double expected = method.stepper->order == 1 ? std::sqrt(1 + z * z) : std::sqrt(1 + z * z * z * z / 4);
+        const Trial trial = try_step(method, subject, z / omega, 200, {mode});
+        // rounding of 1e-16 m in a kick of 1.5e-8 of a spring, two hundred times, and the kick's own nonlinearity
+        EXPECT_NEAR(std::log(trial.per_step) / std::log(expected), 1, 1e-2);
+      }
+    }
+    EXPECT_EQ(measured_limit(find_method("leapfrog"), subject, 1000, {mode}, 0.1).kind, Measured::found);
+  }
+}
+
+TEST(MeasuredLimit, ImplicitRulesHaveNone) {
+  const Subject subject = subject_of(load_scene("spring"));
+  for (const char* rule : {"implicit-euler", "implicit-midpoint", "xpbd", "implicit-euler+linear"})
+    EXPECT_EQ(measured_limit(find_method(rule), subject, 300, {}, 0.1).kind, Measured::every_step) << rule;
+}
+
+TEST(MeasuredLimit, OfWhatAMethodCannotTakeIsItsReason) {
+  const Measured m = measured_limit(find_method("leapfrog"), subject_of(load_scene("circle")), 100, {}, 0.1);
+  EXPECT_EQ(m.kind, Measured::unsupported);
+  EXPECT_NE(m.reason, "");
+}
+
+/// 1 kg on a spring of 1 N/m and 1 m, held `extension` metres too long by an engine that lost the rest of its energy.
+Verdict verdict_at(double extension) {
+  Scene scene = hanging(1, 0);
+  scene.start.x(1, 1) = -1;
+  Watch watch(scene.model);
+  EXPECT_EQ(watch.observe(scene.start, true), Verdict::ok);
+  State state = scene.start;
+  state.t = 1;
+  state.x(1, 1) = -1 - extension;
+  return watch.observe(state, true);
+}
+
+TEST(Stretch, IsAVerdictBesideEnergy) {
+  // W = 9.81 N, D = 2 m, n = 1: s <= W + sqrt(W^2 + 2 (2 W + W^2 / 2)) = 25.07 m; a fall from rest reaches 2 W = 19.62
+  // m
+  EXPECT_EQ(verdict_at(19.62), Verdict::ok);
+  EXPECT_EQ(verdict_at(25.0), Verdict::ok);
+  EXPECT_EQ(verdict_at(25.2), Verdict::stretch);
+  EXPECT_EQ(verdict_at(60), Verdict::energy);  // more than twice what gravity gave
+  EXPECT_EQ(name_of(Verdict::stretch), "stretch");
+}
+
+}  // namespace
+}  // namespace crosscheck
