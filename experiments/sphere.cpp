@@ -201,11 +201,12 @@ std::vector<Point> sphere_points(const Request& request) {
   const Scene centred = drop_centred(), aside = drop_aside();
   for (const Scene& scene : {aside, centred})
     for (const Method& method : methods_of(request, scene))
-      if (!request.scenes_only) add(scene.name, method, scene, [scene](const Request& alone, const Method& m, Rows& rows) {
-        std::vector<double> steps = {2e-3, 1e-3};
-        if (alone.full) steps = {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4};
-        for (const double h : steps) drape(scene, m, h, rows);
-      });
+      if (!request.scenes_only)
+        add(scene.name, method, scene, [scene](const Request& alone, const Method& m, Rows& rows) {
+          std::vector<double> steps = {2e-3, 1e-3};
+          if (alone.full) steps = {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4};
+          for (const double h : steps) drape(scene, m, h, rows);
+        });
   for (const Scene& scene : request.scenes) {
     if (!scene.model.find<Spheres>()) {
       points.push_back({"sphere: " + scene.name, content_of(request, scene), [name = scene.name](Rows& rows) {

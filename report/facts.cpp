@@ -8,8 +8,11 @@
 namespace crosscheck {
 
 std::string failure_word(const std::string& verdict) {
-  static constexpr std::pair<std::string_view, const char*> table[] = {
-      {"stretch", "overstretched"}, {"solver", "solver gave up"}, {"frozen", "froze"}, {"timeout", "out of time"}, {"crash", "program failed"}};
+  static constexpr std::pair<std::string_view, const char*> table[] = {{"stretch", "overstretched"},
+                                                                       {"solver", "solver gave up"},
+                                                                       {"frozen", "froze"},
+                                                                       {"timeout", "out of time"},
+                                                                       {"crash", "program failed"}};
   for (const auto& [name, word] : table)
     if (verdict == name) return word;
   return "blew up";

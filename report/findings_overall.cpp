@@ -166,7 +166,8 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
   failures_of_all(facts, out);
   orders(result, out);
   cost_of_all(scenes, facts, out);
-  for (const auto of_experiment : {speed_findings, stability_findings, energy_findings, sphere_findings, adequacy_findings})
+  for (const auto of_experiment :
+       {speed_findings, stability_findings, energy_findings, sphere_findings, adequacy_findings})
     for (Finding& finding : of_experiment(result)) out.push_back(std::move(finding));
   return out;
 }

@@ -191,10 +191,20 @@ std::vector<Point> stability_points(const Request& request) {
                           }});
         continue;
       }
+      const Stepper* rule = rule_of(method);
       Request alone = request;
       alone.methods = {method};
-      points.push_back({"stability: " + name, content_of(alone, scene),
-                        [=, full = request.full](Rows& rows) { limit_on(scene, method, full, rows); }});
+      if (request.methods.empty() && !request.full && scene.start.x.cols() > 50 &&
+          (!rule || std::isinf(rule->limit(1, 0)))) {
+        points.push_back(
+            {"stability: " + name, "", [name](Rows& rows) {
+               rows.notes.push_back(fmt::format(
+                   "stability leaves out {}: no linear limit, and every run costs much; --full has it", name));
+             }});
+      } else {
+        points.push_back({"stability: " + name, content_of(alone, scene),
+                          [=, full = request.full](Rows& rows) { limit_on(scene, method, full, rows); }});
+      }
       if (!small || !mapped(request, method) || scene.model.first_order()) continue;
       const std::string content = content_of(alone, *small);
       for (const MapKind& kind : map_kinds())

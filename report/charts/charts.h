@@ -45,9 +45,9 @@ struct Snapshot {
 struct Chart {
   std::string scene;  // where it belongs; empty: the front of the report, or a chapter
   std::variant<Figure, Bars, HeatMap, std::monostate> figure;  // a new kind of figure is a struct and its drawing_of()
-  std::string chapter = {};                              // of the report, by its id (chapters.cpp); empty: none
-  std::string text = {};                                 // in a chapter: what it is about, before it
-  std::string heading = {};                              // in a chapter; empty: the figure's title
+  std::string chapter = {};                                    // of the report, by its id (chapters.cpp); empty: none
+  std::string text = {};                                       // in a chapter: what it is about, before it
+  std::string heading = {};                                    // in a chapter; empty: the figure's title
   std::vector<PageTable> tables = {};
   std::vector<Snapshot> snapshots = {};
 };
@@ -61,14 +61,14 @@ std::vector<Chart> contact_charts(const ChartInput& input);     // centres of ma
 std::vector<Chart> balance_charts(const ChartInput& input);     // balance error or contact loss over time
 std::vector<Chart> order_charts(const ChartInput& input);       // error against step
 
-std::vector<Chart> energy_charts(const ChartInput& input);        // where it went, drift, numerical damping
-std::vector<Chart> sphere_charts(const ChartInput& input);        // contact: friction, rebound, depth, drapes
+std::vector<Chart> energy_charts(const ChartInput& input);          // where it went, drift, numerical damping
+std::vector<Chart> sphere_charts(const ChartInput& input);          // contact: friction, rebound, depth, drapes
 std::vector<Chart> stiffness_charts(const ChartInput& input);       // of position-based links
 std::vector<Chart> disagreement_charts(const ChartInput& input);    // where Bullet answers otherwise than it is asked
 std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // error against cost, chapter of its own
 std::vector<Chart> cost_charts(const ChartInput& input);            // of a step
-std::vector<Chart> adequacy_charts(const ChartInput& input);      // what each ingredient and the grid are worth
-std::vector<Chart> stability_charts(const ChartInput& input);     // where methods break
+std::vector<Chart> adequacy_charts(const ChartInput& input);        // what each ingredient and the grid are worth
+std::vector<Chart> stability_charts(const ChartInput& input);       // where methods break
 
 std::vector<Chart> all_charts(const ChartInput& input);
 

@@ -176,8 +176,9 @@ HeatMap map_of(const Table& cells, const Table& limits, const std::string& scene
                           "panels the measured limit is at most {:.2g} % away.",
                           rows, 100 * worst)
                     : "No method here has a limit by linear theory.";
-  map.caption = fmt::format("Scene {}; each cell one run from rest, kicked by a ten-thousandth of a spring; commit {}.",
-                            scene, commit);
+  map.caption =
+      fmt::format("Scene {}; each cell one run from rest, kicked by at most a ten-thousandth of a spring; commit {}.",
+                  scene, commit);
   return map;
 }
 

@@ -142,7 +142,8 @@ class Builder {
   std::string left_out() const {
     if (request_.scenes_only)
       return "this is the report of the named scenes: what experiments ask of scenes of their own (balls, known "
-             "disagreements, the stiffness of links, the cost of a step) is in the report without names, and with --full";
+             "disagreements, the stiffness of links, the cost of a step) is in the report without names, and with "
+             "--full";
     std::vector<std::string_view> names;
     for (const auto name : shipped_scenes())
       if (std::none_of(request_.scenes.begin(), request_.scenes.end(), [&](const Scene& s) { return s.name == name; }))
