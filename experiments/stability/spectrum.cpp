@@ -12,6 +12,7 @@
 #include <Eigen/SparseCholesky>
 #include <cmath>
 
+#include "experiments/rest.h"
 #include "mysim/errors.h"
 #include "mysim/frequency.h"
 #include "mysim/steppers/stepper.h"
@@ -176,41 +177,21 @@ Spectrum spectrum_of(const Scene& scene, const State& state) {
   return s;
 }
 
-std::optional<State> rest_of(const Scene& scene) {
+std::optional<State> equilibrium_of(const Scene& scene) {
   const Model& model = scene.model;
   if (model.first_order()) return State{0, Points::Zero(3, scene.start.x.cols()), scene.start.v};
-  const auto* wind = model.find<Wind>();
-  const auto* air = model.find<Aerodynamics>();
-  if (model.particles.pins.empty() || model.particles.move || model.find<Spheres>() || model.find<Constraints>() ||
-      !model.find<Springs>() || (wind && wind->acceleration.gusts) || (air && air->velocity.gusts))
-    return std::nullopt;
-
+  auto rest = rest_of(scene);
+  if (!rest) return std::nullopt;
+  State s = std::move(*rest);
   System f(model);
-  State s = scene.start;
-  s.v.setZero();
-  Workspace w(s);
   Points a(3, s.x.cols());
   // 1/s^2: what a particle's springs could do to it over the scene's size
   double stiffest = 0;
   for (const Spring& spring : model.find<Springs>()->list)
     for (const int end : {spring.a, spring.b})
       if (!model.particles.pinned[end]) stiffest = std::max(stiffest, spring.k / model.particles.mass[end]);
-  try {
-    // short steps let it fall, long ones are Newton's steps towards the rest
-    for (int i = 0; i < 400; ++i) {
-      const double h = i < 60 ? 0.05 : 5;
-      implicit_euler(f, s, h, w);
-      s.t = 0;
-      s.v *= i < 60 ? 0.9 : 0;
-      f.acceleration(s, a);
-      if (i > 60 && largest_column(a) <= 1e-12 * stiffest * scene.size()) break;
-    }
-  } catch (const SolverFailure&) {
-    return std::nullopt;
-  }
-  s.v.setZero();
   f.acceleration(s, a);
-  // the implicit steps stop at 1e-10 of the forces; kicks as small as 1e-8 of a spring need the rest to its last digits
+  // kicks as small as 1e-8 of a spring need the rest to its last digits: Newton's steps
   for (double left = largest_column(a); left > 0;) {
     const Linearised l = linearised(model, s);
     Sparse k = l.k;

@@ -50,9 +50,8 @@ struct Spectrum {
 /// without drag. Modes that the stiffness pushes away from the state count as omega = 0.
 Spectrum spectrum_of(const Scene& scene, const State& state);
 
-/// Where the scene comes to rest: relaxed by implicit Euler steps, then by Newton's on the balance of forces, until no
-/// particle is accelerated by more than 1e-11 of what its springs could do. Empty where nothing is pinned, pins or
-/// spheres or the wind move, something may touch, or distances are hard. A rotation rests at the origin.
-std::optional<State> rest_of(const Scene& scene);
+/// The state of rest of rest.h, by Newton's steps to the last digits: no particle is accelerated by more than 1e-11 of
+/// what its springs could do. A rotation rests at the origin.
+std::optional<State> equilibrium_of(const Scene& scene);
 
 }  // namespace crosscheck

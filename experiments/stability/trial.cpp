@@ -74,7 +74,7 @@ class Departure : public Observer {
 
 Subject subject_of(const Scene& scene) {
   Subject subject{scene, false, {}, scene.size()};
-  if (auto rest = rest_of(scene)) {
+  if (auto rest = equilibrium_of(scene)) {
     subject.scene.start = *rest;
     subject.at_rest = true;
   }
