@@ -9,10 +9,11 @@
 namespace crosscheck {
 
 struct Finding {
-  std::string scene;     // or empty: of the whole report
-  std::string topic;     // agreement, accuracy, failure, cost, contact, order
-  std::string sentence;  // for a reader who has never seen the code
-  std::string tier;      // of the truth that it rests on; "another engine" for differences; "measured" for costs
+  std::string scene;         // or empty: of the whole report
+  std::string topic;         // agreement, accuracy, failure, cost, contact, order
+  std::string sentence;      // for a reader who has never seen the code
+  std::string tier;          // of the truth that it rests on; "another engine" for differences; "measured" for costs
+  std::string chapter = {};  // of the report, by its id, that shows what it rests on; empty: none
 };
 
 /// What one scene showed.
@@ -22,6 +23,9 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
                                       const Rows& result);
 /// Who is cheapest for a given accuracy, and by how much.
 std::vector<Finding> speed_findings(const Rows& result);
+
+/// What a step costs in both engines.
+std::vector<Finding> cost_findings(const Rows& result);
 
 /// Of experiment `energy`.
 std::vector<Finding> energy_findings(const Rows& result);

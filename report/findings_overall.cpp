@@ -166,9 +166,14 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
   failures_of_all(facts, out);
   orders(result, out);
   cost_of_all(scenes, facts, out);
-  for (const auto of_experiment :
-       {speed_findings, stability_findings, energy_findings, sphere_findings, adequacy_findings})
-    for (Finding& finding : of_experiment(result)) out.push_back(std::move(finding));
+  const std::pair<const char*, std::vector<Finding> (*)(const Rows&)> table[] = {
+      {"speed-accuracy", speed_findings}, {"stability", stability_findings}, {"energy", energy_findings},
+      {"sphere", sphere_findings},        {"adequacy", adequacy_findings},   {"cost", cost_findings}};
+  for (const auto& [chapter, of_experiment] : table)
+    for (Finding& finding : of_experiment(result)) {
+      finding.chapter = chapter;
+      out.push_back(std::move(finding));
+    }
   return out;
 }
 

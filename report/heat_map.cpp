@@ -24,25 +24,37 @@ double half_spacing(const std::set<double>& values) {
 
 struct Grid {
   double x_half, y_half;            // factors
-  double left, right, bottom, top;  // ends of the axes
+  double left, right, bottom, top;  // ends of the cells
 };
 
-Grid grid_of(const HeatMap& map) {
+/// Of one panel: others may have more cells over the same axes.
+Grid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
   std::set<double> xs, ys;
-  for (const HeatMap::Panel& p : map.panels)
-    for (const HeatMap::HeatCell& c : p.cells) {
-      if (!(c.x > 0 && c.y > 0 && std::isfinite(c.x) && std::isfinite(c.y)))
-        throw std::runtime_error(fmt::format("figure {}: a value is not above zero", map.name));
-      // values that differ by rounding alone are one
-      xs.insert(std::exp(std::round(std::log(c.x) * 1e6) / 1e6));
-      ys.insert(std::exp(std::round(std::log(c.y) * 1e6) / 1e6));
-    }
+  for (const HeatMap::HeatCell& c : panel.cells) {
+    if (!(c.x > 0 && c.y > 0 && std::isfinite(c.x) && std::isfinite(c.y)))
+      throw std::runtime_error(fmt::format("figure {}: a value is not above zero", map.name));
+    // values that differ by rounding alone are one
+    xs.insert(std::exp(std::round(std::log(c.x) * 1e6) / 1e6));
+    ys.insert(std::exp(std::round(std::log(c.y) * 1e6) / 1e6));
+  }
   if (xs.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", map.name));
   const double x_half = half_spacing(xs), y_half = half_spacing(ys);
   return {x_half, y_half, *xs.begin() / x_half, *xs.rbegin() * x_half, *ys.begin() / y_half, *ys.rbegin() * y_half};
 }
 
-Table data_of(const HeatMap& map, const Grid& grid) {
+/// The axes of all panels.
+Grid axes_of(const HeatMap& map) {
+  if (map.panels.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", map.name));
+  Grid all = grid_of(map, map.panels[0]);
+  for (const HeatMap::Panel& p : map.panels) {
+    const Grid grid = grid_of(map, p);
+    all.left = std::min(all.left, grid.left), all.right = std::max(all.right, grid.right);
+    all.bottom = std::min(all.bottom, grid.bottom), all.top = std::max(all.top, grid.top);
+  }
+  return all;
+}
+
+Table data_of(const HeatMap& map) {
   Table table{map.name,
               {{"panel", "1"},
                {"what", "1"},
@@ -54,6 +66,7 @@ Table data_of(const HeatMap& map, const Grid& grid) {
                {"top", "see y"}},
               {}};
   for (const HeatMap::Panel& p : map.panels) {
+    const Grid grid = grid_of(map, p);
     for (const HeatMap::HeatCell& c : p.cells)
       table.add({p.title, map.kinds.at(c.kind).title, c.x, c.y, c.x / grid.x_half, c.x * grid.x_half, c.y / grid.y_half,
                  c.y * grid.y_half});
@@ -110,7 +123,7 @@ std::string key_plot(const HeatMap& map) {
 }  // namespace
 
 Drawing drawing_of(const HeatMap& map) {
-  const Grid grid = grid_of(map);
+  const Grid grid = axes_of(map);
   const int panels = static_cast<int>(map.panels.size()), across = std::min(columns, panels),
             down = (panels + columns - 1) / columns;
   // in parts of a page 680 wide: heights of the title, a row of panels, the axis below, and the key
@@ -160,7 +173,7 @@ Drawing drawing_of(const HeatMap& map) {
   on(fmt::format("pngcairo size 1360,{:.0f} font \"DejaVu Sans,12\" fontscale 1.6 linewidth 1.7 pointscale 1.6",
                  2 * tall),
      ".png");
-  return {map.name, data_of(map, grid), script};
+  return {map.name, data_of(map), script};
 }
 
 }  // namespace crosscheck

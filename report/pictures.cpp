@@ -225,14 +225,18 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
   const bool no_stretch =
       shot.mode == Mode::stretch && !scene.model.find<Springs>() && !scene.model.find<Constraints>();
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
-  const auto base_frames = frames_of(scene, usable[0]->trajectory, shot);
+  Shot when = shot;
+  for (const Answer* a : usable)
+    if (shot.at_first_failure && a->outcome.verdict != Verdict::ok)
+      when.at = when.at < 0 ? a->outcome.end : std::min(when.at, a->outcome.end);
+  const auto base_frames = frames_of(scene, usable[0]->trajectory, when);
   std::vector<Points> healthy, all;
   std::vector<render::Ball> balls;
   double most = 0, most_of_failed = 0;
   if (!strip) picture.rows.emplace_back();
   for (const Answer* a : usable) {
     if (strip) picture.rows.emplace_back();
-    const std::vector<int> frames = frames_of(scene, a->trajectory, shot);
+    const std::vector<int> frames = frames_of(scene, a->trajectory, when);
     for (size_t c = 0; c < frames.size(); ++c) {
       const Points& base = usable[0]->trajectory.x[base_frames[c]];
       render::Panel panel;
@@ -252,7 +256,7 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
       picture.rows.back().push_back(std::move(panel));
     }
   }
-  if (healthy.empty()) most = most_of_failed;
+  if (healthy.empty() || shot.at_first_failure) most = std::max(most, most_of_failed);
   if (mode == Mode::stretch) picture.scale = render::Scale{"stretch / %", 0, round_up(most)};
   if (mode == Mode::difference)
     picture.scale = render::Scale{"distance from " + usable[0]->method + " / mm", 0, round_up(most)};

@@ -15,7 +15,8 @@ Mode mode_named(const std::string& name);
 
 struct Shot {
   Mode mode = Mode::shaded;
-  double at = -1;  // s; negative: the end
+  double at = -1;                 // s; negative: the end
+  bool at_first_failure = false;  // all at the time at which the first of the runs failed, colours up to its stretch
   render::Quality quality = render::Quality::still;
   int width = 1280, height = 720;
 };

@@ -190,8 +190,20 @@ std::optional<State> equilibrium_of(const Scene& scene) {
   for (const Spring& spring : model.find<Springs>()->list)
     for (const int end : {spring.a, spring.b})
       if (!model.particles.pinned[end]) stiffest = std::max(stiffest, spring.k / model.particles.mass[end]);
-  f.acceleration(s, a);
-  // kicks as small as 1e-8 of a spring need the rest to its last digits: Newton's steps
+  Workspace w(s);
+  try {
+    // implicit Euler steps so long that they are Newton's towards the rest, kept downhill
+    f.acceleration(s, a);
+    for (int i = 0; i < 300 && largest_column(a) > 1e-12 * stiffest * scene.size(); ++i) {
+      implicit_euler(f, s, 5, w);
+      s.t = 0;
+      s.v.setZero();
+      f.acceleration(s, a);
+    }
+  } catch (const SolverFailure&) {
+    return std::nullopt;
+  }
+  // these stop at 1e-10 of the forces; kicks as small as 1e-8 of a spring need the rest to its last digits
   for (double left = largest_column(a); left > 0;) {
     const Linearised l = linearised(model, s);
     Sparse k = l.k;

@@ -104,7 +104,12 @@ Chart ladder(const Table& t, const Table* least, const std::string& scene, const
           : fmt::format("Within {} these can be left out: {}.", nice_length(tolerance), fmt::join(within, ", "));
   f.caption = fmt::format("Scene {}; truth of the full scene: {}, error bar {}; commit {}.", scene, truth,
                           nice_length(bar), commit);
-  Chart chart{"", std::move(f), "adequacy"};
+  Chart chart{"", std::monostate{}, "adequacy"};
+  // where nothing moves no removal has an error, and there is nothing to draw
+  if (f.curves.empty())
+    chart.text = "Nothing moves in this scene: no removal changes anything.";
+  else
+    chart.figure = std::move(f);
   chart.heading = scene;
   if (least) chart.tables.push_back(least_of(*least, scene));
   return chart;
@@ -223,6 +228,11 @@ std::vector<Chart> adequacy_charts(const ChartInput& input) {
     charts.push_back(grids(*t, input.commit));
     charts.push_back(scaling(*t, rows.table("adequacy-bending"), rows.table("adequacy-scaling"), input.commit));
   }
+  // a cloth without a rest has no sag on any grid
+  std::erase_if(charts, [](const Chart& c) {
+    const auto* f = std::get_if<Figure>(&c.figure);
+    return f && f->curves.empty();
+  });
   return charts;
 }
 

@@ -161,7 +161,7 @@ Chart drift(const Table& table, const Table& rows, const std::string& scene, con
       continue;
     }
     const bool symplectic = flag_at(table, i, "symplectic");
-    const std::string title = method + (symplectic ? " S" : "");
+    const std::string title = method + (symplectic ? " (symplectic)" : "");
     const double turned = number_at(table, i, "energy turned over"), end = number_at(table, i, "end");
     const std::string what = behaviour(table, i);
     (what == "bounded" || what.starts_with("zero") ? bounded : drifting).push_back(method);
@@ -184,7 +184,7 @@ Chart drift(const Table& table, const Table& rows, const std::string& scene, con
       "proportion to time (slope 1), or takes all there is. Bounded here: {}.",
       bounded.empty() ? "none" : joined(bounded));
   f.caption = fmt::format(
-      "Scene {}, nothing damps it; {}; S: symplectic; rules that solve the whole step at ten times the step; "
+      "Scene {}, nothing damps it; {}; rules that solve the whole step at ten times the step; "
       "commit {}.",
       scene, length_text(table, scene), commit);
   Chart chart{"", std::monostate{}, "energy", "", f.title};

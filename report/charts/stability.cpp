@@ -201,11 +201,11 @@ std::optional<Snapshot> moment_of_failure(const ChartInput& input, const Table& 
       }
       s.caption = fmt::format(
           "The cloth of cloth-hang, let go from the horizontal, by symplectic Euler at steps a twentieth below its "
-          "limit "
-          "of {} (left) and a twentieth above (right), there at the moment at which its energy passes all that it had "
-          "to work with.",
+          "limit of {} (left) and a twentieth above (right), both at the moment at which the right one's energy passes "
+          "all that it had to work with: from one particle to the next its springs are stretched and pressed in turn.",
           time_text(*limit));
       s.shot.mode = Mode::stretch;
+      s.shot.at_first_failure = true;
       s.shot.width = 1280;
       s.shot.height = 560;
       return s;

@@ -32,7 +32,7 @@ void write_data(const Rows& result, const Provenance& lines, const fs::path& fol
 }
 
 nlohmann::ordered_json finding_json(const Finding& f) {
-  return {{"scene", f.scene}, {"topic", f.topic}, {"sentence", f.sentence}, {"tier", f.tier}};
+  return {{"scene", f.scene}, {"topic", f.topic}, {"sentence", f.sentence}, {"tier", f.tier}, {"chapter", f.chapter}};
 }
 
 std::string report_json(const PageContent& page, const std::vector<Chart>& charts) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reference/independent/integrators.h"
 #include "report/assets.h"
 #include "report/provenance.h"
@@ -10,12 +12,30 @@
 namespace crosscheck {
 namespace {
 
-std::string finding_list(const std::vector<Finding>& findings, const std::string& css_class) {
+std::string finding_list(const std::vector<Finding>& findings, const std::string& css_class, bool links = false) {
   std::string out = fmt::format("<ul class=\"{}\">\n", css_class);
   for (const Finding& f : findings)
-    out += fmt::format("<li class=\"{}\">{} <span class=\"tier\">{}</span></li>\n", f.topic, escaped(f.sentence),
-                       f.tier == "measured" || f.tier == "see each scene" ? f.tier : "against: " + escaped(f.tier));
+    out += fmt::format("<li class=\"{}\">{} <span class=\"tier\">{}{}</span></li>\n", f.topic, escaped(f.sentence),
+                       f.tier == "measured" || f.tier == "see each scene" ? f.tier : "against: " + escaped(f.tier),
+                       links && !f.chapter.empty() ? fmt::format("; <a href=\"#{}\">figures</a>", f.chapter) : "");
   return out + "</ul>\n";
+}
+
+/// What the front shows: what belongs to no chapter, and the first of each chapter.
+std::vector<Finding> front_of(const std::vector<Finding>& findings) {
+  std::vector<Finding> front;
+  for (const Finding& f : findings)
+    if (f.chapter.empty() ||
+        std::none_of(front.begin(), front.end(), [&](const Finding& other) { return other.chapter == f.chapter; }))
+      front.push_back(f);
+  return front;
+}
+
+std::vector<Finding> of_chapter(const std::vector<Finding>& findings, const std::string& id) {
+  std::vector<Finding> own;
+  for (const Finding& f : findings)
+    if (f.chapter == id) own.push_back(f);
+  return own;
 }
 
 std::string head() {
@@ -29,7 +49,7 @@ std::string head() {
 
 std::string first_screen(const PageContent& c) {
   std::string out = "<header><h1>Do mysim and Bullet agree?</h1></header>\n<main>\n<section class=\"answer\"><div>\n";
-  out += finding_list(c.findings, "findings");
+  out += finding_list(front_of(c.findings), "findings", true);
   for (const std::string& problem : c.problems)
     out += fmt::format("<p class=\"problem\">Missing: {}</p>\n", escaped(problem));
   out += "</div>\n";
@@ -63,9 +83,10 @@ std::string scene_section(const ScenePart& part) {
   return out;
 }
 
-std::string chapter_section(const Chapter& chapter) {
+std::string chapter_section(const Chapter& chapter, const std::vector<Finding>& findings) {
   std::string out = fmt::format("<section class=\"chapter\" id=\"{}\">\n<h2>{}</h2>\n<p class=\"question\">{}</p>\n",
                                 chapter.id, escaped(chapter.title), escaped(chapter.intro));
+  if (const auto own = of_chapter(findings, chapter.id); !own.empty()) out += finding_list(own, "findings");
   out += "<div class=\"figures\">\n";
   for (const Chapter::Entry& entry : chapter.entries) {
     out += fmt::format("<article><h3>{}</h3><p>{}</p>\n", escaped(entry.heading), escaped(entry.text));
@@ -84,7 +105,7 @@ std::string page_html(const PageContent& c) {
   out += "<section>\n<h2>Scene by scene</h2>\n" + scene_table_html(c.scenes);
   out += "</section>\n";
   for (const Chapter& chapter : c.chapters)
-    if (!chapter.entries.empty()) out += chapter_section(chapter);
+    if (!chapter.entries.empty()) out += chapter_section(chapter, c.findings);
   for (const ScenePart& part : c.scenes) out += scene_section(part);
 
   out +=
