@@ -154,7 +154,10 @@ std::string script_of(const Figure& f) {
   out += fmt::format("set title {}\n", single_quoted(f.title));
   out += axis_commands(closed(f, true), "x") + axis_commands(closed(f, false), "y");
   if (!f.categories.empty()) {
-    out += fmt::format("set xtics rotate by {} right noenhanced (", f.categories.size() > 10 ? 35 : 20);
+    const bool short_ones = std::all_of(f.categories.begin(), f.categories.end(),
+                                        [](const auto& category) { return category.second.size() <= 4; });
+    out += short_ones ? "set xtics noenhanced ("
+                      : fmt::format("set xtics rotate by {} right noenhanced (", f.categories.size() > 10 ? 35 : 20);
     for (size_t i = 0; i < f.categories.size(); ++i)
       out += fmt::format("{}{} {:g}", i ? ", " : "", single_quoted(f.categories[i].second), f.categories[i].first);
     out += ")\n";

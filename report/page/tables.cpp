@@ -38,8 +38,12 @@ std::string with_digits_of(double mean, double spread) {
 }  // namespace
 
 std::string page_table_html(const PageTable& table) {
-  std::string out =
-      fmt::format("<div class=\"scroll\"><table><caption>{}</caption><thead><tr>", escaped(table.caption));
+  // long ones open when asked: the figure above has said most of it
+  const bool shut = table.rows.size() > 6;
+  std::string out = shut ? fmt::format("<details><summary>{}</summary>\n", escaped(table.caption)) : "";
+  out += "<div class=\"scroll\"><table>";
+  if (!shut) out += fmt::format("<caption>{}</caption>", escaped(table.caption));
+  out += "<thead><tr>";
   for (const std::string& head : table.header) out += fmt::format("<th>{}</th>", escaped(head));
   out += "</tr></thead><tbody>\n";
   for (const auto& row : table.rows) {
@@ -50,7 +54,7 @@ std::string page_table_html(const PageTable& table) {
                                   row[i].empty() ? "–" : escaped(row[i]));
     out += "</tr>\n";
   }
-  return out + "</tbody></table></div>\n";
+  return out + "</tbody></table></div>\n" + (shut ? "</details>\n" : "");
 }
 
 std::string scene_table_html(const std::vector<ScenePart>& scenes) {
