@@ -7,6 +7,7 @@
 #include "experiments/adequacy/ladder.h"
 #include "experiments/advise/advice.h"
 #include "experiments/metrics.h"
+#include "experiments/stability/limit.h"
 #include "mysim/errors.h"
 #include "mysim/frequency.h"
 
@@ -27,10 +28,10 @@ class Search {
     model_ = &model;
     method_ = &method;
     limit_.reset();
-    if (method.stepper && !method.adaptive && !model.scene.model.first_order()) {
+    if (const Stepper* rule = rule_of(method); rule && !method.adaptive && !model.scene.model.first_order()) {
       const double omega = fastest_frequency(model.scene.model, model.scene.start);
       const double gamma = uniform_drag_rate(model.scene.model).value_or(0);
-      if (const double limit = method.stepper->limit(omega, gamma); std::isfinite(limit)) limit_ = limit;
+      if (const double limit = rule->limit(omega, gamma); std::isfinite(limit)) limit_ = limit;
     }
     method.adaptive ? over_tolerances() : over_steps();
   }
