@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/estimate.h"
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
 #include "experiments/statistics.h"
@@ -50,8 +51,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     const auto methods = methods_of(request, scene);
     const auto asked = std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
     if (asked == methods.end()) continue;
-    // 1.5e7 particle steps take about 0.3 s
-    if (!request.full && cost_of_run(*asked, scene, run) > 1.5e7) {
+    if (!request.full && estimated_seconds(*asked, scene, run) > 0.3) {
       rows.notes.push_back(
           fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them", name, scene.name));
       continue;

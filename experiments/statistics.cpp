@@ -41,8 +41,4 @@ std::vector<Statistic> contact_statistics(const Method& method, const Scene& sce
           moments("kinetic energy at the end", "J", kinetic), moments("elastic energy at the end", "J", elastic)};
 }
 
-double cost_of_run(const Method& method, const Scene& scene, const Run& run) {
-  return (method.stepper ? 1 : 12) * static_cast<double>(scene.model.particles.size()) * run.duration / run.step;
-}
-
 }  // namespace crosscheck

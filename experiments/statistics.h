@@ -26,8 +26,4 @@ struct ContactStatistics {
 /// or a run fails. For scenes with a sphere.
 std::vector<Statistic> contact_statistics(const Method& method, const Scene& scene, const Run& run);
 
-/// What one of the runs costs, in particle steps of mysim's explicit rules, the same on every machine; a step of
-/// another engine counts twelvefold (measured with Bullet).
-double cost_of_run(const Method& method, const Scene& scene, const Run& run);
-
 }  // namespace crosscheck

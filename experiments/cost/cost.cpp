@@ -1,5 +1,6 @@
 // The timed points of experiment `cost`.
 #include "experiments/cost/cost.h"
+#include "experiments/estimate.h"
 
 #include <fmt/ranges.h>
 
@@ -8,7 +9,6 @@
 
 #include "experiments/cost/roofline.h"
 #include "experiments/cost/sized_cloth.h"
-#include "experiments/speed_accuracy/ladder.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/timing.h"
 #include "mysim/clock.h"
@@ -27,7 +27,7 @@ Run steps_of(const Scene& scene, long steps) { return {scene.step, scene.step * 
 
 /// As many steps as take about 10 ms by the estimate; at least 2.
 long steps_to_time(const Method& method, const Scene& scene) {
-  const double each = estimated_seconds(method, scene, steps_of(scene, 1), {false, scene.step});
+  const double each = estimated_seconds(method, scene, steps_of(scene, 1));
   return std::clamp(std::lround(0.01 / each), 2L, 2000L);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "experiments/estimate.h"
 #include "mysim/frequency.h"
 
 namespace crosscheck {
@@ -15,33 +16,11 @@ bool limited(const Method& method) {
   return false;
 }
 
-/// Rough CPU time of one evaluation, s.
-double seconds_of_evaluation(const Method& method, const Scene& scene) {
-  const auto* springs = scene.model.find<Springs>();
-  const double elements =
-      static_cast<double>(scene.start.x.cols()) + (springs ? static_cast<double>(springs->list.size()) : 0);
-  if (method.stepper) return 100e-9 + 5e-9 * elements;
-  if (!method.name.starts_with("bullet")) return 200e-9 + 12e-9 * elements;  // forces written apart, plainly
-  return 2e-6 + 40e-9 * elements;
-}
-
 }  // namespace
 
 Run Setting::applied_to(Run run) const {
   (tolerance ? run.tolerance : run.step) = value;
   return run;
-}
-
-double estimated_seconds(const Method& method, const Scene& scene, const Run& run, const Setting& setting) {
-  const Run asked = setting.applied_to(run);
-  double evaluations = 1;  // per step
-  // implicit rules: conjugate gradients take more products with the matrix at longer steps (measured on cloth-hang)
-  const double longer = std::sqrt(asked.step / scene.step);
-  for (const Stepper& rule : steppers())
-    if (rule.name == method.rule) evaluations = rule.evaluations > 0 ? rule.evaluations : 60 * longer;
-  if (method.name.starts_with("bullet/deformable-implicit")) evaluations = 10 * longer;
-  if (method.adaptive) evaluations = 7;
-  return evaluations * run.duration / plan(asked).h * seconds_of_evaluation(method, scene);
 }
 
 std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run& run, bool full, int* dropped) {
@@ -57,7 +36,7 @@ std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run&
     if (setting.value == last) continue;
     last = setting.value;
     const double most = full ? 1.5 : halving >= 0 ? 1.2 : 0.35;
-    if (estimated_seconds(method, scene, run, setting) > most) {
+    if (estimated_seconds(method, scene, setting.applied_to(run)) > most) {
       if (dropped) ++*dropped;
       continue;
     }

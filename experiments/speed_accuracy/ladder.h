@@ -23,7 +23,4 @@ struct Setting {
 std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run& run, bool full,
                             int* dropped = nullptr);
 
-/// What a run would take at the setting, s; measured with this machine's builds once, good to a factor of about 3.
-double estimated_seconds(const Method& method, const Scene& scene, const Run& run, const Setting& setting);
-
 }  // namespace crosscheck

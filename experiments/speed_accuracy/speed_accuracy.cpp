@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/estimate.h"
 #include "experiments/metrics.h"
 #include "experiments/speed_accuracy/ladder.h"
 #include "experiments/timing.h"
@@ -154,7 +155,7 @@ struct Part {
 Part part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting) {
   Run run = setting.applied_to(base);
   const double enough = 0.02;  // s: a hundred thousand ticks of the clock
-  const double share = std::min(1., enough / estimated_seconds(method, scene, base, setting));
+  const double share = std::min(1., enough / estimated_seconds(method, scene, setting.applied_to(base)));
   if (!method.fingerprint.empty()) return {run};  // a program of its own: what its start costs is not known
   const bool whole = share > 0.7 || scene.model.find<Spheres>();  // touching may cost more than falling
   if (method.adaptive) {
@@ -166,7 +167,7 @@ Part part_of(const Method& method, const Scene& scene, const Run& base, const Se
   // the clock is read at each sample, which takes 0.3 microseconds: one in 100 is often enough to tell a blow-up
   const long all = static_cast<long>(plan(run).steps_per_sample) * run.samples;
   long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
-  const double seconds = share * estimated_seconds(method, scene, base, setting);
+  const double seconds = share * estimated_seconds(method, scene, setting.applied_to(base));
   const int samples = std::clamp(static_cast<int>(seconds / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
   steps = steps / samples * samples;
   return {{plan(run).h, plan(run).h * static_cast<double>(steps), samples},

@@ -27,8 +27,8 @@ struct MapSize {
 /// Tables stability-map (cells), stability-map-limit (limits of the rows) and, where asked, stability-map-check.
 void map_on(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows);
 
-/// The scene that maps of a scene are made of: itself, if it has at most 64 particles or in a full run; for cloth-hang
-/// its small version; else nothing.
+/// The scene that maps of a scene are made of: for cloth-hang its small version; else itself, if it has at most 64
+/// particles or in a full run; else nothing.
 std::optional<Scene> map_scene(const Scene& scene, bool full);
 
 }  // namespace crosscheck

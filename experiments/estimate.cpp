@@ -1,0 +1,34 @@
+// Nanoseconds per element.
+#include "experiments/estimate.h"
+
+#include <cmath>
+
+#include "mysim/steppers/stepper.h"
+
+namespace crosscheck {
+namespace {
+
+/// One evaluation, s.
+double seconds_of_evaluation(const Method& method, const Scene& scene) {
+  const auto* springs = scene.model.find<Springs>();
+  const double elements =
+      static_cast<double>(scene.start.x.cols()) + (springs ? static_cast<double>(springs->list.size()) : 0);
+  if (method.stepper) return 100e-9 + 5e-9 * elements;
+  if (!method.name.starts_with("bullet")) return 200e-9 + 12e-9 * elements;  // forces written apart, plainly
+  return 2e-6 + 40e-9 * elements;
+}
+
+}  // namespace
+
+double estimated_seconds(const Method& method, const Scene& scene, const Run& run) {
+  double evaluations = 1;  // per step
+  // conjugate gradients, measured on cloth-hang
+  const double longer = std::sqrt(run.step / scene.step);
+  for (const Stepper& rule : steppers())
+    if (rule.name == method.rule) evaluations = rule.evaluations > 0 ? rule.evaluations : 60 * longer;
+  if (method.name.starts_with("bullet/deformable-implicit")) evaluations = 10 * longer;
+  if (method.adaptive) evaluations = 7;
+  return evaluations * run.duration / plan(run).h * seconds_of_evaluation(method, scene);
+}
+
+}  // namespace crosscheck
