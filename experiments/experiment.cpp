@@ -44,8 +44,8 @@ const Experiment& find_experiment(const std::string& name) {
 
 std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full) {
   if (!names.empty() || full) return load_scenes(names);
-  const auto quick = experiment.quick_scenes.empty() ? quick_scenes() : experiment.quick_scenes;
-  return load_scenes({quick.begin(), quick.end()});
+  if (experiment.quick_scenes.empty()) return load_scenes(quick_scenes());
+  return load_scenes({experiment.quick_scenes.begin(), experiment.quick_scenes.end()});
 }
 
 std::vector<Method> methods_of(const Request& request, const Scene& scene) {

@@ -14,7 +14,7 @@ namespace crosscheck {
 std::span<const std::string_view> shipped_scenes();
 
 /// Those of them that a quick run looks at when nobody names any: each kind of scene once, and of several cloths one.
-std::span<const std::string_view> quick_scenes();
+std::vector<std::string> quick_scenes();
 
 /// A shipped scene by name, the scene of a known disagreement by name, or any TOML file by path. Throws InputError that
 /// lists what there is.

@@ -1,14 +1,12 @@
 // Sentences on how little model is enough.
 #include <map>
 
+#include "experiments/cells.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
 
 namespace crosscheck {
 namespace {
-
-std::string text_at(const Table& t, size_t row, const char* column) { return std::get<std::string>(t.at(row, column)); }
-double number_at(const Table& t, size_t row, const char* column) { return std::get<double>(t.at(row, column)); }
 
 void least_models(const Table& t, std::vector<Finding>& out) {
   std::vector<std::string> whole, less, unsure;
@@ -51,7 +49,7 @@ void families(const Table& t, std::vector<Finding>& out) {
     if (!family || text_at(t, i, "kind") != "single" || !error) continue;
     if (per_scene[scene].empty()) order.push_back(scene);
     per_scene[scene] += fmt::format("{}{} {}", per_scene[scene].empty() ? "" : ", ", gone.substr(0, gone.find(' ')),
-                                    percent(*error, number_at(t, i, "motion")));
+                                    percent(*error, number_at(t, i, "motion", NAN)));
   }
   std::string sentence;
   for (const std::string& scene : order)
@@ -68,7 +66,7 @@ void grids(const Table& t, std::vector<Finding>& out) {
   for (size_t i = 0; i < t.rows.size(); ++i) {
     const std::string quantity = text_at(t, i, "quantity");
     const std::string power =
-        fmt::format("{:.2f} ± {:.2f}", number_at(t, i, "exponent"), number_at(t, i, "standard error"));
+        fmt::format("{:.2f} ± {:.2f}", number_at(t, i, "exponent", NAN), number_at(t, i, "standard error", NAN));
     if (quantity.starts_with("stiffness of all")) all.push_back(fmt::format("{} on {}", power, text_at(t, i, "scene")));
     if (quantity.starts_with("stiffness of bend")) bend = power;
   }

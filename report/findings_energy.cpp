@@ -3,16 +3,12 @@
 #include <cmath>
 #include <map>
 
+#include "experiments/cells.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
 
 namespace crosscheck {
 namespace {
-
-double number(const Table& table, size_t row, const std::string& column) {
-  const auto* value = std::get_if<double>(&table.at(row, column));
-  return value ? *value : NAN;
-}
 
 /// Symplectic rules against the others, on the undamped scenes.
 void drift(const Table& table, std::vector<Finding>& out) {
@@ -24,8 +20,8 @@ void drift(const Table& table, std::vector<Finding>& out) {
     if (std::get<long>(table.at(i, "undamped")) == 0 || std::get<long>(table.at(i, "closure claimed")) == 0) continue;
     const std::string &method = std::get<std::string>(table.at(i, "method")),
                       &verdict = std::get<std::string>(table.at(i, "verdict"));
-    if (!(number(table, i, "energy turned over") > 0)) continue;  // at rest, or left out
-    const double share = number(table, i, "largest residual") / number(table, i, "energy turned over");
+    if (!(number_at(table, i, "energy turned over", NAN) > 0)) continue;  // at rest, or left out
+    const double share = number_at(table, i, "largest residual", NAN) / number_at(table, i, "energy turned over", NAN);
     if (std::get<long>(table.at(i, "symplectic")) != 0) {
       if (verdict == "ok" && share > kept) kept = share, which = method;
       continue;
@@ -37,7 +33,7 @@ void drift(const Table& table, std::vector<Finding>& out) {
         if (verdict == "ok")
           others[method] = fmt::format("{} takes {} of it", method, percent(share, 1));
         else if (verdict == "energy" || verdict == "nan")
-          others[method] = fmt::format("{} blows up after {:.3g} s", method, number(table, i, "end"));
+          others[method] = fmt::format("{} blows up after {:.3g} s", method, number_at(table, i, "end", NAN));
       }
   }
   if (which.empty()) return;
@@ -54,12 +50,12 @@ void drift(const Table& table, std::vector<Finding>& out) {
 void damping(const Table& table, std::vector<Finding>& out) {
   double worst = -1, tenth = NAN;
   for (size_t i = 0; i < table.rows.size(); ++i) {
-    const double rate = number(table, i, "equivalent drag"), theory = number(table, i, "by theory");
+    const double rate = number_at(table, i, "equivalent drag", NAN), theory = number_at(table, i, "by theory", NAN);
     const std::string& method = std::get<std::string>(table.at(i, "method"));
     if (method != "mysim/implicit-euler" && method != "bullet/deformable-implicit" && method != "bullet/pbd") continue;
     if (!(theory > 0) || !std::isfinite(rate)) continue;
     worst = std::max(worst, std::abs(rate / theory - 1));
-    if (std::abs(number(table, i, "h omega") - 0.1) < 1e-9) tenth = rate / 10;  // omega = 10 rad/s
+    if (std::abs(number_at(table, i, "h omega", NAN) - 0.1) < 1e-9) tenth = rate / 10;  // omega = 10 rad/s
   }
   if (worst < 0 || !std::isfinite(tenth)) return;
   out.push_back({"", "energy",

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/cells.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
 
@@ -9,14 +10,6 @@ namespace crosscheck {
 namespace {
 
 constexpr auto sticky = "mysim/symplectic-euler+sticky";
-
-const std::string& text_at(const Table& table, size_t row, const std::string& column) {
-  return std::get<std::string>(table.at(row, column));
-}
-double number_at(const Table& table, size_t row, const std::string& column) {
-  const auto* value = std::get_if<double>(&table.at(row, column));
-  return value ? *value : NAN;
-}
 
 void cone(const Table& table, std::vector<Finding>& out) {
   struct Count {
@@ -43,15 +36,15 @@ void slide_off(const Table& table, std::vector<Finding>& out) {
   double reference = NAN, step = INFINITY;
   for (size_t i = 0; i < table.rows.size(); ++i)
     if (text_at(table, i, "scene") == "drop-aside" && text_at(table, i, "verdict") == "ok" &&
-        text_at(table, i, "method") == ours && number_at(table, i, "step") < step)
-      step = number_at(table, i, "step"), reference = number_at(table, i, "centre height");
+        text_at(table, i, "method") == ours && number_at(table, i, "step", NAN) < step)
+      step = number_at(table, i, "step", NAN), reference = number_at(table, i, "centre height", NAN);
   std::vector<std::string> parts;
   for (const char* method : {theirs, position_based, sticky})
     for (size_t i = 0; i < table.rows.size(); ++i) {
       if (text_at(table, i, "scene") != "drop-aside" || text_at(table, i, "method") != method ||
-          text_at(table, i, "verdict") != "ok" || std::abs(number_at(table, i, "step") / step - 1) > 1e-6)
+          text_at(table, i, "verdict") != "ok" || std::abs(number_at(table, i, "step", NAN) / step - 1) > 1e-6)
         continue;
-      const double height = number_at(table, i, "centre height"), creep = number_at(table, i, "creep");
+      const double height = number_at(table, i, "centre height", NAN), creep = number_at(table, i, "creep", NAN);
       parts.push_back(std::isfinite(creep)
                           ? fmt::format("{} still holds it, {}", method,
                                         creep < 1e-6 ? "frozen" : fmt::format("creeping at {} mm/s", nice(1e3 * creep)))
@@ -71,12 +64,12 @@ void depth(const Table& table, std::vector<Finding>& out) {
   for (size_t i = 0; i < table.rows.size(); ++i) {
     if (text_at(table, i, "scene") != "drop-centred" || text_at(table, i, "verdict") != "ok") continue;
     const std::string& method = text_at(table, i, "method");
-    const double nodes = number_at(table, i, "particles");
+    const double nodes = number_at(table, i, "particles", NAN);
     if (method == position_based) of_pbd = std::max(of_pbd, nodes);
     if (!method.starts_with("mysim/") || method == sticky) continue;
     any = true;
     particles = std::max(particles, nodes);
-    triangles = std::max(triangles, number_at(table, i, "triangles"));
+    triangles = std::max(triangles, number_at(table, i, "triangles", NAN));
   }
   if (any && of_pbd > 0)
     out.push_back(

@@ -1,5 +1,6 @@
 // Pareto lines and the cheapest methods, from the rows of all points.
 #include "experiments/speed_accuracy/conclude.h"
+#include "experiments/cells.h"
 
 #include <fmt/ranges.h>
 
@@ -43,15 +44,6 @@ std::vector<std::string> as_cheap(const std::vector<WorkPoint>& points, const Wo
 
 namespace {
 
-std::optional<double> number(const Table& t, size_t i, const char* column) {
-  const auto* value = std::get_if<double>(&t.at(i, column));
-  return value ? std::optional(*value) : std::nullopt;
-}
-std::string text(const Table& t, size_t i, const char* column) {
-  const auto* value = std::get_if<std::string>(&t.at(i, column));
-  return value ? *value : "";
-}
-
 /// The runs of one scene, in evaluations, and what is known of its truth.
 struct SceneRuns {
   std::string scene;
@@ -65,15 +57,15 @@ struct SceneRuns {
 std::vector<SceneRuns> runs_of(const Table& t) {
   std::vector<SceneRuns> scenes;
   for (size_t i = 0; i < t.rows.size(); ++i) {
-    if (scenes.empty() || scenes.back().scene != text(t, i, "scene")) {
-      scenes.push_back({text(t, i, "scene"), *number(t, i, "motion"), number(t, i, "truth bar")});
-      scenes.back().difference = text(t, i, "truth").find("contact rule") != std::string::npos;
+    if (scenes.empty() || scenes.back().scene != text_or_none(t, i, "scene")) {
+      scenes.push_back({text_or_none(t, i, "scene"), *number_at(t, i, "motion"), number_at(t, i, "truth bar")});
+      scenes.back().difference = text_or_none(t, i, "truth").find("contact rule") != std::string::npos;
     }
     SceneRuns& s = scenes.back();
-    const auto error = number(t, i, s.difference ? "largest difference from converged contact" : "largest error");
+    const auto error = number_at(t, i, s.difference ? "largest difference from converged contact" : "largest error");
     s.rows.push_back(i);
-    s.points.push_back({text(t, i, "method"), text(t, i, "setting"), *number(t, i, "asked"),
-                        text(t, i, "verdict") == "ok", error,
+    s.points.push_back({text_or_none(t, i, "method"), text_or_none(t, i, "setting"), *number_at(t, i, "asked"),
+                        text_or_none(t, i, "verdict") == "ok", error,
                         static_cast<double>(std::get<long>(t.at(i, "evaluations")))});
   }
   return scenes;
@@ -84,19 +76,19 @@ std::vector<WorkPoint> timed_points(const SceneRuns& s, const Table& timing, dou
   std::vector<WorkPoint> points;
   for (const WorkPoint& p : s.points)
     for (size_t i = 0; i < timing.rows.size(); ++i) {
-      if (text(timing, i, "scene") != s.scene || text(timing, i, "method") != p.method ||
-          text(timing, i, "setting") != p.setting || *number(timing, i, "asked") != p.asked)
+      if (text_or_none(timing, i, "scene") != s.scene || text_or_none(timing, i, "method") != p.method ||
+          text_or_none(timing, i, "setting") != p.setting || *number_at(timing, i, "asked") != p.asked)
         continue;
       const auto measured = static_cast<double>(std::get<long>(timing.at(i, "evaluations")));
-      const double part = *number(timing, i, "part of the run");
+      const double part = *number_at(timing, i, "part of the run");
       // a failed run ended earlier than its timed twin, which nobody watched, or later
       const double factor = measured > 0 && p.cost > 0 ? p.cost / measured : 1 / part;
       WorkPoint timed = p;
-      timed.time = Timing{*number(timing, i, "cpu"), *number(timing, i, "cpu low"), *number(timing, i, "cpu high"),
-                          std::get<long>(timing.at(i, "repetitions"))}
+      timed.time = Timing{*number_at(timing, i, "cpu"), *number_at(timing, i, "cpu low"),
+                          *number_at(timing, i, "cpu high"), std::get<long>(timing.at(i, "repetitions"))}
                        .times(factor);
       timed.cost = timed.time->median;
-      noise = *number(timing, i, "noise");
+      noise = *number_at(timing, i, "noise");
       cost.add({s.scene, p.method, p.setting, p.asked, std::string(p.ok ? "ok" : "failed"), timed.cost, timed.time->low,
                 timed.time->high, timed.time->repetitions, part, noise, build_of(p.method)});
       points.push_back(std::move(timed));
@@ -121,7 +113,7 @@ void add_cheapest(const SceneRuns& s, const std::vector<WorkPoint>& points, doub
       if (p)
         row.insert(row.end(), {p->method, p->setting, p->asked, p->cost, *p->error});
       else
-        row.insert(row.end(), {Cell(), Cell(), Cell(), Cell(), Cell()});
+        row.resize(row.size() + 5);
     }
     row.push_back(best && bullet ? Cell(bullet->cost / best->cost) : Cell());
     row.push_back(best ? Cell(fmt::format("{}", fmt::join(as_cheap(points, *best, bound, noise), ", "))) : Cell());

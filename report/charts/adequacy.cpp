@@ -6,17 +6,11 @@
 #include <map>
 #include <set>
 
+#include "experiments/cells.h"
 #include "report/charts/charts.h"
 
 namespace crosscheck {
 namespace {
-
-std::string text_at(const Table& t, size_t row, const char* column) { return std::get<std::string>(t.at(row, column)); }
-std::optional<double> number_at(const Table& t, size_t row, const char* column) {
-  if (const auto* real = std::get_if<double>(&t.at(row, column))) return *real;
-  if (const auto* whole = std::get_if<long>(&t.at(row, column))) return static_cast<double>(*whole);
-  return std::nullopt;
-}
 
 std::vector<std::string> scenes_in(const Table& t) {
   std::vector<std::string> scenes;

@@ -4,17 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/cells.h"
 #include "report/charts/charts.h"
 
 namespace crosscheck {
 namespace {
-
-double number(const Table& t, size_t i, const char* column) {
-  if (const auto* whole = std::get_if<long>(&t.at(i, column))) return static_cast<double>(*whole);
-  const auto* value = std::get_if<double>(&t.at(i, column));
-  return value ? *value : 0;
-}
-const std::string& text(const Table& t, size_t i, const char* column) { return std::get<std::string>(t.at(i, column)); }
 
 constexpr auto builds =
     "thread CPU time, medians of runs taken in turns on one pinned core; mysim is compiled in this build for any "
@@ -30,11 +24,11 @@ Chart size_chart(const Table& t, const std::string& commit) {
   f.y = {"CPU time per step and particle / ns", true, std::nullopt, std::nullopt};
   double largest = 0;
   for (size_t i = 0; i < t.rows.size(); ++i) {
-    const std::string& method = text(t, i, "method");
+    const std::string& method = text_at(t, i, "method");
     auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
     if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {method, style_of(method), {}, true, true});
-    curve->points.emplace_back(number(t, i, "particles"), 1e9 * number(t, i, "cpu per step and particle"));
-    largest = std::max(largest, number(t, i, "side"));
+    curve->points.emplace_back(number_at(t, i, "particles", 0), 1e9 * number_at(t, i, "cpu per step and particle", 0));
+    largest = std::max(largest, number_at(t, i, "side", 0));
   }
   PageTable page{fmt::format("At {0:.0f} x {0:.0f} particles", largest),
                  {"method", "CPU per step / ms", "90 % interval", "evaluations per step", "ns per particle",
@@ -42,15 +36,15 @@ Chart size_chart(const Table& t, const std::string& commit) {
                  {}};
   double cheapest = 1e300;
   for (size_t i = 0; i < t.rows.size(); ++i)
-    if (number(t, i, "side") == largest) cheapest = std::min(cheapest, number(t, i, "cpu per step"));
+    if (number_at(t, i, "side", 0) == largest) cheapest = std::min(cheapest, number_at(t, i, "cpu per step", 0));
   for (size_t i = 0; i < t.rows.size(); ++i)
-    if (number(t, i, "side") == largest)
+    if (number_at(t, i, "side", 0) == largest)
       page.rows.push_back(
-          {text(t, i, "method"), fmt::format("{:.3g}", 1e3 * number(t, i, "cpu per step")),
-           fmt::format("{:.3g} to {:.3g}", 1e3 * number(t, i, "cpu low"), 1e3 * number(t, i, "cpu high")),
-           fmt::format("{:.3g}", number(t, i, "evaluations per step")),
-           fmt::format("{:.3g}", 1e9 * number(t, i, "cpu per step and particle")),
-           fmt::format("{:.2g}", number(t, i, "cpu per step") / cheapest), text(t, i, "build")});
+          {text_at(t, i, "method"), fmt::format("{:.3g}", 1e3 * number_at(t, i, "cpu per step", 0)),
+           fmt::format("{:.3g} to {:.3g}", 1e3 * number_at(t, i, "cpu low", 0), 1e3 * number_at(t, i, "cpu high", 0)),
+           fmt::format("{:.3g}", number_at(t, i, "evaluations per step", 0)),
+           fmt::format("{:.3g}", 1e9 * number_at(t, i, "cpu per step and particle", 0)),
+           fmt::format("{:.2g}", number_at(t, i, "cpu per step", 0) / cheapest), text_at(t, i, "build")});
   f.finding = "A flat line is a cost in proportion to the number of particles.";
   f.caption = fmt::format(
       "The cloth of cloth-hang at other resolutions, without contact, each at 0.45 of the explicit limit of its size; "
@@ -78,10 +72,11 @@ Chart phases_chart(const Table& t) {
                  {"method", "particles", "phase", "µs per step", "interval", "share", "how"},
                  {}};
   for (size_t i = 0; i < t.rows.size(); ++i)
-    page.rows.push_back({text(t, i, "method"), fmt::format("{0:.0f} x {0:.0f}", number(t, i, "side")),
-                         text(t, i, "phase"), fmt::format("{:.3g}", 1e6 * number(t, i, "cpu per step")),
-                         fmt::format("{:.3g} to {:.3g}", 1e6 * number(t, i, "cpu low"), 1e6 * number(t, i, "cpu high")),
-                         fmt::format("{:.0f} %", 100 * number(t, i, "share")), text(t, i, "how")});
+    page.rows.push_back(
+        {text_at(t, i, "method"), fmt::format("{0:.0f} x {0:.0f}", number_at(t, i, "side", 0)), text_at(t, i, "phase"),
+         fmt::format("{:.3g}", 1e6 * number_at(t, i, "cpu per step", 0)),
+         fmt::format("{:.3g} to {:.3g}", 1e6 * number_at(t, i, "cpu low", 0), 1e6 * number_at(t, i, "cpu high", 0)),
+         fmt::format("{:.0f} %", 100 * number_at(t, i, "share", 0)), text_at(t, i, "how")});
   chart.tables.push_back(std::move(page));
   return chart;
 }
@@ -99,19 +94,19 @@ Chart roofline_chart(const Table& t, const std::string& commit) {
   Curve springs{"springs, 16 x 16 to", {"#D55E00", "1", 7}, {}, true, true};
   std::string last;
   for (size_t i = 0; i < t.rows.size(); ++i) {
-    const std::string& what = text(t, i, "what");
-    const double rate = number(t, i, "rate") / 1e9;
+    const std::string& what = text_at(t, i, "what");
+    const double rate = number_at(t, i, "rate", 0) / 1e9;
     if (what.starts_with("peak")) peak = rate;
     if (what.starts_with("bandwidth")) {
-      const double bandwidth = number(t, i, "bandwidth") / 1e9, ridge = peak / bandwidth;
+      const double bandwidth = number_at(t, i, "bandwidth", 0) / 1e9, ridge = peak / bandwidth;
       f.curves.push_back({fmt::format("{}: {:.0f} GB/s", what, bandwidth),
                           roofs[std::min(roof++, std::size(roofs) - 1)],
                           {{0.03, 0.03 * bandwidth}, {ridge, peak}, {10, peak}}});
     }
     if (what.starts_with("springs")) {
-      springs.points.emplace_back(number(t, i, "intensity"), rate);
+      springs.points.emplace_back(number_at(t, i, "intensity", 0), rate);
       last = what.substr(what.find(',') + 2);
-      if (rate > best) best = rate, at = number(t, i, "intensity");
+      if (rate > best) best = rate, at = number_at(t, i, "intensity", 0);
     }
   }
   springs.title += " " + last;

@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <map>
 
+#include "experiments/cells.h"
 #include "experiments/disagreements/disagreements.h"
 #include "report/charts/charts.h"
 
 namespace crosscheck {
 namespace {
-
-const std::string& text_at(const Table& table, size_t row, const std::string& column) {
-  return std::get<std::string>(table.at(row, column));
-}
 
 /// The method's own style; a method that comes again, with other options, takes a spare colour.
 class Styles {

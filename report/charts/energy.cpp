@@ -4,20 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/cells.h"
 #include "report/charts/charts.h"
 #include "report/findings_text.h"
 
 namespace crosscheck {
 namespace {
 
-const std::string& text_at(const Table& table, size_t row, const std::string& column) {
-  return std::get<std::string>(table.at(row, column));
-}
 /// 0 where the cell is empty.
-double number_at(const Table& table, size_t row, const std::string& column) {
-  const auto* value = std::get_if<double>(&table.at(row, column));
-  return value ? *value : 0;
-}
 bool flag_at(const Table& table, size_t row, const std::string& column) {
   return std::get<long>(table.at(row, column)) != 0;
 }
@@ -40,9 +34,9 @@ std::string length_text(const Table& table, const std::string& scene) {
   double end = 0, step = 0;
   long steps = 0;
   for (size_t i = 0; i < table.rows.size(); ++i)
-    if (text_at(table, i, "scene") == scene && number_at(table, i, "end") >= end)
+    if (text_at(table, i, "scene") == scene && number_at(table, i, "end", 0) >= end)
       if (const long n = std::get<long>(table.at(i, "steps")); n >= steps)
-        steps = n, step = number_at(table, i, "step"), end = number_at(table, i, "end");
+        steps = n, step = number_at(table, i, "step", 0), end = number_at(table, i, "end", 0);
   return fmt::format("{:.4g} s, up to {} steps of {} s", end, steps, nice(step));
 }
 
@@ -72,7 +66,7 @@ std::optional<Chart> where_it_went(const Table& table, const std::string& scene,
       shown.push_back(i);
     else
       failed += fmt::format(" {} is not shown: it {} at {:.3g} s.", text_at(table, i, "method"),
-                            failure_word(text_at(table, i, "verdict")), number_at(table, i, "end"));
+                            failure_word(text_at(table, i, "verdict")), number_at(table, i, "end", 0));
   }
   if (shown.empty()) return std::nullopt;
   Bars bars;
@@ -86,17 +80,17 @@ std::optional<Chart> where_it_went(const Table& table, const std::string& scene,
     bars.names.push_back(text_at(table, i, "method"));
     const bool guessed = flag_at(table, i, "contact inferred");
     inferred |= guessed;
-    const double contact = number_at(table, i, "contact took");
-    const double heights[] = {number_at(table, i, "drag took"),
-                              number_at(table, i, "dashpots took"),
+    const double contact = number_at(table, i, "contact took", 0);
+    const double heights[] = {number_at(table, i, "drag took", 0),
+                              number_at(table, i, "dashpots took", 0),
                               guessed ? 0 : contact,
                               guessed ? contact : 0,
-                              number_at(table, i, "kinetic") + number_at(table, i, "elastic"),
-                              -number_at(table, i, "residual"),
-                              -number_at(table, i, "gravity gave"),
-                              -number_at(table, i, "kinetic at start") - number_at(table, i, "elastic at start"),
-                              -number_at(table, i, "wind gave"),
-                              -number_at(table, i, "pins gave")};
+                              number_at(table, i, "kinetic", 0) + number_at(table, i, "elastic", 0),
+                              -number_at(table, i, "residual", 0),
+                              -number_at(table, i, "gravity gave", 0),
+                              -number_at(table, i, "kinetic at start", 0) - number_at(table, i, "elastic at start", 0),
+                              -number_at(table, i, "wind gave", 0),
+                              -number_at(table, i, "pins gave", 0)};
     for (size_t p = 0; p < bars.parts.size(); ++p) bars.parts[p].height[b] = heights[p];
   }
   const auto nothing = [](const Bars::Part& part) {
@@ -123,10 +117,11 @@ std::optional<Chart> where_it_went(const Table& table, const std::string& scene,
 
 /// "bounded", "drifts" and so on: what the residual of a claimed run does.
 std::string behaviour(const Table& table, size_t row) {
-  const double worst = number_at(table, row, "largest residual"), turned = number_at(table, row, "energy turned over"),
-               growth = number_at(table, row, "growth of the residual"), last = number_at(table, row, "residual");
+  const double worst = number_at(table, row, "largest residual", 0),
+               turned = number_at(table, row, "energy turned over", 0),
+               growth = number_at(table, row, "growth of the residual", 0), last = number_at(table, row, "residual", 0);
   if (text_at(table, row, "verdict") != "ok")
-    return fmt::format("{} at {:.3g} s", failure_word(text_at(table, row, "verdict")), number_at(table, row, "end"));
+    return fmt::format("{} at {:.3g} s", failure_word(text_at(table, row, "verdict")), number_at(table, row, "end", 0));
   // hundred thousand roundings of the energies that are added up
   if (worst < 1e-11 * turned) return "zero to round-off";
   if (worst > 0.3 * turned) return last < 0 ? "takes most of the energy" : "makes energy";
@@ -153,21 +148,21 @@ Chart drift(const Table& table, const Table& rows, const std::string& scene, con
       continue;
     }
     if (!flag_at(table, i, "closure claimed") || !has(table, i, "energy turned over")) {
-      page.rows.push_back({method, nice(number_at(table, i, "step")), "no closure claimed", "", ""});
+      page.rows.push_back({method, nice(number_at(table, i, "step", 0)), "no closure claimed", "", ""});
       continue;
     }
-    if (!(number_at(table, i, "energy turned over") > 0)) {
-      page.rows.push_back({method, nice(number_at(table, i, "step")), "nothing moves", "", ""});
+    if (!(number_at(table, i, "energy turned over", 0) > 0)) {
+      page.rows.push_back({method, nice(number_at(table, i, "step", 0)), "nothing moves", "", ""});
       continue;
     }
     const bool symplectic = flag_at(table, i, "symplectic");
     const std::string title = method + (symplectic ? " (symplectic)" : "");
-    const double turned = number_at(table, i, "energy turned over"), end = number_at(table, i, "end");
+    const double turned = number_at(table, i, "energy turned over", 0), end = number_at(table, i, "end", 0);
     const std::string what = behaviour(table, i);
     (what == "bounded" || what.starts_with("zero") ? bounded : drifting).push_back(method);
-    page.rows.push_back({method, nice(number_at(table, i, "step")), what,
-                         nice(number_at(table, i, "largest residual") / turned),
-                         text_at(table, i, "verdict") == "ok" ? nice(number_at(table, i, "equivalent drag")) : ""});
+    page.rows.push_back({method, nice(number_at(table, i, "step", 0)), what,
+                         nice(number_at(table, i, "largest residual", 0) / turned),
+                         text_at(table, i, "verdict") == "ok" ? nice(number_at(table, i, "equivalent drag", 0)) : ""});
     Curve curve{title, style_of(method), {}};
     for (const auto& [t, worst] : points_of(rows, method, "largest residual", true))
       if (const double y = worst / turned; t > 0 && y > 1e-17 && y < 3) {
@@ -222,8 +217,8 @@ Chart damping(const Table& table, const std::string& commit) {
     Curve curve{method, style_of(method), {}, false, true};
     for (size_t i = 0; i < table.rows.size(); ++i) {
       if (text_at(table, i, "method") != method || !has(table, i, "equivalent drag")) continue;
-      const double rate = number_at(table, i, "equivalent drag"), theory = number_at(table, i, "by theory"),
-                   size = number_at(table, i, "h omega");
+      const double rate = number_at(table, i, "equivalent drag", 0), theory = number_at(table, i, "by theory", 0),
+                   size = number_at(table, i, "h omega", 0);
       if (theory > 0) worst = std::max(worst, std::abs(rate / theory - 1)), ++checked;
       // what theory puts at zero is the slope of an oscillation, that is noise
       if (has(table, i, "by theory") ? theory > 0 && rate > 0 : rate > 1e-3)

@@ -6,20 +6,12 @@
 #include <cmath>
 #include <set>
 
+#include "experiments/cells.h"
 #include "report/charts/charts.h"
 
 namespace crosscheck {
 namespace {
 
-std::optional<double> number(const Table& t, size_t i, const char* column) {
-  if (const auto* value = std::get_if<double>(&t.at(i, column))) return *value;
-  if (const auto* whole = std::get_if<long>(&t.at(i, column))) return static_cast<double>(*whole);
-  return std::nullopt;
-}
-std::string text(const Table& t, size_t i, const char* column) {
-  const auto* value = std::get_if<std::string>(&t.at(i, column));
-  return value ? *value : "";
-}
 bool same_run(const Table& a, size_t i, const Table& b, size_t j) {
   for (const char* column : {"scene", "method", "setting", "asked"})
     if (a.at(i, column) != b.at(j, column)) return false;
@@ -65,9 +57,9 @@ struct SceneRows {
     return !bar ? "distance from own finest run" : difference() ? "difference from the in-house contact rule" : "error";
   }
   std::optional<double> cost_of(size_t row, const Cost& kind) const {
-    if (!kind.time) return number(runs, row, "evaluations");
+    if (!kind.time) return number_at(runs, row, "evaluations");
     for (size_t i = 0; cost && i < cost->rows.size(); ++i)
-      if (same_run(runs, row, *cost, i)) return number(*cost, i, "cpu");
+      if (same_run(runs, row, *cost, i)) return number_at(*cost, i, "cpu");
     return std::nullopt;
   }
 };
@@ -75,11 +67,11 @@ struct SceneRows {
 SceneRows rows_of(const ChartInput& input, const Table& runs, const std::string& scene) {
   SceneRows s{runs, input.result.table("speed-accuracy-cost"), scene, "", {}};
   for (size_t i = 0; i < runs.rows.size(); ++i)
-    if (text(runs, i, "scene") == scene) {
+    if (text_or_none(runs, i, "scene") == scene) {
       s.rows.push_back(i);
-      s.motion = *number(runs, i, "motion");
-      s.bar = number(runs, i, "truth bar");
-      s.truth = text(runs, i, "truth");
+      s.motion = *number_at(runs, i, "motion");
+      s.bar = number_at(runs, i, "truth bar");
+      s.truth = text_or_none(runs, i, "truth");
     }
   return s;
 }
@@ -98,7 +90,7 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
   for (const size_t i : s.rows) {
     const auto cost = s.cost_of(i, kind);
     if (!cost || !(*cost > 0)) continue;
-    const std::string method = text(s.runs, i, "method"), verdict = text(s.runs, i, "verdict");
+    const std::string method = text_or_none(s.runs, i, "method"), verdict = text_or_none(s.runs, i, "verdict");
     furthest = std::max(furthest, *cost);
     if (verdict != "ok") {
       const std::string word = failure_word(verdict);
@@ -106,7 +98,7 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
       ++failed;
       continue;
     }
-    const auto apart = number(s.runs, i, s.column());
+    const auto apart = number_at(s.runs, i, s.column());
     if (!apart || (!s.bar && !(*apart > 0))) continue;
     auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
     if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {method, style_of(method), {}, true, true});
@@ -122,9 +114,9 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
          true, lowest / 3, top};
   if (const Table* pareto = input.result.table("speed-accuracy-pareto" + kind.suffix()))
     for (size_t i = 0; i < pareto->rows.size(); ++i)
-      if (text(*pareto, i, "scene") == s.scene)
-        f.pareto.emplace_back(*number(*pareto, i, kind.column().c_str()),
-                              std::min(3 * s.motion, *number(*pareto, i, "distance")));
+      if (text_or_none(*pareto, i, "scene") == s.scene)
+        f.pareto.emplace_back(*number_at(*pareto, i, kind.column().c_str()),
+                              std::min(3 * s.motion, *number_at(*pareto, i, "distance")));
   if (!f.pareto.empty()) f.pareto.emplace_back(furthest, f.pareto.back().second);
   if (s.bar) f.floor = {s.difference() ? "how far that answer is known" : "error bar of the truth", *s.bar};
   f.finding = fmt::format("{} runs of {} methods; {} failed.", good + failed, f.curves.size(), failed);
@@ -153,20 +145,20 @@ std::optional<PageTable> cheapest_of(const SceneRows& s, const Cost& kind, const
   if (kind.time) page.header.emplace_back("as cheap, within noise");
   const std::string column = kind.column();
   for (size_t i = 0; i < t->rows.size(); ++i) {
-    if (text(*t, i, "scene") != s.scene) continue;
+    if (text_or_none(*t, i, "scene") != s.scene) continue;
     std::vector<std::string> row{
-        fmt::format("{:g} % ({})", 100 * *number(*t, i, "part of motion"), nice_length(*number(*t, i, "bound")))};
-    const std::string remark = text(*t, i, "remark");
-    row.push_back(remark.empty() ? text(*t, i, "method") : remark);
-    const auto asked = number(*t, i, "asked"), theirs = number(*t, i, "asked of Bullet");
-    row.push_back(asked ? setting_text(text(*t, i, "setting"), *asked) : "");
-    row.push_back(asked ? kind.text_of(*number(*t, i, column.c_str())) : "");
-    row.push_back(theirs ? text(*t, i, "best of Bullet") : "");
-    row.push_back(theirs ? setting_text(text(*t, i, "setting of Bullet"), *theirs) : "");
-    row.push_back(theirs ? kind.text_of(*number(*t, i, (column + " of Bullet").c_str())) : "");
-    const auto factor = number(*t, i, "Bullet / best");
+        fmt::format("{:g} % ({})", 100 * *number_at(*t, i, "part of motion"), nice_length(*number_at(*t, i, "bound")))};
+    const std::string remark = text_or_none(*t, i, "remark");
+    row.push_back(remark.empty() ? text_or_none(*t, i, "method") : remark);
+    const auto asked = number_at(*t, i, "asked"), theirs = number_at(*t, i, "asked of Bullet");
+    row.push_back(asked ? setting_text(text_or_none(*t, i, "setting"), *asked) : "");
+    row.push_back(asked ? kind.text_of(*number_at(*t, i, column.c_str())) : "");
+    row.push_back(theirs ? text_or_none(*t, i, "best of Bullet") : "");
+    row.push_back(theirs ? setting_text(text_or_none(*t, i, "setting of Bullet"), *theirs) : "");
+    row.push_back(theirs ? kind.text_of(*number_at(*t, i, (column + " of Bullet").c_str())) : "");
+    const auto factor = number_at(*t, i, "Bullet / best");
     row.push_back(factor ? fmt::format("{:.3g}", *factor) : "");
-    if (kind.time) row.push_back(text(*t, i, "as cheap within noise"));
+    if (kind.time) row.push_back(text_or_none(*t, i, "as cheap within noise"));
     page.rows.push_back(std::move(row));
   }
   if (page.rows.empty()) return std::nullopt;
@@ -178,9 +170,10 @@ std::optional<PageTable> all_runs(const SceneRows& s, const std::string& setting
   std::set<double, std::greater<>> values;
   std::vector<std::string> methods;
   for (const size_t i : s.rows) {
-    if (text(s.runs, i, "setting") != setting) continue;
-    values.insert(*number(s.runs, i, "asked"));
-    if (const std::string m = text(s.runs, i, "method"); methods.empty() || methods.back() != m) methods.push_back(m);
+    if (text_or_none(s.runs, i, "setting") != setting) continue;
+    values.insert(*number_at(s.runs, i, "asked"));
+    if (const std::string m = text_or_none(s.runs, i, "method"); methods.empty() || methods.back() != m)
+      methods.push_back(m);
   }
   if (methods.empty()) return std::nullopt;
   PageTable page;
@@ -192,13 +185,13 @@ std::optional<PageTable> all_runs(const SceneRows& s, const std::string& setting
     std::vector<std::string> row(values.size() + 1);
     row[0] = method;
     for (const size_t i : s.rows) {
-      if (text(s.runs, i, "setting") != setting || text(s.runs, i, "method") != method) continue;
-      const std::string verdict = text(s.runs, i, "verdict");
-      const auto apart = number(s.runs, i, s.column());
-      const auto at = std::distance(values.begin(), values.find(*number(s.runs, i, "asked")));
+      if (text_or_none(s.runs, i, "setting") != setting || text_or_none(s.runs, i, "method") != method) continue;
+      const std::string verdict = text_or_none(s.runs, i, "verdict");
+      const auto apart = number_at(s.runs, i, s.column());
+      const auto at = std::distance(values.begin(), values.find(*number_at(s.runs, i, "asked")));
       row[static_cast<size_t>(at) + 1] =
-          verdict != "ok"            ? fmt::format("{} at {:.3g} s", failure_word(verdict), *number(s.runs, i, "end"))
-          : !apart                   ? "the finest"
+          verdict != "ok" ? fmt::format("{} at {:.3g} s", failure_word(verdict), *number_at(s.runs, i, "end"))
+          : !apart        ? "the finest"
           : s.bar && *apart < *s.bar ? "< " + nice_length(*s.bar)
                                      : nice_length(*apart);
     }

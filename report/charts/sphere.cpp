@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "experiments/cells.h"
 #include "experiments/sphere_probes.h"
 #include "report/charts/charts.h"
 #include "report/findings_text.h"
@@ -14,14 +15,6 @@ namespace {
 
 constexpr auto sticky = "mysim/symplectic-euler+sticky";
 constexpr double degree = 0.017453292519943295;
-
-const std::string& text_at(const Table& table, size_t row, const std::string& column) {
-  return std::get<std::string>(table.at(row, column));
-}
-std::optional<double> number_at(const Table& table, size_t row, const std::string& column) {
-  const auto* value = std::get_if<double>(&table.at(row, column));
-  return value ? std::optional(*value) : std::nullopt;
-}
 
 std::vector<std::string> distinct(const Table& table, const std::string& column) {
   std::vector<std::string> all;

@@ -5,20 +5,13 @@
 #include <cmath>
 #include <map>
 
+#include "experiments/cells.h"
 #include "report/charts/charts.h"
 
 namespace crosscheck {
 namespace {
 
 constexpr auto chapter = "stability";
-
-const std::string& text_at(const Table& table, size_t row, const std::string& column) {
-  return std::get<std::string>(table.at(row, column));
-}
-std::optional<double> number_at(const Table& table, size_t row, const std::string& column) {
-  const auto* value = std::get_if<double>(&table.at(row, column));
-  return value ? std::optional(*value) : std::nullopt;
-}
 
 std::string percent_text(double share) { return fmt::format("{:+.2g} %", 100 * share); }
 
