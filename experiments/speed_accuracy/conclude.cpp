@@ -110,10 +110,11 @@ void add_cheapest(const SceneRuns& s, const std::vector<WorkPoint>& points, doub
     const WorkPoint* best = bound >= *s.bar ? cheapest(points, bound) : nullptr;
     const WorkPoint* bullet = bound >= *s.bar ? cheapest(points, bound, "bullet/") : nullptr;
     for (const WorkPoint* p : {best, bullet}) {
-      if (p)
-        row.insert(row.end(), {p->method, p->setting, p->asked, p->cost, *p->error});
-      else
-        row.resize(row.size() + 5);
+      row.push_back(p ? Cell(p->method) : Cell());
+      row.push_back(p ? Cell(p->setting) : Cell());
+      row.push_back(p ? Cell(p->asked) : Cell());
+      row.push_back(p ? Cell(p->cost) : Cell());
+      row.push_back(p ? Cell(*p->error) : Cell());
     }
     row.push_back(best && bullet ? Cell(bullet->cost / best->cost) : Cell());
     row.push_back(best ? Cell(fmt::format("{}", fmt::join(as_cheap(points, *best, bound, noise), ", "))) : Cell());
