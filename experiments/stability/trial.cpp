@@ -88,7 +88,8 @@ Subject subject_of(const Scene& scene) {
 
 bool Trial::held() const {
   if (verdict != Verdict::ok && verdict != Verdict::frozen) return false;
-  return !(growth > 1.05) && !(of_mode && amplitude > 1 + 1e-6);
+  const double neutral = std::max(1e-9, 1e-6 / static_cast<double>(std::max(1L, steps)));
+  return !(growth > 1.05) && !(of_mode && per_step > 1 + neutral);
 }
 
 Verdict Trial::fate() const { return verdict == Verdict::ok && !held() ? Verdict::energy : verdict; }
@@ -138,6 +139,7 @@ Trial try_step(const Method& method, const Subject& subject, double h, long step
   trial.of_mode = out.verdict == Verdict::ok && departure.of_mode();
   if (trial.of_mode) {
     trial.amplitude = departure.end / departure.start;
+    trial.steps = out.steps;
     trial.per_step = std::exp(std::log(trial.amplitude) / static_cast<double>(std::max(1L, out.steps)));
   }
   return trial;

@@ -29,11 +29,13 @@ struct Trial {
   double growth = 0;     // of the norm sqrt(|w'|^2 + w K w), from the first to the last tenth of the run; 0: not told
   double per_step = 1;   // of the kicked mode's amplitude: the mean factor; 1 where it cannot be told
   double amplitude = 1;  // of the kicked mode, at the end over at the start
+  long steps = 0;        // taken, where the two above are known
   bool of_mode = false;  // whether the two above are known
   bool unsupported() const { return verdict == Verdict::unsupported; }
   /// Whether the step held: no failure, and nothing that grew. Rest that is kicked is judged by growth too: by 1/20
   /// over the run (beats of a neutral rule's modes look like a thousandth), and, where a Runge-Kutta rule multiplies
-  /// the mode by a constant factor, by 1e-6 of the mode's amplitude (what rounding and nonlinearity do to a kick).
+  /// the mode by a constant factor, by that factor: rounding and nonlinearity do 1e-6 to a kick over a run, and what
+  /// grows by less than 1e-9 in a step is called neutral however long one looks.
   bool held() const;
   /// The verdict, or `energy` where the run ended before what grew had passed the energy budget.
   Verdict fate() const;
