@@ -1,8 +1,10 @@
 // What stands in a table's cells, for those who read tables: charts, sentences, conclusions.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "experiments/table.h"
 
@@ -26,6 +28,14 @@ inline std::optional<double> number_at(const Table& table, size_t row, const std
 }
 inline double number_at(const Table& table, size_t row, const std::string& column, double otherwise) {
   return number_at(table, row, column).value_or(otherwise);
+}
+/// The texts of a column, each once, in the order in which they come first.
+inline std::vector<std::string> distinct(const Table& table, const std::string& column) {
+  std::vector<std::string> all;
+  for (size_t i = 0; i < table.rows.size(); ++i)
+    if (const std::string& text = text_at(table, i, column); std::find(all.begin(), all.end(), text) == all.end())
+      all.push_back(text);
+  return all;
 }
 
 }  // namespace crosscheck

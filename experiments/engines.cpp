@@ -26,18 +26,12 @@ Cell largest(const Table& table, size_t from, const std::string& column, double 
   return most < 0 ? Cell() : Cell(most);
 }
 
-template <class T>
-Cell cell_of(const std::optional<T>& value) {
-  return value ? Cell(static_cast<double>(*value)) : Cell();
-}
-
 /// The largest stable step of the method's rule for the scene's fastest vibration at the start, s; empty where the rule
 /// has none, chooses its own steps, or the particles' drag rates differ.
 Cell predicted_limit(const Method& method, const Scene& scene, double omega) {
   const auto gamma = uniform_drag_rate(scene.model);
-  for (const Stepper& rule : steppers())
-    if (rule.name == method.rule && !rule.adaptive && omega > 0 && gamma)
-      if (const double limit = rule.limit(omega, *gamma); std::isfinite(limit)) return limit;
+  if (const Stepper* rule = rule_of(method); rule && !rule->adaptive && omega > 0 && gamma)
+    if (const double limit = rule->limit(omega, *gamma); std::isfinite(limit)) return limit;
   return {};
 }
 

@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "mysim/steppers/stepper.h"
-
 namespace crosscheck {
 namespace {
 
@@ -24,11 +22,14 @@ double estimated_seconds(const Method& method, const Scene& scene, const Run& ru
   double evaluations = 1;  // per step
   // conjugate gradients, measured on cloth-hang
   const double longer = std::sqrt(run.step / scene.step);
-  for (const Stepper& rule : steppers())
-    if (rule.name == method.rule) evaluations = rule.evaluations > 0 ? rule.evaluations : 60 * longer;
+  if (const Stepper* rule = rule_of(method)) evaluations = rule->evaluations > 0 ? rule->evaluations : 60 * longer;
   if (method.name.starts_with("bullet/deformable-implicit")) evaluations = 10 * longer;
   if (method.adaptive) evaluations = 7;
   return evaluations * run.duration / plan(run).h * seconds_of_evaluation(method, scene);
+}
+
+double estimated_seconds(const Method& method, const Scene& scene, long steps) {
+  return estimated_seconds(method, scene, {scene.step, scene.step * static_cast<double>(steps), 1});
 }
 
 }  // namespace crosscheck

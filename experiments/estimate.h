@@ -9,5 +9,7 @@ namespace crosscheck {
 /// suite's builds once, good to a factor of about 3. Rules that solve an equation in each step take more products with
 /// the matrix at longer steps.
 double estimated_seconds(const Method& method, const Scene& scene, const Run& run);
+/// The same of so many steps of the scene's own.
+double estimated_seconds(const Method& method, const Scene& scene, long steps);
 
 }  // namespace crosscheck

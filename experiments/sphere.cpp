@@ -13,9 +13,6 @@
 namespace crosscheck {
 namespace {
 
-/// What a probe measured, or an empty cell where the run failed.
-Cell cell(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
-
 void rebounds(const Request& request, const Method& method, Rows& rows) {
   Table table{"sphere-rebound",
               {{"method", "1"},
@@ -32,7 +29,7 @@ void rebounds(const Request& request, const Method& method, Rows& rows) {
     for (const double h : {1. / 60, 1. / 240, 1e-3, 1e-4}) {
       Outcome out;
       const auto height = rebound(method, drop_on_ball(e), h, out);
-      table.add({method.name, std::string(name_of(out.verdict)), out.reason, h, e, cell(height), 0.3 * e * e});
+      table.add({method.name, std::string(name_of(out.verdict)), out.reason, h, e, cell_of(height), 0.3 * e * e});
     }
   rows.add(table);
 }
@@ -166,11 +163,11 @@ void drape(const Scene& scene, const Method& method, double step, Rows& rows) {
     const auto count = static_cast<double>(x.cols());
     if (path.v[i].cols() != x.cols() || std::sqrt(path.v[i].squaredNorm() / count) > 0.01)
       settled = i + 1 < path.frames() ? path.t[i + 1] : INFINITY;
-    table.add({method.name, out.step, t, centre.y(), aside.norm(), cell(last_gap), cell(last_depth), cell(last_creep),
-               mirror ? Cell(*skew) : Cell()});
+    table.add({method.name, out.step, t, centre.y(), aside.norm(), cell_of(last_gap), cell_of(last_depth),
+               cell_of(last_creep), cell_of(skew)});
   }
   const bool ok = out.verdict == Verdict::ok && !none;
-  auto at_end = [&](const std::optional<double>& value) { return ok ? cell(value) : Cell(); };
+  auto at_end = [&](const std::optional<double>& value) { return ok ? cell_of(value) : Cell(); };
   auto share = [&](const std::optional<double>& depth) {
     return ok && depth ? Cell(100 * std::max(0.0, *depth) / radius) : Cell();
   };

@@ -51,15 +51,14 @@ std::optional<double> rebound(const Method& method, const Scene& scene, double s
   const Trajectory path = each_step(method, scene, step, out);
   if (out.verdict != Verdict::ok) return std::nullopt;
   const double fall = std::sqrt(2 * drop / g);  // s
-  // the highest point of the first rebound, which lasts 2 e of the fall and begins within two steps of it; what hangs
-  // above the surface before is the fall itself
+  // the highest point after the lowest of the two steps before and after the impact: what is above the surface earlier
+  // is the fall itself
+  int landed = 0;
+  double lowest = INFINITY;
+  for (int i = 0; i < path.frames(); ++i)
+    if (const double y = path.x[i](1, 0); std::abs(path.t[i] - fall) <= 2 * step && y < lowest) lowest = y, landed = i;
   double highest = 0;
-  bool landed = false;
-  for (int i = 0; i < path.frames(); ++i) {
-    const double y = path.x[i](1, 0);
-    landed |= path.t[i] > fall - 2 * step && (y < 1e-3 || path.v[i](1, 0) > 0);
-    if (landed) highest = std::max(highest, y);
-  }
+  for (int i = landed; i < path.frames(); ++i) highest = std::max(highest, path.x[i](1, 0));
   return highest;
 }
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
 #include <stdexcept>
 
 #include "mysim/files.h"
@@ -33,7 +32,9 @@ std::string text_of(const Cell& cell) {
 std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
 
 void Table::add(std::vector<Cell> row) {
-  assert(row.size() == columns.size());
+  if (row.size() != columns.size())
+    throw std::logic_error(
+        fmt::format("table {}: a row of {} cells under {} columns", name, row.size(), columns.size()));
   rows.push_back(std::move(row));
 }
 

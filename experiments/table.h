@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -11,6 +12,7 @@ namespace crosscheck {
 
 /// Empty means not applicable. nan and inf are allowed in failed rows only.
 using Cell = std::variant<std::monostate, std::string, double, long>;
+inline Cell cell_of(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
 
 /// `# key: value` lines above a table: who made these numbers, from what, with what.
 using Provenance = std::vector<std::pair<std::string, std::string>>;

@@ -29,6 +29,8 @@ struct TimingPlan {
 
 /// Times of every repetition of every run. A run does its work once and says what CPU time it took, s; first each is
 /// run once unmeasured, then one after the other, round by round, so that a slow spell of the machine falls on all.
+/// What says 0 there tells no time (a program that keeps no clock, a method that refused): it is not asked again, and
+/// its only time is 0.
 std::vector<std::vector<double>> timed_in_turns(std::span<const std::function<double()>> runs, const TimingPlan& plan);
 
 /// What two measurements of the same thing differ by here, relative: the 90 % quantile over the runs of the difference

@@ -57,6 +57,14 @@ Method find_method(const std::string& text) {
   throw InputError(fmt::format("unknown method '{}'; expected one of: {}, exec:PATH", text, fmt::join(known, ", ")));
 }
 
+const Stepper* rule_of(const Method& method) {
+  if (method.stepper) return method.stepper;
+  const std::string name = method.rule == "implicit-euler+linear" ? "implicit-euler" : method.rule;
+  for (const Stepper& rule : steppers())
+    if (rule.name == name) return &rule;
+  return nullptr;
+}
+
 std::vector<Method> find_methods(const std::string& list) {
   std::vector<Method> methods;
   for (const std::string& name : split(list, ',')) methods.push_back(find_method(name));

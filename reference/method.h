@@ -33,6 +33,10 @@ Method find_method(const std::string& text);
 /// that names the file and what was expected.
 Method trajectory_method(const std::filesystem::path& file, const Scene& scene, const Run& run);
 
+/// mysim's row of the rule that a method follows, or null: Bullet's explicit world has symplectic Euler's, odeint/rk4
+/// has rk4's. +linear counts as implicit Euler: one Newton step is the whole step where forces are linear.
+const Stepper* rule_of(const Method& method);
+
 /// Splits "a,b,c" and finds each.
 std::vector<Method> find_methods(const std::string& list);
 

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "experiments/cells.h"
+
 namespace crosscheck {
 
 std::string failure_word(const std::string& verdict) {
@@ -17,24 +19,6 @@ std::string failure_word(const std::string& verdict) {
     if (verdict == name) return word;
   return "blew up";
 }
-namespace {
-
-std::string text(const Cell& cell) {
-  const auto* value = std::get_if<std::string>(&cell);
-  return value ? *value : "";
-}
-
-std::optional<double> number(const Cell& cell) {
-  if (const auto* value = std::get_if<double>(&cell)) return *value;
-  return std::nullopt;
-}
-
-long whole(const Cell& cell) {
-  const auto* value = std::get_if<long>(&cell);
-  return value ? *value : 0;
-}
-
-}  // namespace
 
 const MethodFacts* SceneFacts::find(const std::string& method) const {
   for (const MethodFacts& m : methods)
@@ -51,47 +35,49 @@ bool SceneFacts::touched() const {
 SceneFacts facts_of(const std::string& scene, const Rows& result) {
   SceneFacts facts;
   facts.scene = scene;
-  const Table& engines = *result.table("engines");
+  const Table* runs = result.table("engines");
+  if (!runs) return facts;  // no run of any scene came to a row: the page says why among what is missing
+  const Table& engines = *runs;
   for (size_t i = 0; i < engines.rows.size(); ++i) {
-    if (text(engines.at(i, "scene")) != scene) continue;
-    facts.motion = number(engines.at(i, "motion")).value_or(0);
-    facts.window = number(engines.at(i, "window")).value_or(0);
-    facts.measured_window = number(engines.at(i, "measured window")).value_or(0);
-    facts.growth = number(engines.at(i, "perturbation growth")).value_or(0);
-    facts.round_off = number(engines.at(i, "round-off bound"));
-    facts.truth = text(engines.at(i, "truth"));
-    facts.contact_until = number(engines.at(i, "truth until"));
-    if (!facts.contact_until) facts.tier = text(engines.at(i, "truth tier"));
-    facts.bar = number(engines.at(i, "truth bar")).value_or(0);
+    if (text_or_none(engines, i, "scene") != scene) continue;
+    facts.motion = number_at(engines, i, "motion").value_or(0);
+    facts.window = number_at(engines, i, "window").value_or(0);
+    facts.measured_window = number_at(engines, i, "measured window").value_or(0);
+    facts.growth = number_at(engines, i, "perturbation growth").value_or(0);
+    facts.round_off = number_at(engines, i, "round-off bound");
+    facts.truth = text_or_none(engines, i, "truth");
+    facts.contact_until = number_at(engines, i, "truth until");
+    if (!facts.contact_until) facts.tier = text_or_none(engines, i, "truth tier");
+    facts.bar = number_at(engines, i, "truth bar").value_or(0);
     MethodFacts m;
-    m.method = text(engines.at(i, "method"));
-    m.verdict = text(engines.at(i, "verdict"));
-    m.reason = text(engines.at(i, "reason"));
-    m.different_law = text(engines.at(i, "different law"));
-    m.end = number(engines.at(i, "end")).value_or(0);
-    m.step = number(engines.at(i, "step")).value_or(0);
-    m.evaluations = whole(engines.at(i, "evaluations"));
-    m.coincident = whole(engines.at(i, "coincident springs"));
-    m.error = number(engines.at(i, "largest error"));
-    m.from_contact = number(engines.at(i, "largest difference from converged contact"));
-    m.difference = number(engines.at(i, "largest difference"));
-    m.centres = number(engines.at(i, "largest difference of centres"));
-    m.clearance = number(engines.at(i, "smallest clearance"));
-    m.creep = number(engines.at(i, "creep at end"));
-    m.limit = number(engines.at(i, "predicted step limit"));
+    m.method = text_or_none(engines, i, "method");
+    m.verdict = text_or_none(engines, i, "verdict");
+    m.reason = text_or_none(engines, i, "reason");
+    m.different_law = text_or_none(engines, i, "different law");
+    m.end = number_at(engines, i, "end").value_or(0);
+    m.step = number_at(engines, i, "step").value_or(0);
+    m.evaluations = static_cast<long>(number_at(engines, i, "evaluations", 0));
+    m.coincident = static_cast<long>(number_at(engines, i, "coincident springs", 0));
+    m.error = number_at(engines, i, "largest error");
+    m.from_contact = number_at(engines, i, "largest difference from converged contact");
+    m.difference = number_at(engines, i, "largest difference");
+    m.centres = number_at(engines, i, "largest difference of centres");
+    m.clearance = number_at(engines, i, "smallest clearance");
+    m.creep = number_at(engines, i, "creep at end");
+    m.limit = number_at(engines, i, "predicted step limit");
     facts.methods.push_back(std::move(m));
   }
   for (MethodFacts& m : facts.methods) {
     if (const Table* cost = result.table("engines-cost"))
       for (size_t i = 0; i < cost->rows.size(); ++i)
-        if (text(cost->at(i, "scene")) == scene && text(cost->at(i, "method")) == m.method) {
-          m.cpu = number(cost->at(i, "cpu"));
-          m.cpu_per_step = number(cost->at(i, "cpu per step"));
+        if (text_or_none(*cost, i, "scene") == scene && text_or_none(*cost, i, "method") == m.method) {
+          m.cpu = number_at(*cost, i, "cpu");
+          m.cpu_per_step = number_at(*cost, i, "cpu per step");
         }
     if (const Table* energy = result.table("engines-energy"))
       for (size_t i = 0; i < energy->rows.size(); ++i)
-        if (text(energy->at(i, "scene")) == scene && text(energy->at(i, "method")) == m.method)
-          m.energy_error = number(energy->at(i, "relative balance error"));
+        if (text_or_none(*energy, i, "scene") == scene && text_or_none(*energy, i, "method") == m.method)
+          m.energy_error = number_at(*energy, i, "relative balance error");
   }
   return facts;
 }

@@ -77,10 +77,12 @@ std::string element(const Figure& f, const std::string& curve, const std::string
                      single_quoted(id_of(curve)), with, single_quoted(shown(title)));
 }
 
-/// True when a curve of that colour is drawn, and so named in the key.
-bool in_key(const Figure& f, const std::string& colour) {
-  return std::any_of(f.curves.begin(), f.curves.end(),
-                     [&](const Curve& c) { return !c.points.empty() && c.style.colour == colour; });
+/// True when the curve of that method is drawn, and so named in the key with its colour. A mark's title is that of its
+/// curve and the kind.
+bool in_key(const Figure& f, const FailureMark& mark) {
+  return std::any_of(f.curves.begin(), f.curves.end(), [&](const Curve& c) {
+    return !c.points.empty() && c.style.colour == mark.style.colour && mark.title.starts_with(c.title);
+  });
 }
 
 /// Room that the key needs below the plot beyond its first three rows, in parts of the figure's height.
@@ -88,7 +90,7 @@ double key_room(const Figure& f) {
   std::set<std::string> entries;
   for (const Curve& c : f.curves)
     if (!c.points.empty()) entries.insert(c.title);
-  for (const FailureMark& m : f.failures) entries.insert(in_key(f, m.style.colour) ? kind_in_key(m) : m.title);
+  for (const FailureMark& m : f.failures) entries.insert(in_key(f, m) ? kind_in_key(m) : m.title);
   if (f.floor) entries.insert(f.floor->first);
   if (!f.pareto.empty()) entries.insert(pareto_title);
   size_t longest = 0;
@@ -116,7 +118,7 @@ std::string plot_command(const Figure& f) {
   std::map<std::string, int> silent;  // kinds that are named in the key once, and their crosses
   for (const FailureMark& m : f.failures) {
     if (!marked.insert(m.title).second) continue;
-    const bool known = in_key(f, m.style.colour);
+    const bool known = in_key(f, m);
     if (known) silent.emplace(kind_in_key(m), m.cross);
     parts.push_back(element(f, "failed: " + m.title,
                             fmt::format("points lc rgb \"{}\" pt {} ps 1.5 lw 3", m.style.colour, m.cross),

@@ -1,12 +1,10 @@
 // Sentences from facts.
 #include "report/findings.h"
 
-#include "report/findings_text.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "report/findings_text.h"
 
 namespace crosscheck {
 namespace {
@@ -69,8 +67,8 @@ void other_law(const Scene& scene, const SceneFacts& facts, std::vector<Finding>
   else if (p->difference)
     out.push_back(
         {scene.name, "accuracy",
-         fmt::format("{} differs by up to {} (RMS) until {:.3g} s; its springs{} follow another law.", position_based,
-                     nice_length(*p->difference), scene.window, facts.touched() ? " and its friction" : ""),
+         fmt::format("{} differs by up to {} (RMS) until {:.3g} s: {}{}.", position_based, nice_length(*p->difference),
+                     scene.window, why, facts.touched() ? "; its friction follows another law too" : ""),
          "another engine"});
 }
 
@@ -153,7 +151,7 @@ void contact(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& 
 }
 
 void sticky(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
-  const MethodFacts* m = facts.find("mysim/symplectic-euler+sticky");
+  const MethodFacts* m = facts.find(sticky_sphere);
   if (!m || !m->ok() || !m->centres || !facts.touched() || *m->centres < 10 * scene.tolerance) return;
   out.push_back({scene.name, "failure",
                  fmt::format("The assignment's sticky sphere, kept for comparison, freezes what touches it: "

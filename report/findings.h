@@ -10,7 +10,7 @@ namespace crosscheck {
 
 struct Finding {
   std::string scene;         // or empty: of the whole report
-  std::string topic;         // agreement, accuracy, failure, cost, contact, order
+  std::string topic;         // agreement, accuracy, failure, cost, contact, order, energy, adequacy
   std::string sentence;      // for a reader who has never seen the code
   std::string tier;          // of the truth that it rests on; "another engine" for differences; "measured" for costs
   std::string chapter = {};  // of the report, by its id, that shows what it rests on; empty: none

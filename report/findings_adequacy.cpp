@@ -4,6 +4,7 @@
 #include "experiments/cells.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
+#include "report/grid_powers.h"
 
 namespace crosscheck {
 namespace {
@@ -31,7 +32,10 @@ void least_models(const Table& t, std::vector<Finding>& out) {
     sentence += fmt::format("Nothing can be left out of {} within their tolerances, also from three other starts. ",
                             joined(whole));
   if (!less.empty()) sentence += fmt::format("Within their tolerances these can do with less: {}. ", joined(less));
-  if (!unsure.empty()) sentence += fmt::format("From other starts that does not hold for {}. ", joined(unsure));
+  if (!unsure.empty())
+    sentence +=
+        fmt::format("What can be left out of {} within {} depends on the start: of three others not all bear it out. ",
+                    joined(unsure), unsure.size() == 1 ? "its tolerance" : "their tolerances");
   for (const auto& [gone, scenes] : at_tenth)
     sentence += fmt::format("At 10 % of the motion {} can do without {}. ", joined(scenes), gone);
   if (sentence.empty()) return;
@@ -48,8 +52,12 @@ void families(const Table& t, std::vector<Finding>& out) {
     const auto* error = std::get_if<double>(&t.at(i, "error"));
     if (!family || text_at(t, i, "kind") != "single" || !error) continue;
     if (per_scene[scene].empty()) order.push_back(scene);
-    per_scene[scene] += fmt::format("{}{} {}", per_scene[scene].empty() ? "" : ", ", gone.substr(0, gone.find(' ')),
-                                    percent(*error, number_at(t, i, "motion", NAN)));
+    // a part of no motion is no measure
+    const double motion = number_at(t, i, "motion", 0);
+    per_scene[scene] +=
+        fmt::format("{}{} {}", per_scene[scene].empty() ? "" : ", ", gone.substr(0, gone.find(' ')),
+                    motion > number_at(t, i, "tolerance", 0) ? percent(*error, motion)
+                                                             : nice_length(*error) + " (hardly any motion)");
   }
   std::string sentence;
   for (const std::string& scene : order)
@@ -60,23 +68,16 @@ void families(const Table& t, std::vector<Finding>& out) {
                    "see each scene"});
 }
 
-void grids(const Table& t, std::vector<Finding>& out) {
+void grids(const Rows& rows, const Table& t, std::vector<Finding>& out) {
   std::vector<std::string> all;
-  std::string bend;
-  for (size_t i = 0; i < t.rows.size(); ++i) {
-    const std::string quantity = text_at(t, i, "quantity");
-    const std::string power =
-        fmt::format("{:.2f} ± {:.2f}", number_at(t, i, "exponent", NAN), number_at(t, i, "standard error", NAN));
-    if (quantity.starts_with("stiffness of all")) all.push_back(fmt::format("{} on {}", power, text_at(t, i, "scene")));
-    if (quantity.starts_with("stiffness of bend")) bend = power;
-  }
+  for (const std::string& scene : distinct(t, "scene"))
+    if (const auto power = power_of(rows, scene, stiffness_for_sag))
+      all.push_back(fmt::format("{} on {}", power_text(*power), scene));
   std::string sentence;
   if (!all.empty())
     sentence = fmt::format(
-        "For the same sag on a finer grid all stiffnesses go as the number of cells to the power {}. ", joined(all));
-  if (!bend.empty())
-    sentence +=
-        fmt::format("Against bending they must grow as the number of cells to the power {} (derived: 4).", bend);
+        "For the same sag on a finer grid all stiffnesses go as the number of cells to the power {}.", joined(all));
+  if (const std::string bend = bend_sentence(rows); !bend.empty()) sentence += (sentence.empty() ? "" : " ") + bend;
   if (!sentence.empty()) out.push_back({"", "adequacy", sentence, "measured"});
 }
 
@@ -86,7 +87,7 @@ std::vector<Finding> adequacy_findings(const Rows& result) {
   std::vector<Finding> out;
   if (const Table* t = result.table("adequacy-least")) least_models(*t, out);
   if (const Table* t = result.table("adequacy")) families(*t, out);
-  if (const Table* t = result.table("adequacy-scaling")) grids(*t, out);
+  if (const Table* t = result.table("adequacy-scaling")) grids(result, *t, out);
   return out;
 }
 

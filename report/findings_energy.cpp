@@ -1,68 +1,99 @@
 // Sentences on experiment `energy`.
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 
 #include "experiments/cells.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
+#include "report/residual_word.h"
 
 namespace crosscheck {
 namespace {
 
+/// "10000 to 100000"
+std::string steps_text(long fewest, long most) { return range(std::to_string(fewest), std::to_string(most)); }
+
+/// What three rules that are not symplectic do on a scene, as far as they were asked.
+std::vector<std::string> beside(const Table& table, const std::string& scene) {
+  std::vector<std::string> all;
+  for (const char* shown : {"bullet/pbd", "mysim/explicit-euler", "mysim/implicit-euler"})
+    for (size_t i = 0; i < table.rows.size(); ++i) {
+      const double turned = number_at(table, i, "energy turned over", 0),
+                   share = number_at(table, i, "largest residual", NAN) / turned;
+      if (text_at(table, i, "scene") != scene || text_at(table, i, "method") != shown || !(turned > 0)) continue;
+      if (const std::string& verdict = text_at(table, i, "verdict"); verdict != "ok")
+        all.push_back(
+            fmt::format("{} {} after {:.3g} s", shown, failure_word(verdict), number_at(table, i, "end", NAN)));
+      else if (std::isfinite(share))
+        all.push_back(fmt::format("{} {} {} of it", shown, number_at(table, i, "residual", 0) < 0 ? "takes" : "adds",
+                                  percent(share, 1)));
+    }
+  return all;
+}
+
 /// Symplectic rules against the others, on the undamped scenes.
 void drift(const Table& table, std::vector<Finding>& out) {
-  double kept = 0;
-  std::string which;
-  std::map<std::string, std::string> others;  // of the first undamped scene
-  std::string scene;
+  double worst = -1;
+  std::string scene;  // the first undamped one
+  long fewest = std::numeric_limits<long>::max(), most = 0;
+  std::vector<std::string> drifting, failed;
   for (size_t i = 0; i < table.rows.size(); ++i) {
     if (std::get<long>(table.at(i, "undamped")) == 0 || std::get<long>(table.at(i, "closure claimed")) == 0) continue;
-    const std::string &method = std::get<std::string>(table.at(i, "method")),
-                      &verdict = std::get<std::string>(table.at(i, "verdict"));
-    if (!(number_at(table, i, "energy turned over", NAN) > 0)) continue;  // at rest, or left out
-    const double share = number_at(table, i, "largest residual", NAN) / number_at(table, i, "energy turned over", NAN);
-    if (std::get<long>(table.at(i, "symplectic")) != 0) {
-      if (verdict == "ok" && share > kept) kept = share, which = method;
+    const double turned = number_at(table, i, "energy turned over", 0);
+    if (!(turned > 0)) continue;  // at rest, or left out
+    if (scene.empty()) scene = text_at(table, i, "scene");
+    if (std::get<long>(table.at(i, "symplectic")) == 0) continue;
+    const std::string who = fmt::format("{} on {}", text_at(table, i, "method"), text_at(table, i, "scene")),
+                      what = residual_word(table, i);
+    if (text_at(table, i, "verdict") != "ok") {
+      failed.push_back(fmt::format("{} ({} at {:.3g} s)", who, what, number_at(table, i, "end", NAN)));
       continue;
     }
-    if (scene.empty()) scene = std::get<std::string>(table.at(i, "scene"));
-    if (scene != std::get<std::string>(table.at(i, "scene"))) continue;
-    for (const char* shown : {"mysim/explicit-euler", "mysim/implicit-euler", "bullet/pbd"})
-      if (method == shown) {
-        if (verdict == "ok")
-          others[method] = fmt::format("{} takes {} of it", method, percent(share, 1));
-        else if (verdict == "energy" || verdict == "nan")
-          others[method] = fmt::format("{} blows up after {:.3g} s", method, number_at(table, i, "end", NAN));
-      }
+    const long steps = std::get<long>(table.at(i, "steps"));
+    fewest = std::min(fewest, steps), most = std::max(most, steps);
+    worst = std::max(worst, number_at(table, i, "largest residual", 0) / turned);
+    if (!stays(what)) drifting.push_back(fmt::format("{} ({})", who, what));
   }
-  if (which.empty()) return;
-  std::vector<std::string> list;
-  for (const auto& [name, text] : others) list.push_back(text);
+  if (!failed.empty())
+    out.push_back(
+        {"", "failure", fmt::format("Symplectic rules that failed in long runs: {}.", joined(failed)), "measured"});
+  if (worst < 0) return;
+  const std::vector<std::string> others = beside(table, scene);
   out.push_back({"", "energy",
-                 fmt::format("In runs of a hundred thousand steps symplectic rules keep the energy to {} of what is "
-                             "turned over, without drift{}.",
-                             percent(kept, 1), list.empty() ? "" : fmt::format("; on {} {}", scene, joined(list))),
+                 fmt::format("In runs of {} steps symplectic rules keep the energy to {} of what is turned over, {}{}.",
+                             steps_text(fewest, most), percent(worst, 1),
+                             drifting.empty() ? "without drift" : "but not all without drift: " + joined(drifting),
+                             others.empty() ? "" : fmt::format("; on {} {}", scene, joined(others))),
                  "exact balance"});
 }
 
 /// Numerical damping against the closed form.
 void damping(const Table& table, std::vector<Finding>& out) {
-  double worst = -1, tenth = NAN;
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    const double rate = number_at(table, i, "equivalent drag", NAN), theory = number_at(table, i, "by theory", NAN);
-    const std::string& method = std::get<std::string>(table.at(i, "method"));
-    if (method != "mysim/implicit-euler" && method != "bullet/deformable-implicit" && method != "bullet/pbd") continue;
-    if (!(theory > 0) || !std::isfinite(rate)) continue;
-    worst = std::max(worst, std::abs(rate / theory - 1));
-    if (std::abs(number_at(table, i, "h omega", NAN) - 0.1) < 1e-9) tenth = rate / 10;  // omega = 10 rad/s
+  double worst = -1, low = INFINITY, high = -INFINITY;
+  std::vector<std::string> methods;
+  for (const std::string& method : distinct(table, "method")) {
+    if (method != "mysim/implicit-euler" && method != "mysim/xpbd" && method != "bullet/deformable-implicit" &&
+        method != position_based)
+      continue;
+    for (size_t i = 0; i < table.rows.size(); ++i) {
+      const double rate = number_at(table, i, "equivalent drag", NAN), theory = number_at(table, i, "by theory", NAN);
+      if (text_at(table, i, "method") != method || !(theory > 0) || !std::isfinite(rate)) continue;
+      if (methods.empty() || methods.back() != method) methods.push_back(method);
+      worst = std::max(worst, std::abs(rate / theory - 1));
+      if (std::abs(number_at(table, i, "h omega", NAN) - 0.1) < 1e-9)
+        low = std::min(low, rate / 10), high = std::max(high, rate / 10);  // ω = 10 rad/s
+    }
   }
-  if (worst < 0 || !std::isfinite(tenth)) return;
-  out.push_back({"", "energy",
-                 fmt::format("Implicit Euler, Bullet's implicit and its position-based world damp by themselves: at a "
-                             "tenth of a radian per step like a drag of {:.2f} omega, as theory says to {}.",
-                             tenth, percent(worst, 1)),
-                 "exact"});
+  if (methods.empty()) return;
+  const bool one = methods.size() == 1;
+  std::string sentence = fmt::format("{} {}", joined(methods), one ? "damps by itself" : "damp by themselves");
+  if (low <= high)
+    sentence += fmt::format(": at a tenth of a radian per step like a drag of {} ω",
+                            range(fmt::format("{:.2f}", low), fmt::format("{:.2f}", high)));
+  sentence += worst <= 0.01 ? fmt::format(", as theory says to {}.", percent(worst, 1))
+                            : fmt::format("; theory says otherwise by up to {}.", percent(worst, 1));
+  out.push_back({"", "energy", sentence, "exact"});
 }
 
 }  // namespace

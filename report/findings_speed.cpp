@@ -2,11 +2,21 @@
 #include <algorithm>
 #include <map>
 
+#include "experiments/cells.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
 
 namespace crosscheck {
 namespace {
+
+bool tried_bullet(const Rows& result, const std::string& scene) {
+  const Table* runs = result.table("speed-accuracy");
+  for (size_t i = 0; runs && i < runs->rows.size(); ++i)
+    if (text_at(*runs, i, "scene") == scene && text_at(*runs, i, "method").starts_with("bullet/") &&
+        text_at(*runs, i, "verdict") != "unsupported")
+      return true;
+  return false;
+}
 
 /// Who meets 1 % of the motion at the least CPU time, on how many scenes.
 void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
@@ -14,22 +24,20 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   if (!t) return;
   std::map<std::string, std::vector<std::string>> scenes_of;  // by the cheapest
   double low = 1e300, high = 0;
-  std::vector<std::string> without;  // scenes on which no run of Bullet meets it
+  std::vector<std::string> without;  // scenes on which no run of Bullet that was tried meets it
   for (size_t i = 0; i < t->rows.size(); ++i) {
-    const auto* method = std::get_if<std::string>(&t->at(i, "method"));
-    if (std::get<double>(t->at(i, "part of motion")) != 0.01 || !method ||
-        std::get<std::string>(t->at(i, "measure")) != "error")
-      continue;
-    std::string where = std::get<std::string>(t->at(i, "scene"));
+    const std::string method = text_or_none(*t, i, "method");
+    if (number_at(*t, i, "part of motion") != 0.01 || method.empty() || text_at(*t, i, "measure") != "error") continue;
+    std::string where = text_at(*t, i, "scene");
     // what the clock cannot tell apart shares the place
-    if (const auto* same = std::get_if<std::string>(&t->at(i, "as cheap within noise")); same && !same->empty())
-      where += fmt::format(" (there {} no dearer within the noise)", *same);
-    scenes_of[*method].push_back(where);
-    if (const auto* factor = std::get_if<double>(&t->at(i, "Bullet / best"))) {
+    if (const std::string same = text_or_none(*t, i, "as cheap within noise"); !same.empty())
+      where += fmt::format(" (there {} no dearer within the noise)", same);
+    scenes_of[method].push_back(where);
+    if (const auto factor = number_at(*t, i, "Bullet / best")) {
       low = std::min(low, *factor);
       high = std::max(high, *factor);
-    } else {
-      without.push_back(std::get<std::string>(t->at(i, "scene")));
+    } else if (tried_bullet(result, text_at(*t, i, "scene"))) {
+      without.push_back(text_at(*t, i, "scene"));
     }
   }
   if (scenes_of.empty()) return;
@@ -40,7 +48,7 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   if (high > 0)
     sentence += fmt::format("; the best of Bullet's worlds takes {} times as much",
                             range(fmt::format("{:.2g}", low), fmt::format("{:.2g}", high)));
-  if (!without.empty()) sentence += "; no run of Bullet meets it on " + joined(without);
+  if (!without.empty()) sentence += "; no run of Bullet that was tried meets it on " + joined(without);
   out.push_back({"", "cost", sentence + ".", "measured"});
 }
 
@@ -50,10 +58,10 @@ void step_of_both(const Rows& result, std::vector<Finding>& out) {
   if (!t) return;
   std::map<long, std::pair<double, double>> per_side;  // ours, theirs: s per step
   for (size_t i = 0; i < t->rows.size(); ++i) {
-    const auto& method = std::get<std::string>(t->at(i, "method"));
+    const std::string& method = text_at(*t, i, "method");
     auto& both = per_side[std::get<long>(t->at(i, "side"))];
-    if (method == ours) both.first = std::get<double>(t->at(i, "cpu per step"));
-    if (method == theirs) both.second = std::get<double>(t->at(i, "cpu per step"));
+    if (method == ours) both.first = number_at(*t, i, "cpu per step", 0);
+    if (method == theirs) both.second = number_at(*t, i, "cpu per step", 0);
   }
   std::erase_if(per_side, [](const auto& s) { return !(s.second.first > 0 && s.second.second > 0); });
   if (per_side.empty()) return;

@@ -9,13 +9,11 @@
 namespace crosscheck {
 namespace {
 
-constexpr auto sticky = "mysim/symplectic-euler+sticky";
-
 void cone(const Table& table, std::vector<Finding>& out) {
   struct Count {
     const char* method;
     int right = 0, all = 0;
-  } counts[] = {{ours}, {theirs}, {position_based}, {sticky}};
+  } counts[] = {{ours}, {theirs}, {position_based}, {sticky_sphere}};
   for (size_t i = 0; i < table.rows.size(); ++i)
     for (Count& count : counts)
       if (text_at(table, i, "method") == count.method && text_at(table, i, "verdict") == "ok") {
@@ -39,16 +37,16 @@ void slide_off(const Table& table, std::vector<Finding>& out) {
         text_at(table, i, "method") == ours && number_at(table, i, "step", NAN) < step)
       step = number_at(table, i, "step", NAN), reference = number_at(table, i, "centre height", NAN);
   std::vector<std::string> parts;
-  for (const char* method : {theirs, position_based, sticky})
+  for (const char* method : {theirs, position_based, sticky_sphere})
     for (size_t i = 0; i < table.rows.size(); ++i) {
       if (text_at(table, i, "scene") != "drop-aside" || text_at(table, i, "method") != method ||
           text_at(table, i, "verdict") != "ok" || std::abs(number_at(table, i, "step", NAN) / step - 1) > 1e-6)
         continue;
       const double height = number_at(table, i, "centre height", NAN), creep = number_at(table, i, "creep", NAN);
       parts.push_back(std::isfinite(creep)
-                          ? fmt::format("{} still holds it, {}", method,
-                                        creep < 1e-6 ? "frozen" : fmt::format("creeping at {} mm/s", nice(1e3 * creep)))
-                          : fmt::format("{} lets it fall as well (centres {} apart)", method,
+                          ? fmt::format("with {} it still touches, {}", method,
+                                        creep < 1e-6 ? "frozen" : fmt::format("sliding at {} mm/s", nice(1e3 * creep)))
+                          : fmt::format("with {} it is off the ball as well (centres {} apart)", method,
                                         nice_length(std::abs(height - reference))));
     }
   if (!parts.empty() && std::isfinite(reference) && reference < 0)
@@ -66,7 +64,7 @@ void depth(const Table& table, std::vector<Finding>& out) {
     const std::string& method = text_at(table, i, "method");
     const double nodes = number_at(table, i, "particles", NAN);
     if (method == position_based) of_pbd = std::max(of_pbd, nodes);
-    if (!method.starts_with("mysim/") || method == sticky) continue;
+    if (!method.starts_with("mysim/") || method == sticky_sphere) continue;
     any = true;
     particles = std::max(particles, nodes);
     triangles = std::max(triangles, number_at(table, i, "triangles", NAN));
@@ -74,9 +72,12 @@ void depth(const Table& table, std::vector<Finding>& out) {
   if (any && of_pbd > 0)
     out.push_back(
         {"", "contact",
-         fmt::format("On a ball no particle of mysim sinks in ({}), the triangles between them do by {:.2g} % "
-                     "of the radius; Bullet's position-based world lets particles in by up to {:.2g} %.",
-                     particles < 1e-9 ? "but for rounding" : fmt::format("{:.2g} %", particles), triangles, of_pbd),
+         fmt::format(
+             "On a ball {}, the triangles between them by {:.2g} % of the radius; Bullet's position-based world "
+             "lets particles in by up to {:.2g} %.",
+             particles < 1e-9 ? "no particle of mysim sinks in but for rounding"
+                              : fmt::format("particles of mysim sink in by up to {:.2g} %", particles),
+             triangles, of_pbd),
          "measured"});
 }
 

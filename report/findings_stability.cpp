@@ -1,51 +1,61 @@
 // What the search for the largest stable steps showed.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "experiments/cells.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
+#include "report/limits_told.h"
 
 namespace crosscheck {
+namespace {
+
+/// Methods that fail at every step, as theory says; and the rates at which they do.
+void without_stable_step(const Table& table, const Table* growth, std::vector<Finding>& out) {
+  std::map<std::string, std::set<std::string>> scenes_of;  // by method
+  for (size_t i = 0; i < table.rows.size(); ++i)
+    if (text_at(table, i, "state") == "rest" && text_at(table, i, "prediction") == "no stable step" &&
+        text_at(table, i, "measurement") == "no stable step")
+      scenes_of[text_at(table, i, "method")].insert(text_at(table, i, "scene"));
+  if (scenes_of.empty()) return;
+  std::map<std::set<std::string>, std::vector<std::string>> methods_of;  // by the scenes that they fail on
+  for (const auto& [method, scenes] : scenes_of) methods_of[scenes].push_back(method);
+  std::string who;
+  for (const auto& [scenes, methods] : methods_of)
+    who += fmt::format("{}{} {} no stable step at all on {}", who.empty() ? "" : "; ", joined(methods),
+                       methods.size() == 1 ? "has" : "have", joined({scenes.begin(), scenes.end()}));
+  double off = -1;
+  std::string which;
+  for (size_t i = 0; growth && i < growth->rows.size(); ++i) {
+    const double deviation = std::abs(number_at(*growth, i, "deviation", NAN));
+    // beside a limit other things are measured
+    if (number_at(*growth, i, "share of limit") || !(deviation > off)) continue;
+    off = deviation;
+    which = fmt::format("{} on {}", text_at(*growth, i, "method"), text_at(*growth, i, "scene"));
+  }
+  std::string rate;
+  if (off >= 0 && off <= 0.01)
+    rate = fmt::format(": vibrations grow in every step, at the rate that theory gives (to {})", percent(off, 1));
+  if (off > 0.01)
+    rate = fmt::format("; the growth in a step differs from theory by up to {} ({})", percent(off, 1), which);
+  out.push_back({"", "failure", fmt::format("{}, as theory says{}.", who, rate), "measured"});
+}
+
+}  // namespace
 
 std::vector<Finding> stability_findings(const Rows& rows) {
   std::vector<Finding> out;
   const Table* table = rows.table("stability");
   if (!table) return out;
-  const auto text = [&](size_t row, const char* column) { return std::get<std::string>(table->at(row, column)); };
-  double worst = 0;
-  int limits = 0;
-  std::set<std::string> scenes;
-  std::set<std::string> unstable;
-  for (size_t i = 0; i < table->rows.size(); ++i) {
-    if (text(i, "state") == "rest") {
-      if (const auto* off = std::get_if<double>(&table->at(i, "deviation"))) {
-        worst = std::max(worst, std::abs(*off));
-        ++limits;
-        scenes.insert(text(i, "scene"));
-      }
-      if (text(i, "prediction") == "no stable step" && text(i, "measurement") == "no stable step")
-        unstable.insert(text(i, "method").substr(text(i, "method").find('/') + 1));
-    }
-  }
-  if (limits > 0)
-    out.push_back({"", "failure",
-                   fmt::format("Where methods break is where theory says: {} measured largest stable steps lie within "
-                               "{} of what the eigenvalues predict, on {}.",
-                               limits, percent(worst, 1), joined({scenes.begin(), scenes.end()})),
-                   "measured"});
-  const Table* growth = rows.table("stability-growth");
-  double off = -1;
-  for (size_t i = 0; growth && i < growth->rows.size(); ++i)
-    if (std::holds_alternative<std::monostate>(growth->at(i, "share of limit")))
-      off = std::max(off, std::abs(std::get<double>(growth->at(i, "deviation"))));
-  if (!unstable.empty() && off >= 0)
-    out.push_back({"", "failure",
-                   fmt::format("Without drag {} {} no stable step at all: vibrations grow in every step, at the "
-                               "rate that theory gives (to {}).",
-                               joined({unstable.begin(), unstable.end()}), unstable.size() == 1 ? "has" : "have",
-                               percent(off, 1)),
-                   "measured"});
+  for (const LimitsTold& told : limits_told(*table))
+    out.push_back({"",
+                   told.theory_holds ? "agreement"
+                   : told.at_rest    ? "failure"
+                                     : "accuracy",
+                   told.sentence, "measured"});
+  without_stable_step(*table, rows.table("stability-growth"), out);
   return out;
 }
 

@@ -11,11 +11,11 @@
 namespace crosscheck {
 
 inline constexpr auto ours = "mysim/symplectic-euler", theirs = "bullet/deformable-explicit",
-                      position_based = "bullet/pbd";
+                      position_based = "bullet/pbd", sticky_sphere = "mysim/symplectic-euler+sticky";
 
 inline std::string percent(double part, double whole) {
   const double value = 100 * part / whole;
-  return value < 100 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
+  return value < 99.5 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
 }
 
 inline std::string joined(const std::vector<std::string>& words) {

@@ -82,7 +82,7 @@ int run(int argc, char** argv) {
 
   ExperimentOptions experiment_options;
   auto* experiment = app.add_subcommand("experiment", "runs experiments and writes their tables");
-  experiment->add_option("NAME", experiment_options.names, "experiments, then scenes (default: all scenes)")
+  experiment->add_option("NAME", experiment_options.names, "experiments, then scenes (default: those that stand for the others; all with --full)")
       ->required();
   experiment->add_option("--methods", experiment_options.methods, "A,B,...");
   experiment->add_option("--out", experiment_options.out, "folder (out/experiment)");
@@ -102,7 +102,7 @@ int run(int argc, char** argv) {
 
   ReportOptions report_options;
   auto* report = app.add_subcommand("report", "the main job: a page with findings, figures, pictures and data");
-  report->add_option("SCENE", report_options.scenes, "default: all shipped scenes");
+  report->add_option("SCENE", report_options.scenes, "default: those that stand for the others; all with --full");
   report->add_option("--methods", report_options.methods, "A,B,...");
   report->add_option("--out", report_options.out, "folder (out/report)");
   quick_or_full(report, report_options.full);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mysim/errors.h"
+#include "report/facts.h"
 
 namespace crosscheck {
 namespace {
@@ -165,7 +166,7 @@ std::string time_text(const Answer& answer, int frame) {
   const std::string t = fmt::format("t = {:.3g} s", answer.trajectory.t[frame]);
   return answer.outcome.verdict == Verdict::ok
              ? t
-             : fmt::format("{}, {} at {:.3g} s", t, answer.outcome.verdict == Verdict::solver ? "gave up" : "blew up",
+             : fmt::format("{}, {} at {:.3g} s", t, failure_word(std::string(name_of(answer.outcome.verdict))),
                            answer.outcome.end);
 }
 
@@ -197,12 +198,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
   // what is meant for long steps first, and what fails there beside it
   if (scene.method.find("implicit") != std::string::npos)
     names = {"mysim/" + scene.method, "mysim/implicit-midpoint", "mysim/symplectic-euler"};
-  // what Bullet is not given yet is seen by rules of other kinds
-  const auto* spheres = scene.model.find<Spheres>();
-  if (scene.model.find<Dashpots>() || scene.model.find<Aerodynamics>() ||
-      (spheres && (spheres->moving() || spheres->list.size() > 1)))
-    names = {"mysim/symplectic-euler", "mysim/implicit-euler", "mysim/xpbd"};
-  if (spheres) names.push_back("mysim/symplectic-euler+sticky");
+  if (scene.model.find<Spheres>()) names.push_back("mysim/symplectic-euler+sticky");
   return names;
 }
 

@@ -1,19 +1,17 @@
-// Ladders of steps and tolerances.
+// Ladders of steps and tolerances, and what is timed of their runs.
 #include "experiments/speed_accuracy/ladder.h"
 
 #include <cmath>
 
 #include "experiments/estimate.h"
-#include "mysim/frequency.h"
 
 namespace crosscheck {
 namespace {
 
 /// Whether the method's rule is known to fail at long steps.
 bool limited(const Method& method) {
-  for (const Stepper& rule : steppers())
-    if (rule.name == method.rule || method.stepper == &rule) return std::isfinite(rule.limit(1, 0.1));
-  return false;
+  const Stepper* rule = rule_of(method);
+  return rule && std::isfinite(rule->limit(1, 0.1));
 }
 
 }  // namespace
@@ -43,6 +41,28 @@ std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run&
     settings.push_back(setting);
   }
   return settings;
+}
+
+TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting) {
+  Run run = setting.applied_to(base);
+  const double enough = 0.02;  // s: a hundred thousand ticks of the clock
+  const double share = std::min(1., enough / estimated_seconds(method, scene, setting.applied_to(base)));
+  if (!method.fingerprint.empty()) return {run};  // a program of its own: what its start costs is not known
+  const bool whole = share > 0.7 || scene.model.find<Spheres>();  // touching may cost more than falling
+  if (method.adaptive) {
+    if (whole) return {run};
+    run.samples = std::max(1, static_cast<int>(std::ceil(share * run.samples)));
+    run.duration = base.duration * run.samples / base.samples;
+    return {run, static_cast<double>(run.samples) / base.samples};
+  }
+  // the clock is read at each sample, which takes 0.3 microseconds: one in 100 is often enough to tell a blow-up
+  const long all = static_cast<long>(plan(run).steps_per_sample) * run.samples;
+  long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
+  const double seconds = share * estimated_seconds(method, scene, setting.applied_to(base));
+  const int samples = std::clamp(static_cast<int>(seconds / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
+  steps = steps / samples * samples;
+  return {{plan(run).h, plan(run).h * static_cast<double>(steps), samples},
+          static_cast<double>(steps) / static_cast<double>(all)};
 }
 
 }  // namespace crosscheck

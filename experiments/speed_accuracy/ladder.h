@@ -1,4 +1,4 @@
-// The steps and tolerances at which a method is tried on a scene.
+// The steps and tolerances at which a method is tried on a scene, and what is timed of each run.
 #pragma once
 
 #include <string>
@@ -22,5 +22,14 @@ struct Setting {
 /// counts those.
 std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run& run, bool full,
                             int* dropped = nullptr);
+
+/// What is timed of a run: the whole, or its first part.
+struct TimedPart {
+  Run run;
+  double share = 1;  // of the run's steps or samples
+};
+/// As much as takes about 20 ms by the estimate. The whole run where something may be touched (that may cost more than
+/// falling), and of outside programs.
+TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting);
 
 }  // namespace crosscheck

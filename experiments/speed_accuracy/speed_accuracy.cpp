@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/estimate.h"
 #include "experiments/metrics.h"
 #include "experiments/speed_accuracy/ladder.h"
+#include "experiments/speed_accuracy/tables.h"
 #include "experiments/timing.h"
 
 namespace crosscheck {
@@ -35,14 +35,20 @@ struct Try {
   bool ok() const { return outcome.verdict == Verdict::ok; }
 };
 
-/// The runs of one method; empty where it does not take the scene, or built another one.
+/// The runs of one method; empty where it does not take the scene, or built another one. A note says where it took some
+/// settings and refused others.
 std::vector<Try> tries_of(const Method& method, const Scene& scene, const Run& base, const std::vector<Setting>& ladder,
                           std::vector<std::string>& notes) {
   std::vector<Try> tries;
+  std::string refusal;
+  size_t refused = 0;
   for (const Setting& setting : ladder) {
     Recorder recorder;
     Outcome out = run_method(method, scene, setting.applied_to(base), {&recorder});
-    if (out.verdict == Verdict::unsupported) continue;  // at this step, perhaps not at others
+    if (out.verdict == Verdict::unsupported) {  // at this step, perhaps not at others
+      refusal = out.reason, ++refused;
+      continue;
+    }
     if (!method.stepper && certify(method.name, scene, out).mismatch()) {
       notes.push_back(fmt::format("speed-accuracy leaves out {} on {}: it built another scene, see its certificate",
                                   method.name, scene.name));
@@ -50,6 +56,9 @@ std::vector<Try> tries_of(const Method& method, const Scene& scene, const Run& b
     }
     tries.push_back({setting, std::move(out), std::move(recorder.trajectory)});
   }
+  if (refused > 0 && !tries.empty())
+    notes.push_back(fmt::format("speed-accuracy leaves out {} of {} runs of {} on {}, which it refuses: {}", refused,
+                                ladder.size(), method.name, scene.name, refusal));
   return tries;
 }
 
@@ -68,32 +77,6 @@ std::string why_not(const Scene& scene, double motion) {
   // 1e-6 of its size: where nothing moves a run of one step is as right as any other
   if (!(motion > 1e-6 * scene.size())) return "nothing moves there";
   return "";
-}
-
-Cell cell_of(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
-
-Table results_table() {
-  return {"speed-accuracy",
-          {{"scene", "1"},
-           {"method", "1"},
-           {"setting", "1"},
-           {"asked", "see setting"},
-           {"step", "s"},
-           {"steps", "1"},
-           {"evaluations", "1"},
-           {"verdict", "1"},
-           {"end", "s"},
-           {"largest error", "m"},
-           {"error over time", "m"},
-           {"largest difference from converged contact", "m"},
-           {"difference from converged contact over time", "m"},
-           {"distance to own finest", "m"},
-           {"motion", "m"},
-           {"until", "s"},
-           {"truth", "1"},
-           {"truth bar", "m"},
-           {"different law", "1"}},
-          {}};
 }
 
 }  // namespace
@@ -145,37 +128,6 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
   rows.add(table);
 }
 
-namespace {
-
-/// What is timed of a run: the whole, or its first part.
-struct Part {
-  Run run;
-  double share = 1;
-};
-Part part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting) {
-  Run run = setting.applied_to(base);
-  const double enough = 0.02;  // s: a hundred thousand ticks of the clock
-  const double share = std::min(1., enough / estimated_seconds(method, scene, setting.applied_to(base)));
-  if (!method.fingerprint.empty()) return {run};  // a program of its own: what its start costs is not known
-  const bool whole = share > 0.7 || scene.model.find<Spheres>();  // touching may cost more than falling
-  if (method.adaptive) {
-    if (whole) return {run};
-    run.samples = std::max(1, static_cast<int>(std::ceil(share * run.samples)));
-    run.duration = base.duration * run.samples / base.samples;
-    return {run, static_cast<double>(run.samples) / base.samples};
-  }
-  // the clock is read at each sample, which takes 0.3 microseconds: one in 100 is often enough to tell a blow-up
-  const long all = static_cast<long>(plan(run).steps_per_sample) * run.samples;
-  long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
-  const double seconds = share * estimated_seconds(method, scene, setting.applied_to(base));
-  const int samples = std::clamp(static_cast<int>(seconds / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
-  steps = steps / samples * samples;
-  return {{plan(run).h, plan(run).h * static_cast<double>(steps), samples},
-          static_cast<double>(steps) / static_cast<double>(all)};
-}
-
-}  // namespace
-
 void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows) {
   const Run base = run_of(request, scene);
   struct Timed {
@@ -189,10 +141,10 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
   const std::vector<Method> methods = methods_for(request, scene);
   for (const Method& method : methods)
     for (const Setting& setting : ladder(method, scene, base, request.full)) {
-      const Part part = part_of(method, scene, base, setting);
-      if (timed.empty() || timed.back().method != method.name) {  // asked once whether it takes the scene
-        if (run_method(method, scene, part.run, {}).verdict == Verdict::unsupported) break;
-      }
+      const TimedPart part = part_of(method, scene, base, setting);
+      // asked until it takes the scene once: it may refuse the longest steps alone
+      if (timed.empty() || timed.back().method != method.name)
+        if (run_method(method, scene, part.run, {}).verdict == Verdict::unsupported) continue;
       timed.push_back({method.name, setting, part.share});
       runs.push_back([&method, &scene, part, &timed, at = timed.size() - 1] {
         // watched: what Bullet's worlds do after a blow-up takes many times as long as a step
@@ -203,19 +155,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
     }
   const auto times = timed_in_turns(runs, {.least = 3, .most = request.full ? 9 : 7, .enough = 0.05});
   const double noise = times.empty() ? 0 : noise_floor(times);
-  Table table{"speed-accuracy-timing-cost",
-              {{"scene", "1"},
-               {"method", "1"},
-               {"setting", "1"},
-               {"asked", "see setting"},
-               {"part of the run", "1"},
-               {"evaluations", "1"},
-               {"cpu", "s"},
-               {"cpu low", "s"},
-               {"cpu high", "s"},
-               {"repetitions", "1"},
-               {"noise", "1"}},
-              {}};
+  Table table = timing_table();
   for (size_t i = 0; i < timed.size(); ++i) {
     const Timing t = timing_of(times[i]);
     if (!(t.median > 0)) {

@@ -15,10 +15,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// nan where it was not found.
 double largest_eigenvalue(const Eigen::SparseMatrix<double>& m) {
-  if (m.rows() <= 400)
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(m), Eigen::EigenvaluesOnly)
-        .eigenvalues()[m.rows() - 1];
+  if (m.rows() <= 400) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(m), Eigen::EigenvaluesOnly);
+    return solver.info() == Eigen::Success ? solver.eigenvalues()[m.rows() - 1] : std::nan("");
+  }
   Spectra::SparseSymMatProd<double> product(m);
   Spectra::SymEigsSolver<Spectra::SparseSymMatProd<double>> solver(product, 1, 40);
   solver.init();
@@ -26,16 +28,17 @@ double largest_eigenvalue(const Eigen::SparseMatrix<double>& m) {
   return solver.info() == Spectra::CompInfo::Successful ? solver.eigenvalues()[0] : std::nan("");
 }
 
-/// The h in (0, top] at which `excess`, which rises with h, passes zero; top where it does not.
+/// The h in (0, top] at which `excess`, which rises with h, passes zero; top where it does not; nan where it is nan.
 template <class Excess>
 double root_below(double top, Excess excess) {
-  if (excess(top) <= 0) return top;
-  double low = 0, high = top;
-  while (high - low > 1e-9 * top) {
+  double at = excess(top), low = 0, high = top;
+  if (at <= 0) return top;
+  while (high - low > 1e-9 * top && !std::isnan(at)) {
     const double middle = (low + high) / 2;
-    (excess(middle) > 0 ? high : low) = middle;
+    at = excess(middle);
+    (at > 0 ? high : low) = middle;
   }
-  return low;
+  return std::isnan(at) ? at : low;
 }
 
 /// Leapfrog as the code steps it, on (w, w') of the whole scene; h of either sign.
@@ -80,7 +83,10 @@ Prediction of_mixed_modes(const Stepper& rule, const Spectrum& s) {
   const double top = 2 / s.omega;
   if (rule.name == "symplectic-euler") {
     const Eigen::SparseMatrix<double> c = system.damping();
-    return {root_below(top, [&](double h) { return largest_eigenvalue(h * h * system.k + 2 * h * c) - 4; }), -1, ""};
+    const double limit =
+        root_below(top, [&](double h) { return largest_eigenvalue(h * h * system.k + 2 * h * c) - 4; });
+    if (std::isnan(limit)) return {0, -1, "the fastest of the mixed modes was not found"};
+    return {limit, -1, ""};
   }
   if (rule.name == "leapfrog" && !system.has_dashpots()) return {top, -1, ""};
   if (system.size() > 90)
@@ -96,22 +102,24 @@ Prediction of_mixed_modes(const Stepper& rule, const Spectrum& s) {
   return {0, -1, "no limit up to twice that of the fastest mode without damping"};
 }
 
-}  // namespace
-
-const Stepper* rule_of(const Method& method) {
-  const std::string name = method.rule.empty() && method.name == "mysim/dopri5" ? "dopri5" : method.rule;
-  for (const Stepper& rule : steppers())
-    if (rule.name == name) return &rule;
-  // one Newton step is the whole step where forces are linear
-  if (name == "implicit-euler+linear")
-    for (const Stepper& rule : steppers())
-      if (rule.name == "implicit-euler") return &rule;
-  return nullptr;
+/// Whether the rule's stability region is as deep in one direction of decaying vibrations as in another, to 15 %: then
+/// the fastest rates bind. rk4's depth is 2.62 to 2.96; the others' goes to 0 or 1 beside the imaginary axis.
+bool deep_all_round(const Stepper& rule) {
+  double least = infinity, most = 0;
+  for (int i = 0; i <= 20; ++i) {  // rates of size 1, from undamped to critically damped
+    const double depth = rule.limit(1, 0.1 * i);
+    least = std::min(least, depth), most = std::max(most, depth);
+  }
+  return least > 0.85 * most;
 }
+
+}  // namespace
 
 Prediction predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
   if (std::isinf(rule.limit(1, 0))) return {infinity, -1, ""};
   if (!spectrum.commuting && !is_runge_kutta(rule)) return of_mixed_modes(rule, spectrum);
+  if (!spectrum.commuting && !spectrum.complete && !deep_all_round(rule))
+    return {0, -1, "damping and stiffness have different modes, and of so many only the fastest rates are known"};
   Prediction least{infinity, -1, ""};
   for (size_t i = 0; i < spectrum.modes.size(); ++i) {
     const auto [omega, gamma] = spectrum.modes[i];
@@ -120,6 +128,14 @@ Prediction predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
     if (limit <= least.limit && std::isfinite(limit)) least = {limit, static_cast<int>(i), ""};
   }
   return least;
+}
+
+Prediction predicted_limit(const Method& method, const Spectrum& spectrum) {
+  const Stepper* rule = rule_of(method);
+  if (!rule) return {0, -1, "no linear theory: a rule of its own"};
+  if (method.name.starts_with("bullet") && spectrum.system.has_dashpots() && std::isfinite(rule->limit(1, 0)))
+    return {0, -1, "no linear theory: Bullet solves dashpots implicitly, at the end of the explicit step"};
+  return predicted_limit(*rule, spectrum);
 }
 
 double growth_per_step(const Stepper& rule, const Vibration& vibration, double h) {

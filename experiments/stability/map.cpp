@@ -1,16 +1,17 @@
 // Cells and limits of maps.
 #include "experiments/stability/map.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+
+#include "experiments/adequacy/grids.h"
+#include "experiments/estimate.h"
+#include "experiments/stability/tables.h"
+#include "mysim/errors.h"
 
 namespace crosscheck {
 namespace {
-
-Scene with_stiffness(Scene scene, double factor) {
-  if (auto* springs = scene.model.find<Springs>())
-    for (Spring& s : springs->list) s.k *= factor;
-  return scene;
-}
 
 Scene with_gamma(Scene scene, double gamma) {
   std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Drag>(t); });
@@ -32,79 +33,99 @@ double kick_for(const Subject& subject, int mode) {
   return rest.elastic > 0 && given > 0 ? visible * std::min(1.0, std::sqrt(1e-3 * rest.elastic / given)) : visible;
 }
 
+/// h omega from 1/50 to 20 of the scene as it is; 0 <= part <= 1.
+double step_at(double part, double omega) { return 0.02 / omega * std::pow(1000, part); }
+
 }  // namespace
 
 std::span<const MapKind> map_kinds() {
   static constexpr MapKind table[] = {
-      {"stiffness", "1", [](double part, double) { return std::pow(10, 4 * part - 2); }, with_stiffness},
-      {"drag", "1/s", [](double part, double omega) { return omega * std::pow(10, 3 * part - 2); }, with_gamma},
+      {"stiffness", [](double part, double) { return std::pow(10, 4 * part - 2); }, with_stiffness},
+      {"drag", [](double part, double omega) { return omega * std::pow(10, 3 * part - 2); }, with_gamma},
   };
   return table;
 }
 
 void map_on(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows) {
-  Table cells{"stability-map",
-              {{"scene", "1"},
-               {"method", "1"},
-               {"map", "1"},
-               {"value", "see map"},
-               {"step", "s"},
-               {"verdict", "1"},
-               {"end", "s"},
-               {"growth", "1"}},
-              {}};
-  Table limits{"stability-map-limit",
-               {{"scene", "1"},
-                {"method", "1"},
-                {"map", "1"},
-                {"value", "see map"},
-                {"predicted limit", "s"},
-                {"held", "s"},
-                {"failed", "s"}},
-               {}};
-  Table check{"stability-map-check",
-              {{"scene", "1"}, {"method", "1"}, {"map", "1"}, {"steps", "1"}, {"cells", "1"}, {"changed", "1"}},
-              {}};
+  Table cells = map_table(), limits = map_limit_table(), check = map_check_table();
   const std::string map(kind.name);
-  const double omega = subject_of(scene).spectrum.omega;
+  const Subject as_it_is = subject_of(scene);
+  const double omega = as_it_is.spectrum.omega;
   if (!(omega > 0)) return;
-  long changed = 0, all = 0;
+  const auto no_map = [&](const std::string& why) {
+    rows.notes.push_back(fmt::format("stability draws no map of step and {}, {} on {}: it refuses every cell: {}",
+                                     kind.name, method.name, scene.name, why));
+  };
+  // what a method lacks it lacks in every cell: asked once, at the shortest step
+  if (const StepTrial first = try_step(method, as_it_is, step_at(0, omega), 1, {}); first.unsupported())
+    return no_map(first.reason);
+  long changed = 0, answered = 0;
+  std::string refusal;
   for (int r = 0; r < size.rows; ++r) {
     const double value = kind.value(static_cast<double>(r) / (size.rows - 1), omega);
     const Subject subject = subject_of(kind.with(scene, value));
-    const Stepper* rule = rule_of(method);
-    Prediction predicted{0, -1, "no rule"};
-    if (rule) predicted = predicted_limit(*rule, subject.spectrum);
+    const Prediction predicted = predicted_limit(method, subject.spectrum);
     const Kick kick{predicted.mode, kick_for(subject, predicted.mode)};
     double held = 0, failed = 0;  // the last cell that held before the first that failed
     for (int c = 0; c < size.columns; ++c) {
-      // h omega from 1/50 to 20 of the scene as it is
-      const double h = 0.02 / omega * std::pow(1000, static_cast<double>(c) / (size.columns - 1));
-      const Trial trial = try_step(method, subject, h, size.steps, kick);
-      if (trial.unsupported()) return;
-      cells.add({scene.name, method.name, map, value, h, std::string(name_of(trial.fate())), trial.end,
-                 std::isfinite(trial.growth) ? Cell(trial.growth) : Cell()});
+      const double h = step_at(static_cast<double>(c) / (size.columns - 1), omega);
+      const StepTrial trial = try_step(method, subject, h, size.steps, kick);
+      const bool refused = trial.unsupported();
+      cells.add({scene.name, method.name, map, value, h, std::string(name_of(trial.fate())),
+                 refused ? Cell() : Cell(trial.end),
+                 refused || !std::isfinite(trial.growth) ? Cell() : Cell(trial.growth)});
+      if (refused) {
+        refusal = trial.reason;
+        continue;
+      }
+      ++answered;
       if (failed == 0) (trial.held() ? held : failed) = h;
-      if (size.check) {
-        ++all;
-        changed += try_step(method, subject, h, 10 * size.steps, kick).held() != trial.held();
-      }
+      if (size.check) changed += try_step(method, subject, h, 10 * size.steps, kick).held() != trial.held();
     }
-    if (held > 0 && failed > 0)
-      for (int i = 0; i < 5; ++i) {
-        const double middle = std::sqrt(held * failed);
-        (try_step(method, subject, middle, size.steps, kick).held() ? held : failed) = middle;
-      }
+    for (int i = 0; i < 5 && held > 0 && failed > 0; ++i) {
+      const double middle = std::sqrt(held * failed);
+      const StepTrial trial = try_step(method, subject, middle, size.steps, kick);
+      if (trial.unsupported()) break;
+      (trial.held() ? held : failed) = middle;
+    }
     const bool finite = predicted.missing.empty() && std::isfinite(predicted.limit);
     limits.add({scene.name, method.name, map, value, finite ? Cell(predicted.limit) : Cell(),
                 held > 0 ? Cell(held) : Cell(), failed > 0 ? Cell(failed) : Cell()});
   }
+  if (answered == 0) return no_map(refusal);
   rows.add(cells);
   rows.add(limits);
   if (size.check) {
-    check.add({scene.name, method.name, map, size.steps, all, changed});
+    check.add({scene.name, method.name, map, size.steps, answered, changed});
     rows.add(check);
   }
+}
+
+std::optional<MapSize> map_size(const Method& method, const Scene& scene, bool full) {
+  const bool few = scene.start.x.cols() <= 10;
+  if (!full && method.stepper) return MapSize{9, 12, 1000, few};
+  if (!full) return few ? MapSize{9, 12, 300, false} : MapSize{7, 9, 300, false};
+  for (MapSize size : {MapSize{17, 25, 1000, false}, MapSize{9, 12, 1000, false}, MapSize{7, 9, 300, false}}) {
+    const double cost = estimated_seconds(method, scene, size.steps * size.rows * size.columns);
+    size.check = cost < 1;  // tenfold
+    if (cost < 10) return size;
+  }
+  return std::nullopt;
+}
+
+std::optional<Scene> map_scene(const Scene& scene, bool full) {
+  if (!scene.model.find<Springs>()) return std::nullopt;
+  if (scene.start.x.cols() <= 64) return scene;
+  if (sheet_of(scene)) {
+    try {
+      Scene small = with_resolution(scene, 6);
+      small.name += "-6";
+      return small;
+    } catch (const InputError&) {
+      // its text holds for its own grid only
+    }
+  }
+  return full ? std::optional(scene) : std::nullopt;
 }
 
 }  // namespace crosscheck

@@ -41,12 +41,13 @@ struct Spectrum {
   Eigen::MatrixXd shapes;   // columns, mass-weighted, of length 1; of the modes where `commuting`
   Eigen::VectorXd fastest;  // the fastest shape of K, mass-weighted, of length 1
   bool commuting = true;    // damping and stiffness have the same modes
-  bool complete = true;     // false: only the extreme modes
+  bool complete = true;     // false: only some modes, see spectrum_of()
   double omega = 0;         // of `fastest`, rad/s
 };
 
 /// Dense up to 400 free coordinates (200 where damping and stiffness do not commute), by Lanczos and Arnoldi iterations
-/// of Spectra beyond that: then only the ends of the spectrum. A rotation x' = w cross x is one vibration of |w|
+/// of Spectra beyond that: then only the slowest and the fastest mode, or, where they do not commute, the four rates of
+/// largest |z|, which tell nothing of the least damped one. A rotation x' = w cross x is one vibration of |w|
 /// without drag. Modes that the stiffness pushes away from the state count as omega = 0.
 Spectrum spectrum_of(const Scene& scene, const State& state);
 

@@ -1,8 +1,10 @@
 // Kicked runs, judged by growth, and the search for the largest step that holds.
 #include "experiments/stability/trial.h"
 
-#include <cmath>
+#include <fmt/format.h>
+
 #include <complex>
+#include <map>
 
 #include "mysim/uniform.h"
 
@@ -18,13 +20,14 @@ Rates rates_of(const Vibration& m) {
   return {-m.gamma / 2 - root, -m.gamma / 2 + root};
 }
 
-/// How far the scene is from rest, in the first and the last tenth of the run; and the kicked mode's amplitude at the
-/// start and now.
+/// How far the scene is from rest, in the first and the last tenth of the run; and, where each step multiplies it, the
+/// kicked mode's amplitude at the start and now.
 class Departure : public Observer {
  public:
-  Departure(const Subject& subject, int mode, double duration) : subject_(subject), duration_(duration) {
+  Departure(const Subject& subject, bool multiplies, int mode, double duration)
+      : subject_(subject), duration_(duration), rotation_(multiplies && subject.scene.model.first_order()) {
     const Spectrum& s = subject.spectrum;
-    if (mode >= 0 && s.commuting && s.shapes.cols() > mode) {
+    if (multiplies && mode >= 0 && s.shapes.cols() > mode) {
       shape_ = s.shapes.col(mode);
       other_ = rates_of(s.modes[mode]).other;
     }
@@ -37,7 +40,7 @@ class Departure : public Observer {
       if (begins) first = std::max(first, size);
       if (ends) last = std::max(last, size);
     }
-    if (shape_.size() > 0 && state.v.cols() > 0) {
+    if (rotation_ || (shape_.size() > 0 && state.v.cols() > 0)) {
       if (begins && start == 0) start = amplitude(state);
       if (ends) end = amplitude(state);
     }
@@ -56,8 +59,9 @@ class Departure : public Observer {
     if (state.v.cols() > 0) sum += system.weighted(state.v).squaredNorm();
     return std::sqrt(sum);
   }
-  /// |w' - other w|, which the rule's factor at the fast rate multiplies in each step.
+  /// |w' - other w|, which the rule's factor at the fast rate multiplies in each step; |x| of a rotation.
   double amplitude(const State& state) const {
+    if (rotation_) return norm(state);
     const Linearised& system = subject_.spectrum.system;
     const double w = shape_.dot(system.weighted(state.x - subject_.scene.start.x)),
                  rate = shape_.dot(system.weighted(state.v));
@@ -66,6 +70,7 @@ class Departure : public Observer {
 
   const Subject& subject_;
   double duration_;
+  bool rotation_;
   Eigen::VectorXd shape_;
   std::complex<double> other_;
 };
@@ -80,19 +85,20 @@ Subject subject_of(const Scene& scene) {
   }
   subject.spectrum = spectrum_of(subject.scene, subject.scene.start);
   if (const auto* springs = scene.model.find<Springs>())
-    for (const Spring& s : springs->list)
-      subject.spacing =
-          std::min(subject.spacing, (subject.scene.start.x.col(s.a) - subject.scene.start.x.col(s.b)).norm());
+    for (const Spring& s : springs->list) {
+      const double length = (subject.scene.start.x.col(s.a) - subject.scene.start.x.col(s.b)).norm();
+      // where ends meet there is no scale: a kick of the root of the rounding of a millionth of the scene drowns in
+      // the rounding of the scene
+      if (length > 1e-6 * scene.size()) subject.spacing = std::min(subject.spacing, length);
+    }
   return subject;
 }
 
-bool Trial::held() const {
+bool StepTrial::held() const {
   if (verdict != Verdict::ok && verdict != Verdict::frozen) return false;
   const double neutral = std::max(1e-9, 1e-6 / static_cast<double>(std::max(1L, steps)));
   return !(growth > 1.05) && !(of_mode && per_step > 1 + neutral);
 }
-
-Verdict Trial::fate() const { return verdict == Verdict::ok && !held() ? Verdict::energy : verdict; }
 
 Run run_of_trial(double h, long steps) {
   constexpr long samples = 100;
@@ -125,17 +131,18 @@ Scene kicked(const Subject& subject, const Kick& kick) {
   return scene;
 }
 
-Trial try_step(const Method& method, const Subject& subject, double h, long steps, const Kick& kick) {
+StepTrial try_step(const Method& method, const Subject& subject, double h, long steps, const Kick& kick) {
   const Run run = run_of_trial(h, steps);
   const Stepper* rule = rule_of(method);
-  const bool constant_factor = subject.at_rest && rule && is_runge_kutta(*rule) && subject.spectrum.commuting;
-  Departure departure(subject, constant_factor ? kick.mode : -1, run.duration);
+  const bool rotation = subject.scene.model.first_order(), one_factor = rotation || (rule && is_runge_kutta(*rule));
+  const bool multiplies = subject.at_rest && subject.spectrum.commuting && one_factor;
+  Departure departure(subject, multiplies, kick.mode, run.duration);
   std::vector<Observer*> observers;
   if (subject.at_rest) observers.push_back(&departure);
   const Outcome out = run_method(method, kicked(subject, kick), run, observers);
-  Trial trial{out.verdict, out.reason, out.end};
-  // a rule of its own may rest elsewhere, and what moves there is no growth
-  if (departure.first > 0 && rule) trial.growth = departure.last / departure.first;
+  StepTrial trial{out.verdict, out.reason, out.end};
+  // a rule of its own may rest elsewhere, unless the scene turns about the origin: what moves there is no growth
+  if (departure.first > 0 && (rule || rotation)) trial.growth = departure.last / departure.first;
   trial.of_mode = out.verdict == Verdict::ok && departure.of_mode();
   if (trial.of_mode) {
     trial.amplitude = departure.end / departure.start;
@@ -144,8 +151,6 @@ Trial try_step(const Method& method, const Subject& subject, double h, long step
   }
   return trial;
 }
-
-double Measured::limit() const { return kind == found ? std::sqrt(held * failed) : 0; }
 
 Measured largest_step(const std::function<bool(double)>& holds, double first, double lowest, double highest,
                       double precision) {
@@ -174,16 +179,22 @@ Measured measured_limit(const Method& method, const Subject& subject, long steps
   const Spectrum& s = subject.spectrum;
   const double first = s.omega > 0 ? 1 / s.omega : subject.scene.step;
   const bool damped = subject.scene.model.find<Drag>() || subject.scene.model.find<Dashpots>();
-  std::string refusal;
+  std::map<double, std::string> refused;  // by step
+  bool answered = false;
   const auto holds = [&](double h) {
-    const Trial trial = try_step(method, subject, h, steps, kick);
-    if (trial.unsupported()) refusal = trial.reason;
+    const StepTrial trial = try_step(method, subject, h, steps, kick);
+    if (trial.unsupported()) refused[h] = trial.reason;
+    answered |= !trial.unsupported();
     return trial.held();
   };
   // without drag a rule that grows at h omega = 1/64 does so at every step; with drag of a millionth of omega its limit
   // would still be seen
-  const Measured m = largest_step(holds, first, first / (damped ? 1 << 20 : 64), 128 * first, precision);
-  return refusal.empty() ? m : Measured{Measured::unsupported, 0, 0, refusal};
+  Measured m = largest_step(holds, first, first / (damped ? 1 << 20 : 64), 128 * first, precision);
+  if (refused.empty()) return m;
+  if (!answered) return {Measured::unsupported, 0, 0, refused.begin()->second};
+  m.reason = fmt::format("a step of {:.3g} s is refused: {}", refused.begin()->first, refused.begin()->second);
+  if (m.kind == Measured::found && refused.contains(m.failed)) m.kind = Measured::refused_above, m.failed = 0;
+  return m;
 }
 
 }  // namespace crosscheck

@@ -1,6 +1,7 @@
 // Runs that ask one thing: does what is off from rest grow?
 #pragma once
 
+#include <cmath>
 #include <functional>
 
 #include "experiments/stability/limit.h"
@@ -12,7 +13,7 @@ struct Subject {
   Scene scene;  // its start is the state
   bool at_rest = false;
   Spectrum spectrum;   // about the state
-  double spacing = 1;  // m, the shortest spring: the scale beside which a kick is small
+  double spacing = 1;  // m, the shortest spring that has a length: the scale beside which a kick is small
 };
 Subject subject_of(const Scene& scene);
 
@@ -22,12 +23,12 @@ struct Kick {
                          // nonlinearity (size) disturb linear motion equally
 };
 
-struct Trial {
+struct StepTrial {
   Verdict verdict = Verdict::ok;
   std::string reason;
   double end = 0;        // s
   double growth = 0;     // of the norm sqrt(|w'|^2 + w K w), from the first to the last tenth of the run; 0: not told
-  double per_step = 1;   // of the kicked mode's amplitude: the mean factor; 1 where it cannot be told
+  double per_step = 1;   // of the kicked mode's amplitude (a rotation's |x|): the mean factor; 1 where not told
   double amplitude = 1;  // of the kicked mode, at the end over at the start
   long steps = 0;        // taken, where the two above are known
   bool of_mode = false;  // whether the two above are known
@@ -38,26 +39,31 @@ struct Trial {
   /// grows by less than 1e-9 in a step is called neutral however long one looks.
   bool held() const;
   /// The verdict, or `energy` where the run ended before what grew had passed the energy budget.
-  Verdict fate() const;
+  Verdict fate() const { return verdict == Verdict::ok && !held() ? Verdict::energy : verdict; }
 };
 
 /// Runs the method from the subject's state, kicked (or from the start, unkicked, where the scene has no rest).
-Trial try_step(const Method& method, const Subject& subject, double h, long steps, const Kick& kick);
+StepTrial try_step(const Method& method, const Subject& subject, double h, long steps, const Kick& kick);
 /// The run of such a trial.
 Run run_of_trial(double h, long steps);
 /// The subject's scene with the kick in its start.
 Scene kicked(const Subject& subject, const Kick& kick);
 
 struct Measured {
-  enum Kind { found, no_step, every_step, unsupported } kind = found;
+  enum Kind { found, no_step, every_step, refused_above, unsupported } kind = found;
   double held = 0, failed = 0;  // s: the bracket; 0 where there is none
-  std::string reason;           // of unsupported
-  double limit() const;         // s, the bracket's geometric middle
+  std::string reason;           // of what was refused
+  /// s, the bracket's geometric middle.
+  double limit() const { return kind == found ? std::sqrt(held * failed) : 0; }
+  /// The bracket's width over its lower end; 0 where there is none.
+  double precision() const { return kind == found ? failed / held - 1 : 0; }
 };
 /// The largest step that `holds`: doubled and halved from `first` until one holds and one fails, then halved in the
 /// logarithm until failed / held - 1 <= precision. Not below `lowest`, not above `highest`.
 Measured largest_step(const std::function<bool(double)>& holds, double first, double lowest, double highest,
                       double precision);
+/// The same by trials of the method. A step that it refuses counts as none that holds; where the bracket ends at such
+/// a one it is no limit but `refused_above`, and where every step was refused the scene is `unsupported`.
 Measured measured_limit(const Method& method, const Subject& subject, long steps, const Kick& kick, double precision);
 
 }  // namespace crosscheck

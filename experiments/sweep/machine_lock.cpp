@@ -1,4 +1,4 @@
-// One file in the machine's own temporary folder; a process that dies lets go of it.
+// One file in /tmp; a process that dies lets go of it.
 #include "experiments/sweep/machine_lock.h"
 
 #include <fcntl.h>
@@ -6,14 +6,12 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <filesystem>
+#include <string>
 
 namespace crosscheck {
 
 MachineLock::MachineLock(Hold hold) {
-  std::error_code error;
-  const auto folder = std::filesystem::temp_directory_path(error);
-  const auto file = (error ? "/tmp" : folder) / fmt::format("crosscheck-{}.lock", getuid());
+  const std::string file = fmt::format("/tmp/crosscheck-{}.lock", getuid());
   handle_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0600);
   if (handle_ >= 0) flock(handle_, hold == Hold::alone ? LOCK_EX : LOCK_SH);
 }

@@ -33,6 +33,10 @@ std::optional<Rows> Store::find(const std::string& hash) const {
 
 void Store::keep(const std::string& hash, const Rows& rows) const {
   write_file(file_of(hash), rows_json(rows));
+  forget_failure(hash);
+}
+
+void Store::forget_failure(const std::string& hash) const {
   std::error_code ignored;
   std::filesystem::remove(failure_file_of(hash), ignored);
 }

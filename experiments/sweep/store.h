@@ -18,6 +18,7 @@ class Store {
   void keep(const std::string& hash, const Rows& rows) const;
   /// Why a point failed, in a file of its own; it does not count as there, and the next keep() or run replaces it.
   void keep_failure(const std::string& hash, const std::string& why) const;
+  void forget_failure(const std::string& hash) const;
   std::optional<std::string> failure_of(const std::string& hash) const;
   void clear() const { std::filesystem::remove_all(folder_); }
   const std::filesystem::path& folder() const { return folder_; }

@@ -3,20 +3,20 @@
 
 #include <fmt/format.h>
 #include <sched.h>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
+#include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstring>
-#include <new>
+#include <map>
 #include <system_error>
 
 #include "experiments/experiment.h"
+#include "experiments/sweep/board.h"
 #include "experiments/sweep/cores.h"
 #include "experiments/sweep/machine_lock.h"
 #include "mysim/errors.h"
@@ -24,29 +24,21 @@
 namespace crosscheck {
 namespace {
 
-/// What parent and workers share. A worker that dies leaves the number of its point behind.
-struct Board {
-  static constexpr int most_workers = 256;
-  std::atomic<int> next{0};
-  std::atomic<int> current[most_workers];  // point that the worker is at, or -1
-};
-
-class SharedBoard {
+/// Children can be waited for, also where whoever started this program ignores SIGCHLD: then the system reaps them
+/// itself, and waitpid() knows of none.
+class ChildrenAreKept {
  public:
-  SharedBoard() {
-    memory_ = mmap(nullptr, sizeof(Board), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (memory_ == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "mmap");
-    board_ = new (memory_) Board;
-    for (auto& c : board_->current) c = -1;
+  ChildrenAreKept() {
+    struct sigaction usual {};
+    usual.sa_handler = SIG_DFL;
+    sigaction(SIGCHLD, &usual, &before_);
   }
-  ~SharedBoard() { munmap(memory_, sizeof(Board)); }
-  SharedBoard(const SharedBoard&) = delete;
-  SharedBoard& operator=(const SharedBoard&) = delete;
-  Board* operator->() { return board_; }
+  ~ChildrenAreKept() { sigaction(SIGCHLD, &before_, nullptr); }
+  ChildrenAreKept(const ChildrenAreKept&) = delete;
+  ChildrenAreKept& operator=(const ChildrenAreKept&) = delete;
 
  private:
-  void* memory_;
-  Board* board_;
+  struct sigaction before_ {};
 };
 
 /// One batch of points, timed or not, worked off by `jobs` processes.
@@ -56,12 +48,15 @@ class Batch {
       : points_(std::move(points)), store_(store), progress_(progress), pids_(static_cast<size_t>(jobs), -1) {}
 
   std::vector<FailedPoint> run() {
+    const ChildrenAreKept kept;
+    for (const Point* point : points_) store_.forget_failure(point->hash());
     for (size_t w = 0; w < pids_.size(); ++w) start(w);
     int running = static_cast<int>(pids_.size());
     while (running > 0) {
       announce();
       int status = 0;
       const pid_t pid = waitpid(-1, &status, WNOHANG);
+      if (pid < 0 && errno == ECHILD) break;  // somebody else waited for them: what is missing is named below
       if (pid <= 0) {
         usleep(20000);
         continue;
@@ -73,20 +68,22 @@ class Batch {
       --running;
       if (WIFEXITED(status) && WEXITSTATUS(status) == 0) continue;
       const int at = board_->current[w].exchange(-1);
-      if (at >= 0)
-        failed_.push_back({points_[static_cast<size_t>(at)]->name,
-                           WIFSIGNALED(status)
-                               ? fmt::format("it died of signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))
-                               : "it ended early"});
+      if (at >= 0 && WIFSIGNALED(status))
+        died_[points_[static_cast<size_t>(at)]] =
+            fmt::format("it died of signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
       if (board_->next < static_cast<int>(points_.size())) {
         start(w);
         ++running;
       }
     }
     announce();
-    for (const Point* point : points_)
-      if (const auto why = store_.failure_of(point->hash())) failed_.push_back({point->name, *why});
-    return std::move(failed_);
+    std::vector<FailedPoint> failed;
+    for (const Point* point : points_) {
+      if (store_.has(point->hash())) continue;
+      const auto why = store_.failure_of(point->hash());
+      failed.push_back({point->name, why ? *why : died_.contains(point) ? died_[point] : "it ended early"});
+    }
+    return failed;
   }
 
  private:
@@ -131,7 +128,7 @@ class Batch {
   Progress& progress_;
   std::vector<pid_t> pids_;
   SharedBoard board_;
-  std::vector<FailedPoint> failed_;
+  std::map<const Point*, std::string> died_;  // of what signal
   int announced_ = 0;
 };
 

@@ -75,7 +75,8 @@ Verdict Watch::observe(const State& state, bool sample) {
   worked_ = std::max(worked_, std::abs(work));
   budget_ = std::max({budget_, std::abs(energy.gravitational - start_->gravitational), worked_});
   if (energy.total() - start_->total() - work > budget_) return Verdict::energy;
-  // a rule's energy may swing by as much as the verdict above lets it
+  // a rule's energy may swing by as much again as start and work gave. Of gravity's part, which the budget above lets
+  // it make twice, the bound has what sinking gives and no more
   return stretch_->exceeded(state, 2 * (given_ + worked_)) ? Verdict::stretch : Verdict::ok;
 }
 

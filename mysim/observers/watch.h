@@ -17,7 +17,8 @@ namespace crosscheck {
 /// that clamp speeds and never become non-finite. States without velocities are judged by being finite alone.
 ///
 /// Verdict::stretch when a spring of a hanging net is longer than any motion could make it that keeps the energy
-/// balance to within that budget (stretch.h): the net sinks and sinks, and what gravity gives is lost.
+/// balance to within what it had at the start and the work so far (stretch.h); gravity's part counts as what sinking
+/// gives, once: the net sinks and sinks, and what gravity gives is lost.
 ///
 /// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
 /// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "report/charts/charts.h"
+#include "report/findings_text.h"
 
 namespace crosscheck {
 
@@ -25,11 +26,11 @@ std::vector<Chart> agreement_charts(const ChartInput& input) {
     }
     if (f.curves.empty()) continue;
     if (scene.window < scene.duration) f.window = {scene.window, "single positions are not comparable from here"};
-    const MethodFacts* same = facts.find("bullet/deformable-explicit");
+    const MethodFacts* same = facts.find(theirs);
     f.finding = same && same->difference
                     ? fmt::format("Bullet's explicit deformable world stays within {} of mysim until {:.3g} s.",
                                   nice_length(*same->difference), scene.window)
-                    : "Differences of Bullet's worlds from mysim over time.";
+                    : "Differences from mysim over time.";
     charts.push_back({scene.name, std::move(f)});
   }
   return charts;

@@ -1,8 +1,11 @@
 // Where energy does not add up; on a sphere, what contact took away.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "report/charts/charts.h"
+#include "report/findings_text.h"
 
 namespace crosscheck {
 namespace {
@@ -23,23 +26,27 @@ Figure balance_figure(const Scene& scene, const SceneFacts& facts, const Table& 
   f.title = scene.name + ": energy that does not add up";
   f.x = {"t / s", false, 0.0, scene.duration};
   f.y = {"|balance error| / energy turned over", true, 1e-16, 10};
+  constexpr double top = 3;
   double lowest = 1;
+  bool above = false;
   for (const MethodFacts& m : facts.methods) {
     if (!m.supported()) continue;
     Curve curve{m.method, style_of(m.method), {}};
-    for (const auto& [t, error] : points_of(table, m.method, "balance error", false))
-      if (const double y = std::abs(error) / scale; y > 1e-16 && y < 3) {
-        curve.points.emplace_back(t, y);
-        lowest = std::min(lowest, y);
-      }
-    if (!m.ok()) f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), m.end, 3});
+    for (const auto& [t, error] : points_of(table, m.method, "balance error", false)) {
+      const double y = std::abs(error) / scale;
+      above |= y >= top;
+      if (y <= 1e-16 || y >= top) continue;
+      curve.points.emplace_back(t, y);
+      lowest = std::min(lowest, y);
+    }
+    if (!m.ok()) f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), m.end, top});
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   f.finding =
       "Kinetic, elastic and gravitational energy plus what drag and dashpots took, less what wind and moved pins gave: "
-      "its change "
-      "should be zero.";
+      "its change should be zero.";
+  if (above) f.caption = fmt::format(" Not drawn: changes of more than {} times the energy turned over.", top);
   return f;
 }
 
@@ -49,19 +56,31 @@ Figure contact_figure(const Scene& scene, const SceneFacts& facts, const Table& 
   f.title = scene.name + ": energy lost in contact";
   f.x = {"t / s", false, 0.0, scene.duration};
   f.y = {"energy lost in contact / J", false, std::nullopt, std::nullopt};
+  std::vector<std::string> guessed, left_out;
   for (const MethodFacts& m : facts.methods) {
+    if (!m.supported()) continue;
     // the sticky sphere holds the cloth by a force from nowhere: its work would dwarf the others' losses
-    if (!m.ok() || m.method.ends_with("+sticky")) continue;
+    if (!m.ok() || m.method.ends_with("+sticky")) {
+      left_out.push_back(m.ok() ? m.method + " (its contact does work from nowhere)"
+                                : fmt::format("{} ({} at {:.3g} s)", m.method, m.failure(), m.end));
+      continue;
+    }
     const bool inferred = !m.method.starts_with("mysim/");
     Curve curve{m.method + (inferred ? " (inferred)" : ""), style_of(m.method),
                 points_of(table, m.method, "contact loss", false)};
-    if (!curve.points.empty()) f.curves.push_back(std::move(curve));
+    if (curve.points.empty()) continue;
+    if (inferred) guessed.push_back(m.method);
+    f.curves.push_back(std::move(curve));
   }
-  f.finding =
-      "What contact took, less what moving balls gave: mysim reports it; for Bullet it is inferred as what is missing "
-      "from the balance, so no "
-      "closure is claimed. Rules of first order put a resting particle too deep or too high in each step and contact "
-      "corrects it: that part of their curves falls with the step.";
+  f.finding = "What contact took, less what moving balls gave.";
+  if (!guessed.empty())
+    f.finding +=
+        fmt::format(" {} {} not tell it: it is inferred as what is missing from the balance, so no closure is claimed.",
+                    joined(guessed), guessed.size() == 1 ? "does" : "do");
+  f.finding +=
+      " Where a particle rests, rules of first order put it too deep or too high in each step and contact corrects it: "
+      "that part of their curves falls with the step.";
+  if (!left_out.empty()) f.caption = fmt::format(" Not drawn: {}.", joined(left_out));
   return f;
 }
 
@@ -77,7 +96,8 @@ std::vector<Chart> balance_charts(const ChartInput& input) {
     if (!table || !(scale > 0)) continue;
     Figure f = input.facts[i].touched() ? contact_figure(scene, input.facts[i], *table)
                                         : balance_figure(scene, input.facts[i], *table, scale);
-    f.caption = caption_of(scene, input.facts[i], input.commit, false);
+    // after it: what is not drawn
+    f.caption = caption_of(scene, input.facts[i], input.commit, false) + f.caption;
     if (!f.curves.empty() || !f.failures.empty()) charts.push_back({scene.name, std::move(f)});
   }
   return charts;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/cells.h"
+#include "experiments/cost/cost.h"
 #include "report/charts/charts.h"
 
 namespace crosscheck {
@@ -117,9 +118,10 @@ Chart roofline_chart(const Table& t, const std::string& commit) {
       best, at, 100 * best / peak, peak);
   f.caption = fmt::format(
       "Lines: what measured bandwidth and peak allow, for data of that size. The build is for any x86-64 (SSE2, two "
-      "numbers at a time, no fused operations), and so is the peak: the processor itself can do more. Springs are "
-      "counted as 33 operations and 124 bytes each, particles as 152 bytes; commit {}.",
-      commit);
+      "numbers at a time, no fused operations), and so is the peak, of multiplications and additions that wait for "
+      "nothing: the processor itself can do more. Springs are counted as {:g} operations and {:g} bytes, particles as "
+      "{:g} bytes; commit {}.",
+      flop_per_spring, bytes_per_spring, bytes_per_particle, commit);
   return {"", std::move(f), "cost"};
 }
 

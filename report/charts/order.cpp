@@ -1,11 +1,14 @@
 // Error against step, whose slope is the order of the method; and the distance from the same method's own finest run:
 // where the two part, the method converges to something else.
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "experiments/cells.h"
 #include "report/charts/charts.h"
+#include "report/findings_text.h"
 
 namespace crosscheck {
 namespace {
@@ -14,10 +17,9 @@ namespace {
 std::string title_of(const Table& slopes, const std::string& scene, const std::string& method) {
   const std::string shown = method.starts_with("mysim/") ? method.substr(method.find('/') + 1) : method;
   for (size_t i = 0; i < slopes.rows.size(); ++i)
-    if (std::get<std::string>(slopes.at(i, "scene")) == scene &&
-        std::get<std::string>(slopes.at(i, "method")) == method)
-      return fmt::format("{}: order {}, measured {:.2f}", shown, std::get<long>(slopes.at(i, "declared order")),
-                         std::get<double>(slopes.at(i, "measured order")));
+    if (text_at(slopes, i, "scene") == scene && text_at(slopes, i, "method") == method)
+      return fmt::format("{}: order {:g}, measured {:.2f}", shown, *number_at(slopes, i, "declared order"),
+                         *number_at(slopes, i, "measured order"));
   return method == shown ? shown : shown + ": no order seen";
 }
 
@@ -27,10 +29,9 @@ using Points2 = std::vector<std::pair<double, double>>;
 Points2 column_of(const Table& points, const std::string& scene, const std::string& method, const char* column) {
   Points2 out;
   for (size_t row = 0; row < points.rows.size(); ++row)
-    if (std::get<std::string>(points.at(row, "scene")) == scene &&
-        std::get<std::string>(points.at(row, "method")) == method)
-      if (const auto* value = std::get_if<double>(&points.at(row, column)); value && *value > 0)
-        out.emplace_back(std::get<double>(points.at(row, "step")), *value);
+    if (text_at(points, row, "scene") == scene && text_at(points, row, "method") == method)
+      if (const auto value = number_at(points, row, column); value && *value > 0)
+        out.emplace_back(*number_at(points, row, "step"), *value);
   return out;
 }
 
@@ -38,6 +39,31 @@ Points2 column_of(const Table& points, const std::string& scene, const std::stri
 /// order 1, less at higher orders; large where it converges to something else.
 double astray(const Points2& errors, const Points2& own) {
   return errors.empty() || own.empty() ? 0 : errors.back().second / own.back().second;
+}
+
+/// How far the slopes that were seen on a scene are from the orders that methods promise.
+std::string slopes_sentence(const Table& slopes, const std::string& scene) {
+  constexpr double close = 0.1;  // what the finest three steps of a smooth scene still carry of the next order
+  std::vector<std::string> other;
+  int seen = 0;
+  double off = 0;
+  for (size_t i = 0; i < slopes.rows.size(); ++i) {
+    if (text_at(slopes, i, "scene") != scene) continue;
+    const double declared = *number_at(slopes, i, "declared order"), measured = *number_at(slopes, i, "measured order");
+    ++seen;
+    if (std::abs(measured - declared) > close)
+      other.push_back(fmt::format("{} ({:.2f} instead of {:g})", text_at(slopes, i, "method"), measured, declared));
+    else
+      off = std::max(off, std::abs(measured - declared));
+  }
+  if (seen == 0) return "No order is read off here: no error of a method that promises one falls as a steady power.";
+  std::string text;
+  if (seen > static_cast<int>(other.size()))
+    text = fmt::format("With the step the error of {} method{} falls by the power that the order promises, to {:.2f}.",
+                       seen - other.size(), seen - other.size() == 1 ? "" : "s", off);
+  if (!other.empty())
+    text += fmt::format("{}By another power falls that of {}.", text.empty() ? "" : " ", joined(other));
+  return text;
 }
 
 }  // namespace
@@ -64,12 +90,13 @@ std::vector<Chart> order_charts(const ChartInput& input) {
       // below its error bar the truth tells nothing
       std::erase_if(errors, [&](const auto& p) { return p.second <= bar; });
       curve.points = std::move(errors);
+      // a mark is named after its curve, if there is one
+      const std::string& marked = curve.points.empty() ? m.method : curve.title;
       for (size_t row = 0; row < points->rows.size(); ++row)
-        if (std::get<std::string>(points->at(row, "scene")) == scene.name &&
-            std::get<std::string>(points->at(row, "method")) == m.method &&
-            std::get<std::string>(points->at(row, "verdict")) != "ok")
-          f.failures.push_back({m.method.substr(m.method.find('/') + 1) + ": " + m.failure(), style_of(m.method),
-                                std::get<double>(points->at(row, "step")), 10 * scene.size()});
+        if (text_at(*points, row, "scene") == scene.name && text_at(*points, row, "method") == m.method)
+          if (const std::string& verdict = text_at(*points, row, "verdict"); verdict != "ok")
+            f.failures.push_back({marked + ": " + failure_word(verdict), style_of(m.method),
+                                  *number_at(*points, row, "step"), 10 * scene.size(), failure_word(verdict)});
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
       // where a method converges to the truth both curves are nearly one: only the others' are drawn
       if (else_where) {
@@ -80,15 +107,15 @@ std::vector<Chart> order_charts(const ChartInput& input) {
         f.curves.push_back({m.method + ": from its own finest run", open, std::move(own), true, true});
       }
     }
-    if (f.curves.empty()) continue;
+    if (f.curves.empty() && f.failures.empty()) continue;
     f.floor = {"error bar of the truth", input.facts[i].bar};
     f.caption = caption_of(scene, input.facts[i], input.commit, true);
-    f.finding = "The error falls with the step by the power that the method's order promises.";
+    f.finding = slopes_sentence(*slopes, scene.name);
     if (!elsewhere.empty())
-      f.finding += fmt::format(
-          " Not so {}: with shorter steps it nears its own finest run and not the truth, it converges to something "
-          "else.",
-          fmt::join(elsewhere, ", "));
+      f.finding +=
+          fmt::format(" With shorter steps {} {} own finest run and not the truth: what {} to is something else.",
+                      joined(elsewhere), elsewhere.size() == 1 ? "nears its" : "near their",
+                      elsewhere.size() == 1 ? "it converges" : "they converge");
     charts.push_back({scene.name, std::move(f)});
   }
   return charts;

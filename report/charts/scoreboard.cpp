@@ -3,18 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "report/charts/charts.h"
+#include "report/findings_text.h"
 
 namespace crosscheck {
 
 std::vector<Chart> scoreboard_charts(const ChartInput& input) {
+  constexpr double top = 10;
   Figure f;
   f.name = "scoreboard";
   f.title = "Error of each method at the scene's own step";
   f.x = {"", false, -0.6, std::nullopt};
-  f.y = {"largest RMS error / motion of the scene", true, std::nullopt, 10};
+  f.y = {"largest RMS error / motion of the scene", true, std::nullopt, top};
   double x = 0, lowest = 1;
+  std::set<std::string> methods;
+  std::vector<std::string> cut;
   for (const SceneFacts& scene : input.facts) {
     if (scene.tier.empty() || !(scene.motion > 0)) continue;
     f.categories.emplace_back(x, scene.scene);
@@ -27,9 +32,12 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
         curve = f.curves.insert(f.curves.end(), {m.method, style_of(m.method), {}, false, true});
       if (m.ok() && m.error) {
         const double y = std::max(*m.error, scene.bar) / scene.motion;
-        curve->points.emplace_back(x + shift, y);
+        if (y > top) cut.push_back(fmt::format("{} on {} ({})", m.method, scene.scene, nice(y)));
+        curve->points.emplace_back(x + shift, std::min(y, top));
         lowest = std::min(lowest, y);
+        methods.insert(m.method);
       } else if (m.supported() && !m.ok()) {
+        methods.insert(m.method);
         f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), x + shift, 3});
       }
       shift += apart;
@@ -41,8 +49,9 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   f.caption = "All scenes with a known truth; errors below a truth's error bar are drawn at the bar; commit " +
               input.commit + ".";
+  if (!cut.empty()) f.caption += fmt::format(" Drawn at {} times the motion, though larger: {}.", top, joined(cut));
   f.finding = fmt::format("Error of {} methods on {} scenes in parts of the motion; runs that failed: {}.",
-                          f.curves.size(), f.categories.size(), f.failures.size());
+                          methods.size(), f.categories.size(), f.failures.size());
   return {{"", std::move(f)}};
 }
 

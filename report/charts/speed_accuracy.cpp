@@ -84,13 +84,18 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
   f.from_costs = kind.time;
   f.title = fmt::format("{}: {} against {}", s.scene, s.measure(), kind.time ? "CPU time" : "force evaluations");
   f.x = {kind.time ? "CPU time of the run / s" : "force evaluations of the run", true, std::nullopt, std::nullopt};
-  const double top = 10 * s.motion;
+  const double top = 10 * s.motion, highest = 3 * s.motion;
   double lowest = s.bar ? std::max(*s.bar, 1e-16) : 1, furthest = 0;
-  int failed = 0, good = 0;
+  int failed = 0, good = 0, beyond = 0, uncounted = 0;
+  std::set<std::string> methods;
   for (const size_t i : s.rows) {
     const auto cost = s.cost_of(i, kind);
-    if (!cost || !(*cost > 0)) continue;
     const std::string method = text_or_none(s.runs, i, "method"), verdict = text_or_none(s.runs, i, "verdict");
+    if (!cost || !(*cost > 0)) {
+      uncounted += verdict != "unsupported";
+      continue;
+    }
+    methods.insert(method);
     furthest = std::max(furthest, *cost);
     if (verdict != "ok") {
       const std::string word = failure_word(verdict);
@@ -103,7 +108,8 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
     if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {method, style_of(method), {}, true, true});
     // below its bar the truth tells nothing
-    const double y = std::min(3 * s.motion, s.bar ? std::max(*apart, *s.bar) : *apart);
+    const double y = std::min(highest, s.bar ? std::max(*apart, *s.bar) : *apart);
+    beyond += *apart > highest;
     curve->points.emplace_back(*cost, y);
     lowest = std::min(lowest, y);
     ++good;
@@ -116,12 +122,16 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     for (size_t i = 0; i < pareto->rows.size(); ++i)
       if (text_or_none(*pareto, i, "scene") == s.scene)
         f.pareto.emplace_back(*number_at(*pareto, i, kind.column().c_str()),
-                              std::min(3 * s.motion, *number_at(*pareto, i, "distance")));
+                              std::min(highest, *number_at(*pareto, i, "distance")));
   if (!f.pareto.empty()) f.pareto.emplace_back(furthest, f.pareto.back().second);
   if (s.bar) f.floor = {s.difference() ? "how far that answer is known" : "error bar of the truth", *s.bar};
-  f.finding = fmt::format("{} runs of {} methods; {} failed.", good + failed, f.curves.size(), failed);
+  f.finding = fmt::format("{} runs of {} methods; {} failed.", good + failed, methods.size(), failed);
+  std::string drawn;
+  if (beyond > 0)
+    drawn = fmt::format("{} above three times the motion ({}), drawn there; ", beyond, nice_length(highest));
+  if (uncounted > 0) drawn += fmt::format("{} of unknown cost, not drawn; ", uncounted);
   f.caption = fmt::format(
-      "Scene {}; {}; {}commit {}.", s.scene,
+      "Scene {}; {}; {}{}commit {}.", s.scene,
       s.bar ? fmt::format("{}: {}, error bar {}", s.difference() ? "compared with" : "truth", s.truth,
                           nice_length(*s.bar))
             : "no truth is known, so that only the way to each method's own finest run is shown",
@@ -129,7 +139,7 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
           ? "thread CPU time, medians of runs taken in turns on one pinned core; mysim and odeint are compiled in "
             "this build, Bullet and SUNDIALS are Debian's generic x86-64 builds; "
           : "",
-      input.commit);
+      drawn, input.commit);
   return f;
 }
 

@@ -16,6 +16,7 @@
 #include "report/provenance.h"
 
 namespace crosscheck {
+namespace fs = std::filesystem;
 namespace {
 
 std::string text_of(const std::filesystem::path& file) {
@@ -130,6 +131,12 @@ void print(const Fitted& fitted) {
 }  // namespace
 
 int advise_command(const AdviseOptions& options) try {
+  // what was advised before would pass for this advice where none can be given
+  if (fs::exists(options.out / "advice.json"))
+    for (const char* name : {"advice.toml", "advice.json", "advice.csv", "advice-cost.csv"})
+      if (const fs::path old = options.out / name;
+          fs::exists(old) && !(fs::exists(options.scene) && fs::equivalent(old, options.scene)))
+        fs::remove(old);
   std::optional<Scene> scene;
   std::string toml;
   if (options.scene.ends_with(".toml") && std::filesystem::exists(options.scene)) {

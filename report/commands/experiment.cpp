@@ -70,7 +70,8 @@ int experiment_command(const ExperimentOptions& options) {
   }
   std::vector<std::string> missing;
   write_tables(joined(plan, {&store, 1}, missing), plan.provenance, options.out);
-  return failed.empty() ? 0 : 1;
+  for (const std::string& name : missing) fmt::print(stderr, "crosscheck: missing in the tables: {}\n", name);
+  return failed.empty() && missing.empty() ? 0 : 1;
 }
 
 int merge_command(const MergeOptions& options) {

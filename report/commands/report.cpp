@@ -19,10 +19,11 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// Files of an earlier report in the same folder would pass for this one's.
+/// Files of an earlier report in the same folder would pass for this one's, also where this one is killed.
 void clear_former_report(const fs::path& out) {
-  if (!fs::exists(out / "report.json")) return;
-  for (const char* part : {"data", "figures", "points", "report.json"}) fs::remove_all(out / part);
+  if (fs::exists(out / "report.json"))
+    for (const char* part : {"data", "figures", "points", "index.html"}) fs::remove_all(out / part);
+  write_file(out / "report.json", "{\"problems\": [\"the report was not finished\"]}\n");
 }
 
 void write_data(const Rows& result, const Provenance& lines, const fs::path& folder) {
@@ -78,7 +79,7 @@ class Builder {
  public:
   Builder(const ReportOptions& options, Request request)
       : options_(options), request_(std::move(request)), figures_(options.out / "figures") {
-    page_.provenance = with_scenes(provenance(options.command_line), request_.scenes);
+    page_.provenance = with_scenes(provenance(options.command_line), scenes_of_all());
     fs::create_directories(figures_);
     page_.chapters = chapters();
   }
@@ -114,7 +115,7 @@ class Builder {
     // beside the answer stands the last scene that Bullet answers too
     const ScenePart* shown = nullptr;
     for (const ScenePart& part : page_.scenes) {
-      const MethodFacts* bullet = part.facts->find("bullet/deformable-explicit");
+      const MethodFacts* bullet = part.facts->find(theirs);
       if (!part.pictures.empty() && (!shown || (bullet && bullet->ok()))) shown = &part;
     }
     if (shown) page_.hero.insert(page_.hero.begin(), shown->pictures[0]);
@@ -139,6 +140,16 @@ class Builder {
     progress.done();
   }
 
+  /// Every scene that some experiment looks at.
+  std::vector<Scene> scenes_of_all() const {
+    std::vector<Scene> all = request_.scenes;
+    for (const Experiment& e : experiments())
+      for (Scene& scene : scenes_for(e, options_.scenes, options_.full))
+        if (std::none_of(all.begin(), all.end(), [&](const Scene& s) { return s.name == scene.name; }))
+          all.push_back(std::move(scene));
+    return all;
+  }
+
   std::string left_out() const {
     if (request_.scenes_only)
       return "this is the report of the named scenes: what experiments ask of scenes of their own (balls, known "
@@ -148,8 +159,10 @@ class Builder {
     for (const auto name : shipped_scenes())
       if (std::none_of(request_.scenes.begin(), request_.scenes.end(), [&](const Scene& s) { return s.name == name; }))
         names.push_back(name);
-    return fmt::format("this is the short form of the report: {} are left out; --full has all scenes",
-                       fmt::join(names, ", "));
+    return fmt::format(
+        "this is the short form of the report: {} have no part of their own, and each chapter looks at "
+        "the scenes that stand for the others; --full has all of them",
+        fmt::join(names, ", "));
   }
 
   fs::path picture_of_scene(const Scene& scene) const { return figures_ / (file_name_of(scene.name) + "-picture.png"); }
@@ -167,20 +180,14 @@ class Builder {
   std::vector<Point> picture_points() const {
     std::vector<Point> points;
     for (const Scene& scene : request_.scenes)
-      points.push_back({"picture: " + scene.name, content_of(request_, scene), [this, &scene](Rows& rows) {
+      points.push_back({"picture: " + scene.name, content_of(request_, scene), [this, &scene](Rows&) {
                           Answers answers;
                           std::vector<const Answer*> shown;
-                          std::string names;
                           for (const std::string& name : methods_pictured(scene)) {
                             const Answer& a = answer_of(request_, scene, find_method(name), answers);
-                            if (a.trajectory.frames() == 0) continue;
-                            shown.push_back(&a);
-                            names += (names.empty() ? "" : ", ") + name;
+                            if (a.trajectory.frames() > 0) shown.push_back(&a);
                           }
                           write_picture(scene, shown, shot_of(scene, options_.full), picture_of_scene(scene));
-                          Table table{"pictures", {{"scene", "1"}, {"methods", "1"}}, {}};
-                          table.add({scene.name, names});
-                          rows.add(table);
                         }});
     return points;
   }

@@ -20,8 +20,9 @@ std::vector<Chapter> chapters() {
        {}},
       {"energy",
        "Where does the energy go?",
-       "The energy of runs of a hundred thousand steps, added up by the suite's own formulas from the positions and "
-       "speeds of every engine at every step: what it has, what drag, dashpots and contact took, what wind and moved "
+       "The energy of runs of up to a hundred thousand steps, fewer on large scenes, added up by the suite's own "
+       "formulas from the positions and speeds of every engine at every step: what it has, what drag, dashpots and "
+       "contact took, what wind and moved "
        "pins gave, and the residual that does not add up. A rule that solves the whole step is run at ten times the "
        "step, over the same time.",
        {}},

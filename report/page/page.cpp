@@ -78,8 +78,8 @@ std::string scene_section(const ScenePart& part) {
   out += fmt::format(
       "<p class=\"parameters\"><b>Parameters.</b> {} Step {} s, {:.3g} s of motion; pointwise comparison up to {:.3g} "
       "s, where a perturbation of 1e-10 m has grown {}-fold; {}. Scene hash {}.</p>\n</section>\n",
-      escaped(scene.parameters), nice(facts.methods.empty() ? scene.step : facts.methods[0].step), scene.duration,
-      scene.window, nice(facts.growth), predictable, scene.hash);
+      escaped(scene.parameters), nice(scene.step), scene.duration, scene.window, nice(facts.growth), predictable,
+      scene.hash);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/findings_text.h"
 #include "report/page/page.h"
 
 namespace crosscheck {
@@ -23,8 +24,14 @@ std::string verdict_cell(const MethodFacts& m) {
   if (!m.supported()) return fmt::format("<td class=\"unsupported\">unsupported: {}</td>", escaped(m.reason));
   const std::string what = m.verdict == "energy" ? "energy from nothing"
                            : m.verdict == "nan"  ? "not a number"
-                                                 : m.verdict;
+                                                 : m.failure();
   return fmt::format("<td class=\"failed\" title=\"{}\">{} at {:.3g} s</td>", what, m.failure(), m.end);
+}
+
+/// For the overview, where the reason is not said.
+std::string verdict_or_none(const MethodFacts* m) {
+  if (!m) return "<td class=\"none\">not asked</td>";
+  return m->supported() ? verdict_cell(*m) : "<td class=\"none\">not modelled</td>";
 }
 
 /// The mean to the digits that its spread leaves it.
@@ -65,8 +72,7 @@ std::string scene_table_html(const std::vector<ScenePart>& scenes) {
       "step, Bullet / "
       "mysim</th></tr></thead><tbody>\n";
   for (const ScenePart& part : scenes) {
-    const MethodFacts *a = part.facts->find("mysim/symplectic-euler"),
-                      *b = part.facts->find("bullet/deformable-explicit"), *p = part.facts->find("bullet/pbd");
+    const MethodFacts *a = part.facts->find(ours), *b = part.facts->find(theirs), *p = part.facts->find(position_based);
     out += fmt::format("<tr><th scope=\"row\"><a href=\"#{0}\">{0}</a></th><td class=\"text\">{1}</td>",
                        escaped(part.scene->name), escaped(part.scene->question));
     const bool sphere = part.scene->model.find<Spheres>();
@@ -74,12 +80,12 @@ std::string scene_table_html(const std::vector<ScenePart>& scenes) {
       out += fmt::format("<td>differ by {}{}</td>", nice_length(*b->difference),
                          sphere ? fmt::format(" until {:.2g} s", part.scene->window) : "");
     else
-      out += b && b->supported() ? verdict_cell(*b) : "<td class=\"none\">not modelled</td>";
+      out += verdict_or_none(b);
     if (p && p->ok() && (p->error || p->difference))
       out += fmt::format("<td>{} by {}</td>", p->error ? "off" : "differs",
                          nice_length(p->error ? *p->error : *p->difference));
     else
-      out += p && p->supported() ? verdict_cell(*p) : "<td class=\"none\">not modelled</td>";
+      out += verdict_or_none(p);
     const MethodFacts* best = nullptr;
     int failed = 0;
     for (const MethodFacts& m : part.facts->methods) {
@@ -88,7 +94,8 @@ std::string scene_table_html(const std::vector<ScenePart>& scenes) {
     }
     out += best ? fmt::format("<td>{}<br>{}{}</td>", best->method, *best->error < part.facts->bar ? "&lt; " : "",
                               nice_length(std::max(*best->error, part.facts->bar)))
-                : "<td class=\"none\">no truth: contact</td>";
+                : fmt::format("<td class=\"none\">{}</td>",
+                              part.facts->tier.empty() ? "no truth: contact" : "no run came to the end");
     std::string names;
     for (const MethodFacts& m : part.facts->methods)
       if (m.supported() && !m.ok()) names += (names.empty() ? "" : "<br>") + escaped(m.method);

@@ -1,6 +1,8 @@
 // Parts of an experiment on the command line, and their joining.
 #include "tests/unit/cli.h"
 
+#include <fmt/format.h>
+
 #include <map>
 
 namespace crosscheck::testing_tools {
@@ -58,6 +60,35 @@ TEST_F(CliSweep, ResumeKeepsWhatIsFinishedAndOthersAreNotJoined) {
   EXPECT_EQ(mixed.status, 2);
   EXPECT_NE(mixed.err.find("expected the points of out: the same command, scenes and program"), std::string::npos)
       << mixed.err;
+}
+
+/// array.sbatch as Slurm starts it, with a program that says what it was called with.
+class CliArray : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    fs::create_directories(folder_ / "build/release");
+    fs::permissions(write("build/release/crosscheck", "#!/bin/sh\necho \"$@\"\n"), fs::perms::owner_all);
+  }
+  ProgramResult task(int id, int least, int most, int count, const std::string& parts = "") const {
+    const auto variable = [](const char* name, const auto& value) { return fmt::format("{}={}", name, value); };
+    return run_program({"bash", CROSSCHECK_SOURCE "/experiments/sweep/array.sbatch", "out", "order", "spring"}, folder_,
+                       {variable("SLURM_ARRAY_TASK_ID", id), variable("SLURM_ARRAY_TASK_MIN", least),
+                        variable("SLURM_ARRAY_TASK_MAX", most), variable("SLURM_ARRAY_TASK_COUNT", count),
+                        variable("SLURM_CPUS_PER_TASK", 2), variable("CROSSCHECK_PARTS", parts)});
+  }
+};
+
+TEST_F(CliArray, ATasksNumberIsItsPart) {
+  const std::string third = "experiment order spring --shard 3/16 --resume --jobs 2 --out out/part-3\n";
+  EXPECT_EQ(task(3, 1, 16, 16).out, third);      // --array=1-16
+  EXPECT_EQ(task(3, 3, 7, 2, "16").out, third);  // --array=3,7, submitted again
+  for (const int count : {1, 2}) {               // --array=3; --array=1,3
+    const ProgramResult lost = task(3, count == 1 ? 3 : 1, 3, count);
+    EXPECT_EQ(lost.status, 2);
+    EXPECT_NE(lost.err.find("expected CROSSCHECK_PARTS=N"), std::string::npos) << lost.err;
+  }
+  EXPECT_EQ(task(15, 1, 15, 8).status, 2);  // --array=1-16:2
 }
 
 TEST_F(CliSweep, BadPartsAreRefused) {

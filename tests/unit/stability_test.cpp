@@ -1,4 +1,5 @@
-// Stability of every stepper on both sides of the limit in its row: by its step matrix, and by running it.
+// Stability of every stepper on both sides of the limit in its row: by its step matrix, and by running it; and the
+// verdict on springs that only ever get longer.
 #include <limits>
 
 #include "mysim/observers/watch.h"
@@ -158,6 +159,28 @@ TEST(Stability, WhatHangsStillStaysWhereItHangs) {
       // ten steps of some ulps of 1 m
       for (const Points& x : t.x) EXPECT_NEAR(x(1, 1), scene.start.x(1, 1), 100 * eps);
     }
+}
+
+/// 1 kg on a spring of 1 N/m and 1 m, held `extension` metres too long by an engine that lost the rest of its energy.
+Verdict verdict_at(double extension) {
+  Scene scene = hanging(1, 0);
+  scene.start.x(1, 1) = -1;
+  Watch watch(scene.model);
+  EXPECT_EQ(watch.observe(scene.start, true), Verdict::ok);
+  State state = scene.start;
+  state.t = 1;
+  state.x(1, 1) = -1 - extension;
+  return watch.observe(state, true);
+}
+
+TEST(Stretch, IsAVerdictBesideEnergy) {
+  // W = 9.81 N, D = 2 m, n = 1: s <= W + sqrt(W^2 + 2 (2 W + W^2 / 2)) = 25.07 m; a fall from rest reaches 2 W = 19.62
+  // m
+  EXPECT_EQ(verdict_at(19.62), Verdict::ok);
+  EXPECT_EQ(verdict_at(25.0), Verdict::ok);
+  EXPECT_EQ(verdict_at(25.2), Verdict::stretch);
+  EXPECT_EQ(verdict_at(60), Verdict::energy);  // more than twice what gravity gave
+  EXPECT_EQ(name_of(Verdict::stretch), "stretch");
 }
 
 }  // namespace

@@ -152,6 +152,49 @@ TEST_F(Sweep, WhatThrowsOrDiesIsNamedAndTheOthersGoOn) {
   EXPECT_TRUE(run(several(6)).empty());
 }
 
+TEST_F(Sweep, ARowOfAnotherLengthIsNoRow) {
+  Table table{"t", {{"a", "1"}, {"b", "1"}}, {}};
+  EXPECT_TRUE(throws<std::logic_error>([&] { table.add({1.}); }, "table t: a row of 1 cells under 2 columns"));
+  std::vector<Point> points = several(2);
+  points[1].compute = [table](Rows& rows) mutable { table.add({1.}), rows.add(table); };
+  const auto failed = run(points);
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_EQ(failed[0].name, "p1");
+}
+
+TEST_F(Sweep, WhatFailedBeforeAndDiesNowIsNamedOnce) {
+  std::vector<Point> points = several(1);
+  points[0].compute = [](Rows&) { throw InputError("no such spring"); };
+  EXPECT_EQ(run(points).at(0).why, "no such spring");
+  points[0].compute = [](Rows&) { raise(SIGKILL); };
+  const auto failed = run(points);
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_TRUE(contains(failed[0].why, "signal 9"));
+}
+
+TEST_F(Sweep, WhatIsNotThereAfterwardsIsNamedWhoeverLostIt) {
+  std::vector<Point> points = several(3);
+  points[2].compute = [this, lost = points[1].hash()](Rows&) { fs::remove(store.folder() / (lost + ".json")); };
+  const auto failed = run(points, {1, {}});
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_EQ(failed[0].name, "p1");
+}
+
+TEST_F(Sweep, EndsWhereChildrenAreIgnored) {
+  // as under a parent that ignores SIGCHLD: the system reaps the workers itself
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);  // it would wait for ever
+    _exit(run(several(3)).empty() ? 0 : 1);
+  }
+  std::signal(SIGCHLD, before);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  EXPECT_EQ(ran().size(), 3u);
+}
+
 TEST_F(Sweep, KilledInTheMiddleItLosesNothingThatWasFinished) {
   std::vector<Point> points = several(8);
   points[5].compute = [this](Rows&) {
@@ -201,6 +244,7 @@ TEST_F(Sweep, TimedPointsOfOneSweepWaitForThePointsOfAnother) {
   timed[0].timed = true;
   const pid_t child = fork();
   if (child == 0) {
+    setenv("TMPDIR", folder_.c_str(), 1);  // as batch systems give each job one of its own
     run(others, {3, {}});
     _exit(0);
   }

@@ -1,0 +1,167 @@
+// What a finer grid is worth, and what it asks of the stiffnesses.
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "experiments/cells.h"
+#include "report/charts/adequacy_parts.h"
+#include "report/findings_text.h"
+#include "report/grid_powers.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr MethodStyle looks[] = {{"#0072B2", "1", 7},      {"#D55E00", "(6,3)", 5},
+                                 {"#009E73", "(2,2)", 9},  {"#CC79A7", "(10,3,2,3)", 13},
+                                 {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
+
+std::set<double> values_of(const Table& t, const char* column) {
+  std::set<double> values;
+  for (size_t i = 0; i < t.rows.size(); ++i) values.insert(*number_at(t, i, column));
+  return values;
+}
+
+Curve column_of(const Table& t, const std::string& scene, const char* column, const MethodStyle& style) {
+  Curve curve{scene, style, {}, true, true};
+  for (size_t i = 0; i < t.rows.size(); ++i)
+    if (text_at(t, i, "scene") == scene)
+      if (const auto y = number_at(t, i, column); y && *y > 0)
+        curve.points.emplace_back(*number_at(t, i, "particles along a side"), *y);
+  return curve;
+}
+
+/// How the distance from the finest grid goes with the grid, scene by scene.
+std::string motion_sentence(const Rows& rows, const std::vector<Curve>& curves) {
+  std::vector<std::string> falls, others;
+  for (const Curve& c : curves)
+    if (const auto power = power_of(rows, c.title, motion_against_cells))
+      (power->exponent + 2 * power->deviation < 0 ? falls : others)
+          .push_back(fmt::format("{} on {}", power_text(*power), c.title));
+  std::string text;
+  if (!falls.empty())
+    text = fmt::format(
+        "With the stiffnesses left as they are the motion nears that of the finest grid: its distance goes as the "
+        "number "
+        "of cells to the power {}.",
+        joined(falls));
+  if (!others.empty())
+    text += fmt::format("{}It is not seen to near it where the power is {}.", text.empty() ? "" : " ", joined(others));
+  return text.empty() ? "Distances of the motion from that of the finest grid." : text;
+}
+
+PageTable sags_of(const Table& t) {
+  PageTable page{"Sag at rest, pins standing still, without wind: lowest below highest point.", {"particles"}, {}};
+  const std::vector<std::string> scenes = distinct(t, "scene");
+  page.header.insert(page.header.end(), scenes.begin(), scenes.end());
+  for (const double n : values_of(t, "particles along a side")) {
+    std::vector<std::string> row{fmt::format("{:g}", n)};
+    for (const std::string& scene : scenes) {
+      row.emplace_back();
+      for (size_t i = 0; i < t.rows.size(); ++i)
+        if (text_at(t, i, "scene") == scene && number_at(t, i, "particles along a side") == n) {
+          const auto sag = number_at(t, i, "sag");
+          row.back() = sag ? fmt::format("{:.4f} m", *sag) : "no rest";
+        }
+    }
+    page.rows.push_back(std::move(row));
+  }
+  return page;
+}
+
+Chart grids(const Table& t, const Rows& rows, const std::string& commit) {
+  Figure f;
+  f.name = "adequacy-resolution";
+  f.title = "The same cloth on other grids";
+  f.x = {"particles along the longer side", true, std::nullopt, std::nullopt};
+  f.y = {"largest RMS distance from the finest grid / m", true, std::nullopt, std::nullopt};
+  for (const double n : values_of(t, "particles along a side")) f.categories.emplace_back(n, fmt::format("{:g}", n));
+  std::map<std::string, MethodStyle> style;
+  double furthest = 0;
+  for (const std::string& scene : distinct(t, "scene")) {
+    const size_t look = style.size() % std::size(looks);
+    Curve c = column_of(t, scene, "error against the finest", style.emplace(scene, looks[look]).first->second);
+    for (const auto& [n, error] : c.points) furthest = std::max(furthest, error);
+    // nothing to compare with where the finest run fails
+    if (!c.points.empty()) f.curves.push_back(std::move(c));
+  }
+  std::vector<std::string> failed;
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    const std::string &verdict = text_at(t, i, "verdict"), &scene = text_at(t, i, "scene");
+    if (verdict == "ok") continue;
+    const double n = *number_at(t, i, "particles along a side");
+    failed.push_back(fmt::format("{} with {:g} particles along a side ({})", scene, n, failure_word(verdict)));
+    f.failures.push_back({scene + ": " + failure_word(verdict), style.at(scene), n, 3 * furthest});
+  }
+  f.finding = motion_sentence(rows, f.curves);
+  f.caption = fmt::format("Leapfrog, compared at 17 x 17 points of the material; commit {}.", commit);
+  Chart chart{
+      "",
+      std::monostate{},
+      "adequacy",
+      "A sheet of total mass M keeps its stiffness against stretching and shearing whatever its grid, as k stays: a "
+      "finer line of springs has more of them in series, and there are as many lines more. Where it hangs from single "
+      "particles it does not: all its weight then pulls at one particle, about which a finer grid gives more (the "
+      "stretch about a point load grows without end as the grid is refined).",
+      f.title,
+      {sags_of(t)}};
+  if (!failed.empty()) chart.text += fmt::format(" Runs that failed: {}.", joined(failed));
+  if (!f.curves.empty()) chart.figure = std::move(f);
+  return chart;
+}
+
+/// Nothing where neither sags nor droops were found.
+std::optional<Chart> scaling(const Table& t, const Rows& rows, const std::string& commit) {
+  Figure f;
+  f.name = "adequacy-scaling";
+  f.title = "Stiffness for the same cloth on another grid";
+  f.x = {"cells along the longer side", true, std::nullopt, std::nullopt};
+  f.y = {"stiffness / stiffness on the coarsest grid", true, 0.5, std::nullopt};
+  for (const double n : values_of(t, "cells")) f.categories.emplace_back(n, fmt::format("{:g}", n));
+  size_t style = 0;
+  for (const std::string& scene : distinct(t, "scene")) {
+    Curve c = column_of(t, scene, "stiffness factor for the finest's sag", looks[style++ % std::size(looks)]);
+    if (c.points.empty()) continue;
+    c.title = fmt::format("{}: all springs, for the same sag", scene);
+    const double first = c.points.front().second;
+    for (auto& [x, y] : c.points) x -= 1, y /= first;
+    f.curves.push_back(std::move(c));
+    if (const auto power = power_of(rows, scene, stiffness_for_sag))
+      f.finding += fmt::format("{}: all stiffnesses as cells to the power {}. ", scene, power_text(*power));
+  }
+  if (const Table* bending = rows.table("adequacy-bending"); bending && !bending->rows.empty()) {
+    Curve measured{"bend springs of a clamped sheet, for the same droop", {"#000000", "1", 7}, {}, false, true},
+        derived{"derived for many cells: to the power 4", {"#777777", "(6,3)", -1}, {}};
+    const double k0 = *number_at(*bending, 0, "stiffness of bend springs"), n0 = *number_at(*bending, 0, "cells");
+    for (size_t i = 0; i < bending->rows.size(); ++i) {
+      const double n = *number_at(*bending, i, "cells");
+      measured.points.emplace_back(n, *number_at(*bending, i, "stiffness of bend springs") / k0);
+      derived.points.emplace_back(n, std::pow(n / n0, 4));
+    }
+    f.curves.push_back(std::move(derived));
+    f.curves.push_back(std::move(measured));
+  }
+  if (f.curves.empty()) return std::nullopt;
+  f.finding += bend_sentence(rows);
+  if (f.finding.empty()) f.finding = "Too few grids to tell a power.";
+  f.caption = fmt::format("Rest found by dynamic relaxation; exponents with their standard errors; commit {}.", commit);
+  return Chart{
+      "", std::move(f), "adequacy",
+      "Springs over two cells resist bending only by what a bent pair of cells is shorter than a flat one, which "
+      "falls as the third power of the cell: for the same sheet they must stiffen as the fourth power of the number "
+      "of cells, where these are many. With one stiffness on all grids a finer sheet folds more freely."};
+}
+
+}  // namespace
+
+std::vector<Chart> grid_charts(const Rows& rows, const std::string& commit) {
+  const Table* t = rows.table("adequacy-resolution");
+  if (!t || t->rows.empty()) return {};
+  std::vector<Chart> charts{grids(*t, rows, commit)};
+  if (auto chart = scaling(*t, rows, commit)) charts.push_back(std::move(*chart));
+  return charts;
+}
+
+}  // namespace crosscheck

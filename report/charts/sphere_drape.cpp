@@ -1,0 +1,135 @@
+// A cloth on a ball: how deep it is inside, and how it ends.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "experiments/cells.h"
+#include "experiments/sphere_probes.h"
+#include "report/charts/sphere_parts.h"
+#include "report/findings_text.h"
+
+namespace crosscheck {
+namespace {
+
+/// In %; what rounding makes of a particle on the surface is none.
+std::string depth_text(double percent) { return percent < 1e-9 ? "0" : nice(percent); }
+
+}  // namespace
+
+std::optional<Chart> depth_chart(const Table& table, const std::string& scene, const std::string& commit) {
+  Figure f;
+  f.name = scene + "-penetration";
+  f.title = scene + ": deepest inside the contact surface";
+  f.x = {"", false, std::nullopt, std::nullopt};
+  f.y = {"depth / % of the radius", true, 1e-3, 10};
+  PageTable page{scene + ": depth inside the contact surface in % of its radius",
+                 {"method", "step / s", "particles", "triangles", "particles at end", "triangles at end"},
+                 {}};
+  double place = 0;
+  std::pair<double, double> deepest[2] = {};  // of mysim, of Bullet: particles and triangles, %
+  std::map<double, std::pair<Curve, Curve>> by_step;
+  const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"};
+  for (const std::string& method : distinct(table, "method")) {
+    bool any = false;
+    for (size_t i = 0; i < table.rows.size(); ++i) {
+      if (text_at(table, i, "scene") != scene || text_at(table, i, "method") != method) continue;
+      if (!any)
+        f.categories.emplace_back(
+            ++place, method == sticky_sphere ? "sticky sphere" : method.substr(method.starts_with("mysim/") ? 6 : 0));
+      any = true;
+      const auto h = number_at(table, i, "step"), nodes = number_at(table, i, "particles"),
+                 triangles = number_at(table, i, "triangles");
+      auto said = [&](const char* column) {
+        const auto value = number_at(table, i, column);
+        return value ? depth_text(*value) : std::string("");
+      };
+      if (text_at(table, i, "verdict") != "ok") {
+        page.rows.push_back({method, nice(h.value_or(0)), failure_or_cannot(text_at(table, i, "verdict")), "", "", ""});
+        continue;
+      }
+      page.rows.push_back(
+          {method, nice(*h), said("particles"), said("triangles"), said("particles at end"), said("triangles at end")});
+      if (method != sticky_sphere && (method.starts_with("mysim/") || method.starts_with("bullet/"))) {
+        auto& [particles, flat] = deepest[method.starts_with("bullet/")];
+        particles = std::max(particles, nodes.value_or(0)), flat = std::max(flat, triangles.value_or(0));
+      }
+      if (method.find("dopri5") != std::string::npos) continue;  // its steps are its own
+      if (!by_step.contains(*h)) {
+        const std::string colour = colours[by_step.size() % std::size(colours)];
+        by_step[*h] = {{fmt::format("particles, step {} s", nice(*h)), {colour, "1", 6}, {}, false, true},
+                       {fmt::format("triangles, step {} s", nice(*h)), {colour, "1", 9}, {}, false, true}};
+      }
+      if (nodes && *nodes > 1e-3) by_step[*h].first.points.emplace_back(place - 0.12, *nodes);
+      if (triangles && *triangles > 1e-3) by_step[*h].second.points.emplace_back(place + 0.12, *triangles);
+    }
+  }
+  for (auto& [h, curves] : by_step)
+    for (Curve* curve : {&curves.first, &curves.second})
+      if (!curve->points.empty()) f.curves.push_back(std::move(*curve));
+  if (f.curves.empty()) return std::nullopt;
+  f.x.low = 0.4, f.x.high = place + 0.6;
+  f.finding = fmt::format(
+      "Particles of mysim are inside by at most {} % of the radius, of Bullet by {} %; the triangles between them cut "
+      "into the ball by what a chord is below its arc, also where no particle is inside: by {} % in mysim, {} % in "
+      "Bullet. "
+      "Below 0.001 % nothing is drawn.",
+      depth_text(deepest[0].first), depth_text(deepest[1].first), depth_text(deepest[0].second),
+      depth_text(deepest[1].second));
+  f.caption =
+      fmt::format("Scene {}, largest at any sample, in per cent of the contact radius; commit {}.", scene, commit);
+  Chart chart{"", std::move(f), "sphere"};
+  chart.tables.push_back(std::move(page));
+  return chart;
+}
+
+PageTable drape_table(const Table& table, const std::string& scene) {
+  PageTable page{scene + ": how it ends",
+                 {"method", "step / s", "settled after / s", "centre height / m", "moved aside / mm", "creep / (mm/s)",
+                  "contact took / J", "asymmetry / m"},
+                 {}};
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    if (text_at(table, i, "scene") != scene) continue;
+    const std::string& method = text_at(table, i, "method");
+    if (text_at(table, i, "verdict") != "ok") {
+      const std::string why = text_at(table, i, "verdict") == "unsupported"
+                                  ? "cannot: " + text_at(table, i, "reason")
+                                  : fmt::format("{} at {:.3g} s", failure_word(text_at(table, i, "verdict")),
+                                                number_at(table, i, "end").value_or(0));
+      page.rows.push_back({method, nice(number_at(table, i, "step").value_or(0)), why, "", "", "", "", ""});
+      continue;
+    }
+    auto said = [&](const char* column, double factor, const char* otherwise) {
+      const auto value = number_at(table, i, column);
+      return value ? nice(factor * *value) : std::string(otherwise);
+    };
+    const bool inferred = std::get<long>(table.at(i, "contact inferred")) != 0;
+    page.rows.push_back({method, nice(*number_at(table, i, "step")), said("settled after", 1, "not at rest"),
+                         said("centre height", 1, ""), said("centre moved aside", 1e3, ""),
+                         said("creep", 1e3, "off the ball"),
+                         said("contact took", 1, "") + (inferred ? " (inferred)" : ""), said("asymmetry", 1, "")});
+  }
+  return page;
+}
+
+Chart drape_snapshot(const Table& table) {
+  Snapshot s;
+  s.name = "sphere-drop-aside";
+  s.scene = drop_aside();
+  Run run = default_run(s.scene);
+  // before it has fallen out of the picture
+  run.duration = 1.16, run.samples = 58;
+  for (const char* method : {ours, theirs, position_based, sticky_sphere})
+    if (const auto all = distinct(table, "method"); std::find(all.begin(), all.end(), method) != all.end())
+      s.panels.push_back({method, run});
+  s.shot.mode = Mode::stretch;
+  s.shot.width = 1440, s.shot.height = 480;
+  s.caption =
+      "The cloth that is dropped 0.12 m aside with a friction of 0.25, after 1.16 s: by Coulomb's law it slides off.";
+  Chart chart{"", std::monostate{}, "sphere", "Dropped aside of the middle, with a friction that cannot hold it.",
+              "A cloth that should slide off"};
+  if (!s.panels.empty()) chart.snapshots.push_back(std::move(s));
+  return chart;
+}
+
+}  // namespace crosscheck

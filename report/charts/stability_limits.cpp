@@ -1,0 +1,129 @@
+// Largest stable steps: by theory and as measured.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "experiments/cells.h"
+#include "experiments/stability/trial.h"
+#include "report/charts/stability_parts.h"
+#include "report/findings_text.h"
+#include "report/limits_told.h"
+
+namespace crosscheck {
+namespace {
+
+/// The word for what became of a run; empty where there was none.
+std::string fate_text(const std::string& verdict) {
+  if (verdict.empty()) return "";
+  return verdict == "ok" ? "holds" : verdict == "unsupported" ? "cannot" : failure_word(verdict);
+}
+
+/// Rows of one scene as people read them.
+PageTable limits_table(const Table& table, const std::string& scene) {
+  PageTable page{fmt::format("The largest stable step on {}.", scene),
+                 {"method", "by theory", "as measured", "apart", "a twentieth above", "why apart"},
+                 {}};
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    if (text_at(table, i, "scene") != scene) continue;
+    const std::string &theory = text_at(table, i, "prediction"), &found = text_at(table, i, "measurement");
+    if (found == "unsupported") {
+      page.rows.push_back({text_at(table, i, "method"), "", "cannot", "", "", text_at(table, i, "reason")});
+      continue;
+    }
+    const auto predicted = number_at(table, i, "predicted limit"), measured = number_at(table, i, "measured limit"),
+               off = number_at(table, i, "deviation");
+    page.rows.push_back({text_at(table, i, "method"),
+                         theory == "limit"  ? step_text(*predicted)
+                         : theory == "none" ? "no theory"
+                                            : theory,
+                         measured                          ? step_text(*measured)
+                         : found == "held up to a refusal" ? "at least " + step_text(number_at(table, i, "held", 0))
+                                                           : found,
+                         off ? apart_text(*off) : "", fate_text(text_or_none(table, i, "verdict above")),
+                         text_or_none(table, i, "reason")});
+  }
+  return page;
+}
+
+/// How long the runs were, and how finely they found what they looked for.
+std::string effort_text(const Table& table) {
+  double shortest = INFINITY, longest = 0, finest = INFINITY, coarsest = 0;
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    if (text_at(table, i, "measurement") == "unsupported") continue;
+    const double steps = run_of_trial(1, static_cast<long>(*number_at(table, i, "steps"))).duration;
+    shortest = std::min(shortest, steps), longest = std::max(longest, steps);
+    const auto held = number_at(table, i, "held"), failed = number_at(table, i, "failed");
+    if (!held || !failed) continue;
+    finest = std::min(finest, *failed / *held - 1), coarsest = std::max(coarsest, *failed / *held - 1);
+  }
+  std::string text;
+  if (longest > 0)
+    text = fmt::format(" Runs took {} steps.", range(fmt::format("{:.0f}", shortest), fmt::format("{:.0f}", longest)));
+  if (coarsest > 0)
+    text += fmt::format(" In the end what failed was longer than what held by {} %.",
+                        range(fmt::format("{:.2g}", 100 * finest), fmt::format("{:.2g}", 100 * coarsest)));
+  return text;
+}
+
+constexpr double lowest_drawn = 0.05;  // %
+
+/// Size of the deviation of every method on every scene that theory has a limit for; no curves where there is none.
+Figure deviations(const Table& table, const std::string& commit) {
+  Figure f;
+  f.name = "stability-limits";
+  f.title = "Largest stable step: measurement beside theory";
+  f.x = {"", false, std::nullopt, std::nullopt};
+  f.y = {"difference from theory / %", true, std::nullopt, std::nullopt};
+  std::map<std::string, int> scene_at;
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    const auto off = number_at(table, i, "deviation");
+    if (!off) continue;
+    const std::string &scene = text_at(table, i, "scene"), &method = text_at(table, i, "method");
+    if (scene_at.try_emplace(scene, static_cast<int>(scene_at.size())).second)
+      f.categories.emplace_back(scene_at[scene], scene);
+    auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
+    if (curve == f.curves.end()) {
+      f.curves.push_back({method, style_of(method), {}, false, true});
+      curve = f.curves.end() - 1;
+    }
+    curve->points.emplace_back(scene_at[scene], std::max(lowest_drawn, 100 * std::abs(*off)));
+  }
+  // side by side, so that no marker hides another
+  for (size_t c = 0; c < f.curves.size(); ++c)
+    for (auto& point : f.curves[c].points)
+      point.first += 0.6 * ((static_cast<double>(c) + 0.5) / static_cast<double>(f.curves.size()) - 0.5);
+  f.x.low = -0.5, f.x.high = static_cast<double>(f.categories.size()) - 0.5;
+  f.floor = {"1 %", 1};
+  for (const LimitsTold& told : limits_told(table)) f.finding += (f.finding.empty() ? "" : " ") + told.sentence;
+  f.caption = fmt::format(
+      "Differences below {} % are drawn there; rows in which only one of the two is a step stand in the tables. Theory "
+      "looks at small motion about rest, or about the start where a scene has no rest; commit {}.",
+      lowest_drawn, commit);
+  return f;
+}
+
+}  // namespace
+
+std::vector<Chart> limit_charts(const Table& stability, const std::string& commit) {
+  if (stability.rows.empty()) return {};
+  Figure f = deviations(stability, commit);
+  Chart chart{
+      "", std::monostate{}, "stability",
+      "Theory takes the scene's Jacobian, its eigenvalues, and for each of them the step at which the method "
+      "begins to grow; the least of these steps is the limit. The measurement runs the method, from rest and "
+      "kicked by some hundred-millionths of the shortest spring, or from the start where the scene has no rest, "
+      "and halves the way between a step that holds and one that fails. It shares with theory the shape of the "
+      "vibration that binds: that one is kicked most, and where the rule multiplies it by one factor in every "
+      "step its growth is judged, beside that of all motion. The step at which it begins to grow it is not "
+      "told." +
+          effort_text(stability),
+      f.title};
+  for (const std::string& scene : distinct(stability, "scene")) chart.tables.push_back(limits_table(stability, scene));
+  // a method without theory has a limit all the same: it stands in the tables
+  if (!f.curves.empty()) chart.figure = std::move(f);
+  return {std::move(chart)};
+}
+
+}  // namespace crosscheck

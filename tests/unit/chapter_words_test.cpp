@@ -1,0 +1,160 @@
+// Sentences and charts of the chapters on stability, energy and the least model, from tables made by hand: they say
+// what the rows say, also where rows contradict theory, fail or are missing.
+#include "report/charts/charts.h"
+#include "report/findings.h"
+#include "report/grid_powers.h"
+#include "report/limits_told.h"
+#include "tests/unit/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+using Row = std::vector<Cell>;
+
+Table table_of(const std::string& name, const std::vector<std::string>& columns, std::vector<Row> rows) {
+  Table t{name, {}, {}};
+  for (const std::string& column : columns) t.columns.push_back({column, "1"});
+  for (Row& row : rows) t.add(std::move(row));
+  return t;
+}
+Rows rows_of(std::vector<Table> tables) {
+  Rows rows;
+  for (const Table& t : tables) rows.add(t);
+  return rows;
+}
+std::vector<Chart> charts_of(std::vector<Chart> (*make)(const ChartInput&), const Rows& rows) {
+  const std::vector<Scene> scenes;
+  const std::vector<SceneFacts> facts;
+  return make({scenes, facts, rows, "commit"});
+}
+
+Table stability(std::vector<Row> rows) {
+  return table_of("stability",
+                  {"scene", "method", "state", "prediction", "predicted limit", "measurement", "measured limit", "held",
+                   "failed", "deviation", "verdict above", "steps", "reason"},
+                  std::move(rows));
+}
+Row limit_row(const std::string& method, double predicted, double held, double failed, const std::string& scene = "s",
+              const std::string& state = "rest") {
+  const double limit = std::sqrt(held * failed);
+  return {scene,    method, state, "limit", predicted, "limit", limit, held, failed, limit / predicted - 1,
+          "energy", 4000l,  ""};
+}
+Row words_row(const std::string& method, const std::string& theory, Cell predicted, const std::string& run, Cell held,
+              Cell failed) {
+  return {"s",    method, "rest", theory, std::move(predicted), run, Cell(), std::move(held), std::move(failed),
+          Cell(), Cell(), 4000l,  ""};
+}
+
+TEST(ChapterWords, MethodsThatBreakWhereTheorySaysAgree) {
+  const Rows rows =
+      rows_of({stability({limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3),
+                          words_row("mysim/xpbd", "every step", Cell(), "every step tried", 1., Cell())})});
+  const auto findings = stability_findings(rows);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].topic, "agreement");
+  EXPECT_TRUE(begins(findings[0].sentence, "Where methods break is where theory says: 1 measured largest stable step"));
+}
+
+TEST(ChapterWords, ContradictionsAreCountedAndNamed) {
+  const Rows rows = rows_of({stability(
+      {limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3), limit_row("mysim/explicit-euler", 1e-6, 4.99e-5, 5.01e-5),
+       limit_row("mysim/implicit-midpoint", 1e-3, 0.9e-3, 1.35e-3),  // coarse
+       words_row("mysim/leapfrog", "limit", 1e-3, "no stable step", Cell(), 1e-6),
+       words_row("bullet/pbd", "limit", 1e-3, "every step tried", 1., Cell()),
+       words_row("bullet/x", "limit", 1., "held up to a refusal", 0.5, Cell())})});  // not told
+  const auto findings = stability_findings(rows);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].topic, "failure");
+  EXPECT_TRUE(begins(findings[0].sentence, "Not every method breaks where theory says: 1 measured"));
+  EXPECT_TRUE(contains(findings[0].sentence, "1 searched coarsely has"));
+  EXPECT_TRUE(contains(findings[0].sentence,
+                       "3 lie elsewhere: mysim/explicit-euler on s (50 times as long), "
+                       "mysim/leapfrog on s (fails at every step tried, by theory up to 1 ms) and "
+                       "bullet/pbd on s (holds at every step tried, by theory up to 1 ms)."));
+}
+
+TEST(ChapterWords, LimitsWithoutTheoryStandInATableWithoutFigure) {
+  Table t = stability({});
+  t.add({"s", "bullet/pbd", "rest", "none", Cell(), "limit", 0.33, 0.329, 0.331, Cell(), "energy", 4000l, "its own"});
+  const auto charts = charts_of(stability_charts, rows_of({t}));
+  ASSERT_EQ(charts.size(), 1u);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(charts[0].figure));
+  ASSERT_EQ(charts[0].tables.size(), 1u);
+  const std::vector<std::string> expected{"bullet/pbd", "no theory", "330 ms", "", "blew up", "its own"};
+  EXPECT_EQ(charts[0].tables[0].rows.at(0), expected);
+  EXPECT_TRUE(contains(charts[0].text, "Runs took 4000 steps."));
+}
+
+Table energy(std::vector<Row> rows) {
+  return table_of("energy",
+                  {"scene", "method", "verdict", "end", "steps", "undamped", "symplectic", "closure claimed",
+                   "energy turned over", "largest residual", "residual", "growth of the residual"},
+                  std::move(rows));
+}
+
+TEST(ChapterWords, DriftIsComputedAndFailedRunsAreSaid) {
+  const Row kept{"spring", "mysim/leapfrog", "ok", 100., 20000l, 1l, 1l, 1l, 4., 4e-3, -4e-3, 0.01},
+      drifts{"spring", "mysim/symplectic-euler", "ok", 100., 20000l, 1l, 1l, 1l, 4., 0.04, -0.04, 0.98},
+      fails{"spring", "mysim/suzuki4", "stretch", 3., 3000l, 1l, 1l, 1l, 4., 40., 40., 2.};
+  auto findings = energy_findings(rows_of({energy({kept})}));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].sentence,
+            "In runs of 20000 steps symplectic rules keep the energy to 0.1 % of what is turned over, without drift.");
+  findings = energy_findings(rows_of({energy({kept, drifts, fails})}));
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].topic, "failure");
+  EXPECT_TRUE(contains(findings[0].sentence, "mysim/suzuki4 on spring (overstretched at 3 s)"));
+  EXPECT_TRUE(contains(findings[1].sentence, "not all without drift: mysim/symplectic-euler on spring (drifts down)"));
+}
+
+TEST(ChapterWords, DampingNamesWhoWasAsked) {
+  const Table t = table_of("energy-damping", {"method", "h omega", "equivalent drag", "by theory"},
+                           {{"bullet/pbd", 0.1, 0.995, 0.99503}, {"bullet/pbd", 1., 6.93, 6.9315}});
+  const auto findings = energy_findings(rows_of({t}));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_TRUE(begins(findings[0].sentence,
+                     "bullet/pbd damps by itself: at a tenth of a radian per step like a drag of "
+                     "0.10 ω, as theory says to 0.0"));
+  EXPECT_TRUE(contains(words_of(charts_of(energy_charts, rows_of({t})).at(0))->finding, "in 2 measurements"));
+  const Table none = table_of("energy-damping", {"method", "h omega", "equivalent drag", "by theory"},
+                              {{"bullet/deformable-explicit", 0.1, 1e-9, 0.}});
+  EXPECT_TRUE(energy_findings(rows_of({none})).empty());
+  EXPECT_TRUE(begins(words_of(charts_of(energy_charts, rows_of({none})).at(0))->finding, "By theory none of"));
+}
+
+Table resolution(std::vector<Row> rows) {
+  return table_of("adequacy-resolution",
+                  {"scene", "particles along a side", "cells", "error against the finest", "sag",
+                   "stiffness factor for the finest's sag", "verdict"},
+                  std::move(rows));
+}
+
+TEST(ChapterWords, GridsWhoseFinestRunFailsKeepTheirTable) {
+  const auto charts =
+      charts_of(adequacy_charts, rows_of({resolution({{"flag", 8l, 7., Cell(), Cell(), Cell(), "ok"},
+                                                      {"flag", 16l, 15., Cell(), Cell(), Cell(), "stretch"}})}));
+  ASSERT_EQ(charts.size(), 1u);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(charts[0].figure));
+  EXPECT_EQ(charts[0].tables.at(0).rows.at(0), (std::vector<std::string>{"8", "no rest"}));
+  EXPECT_TRUE(contains(charts[0].text, "Runs that failed: flag with 16 particles along a side (overstretched)."));
+}
+
+TEST(ChapterWords, BendSpringsStiffenByTheirNumberAndTheRestIsSaidToBeUnexplained) {
+  const auto bending = [](double shift) {  // k goes as the fourth power of particles - shift
+    Table t = table_of("adequacy-bending", {"particles along a line", "cells", "stiffness of bend springs"}, {});
+    for (const long n : {8l, 10l, 12l, 16l})
+      t.add({n, static_cast<double>(n) - 1.5, std::pow(static_cast<double>(n) - shift, 4)});
+    return t;
+  };
+  const Table power = table_of("adequacy-scaling", {"scene", "quantity", "exponent", "standard error"},
+                               {{"", std::string(stiffness_for_droop), 4.24, 0.03}});
+  EXPECT_TRUE(contains(bend_sentence(rows_of({bending(2), power})), "4.00 ± 0.00: nearly all of the difference"));
+  EXPECT_TRUE(contains(bend_sentence(rows_of({bending(2.2), power})), "only a part of the difference"));
+  EXPECT_TRUE(contains(bend_sentence(rows_of({bending(4), power})), "The difference is not explained."));
+  EXPECT_EQ(bend_sentence({}), "");
+}
+
+}  // namespace
+}  // namespace crosscheck
