@@ -102,8 +102,8 @@ TEST(SphereExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoBall) {
   const std::vector<Finding> findings = sphere_findings(rows);
   ASSERT_EQ(findings.size(), 3u);
   EXPECT_TRUE(contains(findings[0].sentence, "mysim/symplectic-euler in 72 of 72"));
-  EXPECT_TRUE(contains(findings[1].sentence, "bullet/pbd still holds it, creeping at"));
-  EXPECT_TRUE(contains(findings[1].sentence, "+sticky still holds it"));
+  EXPECT_TRUE(contains(findings[1].sentence, "with bullet/pbd it still touches, sliding at"));
+  EXPECT_TRUE(contains(findings[1].sentence, "+sticky it still touches, sliding at"));
   EXPECT_TRUE(energy_findings(rows).empty());
 
   const Table& cone = *rows.table("sphere-cone");
