@@ -82,7 +82,9 @@ int run(int argc, char** argv) {
 
   ExperimentOptions experiment_options;
   auto* experiment = app.add_subcommand("experiment", "runs experiments and writes their tables");
-  experiment->add_option("NAME", experiment_options.names, "experiments, then scenes (default: those that stand for the others; all with --full)")
+  experiment
+      ->add_option("NAME", experiment_options.names,
+                   "experiments, then scenes (default: those that stand for the others; all with --full)")
       ->required();
   experiment->add_option("--methods", experiment_options.methods, "A,B,...");
   experiment->add_option("--out", experiment_options.out, "folder (out/experiment)");
