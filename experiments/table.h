@@ -27,7 +27,7 @@ struct Table {
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
 
-  void add(std::vector<Cell> row);            // of as many cells as columns
+  void add(std::vector<Cell> row);            // throws std::logic_error where it has not as many cells as columns
   int column(const std::string& name) const;  // throws std::out_of_range with the name
   const Cell& at(size_t row, const std::string& column) const { return rows[row][this->column(column)]; }
 };
