@@ -33,7 +33,7 @@ std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run&
     const Setting setting{false, plan({run.step * std::pow(2, halving), run.duration, run.samples}).h};
     if (setting.value == last) continue;
     last = setting.value;
-    const double most = full ? 1.5 : halving >= 0 ? 1.2 : 0.35;
+    const double most = full || halving >= 0 ? 1.2 : 0.35;
     if (estimated_seconds(method, scene, setting.applied_to(run)) > most) {
       if (dropped) ++*dropped;
       continue;
