@@ -19,7 +19,8 @@ finish() {
   [ -f "$work/slurmd.pid" ] && kill "$(cat "$work/slurmd.pid")" 2>/dev/null
   [ -f "$work/slurmctld.pid" ] && kill "$(cat "$work/slurmctld.pid")" 2>/dev/null
   [ -n "${munge_pid:-}" ] && kill "$munge_pid" 2>/dev/null
-  rm -rf "$work"
+  # the daemons write to it until they have ended
+  for _ in $(seq 50); do rm -rf "$work" 2>/dev/null && return; sleep 0.2; done
 }
 trap finish EXIT
 
