@@ -29,6 +29,11 @@ inline std::optional<double> number_at(const Table& table, size_t row, const std
 inline double number_at(const Table& table, size_t row, const std::string& column, double otherwise) {
   return number_at(table, row, column).value_or(otherwise);
 }
+/// False where the cell is empty.
+inline bool flag_at(const Table& table, size_t row, const std::string& column) {
+  const auto* flag = std::get_if<long>(&table.at(row, column));
+  return flag && *flag != 0;
+}
 /// The texts of a column, each once, in the order in which they come first.
 inline std::vector<std::string> distinct(const Table& table, const std::string& column) {
   std::vector<std::string> all;

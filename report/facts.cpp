@@ -20,6 +20,10 @@ std::string failure_word(const std::string& verdict) {
   return "blew up";
 }
 
+std::string failure_or_cannot(const std::string& verdict) {
+  return verdict == "unsupported" ? "cannot" : failure_word(verdict);
+}
+
 const MethodFacts* SceneFacts::find(const std::string& method) const {
   for (const MethodFacts& m : methods)
     if (m.method == method) return &m;

@@ -11,6 +11,8 @@ namespace crosscheck {
 
 /// "blew up", "solver gave up", "froze": what a verdict other than ok says of a run, as the table writes it.
 std::string failure_word(const std::string& verdict);
+/// "cannot" where the method does not take the scene, else the word for its failure.
+std::string failure_or_cannot(const std::string& verdict);
 
 struct MethodFacts {
   std::string method, verdict, reason, different_law;

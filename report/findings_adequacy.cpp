@@ -15,7 +15,7 @@ void least_models(const Table& t, std::vector<Finding>& out) {
   for (size_t i = 0; i < t.rows.size(); ++i) {
     const std::string scene = text_at(t, i, "scene"), gone = text_at(t, i, "left out"),
                       is = text_at(t, i, "tolerance is");
-    const bool holds = std::get<long>(t.at(i, "holds")) > 0;
+    const bool holds = flag_at(t, i, "holds");
     if (is == "the scene's own") {
       if (!holds)
         unsure.push_back(scene);

@@ -39,11 +39,11 @@ void drift(const Table& table, std::vector<Finding>& out) {
   long fewest = std::numeric_limits<long>::max(), most = 0;
   std::vector<std::string> drifting, failed;
   for (size_t i = 0; i < table.rows.size(); ++i) {
-    if (std::get<long>(table.at(i, "undamped")) == 0 || std::get<long>(table.at(i, "closure claimed")) == 0) continue;
+    if (!flag_at(table, i, "undamped") || !flag_at(table, i, "closure claimed")) continue;
     const double turned = number_at(table, i, "energy turned over", 0);
     if (!(turned > 0)) continue;  // at rest, or left out
     if (scene.empty()) scene = text_at(table, i, "scene");
-    if (std::get<long>(table.at(i, "symplectic")) == 0) continue;
+    if (!flag_at(table, i, "symplectic")) continue;
     const std::string who = fmt::format("{} on {}", text_at(table, i, "method"), text_at(table, i, "scene")),
                       what = residual_word(table, i);
     if (text_at(table, i, "verdict") != "ok") {

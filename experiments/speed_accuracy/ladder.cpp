@@ -46,7 +46,7 @@ std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run&
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting) {
   Run run = setting.applied_to(base);
   const double enough = 0.02;  // s: a hundred thousand ticks of the clock
-  const double share = std::min(1., enough / estimated_seconds(method, scene, setting.applied_to(base)));
+  const double all_of_it = estimated_seconds(method, scene, run), share = std::min(1., enough / all_of_it);
   if (!method.fingerprint.empty()) return {run};  // a program of its own: what its start costs is not known
   const bool whole = share > 0.7 || scene.model.find<Spheres>();  // touching may cost more than falling
   if (method.adaptive) {
@@ -58,8 +58,8 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
   // the clock is read at each sample, which takes 0.3 microseconds: one in 100 is often enough to tell a blow-up
   const long all = static_cast<long>(plan(run).steps_per_sample) * run.samples;
   long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
-  const double seconds = share * estimated_seconds(method, scene, setting.applied_to(base));
-  const int samples = std::clamp(static_cast<int>(seconds / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
+  const int samples =
+      std::clamp(static_cast<int>(share * all_of_it / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
   steps = steps / samples * samples;
   return {{plan(run).h, plan(run).h * static_cast<double>(steps), samples},
           static_cast<double>(steps) / static_cast<double>(all)};

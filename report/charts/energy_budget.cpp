@@ -31,7 +31,7 @@ std::optional<Chart> budget_chart(const Table& table, const std::string& scene, 
   std::vector<size_t> shown;
   std::string failed;
   for (size_t i = 0; i < table.rows.size(); ++i) {
-    if (text_at(table, i, "scene") != scene || !has(table, i, "kinetic")) continue;
+    if (text_at(table, i, "scene") != scene || !number_at(table, i, "kinetic")) continue;
     if (flag_at(table, i, "undamped")) return std::nullopt;
     if (text_at(table, i, "verdict") == "ok")
       shown.push_back(i);

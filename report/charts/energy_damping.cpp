@@ -33,7 +33,7 @@ Chart damping_chart(const Table& table, const std::string& commit) {
   for (const std::string& method : distinct(table, "method")) {
     Curve curve{method, style_of(method), {}, false, true};
     for (size_t i = 0; i < table.rows.size(); ++i) {
-      if (text_at(table, i, "method") != method || !has(table, i, "equivalent drag")) continue;
+      if (text_at(table, i, "method") != method || !number_at(table, i, "equivalent drag")) continue;
       const double rate = number_at(table, i, "equivalent drag", 0), theory = number_at(table, i, "by theory", 0),
                    size = number_at(table, i, "h omega", 0);
       if (theory > 0) {
@@ -41,7 +41,7 @@ Chart damping_chart(const Table& table, const std::string& commit) {
         if (damped.empty() || damped.back() != method) damped.push_back(method);
       }
       // what theory puts at zero is the slope of an oscillation, that is noise
-      if (has(table, i, "by theory") ? theory > 0 && rate > 0 : rate > 1e-3)
+      if (number_at(table, i, "by theory") ? theory > 0 && rate > 0 : rate > 1e-3)
         curve.points.emplace_back(size, rate / omega);
     }
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));

@@ -38,7 +38,7 @@ Chart drift_chart(const Table& table, const Table& rows, const std::string& scen
       page.rows.push_back({method, "", "cannot: " + text_at(table, i, "reason"), "", "", ""});
       continue;
     }
-    if (!flag_at(table, i, "closure claimed") || !has(table, i, "energy turned over")) {
+    if (!flag_at(table, i, "closure claimed") || !number_at(table, i, "energy turned over")) {
       page.rows.push_back({method, nice(number_at(table, i, "step", 0)), "no closure claimed", "", "", ""});
       continue;
     }

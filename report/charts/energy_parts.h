@@ -3,20 +3,10 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 
 #include "report/charts/charts.h"
 
 namespace crosscheck {
-
-/// False where the cell is empty.
-inline bool flag_at(const Table& table, size_t row, const std::string& column) {
-  const auto* flag = std::get_if<long>(&table.at(row, column));
-  return flag && *flag != 0;
-}
-inline bool has(const Table& table, size_t row, const std::string& column) {
-  return std::holds_alternative<double>(table.at(row, column));
-}
 
 /// The longest time and its steps, of any run of the scene: "100 s, up to 100000 steps of 0.001 s".
 std::string length_text(const Table& energy, const std::string& scene);

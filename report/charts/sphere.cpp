@@ -82,10 +82,6 @@ std::string broken_symmetry(const Table& table) {
 
 }  // namespace
 
-std::string failure_or_cannot(const std::string& verdict) {
-  return verdict == "unsupported" ? "cannot" : failure_word(verdict);
-}
-
 double usual_step(const Table& table) {
   double best = 0;
   for (size_t i = 0; i < table.rows.size(); ++i)

@@ -103,7 +103,7 @@ PageTable drape_table(const Table& table, const std::string& scene) {
       const auto value = number_at(table, i, column);
       return value ? nice(factor * *value) : std::string(otherwise);
     };
-    const bool inferred = std::get<long>(table.at(i, "contact inferred")) != 0;
+    const bool inferred = flag_at(table, i, "contact inferred");
     page.rows.push_back({method, nice(*number_at(table, i, "step")), said("settled after", 1, "not at rest"),
                          said("centre height", 1, ""), said("centre moved aside", 1e3, ""),
                          said("creep", 1e3, "off the ball"),

@@ -9,9 +9,6 @@
 
 namespace crosscheck {
 
-/// "cannot", or the word for a failure.
-std::string failure_or_cannot(const std::string& verdict);
-
 /// The step of the table that is nearest to a millisecond, s.
 double usual_step(const Table& table);
 

@@ -17,7 +17,7 @@ namespace {
 /// The word for what became of a run; empty where there was none.
 std::string fate_text(const std::string& verdict) {
   if (verdict.empty()) return "";
-  return verdict == "ok" ? "holds" : verdict == "unsupported" ? "cannot" : failure_word(verdict);
+  return verdict == "ok" ? "holds" : failure_or_cannot(verdict);
 }
 
 /// Rows of one scene as people read them.

@@ -79,6 +79,10 @@ class Builder {
  public:
   Builder(const ReportOptions& options, Request request)
       : options_(options), request_(std::move(request)), figures_(options.out / "figures") {
+    for (const Experiment& e : experiments()) {
+      requests_.push_back(request_);
+      requests_.back().scenes = scenes_for(e, options.scenes, options.full);
+    }
     page_.provenance = with_scenes(provenance(options.command_line), scenes_of_all());
     fs::create_directories(figures_);
     page_.chapters = chapters();
@@ -88,11 +92,9 @@ class Builder {
     Plan plan{{}, {}, page_.provenance};
     std::vector<Point> points = picture_points();  // the longest first
     const size_t pictures = points.size();
-    for (const Experiment& e : experiments()) {
-      Request request = request_;
-      request.scenes = scenes_for(e, options_.scenes, options_.full);
-      plan.experiments.emplace_back(e.name);
-      for (Point& point : e.points(request)) points.push_back(std::move(point));
+    for (size_t e = 0; e < requests_.size(); ++e) {
+      plan.experiments.emplace_back(experiments()[e].name);
+      for (Point& point : experiments()[e].points(requests_[e])) points.push_back(std::move(point));
     }
     for (size_t i = pictures; i < points.size(); ++i) plan.points.push_back({points[i].name, points[i].hash()});
     compute(points);
@@ -143,10 +145,10 @@ class Builder {
   /// Every scene that some experiment looks at.
   std::vector<Scene> scenes_of_all() const {
     std::vector<Scene> all = request_.scenes;
-    for (const Experiment& e : experiments())
-      for (Scene& scene : scenes_for(e, options_.scenes, options_.full))
+    for (const Request& request : requests_)
+      for (const Scene& scene : request.scenes)
         if (std::none_of(all.begin(), all.end(), [&](const Scene& s) { return s.name == scene.name; }))
-          all.push_back(std::move(scene));
+          all.push_back(scene);
     return all;
   }
 
@@ -257,7 +259,8 @@ class Builder {
   }
 
   const ReportOptions& options_;
-  Request request_;
+  Request request_;                // of the scenes that have a part of their own
+  std::vector<Request> requests_;  // one per experiment, with the scenes that it looks at
   fs::path figures_;
   Store store_{store_in(options_.out)};
   Rows rows_;
