@@ -49,15 +49,19 @@ std::vector<std::vector<double>> timed_in_turns(std::span<const std::function<do
   std::vector<std::vector<double>> times(runs.size());
   std::vector<size_t> telling;
   for (size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i]() > 0)
+    const double first = runs[i]();
+    if (first > 0)
       telling.push_back(i);
     else
       times[i] = {0};
+    if (first >= plan.warm) times[i] = {first};
   }
   for (int round = 0; round < plan.most; ++round)
     for (const size_t i : telling) {
       const double spent = std::accumulate(times[i].begin(), times[i].end(), 0.);
-      if (round < plan.least || spent < plan.enough) times[i].push_back(once(runs[i], plan.resolution));
+      const auto repetitions = static_cast<int>(times[i].size());
+      if (repetitions < plan.least || (repetitions < plan.most && spent < plan.enough))
+        times[i].push_back(once(runs[i], plan.resolution));
     }
   return times;
 }

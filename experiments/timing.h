@@ -25,10 +25,11 @@ struct TimingPlan {
   int least = 5, most = 11;    // repetitions of each run
   double enough = 0.2;         // s: a run that has taken as much is repeated `least` times only
   double resolution = 100e-6;  // s: shorter runs are repeated within a repetition until they have taken as much
+  double warm = 0.5;           // s: a run that takes as much the first time has warmed up by itself: that time counts
 };
 
 /// Times of every repetition of every run. A run does its work once and says what CPU time it took, s; first each is
-/// run once unmeasured, then one after the other, round by round, so that a slow spell of the machine falls on all.
+/// run once to warm up, then one after the other, round by round, so that a slow spell of the machine falls on all.
 /// What says 0 there tells no time (a program that keeps no clock, a method that refused): it is not asked again, and
 /// its only time is 0.
 std::vector<std::vector<double>> timed_in_turns(std::span<const std::function<double()>> runs, const TimingPlan& plan);

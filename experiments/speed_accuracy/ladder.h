@@ -18,7 +18,7 @@ struct Setting {
 /// Fixed steps, halved from 8 times the run's step down to a 16th of it; rules without a finite stability limit, and
 /// those of which none is known, begin at 64 times. Steps longer than the sampling interval are one and the same: that
 /// one. Tolerances from 1e-2 to 1e-8 (full: 1e-10). Left out is what, by an estimate that is the same on every machine,
-/// would take more than 0.35 s of CPU time (1.2 s at the run's own step and longer ones, and at all where `full`);
+/// would take more than 0.35 s of CPU time (full: 0.6 s; at the run's own step and longer ones 1.2 s);
 /// `dropped` counts those.
 std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run& run, bool full,
                             int* dropped = nullptr);
@@ -28,8 +28,8 @@ struct TimedPart {
   Run run;
   double share = 1;  // of the run's steps or samples
 };
-/// As much as takes about 20 ms by the estimate. The whole run where something may be touched (that may cost more than
-/// falling), and of outside programs.
+/// As much as takes about 20 ms by the estimate, or, of adaptive methods, by how the run begins. The whole run where
+/// something may be touched (that may cost more than falling), and of outside programs.
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting);
 
 }  // namespace crosscheck

@@ -107,8 +107,8 @@ std::optional<MapSize> map_size(const Method& method, const Scene& scene, bool f
   if (!full) return few ? MapSize{9, 12, 300, false} : MapSize{7, 9, 300, false};
   for (MapSize size : {MapSize{17, 25, 1000, false}, MapSize{9, 12, 1000, false}, MapSize{7, 9, 300, false}}) {
     const double cost = estimated_seconds(method, scene, size.steps * size.rows * size.columns);
-    size.check = cost < 1;  // tenfold
-    if (cost < 10) return size;
+    size.check = cost < 0.1;  // tenfold, and tiny scenes cost more than the estimate
+    if (cost < 4) return size;
   }
   return std::nullopt;
 }

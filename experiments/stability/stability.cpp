@@ -82,8 +82,8 @@ bool mapped(const Request& request, const Method& method) {
 
 Effort effort_for(const Method& method, const Scene& scene, bool full) {
   if (full) {
-    // a bisection takes about 25 runs: as long as 5 s pay for
-    const long steps = std::lround(5. / 25 / estimated_seconds(method, scene, 1));
+    // a bisection takes about 25 runs: as long as 1 s pays for
+    const long steps = std::lround(1. / 25 / estimated_seconds(method, scene, 1));
     if (steps < 500) return {100, 0.5};
     return {std::min(20000L, steps), steps < 4000 ? 0.005 : 0.001};
   }

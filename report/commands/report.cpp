@@ -112,7 +112,7 @@ class Builder {
     page_.findings = overall_findings(request_.scenes, facts_, rows_);
     for (size_t i = 0; i < request_.scenes.size(); ++i) add_part(request_.scenes[i], facts_[i]);
     charts_ = all_charts({request_.scenes, facts_, rows_, value_of(page_.provenance, "commit")});
-    take_snapshots();
+    draw_charts();
     for (const Chart& chart : charts_) add(chart);
     // beside the answer stands the last scene that Bullet answers too
     const ScenePart* shown = nullptr;
@@ -211,9 +211,14 @@ class Builder {
 
   fs::path file_of(const Snapshot& s) const { return figures_ / (file_name_of(s.name) + ".png"); }
 
-  void take_snapshots() {
+  /// Figures, and the pictures beside them.
+  void draw_charts() {
     std::vector<Point> points;
-    for (const Chart& chart : charts_)
+    for (const Chart& chart : charts_) {
+      if (const FigureWords* words = words_of(chart))
+        points.push_back({"figure: " + words->name, words->name, [this, &chart](Rows&) {
+                            std::visit([this](const auto& figure) { draw_if_any(figure); }, chart.figure);
+                          }});
       for (const Snapshot& s : chart.snapshots)
         points.push_back(
             {"picture: " + s.name, content_of(request_, s.scene), [this, &s](Rows&) {
@@ -227,6 +232,7 @@ class Builder {
                }
                write_picture(s.scene, shown, s.shot, file_of(s));
              }});
+    }
     if (!points.empty()) compute(points);
   }
 
@@ -234,13 +240,8 @@ class Builder {
     Chapter::Entry entry{chart.heading, chart.text, {}, chart.tables};
     if (const FigureWords* words = words_of(chart)) {
       if (entry.heading.empty()) entry.heading = words->title;
-      try {
-        std::visit([this](const auto& figure) { draw_if_any(figure); }, chart.figure);
-        entry.images.push_back({figures_ / (words->name + ".svg"), words->title + ". " + words->finding,
-                                words->finding + " " + words->caption});
-      } catch (const std::exception& error) {
-        page_.problems.push_back(fmt::format("figure {}: {}", words->name, error.what()));
-      }
+      if (const fs::path file = figures_ / (words->name + ".svg"); fs::exists(file))
+        entry.images.push_back({file, words->title + ". " + words->finding, words->finding + " " + words->caption});
     }
     for (const Snapshot& s : chart.snapshots)
       if (fs::exists(file_of(s))) entry.images.push_back({file_of(s), s.caption, s.caption});
