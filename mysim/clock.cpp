@@ -14,8 +14,12 @@ double now() {
 
 }  // namespace
 
-void CpuClock::start() { begin_ = now(); }
+void CpuClock::start() {
+  if (runs_) begin_ = now();
+}
 
-void CpuClock::stop() { total_ += now() - begin_; }
+void CpuClock::stop() {
+  if (runs_) total_ += now() - begin_;
+}
 
 }  // namespace crosscheck

@@ -3,14 +3,16 @@
 
 namespace crosscheck {
 
-/// Adds up the thread's CPU time between start() and stop().
+/// Adds up the thread's CPU time between start() and stop(); one that does not run says 0.
 class CpuClock {
  public:
+  explicit CpuClock(bool runs = true) : runs_(runs) {}
   void start();
   void stop();
   double seconds() const { return total_; }
 
  private:
+  bool runs_;
   double begin_ = 0, total_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace crosscheck {
 Outcome march(World& world, const Run& run, Observer& observer) {
   const StepPlan steps = plan(run);
   const bool every_step = observer.every_step();
-  CpuClock clock;
+  CpuClock clock(run.timed);
   Outcome out;
   out.step = steps.h;
   out.verdict = observer.observe(world.state(0), true);

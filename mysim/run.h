@@ -31,6 +31,7 @@ struct Run {
   double duration;          // s
   int samples;              // frames after the first, at i duration / samples
   double tolerance = 1e-6;  // of adaptive methods: relative; absolute it is this times the scene's size
+  bool timed = true;        // whether CPU time is asked for; its clock costs as much as a step of a few particles
 };
 /// The scene's own step, duration and samples; adaptive methods keep to a hundredth of the scene's tolerance.
 Run default_run(const Scene& scene);

@@ -103,7 +103,9 @@ bool StepTrial::held() const {
 Run run_of_trial(double h, long steps) {
   constexpr long samples = 100;
   const long per_sample = std::max(1L, steps / samples);
-  return {h, h * static_cast<double>(per_sample * samples), samples};
+  Run run{h, h * static_cast<double>(per_sample * samples), samples};
+  run.timed = false;
+  return run;
 }
 
 Scene kicked(const Subject& subject, const Kick& kick) {
