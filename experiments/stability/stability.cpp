@@ -81,14 +81,14 @@ bool mapped(const Request& request, const Method& method) {
 }  // namespace
 
 Effort effort_for(const Method& method, const Scene& scene, bool full) {
-  if (full) {
-    // a bisection takes about 25 runs: as long as 1 s pays for
-    const long steps = std::lround(1. / 25 / estimated_seconds(method, scene, 1));
-    if (steps < 500) return {100, 0.5};
-    return {std::min(20000L, steps), steps < 4000 ? 0.005 : 0.001};
-  }
-  if (is_dear(method, scene)) return {100, 0.5};  // whether a step fails at all
-  return method.stepper || is_small(scene) ? Effort{4000, 0.002} : Effort{1000, 0.01};
+  const Effort least = is_dear(method, scene)              ? Effort{100, 0.5}  // whether a step fails at all
+                       : method.stepper || is_small(scene) ? Effort{4000, 0.002}
+                                                           : Effort{1000, 0.01};
+  if (!full) return least;
+  // a bisection takes about 25 runs: as long as 1 s pays for
+  const long steps = std::lround(1. / 25 / estimated_seconds(method, scene, 1));
+  if (steps <= least.steps) return least;
+  return {std::min(20000L, steps), std::min(least.precision, steps < 4000 ? 0.005 : 0.001)};
 }
 
 void limit_on(const Scene& scene, const Method& method, const Effort& effort, Rows& rows) {

@@ -151,6 +151,12 @@ TEST(Limits, AreSearchedAsFarAsTheirCostAllows) {
   EXPECT_EQ(effort_for(leapfrog, spring, true).steps, 20000);
   EXPECT_EQ(effort_for(leapfrog, spring, true).precision, 0.001);
   EXPECT_EQ(effort_for(find_method("implicit-midpoint"), cloth, true).precision, 0.5);
+  for (const Scene& scene : {spring, cloth, load_scene("cloth-sphere")})
+    for (const Method& method : {leapfrog, implicit, theirs, find_method("suzuki4")}) {
+      const Effort quick = effort_for(method, scene, false), full = effort_for(method, scene, true);
+      EXPECT_GE(full.steps, quick.steps) << method.name << " on " << scene.name;
+      EXPECT_LE(full.precision, quick.precision) << method.name << " on " << scene.name;
+    }
 }
 
 /// The row of a limit, and what the growth table holds.
