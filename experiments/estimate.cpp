@@ -28,6 +28,13 @@ double estimated_seconds(const Method& method, const Scene& scene, const Run& ru
   return evaluations * run.duration / plan(run).h * seconds_of_evaluation(method, scene);
 }
 
+double estimated_as_it_begins(const Method& method, const Scene& scene, Run run) {
+  const double part = 1. / run.samples;
+  run.duration *= part, run.samples = 1;
+  const auto evaluations = static_cast<double>(run_method(method, scene, run, {}).evaluations);
+  return evaluations / part * seconds_of_evaluation(method, scene);
+}
+
 double estimated_seconds(const Method& method, const Scene& scene, long steps) {
   return estimated_seconds(method, scene, {scene.step, scene.step * static_cast<double>(steps), 1});
 }

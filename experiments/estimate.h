@@ -12,4 +12,8 @@ double estimated_seconds(const Method& method, const Scene& scene, const Run& ru
 /// The same of so many steps of the scene's own.
 double estimated_seconds(const Method& method, const Scene& scene, long steps);
 
+/// The same of an adaptive method, whose steps are its own choice: as many evaluations per time as up to the
+/// first sample, which is run.
+double estimated_as_it_begins(const Method& method, const Scene& scene, Run run);
+
 }  // namespace crosscheck

@@ -33,7 +33,7 @@ std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run&
     const Setting setting{false, plan({run.step * std::pow(2, halving), run.duration, run.samples}).h};
     if (setting.value == last) continue;
     last = setting.value;
-    const double most = halving >= 0 ? 1.2 : full ? 0.6 : 0.35;
+    const double most = halving >= 0 ? 1.2 : 0.35;
     if (estimated_seconds(method, scene, setting.applied_to(run)) > most) {
       if (dropped) ++*dropped;
       continue;
@@ -43,23 +43,11 @@ std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run&
   return settings;
 }
 
-namespace {
-
-/// How many steps it takes is the method's own choice: as many per time as in the first fiftieth of the run, s.
-double seconds_as_it_begins(const Method& method, const Scene& scene, Run run) {
-  const int samples = std::max(1, run.samples / 50);
-  const double part = static_cast<double>(samples) / run.samples;
-  run.duration *= part, run.samples = samples;
-  return run_method(method, scene, run, {}).cpu_seconds / part;
-}
-
-}  // namespace
-
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting) {
   Run run = setting.applied_to(base);
   const double enough = 0.02;  // s: a hundred thousand ticks of the clock
   const double all_of_it =
-                   method.adaptive ? seconds_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run),
+                   method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run),
                share = std::min(1., enough / all_of_it);
   if (!method.fingerprint.empty()) return {run};  // a program of its own: what its start costs is not known
   const bool whole = share > 0.7 || scene.model.find<Spheres>();  // touching may cost more than falling

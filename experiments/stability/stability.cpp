@@ -85,8 +85,8 @@ Effort effort_for(const Method& method, const Scene& scene, bool full) {
                        : method.stepper || is_small(scene) ? Effort{4000, 0.002}
                                                            : Effort{1000, 0.01};
   if (!full) return least;
-  // a bisection takes about 25 runs: as long as 1 s pays for
-  const long steps = std::lround(1. / 25 / estimated_seconds(method, scene, 1));
+  // a bisection takes about 25 runs: as long as 0.5 s pay for
+  const long steps = std::lround(0.5 / 25 / estimated_seconds(method, scene, 1));
   if (steps <= least.steps) return least;
   return {std::min(20000L, steps), std::min(least.precision, steps < 4000 ? 0.005 : 0.001)};
 }
