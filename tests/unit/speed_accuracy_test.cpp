@@ -43,7 +43,7 @@ TEST(Timing, RunsTakeTurnsAndShortOnesAreRepeated) {
   const auto times = timed_in_turns(runs, {.least = 2, .most = 4, .enough = 1.5, .resolution = 1e-3});
   // once each to warm up, which a second of a's is enough for to count; then b thrice a turn, until it took 1 ms; a has
   // had enough after two
-  EXPECT_EQ(order, "ababbbbbbbbbbbbb");
+  EXPECT_EQ(order, "ababbbbbbbbbbbb");
   EXPECT_EQ(times[0], (std::vector<double>{1, 1}));
   ASSERT_EQ(times[1].size(), 4u);
   EXPECT_DOUBLE_EQ(times[1][0], 0.4e-3);
