@@ -175,20 +175,18 @@ void bending_on(const Request& request, Rows& rows) {
 }  // namespace
 
 std::vector<Point> adequacy_points(const Request& request) {
-  // the longest first: side by side, none is left that others must wait for
-  std::vector<Point> grids, points;
+  std::vector<Point> points;  // the longest first: side by side, none is left that others must wait for
   for (const Scene& scene : request.scenes) {
     if (!sheet_of(scene) || scene.model.find<Spheres>()) continue;
     Request alone = request;
     alone.scenes = {scene};
-    grids.push_back({fmt::format("adequacy: grids of {}", scene.name), content_of(request, scene) + scene.source,
-                     [alone = std::move(alone)](Rows& rows) { resolution_on(alone, alone.scenes[0], rows); }});
+    points.push_back({fmt::format("adequacy: grids of {}", scene.name), content_of(request, scene) + scene.source,
+                      [alone = std::move(alone)](Rows& rows) { resolution_on(alone, alone.scenes[0], rows); }});
   }
-  if (!grids.empty() && !request.scenes_only)
+  if (!points.empty() && !request.scenes_only)
     points.push_back({"adequacy: bend springs", fmt::format("full={}", request.full),
                       [request](Rows& rows) { bending_on(request, rows); }});
-  for (std::vector<Point> more : {std::move(grids), one_point_per_scene(request, "adequacy", ladder_on)})
-    points.insert(points.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  for (Point& ladder : one_point_per_scene(request, "adequacy", ladder_on)) points.push_back(std::move(ladder));
   return points;
 }
 

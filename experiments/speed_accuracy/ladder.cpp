@@ -45,12 +45,14 @@ std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run&
 
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting) {
   Run run = setting.applied_to(base);
+  if (!method.fingerprint.empty()) return {run};     // a program of its own: what its start costs is not known
+  const bool touches = scene.model.find<Spheres>();  // that may cost more than falling
+  if (method.adaptive && touches) return {run};
   const double enough = 0.02;  // s: a hundred thousand ticks of the clock
   const double all_of_it =
-                   method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run),
-               share = std::min(1., enough / all_of_it);
-  if (!method.fingerprint.empty()) return {run};  // a program of its own: what its start costs is not known
-  const bool whole = share > 0.7 || scene.model.find<Spheres>();  // touching may cost more than falling
+      method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run);
+  const double share = std::min(1., enough / all_of_it);
+  const bool whole = share > 0.7 || touches;
   if (method.adaptive) {
     if (whole) return {run};
     run.samples = std::max(1, static_cast<int>(std::ceil(share * run.samples)));

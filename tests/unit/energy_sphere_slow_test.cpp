@@ -23,6 +23,29 @@ bool empty(const Table& table, size_t row, const char* column) {
 }
 double number(const Table& table, size_t row, const char* column) { return std::get<double>(table.at(row, column)); }
 
+TEST(EnergyExperiment, LeavesOutWithANoteWhatWouldTakeHours) {
+  Request request;
+  request.scenes = {load_scene("spring")};
+  request.methods = find_methods("dopri5");
+  for (const bool dear : {false, true}) {
+    if (dear)  // its steps have become tiny
+      request.methods[0].engine = [inner = request.methods[0].engine](const Scene& scene, const crosscheck::Run& run,
+                                                                      Observer& observer) {
+        Outcome out = inner(scene, run, observer);
+        out.evaluations *= 1000000;
+        return out;
+      };
+    const std::vector<Point> points = energy_points(request);
+    ASSERT_EQ(points.at(0).name, "energy: spring by mysim/dopri5");
+    const Rows rows = computed({points.data(), 1});
+    EXPECT_EQ(rows.table("energy") == nullptr, dear);
+    ASSERT_EQ(rows.notes.size(), dear ? 1u : 0u);
+    if (dear) {
+      EXPECT_TRUE(contains(rows.notes[0], "energy leaves out mysim/dopri5 on spring: as it begins, its 100 s"));
+    }
+  }
+}
+
 TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   Request request;
   request.scenes = {load_scene("spring"), load_scene("circle")};
