@@ -42,7 +42,7 @@ bool solves_whole_step(const Method& method) {
 /// explicit world, the dearer one of those with a step as short, takes in a budget. A full run's allows all
 /// on a cloth of 10 x 10.
 long steps_for(const Request& request, const Scene& scene) {
-  const double budget = request.full ? 2.5 : 1.3;  // s
+  const double budget = request.full ? 2.5 : 0.9;  // s
   const double of_all = estimated_seconds(find_method("bullet/deformable-explicit"), scene, all_steps);
   return std::clamp(static_cast<long>(all_steps * budget / of_all) / samples * samples, 1000l, all_steps);
 }

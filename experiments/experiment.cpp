@@ -21,11 +21,12 @@ std::span<const Experiment> experiments() {
       {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_points},
       {"speed-accuracy", "What accuracy does each method give for its cost, and where does it fail?",
        speed_accuracy_points, speed_scenes, conclude_speed_accuracy},
+      // its longest points are longer than those of all others, and begin early in a report
+      {"adequacy", "How little model is enough for a scene?", adequacy_points, simple_and_cloth, conclude_adequacy},
       {"order", "How fast does the error fall when the step is made smaller?", order_points},
       {"stability", "Where does each method break?", stability_points, stability_scenes},
       {"energy", "Where does the energy go, and what does not add up?", energy_points, long_runs},
       {"sphere", "How do they answer a ball?", sphere_points, on_balls},
-      {"adequacy", "How little model is enough for a scene?", adequacy_points, simple_and_cloth, conclude_adequacy},
       {"cost", "What does a step cost, against size and beside what the machine can do?", cost_points},
       {"stiffness", "How stiff is a position-based link, against the formula that hands it over?", stiffness_points},
       {"disagreements", "Where does Bullet answer otherwise than it is asked, and by how much?", disagreements_points},

@@ -153,8 +153,8 @@ void resolution_on(const Request& request, const Scene& scene, Rows& rows) {
                {"springs", "1"},
                {"cost", "spring evaluations"}},
               {}};
-  std::vector<int> sizes{8, 12, 16, 24, 32};
-  if (request.full) sizes.insert(sizes.end(), {48, 64, 96, 128});
+  std::vector<int> sizes{8, 12, 16, 24};
+  if (request.full) sizes.insert(sizes.end(), {32, 48, 64, 96, 128});
   for (const Resolved& r : resolved(scene, sizes))
     table.add({scene.name, static_cast<long>(r.n), r.n - 1., r.error ? Cell(*r.error) : Cell(),
                r.sag ? Cell(*r.sag) : Cell(), r.factor ? Cell(*r.factor) : Cell(), r.verdict, r.evaluations, r.springs,

@@ -33,7 +33,7 @@ std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run&
     const Setting setting{false, plan({run.step * std::pow(2, halving), run.duration, run.samples}).h};
     if (setting.value == last) continue;
     last = setting.value;
-    const double most = halving >= 0 ? 1.2 : 0.35;
+    const double most = (halving >= 0 ? 1.2 : 0.35) * (full ? 1 : 0.7);  // s
     if (estimated_seconds(method, scene, setting.applied_to(run)) > most) {
       if (dropped) ++*dropped;
       continue;

@@ -42,6 +42,16 @@ std::string with_digits_of(double mean, double spread) {
   return fmt::format("{:.{}f}", mean, decimals);
 }
 
+/// Names of methods may break behind the slash: in half a page's width eight columns have to stand.
+std::string narrow(const std::string& cell) {
+  std::string out;
+  for (const char c : escaped(cell)) {
+    out += c;
+    if (c == '/') out += "<wbr>";
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string page_table_html(const PageTable& table) {
@@ -56,9 +66,9 @@ std::string page_table_html(const PageTable& table) {
   for (const auto& row : table.rows) {
     out += "<tr>";
     for (size_t i = 0; i < row.size(); ++i)
-      out += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", escaped(row[i]))
+      out += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", narrow(row[i]))
                     : fmt::format("<td{}>{}</td>", row[i].empty() ? " class=\"none\"" : "",
-                                  row[i].empty() ? "–" : escaped(row[i]));
+                                  row[i].empty() ? "–" : narrow(row[i]));
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n" + (shut ? "</details>\n" : "");
