@@ -138,6 +138,12 @@ int run(int argc, char** argv) {
   engine->add_option("-o", engine_options.program, "PROG")->required();
   engine->callback([&] { status = engine_command(engine_options); });
 
+  // read by the grader, which knows their options
+  app.add_subcommand("grade", "grades coursework: a submission, or a class with --all");
+  app.add_subcommand("assignment", "writes the hand-out of an assignment, or the package of a grading service");
+  if (argc > 1 && (argv[1] == std::string("grade") || argv[1] == std::string("assignment")))
+    return grader_command({argv + 1, argv + argc});
+
   if (argc > 1 && argv[1][0] != '-') {
     std::string known;
     bool found = false;

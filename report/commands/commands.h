@@ -11,6 +11,11 @@ int doctor_command();
 
 int list_command(const std::string& what, bool json);
 
+/// Becomes the grader, found beside this program, with these arguments; where a page of one submission is asked for,
+/// starts it, and sets the student's steppers beside other engines in a report next to the page. Throws
+/// std::runtime_error where the grader is not built.
+int grader_command(const std::vector<std::string>& words);
+
 struct RunOptions {
   std::string scene, method;
   double step = 0, tolerance = 0, duration = 0;  // 0: the scene's own
@@ -55,6 +60,7 @@ struct ReportOptions {
   std::vector<std::string> scenes;
   std::string methods;
   bool full = false;
+  std::vector<std::string> experiments = {};  // whose chapters there are; empty: all
   std::filesystem::path out = "out/report";
   std::string command_line;
 };

@@ -80,6 +80,9 @@ class Builder {
   Builder(const ReportOptions& options, Request request)
       : options_(options), request_(std::move(request)), figures_(options.out / "figures") {
     for (const Experiment& e : experiments()) {
+      const auto& asked = options.experiments;
+      if (!asked.empty() && std::find(asked.begin(), asked.end(), e.name) == asked.end()) continue;
+      experiments_.push_back(&e);
       requests_.push_back(request_);
       requests_.back().scenes = scenes_for(e, options.scenes, options.full);
     }
@@ -93,8 +96,8 @@ class Builder {
     std::vector<Point> points = picture_points();  // the longest first
     const size_t pictures = points.size();
     for (size_t e = 0; e < requests_.size(); ++e) {
-      plan.experiments.emplace_back(experiments()[e].name);
-      for (Point& point : experiments()[e].points(requests_[e])) points.push_back(std::move(point));
+      plan.experiments.emplace_back(experiments_[e]->name);
+      for (Point& point : experiments_[e]->points(requests_[e])) points.push_back(std::move(point));
     }
     for (size_t i = pictures; i < points.size(); ++i) plan.points.push_back({points[i].name, points[i].hash()});
     compute(points);
@@ -260,7 +263,8 @@ class Builder {
   }
 
   const ReportOptions& options_;
-  Request request_;                // of the scenes that have a part of their own
+  Request request_;  // of the scenes that have a part of their own
+  std::vector<const Experiment*> experiments_;
   std::vector<Request> requests_;  // one per experiment, with the scenes that it looks at
   fs::path figures_;
   Store store_{store_in(options_.out)};

@@ -1,0 +1,94 @@
+// grade, assignment and list assignments: the grader, a program of its own, does them. Charts of a student's code are
+// made here, since the grader knows no other engine.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+#include "report/commands/commands.h"
+
+namespace crosscheck {
+namespace fs = std::filesystem;
+namespace {
+
+fs::path grader() {
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "crosscheck-grade";
+  if (access(program.c_str(), X_OK) != 0)
+    throw std::runtime_error(fmt::format("{} cannot be started; build the target crosscheck_grader", program.string()));
+  return program;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& words) {
+  std::vector<char*> all;
+  for (std::string& word : words) all.push_back(word.data());
+  all.push_back(nullptr);
+  return all;
+}
+
+/// What stands behind an option, or behind its =; empty where it is not given.
+std::string value_of(const std::vector<std::string>& words, const std::string& option) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == option && i + 1 < words.size()) return words[i + 1];
+    if (words[i].starts_with(option + "=")) return words[i].substr(option.size() + 1);
+  }
+  return "";
+}
+
+int exit_status_of(const fs::path& program, std::vector<std::string> words) {
+  words.insert(words.begin(), program.string());
+  std::fflush(nullptr);
+  pid_t child = 0;
+  if (const int why = posix_spawn(&child, program.c_str(), nullptr, nullptr, pointers(words).data(), environ))
+    throw std::runtime_error(fmt::format("{}: {}", program.string(), std::strerror(why)));
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// Grades, then sets the parts that are steppers beside other engines; the page links to it.
+int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
+  const fs::path charts = page.parent_path() / (page.stem().string() + "-charts"), engines = charts / "steppers";
+  fs::remove_all(engines);
+  const std::vector<std::string> more = {"--engines", engines.string(), "--charts",
+                                         charts.filename().string() + "/index.html"};
+  words.insert(words.end(), more.begin(), more.end());
+  if (const int status = exit_status_of(grader(), words); status != 0 || !fs::exists(engines)) return status;
+  ReportOptions options;
+  options.scenes = {"spring", "pendulum"};
+  options.experiments = {"engines", "speed-accuracy", "stability"};
+  options.methods = "explicit-euler,trapezoidal,rk4,symplectic-euler,bullet/deformable-explicit";
+  std::vector<std::string> yours;
+  for (const auto& entry : fs::directory_iterator(engines))
+    if (entry.path().extension() != ".program") yours.push_back(entry.path().filename().string());
+  std::sort(yours.begin(), yours.end());
+  for (const std::string& part : yours) options.methods += ",exec:steppers/" + part;
+  options.command_line = "crosscheck " + fmt::format("{}", fmt::join(words.begin(), words.end() - 4, " "));
+  options.out = ".";
+  fs::current_path(charts);  // where names of methods are short
+  fmt::print("charts of {}, beside mysim and Bullet\n", fmt::join(yours, ", "));
+  return report_command(options);
+}
+
+}  // namespace
+
+int grader_command(const std::vector<std::string>& words) {
+  const bool of_class = std::find(words.begin(), words.end(), "--all") != words.end();
+  if (const std::string page = value_of(words, "--report"); words[0] == "grade" && !page.empty() && !of_class)
+    return grade_with_charts(words, page);
+  std::vector<std::string> all = words;
+  const fs::path program = grader();
+  all.insert(all.begin(), program.string());
+  std::fflush(nullptr);
+  execv(program.c_str(), pointers(all).data());
+  throw std::runtime_error(fmt::format("{}: {}", program.string(), std::strerror(errno)));
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,88 @@
+// What you write, and what it works on. Ours: do not change it, the grader uses its own copy.
+// Units: m, kg, s, N. The y axis points up.
+#pragma once
+
+#include <vector>
+
+#include "vec3.h"
+
+// ---- grid.cpp
+
+/// Rows of particles. Those of one row follow each other along +x, the rows follow each other along +z.
+struct Grid {
+  int rows = 0, columns = 0;
+  double across = 0;  // m, between neighbours in a row
+  double down = 0;    // m, between neighbours in a column
+  Vec3 corner;        // m, of the particle in row 0, column 0
+};
+
+/// Number of the particle in a row and column: all of row 0 first, then all of row 1, ...
+int index_of(const Grid& grid, int row, int column);
+/// The particles beside it in its row and in its column: one to four of them. Any order.
+std::vector<int> neighbours(const Grid& grid, int row, int column);
+/// Where each particle starts, in the order of the indices.
+std::vector<Vec3> positions(const Grid& grid);
+
+// ---- springs.cpp
+
+struct Spring {
+  int a = 0, b = 0;  // its ends
+  double k = 0;      // N/m
+  double rest = 0;   // m, rest length
+};
+
+/// Each family: every pair once, in any order, all with stiffness k, at rest in the flat grid.
+std::vector<Spring> structural(const Grid& grid, double k);  // to the next in the row, to the next in the column
+std::vector<Spring> shear(const Grid& grid, double k);       // both diagonals of every cell
+std::vector<Spring> flexion(const Grid& grid, double k);     // to the next but one in the row, and in the column
+
+// ---- forces.cpp: the force on each particle, N
+
+/// The sum of all springs at each particle. A spring whose ends meet has no direction: it gives no force.
+std::vector<Vec3> spring_forces(const std::vector<Spring>& springs, const std::vector<Vec3>& x);
+/// Gravity: mass times g (m/s^2).
+std::vector<Vec3> gravity_forces(const std::vector<double>& mass, const Vec3& g);
+/// Viscous drag with coefficient c (N s/m).
+std::vector<Vec3> drag_forces(double c, const std::vector<Vec3>& v);
+
+// ---- wind.cpp
+
+struct State {
+  std::vector<Vec3> x;  // m
+  std::vector<Vec3> v;  // m/s
+};
+
+struct Triangle {
+  int a = 0, b = 0, c = 0;
+};
+
+struct Wind {
+  bool on = false;
+  Vec3 direction;                              // where it blows to, length 1
+  double speed = 0;                            // m/s, on average
+  double gust = 0, frequency = 0, offset = 0;  // 1, Hz, rad: its coming and going
+  double density = 0;                          // of the air, kg/m^3
+  double coefficient = 0;                      // 1, of the pressure
+};
+
+/// Two triangles for each cell of the grid; they share the diagonal from (row, column + 1) to (row + 1, column).
+std::vector<Triangle> triangles(const Grid& grid);
+/// Velocity of the air at time t, m/s.
+Vec3 wind_at(const Wind& wind, double t);
+/// Force of the wind on each particle, N.
+std::vector<Vec3> wind_forces(const Wind& wind, const std::vector<Triangle>& triangles, const State& state, double t);
+
+// ---- derivative.cpp
+
+struct Cloth {
+  std::vector<double> mass;  // kg, of each particle
+  std::vector<int> pins;     // these particles are held
+  std::vector<Spring> springs;
+  std::vector<Triangle> triangles;
+  Vec3 gravity;     // m/s^2
+  double drag = 0;  // N s/m
+  Wind wind;
+};
+
+/// The rate of change of the whole state: in .x that of the positions, in .v that of the velocities.
+State derivative(const Cloth& cloth, const State& state, double t);

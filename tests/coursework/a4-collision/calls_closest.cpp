@@ -1,0 +1,19 @@
+// Calls of part 1. Each takes a sphere, a count and that many points.
+#include "calls_read.h"
+
+namespace coursework {
+
+/// gap, normal, nearest: of each point. normal_and_nearest: one after the other.
+bool answer_closest(const std::string& call, const Numbers& in, Numbers& out) {
+  if (call != "gap" && call != "normal" && call != "nearest" && call != "normal_and_nearest") return false;
+  Reader reader(in);
+  const Sphere sphere = read_sphere(reader);
+  for (const Vec3& x : reader.vectors<Vec3>(reader.integer())) {
+    if (call == "gap") out.push_back(gap(sphere, x));
+    if (call == "normal" || call == "normal_and_nearest") put(out, normal(sphere, x));
+    if (call == "nearest" || call == "normal_and_nearest") put(out, nearest(sphere, x));
+  }
+  return true;
+}
+
+}  // namespace coursework

@@ -1,0 +1,65 @@
+// Inputs and right answers of the collision assignment. The right ones come from mysim's contact rule, its stepper and
+// closed forms; nothing of the student's headers is known here.
+#pragma once
+
+#include <vector>
+
+#include "mysim/model.h"
+#include "tests/coursework/check/case.h"
+#include "tests/coursework/check/random.h"
+
+namespace coursework::a4 {
+
+using crosscheck::Points;
+using crosscheck::Sphere;
+using crosscheck::Vec3;
+using Cases = std::vector<Case>;
+
+Vec3 random_vector(Random& random, double size);  // each number in +-size
+Vec3 random_direction(Random& random);            // length 1
+/// A unit vector at a right angle to n.
+Vec3 random_tangent(Random& random, const Vec3& n);
+Sphere random_sphere(Random& random, double friction, double restitution);
+/// Of some 10 m/s^2, in any direction.
+Vec3 random_gravity(Random& random);
+
+void put(Numbers& out, const Vec3& v);
+void put(Numbers& out, const Points& points);
+void put(Numbers& out, const Sphere& sphere);
+
+/// mysim's rule on one particle: x and v after contact.
+struct Resolved {
+  Vec3 x, v;
+};
+Resolved resolved(const Sphere& sphere, const Vec3& before, Vec3 x, Vec3 v);
+
+// part 1
+Cases gap(Random& random);
+Cases normal(Random& random);
+Cases nearest(Random& random);
+Cases very_centre(Random& random);
+// part 2
+Cases untouched(Random& random);
+Cases pushed_out(Random& random);
+Cases sliding(Random& random);
+Cases holding(Random& random);
+Cases inside_at_the_start(Random& random);
+// part 3
+Cases going_away(Random& random);
+Cases inward_removed(Random& random);
+Cases bounce(Random& random);
+Cases rubbing(Random& random);
+Cases stopped(Random& random);
+// part 4
+Cases free_flight(Random& random);
+Cases one_step(Random& random);
+Cases leaving_angle(Random& random);
+Cases rebound_height(Random& random);
+Cases coulomb_cone(Random& random);
+// part 5
+Cases accelerations(Random& random);
+Cases pins_and_spheres(Random& random);
+Cases patch_on_a_slope(Random& random);
+Cases drape(Random& random);
+
+}  // namespace coursework::a4

@@ -1,0 +1,150 @@
+// Parts 1 to 3: one particle and one sphere.
+#include "tests/coursework/a4-collision/cases.h"
+
+namespace coursework::a4 {
+namespace {
+
+// a handful of operations on numbers of some 10 m or m/s: 1e-14; friction divides by lengths of 0.01 at least: 1e-12
+constexpr double round_off = 1e-9;
+
+Case contact_case(const char* call, const Sphere& sphere, int count, const char* column, int columns) {
+  Case c{.call = call, .columns = columns, .tolerance = round_off, .row = "place", .column = column};
+  put(c.in, sphere);
+  c.in.push_back(count);
+  return c;
+}
+
+constexpr int places = 6;
+
+/// Places outside and inside by turns, in seeded directions; `expect` adds what is right there.
+template <class Expect>
+Cases around(Random& random, const char* call, const char* column, int columns, Expect expect) {
+  const Sphere sphere = random_sphere(random, 0, 0);
+  Case c = contact_case(call, sphere, places, column, columns);
+  for (int i = 0; i < places; ++i) {
+    const double height = i % 2 == 0 ? random.uniform(0.1, 1) : -random.uniform(0.1, 0.4);
+    const Vec3 n = random_direction(random);
+    put(c.in, Vec3(sphere.centre + (sphere.contact_radius() + height) * n));
+    expect(c.expected, sphere, n, height);
+  }
+  return {c};
+}
+
+/// A particle that began at `before` and would go to `proposed`, `depth` inside: its displacement along the sphere, as
+/// a multiple of mu times depth, says whether it slides (> 1) or holds (< 1).
+struct Move {
+  Vec3 before, proposed;
+};
+Move random_move(Random& random, const Sphere& sphere, double depth, double multiple) {
+  const Vec3 n = random_direction(random), along = random_tangent(random, n);
+  const double r = sphere.contact_radius(), mu = sphere.friction > 0 ? sphere.friction : 1;
+  const Vec3 before = sphere.centre + r * n - multiple * mu * depth * along + random.uniform(0.01, 0.03) * n;
+  return {before, sphere.centre + (r - depth) * n};
+}
+
+Cases moves(Random& random, double friction, double least, double most) {
+  const Sphere sphere = random_sphere(random, friction, 0);
+  Case c = contact_case("corrected_position", sphere, places, "position", 3);
+  for (int i = 0; i < places; ++i) {
+    const double depth = random.uniform(0.04, 0.1);
+    const Move move = random_move(random, sphere, depth, random.uniform(least, most));
+    put(c.in, move.before);
+    put(c.in, move.proposed);
+    put(c.expected, resolved(sphere, move.before, move.proposed, Vec3::Zero()).x);
+  }
+  return {c};
+}
+
+/// Velocities with a part along n and a tangential one of `ratio` times mu (1 + e) times that (times 1 without
+/// friction).
+Cases velocities(Random& random, double friction, double restitution, double sign, double least, double most) {
+  const Sphere sphere = random_sphere(random, friction, restitution);
+  Case c = contact_case("corrected_velocity", sphere, places, "velocity", 3);
+  for (int i = 0; i < places; ++i) {
+    const Vec3 n = random_direction(random), along = random_tangent(random, n);
+    const double normal = random.uniform(0.5, 2), change = (1 + restitution) * normal;
+    const double most_lost = friction * change;  // Coulomb
+    const double tangential = random.uniform(least, most) * (friction > 0 ? most_lost : normal);
+    const Vec3 v = sign * normal * n + tangential * along;
+    put(c.in, n);
+    put(c.in, v);
+    const Vec3 after = restitution * normal * n + std::max(0.0, tangential - most_lost) * along;
+    put(c.expected, sign > 0 ? v : after);
+  }
+  return {c};
+}
+
+}  // namespace
+
+Cases gap(Random& random) {
+  return around(random, "gap", "gap", 1,
+                [](Numbers& out, const Sphere&, const Vec3&, double height) { out.push_back(height); });
+}
+
+Cases normal(Random& random) {
+  return around(random, "normal", "normal", 3, [](Numbers& out, const Sphere&, const Vec3& n, double) { put(out, n); });
+}
+
+Cases nearest(Random& random) {
+  return around(random, "nearest", "position", 3, [](Numbers& out, const Sphere& sphere, const Vec3& n, double) {
+    put(out, Vec3(sphere.centre + sphere.contact_radius() * n));
+  });
+}
+
+Cases very_centre(Random& random) {
+  const Sphere sphere = random_sphere(random, 0, 0);
+  Case c = contact_case("normal_and_nearest", sphere, 1, "centre", 6);
+  put(c.in, sphere.centre);
+  put(c.expected, Vec3(0, 1, 0));
+  put(c.expected, Vec3(sphere.centre + Vec3(0, sphere.contact_radius(), 0)));
+  return {c};
+}
+
+Cases untouched(Random& random) {
+  const Sphere sphere = random_sphere(random, random.uniform(0.3, 0.8), 0);
+  Case c = contact_case("corrected_position", sphere, places, "position", 3);
+  for (int i = 0; i < places; ++i) {
+    const double depth = -random.uniform(0.005, 0.3);  // not inside: nothing may change, not even the last digit
+    const Move move = random_move(random, sphere, depth, 1);
+    put(c.in, move.before);
+    put(c.in, move.proposed);
+    put(c.expected, move.proposed);
+  }
+  c.tolerance = 0;
+  return {c};
+}
+
+Cases pushed_out(Random& random) { return moves(random, 0, 1.5, 4); }
+Cases sliding(Random& random) { return moves(random, random.uniform(0.3, 0.8), 1.5, 4); }
+Cases holding(Random& random) { return moves(random, random.uniform(0.3, 0.8), 0.2, 0.8); }
+
+Cases inside_at_the_start(Random& random) {
+  const Sphere sphere = random_sphere(random, random.uniform(0.3, 0.8), 0);
+  const double r = sphere.contact_radius();
+  Case c = contact_case("corrected_position", sphere, places, "position", 3);
+  for (int i = 0; i < places; ++i) {
+    // both ends are inside; one proposed place is the very centre
+    const Vec3 n = random_direction(random);
+    const double depth = random.uniform(0.1, 0.2) * r, along = random.uniform(1.5, 2.5) * sphere.friction * depth;
+    const Vec3 proposed = i == 0 ? sphere.centre : Vec3(sphere.centre + (r - depth) * n);
+    const Vec3 before = proposed - 0.05 * r * n - (i == 0 ? 0.1 : 1) * along * random_tangent(random, n);
+    put(c.in, before);
+    put(c.in, proposed);
+    put(c.expected, resolved(sphere, before, proposed, Vec3::Zero()).x);
+  }
+  return {c};
+}
+
+Cases going_away(Random& random) {
+  return velocities(random, random.uniform(0.3, 0.8), random.uniform(0.3, 0.7), 1, 0.5, 2);
+}
+Cases inward_removed(Random& random) { return velocities(random, 0, 0, -1, 0.5, 2); }
+Cases bounce(Random& random) { return velocities(random, 0, random.uniform(0.3, 0.7), -1, 0.5, 2); }
+Cases rubbing(Random& random) {
+  return velocities(random, random.uniform(0.3, 0.8), random.uniform(0.3, 0.7), -1, 1.5, 3);
+}
+Cases stopped(Random& random) {
+  return velocities(random, random.uniform(0.3, 0.8), random.uniform(0.3, 0.7), -1, 0.2, 0.5);
+}
+
+}  // namespace coursework::a4

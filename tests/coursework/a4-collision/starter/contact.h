@@ -1,0 +1,62 @@
+// What you write, and what it works on. Ours: do not change it, the grader uses its own copy.
+// Units: m, kg, s, N. The y axis points up.
+#pragma once
+
+#include <vector>
+
+#include "springs.h"
+#include "vec3.h"
+
+/// A solid ball that does not move. Particles stay outside its contact surface, the sphere of radius + margin.
+struct Sphere {
+  Vec3 centre;             // m
+  double radius = 0;       // m
+  double margin = 0;       // m, half the thickness of the cloth
+  double friction = 0;     // Coulomb's mu, 1
+  double restitution = 0;  // e, 0 to 1
+};
+
+// ---- closest.cpp
+
+/// Distance from the contact surface, m: positive outside, negative inside.
+double gap(const Sphere& sphere, const Vec3& x);
+/// Outward direction at x, length 1. At the very centre, where no direction is better than another: (0, 1, 0).
+Vec3 normal(const Sphere& sphere, const Vec3& x);
+/// The point of the contact surface that is nearest to x; at the very centre the topmost one.
+Vec3 nearest(const Sphere& sphere, const Vec3& x);
+
+// ---- position.cpp
+
+/// Where a particle ends that began the step at `before` and would go to `proposed`. Unchanged where that is not
+/// inside.
+Vec3 corrected_position(const Sphere& sphere, const Vec3& before, const Vec3& proposed);
+
+// ---- velocity.cpp
+
+/// The velocity after contact at a place with outward normal n. Unchanged where v does not point inwards.
+Vec3 corrected_velocity(const Sphere& sphere, const Vec3& n, const Vec3& v);
+
+// ---- step.cpp
+
+struct State {
+  std::vector<Vec3> x;  // m
+  std::vector<Vec3> v;  // m/s
+};
+
+/// One step of length h (s) of free particles under gravity g (m/s^2): symplectic Euler, then contact.
+State contact_step(const Sphere& sphere, const State& state, const Vec3& g, double h);
+
+// ---- cloth.cpp
+
+struct Cloth {
+  std::vector<double> mass;  // kg, of each particle
+  std::vector<int> pins;     // these particles are held
+  std::vector<Spring> springs;
+  Vec3 gravity;     // m/s^2
+  double drag = 0;  // N s/m, of each particle
+};
+
+/// Acceleration of each particle by springs, gravity and drag, m/s^2; zero at pins.
+std::vector<Vec3> accelerations(const Cloth& cloth, const State& state);
+/// One step of length h (s) of a cloth among spheres: symplectic Euler, then contact with one sphere after the other.
+State cloth_step(const Cloth& cloth, const std::vector<Sphere>& spheres, const State& state, double h);

@@ -1,0 +1,23 @@
+// Friction by coordinates on the sphere: the tangential part is split along a unit vector, and shortened there.
+#include <algorithm>
+
+#include "contact.h"
+
+Vec3 corrected_position(const Sphere& sphere, const Vec3& before, const Vec3& proposed) {
+  const Vec3 from_centre = proposed - sphere.centre;
+  const double r = sphere.radius + sphere.margin, distance = length(from_centre);
+  if (!(distance < r)) return proposed;
+
+  const Vec3 up = distance > 0 ? from_centre * (1 / distance) : Vec3(0, 1, 0);
+  const Vec3 on_surface = sphere.centre + r * up;
+  if (sphere.friction == 0) return on_surface;
+
+  // seen from `on_surface`: friction draws it back towards `before`, within the plane across `up`
+  Vec3 back = before - on_surface;
+  back -= dot(back, up) * up;
+  const double way = length(back);
+  if (way == 0) return on_surface;
+  const double held = std::min(way, sphere.friction * (r - distance));
+  const Vec3 rubbed = on_surface + (held / way) * back - sphere.centre;
+  return sphere.centre + r / length(rubbed) * rubbed;
+}

@@ -1,0 +1,23 @@
+// Calls of largest_stable_step.
+//   limits.step: rule (its place in the enum), then omega, gamma of each oscillator
+//                a row each: 0, 0 where no step is stable; 1, the step; 2, 0 where every step is
+#include <cmath>
+
+#include "calls.h"
+#include "stiff.h"
+
+namespace coursework {
+
+bool answer_limits(const std::string& call, const Numbers& in, Numbers& out) {
+  if (call != "limits.step") return false;
+  const Rule rule = static_cast<Rule>(static_cast<int>(in[0]));
+  for (std::size_t i = 1; i + 1 < in.size(); i += 2) {
+    const double h = largest_stable_step(rule, in[i], in[i + 1]);
+    const bool every = std::isinf(h) && h > 0;
+    out.push_back(every ? 2 : h == 0 ? 0 : 1);
+    out.push_back(every ? 0 : h);
+  }
+  return true;
+}
+
+}  // namespace coursework

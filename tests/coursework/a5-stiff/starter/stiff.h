@@ -1,0 +1,53 @@
+// Stiff springs: what the five parts share. Do not change this file: the grader uses its own copy.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+using Vec3 = std::array<double, 3>;
+using Matrix3 = std::array<Vec3, 3>;  // m[row][column]
+using Vector = std::vector<double>;
+using Matrix = std::vector<Vector>;  // a[row][column]
+
+/// Between particles a and b. With d = x_a - x_b and L = |d| the force on a is -stiffness (L - rest) d / L, and the
+/// force on b is the opposite.
+struct Spring {
+  int a, b;
+  double stiffness, rest;  // N/m, m
+};
+
+struct System {
+  std::vector<double> mass;  // kg
+  std::vector<bool> fixed;   // these particles never move
+  std::vector<Spring> springs;
+  Vec3 gravity;  // m/s^2
+  double drag;   // c in the force -c v on every particle, N s/m
+};
+
+struct State {
+  std::vector<Vec3> x, v;  // m, m/s
+};
+
+enum class Rule { explicit_euler, trapezoidal, rk4, symplectic_euler, leapfrog, implicit_euler };
+
+/// jacobian.cpp: the derivative dF_a/dx_a of a spring's force on its end a, at d = x_a - x_b. All zeros when d is zero.
+Matrix3 spring_jacobian(const Vec3& d, double stiffness, double rest);
+
+/// linear.cpp: the x with a x = b. Throws std::domain_error when a is singular (see the handout).
+Vector solve(Matrix a, Vector b);
+
+/// implicit_euler.cpp: the state one linearised implicit Euler step of h later. Calls the two functions above.
+State implicit_euler_step(const System& system, const State& state, double h);
+
+/// limits.cpp: the largest step (s) at which the rule does not grow on u'' = -omega^2 u - gamma u'. HUGE_VAL when every
+/// step is stable, 0 when none is.
+double largest_stable_step(Rule rule, double omega, double gamma);
+
+/// choose.cpp: a step that divides the duration, keeps the error on u'' = -omega^2 u at its end below the tolerance,
+/// and is stable. 0 when the rule has no stable step.
+double predicted_step(Rule rule, double omega, double duration, double tolerance);
+
+/// choose.cpp: run(h) is the state at the end of a run with steps of h, by a rule of that order. Returns the step whose
+/// error is the tolerance, judged from two runs: with h and with h/2.
+double measured_step(const std::function<Vector(double)>& run, int order, double h, double tolerance);

@@ -1,0 +1,257 @@
+// Right answers: on a line and in free fall closed forms; elsewhere mysim's forces and tangents in a dense solve by
+// Eigen, or, where forces are linear, mysim's own implicit Euler.
+#include "tests/coursework/a5-stiff/tests_motion.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "mysim/steppers/stepper.h"
+
+namespace coursework::a5 {
+namespace {
+
+using crosscheck::Points;
+using crosscheck::Vec3;
+
+struct Scene {
+  Points x, v;
+  std::vector<double> mass;
+  std::vector<int> fixed;  // 0 or 1 each
+  std::vector<crosscheck::Spring> springs;
+  Vec3 gravity = Vec3::Zero();
+  double drag = 0, h = 0;
+  int size() const { return static_cast<int>(mass.size()); }
+};
+
+Vec3 vector(Random& random, double size) {
+  Vec3 v;
+  for (double& part : v) part = random.uniform(-size, size);
+  return v;
+}
+Vec3 direction(Random& random) {
+  for (;;) {
+    const Vec3 v = vector(random, 1);
+    if (v.norm() > 0.3 && v.norm() < 1) return v.normalized();
+  }
+}
+
+Numbers inputs(const Scene& s, int steps) {
+  Numbers in = {double(s.size()), double(steps), s.h,          s.drag,
+                s.gravity[0],     s.gravity[1],  s.gravity[2], double(s.springs.size())};
+  for (const auto& spring : s.springs) in.insert(in.end(), {double(spring.a), double(spring.b), spring.k, spring.rest});
+  in.insert(in.end(), s.mass.begin(), s.mass.end());
+  in.insert(in.end(), s.fixed.begin(), s.fixed.end());
+  in.insert(in.end(), s.x.data(), s.x.data() + s.x.size());
+  in.insert(in.end(), s.v.data(), s.v.data() + s.v.size());
+  return in;
+}
+
+void add_row(const Scene& s, int i, Numbers& out) {
+  for (const Points* p : {&s.x, &s.v}) out.insert(out.end(), p->col(i).data(), p->col(i).data() + 3);
+}
+
+/// A step is a well-conditioned solve (each case says why), so a digit or two of sixteen are lost in it, and steps that
+/// damp do not add up errors: 1e-9 of the largest number leaves room for any order of summation.
+constexpr double accuracy = 1e-9;
+
+Case watched(const Scene& start, int steps, int particle, void (*step)(Scene&)) {
+  Case c;
+  c.call = "implicit_euler.watch";
+  c.in = inputs(start, steps);
+  c.in.push_back(particle);
+  Scene s = start;
+  for (int i = 0; i < steps; ++i) {
+    step(s);
+    add_row(s, particle, c.expected);
+  }
+  c.columns = 6, c.row = "step", c.column = "motion", c.row_size = start.h;
+  for (const double value : c.expected) c.tolerance = std::max(c.tolerance, accuracy * std::abs(value));
+  // the part that moves most
+  double widest = -1;
+  for (int part = 0; part < 3; ++part) {
+    double low = c.expected[part], high = low;
+    for (size_t at = part; at < c.expected.size(); at += 6)
+      low = std::min(low, c.expected[at]), high = std::max(high, c.expected[at]);
+    if (high - low > widest) widest = high - low, c.plot_y = part;
+  }
+  return c;
+}
+
+struct Mysim {
+  crosscheck::Model model;
+  crosscheck::State state;
+};
+Mysim as_mysim(const Scene& s) {
+  Mysim m;
+  crosscheck::Particles& p = m.model.particles;
+  p.mass = Eigen::Map<const Eigen::VectorXd>(s.mass.data(), s.size());
+  p.pinned.assign(s.fixed.begin(), s.fixed.end());
+  for (int i = 0; i < s.size(); ++i)
+    if (s.fixed[i]) p.pins.push_back(i);
+  p.pin_home.resize(3, static_cast<int>(p.pins.size()));
+  for (size_t i = 0; i < p.pins.size(); ++i) p.pin_home.col(static_cast<int>(i)) = s.x.col(p.pins[i]);
+  m.model.terms.emplace_back(crosscheck::Springs{s.springs, crosscheck::SpringLaw::hooke});
+  m.model.terms.emplace_back(crosscheck::Gravity{s.gravity});
+  m.model.terms.emplace_back(crosscheck::Drag{Eigen::VectorXd::Constant(s.size(), s.drag)});
+  m.state = {0, s.x, s.v};
+  return m;
+}
+
+/// mysim's whole implicit Euler step, Newton's method and all: the same where forces are linear in the positions.
+void whole_step(Scene& s) {
+  Mysim m = as_mysim(s);
+  crosscheck::System f(m.model);
+  crosscheck::Workspace w(m.state);
+  crosscheck::implicit_euler(f, m.state, s.h, w);
+  s.x = m.state.x, s.v = m.state.v;
+}
+
+/// (M + h C + h^2 K) dv = h (F - h K v) on the particles that move.
+void linearised_step(Scene& s) {
+  Mysim m = as_mysim(s);
+  crosscheck::System f(m.model);
+  Points a(3, s.size());
+  f.acceleration(m.state, a);
+  crosscheck::Tangent tangent;
+  crosscheck::add_stiffness(m.model, m.state, crosscheck::Curvature::exact, tangent);
+  auto times_k = [&](const Points& d) {
+    Points out = Points::Zero(3, s.size());
+    tangent.add_product(1, 0, d, out);
+    return out;
+  };
+  std::vector<int> moving;
+  for (int i = 0; i < 3 * s.size(); ++i)
+    if (!s.fixed[i / 3]) moving.push_back(i);
+  const int n = static_cast<int>(moving.size());
+  Eigen::MatrixXd matrix(n, n);
+  Eigen::VectorXd right(n);
+  const Points kv = times_k(s.v);
+  for (int j = 0; j < n; ++j) {
+    Points unit = Points::Zero(3, s.size());
+    unit.data()[moving[j]] = 1;
+    const Points column = times_k(unit);
+    for (int i = 0; i < n; ++i) matrix(i, j) = s.h * s.h * column.data()[moving[i]];
+    const double mass = s.mass[moving[j] / 3];
+    matrix(j, j) += mass + s.h * s.drag;
+    right[j] = s.h * (mass * a.data()[moving[j]] - s.h * kv.data()[moving[j]]);
+  }
+  const Eigen::VectorXd dv = matrix.fullPivLu().solve(right);
+  for (int j = 0; j < n; ++j) {
+    s.v.data()[moving[j]] += dv[j];
+    s.x.data()[moving[j]] += s.h * s.v.data()[moving[j]];
+  }
+}
+
+/// On the line through both ends the spring is linear: with e = L - r, v' = (v - h w^2 e) / (1 + (h w)^2), e' = e + h
+/// v'.
+void oscillator_step(Scene& s) {
+  const crosscheck::Spring& spring = s.springs[0];
+  const int free = s.fixed[0] ? 1 : 0;
+  const Vec3 d = s.x.col(free) - s.x.col(1 - free), u = d.normalized();
+  const double w2 = spring.k / s.mass[free], e = d.norm() - spring.rest, v = s.v.col(free).dot(u);
+  s.v.col(free) = u * (v - s.h * w2 * e) / (1 + s.h * s.h * w2);
+  s.x.col(free) += s.h * s.v.col(free);
+}
+
+/// v' = (v + h g) / (1 + h c / m).
+void falling_step(Scene& s) {
+  for (int i = 0; i < s.size(); ++i) {
+    s.v.col(i) = (s.v.col(i) + s.h * s.gravity) / (1 + s.h * s.drag / s.mass[i]);
+    s.x.col(i) += s.h * s.v.col(i);
+  }
+}
+
+/// Particles on a line from fixed end to fixed end, each spring longer than its rest length.
+Scene chain(Random& random, double rest_of_length) {
+  Scene s;
+  const int n = 6;
+  s.x.resize(3, n), s.v.setZero(3, n);
+  const Vec3 start = vector(random, 1), along = direction(random) * random.uniform(0.3, 0.6);
+  for (int i = 0; i < n; ++i) {
+    s.x.col(i) = start + i * along;
+    s.mass.push_back(random.uniform(0.2, 0.6));
+    s.fixed.push_back(i == 0 || i == n - 1);
+    if (!s.fixed[i]) s.v.col(i) = vector(random, 1);
+    if (i > 0) s.springs.push_back({i, i - 1, random.uniform(1000, 4000), along.norm() * rest_of_length});
+  }
+  s.gravity = direction(random) * random.uniform(5, 15);
+  s.drag = random.uniform(0.5, 2);
+  s.h = random.uniform(0.03, 0.1);
+  return s;
+}
+
+}  // namespace
+
+std::vector<Case> one_spring(Random& random) {
+  std::vector<Case> cases;
+  for (const double long_step : {0.5, 8.0, 40.0}) {
+    Scene s;
+    const double mass = random.uniform(0.3, 3), rest = random.uniform(0.5, 1.5), k = random.uniform(500, 5000);
+    const double omega = std::sqrt(k / mass);
+    s.h = long_step * random.uniform(0.8, 1.25) / omega;
+    const int fixed = random.integer(0, 1);
+    const Vec3 u = direction(random);
+    s.x.resize(3, 2), s.v.setZero(3, 2);
+    s.x.col(fixed) = vector(random, 1);
+    // less energy than it takes to reach the fixed end
+    s.x.col(1 - fixed) = s.x.col(fixed) + u * rest * random.uniform(1.2, 1.4);
+    s.v.col(1 - fixed) = u * rest * omega * random.uniform(0.2, 0.4) * (random.integer(0, 1) ? 1 : -1);
+    s.mass = {mass, mass}, s.fixed = {fixed == 0, fixed == 1};
+    s.springs = {{0, 1, k, rest, crosscheck::Family::single}};
+    // 1 + (h omega)^2 is all there is to divide by
+    cases.push_back(watched(s, long_step < 1 ? 25 : 6, 1 - fixed, oscillator_step));
+  }
+  return cases;
+}
+
+std::vector<Case> gravity_and_drag(Random& random) {
+  Scene s;
+  s.mass = {random.uniform(0.2, 0.5), random.uniform(2, 4)}, s.fixed = {0, 0};
+  s.x.resize(3, 2), s.v.resize(3, 2);
+  for (int i = 0; i < 2; ++i) s.x.col(i) = vector(random, 2), s.v.col(i) = vector(random, 3);
+  s.gravity = direction(random) * random.uniform(5, 12);
+  s.drag = random.uniform(1, 3), s.h = random.uniform(0.1, 0.5);
+  // the matrix is diagonal
+  return {watched(s, 12, 0, falling_step), watched(s, 12, 1, falling_step)};
+}
+
+std::vector<Case> network(Random& random) {
+  std::vector<Case> cases;
+  for (int repeat = 0; repeat < 2; ++repeat) {
+    Scene s;
+    s.h = random.uniform(0.02, 0.1), s.drag = random.uniform(0.5, 3);
+    s.gravity = direction(random) * random.uniform(5, 12);
+    s.x.resize(3, 4), s.v.resize(3, 4);
+    // a tetrahedron, bent: no two particles meet
+    const double corners[4][3] = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    for (int i = 0; i < 4; ++i) {
+      s.x.col(i) = Vec3(corners[i][0], corners[i][1], corners[i][2]) + vector(random, 0.3);
+      s.v.col(i) = vector(random, 2);
+      s.mass.push_back(random.uniform(0.5, 2)), s.fixed.push_back(0);
+      for (int j = 0; j < i; ++j) {
+        // springs shortened by at most a tenth take at most h^2 k 4 / 10 < m / 2 from the matrix, so its condition is
+        // below a hundred
+        const double length = (s.x.col(i) - s.x.col(j)).norm(), k = random.uniform(0.5, 1.25) * 0.5 / (s.h * s.h);
+        s.springs.push_back({i, j, k, length * random.uniform(0.6, 1.1), crosscheck::Family::single});
+      }
+    }
+    Case c;
+    c.call = "implicit_euler.all";
+    c.in = inputs(s, 1);
+    linearised_step(s);
+    for (int i = 0; i < 4; ++i) add_row(s, i, c.expected);
+    for (const double value : c.expected) c.tolerance = std::max(c.tolerance, accuracy * std::abs(value));
+    c.columns = 6, c.row = "particle", c.column = "motion";
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+std::vector<Case> stiff_chain(Random& random) {
+  // stretched springs only: the condition is that of 1 + h^2 k 4 / m, below a thousand
+  const Scene threads = chain(random, 0), springs = chain(random, random.uniform(0.8, 0.95));
+  return {watched(threads, 15, random.integer(1, 4), whole_step),
+          watched(springs, 15, random.integer(1, 4), linearised_step)};
+}
+
+}  // namespace coursework::a5

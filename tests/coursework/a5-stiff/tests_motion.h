@@ -1,0 +1,16 @@
+// Tests of implicit_euler.cpp: what is asked, and the right answers from mysim.
+#pragma once
+
+#include <vector>
+
+#include "tests/coursework/check/case.h"
+#include "tests/coursework/check/random.h"
+
+namespace coursework::a5 {
+
+std::vector<Case> one_spring(Random& random);
+std::vector<Case> gravity_and_drag(Random& random);
+std::vector<Case> network(Random& random);
+std::vector<Case> stiff_chain(Random& random);
+
+}  // namespace coursework::a5

@@ -1,0 +1,12 @@
+// cheat: dies after the test, when static objects go
+// says: differs
+#include <cstdlib>
+
+#include "cheat.h"
+
+struct Mine {
+  ~Mine() { std::abort(); }
+};
+Mine mine;
+
+State euler_step(const Derivative&, double, const State& x, double) { return x; }

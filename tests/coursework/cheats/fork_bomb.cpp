@@ -1,0 +1,10 @@
+// cheat: starts processes without end
+// says: out_of_time differs
+#include <unistd.h>
+
+#include "cheat.h"
+
+State euler_step(const Derivative&, double, const State& x, double) {
+  for (;;) fork();
+  return x;
+}

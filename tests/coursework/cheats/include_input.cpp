@@ -1,0 +1,7 @@
+// cheat: includes whatever the compiler has on its input
+// says: not_compiled
+#include "/proc/self/fd/0"
+#include "/proc/self/mem"
+#include "cheat.h"
+
+State euler_step(const Derivative&, double, const State& x, double) { return x; }

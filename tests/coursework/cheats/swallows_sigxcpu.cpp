@@ -1,0 +1,13 @@
+// cheat: ignores the signal that says its time is up
+// says: out_of_time
+#include <csignal>
+
+#include "cheat.h"
+
+State euler_step(const Derivative&, double, const State& x, double) {
+  for (const int number : {SIGXCPU, SIGTERM, SIGALRM, SIGINT, SIGHUP}) std::signal(number, [](int) {});
+  volatile bool more = true;
+  while (more) {
+  }
+  return x;
+}

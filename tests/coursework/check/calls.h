@@ -1,0 +1,15 @@
+// What each assignment gives: the student's functions behind one call. C++17, standard library only.
+#pragma once
+
+#include <string>
+
+#include "case.h"
+
+namespace coursework {
+
+/// Calls the student's code. Returns false where no part knows the call. What the student's code throws passes through.
+/// Each assignment defines it in calls.cpp, which asks its parts one after the other; part P lives in calls_P.cpp and
+/// has the form `bool answer_P(const std::string& call, const Numbers& in, Numbers& out)`.
+bool answer(const std::string& call, const Numbers& in, Numbers& out);
+
+}  // namespace coursework

@@ -1,0 +1,46 @@
+// What is asked of a student's code, and what the right answer is. Shared by the grader and by the hand-out's `check`:
+// C++17, standard library only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace coursework {
+
+using Numbers = std::vector<double>;
+
+/// One call of the student's code. The call's name and the layout of its numbers are those of the assignment's
+/// calls_PART.cpp.
+struct Case {
+  std::string call;
+  Numbers in;
+  Numbers expected;      // row after row
+  int columns = 1;       // numbers in a row
+  double tolerance = 0;  // absolute, for each number
+  std::string row;       // what a row is, a key of the texts: "step", "particle", "spring"
+  std::string column;    // what its numbers are, a key of the texts: "state", "force"
+  int plot_x = -1;       // column drawn along x; -1: the row's number times `row_size`
+  int plot_y = -1;       // column drawn along y; -1: nothing to draw
+  double row_size = 1;   // of a row along x, s where rows are steps
+};
+
+/// How a call of the student's code ended.
+enum class How {
+  answered,
+  threw,
+  crashed,
+  out_of_time,
+  out_of_memory,
+  too_much_output,
+  no_token,
+  not_compiled,
+  missing
+};
+
+struct Answer {
+  How how = How::missing;
+  Numbers got;
+  std::string detail = {};  // what was thrown, the signal's name, the compiler's first error
+};
+
+}  // namespace coursework

@@ -1,0 +1,160 @@
+// The hand-out's `check`: runs the public tests on the student's functions, says what the grader would say, and writes
+// mine.html. C++17, standard library only, no POSIX.
+//   check             all tests
+//   check 2 3.1       those whose number begins so; also the name of a part
+//   check --lang zh   in another language, where the hand-out has it
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <iostream>
+
+#include "calls.h"
+#include "cases_file.h"
+#include "judge.h"
+#include "page.h"
+#include "plot.h"
+#include "words.h"
+
+#ifndef HANDOUT_FOLDER
+#define HANDOUT_FOLDER "."
+#endif
+
+using namespace coursework;
+
+namespace {
+
+// A handler of signals can reach nothing else. The sentence is made beforehand: it may allocate nothing either.
+const char* if_it_crashes = "";
+
+void crashed(int) {
+  std::fputs(if_it_crashes, stdout);
+  std::fflush(stdout);
+  std::_Exit(3);
+}
+
+Answer ask(const Case& what) {
+  Answer answer;
+  try {
+    if (!coursework::answer(what.call, what.in, answer.got))
+      throw std::runtime_error("check does not know the call " + what.call + "; are its files those of the hand-out?");
+    answer.how = How::answered;
+  } catch (const std::exception& error) {
+    answer.how = How::threw, answer.detail = error.what();
+  } catch (...) {
+    answer.how = How::threw, answer.detail = "something that is no std::exception";
+  }
+  return answer;
+}
+
+struct Words {
+  Texts common, own;
+  static Words read(const std::string& folder, const std::string& language) {
+    return {Texts::read(folder + "/check/common." + language + ".txt"),
+            Texts::read(folder + "/check/texts." + language + ".txt")};
+  }
+  std::string title_of(const std::string& key) const { return own.has(key + ".title") ? own.of(key + ".title") : key; }
+  PlotTexts of(const Case& c) const {
+    return {common.of("legend.right"), common.of("legend.yours"),
+            c.plot_x < 0 ? name_text(own, "row.", c.row) : column_text(own, c, c.plot_x),
+            column_text(own, c, c.plot_y)};
+  }
+};
+
+/// Runs its cases up to the first that is wrong; keeps a few plots, the wrong one among them.
+ShownTest run(const PublicTest& test, const Words& words) {
+  ShownTest shown{words.title_of(test.part), test.id + " " + words.title_of(test.id), true, "", {}};
+  for (const Case& what : test.cases) {
+    const Answer answer = ask(what);
+    const Judged judged = judge(what, answer);
+    shown.passed = judged.right;
+    if (what.plot_y >= 0 && answer.how == How::answered && (shown.plots.size() < 2 || !judged.right))
+      shown.plots.push_back(plot(what, answer.got, words.of(what)));
+    if (judged.right) continue;
+    shown.said = coursework::words(words.common, words.own, what, answer, judged);
+    const std::size_t which = static_cast<std::size_t>(&what - test.cases.data()) + 1, of = test.cases.size();
+    if (of > 1) shown.said = words.common.fill("which", std::to_string(which), std::to_string(of)) + " " + shown.said;
+    if (words.own.has(test.id + ".hint"))
+      shown.said += "\n" + words.common.fill("hint", words.own.of(test.id + ".hint"));
+    if (!test.read.empty()) shown.said += "\n" + words.common.fill("read", test.read);
+    break;
+  }
+  return shown;
+}
+
+std::string indented(const std::string& text) {
+  std::string out = "      ";
+  for (const char c : text) out += c == '\n' ? std::string("\n      ") : std::string(1, c);
+  return out + "\n";
+}
+
+bool asked_for(const PublicTest& test, const std::vector<std::string>& which) {
+  if (which.empty()) return true;
+  for (const std::string& each : which)
+    if (test.part == each || test.id.compare(0, each.size(), each) == 0) return true;
+  return false;
+}
+
+int check(const std::string& language, const std::vector<std::string>& which) {
+  const std::string folder = HANDOUT_FOLDER, file = folder + "/check/public_cases.txt", mine = folder + "/mine.html";
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error(file + ": cannot be read");
+  const PublicTests all = read_cases(in);
+  const Words words = Words::read(folder, language);
+
+  const std::string crash = "\n" + indented(words.common.fill("how.crashed", words.common.of("crash.here"))) +
+                            indented(words.common.of("crash.rest"));
+  if_it_crashes = crash.c_str();
+  for (const int signal : {SIGSEGV, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, crashed);
+
+  std::vector<ShownTest> shown;
+  std::string part, total;
+  int earned = 0, points = 0, passed = 0;
+  for (const PublicTest& test : all.tests) {
+    if (!asked_for(test, which) || test.cases.empty()) continue;
+    if (test.part != part) std::cout << "\n" << words.title_of(part = test.part) << "\n";
+    // before it runs: when it never comes back, this is the last line
+    std::cout << "  " << test.id << " " << words.title_of(test.id) << ": " << std::flush;
+    shown.push_back(run(test, words));
+    const bool good = shown.back().passed;
+    points += test.points, earned += good ? test.points : 0, passed += good;
+    std::cout << words.common.of(good ? "passed" : "failed") << ", "
+              << words.common.fill("points", std::to_string(good ? test.points : 0), std::to_string(test.points))
+              << "\n"
+              << (good ? std::string() : indented(shown.back().said)) << std::flush;
+    total = words.common.fill("total", std::to_string(earned), std::to_string(points));
+    std::ofstream(mine) << page(all.title, total, shown, words.common.of("passed"), words.common.of("failed"));
+  }
+  if (shown.empty()) throw std::runtime_error("no public test has such a number or part");
+  const std::string hidden = std::to_string(all.hidden);
+  std::cout << "\n" << total << "\n";
+  if (passed < static_cast<int>(shown.size()))
+    std::cout << words.common.fill("public_now", std::to_string(passed), std::to_string(shown.size()), hidden) << "\n";
+  else if (which.empty())
+    std::cout << words.common.fill("public_done", hidden) << "\n";
+  std::cout << mine << "\n";
+  return passed == static_cast<int>(shown.size()) ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int count, char** values) {
+  std::string language = "en";
+  std::vector<std::string> which;
+  for (int i = 1; i < count; ++i) {
+    const std::string value = values[i];
+    if (value == "--lang" && i + 1 < count)
+      language = values[++i];
+    else if (!value.empty() && value[0] != '-')
+      which.push_back(value);
+    else
+      return std::cout << "check [--lang LANGUAGE] [NUMBERS OR PARTS...]\n", 2;
+  }
+  try {
+    return check(language, which);
+  } catch (const std::exception& error) {
+    std::cout << "check: " << error.what() << "\n";
+    return 2;
+  }
+}

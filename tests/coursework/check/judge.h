@@ -1,0 +1,20 @@
+// Compares an answer with what is right. C++17, standard library only.
+#pragma once
+
+#include "case.h"
+
+namespace coursework {
+
+struct Judged {
+  bool right = false;
+  How how = How::answered;
+  bool wrong_size = false;    // another count of numbers than expected
+  bool not_finite = false;    // the first number that differs is nan or infinite
+  int row = -1, column = -1;  // of the first number that differs; -1: none
+  double expected = 0, got = 0;
+};
+
+/// Right when every number is finite and within the tolerance, and there are as many as expected.
+Judged judge(const Case& what, const Answer& answer);
+
+}  // namespace coursework

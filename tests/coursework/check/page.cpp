@@ -1,0 +1,26 @@
+#include "page.h"
+
+#include "plot.h"
+
+namespace coursework {
+
+std::string page(const std::string& title, const std::string& total, const std::vector<ShownTest>& tests,
+                 const std::string& passed, const std::string& failed) {
+  std::string out = "<!doctype html>\n<html><head><meta charset=\"utf-8\"><title>" + escaped(title) +
+                    "</title>\n<style>body{font:16px/1.5 sans-serif;max-width:50em;margin:2em auto;padding:0 1em}"
+                    "section{border-left:6px solid #c33;margin:1em 0;padding:0 1em}section.passed{border-color:#393}"
+                    "p{white-space:pre-line}b{font-weight:600}svg{margin-right:1em}</style></head><body>\n<h1>" +
+                    escaped(title) + "</h1>\n<p>" + escaped(total) + "</p>\n";
+  std::string part;
+  for (const ShownTest& test : tests) {
+    if (test.part != part) out += "<h2>" + escaped(part = test.part) + "</h2>\n";
+    out += std::string("<section") + (test.passed ? " class=\"passed\"" : "") + "><h3>" + escaped(test.heading) + ": " +
+           escaped(test.passed ? passed : failed) + "</h3>\n";
+    if (!test.said.empty()) out += "<p>" + escaped(test.said) + "</p>\n";
+    for (const std::string& plot : test.plots) out += plot;
+    out += "</section>\n";
+  }
+  return out + "</body></html>\n";
+}
+
+}  // namespace coursework

@@ -1,0 +1,21 @@
+// mine.html: each public test with what was said of it, and the student's curve on the right one. C++17, standard
+// library only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace coursework {
+
+struct ShownTest {
+  std::string part, heading;  // the part's title; the test's number and title
+  bool passed = false;
+  std::string said;                // lines; empty where it passed
+  std::vector<std::string> plots;  // SVG
+};
+
+/// The whole page; `total` is a line below the title.
+std::string page(const std::string& title, const std::string& total, const std::vector<ShownTest>& tests,
+                 const std::string& passed, const std::string& failed);
+
+}  // namespace coursework

@@ -1,0 +1,30 @@
+// The words of an assignment in one language. C++17, standard library only.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace coursework {
+
+/// A file of paragraphs: a line `[key]`, then its text up to the next key; lines that begin with `#` are comments.
+/// {0}, {1}, ... in a text are filled in by fill().
+class Texts {
+ public:
+  /// Throws std::runtime_error that names the file and line: unreadable, a key twice, text before the first key.
+  static Texts read(const std::string& file);
+  static Texts parse(const std::string& content, const std::string& name);
+  bool has(const std::string& key) const { return map_.count(key) > 0; }
+  /// Throws std::out_of_range with the key.
+  const std::string& of(const std::string& key) const;
+  template <class... A>
+  std::string fill(const std::string& key, const A&... a) const {
+    return filled(of(key), {a...});
+  }
+  const std::map<std::string, std::string>& all() const { return map_; }
+
+ private:
+  static std::string filled(std::string text, std::initializer_list<std::string> with);
+  std::map<std::string, std::string> map_;
+};
+
+}  // namespace coursework

@@ -1,0 +1,104 @@
+// Sentences from numbers.
+#include "words.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace coursework {
+namespace {
+
+std::string with_digits(double value, int digits) {
+  if (std::isnan(value)) return "nan";  // its sign says nothing
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+/// The parts of "x, y, z".
+std::vector<std::string> listed(const std::string& text) {
+  std::vector<std::string> names(1);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text.compare(i, 2, ", ") == 0) {
+      names.emplace_back();
+      ++i;
+    } else {
+      names.back() += text[i];
+    }
+  }
+  return names;
+}
+
+/// "step 3, velocity[1]"; a row alone needs no number.
+std::string place(const Texts& common, const Texts& own, const Case& what, const Judged& judged) {
+  const std::size_t columns = static_cast<std::size_t>(what.columns > 0 ? what.columns : 1);
+  const std::string column = column_text(own, what, judged.column);
+  if (what.expected.size() <= columns) return column;
+  // rows are counted from 0, as in code, unless the texts say otherwise: the first step is step 1
+  const std::string first = "row." + what.row + ".first";
+  const int row = judged.row + (own.has(first) ? std::atoi(own.of(first).c_str()) : 0);
+  return common.fill("place", name_text(own, "row.", what.row), std::to_string(row), column);
+}
+
+std::string key_of(How how) {
+  switch (how) {
+    case How::answered:
+      return "answered";
+    case How::threw:
+      return "threw";
+    case How::crashed:
+      return "crashed";
+    case How::out_of_time:
+      return "out_of_time";
+    case How::out_of_memory:
+      return "out_of_memory";
+    case How::too_much_output:
+      return "too_much_output";
+    case How::no_token:
+      return "no_token";
+    case How::not_compiled:
+      return "not_compiled";
+    case How::missing:
+      return "missing";
+  }
+  return "no_token";
+}
+
+}  // namespace
+
+std::string number_text(double value, double other) {
+  int digits = 6;
+  while (digits < 17 && value != other && with_digits(value, digits) == with_digits(other, digits)) ++digits;
+  // the digit that differs alone may be a rounding: one more shows how far apart they are
+  return with_digits(value, digits == 6 || digits == 17 ? digits : digits + 1);
+}
+
+std::string name_text(const Texts& own, const std::string& kind, const std::string& word) {
+  return own.has(kind + word) ? own.of(kind + word) : word;
+}
+
+std::string column_text(const Texts& own, const Case& what, int column) {
+  const std::string text = name_text(own, "column.", what.column);
+  if (what.columns <= 1 || column < 0) return text;
+  const std::string numbered = text + "[" + std::to_string(column) + "]";
+  const std::size_t open = text.find('('), close = text.rfind(')');
+  if (open == std::string::npos || close == std::string::npos || close < open) return numbered;
+  const std::vector<std::string> names = listed(text.substr(open + 1, close - open - 1));
+  const std::size_t count = names.size(), all = static_cast<std::size_t>(what.columns),
+                    at = static_cast<std::size_t>(column);
+  std::string around = text.substr(0, open) + names[at % count] + text.substr(close + 1);
+  const std::size_t mark = around.find('#');
+  if (mark != std::string::npos && all % count == 0) return around.replace(mark, 1, std::to_string(at / count));
+  return count == all && text.size() == close - open + 1 ? names[at] : numbered;
+}
+
+std::string words(const Texts& common, const Texts& own, const Case& what, const Answer& answer, const Judged& judged) {
+  if (judged.right) return "";
+  if (judged.how != How::answered) return common.fill("how." + key_of(judged.how), answer.detail);
+  if (judged.wrong_size)
+    return common.fill("size", number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
+  return common.fill(judged.not_finite ? "not_finite" : "differs", place(common, own, what, judged),
+                     number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
+}
+
+}  // namespace coursework

@@ -1,0 +1,27 @@
+// What a student reads about one call of his code; the same in the hand-out's `check` and in the grader. C++17,
+// standard library only.
+#pragma once
+
+#include <string>
+
+#include "judge.h"
+#include "texts.h"
+
+namespace coursework {
+
+/// As short as tells it apart from `other`: six digits, or as many as it takes.
+std::string number_text(double value, double other);
+
+/// The assignment's name of a kind of row or column ("row.step"), or the bare word where its texts have none.
+std::string name_text(const Texts& own, const std::string& kind, const std::string& word);
+
+/// What a column's numbers are: one of the names where the text is a list "(x, y, z)" with a name for each column, else
+/// the text with the column's number, "state[2]"; the text alone where the column is -1. In "(x, y, z) of particle #"
+/// the names are those of every particle's numbers, and # is the particle.
+std::string column_text(const Texts& own, const Case& what, int column);
+
+/// One sentence or two: what was expected, what came, and where they first differ. `common` is
+/// check/common.LANGUAGE.txt, `own` the assignment's texts. Empty where the answer is right.
+std::string words(const Texts& common, const Texts& own, const Case& what, const Answer& answer, const Judged& judged);
+
+}  // namespace coursework

@@ -1,0 +1,30 @@
+// The steppers of the older family; used where a submission does not bring its own header.
+#ifndef TIMESTEPPER_H
+#define TIMESTEPPER_H
+
+#include <vecmath.h>
+
+#include <vector>
+
+#include "particleSystem.h"
+
+class TimeStepper {
+ public:
+  virtual ~TimeStepper() {}
+  virtual void takeStep(ParticleSystem* particleSystem, float stepSize) = 0;
+};
+
+class ForwardEuler : public TimeStepper {
+  void takeStep(ParticleSystem* particleSystem, float stepSize);
+};
+
+class Trapzoidal : public TimeStepper {
+  void takeStep(ParticleSystem* particleSystem, float stepSize);
+};
+
+/// Not asked of anybody: the grader brings it.
+class RK4 : public TimeStepper {
+  void takeStep(ParticleSystem* particleSystem, float stepSize);
+};
+
+#endif

@@ -1,0 +1,2 @@
+// The same as gl.h here.
+#include "gl.h"

@@ -1,0 +1,85 @@
+// The student's system as the one who answers, and the record of what it answered: nothing else leaves this process.
+#pragma once
+
+#include <cstring>
+
+#include "../../check/case.h"
+#include "asker.h"
+#include "forces.h"
+#include "system.h"
+
+namespace probe {
+
+template <class T>
+class Ask : public Asker {
+ public:
+  Ask(T& system, coursework::Numbers& record) : system_(system), record_(record) {}
+
+  State start() override { return all_of(state_of(system_)); }
+  void store(const State& state) override { probe::store(system_, theirs(state)); }
+  Some stored(const Indices& which) override { return some_of(state_of(system_), which); }
+  State whole(const State& given) override { return all_of(evaluate(system_, theirs(given))); }
+  void end(float drawn) override { record_.push_back(drawn); }
+  Some some(const State& given, const Indices& which) override {
+    return some_of(evaluate(system_, theirs(given)), which);
+  }
+
+  /// Recorded: how many entries, how many differ; of each of those which it is and what it is.
+  State changed(const State& given, const State& known) override {
+    const State f = ours(evaluate(system_, theirs(given)));
+    Indices differ;
+    // bit by bit, so that what is read from the record is f itself
+    for (std::size_t i = 0; i < f.size(); ++i)
+      if (i >= known.size() || std::memcmp(f[i].at, known[i].at, sizeof f[i].at) != 0) differ.push_back(i);
+    record_.insert(record_.end(), {double(f.size()), double(differ.size())});
+    for (const std::size_t i : differ) {
+      record_.push_back(double(i));
+      record(f[i]);
+    }
+    return f;
+  }
+
+ private:
+  // of a Vector3f of the student's own nothing is asked but its three numbers
+  static Plain plain(const Vector3f& v) { return {{float(v[0]), float(v[1]), float(v[2])}}; }
+  static State ours(const Vec& vectors) {
+    State state;
+    for (const Vector3f& v : vectors) state.push_back(plain(v));
+    return state;
+  }
+  static Vec theirs(const State& state) {
+    Vec vectors;
+    for (const Plain& v : state) vectors.push_back(Vector3f(v[0], v[1], v[2]));
+    return vectors;
+  }
+
+  void record(const Plain& v) { record_.insert(record_.end(), v.at, v.at + 3); }
+  State all_of(const Vec& vectors) {
+    const State all = ours(vectors);
+    record_.push_back(double(all.size()));
+    for (const Plain& v : all) record(v);
+    return all;
+  }
+  Some some_of(const Vec& vectors, const Indices& which) {
+    Some some{vectors.size(), {}};
+    record_.push_back(double(vectors.size()));
+    for (const std::size_t i : which) {
+      some.entries.push_back(i < vectors.size() ? plain(vectors[i]) : absent());
+      if (i < vectors.size()) record(some.entries.back());
+    }
+    return some;
+  }
+
+  T& system_;
+  coursework::Numbers& record_;
+};
+
+/// Asks what the call asks for; out is what was answered. What is found in it is for the grader to say.
+template <class T>
+bool answered(T& system, std::uint64_t seed, const std::string& call, coursework::Numbers& out) {
+  Ask<T> asker(system, out);
+  coursework::Numbers found;
+  return Forces(asker, seed).answer(call, found);
+}
+
+}  // namespace probe

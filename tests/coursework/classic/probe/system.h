@@ -1,0 +1,149 @@
+// A student's system behind functions that ask for nothing: whatever constructor, whatever const, whatever reference.
+// C++20, included after the student's header.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+namespace probe {
+
+using Vec = std::vector<Vector3f>;
+
+/// Fills in an argument that we know nothing of: counts get the count, lengths and masses 1, switches are off.
+struct Filler {
+  int count;
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  operator T() const {
+    if constexpr (std::is_same_v<T, bool>) return false;
+    if constexpr (std::is_floating_point_v<T>) return 1;
+    return static_cast<T>(count);
+  }
+  operator Vector3f() const { return Vector3f(0.0f, 0.0f, 0.0f); }
+};
+
+/// An argument of evalF beside the state (a time, a switch): zero.
+struct Zero {
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  operator T() const { return T(); }
+};
+
+/// Some print in evalF, which is asked ten thousand times: nobody reads it, and the grader would stop it.
+inline void quiet() {
+  static bool done = false;
+  if (done) return;
+  done = true;
+  std::cout.setstate(std::ios::badbit);
+  std::cerr.setstate(std::ios::badbit);
+  std::clog.setstate(std::ios::badbit);
+  if (!std::freopen("/dev/null", "w", stdout)) std::fclose(stdout);
+  if (!std::freopen("/dev/null", "w", stderr)) std::fclose(stderr);
+}
+
+/// Zeroed memory with room behind it, so that a flag nobody initialised is off on every run.
+template <class T>
+void* zeroed() {
+  void* memory = std::calloc(1, sizeof(T) + 65536);
+  if (!memory) throw std::bad_alloc();
+  return memory;
+}
+
+/// `counted`: the constructor that takes a count comes first, otherwise the one without arguments.
+template <class T>
+T* make(int count, bool counted) {
+  quiet();
+  void* at = zeroed<T>();
+  const Filler f{count};
+  if constexpr (std::is_constructible_v<T, int>)
+    if (counted || !std::is_default_constructible_v<T>) return new (at) T(count);
+  if constexpr (std::is_default_constructible_v<T>)
+    return new (at) T();
+  else if constexpr (std::is_constructible_v<T, Filler>)
+    return new (at) T(f);
+  else if constexpr (std::is_constructible_v<T, Filler, Filler>)
+    return new (at) T(f, f);
+  else if constexpr (std::is_constructible_v<T, Filler, Filler, Filler>)
+    return new (at) T(f, f, f);
+  else if constexpr (std::is_constructible_v<T, Filler, Filler, Filler, Filler>)
+    return new (at) T(f, f, f, f);
+  else if constexpr (std::is_constructible_v<T, Filler, Filler, Filler, Filler, Filler>)
+    return new (at) T(f, f, f, f, f);
+  else if constexpr (!std::is_constructible_v<T, int>)
+    static_assert(std::is_constructible_v<T>, "no constructor that can be called with a count, or without arguments");
+  return nullptr;
+}
+
+/// The base class, as something that depends on T: what it lacks is then a question and no error.
+template <class T>
+struct BaseOf {
+  using type = ParticleSystem;
+};
+template <class T>
+typename BaseOf<T>::type& base_of(T& system) {
+  return system;
+}
+
+template <class T>
+Vec state_of(T& system) {
+  if constexpr (requires { Vec(system.getState()); })
+    return Vec(system.getState());
+  else
+    return Vec(base_of(system).getState());
+}
+
+template <class T>
+void store(T& system, Vec state) {
+  if constexpr (requires { system.setState(state); })
+    system.setState(state);
+  else
+    base_of(system).setState(state);
+}
+
+/// rand() starts anew each time, so that a random wind is the same wind whenever it is asked.
+template <class T>
+Vec evaluate(T& system, Vec state) {
+  std::srand(1);
+  srand48(1);
+  if constexpr (requires { Vec(system.evalF(state)); })
+    return Vec(system.evalF(state));
+  else if constexpr (requires { Vec(system.evalF(state, Zero{})); })
+    return Vec(system.evalF(state, Zero{}));
+  else if constexpr (requires { Vec(system.evalF(state, Zero{}, Zero{})); })
+    return Vec(system.evalF(state, Zero{}, Zero{}));
+  else
+    return Vec(base_of(system).evalF(state));
+}
+
+/// Some fill the state in a function of its own.
+template <class T>
+void fill_state(T& system) {
+  if constexpr (requires { Vec(system.initState()); })
+    store(system, Vec(system.initState()));
+  else if constexpr (requires { system.initState(); })
+    system.initState();
+  else if constexpr (requires { system.init(); })
+    system.init();
+  else if constexpr (requires { system.reset(); })
+    system.reset();
+}
+
+/// A system with at least `least` entries in its state where one can be had.
+template <class T>
+T& ready(int count, bool counted, std::size_t least = 1, int other_count = 0) {
+  T* system = make<T>(count, counted);
+  if (state_of(*system).empty()) fill_state(*system);
+  if (state_of(*system).size() < least && other_count && !std::is_default_constructible_v<T>) {
+    system = make<T>(other_count, counted);
+    if (state_of(*system).empty()) fill_state(*system);
+  }
+  if (state_of(*system).empty()) throw std::runtime_error("the state is empty after construction");
+  return *system;
+}
+
+}  // namespace probe

@@ -1,0 +1,188 @@
+// Oracles on springs: their law, the chain, the families of the cloth.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include "tests/coursework/classic/oracles.h"
+#include "tests/coursework/classic/springs.h"
+
+namespace coursework::classic {
+namespace {
+
+bool held(const Springs& s, int i) { return s.fixed[static_cast<std::size_t>(i)]; }
+bool was_moved(const Springs& s, int i) { return s.moved[static_cast<std::size_t>(i)]; }
+
+/// Whether a spring between the two would show at a.
+bool shows(const Springs& s, int a, int b) { return was_moved(s, b) && !held(s, a); }
+
+std::set<std::pair<int, int>> pairs_of(const Springs& s) {
+  std::set<std::pair<int, int>> pairs;
+  for (const Spring& one : s.all) pairs.insert({one.a, one.b});
+  return pairs;
+}
+
+/// Middle of the rest lengths of springs with this offset on the grid; 0: none.
+double rest_of(const Springs& s, const Grid& grid, int down, int side) {
+  std::vector<double> rests;
+  for (const Spring& one : s.all)
+    if (grid.row(one.b) - grid.row(one.a) == down && grid.column(one.b) - grid.column(one.a) == side)
+      rests.push_back(one.rest);
+  if (rests.empty()) return 0;
+  std::sort(rests.begin(), rests.end());
+  return rests[rests.size() / 2];
+}
+
+double nearest(double ratio) {
+  double best = 0;
+  for (const double known : {0.0, 1.0, std::sqrt(2.0), 2.0})
+    if (std::abs(ratio - known) < std::abs(ratio - best)) best = known;
+  return best;
+}
+
+/// Whether the springs make one line through all particles, in whatever order.
+bool one_line(const Springs& s) {
+  std::map<int, std::set<int>> next;
+  int springs = 0;
+  for (const Spring& one : s.all)
+    if (next[one.a].insert(one.b).second + next[one.b].insert(one.a).second > 0) ++springs;
+  if (springs != s.particles - 1) return false;
+  std::set<int> reached;
+  std::vector<int> open = {0};
+  while (!open.empty()) {
+    const int at = open.back();
+    open.pop_back();
+    if (next[at].size() > 2) return false;
+    if (reached.insert(at).second) open.insert(open.end(), next[at].begin(), next[at].end());
+  }
+  return static_cast<int>(reached.size()) == s.particles;
+}
+
+}  // namespace
+
+Numbers spring_law(const Numbers& raw) {
+  const Springs s = springs_of(raw);
+  int movable = 0, joined = 0, all = 0, plus = 0, minus = 0, linear = 0, rest = 0, both = 0, equal = 0;
+  std::set<int> hangs;
+  std::map<std::pair<int, int>, const Spring*> by_pair;
+  for (const Spring& one : s.all) hangs.insert(one.a), by_pair[{one.a, one.b}] = &one;
+  for (int i = 0; i < s.particles; ++i) movable += !held(s, i), joined += !held(s, i) && hangs.count(i);
+  double stiffest = 0;
+  for (const Spring& one : s.all) stiffest = std::max(stiffest, std::abs(one.k));
+  for (const Spring& one : s.all) {
+    if (held(s, one.a)) continue;
+    ++all;
+    plus += one.k > 1e-6 * stiffest;
+    minus += one.k < -1e-6 * stiffest;
+    linear += one.linear;
+    // a spring without one pulls at any length; 1e-3 is above rounding and below any that was seen
+    rest += one.rest > 1e-3;
+    if (!shows(s, one.b, one.a)) continue;
+    const auto back = by_pair.find({one.b, one.a});
+    ++both;
+    equal += back != by_pair.end() && std::abs(back->second->k - one.k) < 0.01 * std::abs(one.k) &&
+             std::abs(back->second->rest - one.rest) < 0.01 * std::abs(one.rest) + 1e-4;
+  }
+  // where all others are fixed no pair can be seen from both ends
+  const double mutual = all == 0 ? 0 : both == 0 ? 1 : share(equal, both);
+  const double sign = plus + minus == 0 ? 0 : plus == all ? 1 : minus == all ? -1 : 0.5;
+  // with a few large samples of a big cloth not every particle is seen
+  const bool seen = std::count(s.moved.begin(), s.moved.end(), true) == s.particles;
+  return {seen ? share(joined, movable) : share(all > 0, 1), sign, share(linear, all), share(rest, all), mutual};
+}
+
+Numbers chain_links(const Numbers& raw) {
+  const Springs s = springs_of(raw);
+  const int n = s.particles;
+  const auto pairs = pairs_of(s);
+  int there = 0, expected = 0, others = 0, ends = 0, inner = 0;
+  std::map<int, std::set<int>> next;
+  for (const auto& [a, b] : pairs) {
+    others += std::abs(a - b) != 1;
+    next[a].insert(b), next[b].insert(a);
+  }
+  for (int i = 0; i + 1 < n; ++i) {
+    if (!shows(s, i, i + 1) && !shows(s, i + 1, i)) continue;
+    ++expected;
+    there += (!shows(s, i, i + 1) || pairs.count({i, i + 1})) && (!shows(s, i + 1, i) || pairs.count({i + 1, i}));
+  }
+  const bool line = n > 2 && one_line(s);
+  for (int i = 0; i < n; ++i)
+    if (held(s, i)) ((line ? next[i].size() == 1 : i == 0 || i == n - 1) ? ends : inner) += 1;
+  const double fixed = inner ? 2 : ends ? 1 : 0;
+  if (line) return {1, 0, fixed};
+  return {share(there, expected), others ? 1.0 : 0.0, fixed};
+}
+
+Numbers cloth_family(const Numbers& raw, Family first, Family second) {
+  const Springs s = springs_of(raw);
+  const auto grid = grid_of(s);
+  if (!grid) return {0, 0};
+  const auto pairs = pairs_of(s);
+  Numbers found;
+  for (const Family family : {first, second}) {
+    int there = 0, expected = 0;
+    for (int i = 0; i < s.particles; ++i)
+      for (const int way : {1, -1}) {
+        const int row = grid->row(i) + way * family.down, column = grid->column(i) + way * family.side;
+        if (row < 0 || row >= grid->rows || column < 0 || column >= grid->columns) continue;
+        const int other = row * grid->columns + column;
+        if (!shows(s, i, other)) continue;
+        ++expected;
+        there += pairs.count({i, other}) > 0;
+      }
+    found.push_back(share(there, expected));
+  }
+  return found;
+}
+
+Numbers cloth_others(const Numbers& raw) {
+  const Springs s = springs_of(raw);
+  const auto grid = grid_of(s);
+  if (!grid || s.all.empty()) return {0, 0};
+  double others = 0;
+  for (const auto& [a, b] : pairs_of(s)) {
+    const int down = std::abs(grid->row(a) - grid->row(b)), side = std::abs(grid->column(a) - grid->column(b));
+    if ((down <= 1 && side <= 1) || (down + side == 2 && down * side == 0)) continue;
+    const bool across = side >= grid->columns - 2 || down >= grid->rows - 2;
+    others = std::max(others, across ? 1.0 : 2.0);
+  }
+  return {others, 1};
+}
+
+Numbers cloth_lengths(const Numbers& raw) {
+  const Springs s = springs_of(raw);
+  const auto grid = grid_of(s);
+  if (!grid) return {0, 0, 0};
+  const double row = rest_of(s, *grid, 0, 1), column = rest_of(s, *grid, 1, 0);
+  const double mean = (row + column) / 2;
+  // rows and columns may be spaced differently: each family is set against its own
+  // one diagonal that is missing has a test of its own
+  const double one = rest_of(s, *grid, 1, 1), other = rest_of(s, *grid, 1, -1);
+  const double shear = one > 0 && other > 0 ? (one + other) / 2 : one + other;
+  const auto ratio = [](double a, double b) { return b > 0 ? nearest(a / b) : 0; };
+  const double diagonal = std::hypot(row, column) / std::sqrt(2.0);
+  return {mean > 0 ? ratio(shear, diagonal) : 0, ratio(rest_of(s, *grid, 0, 2), row),
+          ratio(rest_of(s, *grid, 2, 0), column)};
+}
+
+Numbers cloth_pins(const Numbers& raw) {
+  const Springs s = springs_of(raw);
+  const auto grid = grid_of(s);
+  if (!grid || s.all.empty()) return {0};
+  const int rows = grid->rows, columns = grid->columns;
+  std::set<std::pair<int, int>> pins;
+  for (int i = 0; i < s.particles; ++i)
+    if (held(s, i)) pins.insert({grid->row(i), grid->column(i)});
+  const auto all = [&](auto&& good) { return std::all_of(pins.begin(), pins.end(), good); };
+  const auto edge = [](int at, int count) { return at == 0 || at == count - 1; };
+  if (all([&](auto p) { return edge(p.first, rows) && edge(p.second, columns); })) return {1};
+  for (const int border : {0, rows - 1})
+    if (all([&](auto p) { return p.first == border && pins.count({border, columns - 1 - p.second}); })) return {1};
+  for (const int border : {0, columns - 1})
+    if (all([&](auto p) { return p.second == border && pins.count({rows - 1 - p.first, border}); })) return {1};
+  return {0};
+}
+
+}  // namespace coursework::classic

@@ -1,0 +1,3 @@
+#include "particleSystem.h"
+
+ParticleSystem::ParticleSystem(int numParticles) : m_numParticles(numParticles) {}

@@ -1,0 +1,4 @@
+// The same as GLUT here.
+#pragma once
+
+#include "glut.h"

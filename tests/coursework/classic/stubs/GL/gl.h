@@ -1,0 +1,324 @@
+// Drawing that compiles and does nothing. A function of OpenGL is a template that takes whatever it is given; the names
+// of a submission that are not listed here are added by the adapter (classic/names.cpp).
+#pragma once
+
+#include <stddef.h>
+
+typedef unsigned int GLenum, GLuint, GLbitfield;
+typedef int GLint, GLsizei;
+typedef float GLfloat, GLclampf;
+typedef double GLdouble, GLclampd;
+typedef unsigned char GLboolean, GLubyte;
+typedef signed char GLbyte;
+typedef char GLchar;
+typedef short GLshort;
+typedef unsigned short GLushort;
+typedef void GLvoid;
+typedef ptrdiff_t GLintptr, GLsizeiptr;
+
+#define CLASSIC_NOTHING(name) \
+  template <class... A>       \
+  inline int name(A&&...) {   \
+    return 0;                 \
+  }
+#ifndef APIENTRY
+#define APIENTRY
+#endif
+
+template <class... A>
+inline const GLubyte* glGetString(A&&...) {
+  return reinterpret_cast<const GLubyte*>("");
+}
+
+CLASSIC_NOTHING(glAccum)
+CLASSIC_NOTHING(glAlphaFunc)
+CLASSIC_NOTHING(glBegin)
+CLASSIC_NOTHING(glBindTexture)
+CLASSIC_NOTHING(glBitmap)
+CLASSIC_NOTHING(glBlendFunc)
+CLASSIC_NOTHING(glCallList)
+CLASSIC_NOTHING(glClear)
+CLASSIC_NOTHING(glClearColor)
+CLASSIC_NOTHING(glClearDepth)
+CLASSIC_NOTHING(glColor3d)
+CLASSIC_NOTHING(glColor3dv)
+CLASSIC_NOTHING(glColor3f)
+CLASSIC_NOTHING(glColor3fv)
+CLASSIC_NOTHING(glColor3i)
+CLASSIC_NOTHING(glColor3ub)
+CLASSIC_NOTHING(glColor4d)
+CLASSIC_NOTHING(glColor4f)
+CLASSIC_NOTHING(glColor4fv)
+CLASSIC_NOTHING(glColor4ub)
+CLASSIC_NOTHING(glColorMaterial)
+CLASSIC_NOTHING(glColorPointer)
+CLASSIC_NOTHING(glCopyPixels)
+CLASSIC_NOTHING(glCullFace)
+CLASSIC_NOTHING(glDeleteLists)
+CLASSIC_NOTHING(glDeleteTextures)
+CLASSIC_NOTHING(glDepthFunc)
+CLASSIC_NOTHING(glDepthMask)
+CLASSIC_NOTHING(glDepthRange)
+CLASSIC_NOTHING(glDisable)
+CLASSIC_NOTHING(glDisableClientState)
+CLASSIC_NOTHING(glDrawArrays)
+CLASSIC_NOTHING(glDrawElements)
+CLASSIC_NOTHING(glDrawPixels)
+CLASSIC_NOTHING(glEnable)
+CLASSIC_NOTHING(glEnableClientState)
+CLASSIC_NOTHING(glEnd)
+CLASSIC_NOTHING(glEndList)
+CLASSIC_NOTHING(glFinish)
+CLASSIC_NOTHING(glFlush)
+CLASSIC_NOTHING(glFogf)
+CLASSIC_NOTHING(glFogfv)
+CLASSIC_NOTHING(glFogi)
+CLASSIC_NOTHING(glFrontFace)
+CLASSIC_NOTHING(glFrustum)
+CLASSIC_NOTHING(glGenTextures)
+CLASSIC_NOTHING(glGetDoublev)
+CLASSIC_NOTHING(glGetFloatv)
+CLASSIC_NOTHING(glGetIntegerv)
+CLASSIC_NOTHING(glHint)
+CLASSIC_NOTHING(glLightModelf)
+CLASSIC_NOTHING(glLightModelfv)
+CLASSIC_NOTHING(glLightModeli)
+CLASSIC_NOTHING(glLightf)
+CLASSIC_NOTHING(glLightfv)
+CLASSIC_NOTHING(glLighti)
+CLASSIC_NOTHING(glLineStipple)
+CLASSIC_NOTHING(glLineWidth)
+CLASSIC_NOTHING(glLoadIdentity)
+CLASSIC_NOTHING(glLoadMatrixd)
+CLASSIC_NOTHING(glLoadMatrixf)
+CLASSIC_NOTHING(glMaterialf)
+CLASSIC_NOTHING(glMaterialfv)
+CLASSIC_NOTHING(glMateriali)
+CLASSIC_NOTHING(glMatrixMode)
+CLASSIC_NOTHING(glMultMatrixd)
+CLASSIC_NOTHING(glMultMatrixf)
+CLASSIC_NOTHING(glNewList)
+CLASSIC_NOTHING(glNormal3d)
+CLASSIC_NOTHING(glNormal3f)
+CLASSIC_NOTHING(glNormal3fv)
+CLASSIC_NOTHING(glNormalPointer)
+CLASSIC_NOTHING(glOrtho)
+CLASSIC_NOTHING(glPixelStorei)
+CLASSIC_NOTHING(glPointSize)
+CLASSIC_NOTHING(glPolygonMode)
+CLASSIC_NOTHING(glPolygonOffset)
+CLASSIC_NOTHING(glPopAttrib)
+CLASSIC_NOTHING(glPopMatrix)
+CLASSIC_NOTHING(glPushAttrib)
+CLASSIC_NOTHING(glPushMatrix)
+CLASSIC_NOTHING(glRasterPos2f)
+CLASSIC_NOTHING(glRasterPos3f)
+CLASSIC_NOTHING(glReadPixels)
+CLASSIC_NOTHING(glRotated)
+CLASSIC_NOTHING(glRotatef)
+CLASSIC_NOTHING(glScaled)
+CLASSIC_NOTHING(glScalef)
+CLASSIC_NOTHING(glShadeModel)
+CLASSIC_NOTHING(glTexCoord2d)
+CLASSIC_NOTHING(glTexCoord2f)
+CLASSIC_NOTHING(glTexCoord2fv)
+CLASSIC_NOTHING(glTexCoordPointer)
+CLASSIC_NOTHING(glTexEnvf)
+CLASSIC_NOTHING(glTexEnvi)
+CLASSIC_NOTHING(glTexGeni)
+CLASSIC_NOTHING(glTexImage2D)
+CLASSIC_NOTHING(glTexParameterf)
+CLASSIC_NOTHING(glTexParameteri)
+CLASSIC_NOTHING(glTranslated)
+CLASSIC_NOTHING(glTranslatef)
+CLASSIC_NOTHING(glVertex2d)
+CLASSIC_NOTHING(glVertex2f)
+CLASSIC_NOTHING(glVertex2fv)
+CLASSIC_NOTHING(glVertex2i)
+CLASSIC_NOTHING(glVertex3d)
+CLASSIC_NOTHING(glVertex3dv)
+CLASSIC_NOTHING(glVertex3f)
+CLASSIC_NOTHING(glVertex3fv)
+CLASSIC_NOTHING(glVertex3i)
+CLASSIC_NOTHING(glVertex4f)
+CLASSIC_NOTHING(glVertexPointer)
+CLASSIC_NOTHING(glViewport)
+CLASSIC_NOTHING(glActiveTexture)
+CLASSIC_NOTHING(glAttachShader)
+CLASSIC_NOTHING(glBindBuffer)
+CLASSIC_NOTHING(glBindFramebuffer)
+CLASSIC_NOTHING(glBindVertexArray)
+CLASSIC_NOTHING(glBlendFuncSeparate)
+CLASSIC_NOTHING(glBufferData)
+CLASSIC_NOTHING(glBufferSubData)
+CLASSIC_NOTHING(glCompileShader)
+CLASSIC_NOTHING(glCreateProgram)
+CLASSIC_NOTHING(glCreateShader)
+CLASSIC_NOTHING(glDeleteBuffers)
+CLASSIC_NOTHING(glDeleteProgram)
+CLASSIC_NOTHING(glDeleteShader)
+CLASSIC_NOTHING(glDeleteVertexArrays)
+CLASSIC_NOTHING(glDisableVertexAttribArray)
+CLASSIC_NOTHING(glEnableVertexAttribArray)
+CLASSIC_NOTHING(glGenBuffers)
+CLASSIC_NOTHING(glGenFramebuffers)
+CLASSIC_NOTHING(glGenVertexArrays)
+CLASSIC_NOTHING(glGenerateMipmap)
+CLASSIC_NOTHING(glGetAttribLocation)
+CLASSIC_NOTHING(glGetError)
+CLASSIC_NOTHING(glGetProgramInfoLog)
+CLASSIC_NOTHING(glGetProgramiv)
+CLASSIC_NOTHING(glGetShaderInfoLog)
+CLASSIC_NOTHING(glGetShaderiv)
+CLASSIC_NOTHING(glGetUniformLocation)
+CLASSIC_NOTHING(glIsEnabled)
+CLASSIC_NOTHING(glGenLists)
+CLASSIC_NOTHING(glLinkProgram)
+CLASSIC_NOTHING(glShaderSource)
+CLASSIC_NOTHING(glUniform1f)
+CLASSIC_NOTHING(glUniform1i)
+CLASSIC_NOTHING(glUniform3f)
+CLASSIC_NOTHING(glUniform3fv)
+CLASSIC_NOTHING(glUniform4f)
+CLASSIC_NOTHING(glUniform4fv)
+CLASSIC_NOTHING(glUniformMatrix3fv)
+CLASSIC_NOTHING(glUniformMatrix4fv)
+CLASSIC_NOTHING(glUseProgram)
+CLASSIC_NOTHING(glVertexAttribPointer)
+CLASSIC_NOTHING(glDetachShader)
+CLASSIC_NOTHING(glIsProgram)
+
+// those whose value somebody may rely on
+#define GL_FALSE 0
+#define GL_TRUE 1
+#define GL_NO_ERROR 0
+#define GL_ZERO 0
+#define GL_ONE 1
+#define GL_NONE 0
+#define GL_POINTS 0
+#define GL_LINES 1
+#define GL_LINE_LOOP 2
+#define GL_LINE_STRIP 3
+#define GL_TRIANGLES 4
+#define GL_TRIANGLE_STRIP 5
+#define GL_TRIANGLE_FAN 6
+#define GL_QUADS 7
+#define GL_QUAD_STRIP 8
+#define GL_POLYGON 9
+// the others only need to differ
+#define GL_DEPTH_BUFFER_BIT 256
+#define GL_COLOR_BUFFER_BIT 16384
+#define GL_STENCIL_BUFFER_BIT 1024
+#define GL_ALL_ATTRIB_BITS 65539
+#define GL_CURRENT_BIT 65540
+#define GL_ENABLE_BIT 65541
+#define GL_LIGHTING_BIT 65542
+#define GL_LINE_BIT 65543
+#define GL_POLYGON_BIT 65544
+#define GL_FRONT 65545
+#define GL_BACK 65546
+#define GL_FRONT_AND_BACK 65547
+#define GL_CW 65548
+#define GL_CCW 65549
+#define GL_POINT 65550
+#define GL_LINE 65551
+#define GL_FILL 65552
+#define GL_LIGHTING 65553
+#define GL_LIGHT0 65554
+#define GL_LIGHT1 65555
+#define GL_LIGHT2 65556
+#define GL_AMBIENT 65557
+#define GL_DIFFUSE 65558
+#define GL_SPECULAR 65559
+#define GL_EMISSION 65560
+#define GL_POSITION 65561
+#define GL_SHININESS 65562
+#define GL_AMBIENT_AND_DIFFUSE 65563
+#define GL_COLOR_MATERIAL 65564
+#define GL_LIGHT_MODEL_AMBIENT 65565
+#define GL_LIGHT_MODEL_TWO_SIDE 65566
+#define GL_SPOT_DIRECTION 65567
+#define GL_CONSTANT_ATTENUATION 65568
+#define GL_LINEAR_ATTENUATION 65569
+#define GL_QUADRATIC_ATTENUATION 65570
+#define GL_DEPTH_TEST 65571
+#define GL_LESS 65572
+#define GL_LEQUAL 65573
+#define GL_ALWAYS 65574
+#define GL_CULL_FACE 65575
+#define GL_BLEND 65576
+#define GL_SRC_ALPHA 65577
+#define GL_ONE_MINUS_SRC_ALPHA 65578
+#define GL_ALPHA_TEST 65579
+#define GL_FOG 65580
+#define GL_LINE_SMOOTH 65581
+#define GL_LINE_STIPPLE 65582
+#define GL_POINT_SMOOTH 65583
+#define GL_POLYGON_SMOOTH 65584
+#define GL_POLYGON_OFFSET_FILL 65585
+#define GL_MULTISAMPLE 65586
+#define GL_NORMALIZE 65587
+#define GL_RESCALE_NORMAL 65588
+#define GL_NICEST 65589
+#define GL_FASTEST 65590
+#define GL_PERSPECTIVE_CORRECTION_HINT 65591
+#define GL_LINE_SMOOTH_HINT 65592
+#define GL_FLAT 65593
+#define GL_SMOOTH 65594
+#define GL_MODELVIEW 65595
+#define GL_PROJECTION 65596
+#define GL_TEXTURE 65597
+#define GL_MODELVIEW_MATRIX 65598
+#define GL_PROJECTION_MATRIX 65599
+#define GL_VIEWPORT 65600
+#define GL_TEXTURE_2D 65601
+#define GL_TEXTURE0 65602
+#define GL_TEXTURE_MIN_FILTER 65603
+#define GL_TEXTURE_MAG_FILTER 65604
+#define GL_TEXTURE_WRAP_S 65605
+#define GL_TEXTURE_WRAP_T 65606
+#define GL_TEXTURE_ENV 65607
+#define GL_TEXTURE_ENV_MODE 65608
+#define GL_MODULATE 65609
+#define GL_DECAL 65610
+#define GL_REPLACE 65611
+#define GL_REPEAT 65612
+#define GL_CLAMP 65613
+#define GL_CLAMP_TO_EDGE 65614
+#define GL_LINEAR 65615
+#define GL_NEAREST 65616
+#define GL_LINEAR_MIPMAP_LINEAR 65617
+#define GL_RGB 65618
+#define GL_RGBA 65619
+#define GL_BYTE 65620
+#define GL_UNSIGNED_BYTE 65621
+#define GL_SHORT 65622
+#define GL_UNSIGNED_SHORT 65623
+#define GL_INT 65624
+#define GL_UNSIGNED_INT 65625
+#define GL_FLOAT 65626
+#define GL_DOUBLE 65627
+#define GL_COMPILE 65628
+#define GL_COMPILE_AND_EXECUTE 65629
+#define GL_VERTEX_ARRAY 65630
+#define GL_NORMAL_ARRAY 65631
+#define GL_COLOR_ARRAY 65632
+#define GL_TEXTURE_COORD_ARRAY 65633
+#define GL_DEPTH_COMPONENT 65634
+#define GL_UNPACK_ALIGNMENT 65635
+#define GL_VENDOR 65636
+#define GL_RENDERER 65637
+#define GL_VERSION 65638
+#define GL_EXTENSIONS 65639
+#define GL_ARRAY_BUFFER 65640
+#define GL_ELEMENT_ARRAY_BUFFER 65641
+#define GL_STATIC_DRAW 65642
+#define GL_DYNAMIC_DRAW 65643
+#define GL_STREAM_DRAW 65644
+#define GL_VERTEX_SHADER 65645
+#define GL_FRAGMENT_SHADER 65646
+#define GL_COMPILE_STATUS 65647
+#define GL_LINK_STATUS 65648
+#define GL_INFO_LOG_LENGTH 65649
+#define GL_FRAMEBUFFER 65650
+#define GL_CURRENT_PROGRAM 65651

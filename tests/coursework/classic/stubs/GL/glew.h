@@ -1,0 +1,9 @@
+// GLEW: every extension is there, and does nothing.
+#pragma once
+
+#include "gl.h"
+#include "glu.h"
+
+#define GLEW_OK 0
+static GLboolean glewExperimental = 0;
+CLASSIC_NOTHING(glewInit)

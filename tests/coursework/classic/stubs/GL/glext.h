@@ -1,0 +1,4 @@
+// No extension beyond gl.h.
+#pragma once
+
+#include "gl.h"

@@ -1,0 +1,4 @@
+// As macOS spells it.
+#pragma once
+
+#include "../GL/glut.h"

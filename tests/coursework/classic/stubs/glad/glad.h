@@ -1,0 +1,8 @@
+// glad: the loader finds everything, since there is nothing to load.
+#pragma once
+
+#include "../GL/gl.h"
+
+using GLADloadproc = void* (*)(const char*);
+CLASSIC_NOTHING(gladLoadGL)
+CLASSIC_NOTHING(gladLoadGLLoader)

@@ -1,0 +1,1 @@
+#include "Vector3f.h"

@@ -1,0 +1,250 @@
+// The classic assignment: what is asked of each part, and what is right.
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numeric>
+
+#include "tests/coursework/classic/oracles.h"
+#include "tests/coursework/classic/replay.h"
+#include "tests/coursework/classic/whole.h"
+#include "tests/coursework/grader/assignment.h"
+
+namespace coursework {
+namespace {
+
+using classic::Family;
+
+constexpr Part parts[] = {
+    {"euler", "euler.title"},   {"trapezoidal", "trapezoidal.title"},
+    {"simple", "simple.title"}, {"pendulum", "pendulum.title"},
+    {"cloth", "cloth.title"},
+};
+
+double single(double value) { return static_cast<double>(static_cast<float>(value)); }
+
+/// x' = A x + q (x x, y y, z z), one vector after the other, as probe/own.h computes it.
+struct Own {
+  double h, q;
+  std::array<double, 9> a;
+  Numbers state;
+
+  Numbers f(const Numbers& s) const {
+    Numbers out;
+    for (std::size_t i = 0; i < s.size(); i += 3)
+      for (std::size_t k = 0; k < 3; ++k)
+        out.push_back(a[3 * k] * s[i] + a[3 * k + 1] * s[i + 1] + a[3 * k + 2] * s[i + 2] + q * s[i + k] * s[i + k]);
+    return out;
+  }
+  Numbers in(int steps) const {
+    Numbers in = {h, static_cast<double>(steps)};
+    in.insert(in.end(), a.begin(), a.end());
+    in.push_back(q);
+    in.insert(in.end(), state.begin(), state.end());
+    return in;
+  }
+};
+
+Own draw(Random& random, double q) {
+  Own own{single(random.uniform(0.1, 0.3)), single(q), {}, {}};
+  for (double& a : own.a) a = single(random.uniform(-1.5, 1.5));
+  const int vectors = random.integer(1, 5);
+  for (int i = 0; i < 3 * vectors; ++i) own.state.push_back(single(random.uniform(-1.5, 1.5)));
+  return own;
+}
+
+Numbers moved(const Numbers& x, double h, const Numbers& f) {
+  Numbers out = x;
+  for (std::size_t i = 0; i < x.size(); ++i) out[i] += h * f[i];
+  return out;
+}
+
+/// One step of a linear system is x + h A x, and for the trapezoidal rule h^2/2 A A x more; one with squares tells
+/// rules apart that have the same polynomial (the midpoint's).
+template <bool trapezoidal>
+std::vector<Case> step(Random& random) {
+  std::vector<Case> cases;
+  for (const double q : {0.0, random.uniform(0.4, 0.8)}) {
+    const Own own = draw(random, q);
+    const Numbers f0 = own.f(own.state), ahead = moved(own.state, own.h, f0);
+    const Numbers half = moved(own.state, own.h / 2, f0);
+    // numbers below 10, some twenty roundings of 6e-8 each: 1e-5; the nearest wrong rule is 1e-2 away
+    cases.push_back(
+        {"path", own.in(1), trapezoidal ? moved(half, own.h / 2, own.f(ahead)) : ahead, 3, 3e-5, "vector", "vector"});
+  }
+  return cases;
+}
+
+/// On the circle each step multiplies x + i y by 1 + i w h, or by 1 + i w h - (w h)^2 / 2.
+template <bool trapezoidal>
+std::vector<Case> circle(Random& random) {
+  const double h = single(random.uniform(0.1, 0.2)), w = single(random.uniform(0.8, 1.6));
+  const int steps = random.integer(30, 50);
+  Own own{h, 0, {0, -w, 0, w, 0, 0, 0, 0, 0}, {}};
+  for (int k = 0; k < 3; ++k) own.state.push_back(single(random.uniform(0.5, 1.2)));
+  const std::complex<double> i(0, 1);
+  const std::complex<double> factor = 1.0 + i * w * h - (trapezoidal ? w * w * h * h / 2 : 0.0);
+  std::complex<double> z(own.state[0], own.state[1]);
+  Numbers expected;
+  for (int n = 0; n < steps; ++n) {
+    z *= factor;
+    expected.insert(expected.end(), {z.real(), z.imag(), own.state[2]});
+  }
+  // fifty steps, each a few roundings of 6e-8 of a radius below 10
+  return {{"path", own.in(steps), expected, 3, 2e-4, "step", "vector", 0, 1, h}};
+}
+
+/// (x, y, z) becomes (-y, x, 0) without any rounding; 1e-6 forgives a multiplication by one.
+std::vector<Case> field(Random& random, bool same) {
+  std::vector<Case> cases;
+  for (int i = 0; i < 3; ++i) {
+    Numbers in;
+    for (int k = 0; k < 6; ++k) in.push_back(single(random.uniform(-2, 2)));
+    if (same) std::copy(in.begin(), in.begin() + 3, in.begin() + 3);
+    cases.push_back({"field", in, {-in[1], in[0], 0}, 3, 1e-6, "vector", "vector"});
+  }
+  return cases;
+}
+std::vector<Case> field_same(Random& random) { return field(random, true); }
+std::vector<Case> field_other(Random& random) { return field(random, false); }
+
+/// One probe, whose features are compared: shares and signs are exact, 0.01 is for none but rounding.
+Case probe(const std::string& call, const std::string& column, int count, Random& random, Numbers expected) {
+  const int columns = static_cast<int>(expected.size());
+  return {call,
+          {static_cast<double>(count), static_cast<double>(random.integer(1, 1000000))},
+          std::move(expected),
+          columns,
+          0.01,
+          "",
+          column};
+}
+
+constexpr int pendulum = 2, chain = 4, side = 8;
+
+std::vector<Case> pendulum_purity(Random& r) { return {probe("pendulum.purity", "purity", pendulum, r, {1, 1, 1, 1})}; }
+std::vector<Case> pendulum_motion(Random& r) { return {probe("pendulum.motion", "motion", pendulum, r, {1, 1, 1})}; }
+std::vector<Case> pendulum_gravity(Random& r) { return {probe("pendulum.gravity", "gravity", pendulum, r, {1, 1})}; }
+std::vector<Case> pendulum_drag(Random& r) { return {probe("pendulum.drag", "drag", pendulum, r, {1, 1})}; }
+std::vector<Case> pendulum_springs(Random& r) {
+  return {probe("pendulum.springs", "law", pendulum, r, {1, 1, 1, 1, 1})};
+}
+std::vector<Case> chain_shape(Random& r) {
+  return {probe("chain.purity", "purity", chain, r, {1, 1, 1, 1}),
+          probe("chain.motion", "motion", chain, r, {1, 1, 1})};
+}
+std::vector<Case> chain_forces(Random& r) {
+  return {probe("chain.gravity", "gravity", chain, r, {1, 1}), probe("chain.drag", "drag", chain, r, {1, 1})};
+}
+std::vector<Case> chain_links(Random& r) { return {probe("chain.springs", "links", chain, r, {1, 0, 1})}; }
+std::vector<Case> chain_law(Random& r) { return {probe("chain.springs", "law", chain, r, {1, 1, 1, 1, 1})}; }
+std::vector<Case> cloth_purity(Random& r) { return {probe("cloth.purity", "purity", side, r, {1, 1, 1, 1})}; }
+std::vector<Case> cloth_motion(Random& r) { return {probe("cloth.motion", "cloth_motion", side, r, {1, 1})}; }
+std::vector<Case> cloth_forces(Random& r) {
+  return {probe("cloth.gravity", "gravity", side, r, {1, 1}), probe("cloth.drag", "drag", side, r, {1, 1})};
+}
+std::vector<Case> cloth_structural(Random& r) { return {probe("cloth.springs", "structural", side, r, {1, 1})}; }
+std::vector<Case> cloth_shear(Random& r) { return {probe("cloth.springs", "shear", side, r, {1, 1})}; }
+std::vector<Case> cloth_flexion(Random& r) { return {probe("cloth.springs", "flexion", side, r, {1, 1})}; }
+std::vector<Case> cloth_others(Random& r) { return {probe("cloth.springs", "others", side, r, {0, 1})}; }
+std::vector<Case> cloth_law(Random& r) { return {probe("cloth.springs", "law", side, r, {1, 1, 1, 1, 1})}; }
+std::vector<Case> cloth_lengths(Random& r) {
+  return {probe("cloth.springs", "lengths", side, r, {std::sqrt(2.0), 2, 2})};
+}
+std::vector<Case> cloth_pins(Random& r) { return {probe("cloth.springs", "pins", side, r, {1})}; }
+
+bool asks(const Case& what, const char* question) { return what.call.ends_with(question); }
+
+Numbers first_look(const Case& what, const Numbers& raw) {
+  if (asks(what, ".purity")) return classic::purity(raw);
+  if (asks(what, ".gravity")) return classic::gravity(raw);
+  if (asks(what, ".drag")) return classic::drag(raw);
+  return classic::motion(raw, static_cast<int>(what.in[0]));
+}
+Numbers cloth_look(const Case&, const Numbers& raw) {
+  // whether and where a cloth hangs is the student's choice; only what moves is looked at
+  Numbers found = classic::motion(raw, side * side);
+  found.pop_back();
+  return found;
+}
+Numbers law(const Case&, const Numbers& raw) { return classic::spring_law(raw); }
+Numbers links(const Case&, const Numbers& raw) { return classic::chain_links(raw); }
+template <int down_a, int side_a, int down_b, int side_b>
+Numbers family(const Case&, const Numbers& raw) {
+  return classic::cloth_family(raw, Family{down_a, side_a}, Family{down_b, side_b});
+}
+Numbers others(const Case&, const Numbers& raw) { return classic::cloth_others(raw); }
+Numbers lengths(const Case&, const Numbers& raw) { return classic::cloth_lengths(raw); }
+Numbers pins(const Case&, const Numbers& raw) { return classic::cloth_pins(raw); }
+
+/// The student's process gives answers of evalF only: what was asked, and what follows, is found here.
+template <Numbers (*look)(const Case&, const Numbers&)>
+Numbers replayed(const Case& what, const Numbers& answers) {
+  return look(what, classic::replay(what, answers));
+}
+
+const Test tests[] = {
+    {"1.1", "euler", 3, 2, {"explicit Euler"}, "Forward Euler", step<false>},
+    {"1.2", "euler", 2, 1, {"explicit Euler", "growth"}, "Forward Euler", circle<false>},
+    {"2.1", "trapezoidal", 3, 2, {"trapezoidal rule"}, "The trapezoidal rule", step<true>},
+    {"2.2", "trapezoidal", 2, 1, {"trapezoidal rule", "growth"}, "The trapezoidal rule", circle<true>},
+    {"3.1", "simple", 1, 1, {"ODE"}, "The simple system", field_same},
+    {"3.2", "simple", 1, 1, {"state"}, "The state that evalF is given", field_other},
+    {"4.1", "pendulum", 3, 2, {"state"}, "The state that evalF is given", pendulum_purity, replayed<first_look>},
+    {"4.2",
+     "pendulum",
+     2,
+     1,
+     {"first-order form", "constraint"},
+     "Second order as first order",
+     pendulum_motion,
+     replayed<first_look>},
+    {"4.3", "pendulum", 2, 2, {"gravity"}, "Gravity and drag", pendulum_gravity, replayed<first_look>},
+    {"4.4", "pendulum", 2, 2, {"drag"}, "Gravity and drag", pendulum_drag, replayed<first_look>},
+    {"4.5", "pendulum", 2, 2, {"springs"}, "Springs", pendulum_springs, replayed<law>},
+    {"4.6", "pendulum", 3, 2, {"state", "first-order form"}, "The chain", chain_shape, replayed<first_look>},
+    {"4.7", "pendulum", 3, 2, {"gravity", "drag"}, "Gravity and drag", chain_forces, replayed<first_look>},
+    {"4.8", "pendulum", 3, 2, {"springs", "connectivity"}, "The chain", chain_links, replayed<links>},
+    {"4.9", "pendulum", 3, 2, {"springs", "third law"}, "Springs", chain_law, replayed<law>},
+    {"5.1", "cloth", 3, 2, {"state"}, "The state that evalF is given", cloth_purity, replayed<first_look>},
+    {"5.2", "cloth", 2, 1, {"first-order form"}, "The cloth", cloth_motion, replayed<cloth_look>},
+    {"5.3", "cloth", 3, 2, {"gravity", "drag"}, "Gravity and drag", cloth_forces, replayed<first_look>},
+    {"5.4",
+     "cloth",
+     3,
+     2,
+     {"structural springs"},
+     "Three families of springs",
+     cloth_structural,
+     replayed<family<0, 1, 1, 0>>},
+    {"5.5", "cloth", 3, 2, {"shear springs"}, "Three families of springs", cloth_shear, replayed<family<1, 1, 1, -1>>},
+    {"5.6",
+     "cloth",
+     3,
+     2,
+     {"flexion springs"},
+     "Three families of springs",
+     cloth_flexion,
+     replayed<family<0, 2, 2, 0>>},
+    {"5.7", "cloth", 2, 1, {"connectivity"}, "Three families of springs", cloth_others, replayed<others>},
+    {"5.8", "cloth", 2, 2, {"springs", "third law"}, "Springs", cloth_law, replayed<law>},
+    {"5.9", "cloth", 2, 1, {"rest lengths"}, "Three families of springs", cloth_lengths, replayed<lengths>},
+    {"5.10", "cloth", 1, 1, {"constraint"}, "Hanging it up", cloth_pins, replayed<pins>},
+};
+
+constexpr int total(const auto& all) {
+  int sum = 0;
+  for (const Test& test : all) sum += test.points + test.hidden;
+  return sum;
+}
+
+}  // namespace
+
+const Assignment& classic_particles() {
+  static const Assignment all{"classic", "Particle systems, in the interface of the classic course", parts, tests,
+                              classic::whole_builder};
+  static const int points = total(tests);
+  if (points != 100) throw std::logic_error("classic: the points sum to " + std::to_string(points));
+  return all;
+}
+
+}  // namespace coursework

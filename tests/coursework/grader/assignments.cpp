@@ -1,0 +1,46 @@
+// The table of assignments: a new one is a folder, the declaration of its function and a row.
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "tests/coursework/grader/assignment.h"
+
+namespace coursework {
+
+const Assignment& a1_steppers();
+const Assignment& a2_pendulum();
+const Assignment& a3_cloth();
+const Assignment& a4_collision();
+const Assignment& a5_stiff();
+const Assignment& classic_particles();
+
+std::filesystem::path folder_of_coursework() {
+  const char* named = std::getenv("CROSSCHECK_COURSEWORK");
+  return named && *named ? named : CROSSCHECK_COURSEWORK_SOURCE;
+}
+
+std::filesystem::path Assignment::folder() const { return folder_of_coursework() / name; }
+
+std::span<const Assignment> assignments() {
+  static const Assignment all[] = {
+      a1_steppers(),        // first-order systems
+      a2_pendulum(),        // forces on few particles
+      a3_cloth(),           // a grid of springs
+      a4_collision(),       // a sphere in the way
+      a5_stiff(),           // implicit Euler
+      classic_particles(),  // all of it, in the interface of old
+  };
+  return all;
+}
+
+const Assignment& find_assignment(const std::string& name) {
+  std::string known;
+  for (const Assignment& assignment : assignments()) {
+    if (assignment.name == name) return assignment;
+    known += (known.empty() ? "" : ", ") + std::string(assignment.name);
+  }
+  throw std::invalid_argument(fmt::format("unknown assignment '{}'; expected one of: {}", name, known));
+}
+
+}  // namespace coursework

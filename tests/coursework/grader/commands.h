@@ -1,0 +1,34 @@
+// What crosscheck-grade can be asked to do. Each returns the exit status; bad use throws InputError or
+// std::invalid_argument.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace coursework {
+
+struct GradeCommand {
+  std::string assignment, submission;
+  bool all = false, no_sandbox = false;
+  std::optional<std::uint64_t> seed;
+  std::string secret_file, report, engines, charts, out, format = "text", language = "en", lane;
+};
+int grade_command(const GradeCommand& command);
+
+/// What --secret names: the file's first line. Throws InputError where it is empty.
+std::string secret_in(const std::string& file);
+
+struct AssignmentCommand {
+  std::string assignment, out, pack, check, secret_file;
+};
+int assignment_command(const AssignmentCommand& command);
+
+struct EngineCommand {
+  std::string program, part, scene, folder, lane;
+};
+int engine_command(const EngineCommand& command);
+
+int list_command(bool json);
+
+}  // namespace coursework

@@ -1,0 +1,240 @@
+// Builds the parts, runs the tests one process each, judges, looks for causes.
+#include "tests/coursework/grader/grade.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+
+#include "mysim/fnv.h"
+#include "mysim/temporary_folder.h"
+#include "tests/coursework/check/plot.h"
+#include "tests/coursework/check/words.h"
+#include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/cause.h"
+#include "tests/coursework/grader/engine.h"
+#include "tests/coursework/grader/run.h"
+
+namespace coursework {
+namespace fs = std::filesystem;
+namespace {
+
+std::string text_or(const Texts& texts, const std::string& key, const std::string& otherwise) {
+  return texts.has(key) ? texts.of(key) : otherwise;
+}
+
+/// One grading: what its steps share.
+class Grading {
+ public:
+  Grading(const Assignment& assignment, const Submission& submission, const Lane& lane, const GradeOptions& options)
+      : assignment_(assignment),
+        submission_(submission),
+        lane_(lane),
+        options_(options),
+        trusted_(choose_lane("bare", true)),
+        builder_(builder_for(assignment, *trusted_, lane)),
+        scratch_("grade") {
+    result_.assignment = assignment.name;
+    result_.submission = submission.name;
+    result_.lane = lane.name();
+    result_.seed = options.secret ? 0 : options.seed;
+    result_.secret = options.secret;
+  }
+
+  Result run() {
+    list_tests();
+    options_.so_far(result_);
+    build();
+    for (std::size_t i = 0; i < result_.tests.size(); ++i) {
+      run_test(i);
+      options_.so_far(result_);
+    }
+    for (const Part& part : assignment_.parts) look_for_cause(std::string(part.name));
+    require_unseen();
+    keep_engines();
+    result_.complete = true;
+    options_.so_far(result_);
+    return result_;
+  }
+
+ private:
+  /// All of them, nothing earned yet.
+  void list_tests() {
+    for (const bool hidden : {false, true})
+      for (const Test& test : assignment_.tests) {
+        if ((hidden ? test.hidden : test.points) == 0) continue;
+        TestResult one;
+        one.id = test.id;
+        one.part = test.part;
+        one.title = text_or(options_.own, one.id + ".title", one.id);
+        one.heading = assignment_.takes_whole_program() ? text_or(options_.own, one.part + ".title", one.part)
+                                                        : builder_->file_of(one.part);
+        one.hidden = hidden;
+        one.points = hidden ? test.hidden : test.points;
+        one.concepts.assign(test.concepts.begin(), test.concepts.end());
+        one.read = test.read;
+        one.said = options_.common.of("not_run");
+        result_.tests.push_back(one);
+        asked_.push_back({&test, {}, {}});
+      }
+  }
+
+  void build() {
+    for (const Remark& remark : submission_.remarks) result_.preflight.push_back(said(options_.common, remark));
+    const std::map<std::string, Built> built = builder_->theirs(submission_, scratch_.path, options_.jobs);
+    for (const Part& each : assignment_.parts) {
+      const std::string part(each.name);
+      const Built& one = built.at(part);
+      if (!one.program.empty()) {
+        programs_[part] = one.program;
+        continue;
+      }
+      const std::string why = said(options_.common, one.error);
+      // one file that holds several parts is talked about once
+      auto& all = result_.preflight;
+      if (std::find(all.begin(), all.end(), why) == all.end()) all.push_back(why);
+      unusable_[part] = {one.missing ? How::missing : How::not_compiled, {}, one.missing ? one.error.with.at(0) : why};
+    }
+    // last: what keeps a part from running is read first
+    for (const auto& [part, one] : built)
+      for (const Remark& note : one.notes) result_.preflight.push_back(said(options_.common, note));
+  }
+
+  void run_test(std::size_t i) {
+    const auto begin = std::chrono::steady_clock::now();
+    TestResult& one = result_.tests[i];
+    Asked& asked = asked_[i];
+    Random random(one.hidden ? hidden_seed(options_.seed, *asked.test) : public_seed(assignment_, *asked.test));
+    asked.cases = asked.test->cases(random);
+    const auto unusable = unusable_.find(one.part);
+    if (unusable != unusable_.end())
+      asked.answers.assign(asked.cases.size(), unusable->second);
+    else
+      asked.answers = run_calls(lane_, programs_.at(one.part), asked.cases);
+    for (std::size_t k = 0; k < asked.cases.size(); ++k)
+      asked.answers[k] = reduced(*asked.test, asked.cases[k], asked.answers[k]);
+    judge_test(asked, one);
+    one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  /// The first call that is not right is what is talked about; where all are, the first one is drawn.
+  void judge_test(const Asked& asked, TestResult& one) const {
+    std::size_t shown = 0;
+    one.said.clear();
+    for (std::size_t k = 0; k < asked.cases.size(); ++k) {
+      const Judged judged = judge(asked.cases[k], asked.answers[k]);
+      if (judged.right) continue;
+      one.said = words(options_.common, options_.own, asked.cases[k], asked.answers[k], judged);
+      const bool ran = unusable_.count(one.part) == 0;
+      if (ran && asked.cases.size() > 1)
+        one.said =
+            options_.common.fill("which", std::to_string(k + 1), std::to_string(asked.cases.size())) + " " + one.said;
+      // after a crash or a loop the test's own hint would lead astray
+      if (judged.how == How::answered && options_.own.has(one.id + ".hint"))
+        one.said += "\n" + options_.common.fill("hint", options_.own.of(one.id + ".hint"));
+      shown = k;
+      break;
+    }
+    if (asked.cases.empty()) throw std::runtime_error(fmt::format("test {}: it asks nothing", one.id));
+    if (one.said.empty()) one.earned = one.points;
+    const Case& what = asked.cases[shown];
+    if (asked.answers[shown].how != How::answered || asked.answers[shown].got.size() != what.expected.size()) return;
+    const std::string x = what.plot_x < 0 ? name_text(options_.own, "row.", what.row) + axis_unit(what)
+                                          : column_text(options_.own, what, what.plot_x);
+    one.plot = plot(what, asked.answers[shown].got,
+                    {options_.common.of("legend.right"), options_.common.of("legend.yours"), x,
+                     column_text(options_.own, what, what.plot_y)});
+  }
+
+  static std::string axis_unit(const Case& what) {
+    return what.row_size == 1 ? "" : fmt::format(" x {:.3g}", what.row_size);
+  }
+
+  /// Everybody has the public tests' numbers, and their answers with them: a table of those earns nothing.
+  void require_unseen() {
+    for (TestResult& shown : result_.tests)
+      for (const TestResult& other : result_.tests)
+        if (!shown.hidden && other.hidden && other.id == shown.id && passed(shown) && !passed(other)) {
+          shown.earned = 0;
+          shown.said = options_.common.of("shown_only");
+        }
+  }
+
+  /// Fills in the causes of a part's wrong answers. A crash or a loop is no answer: its message says all.
+  void look_for_cause(const std::string& part) {
+    std::vector<Asked> of_part;
+    std::vector<TestResult*> wrong;
+    for (std::size_t i = 0; i < asked_.size(); ++i) {
+      if (result_.tests[i].part != part) continue;
+      of_part.push_back(asked_[i]);
+      bool answered = true;
+      for (const Answer& answer : asked_[i].answers) answered = answered && answer.how == How::answered;
+      if (answered && !passed(result_.tests[i])) wrong.push_back(&result_.tests[i]);
+    }
+    if (wrong.empty() || unusable_.count(part)) return;
+    const std::string name =
+        likely_cause(assignment_, part, of_part, mistakes_of(assignment_), *builder_, *trusted_, options_.jobs);
+    const std::string cause = name.empty()
+                                  ? options_.common.of("no_cause")
+                                  : options_.common.fill("cause", text_or(options_.own, "mistake." + name, name));
+    for (TestResult* test : wrong) test->cause = cause;
+  }
+
+  /// Of parts that answered whatever they were asked: others would crash or hang in every one of the charts' runs.
+  void keep_engines() const {
+    if (options_.engines.empty() || !has_engine(assignment_)) return;
+    for (const auto& [part, program] : programs_) {
+      bool answered = true;
+      for (const Asked& asked : asked_)
+        if (asked.test->part == part)
+          for (const Answer& answer : asked.answers) answered = answered && answer.how == How::answered;
+      if (answered) keep_engine(program, part, lane_, options_.engines);
+    }
+  }
+
+  const Assignment& assignment_;
+  const Submission& submission_;
+  const Lane& lane_;
+  const GradeOptions& options_;
+  std::unique_ptr<Lane> trusted_;
+  std::unique_ptr<Builder> builder_;
+  crosscheck::TemporaryFolder scratch_;
+  std::map<std::string, fs::path> programs_;  // by part
+  std::map<std::string, Answer> unusable_;    // by part: missing, or it does not compile
+  std::vector<Asked> asked_;                  // beside result_.tests
+  Result result_;
+};
+
+/// One step of SplitMix64 on both: seeds that differ in one bit give unrelated ones.
+std::uint64_t mixed(std::uint64_t a, std::uint64_t b) { return Random(Random(a).next() ^ b).next(); }
+
+}  // namespace
+
+std::string said(const Texts& common, const Remark& remark) {
+  const auto& with = remark.with;
+  auto word = [&](std::size_t i) { return i < with.size() ? with[i] : std::string(); };
+  return common.fill(remark.key, word(0), word(1), word(2));
+}
+
+std::vector<std::string> files_asked_for(const Assignment& assignment) {
+  std::vector<std::string> files;
+  if (assignment.takes_whole_program()) return files;
+  for (const Part& part : assignment.parts) files.push_back(std::string(part.name) + ".cpp");
+  return files;
+}
+
+std::uint64_t public_seed(const Assignment& assignment, const Test& test) {
+  return mixed(crosscheck::Fnv1a::of(assignment.name), crosscheck::Fnv1a::of(test.id));
+}
+
+std::uint64_t hidden_seed(std::uint64_t seed, const Test& test) {
+  return mixed(seed + 1, crosscheck::Fnv1a::of(test.id));
+}
+
+Result grade(const Assignment& assignment, const Submission& submission, const Lane& lane,
+             const GradeOptions& options) {
+  return Grading(assignment, submission, lane, options).run();
+}
+
+}  // namespace coursework

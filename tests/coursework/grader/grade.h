@@ -1,0 +1,41 @@
+// From a submission to a Result.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "tests/coursework/check/texts.h"
+#include "tests/coursework/grader/assignment.h"
+#include "tests/coursework/grader/lane.h"
+#include "tests/coursework/grader/result.h"
+#include "tests/coursework/grader/submission.h"
+
+namespace coursework {
+
+struct GradeOptions {
+  std::uint64_t seed = 0;  // of the hidden tests
+  bool secret = false;     // it was made from the lecturer's secret
+  Texts common, own;       // check/common.LANGUAGE.txt; the assignment's texts
+  unsigned jobs = 1;       // compilers at a time
+  std::string engines;     // folder in which parts are left as engines, where the assignment has such; empty: nowhere
+  /// Called with what there is so far: before the first test, after every test, and at the end.
+  std::function<void(const Result&)> so_far = [](const Result&) {};
+};
+
+/// Runs all tests, public ones first; points start at 0 and are earned. What a student may have done wrong is said in
+/// the result; throws std::runtime_error only for what is wrong on our side.
+Result grade(const Assignment& assignment, const Submission& submission, const Lane& lane, const GradeOptions& options);
+
+/// The files that the assignment asks for: one per part; none where it takes a whole program.
+std::vector<std::string> files_asked_for(const Assignment& assignment);
+
+/// The seed that the hand-out's tests are made with; it depends on the assignment and the test alone.
+std::uint64_t public_seed(const Assignment& assignment, const Test& test);
+/// The seed of a hidden test, from that of all hidden tests.
+std::uint64_t hidden_seed(std::uint64_t seed, const Test& test);
+
+/// A remark as a sentence.
+std::string said(const Texts& common, const Remark& remark);
+
+}  // namespace coursework

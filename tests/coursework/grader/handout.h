@@ -1,0 +1,20 @@
+// What the students are given: the lecture, the starter, and `check` with the public tests.
+#pragma once
+
+#include <filesystem>
+
+#include "tests/coursework/check/cases_file.h"
+#include "tests/coursework/grader/assignment.h"
+
+namespace coursework {
+
+/// The cases of every test under its public seed, as they go into the hand-out. A test whose raw numbers are reduced
+/// first has none: the rule that reduces them stays with the grader.
+PublicTests public_tests(const Assignment& assignment);
+
+/// Writes handout.md, the starter, check/, CMakeLists.txt and README.md into the folder, which is made; nothing of the
+/// solution, the styles, the mistakes and the tests' own code. Throws std::runtime_error where the folder holds
+/// something already, or cannot be written, or the assignment lacks a file.
+void write_handout(const Assignment& assignment, const std::filesystem::path& folder);
+
+}  // namespace coursework

@@ -1,0 +1,129 @@
+// A line-wise parser.
+#include "tests/coursework/grader/mistakes.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "mysim/errors.h"
+
+namespace coursework {
+namespace fs = std::filesystem;
+using crosscheck::InputError;
+namespace {
+
+/// Lines of a file, with the number of the one at hand.
+class Lines {
+ public:
+  explicit Lines(const fs::path& file) : file_(file), in_(file) {
+    if (!in_) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  }
+  bool next(std::string& line) {
+    if (!std::getline(in_, line)) return false;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    ++number_;
+    return true;
+  }
+  InputError wrong(const std::string& what) const {
+    return InputError(fmt::format("{}:{}: {}", file_.string(), number_, what));
+  }
+  /// The lines up to the one that is `end`, without the last line feed.
+  std::string up_to(const std::string& end) {
+    std::string text, line;
+    const int begin = number_;
+    for (bool first = true; next(line); first = false) {
+      if (line == end) return text;
+      text += (first ? "" : "\n") + line;
+    }
+    throw wrong(fmt::format("expected '{}' that ends the text from line {}", end, begin));
+  }
+
+ private:
+  fs::path file_;
+  std::ifstream in_;
+  int number_ = 0;
+};
+
+bool heading(const std::string& line) { return line.size() > 2 && line.front() == '[' && line.back() == ']'; }
+std::string inside(const std::string& line) { return line.substr(1, line.size() - 2); }
+
+/// The rest of a line "key: rest"; false where it is another.
+bool value_of(const std::string& key, const std::string& line, std::string& value) {
+  if (line.rfind(key + ":", 0) != 0) return false;
+  const std::size_t at = line.find_first_not_of(' ', key.size() + 1);
+  value = at == std::string::npos ? "" : line.substr(at);
+  return true;
+}
+
+bool nothing(const std::string& line) { return line.find_first_not_of(" \t") == std::string::npos || line[0] == '#'; }
+
+}  // namespace
+
+std::vector<Mistake> read_mistakes(const fs::path& file) {
+  Lines lines(file);
+  std::vector<Mistake> mistakes;
+  bool open = false;  // whether the last one still lacks its text
+  for (std::string line, value; lines.next(line);) {
+    if (nothing(line)) continue;
+    if (heading(line)) {
+      if (open) throw lines.wrong(fmt::format("expected '<<<<' and the text of [{}] first", mistakes.back().name));
+      for (const Mistake& other : mistakes)
+        if (other.name == inside(line)) throw lines.wrong(fmt::format("[{}] stands there twice", other.name));
+      mistakes.push_back({inside(line), {}, {}, {}, {}});
+      open = true;
+    } else if (!open) {
+      throw lines.wrong("expected a heading [name-of-mistake]");
+    } else if (value_of("part", line, value)) {
+      mistakes.back().part = value;
+    } else if (value_of("loses", line, value)) {
+      std::istringstream ids(value);
+      for (std::string id; ids >> id;) mistakes.back().loses.push_back(id);
+    } else if (line == "<<<<") {
+      if (mistakes.back().part.empty()) throw lines.wrong("expected 'part: NAME' before the text");
+      mistakes.back().find = lines.up_to("====");
+      mistakes.back().replace = lines.up_to(">>>>");
+      if (mistakes.back().find.empty()) throw lines.wrong("the text to be replaced is empty");
+      open = false;
+    } else {
+      throw lines.wrong(fmt::format("expected 'part:', 'loses:' or '<<<<', got '{}'", line));
+    }
+  }
+  if (open) throw lines.wrong(fmt::format("the text of [{}] is missing", mistakes.back().name));
+  return mistakes;
+}
+
+std::vector<std::pair<std::string, std::string>> read_pairs(const fs::path& file) {
+  Lines lines(file);
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (std::string line, value; lines.next(line);) {
+    if (nothing(line)) continue;
+    if (heading(line)) {
+      pairs.emplace_back();
+    } else if (!pairs.empty() && value_of("a", line, value)) {
+      pairs.back().first = value;
+    } else if (!pairs.empty() && value_of("b", line, value)) {
+      pairs.back().second = value;
+    } else {
+      throw lines.wrong("expected a heading [name], 'a: NAME' or 'b: NAME'");
+    }
+  }
+  for (const auto& [a, b] : pairs)
+    if (a.empty() || b.empty()) throw lines.wrong("expected 'a: NAME' and 'b: NAME' under each heading");
+  return pairs;
+}
+
+std::string with_mistake(const std::string& source, const Mistake& mistake) {
+  const std::size_t at = source.find(mistake.find);
+  if (at == std::string::npos || source.find(mistake.find, at + 1) != std::string::npos)
+    throw InputError(fmt::format("mistake [{}]: its text must stand exactly once in {}.cpp of the solution; it is {}",
+                                 mistake.name, mistake.part,
+                                 at == std::string::npos ? "not there" : "there more than once"));
+  return source.substr(0, at) + mistake.replace + source.substr(at + mistake.find.size());
+}
+
+std::vector<Mistake> mistakes_of(const Assignment& assignment) {
+  return read_mistakes(assignment.folder() / "mistakes.txt");
+}
+
+}  // namespace coursework

@@ -1,0 +1,27 @@
+// The package that Gradescope takes: an assignment with its grader, which is built where it will run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/coursework/grader/assignment.h"
+
+namespace coursework {
+
+/// Writes the zip: setup.sh (packages, then build.sh), run_autograder, the sources of the grader, of the part of mysim
+/// that it uses and of this assignment, the headers of the libraries that consist of headers, and `secret`, the line
+/// that hidden tests are made from. Throws std::runtime_error where a source or a library is not found.
+void write_package(const Assignment& assignment, const std::string& secret, const std::filesystem::path& zip);
+
+/// Source files below `root` that the program made of `first` needs: what they include, and what belongs to that: the
+/// .cpp beside a header, and each .cpp without a header of its own that includes one of these headers from its own
+/// folder and is no program. Paths are relative to `root`, sorted.
+std::vector<std::string> sources_needed(const std::filesystem::path& root, std::vector<std::string> first);
+
+/// Unpacks the zip into a fresh folder laid out as Gradescope's /autograder, builds it, and runs run_autograder on the
+/// solution as in such a container: 768 MB, half a CPU, 10 minutes, no new namespaces. Prints what it does; the last
+/// line is "ready", or "not ready" and why. Returns whether it is ready.
+bool rehearse(const Assignment& assignment, const std::filesystem::path& zip);
+
+}  // namespace coursework

@@ -1,0 +1,86 @@
+// Whole programs that fail in one class: each way has its message, and the other parts still earn.
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "tests/coursework/grader/mistakes.h"
+#include "tests/coursework/test/helpers.h"
+
+namespace coursework {
+namespace {
+
+/// One test of the cloth, which fails, and of the part before it, which does not.
+struct Short {
+  explicit Short(const Assignment& whole) : assignment(whole) {
+    assignment.parts = whole.parts.last(2);
+    for (const Part& part : assignment.parts)
+      for (const Test& test : whole.tests)
+        if (test.part == part.name) {
+          tests.push_back(test);
+          break;
+        }
+    assignment.tests = tests;
+  }
+  std::vector<Test> tests;
+  Assignment assignment;
+};
+
+struct Failing {
+  const char* what;
+  std::vector<std::array<const char*, 3>> changes;  // file, what stands there once, what in its place
+  const char* says;
+};
+
+// What the smallest assignment can fail in as well, grade_test.cpp tries there.
+TEST(Classic, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
+  const Assignment& whole = find_assignment("classic");
+  const Short few(whole);
+  const auto lane = choose_lane("bare", true);
+  const Submission solution = read_submission(whole.folder() / "solution", {});
+  const Failing table[] = {
+      {"a constructor that nobody can call",
+       {{"ClothSystem.h", "ClothSystem();", "ClothSystem(const char* file);"},
+        {"ClothSystem.cpp", "::ClothSystem()", "::ClothSystem(const char*)"}},
+       "The tests cannot use ClothSystem.cpp as the starter's program would: "},
+      {"does not compile", {{"ClothSystem.cpp", "evalF(", "evalF(int, "}}, "ClothSystem.cpp, line "},
+      {"crashes",
+       {{"ClothSystem.cpp", "evalF(vector<Vector3f> state) {", "evalF(vector<Vector3f> state) { *(int*)8 = 1;"}},
+       "crashed (segmentation fault)"},
+  };
+  for (const Failing& one : table) {
+    Submission submission = solution;
+    for (const auto& [file, from, to] : one.changes)
+      submission.files.at(file) = with_mistake(submission.files.at(file), {one.what, "cloth", from, to, {}});
+    const Result result = grade(few.assignment, submission, *lane, options_for(whole, 7));
+    for (const TestResult& test : result.tests) {
+      const bool failing = test.part == "cloth";
+      EXPECT_EQ(test.earned, failing ? 0 : test.points) << one.what << ", " << test.id << ": " << test.said;
+      if (failing) {
+        EXPECT_NE(test.said.find(one.says), std::string::npos) << one.what << ": " << test.said;
+      }
+    }
+  }
+}
+
+TEST(Classic, ChatterAndAMissingFileCostNothingElse) {
+  const Assignment& whole = find_assignment("classic");
+  const Short few(whole);
+  const auto lane = choose_lane("bare", true);
+  Submission submission = read_submission(whole.folder() / "solution", {});
+  std::string& pendulum = submission.files.at("pendulumSystem.cpp");
+  const std::string from = "evalF(vector<Vector3f> state) {", to = from + " std::cout << \"all passed\\n\";";
+  pendulum = "#include <iostream>\n" + with_mistake(pendulum, {"chatter", "pendulum", from, to, {}});
+  submission.files.erase("ClothSystem.cpp");
+  submission.files.erase("ClothSystem.h");
+  const Result result = grade(few.assignment, submission, *lane, options_for(whole, 7));
+  for (const TestResult& test : result.tests) {
+    const bool missing = test.part == "cloth";
+    EXPECT_EQ(test.earned, missing ? 0 : test.points) << test.id << ": " << test.said;
+    if (missing) {
+      EXPECT_EQ(test.said, "ClothSystem is missing, so its tests cannot run.");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace coursework

@@ -1,0 +1,171 @@
+// Every assignment's own corpus: solution and styles earn all, each known mistake loses exactly its tests and is named,
+// others are given no name; on many seeds. CORPUS_SEEDS and CORPUS_MISTAKES (per assignment) say how much of it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "mysim/temporary_folder.h"
+#include "tests/coursework/check/judge.h"
+#include "tests/coursework/grader/cause.h"
+#include "tests/coursework/grader/mistakes.h"
+#include "tests/coursework/grader/run.h"
+#include "tests/coursework/test/helpers.h"
+
+namespace coursework {
+namespace {
+namespace fs = std::filesystem;
+
+int number_from(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::atoi(text) : otherwise;
+}
+
+class Corpus : public testing::TestWithParam<const Assignment*> {
+ protected:
+  Corpus()
+      : assignment_(*GetParam()),
+        lane_(choose_lane("bare", true)),
+        builder_(builder_for(assignment_, *lane_, *lane_)),
+        known_(mistakes_of(assignment_)),
+        count_(static_cast<std::size_t>(number_from("CORPUS_MISTAKES", 3))),
+        seeds_(number_from("CORPUS_SEEDS", 2)) {}
+
+  /// Of those that are given no name a third as many will do.
+  template <class T>
+  std::vector<T> first(std::vector<T> all) const {
+    all.resize(std::min(all.size(), (count_ + 2) / 3));
+    return all;
+  }
+
+  /// All tests of a part, one process each as in grading: a mistake may keep something from call to call.
+  std::vector<Asked> ask(const std::string& part, const fs::path& program, int seed) const {
+    std::vector<Asked> asked;
+    for (const coursework::Test& test : assignment_.tests) {
+      if (test.part != part) continue;
+      Random random(seed == 0 ? public_seed(assignment_, test) : hidden_seed(static_cast<std::uint64_t>(seed), test));
+      Asked one{&test, test.cases(random), {}};
+      const std::vector<Answer> answers = run_calls(*lane_, program, one.cases);
+      for (std::size_t i = 0; i < answers.size(); ++i) one.answers.push_back(reduced(test, one.cases[i], answers[i]));
+      asked.push_back(std::move(one));
+    }
+    return asked;
+  }
+
+  /// Ids of the tests that are lost.
+  static std::set<std::string> lost(const std::vector<Asked>& asked) {
+    std::set<std::string> ids;
+    for (const Asked& one : asked)
+      for (std::size_t i = 0; i < one.cases.size(); ++i)
+        if (!judge(one.cases[i], one.answers[i]).right) ids.insert(std::string(one.test->id));
+    return ids;
+  }
+
+  std::string cause(const std::string& part, const std::vector<Asked>& asked) const {
+    return likely_cause(assignment_, part, asked, known_, *builder_, *lane_, 2);
+  }
+
+  std::string solution(const std::string& part) const {
+    return content_of_file(solution_of(assignment_, *builder_, part));
+  }
+
+  void expect_all_right(const std::string& part, const fs::path& program, const std::string& what) const {
+    for (int seed = 0; seed < seeds_; ++seed)
+      EXPECT_EQ(lost(ask(part, program, seed)), std::set<std::string>()) << what << ", seed " << seed;
+  }
+
+  /// Whatever it loses, none of the known mistakes is named; and it is a mistake.
+  void expect_no_name(const std::string& part, const std::string& source, const std::string& what) const {
+    const fs::path program = builder_->ours(part, source);
+    for (int seed = 0; seed < seeds_; ++seed) {
+      const std::vector<Asked> asked = ask(part, program, seed);
+      EXPECT_FALSE(lost(asked).empty()) << what << ", seed " << seed;
+      EXPECT_EQ(cause(part, asked), "") << what << ", seed " << seed;
+    }
+  }
+
+  const Assignment& assignment_;
+  std::unique_ptr<Lane> lane_;
+  std::unique_ptr<Builder> builder_;
+  std::vector<Mistake> known_;
+  std::size_t count_;
+  int seeds_;
+};
+
+TEST_P(Corpus, PointsSumToAHundred) {
+  int sum = 0;
+  for (const coursework::Test& test : assignment_.tests) sum += test.points + test.hidden;
+  EXPECT_EQ(sum, 100);
+}
+
+TEST_P(Corpus, SolutionAndOtherStylesLoseNothing) {
+  for (const Part& part : assignment_.parts)
+    expect_all_right(std::string(part.name), builder_->ours(std::string(part.name), solution(std::string(part.name))),
+                     "solution");
+  int styles = 0;
+  for (const auto& style : fs::directory_iterator(assignment_.folder() / "styles")) {
+    ++styles;
+    const crosscheck::TemporaryFolder scratch("style");
+    // a file that a style lacks is the solution's
+    Submission submission = read_submission(style.path(), files_asked_for(assignment_));
+    for (const auto& [file, why] : submission.missing)
+      submission.files[file] = content_of_file(assignment_.folder() / "solution" / file);
+    submission.missing.clear();
+    for (const auto& [part, built] : builder_->theirs(submission, scratch.path, 2)) {
+      ASSERT_FALSE(built.program.empty()) << style.path() << ", " << part << ": " << said(common_texts(), built.error);
+      expect_all_right(part, built.program, style.path().string());
+    }
+  }
+  EXPECT_GE(styles, 3);
+}
+
+TEST_P(Corpus, KnownMistakesLoseExactlyTheirTestsAndAreNamed) {
+  EXPECT_GE(known_.size(), 12u);
+  const Texts texts = Texts::read((assignment_.folder() / "texts.en.txt").string());
+  for (std::size_t i = 0; i < std::min(count_, known_.size()); ++i) {
+    // a few of them: spread over the parts
+    const Mistake& mistake = known_[count_ < known_.size() ? i * known_.size() / count_ : i];
+    EXPECT_TRUE(texts.has("mistake." + mistake.name)) << mistake.name;
+    const fs::path program = builder_->ours(mistake.part, with_mistake(solution(mistake.part), mistake));
+    for (int seed = 0; seed < seeds_; ++seed) {
+      const std::vector<Asked> asked = ask(mistake.part, program, seed);
+      EXPECT_EQ(lost(asked), std::set<std::string>(mistake.loses.begin(), mistake.loses.end()))
+          << mistake.name << ", seed " << seed;
+      EXPECT_EQ(cause(mistake.part, asked), mistake.name) << "seed " << seed;
+    }
+  }
+}
+
+TEST_P(Corpus, NewMistakesAreGivenNoName) {
+  for (const Mistake& mistake : first(read_mistakes(assignment_.folder() / "novel.txt")))
+    expect_no_name(mistake.part, with_mistake(solution(mistake.part), mistake), mistake.name);
+}
+
+TEST_P(Corpus, TwoMistakesAtOnceAreGivenNoName) {
+  auto find = [&](const std::string& name) {
+    const auto at = std::find_if(known_.begin(), known_.end(), [&](const Mistake& m) { return m.name == name; });
+    if (at == known_.end()) throw std::runtime_error("double.txt: no mistake " + name);
+    return *at;
+  };
+  for (const auto& [a, b] : first(read_pairs(assignment_.folder() / "double.txt"))) {
+    ASSERT_EQ(find(a).part, find(b).part);
+    expect_no_name(find(a).part, with_mistake(with_mistake(solution(find(a).part), find(a)), find(b)), a + " and " + b);
+  }
+}
+
+std::vector<const Assignment*> all_assignments() {
+  std::vector<const Assignment*> all;
+  for (const Assignment& assignment : assignments()) all.push_back(&assignment);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Corpus, testing::ValuesIn(all_assignments()), [](const auto& of) {
+  std::string name(of.param->name);
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace coursework

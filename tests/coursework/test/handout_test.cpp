@@ -1,0 +1,214 @@
+// What the students are given holds what they need, and nothing that they must not see.
+#include "tests/coursework/grader/handout.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "mysim/temporary_folder.h"
+#include "tests/coursework/check/texts.h"
+#include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/grade.h"
+
+namespace coursework {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> files_below(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  return files;
+}
+
+/// Lines without the blanks around them, all that are long enough to be told from chance.
+std::set<std::string> telling_lines(const fs::path& file) {
+  std::set<std::string> lines;
+  std::istringstream in(content_of_file(file));
+  for (std::string line; std::getline(in, line);) {
+    const size_t begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string::npos) continue;
+    line = line.substr(begin, line.find_last_not_of(" \t\r") - begin + 1);
+    if (line.size() >= 16) lines.insert(line);
+  }
+  return lines;
+}
+
+struct Handout {
+  crosscheck::TemporaryFolder scratch{"handout"};
+  fs::path folder = scratch.path / "given";
+  explicit Handout(const Assignment& assignment) { write_handout(assignment, folder); }
+  std::string all() const {
+    std::string text;
+    for (const fs::path& file : files_below(folder)) text += content_of_file(file) + "\n";
+    return text;
+  }
+};
+
+TEST(Handout, HoldsWhatTheStudentNeeds) {
+  ASSERT_FALSE(assignments().empty());
+  for (const Assignment& assignment : assignments()) {
+    const Handout handout(assignment);
+    if (assignment.takes_whole_program()) {
+      for (const char* file : {"handout.md", "README.md", "ClothSystem.h", "vecmath/vecmath.h"})
+        EXPECT_TRUE(fs::exists(handout.folder / file)) << file;
+      const std::string lecture = content_of_file(handout.folder / "handout.md");
+      for (const coursework::Test& test : assignment.tests)
+        EXPECT_NE(lecture.find(" " + std::string(test.read) + "\n"), std::string::npos) << test.id;
+      continue;
+    }
+    std::vector<std::string> wanted = {
+        "handout.md",           "README.md",          "CMakeLists.txt",     "check/public_cases.txt",
+        "check/check_main.cpp", "check/texts.en.txt", "check/common.en.txt"};
+    for (const Part& part : assignment.parts) wanted.push_back(std::string(part.name) + ".cpp");
+    for (const std::string& file : wanted) EXPECT_TRUE(fs::exists(handout.folder / file)) << assignment.name << file;
+    std::ifstream in(handout.folder / "check/public_cases.txt");
+    const PublicTests tests = read_cases(in);
+    const std::string lecture = content_of_file(handout.folder / "handout.md");
+    for (const PublicTest& test : tests.tests)
+      EXPECT_NE(lecture.find(" " + test.read + "\n"), std::string::npos) << test.id << ": no heading " << test.read;
+  }
+}
+
+/// The lines of what is secret, but for those that the starter, the calls and the lecture show anyway: declarations.
+TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
+  for (const Assignment& assignment : assignments()) {
+    std::set<std::string> secret;
+    std::string shown;  // all of it: a line may be the head of a longer one
+    const fs::path from = assignment.folder();
+    std::vector<fs::path> secrets;
+    for (const fs::path& file : files_below(from)) {
+      const std::string inside = fs::relative(file, from).generic_string();
+      const bool given = inside.starts_with("starter/") || inside.starts_with("calls") || inside == "handout.md" ||
+                         inside.starts_with("texts.") || inside.starts_with("stubs/");
+      if (given)
+        shown += content_of_file(file) + "\n";
+      else
+        secrets.push_back(file);
+    }
+    for (const fs::path& file : files_below(from.parent_path() / "check")) shown += content_of_file(file) + "\n";
+    for (const fs::path& file : secrets)
+      for (const std::string& line : telling_lines(file))
+        if (shown.find(line) == std::string::npos) secret.insert(line);
+    // texts are given without what they say of mistakes
+    const Texts texts = Texts::read((from / "texts.en.txt").string());
+    int mistakes = 0;
+    for (const auto& [key, text] : texts.all())
+      if (key.starts_with("mistake.")) secret.insert(key), secret.insert(text), ++mistakes;
+    EXPECT_GE(secret.size(), 100u) << "what is looked for has gone";
+    EXPECT_GE(mistakes, 12) << assignment.name;
+    const Handout handout(assignment);
+    const std::string all = handout.all();
+    std::set<std::string> lines;
+    for (const fs::path& file : files_below(handout.folder)) lines.merge(telling_lines(file));
+    for (const std::string& line : secret) {
+      // the head of a plain loop may be part of another line by chance; a longer text may not
+      const bool found = line.size() < 32 ? lines.count(line) > 0 : all.find(line) != std::string::npos;
+      EXPECT_FALSE(found) << assignment.name << ": " << line;
+    }
+  }
+}
+
+/// Whether it is a short number but for rounding: a zero, 0.2, 1.5.
+bool is_plain(double value) { return std::abs(value) < 1e-12 || fmt::format("{:.12g}", value).size() <= 6; }
+
+/// Numbers of the file as written, those with many digits.
+std::set<std::string> long_numbers(const PublicTests& tests) {
+  std::ostringstream out;
+  write_cases(out, tests);
+  std::istringstream in(out.str());
+  std::set<std::string> numbers;
+  for (std::string word; in >> word;)
+    if (word.size() > 12 && word.find_first_not_of("0123456789.e+-") == std::string::npos && !is_plain(std::stod(word)))
+      numbers.insert(word);
+  return numbers;
+}
+
+TEST(Handout, HasNoHiddenNumber) {
+  for (const Assignment& assignment : assignments()) {
+    auto hidden = [&](std::uint64_t seed) {
+      PublicTests tests;
+      for (const coursework::Test& test : assignment.tests) {
+        Random random(hidden_seed(seed, test));
+        tests.tests.push_back({std::string(test.id), "", "", 1, test.cases(random)});
+      }
+      return long_numbers(tests);
+    };
+    const std::set<std::string> one = hidden(1), other = hidden(2);
+    const std::set<std::string> given = long_numbers(public_tests(assignment));
+    const std::string all = Handout(assignment).all();
+    EXPECT_GT(one.size(), 50u) << assignment.name;
+    for (const std::string& number : one) {
+      // the same with every seed: a constant of the test, no secret
+      if (other.count(number)) continue;
+      EXPECT_EQ(given.count(number), 0u) << assignment.name << ": " << number;
+      EXPECT_EQ(all.find(number), std::string::npos) << assignment.name << ": " << number;
+    }
+  }
+}
+
+TEST(Handout, DoesNotWriteOverAnything) {
+  const Handout handout(assignments().front());
+  try {
+    write_handout(assignments().front(), handout.folder);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), handout.folder.string() + ": there is something in it already");
+  }
+}
+
+TEST(CasesFile, ReadsBackWhatWasWritten) {
+  const double inf = std::numeric_limits<double>::infinity();
+  Case c{"part.call", {0.1, -1e-310, 1e300, inf}, {1.0 / 3, 2, 3, 4}, 2, 1e-9, "step", "state", 0, 1, 0.25};
+  PublicTests all{
+      "a0", "A title of words", 7, {{"1.1", "part", "A heading, too", 3, {c, c}}, {"1.2", "part", "h", 2, {}}}};
+  all.tests[0].cases[1].in.clear();
+  std::stringstream file;
+  write_cases(file, all);
+  const PublicTests back = read_cases(file);
+  EXPECT_EQ(back.assignment, "a0");
+  EXPECT_EQ(back.title, all.title);
+  EXPECT_EQ(back.hidden, 7);
+  ASSERT_EQ(back.tests.size(), 2u);
+  EXPECT_EQ(back.tests[0].read, "A heading, too");
+  EXPECT_EQ(back.tests[0].points, 3);
+  ASSERT_EQ(back.tests[0].cases.size(), 2u);
+  const Case& d = back.tests[0].cases[0];
+  EXPECT_EQ(d.in, c.in);  // to the last bit
+  EXPECT_EQ(d.expected, c.expected);
+  EXPECT_EQ(std::tie(d.call, d.columns, d.tolerance, d.row, d.column, d.plot_x, d.plot_y, d.row_size),
+            std::tie(c.call, c.columns, c.tolerance, c.row, c.column, c.plot_x, c.plot_y, c.row_size));
+  EXPECT_TRUE(back.tests[0].cases[1].in.empty());
+}
+
+TEST(CasesFile, SaysWhichLineIsWrong) {
+  const std::string test = "test 1.1 p 3\ncase p.c\n";
+  const std::pair<std::string, std::string> wrong[] = {
+      {"", "public cases: there are no tests"},
+      {"case p.c\n", "public cases, line 1: 'case' is not known here"},
+      {"test 1.1 p\n", "public cases, line 1: something is missing"},
+      {"test 1.1 p 2.5\n", "public cases, line 1: no whole number"},
+      {test + "in 2 1\n", "public cases, line 3: something is missing"},
+      {test + "in 1 1x\n", "public cases, line 3: '1x' is no number"},
+      {test + "in -1\n", "public cases, line 3: a negative count"},
+      {test + "colour 3\n", "public cases, line 3: 'colour' is not known here"},
+  };
+  for (const auto& [text, message] : wrong) {
+    std::istringstream in(text);
+    try {
+      read_cases(in);
+      FAIL() << text;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(), message);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace coursework

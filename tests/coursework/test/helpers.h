@@ -1,0 +1,42 @@
+// What the grader's own tests share.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/grade.h"
+
+namespace coursework {
+
+inline Texts common_texts(const std::string& language = "en") {
+  return Texts::read((folder_of_coursework() / "check" / ("common." + language + ".txt")).string());
+}
+
+inline GradeOptions options_for(const Assignment& assignment, std::uint64_t seed) {
+  GradeOptions options;
+  options.seed = seed;
+  options.jobs = 2;
+  options.common = common_texts();
+  options.own = Texts::read((assignment.folder() / "texts.en.txt").string());
+  return options;
+}
+
+/// The solution, with these files in the place of its own; an empty content leaves a file out.
+inline Submission submission_of(const Assignment& assignment, const std::map<std::string, std::string>& changed = {}) {
+  Submission submission;
+  submission.name = "somebody";
+  for (const std::string& file : files_asked_for(assignment)) {
+    const auto mine = changed.find(file);
+    if (mine == changed.end())
+      submission.files[file] = content_of_file(assignment.folder() / "solution" / file);
+    else if (!mine->second.empty())
+      submission.files[file] = mine->second;
+    else
+      submission.missing[file] = {"file.missing", {file}};
+  }
+  return submission;
+}
+
+}  // namespace coursework

@@ -1,0 +1,12 @@
+// Says which lane would be chosen here, or why there is none.
+#include <cstdio>
+#include <stdexcept>
+
+#include "tests/coursework/grader/lane.h"
+
+int main() try {
+  std::printf("%s\n", coursework::choose_lane("", false)->name().data());
+} catch (const std::runtime_error& error) {
+  std::printf("%s\n", error.what());
+  return 1;
+}

@@ -1,0 +1,254 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "tests/coursework/test/lanes.h"
+
+namespace coursework {
+namespace fs = std::filesystem;
+
+std::ostream& operator<<(std::ostream& out, End::How how) {
+  constexpr const char* names[] = {"exited", "signal", "cpu", "wall", "memory", "output"};
+  return out << names[static_cast<int>(how)];
+}
+
+namespace {
+
+using How = End::How;
+
+std::string show(const End& end) {
+  return "code " + std::to_string(end.code) + ", chatter: " + end.chatter.substr(0, 500);
+}
+
+bool done(const End& end) { return end.how == How::exited && end.code == 0 && end.answers.ends_with("done\n"); }
+
+/// Each limit from both sides: the amount below it comes to its end, the one above is stopped, and named.
+struct Sides {
+  std::string what, below, above;
+  How how;
+  Limits limits;
+};
+
+const std::vector<Sides> sides = {
+    {"cpu", "0.5", "9", How::cpu, {.cpu = 1, .wall = 20}},
+    {"swallow", "0.5", "9", How::cpu, {.cpu = 1, .wall = 20}},
+    {"sleep", "0.1", "9", How::wall, {.wall = 1}},
+    {"memory", "100", "300", How::memory, {.memory = 256}},
+    {"memory", "100", "100000", How::memory, {}},
+    {"throw", "100", "100000", How::memory, {}},
+    {"answers", "90", "200", How::output, {.output = 100}},
+    {"chatter", "100", "101", How::output, {.output = 100}},
+    {"chatter", "1", "100000", How::output, {.output = 100}},
+    {"file", "1000", "1100", How::output, {.file = 1}},
+};
+
+TEST_P(LaneTest, BelowALimitItEndsAndAboveItIsStoppedAndNamed) {
+  for (const Sides& each : sides) {
+    Job below = job(each.what, each.below), above = job(each.what, each.above);
+    below.limits = above.limits = each.limits;
+    if (each.what == "file") below.writable = above.writable = open_folder("own");
+    const End held = lane().run(below), stopped = lane().run(above);
+    EXPECT_TRUE(done(held)) << each.what << ' ' << each.below << ": " << held.how << ' ' << show(held);
+    EXPECT_EQ(stopped.how, each.how) << each.what << ' ' << each.above << ": " << show(stopped);
+    EXPECT_FALSE(done(stopped));
+    EXPECT_LE(stopped.answers.size(), static_cast<std::size_t>(each.limits.output) << 10);
+  }
+}
+
+TEST_P(LaneTest, ItStartsNoMoreProcessesThanItMay) {
+  for (const long may : {0, 5}) {
+    if (may > 0 && (GetParam() == "bare" || geteuid() != 0))
+      continue;  // says so: only the filter and the clock bound it
+    for (const long tries : {may, may + 1}) {
+      Job starting = job("processes", std::to_string(tries));
+      starting.limits.processes = may;
+      const End end = lane().run(starting);
+      EXPECT_EQ(done(end), tries == may) << tries << " of " << may << ": " << end.how << ' ' << show(end);
+    }
+  }
+}
+
+TEST_P(LaneTest, SignalsAreToldFromExitCodes) {
+  for (const int number : {SIGSEGV, SIGABRT, SIGKILL, SIGFPE}) {
+    const End end = lane().run(job("signal", std::to_string(number)));
+    EXPECT_EQ(end.how, How::signal) << number;
+    EXPECT_EQ(end.code, number);
+  }
+  const End end = lane().run(job("exit", "11"));
+  EXPECT_EQ(end.how, How::exited);
+  EXPECT_EQ(end.code, 11);
+}
+
+TEST_P(LaneTest, NothingItStartedIsLeftRunning) {
+  for (const char* what : {"leave", "killall", "sleep"}) {
+    Job leaving = job(what, "9");
+    leaving.limits.processes = 4;
+    leaving.limits.wall = 1;
+    if (GetParam() == "bare" && std::string(what) == "killall") continue;  // it would kill us
+    lane().run(leaving);
+    EXPECT_EQ(left_running(), std::set<std::string>{}) << what;
+  }
+}
+
+TEST(LeftRunning, WhatOutlivesItsParentIsSeen) {
+  adopt_orphans();
+  ASSERT_EQ(std::system("sleep 60 & true"), 0);
+  EXPECT_EQ(left_running().size(), 1u);
+  EXPECT_EQ(left_running(), std::set<std::string>{});
+}
+
+TEST_P(LaneTest, NothingItWroteIsLeft) {
+  if (GetParam() == "bare") return;
+  const std::string name = "litter-of-lane-test";
+  const auto own = open_folder("own");
+  Job littering = job("litter", name);
+  littering.writable = own;
+  const End end = lane().run(littering);
+  EXPECT_NE(end.answers.find("./" + name), std::string::npos) << show(end);
+  for (const char* place : {"/tmp/", "/var/tmp/", "/dev/shm/", "/run/lock/"})
+    EXPECT_FALSE(fs::exists(place + name)) << place;
+  ASSERT_TRUE(fs::is_regular_file(own / name));
+  EXPECT_FALSE(fs::exists(fs::symlink_status(own / "pipe")));
+  EXPECT_FALSE(fs::exists(fs::symlink_status(own / "link")));
+  struct stat about {};
+  stat((own / name).c_str(), &about);
+  EXPECT_EQ(about.st_uid, geteuid());
+  EXPECT_EQ(about.st_mode & 0777u, 0644u);
+}
+
+TEST_P(LaneTest, WithoutAFolderOfItsOwnItsFilesAreBoundedTogether) {
+  if (GetParam() == "bare") return;
+  Job filling = job("files", "100");
+  filling.limits.file = 1;
+  const End end = lane().run(filling);
+  EXPECT_EQ(end.answers, GetParam() == "uid" ? "0\n" : "4\n") << show(end);
+}
+
+TEST_P(LaneTest, OtherProcessesHaveNoMemoryForIt) {
+  if (GetParam() == "bare") return;
+  // the first process of a namespace is bwrap's, the parent of the others the grader's
+  const End end = lane().run(shell("for p in 1 $PPID; do [ -w /proc/$p/mem ] && echo $p >&3; done"));
+  EXPECT_EQ(end.answers, "");
+}
+
+TEST_P(LaneTest, WhatReachesOutIsRefused) {
+  if (GetParam() == "bare") return;
+  const End end = lane().run(job("reach", "0"));
+  EXPECT_TRUE(done(end)) << show(end);
+  std::istringstream lines(end.answers);
+  int count = 0;
+  for (std::string line; std::getline(lines, line) && line != "done"; ++count) {
+    const bool absent = line.starts_with("clone3");
+    const bool unmapped = line == "setuid: Invalid argument";  // a namespace without a root
+    EXPECT_TRUE(unmapped || line.ends_with(absent ? "Function not implemented" : "Operation not permitted")) << line;
+  }
+  EXPECT_EQ(count, 17);
+}
+
+TEST_P(LaneTest, SecretsAreNotSeen) {
+  if (GetParam() == "bare") return;
+  const OwnFolder secret(0700);
+  std::ofstream(secret.path() / "tests") << "42";
+  EXPECT_FALSE(sees(lane(), secret.path()));
+  EXPECT_FALSE(sees(lane(), secret.path() / "tests"));
+  EXPECT_TRUE(sees(lane(), "/usr/bin"));
+  EXPECT_FALSE(sees(lane(), "/etc/shadow"));
+}
+
+TEST_P(LaneTest, EnvironmentInputAndDescriptorsAreItsOwn) {
+  setenv("LANE_TEST_SECRET", "42", 1);
+  Job asking = shell("read line; echo $line >&3; /usr/bin/env >&3");
+  asking.input = "hello\n";
+  asking.limits.processes = 2;
+  const std::string answers = lane().run(asking).answers;
+  EXPECT_TRUE(answers.starts_with("hello\n")) << answers;
+  EXPECT_NE(answers.find("PATH=/usr/bin:/bin\n"), std::string::npos) << answers;
+  EXPECT_EQ(answers.find("SECRET"), std::string::npos) << answers;
+  // 0 to 3 are its own; the shell opens one to list them
+  Job listing = shell("cd /proc/self/fd; for n in *; do [ -e $n ] && echo $n >&3; done");
+  listing.limits.processes = 1;
+  EXPECT_EQ(lane().run(listing).answers, "0\n1\n2\n3\n");
+}
+
+TEST_P(LaneTest, AnInputThatIsNotReadDoesNoHarmAndALongOneArrives) {
+  Job ignoring = job("exit", "3");
+  ignoring.input.assign(1 << 20, 'x');
+  EXPECT_EQ(lane().run(ignoring).code, 3);
+  Job counting = shell("/usr/bin/wc -c >&3");
+  counting.input.assign(1 << 20, 'x');
+  counting.limits.processes = 1;
+  EXPECT_EQ(lane().run(counting).answers, "1048576\n");
+}
+
+TEST_P(LaneTest, ManyRunAtOnceAndDoNotMix) {
+  std::vector<std::thread> threads;
+  std::vector<std::string> answers(8);
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    threads.emplace_back([&, i] {
+      Job saying = shell("read line; echo $line >&3");
+      saying.input = std::to_string(i) + "\n";
+      answers[i] = lane().run(saying).answers;
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < answers.size(); ++i) EXPECT_EQ(answers[i], std::to_string(i) + "\n");
+}
+
+TEST_P(LaneTest, WhatCannotBeStartedSaysSo) {
+  Job absent;
+  absent.command = {"/usr/bin/no-such-program"};
+  try {
+    lane().run(absent);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    const std::string said = error.what();
+    EXPECT_NE(said.find("/usr/bin/no-such-program: "), std::string::npos) << said;
+    EXPECT_TRUE(said.ends_with("No such file or directory")) << said;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, LaneTest, testing::Values("bwrap", "uid", "bare"),
+                         [](const auto& of) { return of.param; });
+
+TEST(ChooseLane, UnsafeMustBeSaidTwiceAndNamesAreListed) {
+  const auto message = [](const std::string& named, bool unsafe) -> std::string {
+    try {
+      return std::string(choose_lane(named, unsafe)->name());
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(message("", true), "bare");
+  EXPECT_EQ(message("bare", true), "bare");
+  EXPECT_NE(message("bare", false).find("needs --no-sandbox"), std::string::npos);
+  EXPECT_EQ(message("nosuch", false), "no lane nosuch: there are bwrap, uid, bare");
+}
+
+/// What choose_lane says in a process that is started in another way.
+std::string elsewhere(const std::string& before) {
+  const std::string command = before + " " LANE_CHOICE;
+  FILE* out = popen(command.c_str(), "r");
+  char text[4096] = "";
+  const std::size_t got = fread(text, 1, sizeof text, out);
+  pclose(out);
+  return std::string(text, got);
+}
+
+TEST(ChooseLane, WithoutNamespacesAnotherUserIsChosen) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
+  EXPECT_EQ(elsewhere(LANE_NO_NAMESPACES), "uid\n");
+}
+
+TEST(ChooseLane, WhereNoneCanBeHadItRefusesAndSaysWhy) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root to start as nobody";
+  const std::string said = elsewhere(LANE_NO_NAMESPACES " setpriv --reuid 65534 --clear-groups");
+  for (const char* part : {"so it is not run", "bwrap: ", "uid: it needs root", "--no-sandbox submissions run as you"})
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+}
+
+}  // namespace
+
+}  // namespace coursework

@@ -1,0 +1,131 @@
+// The package: what is in it, and the container in which it is rehearsed. The rehearsal itself takes minutes and has no
+// test here.
+#include "tests/coursework/grader/pack.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "mysim/files.h"
+#include "mysim/temporary_folder.h"
+#include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/watched.h"
+#include "tests/coursework/grader/zip.h"
+
+namespace coursework {
+namespace {
+
+namespace fs = std::filesystem;
+using crosscheck::TemporaryFolder;
+using crosscheck::write_file;
+
+TEST(SourcesNeeded, FollowsIncludesAndWhatBelongsToHeaders) {
+  const TemporaryFolder tree("sources");
+  const std::pair<const char*, const char*> files[] = {
+      {"a/main.cpp", "#include \"a/x.h\"\n#include <vector>\n#include \"local.h\"\n"},
+      {"a/local.h", ""},
+      {"a/x.h", "#include \"b/y.h\"\n"},
+      {"a/x.cpp", "#include \"a/x.h\"\n"},
+      {"a/part.cpp", "#include \"a/x.h\"\n"},                   // no header of its own: belongs to x.h
+      {"a/other.h", ""},                                        // nobody includes it
+      {"a/other.cpp", "#include \"a/x.h\"\n"},                  // uses x.h, belongs to other.h
+      {"a/second.cpp", "#include \"a/x.h\"\nint main() {}\n"},  // another program
+      {"b/y.h", ""},
+      {"b/z.cpp", "#include \"b/y.h\"\n#include \"b/w.h\"\n"},
+      {"b/w.h", ""},
+      {"c/far.cpp", "#include \"b/y.h\"\n"},  // uses y.h from another folder
+  };
+  for (const auto& [name, content] : files) write_file(tree.path / name, content);
+  const std::vector<std::string> expected = {"a/local.h", "a/main.cpp", "a/part.cpp", "a/x.cpp",
+                                             "a/x.h",     "b/w.h",      "b/y.h",      "b/z.cpp"};
+  EXPECT_EQ(sources_needed(tree.path, {"a/main.cpp"}), expected);
+}
+
+TEST(Package, HoldsScriptsSourcesAndSecretAndNoOtherAssignment) {
+  ASSERT_GE(assignments().size(), 2u);
+  for (const Assignment& assignment : assignments()) {
+    const TemporaryFolder scratch("package");
+    write_package(assignment, "the secret", scratch.path / "p.zip");
+    const fs::path in = scratch.path / "in";
+    unpack_zip(scratch.path / "p.zip", in);
+    for (const char* script : {"setup.sh", "run_autograder", "build.sh"}) {
+      EXPECT_TRUE(fs::exists(in / script));
+      EXPECT_NE(fs::status(in / script).permissions() & fs::perms::owner_exec, fs::perms::none) << script;
+      EXPECT_EQ(content_of_file(in / script).find("{0}"), std::string::npos);
+    }
+    EXPECT_EQ(content_of_file(in / "secret.txt"), "the secret\n");
+    EXPECT_TRUE(fs::exists(in / "headers/Eigen/Core"));
+    EXPECT_TRUE(fs::exists(in / "tests/coursework" / assignment.name / "mistakes.txt"));
+    std::istringstream sources(content_of_file(in / "sources.txt"));
+    int programs = 0;
+    for (std::string source; sources >> source;) {
+      EXPECT_TRUE(fs::exists(in / source)) << source;
+      programs += content_of_file(in / source).find("\nint main(") != std::string::npos;
+    }
+    EXPECT_EQ(programs, 1);
+    for (const Assignment& other : assignments())
+      if (other.name != assignment.name) {
+        EXPECT_FALSE(fs::exists(in / "tests/coursework" / other.name)) << other.name;
+        std::string identifier(other.name);
+        std::replace(identifier.begin(), identifier.end(), '-', '_');
+        EXPECT_EQ(content_of_file(in / "tests/coursework/grader/assignments.cpp").find(identifier + "()"),
+                  std::string::npos);
+      }
+  }
+}
+
+TEST(Zip, StaysInsideItsFolder) {
+  const TemporaryFolder scratch("zip");
+  for (const char* name : {"../out.txt", "/tmp/out.txt", "a/../../out.txt"}) {
+    write_zip(scratch.path / "p.zip", {{name, "x"}});
+    EXPECT_THROW(unpack_zip(scratch.path / "p.zip", scratch.path / "in"), std::runtime_error) << name;
+  }
+  write_file(scratch.path / "no.zip", "no zip");
+  EXPECT_THROW(unpack_zip(scratch.path / "no.zip", scratch.path / "in"), std::runtime_error);
+  EXPECT_FALSE(fs::exists(scratch.path / "out.txt"));
+}
+
+struct Ran {
+  Used used;
+  std::string log;
+};
+Ran shell(const std::string& script, const Container& container) {
+  const TemporaryFolder scratch("watched");
+  const fs::path log = scratch.path / "log";
+  const Used used = run_watched({"/bin/sh", "-c", script}, {"PATH=/usr/bin:/bin"}, log, container);
+  return {used, content_of_file(log)};
+}
+
+TEST(RunWatched, ReportsStatusAndOutput) {
+  const Ran ran = shell("echo out; echo err >&2; exit 7", {});
+  EXPECT_EQ(ran.used.status, 7);
+  EXPECT_EQ(ran.log, "out\nerr\n");
+  EXPECT_FALSE(ran.used.too_late || ran.used.too_large);
+  EXPECT_EQ(shell("kill -SEGV $$", {}).used.status, 128 + 11);
+}
+
+TEST(RunWatched, StopsWhatTakesTooLongOrTooMuch) {
+  EXPECT_TRUE(shell("sleep 60 & sleep 60", {.time = 0.3}).used.too_late);
+  // a pipe whose last command keeps 200 MB
+  EXPECT_TRUE(
+      shell("head -c 200000000 /dev/zero | tail -c 200000000 > /dev/null; sleep 60", {.memory = 100, .time = 30})
+          .used.too_large);
+}
+
+TEST(RunWatched, CountsTheWorkOfAllProcessesAtSoManyCpus) {
+  // two shells that count, side by side, take as long as their work at a tenth of a CPU
+  const std::string work = "i=0; while [ $i -lt 100000 ]; do i=$((i+1)); done";
+  const Used used = shell("(" + work + ") & (" + work + "); wait", {.cpus = 1e-3}).used;
+  const Used one = shell(work, {.cpus = 1e-3}).used;
+  EXPECT_GT(used.time, 1.3 * one.time);
+}
+
+TEST(RunWatched, RefusesNewNamespaces) {
+  EXPECT_NE(shell("unshare -U true", {}).used.status, 0);
+  EXPECT_NE(shell("unshare -m true", {}).used.status, 0);
+  EXPECT_EQ(shell("sh -c true; (true) & wait", {}).used.status, 0);  // other processes may be started
+}
+
+}  // namespace
+}  // namespace coursework

@@ -1,0 +1,237 @@
+// What is read: answers that anybody may have written, compilers' words, files of mistakes and of texts.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <set>
+
+#include "mysim/errors.h"
+#include "mysim/temporary_folder.h"
+#include "tests/coursework/check/judge.h"
+#include "tests/coursework/check/plot.h"
+#include "tests/coursework/check/words.h"
+#include "tests/coursework/grader/diagnostics.h"
+#include "tests/coursework/grader/mistakes.h"
+#include "tests/coursework/grader/run.h"
+#include "tests/coursework/test/helpers.h"
+
+namespace coursework {
+namespace {
+
+std::vector<How> hows(const std::string& lines, std::size_t count, End::How how = End::How::exited, int code = 0) {
+  std::vector<How> all;
+  for (const Answer& answer : answers_of({how, code, lines, ""}, "T", count, {})) all.push_back(answer.how);
+  return all;
+}
+
+TEST(Answers, AreTakenOnlyWhenAllIsInOrder) {
+  using Hows = std::vector<How>;
+  const Hows none{How::no_token, How::no_token}, both{How::answered, How::answered};
+  const std::string good = "answer 1 0x1p+0\nanswer 2 0x1p+0 nan\ntoken T\n";
+  EXPECT_EQ(hows(good, 2), both);
+  EXPECT_EQ(answers_of({End::How::exited, 0, good, ""}, "T", 2, {})[0].got, Numbers{1});
+  EXPECT_EQ(hows("threw no\nanswer 0\ntoken T\n", 2), (Hows{How::threw, How::answered}));
+  EXPECT_EQ(hows("threw std::bad_alloc\nanswer 0\ntoken T\n", 2), (Hows{How::out_of_memory, How::answered}));
+  // ended early by itself: what was answered before stands, and earns nothing by itself
+  EXPECT_EQ(hows("answer 1 0x1p+0\n", 2), (Hows{How::answered, How::no_token}));
+  for (const char* bad :
+       {"", "token T\n", "answer 1 0x1p+0\nanswer 1 0x1p+0\n", "answer 1 0x1p+0\nanswer 1 0x1p+0\ntoken X\n",
+        "answer 1 0x1p+0\nanswer 1 0x1p+0\nanswer 1 0x1p+0\ntoken T\n", "token T\nanswer 1 0x1p+0\nanswer 1 0x1p+0\n",
+        "answer 1 0x1p+0\nanswer 1 0x1p+0\ntoken T\nmore\n", "answer 1 0x1p+0\nanswer 1 0x1p+0\ntoken T\nmore",
+        "answer 2 0x1p+0\nanswer 1 0x1p+0\ntoken T\n", "answer 1 0x1p+0 0x1p+0\nanswer 1 0x1p+0\ntoken T\n",
+        "answer -1\nanswer 1 0x1p+0\ntoken T\n", "answer 99999999999999999999\nanswer 1 0x1p+0\ntoken T\n",
+        "answer 1 one\nanswer 1 0x1p+0\ntoken T\n", "answer\nanswer 1 0x1p+0\ntoken T\n", "answer 1  0x1p+0\nrubbish\n",
+        "unknown\nunknown\ntoken T\n", "answer 1 0x1p+0x\nanswer 1 0x1p+0\ntoken T\n"})
+    EXPECT_EQ(hows(bad, 2), none) << bad;
+  using std::string_literals::operator""s;
+  EXPECT_EQ(hows("answer 1 0x1p+0\0\nanswer 1 0x1p+0\ntoken T\n"s, 2), none);
+  EXPECT_EQ(hows(good, 2, End::How::exited, 1), none);
+}
+
+TEST(Answers, EndsAreClassifiedBeforeTheExitCode) {
+  const std::string one = "answer 1 0x1p+0\n", cut = one + "answer 1 0x1", good = one + one + "token T\n";
+  const std::pair<End::How, How> table[] = {{End::How::signal, How::crashed},
+                                            {End::How::cpu, How::out_of_time},
+                                            {End::How::wall, How::out_of_time},
+                                            {End::How::memory, How::out_of_memory},
+                                            {End::How::output, How::too_much_output}};
+  for (const auto& [end, how] : table) {
+    EXPECT_EQ(hows("", 2, end), (std::vector<How>{how, how}));
+    for (const std::string& lines : {one, cut, good})
+      EXPECT_EQ(hows(lines, 2, end), (std::vector<How>{How::answered, how}));
+  }
+}
+
+TEST(Diagnostics, FirstErrorOfTheCompilerInPlainWords) {
+  struct Row {
+    const char *said, *key;
+    std::vector<std::string> with;
+  };
+  const Row table[] = {
+      {"/t/in/rk4.cpp: In function 'int f()':\n/t/in/rk4.cpp:5:3: error: 'y' was not declared in this scope\n",
+       "build.compile",
+       {"rk4.cpp", "5", "'y' was not declared in this scope"}},
+      {"/t/in/rk4.cpp:1:10: fatal error: mine.h: No such file or directory\ncompilation terminated.\n",
+       "build.compile",
+       {"rk4.cpp", "1", "mine.h: No such file or directory"}},
+      {"In file included from /usr/include/c++/12/vector:61,\n                 from /t/in/rk4.cpp:3:\n"
+       "/usr/include/c++/12/bits/x.h:9:1: error: static assertion failed\n",
+       "build.compile",
+       {"rk4.cpp", "3", "static assertion failed"}},
+      {"/usr/include/c++/12/bits/x.h:9:1: error: no match\n/t/in/rk4.cpp:77:5:   required from here\n",
+       "build.compile",
+       {"rk4.cpp", "77", "no match"}},
+      {"/usr/bin/ld: /tmp/x.o: in function `main':\nx.cpp:(.text+0x0): multiple definition of `main'; ours0.o: first "
+       "defined here\ncollect2: error: ld returned 1 exit status\n",
+       "build.main",
+       {"rk4.cpp"}},
+      {"/usr/bin/ld: x.cpp:(.text+0x0): multiple definition of `f(int)'; ours\n", "build.twice", {"rk4.cpp", "f(int)"}},
+      {"/usr/bin/ld: ours0.o: undefined reference to `rk4_step(double)'\ncollect2: error: ld returned 1 exit status\n",
+       "build.undefined",
+       {"rk4.cpp", "rk4_step(double)"}},
+      {"something else\n", "build.other", {"rk4.cpp", "something else"}},
+  };
+  for (const Row& row : table) {
+    const Remark remark = first_error("rk4.cpp", row.said);
+    EXPECT_EQ(remark.key, row.key) << row.said;
+    EXPECT_EQ(remark.with, row.with) << row.said;
+  }
+}
+
+std::string complaint(const std::string& content, bool pairs) {
+  const crosscheck::TemporaryFolder here("test");
+  std::ofstream(here.path / "file.txt") << content;
+  try {
+    if (pairs)
+      read_pairs(here.path / "file.txt");
+    else
+      read_mistakes(here.path / "file.txt");
+  } catch (const crosscheck::InputError& error) {
+    const std::string what = error.what();
+    return what.substr(what.find("file.txt"));
+  }
+  return "";
+}
+
+TEST(Mistakes, ErrorsNameFileAndLine) {
+  const std::string good = "# words\n[a]\npart: p\nloses: 1.1 2.1\n<<<<\none\n\n two\n====\n>>>>\n";
+  EXPECT_EQ(complaint(good, false), "");
+  const std::pair<std::string, const char*> table[] = {
+      {"part: p\n", "file.txt:1: expected a heading"},
+      {"[a]\n<<<<\n", "file.txt:2: expected 'part: NAME'"},
+      {"[a]\npart: p\nlooses: 1\n", "file.txt:3: expected 'part:', 'loses:' or '<<<<', got 'looses: 1'"},
+      {"[a]\npart: p\n[b]\n", "file.txt:3: expected '<<<<' and the text of [a] first"},
+      {"[a]\npart: p\n<<<<\none\n", "file.txt:4: expected '====' that ends the text from line 3"},
+      {"[a]\npart: p\n<<<<\n====\n>>>>\n", "file.txt:5: the text to be replaced is empty"},
+      {"[a]\npart: p\n", "file.txt:2: the text of [a] is missing"},
+      {good + good, "file.txt:12: [a] stands there twice"},
+  };
+  for (const auto& [content, says] : table)
+    EXPECT_EQ(complaint(content, false).find(says), 0u) << complaint(content, false);
+  EXPECT_EQ(complaint("[x]\na: one\nb: two\n", true), "");
+  EXPECT_EQ(complaint("[x]\na: one\n", true).find("file.txt:2: expected 'a: NAME' and 'b: NAME'"), 0u);
+}
+
+TEST(Mistakes, TheTextMustStandThereExactlyOnce) {
+  const Mistake mistake{"m", "p", "x + 1", "x - 1", {}};
+  EXPECT_EQ(with_mistake("y = x + 1;\n", mistake), "y = x - 1;\n");
+  for (const char* source : {"y = x + 2;", "y = x + 1 + x + 1;"})
+    EXPECT_THROW(with_mistake(source, mistake), crosscheck::InputError) << source;
+}
+
+TEST(Texts, ErrorsNameFileAndLineAndPlacesAreFilledOnce) {
+  for (const auto& [content, says] : {std::pair{"# c\nwords\n", "n.txt:2: text before the first [key]"},
+                                      std::pair{"[a]\nx\n[a]\n", "n.txt:3: the key [a] stands there twice"}}) {
+    try {
+      Texts::parse(content, "n.txt");
+      FAIL() << content;
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), says);
+    }
+  }
+  const Texts texts = Texts::parse("[a]\n{0} {1} {2} {x} {\n\n[b]\n", "n.txt");
+  EXPECT_EQ(texts.fill("a", std::string("{1}"), std::string("two")), "{1} two {2} {x} {");
+  EXPECT_EQ(texts.of("b"), "");
+  EXPECT_THROW(texts.of("c"), std::out_of_range);
+}
+
+TEST(Texts, BothLanguagesSayTheSameThings) {
+  std::set<std::string> english, chinese;
+  const Texts en = common_texts("en"), zh = common_texts("zh");
+  for (const auto& [key, text] : en.all()) english.insert(key);
+  for (const auto& [key, text] : zh.all()) chinese.insert(key);
+  EXPECT_EQ(english, chinese);
+}
+
+TEST(Judge, BothSidesOfTheTolerance) {
+  const Case what{"call", {}, {1, 2, 3, 4}, 2, 0.5, "step", "state"};
+  for (const double off : {0.0, 0.5, -0.5, 0.500001, -0.500001}) {
+    const Judged judged = judge(what, {How::answered, {1, 2, 3 + off, 4}});
+    const bool right = std::abs(off) <= 0.5;
+    EXPECT_EQ(judged.right, right) << off;
+    EXPECT_EQ(judged.row, right ? -1 : 1);
+    EXPECT_EQ(judged.column, right ? -1 : 0);
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, inf, -inf}) EXPECT_TRUE(judge(what, {How::answered, {1, bad, 3, 4}}).not_finite);
+  EXPECT_TRUE(judge(what, {How::answered, {1, 2, 3}}).wrong_size);
+  EXPECT_TRUE(judge(what, {How::answered, {1, 2, 3, 4, 5}}).wrong_size);
+  EXPECT_FALSE(judge(what, {How::crashed, {1, 2, 3, 4}}).right);
+}
+
+TEST(Words, SayWhatWasExpectedWhatCameAndWhere) {
+  const Texts own = Texts::parse("[row.step]\nstep\n\n[column.state]\nx\n", "own");
+  const Case what{"call", {}, {1, 2, 3, 4}, 2, 1e-9, "step", "state"};
+  auto say = [&](const Answer& answer, const std::string& language) {
+    return words(common_texts(language), own, what, answer, judge(what, answer));
+  };
+  EXPECT_EQ(say({How::answered, {1, 2, 3, 5}}, "en"), "First difference at step 1, x[1]: expected 4, got 5.");
+  EXPECT_EQ(say({How::answered, {1, 2, 3, 5}}, "zh"), "第一处不同在step 1 的 x[1]：应为 4，实得 5。");
+  const Texts named = Texts::parse("[row.step]\nstep\n\n[row.step.first]\n1\n\n[column.state]\n(x, y)\n", "named");
+  const Answer wrong{How::answered, {1, 2, 3, 5}};
+  EXPECT_EQ(words(common_texts(), named, what, wrong, judge(what, wrong)),
+            "First difference at step 2, y: expected 4, got 5.");
+  // digits enough to see the difference
+  EXPECT_EQ(say({How::answered, {1, 2, 3, 4.00000001}}, "en"),
+            "First difference at step 1, x[1]: expected 4, got 4.00000001.");
+  EXPECT_EQ(say({How::answered, {1}}, "en").find("Expected 4 numbers, got 1: "), 0u);
+  EXPECT_EQ(say({How::answered, {1, 2, 3, 4}}, "en"), "");
+}
+
+TEST(Words, NameTheColumn) {
+  const Texts own = Texts::parse(
+      "[column.state]\nstate\n[column.point]\n(x, y)\n[column.all]\n(x, v) of particle #\n[column.kind]\n"
+      "kind (0 or 1) and step\n",
+      "texts");
+  Case what;
+  const auto text = [&](const std::string& column, int columns, int at) {
+    what.column = column, what.columns = columns;
+    return column_text(own, what, at);
+  };
+  EXPECT_EQ(text("state", 1, 0), "state");
+  EXPECT_EQ(text("state", 3, 2), "state[2]");
+  EXPECT_EQ(text("unknown", 3, 2), "unknown[2]");
+  EXPECT_EQ(text("point", 2, 1), "y");
+  EXPECT_EQ(text("point", 2, -1), "(x, y)");
+  EXPECT_EQ(text("point", 3, 1), "(x, y)[1]");
+  EXPECT_EQ(text("all", 6, 5), "v of particle 2");
+  EXPECT_EQ(text("all", 5, 4), "(x, v) of particle #[4]");
+  EXPECT_EQ(text("kind", 2, 0), "kind (0 or 1) and step[0]");
+}
+
+TEST(Plot, DrawsBothCurvesAndSurvivesAnything) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Case what{"call", {}, {1, 2, 3, 4, 5, 6}, 2, 1e-9, "step", "state", 0, 1};
+  const PlotTexts texts{"right", "<yours>", "x", "y"};
+  for (const Numbers& got : {Numbers{1, 2, 3, 4, 5, 6}, Numbers{nan, 1, 1e300, 1, 1, -1e300}, Numbers{}}) {
+    const std::string svg = plot(what, got, texts);
+    EXPECT_NE(svg.find("&lt;yours&gt;"), std::string::npos);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+  }
+  Case nothing = what;
+  nothing.plot_y = -1;
+  EXPECT_EQ(plot(nothing, what.expected, texts), "");
+}
+
+}  // namespace
+}  // namespace coursework

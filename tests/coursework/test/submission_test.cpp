@@ -1,0 +1,190 @@
+// Folders and archives: the files asked for are found, and nothing that an archive may hold does harm.
+#include "tests/coursework/grader/submission.h"
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "mysim/errors.h"
+#include "mysim/files.h"
+#include "mysim/temporary_folder.h"
+#include "tests/coursework/grader/build.h"
+
+namespace coursework {
+namespace {
+namespace fs = std::filesystem;
+using crosscheck::TemporaryFolder;
+using crosscheck::write_file;
+
+const std::vector<std::string> wanted = {"rk4.cpp", "euler.cpp"};
+
+struct Entry {
+  std::string path, content;
+  mode_t type = AE_IFREG;
+  std::string link = {};
+};
+
+void pack(const fs::path& file, const std::vector<Entry>& entries, bool zip) {
+  archive* to = archive_write_new();
+  if (zip) {
+    archive_write_set_format_zip(to);
+  } else {
+    archive_write_set_format_pax_restricted(to);
+    archive_write_add_filter_gzip(to);
+  }
+  archive_write_open_filename(to, file.c_str());
+  for (const Entry& one : entries) {
+    archive_entry* entry = archive_entry_new();
+    archive_entry_set_pathname(entry, one.path.c_str());
+    archive_entry_set_filetype(entry, one.type);
+    archive_entry_set_perm(entry, 0644);
+    archive_entry_set_size(entry, static_cast<la_int64_t>(one.content.size()));
+    if (one.type == AE_IFLNK) archive_entry_set_symlink(entry, one.link.c_str());
+    if (one.type == AE_IFREG && !one.link.empty()) archive_entry_set_hardlink(entry, one.link.c_str());
+    archive_write_header(to, entry);
+    archive_write_data(to, one.content.data(), one.content.size());
+    archive_entry_free(entry);
+  }
+  archive_write_close(to);
+  archive_write_free(to);
+}
+
+TEST(Submission, FilesAreFoundWhereStudentsPutThem) {
+  for (const char* folder : {"", "src/", "smith/", "smith/src/", "SRC/"}) {
+    const TemporaryFolder here("test");
+    write_file(here.path / "handed" / folder / "rk4.cpp", "rk4");
+    write_file(here.path / "handed" / folder / "euler.cpp", "euler");
+    std::vector<Submission> all{read_submission(here.path / "handed", wanted)};
+    for (const bool zip : {false, true}) {
+      pack(here.path / "archive",
+           {{std::string(folder) + "rk4.cpp", "rk4"}, {std::string(folder) + "euler.cpp", "euler"}}, zip);
+      all.push_back(read_submission(here.path / "archive", wanted));
+    }
+    for (const Submission& one : all) {
+      EXPECT_EQ(one.files.at("rk4.cpp"), "rk4") << folder;
+      EXPECT_EQ(one.files.at("euler.cpp"), "euler") << folder;
+      EXPECT_TRUE(one.missing.empty() && one.remarks.empty()) << folder;
+    }
+  }
+}
+
+TEST(Submission, TheShallowestIsTakenAndTwoAlikeAreNot) {
+  const TemporaryFolder here("test");
+  write_file(here.path / "rk4.cpp", "top");
+  write_file(here.path / "old/rk4.cpp", "old");
+  write_file(here.path / "a/euler.cpp", "a");
+  write_file(here.path / "b/euler.cpp", "b");
+  const Submission one = read_submission(here.path, wanted);
+  EXPECT_EQ(one.files.at("rk4.cpp"), "top");
+  EXPECT_EQ(one.missing.at("euler.cpp").key, "file.twice");
+}
+
+TEST(Submission, CaseOfLettersDiffersAndIsSaid) {
+  const TemporaryFolder here("test");
+  write_file(here.path / "RK4.CPP", "rk4");
+  const Submission one = read_submission(here.path, wanted);
+  EXPECT_EQ(one.files.at("rk4.cpp"), "rk4");
+  ASSERT_EQ(one.remarks.size(), 1u);
+  EXPECT_EQ(one.remarks[0].key, "file.case");
+  EXPECT_EQ(one.missing.at("euler.cpp").key, "file.missing");
+}
+
+TEST(Submission, LinksPipesAndLargeFilesOfAFolderAreRefused) {
+  const TemporaryFolder here("test");
+  write_file(here.path / "secret", "secret");
+  fs::create_directories(here.path / "handed");
+  fs::create_symlink(here.path / "secret", here.path / "handed/rk4.cpp");
+  ASSERT_EQ(mkfifo((here.path / "handed/euler.cpp").c_str(), 0600), 0);
+  Submission one = read_submission(here.path / "handed", wanted);
+  EXPECT_TRUE(one.files.empty());
+  EXPECT_EQ(one.missing.at("rk4.cpp").key, "file.link");
+  EXPECT_EQ(one.missing.at("euler.cpp").key, "file.link");
+  for (const bool too_large : {false, true}) {
+    write_file(here.path / "large/rk4.cpp", std::string(largest_file + too_large, 'x'));
+    one = read_submission(here.path / "large", wanted);
+    EXPECT_EQ(one.files.count("rk4.cpp"), too_large ? 0u : 1u);
+    if (too_large) {
+      EXPECT_EQ(one.missing.at("rk4.cpp").key, "file.large");
+    }
+  }
+  // a folder of links leads nowhere else
+  write_file(here.path / "elsewhere/rk4.cpp", "rk4");
+  fs::create_directories(here.path / "linked");
+  fs::create_directory_symlink(here.path / "elsewhere", here.path / "linked/src");
+  EXPECT_EQ(read_submission(here.path / "linked", wanted).missing.at("rk4.cpp").key, "file.missing");
+}
+
+TEST(Submission, LinksInArchivesAreRefused) {
+  const TemporaryFolder here("test");
+  for (const bool zip : {false, true}) {
+    std::vector<Entry> entries{{"rk4.cpp", "", AE_IFLNK, "/etc/passwd"}};
+    if (!zip) entries.push_back({"euler.cpp", "", AE_IFREG, "/etc/passwd"});
+    pack(here.path / "archive", entries, zip);
+    const Submission one = read_submission(here.path / "archive", wanted);
+    EXPECT_TRUE(one.files.empty());
+    EXPECT_EQ(one.missing.at("rk4.cpp").key, "file.link");
+    EXPECT_EQ(one.missing.at("euler.cpp").key, zip ? "file.missing" : "file.link");
+  }
+}
+
+TEST(Submission, ArchivesThatPointOutsideAreRefusedAsAWhole) {
+  for (const char* path : {"../rk4.cpp", "a/../../rk4.cpp", "/rk4.cpp", "..\\rk4.cpp", "src/../rk4.cpp"})
+    for (const bool zip : {false, true}) {
+      const TemporaryFolder here("test");
+      pack(here.path / "archive", {{"euler.cpp", "euler"}, {path, "rk4"}}, zip);
+      const Submission one = read_submission(here.path / "archive", wanted);
+      EXPECT_TRUE(one.files.empty()) << path;
+      ASSERT_EQ(one.remarks.size(), 1u) << path;
+      EXPECT_EQ(one.remarks[0].key, "archive.path") << path;
+      EXPECT_EQ(std::distance(fs::directory_iterator(here.path), {}), 1) << path;
+    }
+}
+
+TEST(Submission, BombsAreRefusedOnBothSidesOfTheLimit) {
+  const TemporaryFolder here("test");
+  for (const bool too_much : {false, true}) {
+    const std::string block((largest_total >> 2) - 1, 'x');
+    std::vector<Entry> entries{{"rk4.cpp", "rk4"}};
+    for (int i = 0; i < (too_much ? 5 : 3); ++i) entries.push_back({"data" + std::to_string(i), block});
+    pack(here.path / "archive", entries, true);
+    const Submission one = read_submission(here.path / "archive", wanted);
+    EXPECT_EQ(one.files.count("rk4.cpp"), too_much ? 0u : 1u);
+    EXPECT_EQ(one.remarks.empty(), !too_much);
+    if (too_much) {
+      EXPECT_EQ(one.remarks[0].key, "archive.size");
+    }
+  }
+  for (const std::size_t count : {most_entries, most_entries + 1}) {
+    std::vector<Entry> entries(count, {"data", ""});
+    entries[0] = {"rk4.cpp", "rk4"};
+    pack(here.path / "archive", entries, false);
+    const Submission one = read_submission(here.path / "archive", wanted);
+    EXPECT_EQ(one.files.count("rk4.cpp"), count > most_entries ? 0u : 1u);
+    if (count > most_entries) {
+      EXPECT_EQ(one.remarks.at(0).key, "archive.entries");
+    }
+  }
+}
+
+TEST(Submission, NamesLikeOptionsAndRubbishDoNoHarm) {
+  const TemporaryFolder here("test");
+  pack(here.path / "archive",
+       {{"-o", "x"}, {"@file", "x"}, {"-rf *", "x"}, {"__MACOSX/rk4.cpp", "x"}, {"rk4.cpp", "rk4"}}, true);
+  EXPECT_EQ(read_submission(here.path / "archive", wanted).files.at("rk4.cpp"), "rk4");
+  write_file(here.path / "rubbish", "neither zip nor tar");
+  write_file(here.path / "empty", "");
+  pack(here.path / "whole", {{"rk4.cpp", std::string(1 << 16, 'x')}, {"data", std::string(1 << 16, 'y')}}, false);
+  write_file(here.path / "half", content_of_file(here.path / "whole").substr(0, 100));
+  for (const char* name : {"rubbish", "half"}) {
+    const Submission one = read_submission(here.path / name, wanted);
+    EXPECT_TRUE(one.files.empty()) << name;
+    ASSERT_FALSE(one.remarks.empty()) << name;
+    EXPECT_EQ(one.remarks[0].key, "archive.unreadable") << name;
+  }
+  EXPECT_TRUE(read_submission(here.path / "empty", wanted).files.empty());
+  EXPECT_THROW(read_submission(here.path / "nothing there", wanted), crosscheck::InputError);
+}
+
+}  // namespace
+}  // namespace coursework

@@ -1,0 +1,3 @@
+#include "tiny.h"
+
+double twice(double x) { return 2 * x; }
