@@ -1,14 +1,12 @@
 // Limits of scenes from the limits of single modes, and from step matrices where modes do not stay apart.
 #include "experiments/stability/limit.h"
 
-#include <Spectra/MatOp/SparseSymMatProd.h>
-#include <Spectra/SymEigsSolver.h>
-
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
+#include "experiments/stability/extreme_eigenvalues.h"
 #include "reference/exact/discrete.h"
+#include "reference/exact/eigenvalues.h"
 
 namespace crosscheck {
 namespace {
@@ -17,15 +15,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// nan where it was not found.
 double largest_eigenvalue(const Eigen::SparseMatrix<double>& m) {
-  if (m.rows() <= 400) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(m), Eigen::EigenvaluesOnly);
-    return solver.info() == Eigen::Success ? solver.eigenvalues()[m.rows() - 1] : std::nan("");
-  }
-  Spectra::SparseSymMatProd<double> product(m);
-  Spectra::SymEigsSolver<Spectra::SparseSymMatProd<double>> solver(product, 1, 40);
-  solver.init();
-  solver.compute(Spectra::SortRule::LargestAlge, 2000, 1e-9);
-  return solver.info() == Spectra::CompInfo::Successful ? solver.eigenvalues()[0] : std::nan("");
+  if (m.rows() <= 400) return symmetric_eigenvalues(Eigen::MatrixXd(m))[m.rows() - 1];
+  const auto found = largest_eigenpair(m, 1e-9);
+  return found ? found->value : std::nan("");
 }
 
 /// The h in (0, top] at which `excess`, which rises with h, passes zero; top where it does not; nan where it is nan.
@@ -74,7 +66,7 @@ double radius_of(const Stepper& rule, const LeapfrogMatrix& leapfrog, int n, dou
     const double p = 1 / (4 - std::cbrt(4.0));
     for (const double part : {p, p, 1 - 4 * p, p, p}) leapfrog.step(y, part * h, 4);
   }
-  return Eigen::EigenSolver<Eigen::MatrixXd>(y, false).eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(y).cwiseAbs().maxCoeff();
 }
 
 Prediction of_mixed_modes(const Stepper& rule, const Spectrum& s) {

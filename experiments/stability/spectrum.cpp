@@ -1,21 +1,15 @@
 // Jacobians and eigenvalues.
 #include "experiments/stability/spectrum.h"
 
-#include <Spectra/GenEigsSolver.h>
-#include <Spectra/MatOp/SparseGenMatProd.h>
-#include <Spectra/MatOp/SparseSymMatProd.h>
-#include <Spectra/MatOp/SparseSymShiftSolve.h>
-#include <Spectra/SymEigsShiftSolver.h>
-#include <Spectra/SymEigsSolver.h>
-
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <cmath>
 
 #include "experiments/rest.h"
+#include "experiments/stability/extreme_eigenvalues.h"
 #include "mysim/errors.h"
 #include "mysim/frequency.h"
 #include "mysim/steppers/stepper.h"
+#include "reference/exact/eigenvalues.h"
 
 namespace crosscheck {
 namespace {
@@ -43,29 +37,21 @@ Sparse assembled(const std::vector<Tangent::Pair>& pairs, const std::vector<int>
 double root_or_zero(double square) { return std::sqrt(std::max(0.0, square)); }
 
 void dense_modes(Spectrum& s, double gamma) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(s.system.k)};
-  s.shapes = solver.eigenvectors();
-  for (const double w2 : solver.eigenvalues()) s.modes.push_back({root_or_zero(w2), gamma});
+  const Eigensystem dense = symmetric_eigensystem(Eigen::MatrixXd(s.system.k));
+  s.shapes = dense.vectors;
+  for (const double w2 : dense.values) s.modes.push_back({root_or_zero(w2), gamma});
 }
 
 /// The slowest and the fastest one.
 void extreme_modes(Spectrum& s, double gamma) {
-  const int n = s.system.size();
-  Spectra::SparseSymMatProd<double> product(s.system.k);
-  Spectra::SymEigsSolver<Spectra::SparseSymMatProd<double>> fast(product, 1, std::min(n, 40));
-  fast.init();
-  fast.compute(Spectra::SortRule::LargestAlge, 2000, 1e-10);
-  if (fast.info() != Spectra::CompInfo::Successful) throw SolverFailure("the fastest mode was not found");
-  const double w2 = fast.eigenvalues()[0];
-  Spectra::SparseSymShiftSolve<double> inverse(s.system.k);
+  const auto fast = largest_eigenpair(s.system.k, 1e-10);
+  if (!fast) throw SolverFailure("the fastest mode was not found");
   // beside zero, so that a free motion does not make it singular
-  Spectra::SymEigsShiftSolver<Spectra::SparseSymShiftSolve<double>> slow(inverse, 1, std::min(n, 20), -1e-6 * w2);
-  slow.init();
-  slow.compute(Spectra::SortRule::LargestMagn, 1000, 1e-8);
-  if (slow.info() != Spectra::CompInfo::Successful) throw SolverFailure("the slowest mode was not found");
-  s.modes = {{root_or_zero(slow.eigenvalues()[0]), gamma}, {root_or_zero(w2), gamma}};
-  s.shapes.resize(n, 2);
-  s.shapes << slow.eigenvectors(), fast.eigenvectors();
+  const auto slow = eigenpair_above(s.system.k, -1e-6 * fast->value, 1e-8);
+  if (!slow) throw SolverFailure("the slowest mode was not found");
+  s.modes = {{root_or_zero(slow->value), gamma}, {root_or_zero(fast->value), gamma}};
+  s.shapes.resize(s.system.size(), 2);
+  s.shapes << slow->vector, fast->vector;
   s.complete = false;
 }
 
@@ -79,7 +65,7 @@ void quadratic_modes(Spectrum& s) {
     a.topRightCorner(n, n).setIdentity();
     a.bottomLeftCorner(n, n) = -Eigen::MatrixXd(s.system.k);
     a.bottomRightCorner(n, n) = -Eigen::MatrixXd(c);
-    rates = Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
+    rates = eigenvalues(a);
   } else {
     // velocities in units of the fastest mode, so that both halves are of one size
     const double unit = s.omega;
@@ -92,12 +78,9 @@ void quadratic_modes(Spectrum& s) {
     }
     Sparse a(2 * n, 2 * n);
     a.setFromTriplets(parts.begin(), parts.end());
-    Spectra::SparseGenMatProd<double> product(a);
-    Spectra::GenEigsSolver<Spectra::SparseGenMatProd<double>> solver(product, 4, 60);
-    solver.init();
-    solver.compute(Spectra::SortRule::LargestMagn, 2000, 1e-8);
-    if (solver.info() != Spectra::CompInfo::Successful) throw SolverFailure("the fastest rates were not found");
-    rates = solver.eigenvalues();
+    const auto found = largest_eigenvalues(a, 4, 1e-8);
+    if (!found) throw SolverFailure("the fastest rates were not found");
+    rates = *found;
     s.complete = false;
   }
   for (const std::complex<double> z : rates)

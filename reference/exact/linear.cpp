@@ -2,11 +2,11 @@
 #include "reference/exact/linear.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
 #include "mysim/frequency.h"
+#include "reference/exact/eigenvalues.h"
 #include "reference/exact/recognise.h"
 
 namespace crosscheck {
@@ -114,15 +114,15 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
   for (size_t i = 0; i < free.size(); ++i) linear.rest.col(free[i]) += rest[static_cast<int>(i)] * line->direction;
   if (particles.move) linear.shake = particles.move->amplitude.dot(line->direction);
   const Eigen::VectorXd inverse_root = mass.cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> vibrations(inverse_root.asDiagonal() * k *
+  const Eigensystem vibrations = symmetric_eigensystem(inverse_root.asDiagonal() * k *
                                                                   inverse_root.asDiagonal());
   for (int i = 0; i < static_cast<int>(free.size()); ++i) {
-    Eigen::VectorXd shape = inverse_root.asDiagonal() * vibrations.eigenvectors().col(i);
+    Eigen::VectorXd shape = inverse_root.asDiagonal() * vibrations.vectors.col(i);
     const double largest = shape.cwiseAbs().maxCoeff();
     // the dual of the shape: of unit product with it over the masses
     const Eigen::VectorXd dual = largest * mass.asDiagonal() * shape;
     shape /= largest;
-    const double w2 = vibrations.eigenvalues()[i];
+    const double w2 = vibrations.values[i];
     Mode mode{w2,
               *drag,
               beta * w2,

@@ -1,7 +1,7 @@
 // Small motion about an equilibrium: the vibrations of the stiffness there.
-#include <Eigen/Eigenvalues>
 
 #include "mysim/frequency.h"
+#include "reference/exact/eigenvalues.h"
 #include "reference/exact/oscillator.h"
 #include "reference/exact/recognise.h"
 
@@ -45,13 +45,13 @@ std::optional<LinearisedSolution> linearised_solution(const Scene& scene, const 
   Eigen::VectorXd mass(3 * n);
   for (int i = 0; i < n; ++i) mass.segment<3>(3 * i).setConstant(particles.mass[i]);
   const Eigen::VectorXd root = mass(free).cwiseSqrt();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> vibrations(root.cwiseInverse().asDiagonal() * k(free, free) *
+  const Eigensystem vibrations = symmetric_eigensystem(root.cwiseInverse().asDiagonal() * k(free, free) *
                                                                   root.cwiseInverse().asDiagonal());
-  const Eigen::VectorXd& w2 = vibrations.eigenvalues();
+  const Eigen::VectorXd& w2 = vibrations.values;
   if (!(w2.minCoeff() > 1e-12 * w2.maxCoeff())) return std::nullopt;  // slack or buckling
   const Points off = scene.start.x - equilibrium;
-  const Eigen::MatrixXd to_modes = vibrations.eigenvectors().transpose() * root.asDiagonal(),
-                        shapes = root.cwiseInverse().asDiagonal() * vibrations.eigenvectors();
+  const Eigen::MatrixXd to_modes = vibrations.vectors.transpose() * root.asDiagonal(),
+                        shapes = root.cwiseInverse().asDiagonal() * vibrations.vectors;
   const Eigen::VectorXd u0 = to_modes * off.reshaped()(free), v0 = to_modes * scene.start.v.reshaped()(free);
 
   LinearisedSolution solution;

@@ -60,8 +60,9 @@ inline std::vector<Case> spring_cases(Random& random) {
     row.mass = {1, 1}, row.stiffness = {random.uniform(5, 60)}, row.rest = {random.uniform(1.2, 2)};
     const double stretch = (i % 2 ? 1 : -1) * random.uniform(0.2, 0.8);
     const Vector a = random_vector(random, 2), b = a + (row.rest[0] + stretch) * random_direction(random);
+    const Vector still = Vector::Zero();
     add_spring(row.stiffness[0], row.rest[0], a, b, c);
-    for (const Vector& slope : row.gradient({{a, {}}, {b, {}}})) put(-slope, c.expected);
+    for (const Vector& slope : row.gradient({{a, still}, {b, still}})) put(-slope, c.expected);
   }
   return {c};
 }

@@ -133,7 +133,9 @@ TEST_P(CheatTest, EarnsNothingAndHarmsNothing) {
     const bool cheated = test.part == "euler";
     EXPECT_EQ(test.earned, cheated ? 0 : test.points)
         << test.id << ' ' << (test.hidden ? "hidden: " : "public: ") << test.said;
-    if (cheated) EXPECT_TRUE(says(options.common, test.said, expected(cheat()))) << test.id << ": " << test.said;
+    if (cheated) {
+      EXPECT_TRUE(says(options.common, test.said, expected(cheat()))) << test.id << ": " << test.said;
+    }
     EXPECT_EQ(test.said.find("root:"), std::string::npos) << test.said;
   }
   EXPECT_EQ(canaries_.harm(), "");

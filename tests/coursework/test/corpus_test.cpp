@@ -12,6 +12,7 @@
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/run.h"
 #include "tests/coursework/test/helpers.h"
+#include "tests/coursework/test/recalling_lane.h"
 
 namespace coursework {
 namespace {
@@ -26,7 +27,7 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
  protected:
   Corpus()
       : assignment_(*GetParam()),
-        lane_(choose_lane("bare", true)),
+        lane_(std::make_unique<RecallingLane>(choose_lane("bare", true))),
         builder_(builder_for(assignment_, *lane_, *lane_)),
         known_(mistakes_of(assignment_)),
         count_(static_cast<std::size_t>(number_from("CORPUS_MISTAKES", 3))),
@@ -86,7 +87,7 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
   }
 
   const Assignment& assignment_;
-  std::unique_ptr<Lane> lane_;
+  std::unique_ptr<RecallingLane> lane_;
   std::unique_ptr<Builder> builder_;
   std::vector<Mistake> known_;
   std::size_t count_;
@@ -123,12 +124,13 @@ TEST_P(Corpus, SolutionAndOtherStylesLoseNothing) {
 TEST_P(Corpus, KnownMistakesLoseExactlyTheirTestsAndAreNamed) {
   EXPECT_GE(known_.size(), 12u);
   const Texts texts = Texts::read((assignment_.folder() / "texts.en.txt").string());
-  for (std::size_t i = 0; i < std::min(count_, known_.size()); ++i) {
-    // a few of them: spread over the parts
-    const Mistake& mistake = known_[count_ < known_.size() ? i * known_.size() / count_ : i];
-    EXPECT_TRUE(texts.has("mistake." + mistake.name)) << mistake.name;
-    const fs::path program = builder_->ours(mistake.part, with_mistake(solution(mistake.part), mistake));
-    for (int seed = 0; seed < seeds_; ++seed) {
+  for (int seed = 0; seed < seeds_; ++seed) {
+    lane_->forget();
+    for (std::size_t i = 0; i < std::min(count_, known_.size()); ++i) {
+      // a few of them: spread over the parts
+      const Mistake& mistake = known_[count_ < known_.size() ? i * known_.size() / count_ : i];
+      EXPECT_TRUE(texts.has("mistake." + mistake.name)) << mistake.name;
+      const fs::path program = builder_->ours(mistake.part, with_mistake(solution(mistake.part), mistake));
       const std::vector<Asked> asked = ask(mistake.part, program, seed);
       EXPECT_EQ(lost(asked), std::set<std::string>(mistake.loses.begin(), mistake.loses.end()))
           << mistake.name << ", seed " << seed;

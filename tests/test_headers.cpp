@@ -1,0 +1,1 @@
+// Compiled for the headers that all test programs share; see CMakeLists.txt.
