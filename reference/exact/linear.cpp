@@ -114,8 +114,7 @@ std::optional<LinearScene> linear_scene(const Scene& scene) {
   for (size_t i = 0; i < free.size(); ++i) linear.rest.col(free[i]) += rest[static_cast<int>(i)] * line->direction;
   if (particles.move) linear.shake = particles.move->amplitude.dot(line->direction);
   const Eigen::VectorXd inverse_root = mass.cwiseSqrt().cwiseInverse();
-  const Eigensystem vibrations = symmetric_eigensystem(inverse_root.asDiagonal() * k *
-                                                                  inverse_root.asDiagonal());
+  const Eigensystem vibrations = symmetric_eigensystem(inverse_root.asDiagonal() * k * inverse_root.asDiagonal());
   for (int i = 0; i < static_cast<int>(free.size()); ++i) {
     Eigen::VectorXd shape = inverse_root.asDiagonal() * vibrations.vectors.col(i);
     const double largest = shape.cwiseAbs().maxCoeff();

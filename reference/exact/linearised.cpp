@@ -45,8 +45,8 @@ std::optional<LinearisedSolution> linearised_solution(const Scene& scene, const 
   Eigen::VectorXd mass(3 * n);
   for (int i = 0; i < n; ++i) mass.segment<3>(3 * i).setConstant(particles.mass[i]);
   const Eigen::VectorXd root = mass(free).cwiseSqrt();
-  const Eigensystem vibrations = symmetric_eigensystem(root.cwiseInverse().asDiagonal() * k(free, free) *
-                                                                  root.cwiseInverse().asDiagonal());
+  const Eigensystem vibrations =
+      symmetric_eigensystem(root.cwiseInverse().asDiagonal() * k(free, free) * root.cwiseInverse().asDiagonal());
   const Eigen::VectorXd& w2 = vibrations.values;
   if (!(w2.minCoeff() > 1e-12 * w2.maxCoeff())) return std::nullopt;  // slack or buckling
   const Points off = scene.start.x - equilibrium;

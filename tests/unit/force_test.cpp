@@ -133,9 +133,7 @@ TEST(Tangents, ClampedIsPositiveSemidefiniteAndExactWhereAllSpringsAreStretched)
       Network net = random_network(seed, law);
       const Eigen::MatrixXd clamped = matrix_of(net, Curvature::clamped), exact = matrix_of(net, Curvature::exact);
       const double size = clamped.norm();
-      auto lowest = [](const Eigen::MatrixXd& k) {
-        return symmetric_eigenvalues(k)[0];
-      };
+      auto lowest = [](const Eigen::MatrixXd& k) { return symmetric_eigenvalues(k)[0]; };
       EXPECT_GE(lowest(clamped), -32 * eps * size);  // the solver's round-off, 18 unknowns
       EXPECT_LT((exact - exact.transpose()).cwiseAbs().maxCoeff(), 4 * eps * size);
       indefinite += lowest(exact) < -1e-6 * size;
