@@ -12,4 +12,8 @@ namespace coursework {
 /// has the form `bool answer_P(const std::string& call, const Numbers& in, Numbers& out)`.
 bool answer(const std::string& call, const Numbers& in, Numbers& out);
 
+/// Of the hand-out's `check` alone: what of an answer stands beside the case's `expected`. All of it (as_given.cpp), or
+/// what the assignment's calls.cpp finds in it, where constants are the student's choice.
+Numbers compared(const Case& what, const Numbers& answered);
+
 }  // namespace coursework

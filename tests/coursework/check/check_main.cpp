@@ -39,6 +39,7 @@ Answer ask(const Case& what) {
   try {
     if (!coursework::answer(what.call, what.in, answer.got))
       throw std::runtime_error("check does not know the call " + what.call + "; are its files those of the hand-out?");
+    answer.got = compared(what, answer.got);
     answer.how = How::answered;
   } catch (const std::exception& error) {
     answer.how = How::threw, answer.detail = error.what();
