@@ -63,6 +63,17 @@ struct Words {
   }
 };
 
+/// A motion that belongs to the test and is not judged; empty where there is none, or the student's code gives none.
+std::string motion(const std::string& test, const Words& words) {
+  try {
+    Case drawn;
+    Numbers got;
+    return motion_of(test, drawn, got) ? plot(drawn, got, words.of(drawn)) : "";
+  } catch (...) {
+    return "";
+  }
+}
+
 /// Runs its cases up to the first that is wrong; keeps a few plots, the wrong one among them.
 ShownTest run(const PublicTest& test, const Words& words) {
   ShownTest shown{words.title_of(test.part), test.id + " " + words.title_of(test.id), true, "", {}};
@@ -81,6 +92,7 @@ ShownTest run(const PublicTest& test, const Words& words) {
     if (!test.read.empty()) shown.said += "\n" + words.common.fill("read", test.read);
     break;
   }
+  shown.plots.push_back(motion(test.id, words));
   return shown;
 }
 

@@ -48,7 +48,7 @@ bool ends(const fs::path& file, std::initializer_list<std::string_view> endings)
 
 /// Calls of the student's code, and for a whole program what finds features in its answers.
 bool is_of_check(const std::string& name) {
-  for (const char* begin : {"calls", "looks", "oracles", "replay", "shapes", "springs"})
+  for (const char* begin : {"calls", "looks", "motion", "oracles", "replay", "shapes", "springs"})
     if (name.starts_with(begin)) return true;
   return false;
 }

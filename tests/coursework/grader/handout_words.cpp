@@ -90,13 +90,15 @@ tries in which of many ways your classes can be called; your own files are compi
 
 (Visual Studio and Xcode put the program into `build/Debug`.) Without CMake, in this folder:
 
-    g++ -std=c++20 -g -I. -Ivecmath -Icheck -Icheck/stubs $(ls *.cpp | grep -v main.cpp) check/*.cpp -o check-it
+    g++ -std=c++20 -g -I. -Ivecmath -Icheck -Icheck/stubs $(ls *.cpp | grep -vx main.cpp) check/*.cpp -o check-it
     ./check-it
 
 `check` asks your classes the grader's {1} public questions, {2} points in all, and says of each what was expected, what
 came, and where to read. Masses, stiffnesses and sizes are yours to choose, so it looks at shares, signs and shapes.
-`build/check 2.1` runs one test, `build/check {3}` one part. It writes `mine.html`, with the steppers' curves on the
-right ones. If the program ends in the middle, the last line names the test in which it did.
+`build/check 2.1` runs one test, `build/check {3}` one part. It writes `mine.html`: the curves of your steppers on the
+right ones, and, moved by your trapezoidal rule, your simple system and your pendulum, let go straight below its anchor,
+on the exact motion with your own masses and lengths. Those two are for the eye: no points depend on them. If the program
+ends in the middle, the last line names the test in which it did.
 
 `check` expects the classes in files with the starter's names in this folder, beside as many more as you like, and leaves
 `main.cpp` out. All of them must compile for it to be built; in the grader a class that does not compile costs its own

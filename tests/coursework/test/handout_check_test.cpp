@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <set>
+#include <sstream>
 
 #include "mysim/files.h"
 #include "mysim/temporary_folder.h"
@@ -48,18 +51,41 @@ class Given {
         crosscheck::write_file(folder / file, content);
   }
   /// Builds what has changed, and runs it. Without optimisation: that is compiled soonest.
-  Ran check() const {
+  Ran check(const std::string& which = "") const {
     const std::string here = folder.string();
     const Ran built =
         run("cmake -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-Werror -S " + here + " -B " + here + "/build");
     if (built.code != 0) return built;
     const Ran made = run("cmake --build " + here + "/build -j 2");
-    return made.code != 0 ? made : run(here + "/build/check");
+    return made.code != 0 ? made : run(here + "/build/check " + which);
   }
 
   crosscheck::TemporaryFolder scratch{"handout"};
   fs::path folder = scratch.path / "given";
 };
+
+/// Of each plot of the page: whether the student's curve leaves the right one by more than a pixel somewhere.
+std::vector<bool> curves_apart(const fs::path& page) {
+  const std::string text = content_of_file(page);
+  std::vector<bool> apart;
+  std::vector<double> before;
+  bool second = false;
+  for (size_t at = 0; (at = text.find(" d=\"M", at)) != std::string::npos; second = !second) {
+    at += 4;
+    std::string path = text.substr(at, text.find('"', at) - at);
+    for (char& c : path)
+      if (c == 'M' || c == 'L') c = ' ';
+    std::istringstream in(path);
+    const std::vector<double> points{std::istream_iterator<double>(in), {}};
+    if (second) {
+      bool far = points.size() != before.size();
+      for (size_t i = 0; !far && i < points.size(); ++i) far = std::abs(points[i] - before[i]) > 1;
+      apart.push_back(far);
+    }
+    before = points;
+  }
+  return apart;
+}
 
 /// What the grader says first of a test's public cases; empty where they are right.
 std::string said_by_grader(const Assignment& assignment, const coursework::Test& test, const fs::path& program,
@@ -134,12 +160,14 @@ TEST(HandoutCheck, SaysOfAWholeProgramWhatTheGraderSays) {
         << failing.said;
   }
   EXPECT_NE(failing.said.find(total(earned)), std::string::npos) << failing.said;
+  // Euler's rule is right, the trapezoidal is not, and with it whatever it moves
+  EXPECT_EQ(curves_apart(given.folder / "mine.html"), (std::vector<bool>{false, true, true, true}));
 
   given.put(solution);
   const Ran right = given.check();
   EXPECT_EQ(right.code, 0) << right.said;
   EXPECT_NE(right.said.find(total(points)), std::string::npos) << right.said;
-  EXPECT_NE(content_of_file(given.folder / "mine.html").find("<path"), std::string::npos) << "no curve";
+  EXPECT_EQ(curves_apart(given.folder / "mine.html"), (std::vector<bool>{false, false, false, false}));
 
   // whoever hands in the whole folder hands in no file of ours
   std::vector<Remark> notes;
@@ -151,7 +179,7 @@ TEST(HandoutCheck, SaysOfAWholeProgramWhatTheGraderSays) {
   std::string& simple = crashing.at("simpleSystem.cpp");
   simple = with_mistake(simple, {"crash", "simple", "  vector<Vector3f> f;", "  vector<Vector3f> f; abort();", {}});
   given.put(crashing);
-  const Ran crash = given.check();
+  const Ran crash = given.check("simple");
   EXPECT_EQ(crash.code, 3);
   const size_t last = crash.said.rfind("\n  3.1 " + texts.of("3.1.title") + ": \n");
   ASSERT_NE(last, std::string::npos) << crash.said;

@@ -84,7 +84,7 @@ TEST(Handout, HasNoLineOfSolutionStylesMistakesAndTests) {
       for (const char* begin : {"starter/", "calls", "texts.", "stubs/"}) given = given || inside.starts_with(begin);
       // what finds features in a whole program's answers: it holds no solution, and no state that a test asks at
       if (assignment.takes_whole_program())
-        for (const char* begin : {"probe/", "looks", "oracles", "replay", "shapes", "springs"})
+        for (const char* begin : {"probe/", "looks", "motion", "oracles", "replay", "shapes", "springs"})
           given = given || inside.starts_with(begin);
       if (given)
         shown += content_of_file(file) + "\n";
