@@ -92,7 +92,6 @@ ShownTest run(const PublicTest& test, const Words& words) {
     if (!test.read.empty()) shown.said += "\n" + words.common.fill("read", test.read);
     break;
   }
-  shown.plots.push_back(motion(test.id, words));
   return shown;
 }
 
@@ -136,6 +135,8 @@ int check(const std::string& language, const std::vector<std::string>& which) {
               << words.common.fill("points", std::to_string(good ? test.points : 0), std::to_string(test.points))
               << "\n"
               << (good ? std::string() : indented(shown.back().said)) << std::flush;
+    // after the verdict: what moves it may be another part of the student's, and that may crash
+    shown.back().plots.push_back(motion(test.id, words));
     total = words.common.fill("total", std::to_string(earned), std::to_string(points));
     std::ofstream(mine) << page(all.title, total, shown, words.common.of("passed"), words.common.of("failed"));
   }

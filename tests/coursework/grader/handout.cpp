@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "tests/coursework/check/texts.h"
-#include "tests/coursework/classic/survey.h"
 #include "tests/coursework/grader/grade.h"
 #include "tests/coursework/grader/handout_words.h"
 
@@ -59,11 +58,13 @@ bool is_of_vecmath(const std::string& name) {
   return false;
 }
 
-/// Sources that the grader has in folders of its own stand in `check` without those.
-std::string without_our_folders(const std::string& include) {
+/// A source of the grader's as it stands in `check`, where its headers are in no folders of their own.
+std::string source_in_check(const fs::path& file) {
+  std::string text = content_of(file);
   for (const std::string folder : {"tests/coursework/classic/", "tests/coursework/check/", "../../check/"})
-    if (include.starts_with(folder)) return include.substr(folder.size());
-  return include;
+    for (std::size_t at; (at = text.find("#include \"" + folder)) != std::string::npos;)
+      text.erase(at + std::string_view("#include \"").size(), folder.size());
+  return text;
 }
 
 std::set<fs::path> sorted(const fs::path& folder) { return {fs::directory_iterator(folder), fs::directory_iterator()}; }
@@ -80,7 +81,7 @@ void write_surroundings(const fs::path& from, const fs::path& folder) {
   }
   fs::create_directories(folder / "check/probe");
   for (const fs::path& file : sorted(from / "probe"))
-    write(folder / "check/probe" / file.filename(), classic::with_includes(content_of(file), without_our_folders));
+    write(folder / "check/probe" / file.filename(), source_in_check(file));
 }
 
 }  // namespace
@@ -113,8 +114,7 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
   for (const fs::path& file : sorted(from)) {
     const std::string name = file.filename().string();
     if (name.starts_with("texts.") && ends(file, {".txt"})) write(check / name, shown_texts(file));
-    if (is_of_check(name) && ends(file, {".cpp", ".h"}))
-      write(check / name, classic::with_includes(content_of(file), without_our_folders));
+    if (is_of_check(name) && ends(file, {".cpp", ".h"})) write(check / name, source_in_check(file));
   }
   if (whole) write_surroundings(from, folder);
   std::ofstream cases(check / "public_cases.txt", std::ios::binary);

@@ -81,7 +81,7 @@ classes: for the grader it does not matter what files are called and where they 
 
 ## Build and check
 
-With CMake 3.12 or newer and a compiler that knows C++20 (g++ 10, clang 10, Visual Studio 2019 16.10, or newer: `check`
+With CMake 3.13 or newer and a compiler that knows C++20 (g++ 10, clang 10, Visual Studio 2019 16.10, or newer: `check`
 tries in which of many ways your classes can be called; your own files are compiled as C++14, as the grader does):
 
     cmake -S . -B build
