@@ -39,6 +39,7 @@ Answer ask(const Case& what) {
   try {
     if (!coursework::answer(what.call, what.in, answer.got))
       throw std::runtime_error("check does not know the call " + what.call + "; are its files those of the hand-out?");
+    answer.got = compared(what, answer.got);
     answer.how = How::answered;
   } catch (const std::exception& error) {
     answer.how = How::threw, answer.detail = error.what();
@@ -61,6 +62,17 @@ struct Words {
             column_text(own, c, c.plot_y)};
   }
 };
+
+/// A motion that belongs to the test and is not judged; empty where there is none, or the student's code gives none.
+std::string motion(const std::string& test, const Words& words) {
+  try {
+    Case drawn;
+    Numbers got;
+    return motion_of(test, drawn, got) ? plot(drawn, got, words.of(drawn)) : "";
+  } catch (...) {
+    return "";
+  }
+}
 
 /// Runs its cases up to the first that is wrong; keeps a few plots, the wrong one among them.
 ShownTest run(const PublicTest& test, const Words& words) {
@@ -123,6 +135,8 @@ int check(const std::string& language, const std::vector<std::string>& which) {
               << words.common.fill("points", std::to_string(good ? test.points : 0), std::to_string(test.points))
               << "\n"
               << (good ? std::string() : indented(shown.back().said)) << std::flush;
+    // after the verdict: what moves it may be another part of the student's, and that may crash
+    shown.back().plots.push_back(motion(test.id, words));
     total = words.common.fill("total", std::to_string(earned), std::to_string(points));
     std::ofstream(mine) << page(all.title, total, shown, words.common.of("passed"), words.common.of("failed"));
   }

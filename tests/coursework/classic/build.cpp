@@ -104,7 +104,11 @@ void Plan::plan_part(std::string_view part, const std::vector<std::string_view>&
     parts_.push_back(plan);
     return;
   }
-  std::vector<std::string> more = {defined("STUDENT_HEADER", file), "-DSTUDENT_CLASS=" + name, "-I" + ours_.string(),
+  std::vector<std::string> more = {defined("STUDENT_HEADER", file),
+                                   "-DSTUDENT_CLASS=" + name,
+                                   "-DANSWER=answer",
+                                   "-DOWN_PROCESS",
+                                   "-I" + ours_.string(),
                                    "-I" + (coursework_ / "check").string()};
   // a class that stands in the file of a main of its own
   if (!is_header(file)) more.push_back("-Dmain=main_of_the_student");

@@ -4,15 +4,15 @@
 #include <complex>
 #include <numeric>
 
-#include "tests/coursework/classic/oracles.h"
-#include "tests/coursework/classic/replay.h"
+#include "tests/coursework/classic/looks.h"
 #include "tests/coursework/classic/whole.h"
 #include "tests/coursework/grader/assignment.h"
 
 namespace coursework {
 namespace {
 
-using classic::Family;
+// the student's process gives answers of evalF only: what was asked, and what follows, is found here
+using classic::features;
 
 constexpr Part parts[] = {
     {"euler", "euler.title"},   {"trapezoidal", "trapezoidal.title"},
@@ -58,6 +58,9 @@ Numbers moved(const Numbers& x, double h, const Numbers& f) {
   return out;
 }
 
+template <bool trapezoidal>
+constexpr const char* path_of = trapezoidal ? "trapezoidal.path" : "euler.path";
+
 /// One step of a linear system is x + h A x, and for the trapezoidal rule h^2/2 A A x more; one with squares tells
 /// rules apart that have the same polynomial (the midpoint's).
 template <bool trapezoidal>
@@ -68,8 +71,8 @@ std::vector<Case> step(Random& random) {
     const Numbers f0 = own.f(own.state), ahead = moved(own.state, own.h, f0);
     const Numbers half = moved(own.state, own.h / 2, f0);
     // numbers below 10, some twenty roundings of 6e-8 each: 1e-5; the nearest wrong rule is 1e-2 away
-    cases.push_back(
-        {"path", own.in(1), trapezoidal ? moved(half, own.h / 2, own.f(ahead)) : ahead, 3, 3e-5, "vector", "vector"});
+    cases.push_back({path_of<trapezoidal>, own.in(1), trapezoidal ? moved(half, own.h / 2, own.f(ahead)) : ahead, 3,
+                     3e-5, "vector", "vector"});
   }
   return cases;
 }
@@ -90,7 +93,7 @@ std::vector<Case> circle(Random& random) {
     expected.insert(expected.end(), {z.real(), z.imag(), own.state[2]});
   }
   // fifty steps, each a few roundings of 6e-8 of a radius below 10
-  return {{"path", own.in(steps), expected, 3, 2e-4, "step", "vector", 0, 1, h}};
+  return {{path_of<trapezoidal>, own.in(steps), expected, 3, 2e-4, "step", "vector", 0, 1, h}};
 }
 
 /// (x, y, z) becomes (-y, x, 0) without any rounding; 1e-6 forgives a multiplication by one.
@@ -152,36 +155,6 @@ std::vector<Case> cloth_lengths(Random& r) {
 }
 std::vector<Case> cloth_pins(Random& r) { return {probe("cloth.springs", "pins", side, r, {1})}; }
 
-bool asks(const Case& what, const char* question) { return what.call.ends_with(question); }
-
-Numbers first_look(const Case& what, const Numbers& raw) {
-  if (asks(what, ".purity")) return classic::purity(raw);
-  if (asks(what, ".gravity")) return classic::gravity(raw);
-  if (asks(what, ".drag")) return classic::drag(raw);
-  return classic::motion(raw, static_cast<int>(what.in[0]));
-}
-Numbers cloth_look(const Case&, const Numbers& raw) {
-  // whether and where a cloth hangs is the student's choice; only what moves is looked at
-  Numbers found = classic::motion(raw, side * side);
-  found.pop_back();
-  return found;
-}
-Numbers law(const Case&, const Numbers& raw) { return classic::spring_law(raw); }
-Numbers links(const Case&, const Numbers& raw) { return classic::chain_links(raw); }
-template <int down_a, int side_a, int down_b, int side_b>
-Numbers family(const Case&, const Numbers& raw) {
-  return classic::cloth_family(raw, Family{down_a, side_a}, Family{down_b, side_b});
-}
-Numbers others(const Case&, const Numbers& raw) { return classic::cloth_others(raw); }
-Numbers lengths(const Case&, const Numbers& raw) { return classic::cloth_lengths(raw); }
-Numbers pins(const Case&, const Numbers& raw) { return classic::cloth_pins(raw); }
-
-/// The student's process gives answers of evalF only: what was asked, and what follows, is found here.
-template <Numbers (*look)(const Case&, const Numbers&)>
-Numbers replayed(const Case& what, const Numbers& answers) {
-  return look(what, classic::replay(what, answers));
-}
-
 const Test tests[] = {
     {"1.1", "euler", 3, 2, {"explicit Euler"}, "Forward Euler", step<false>},
     {"1.2", "euler", 2, 1, {"explicit Euler", "growth"}, "Forward Euler", circle<false>},
@@ -189,7 +162,7 @@ const Test tests[] = {
     {"2.2", "trapezoidal", 2, 1, {"trapezoidal rule", "growth"}, "The trapezoidal rule", circle<true>},
     {"3.1", "simple", 1, 1, {"ODE"}, "The simple system", field_same},
     {"3.2", "simple", 1, 1, {"state"}, "The state that evalF is given", field_other},
-    {"4.1", "pendulum", 3, 2, {"state"}, "The state that evalF is given", pendulum_purity, replayed<first_look>},
+    {"4.1", "pendulum", 3, 2, {"state"}, "The state that evalF is given", pendulum_purity, features},
     {"4.2",
      "pendulum",
      2,
@@ -197,38 +170,24 @@ const Test tests[] = {
      {"first-order form", "constraint"},
      "Second order as first order",
      pendulum_motion,
-     replayed<first_look>},
-    {"4.3", "pendulum", 2, 2, {"gravity"}, "Gravity and drag", pendulum_gravity, replayed<first_look>},
-    {"4.4", "pendulum", 2, 2, {"drag"}, "Gravity and drag", pendulum_drag, replayed<first_look>},
-    {"4.5", "pendulum", 2, 2, {"springs"}, "Springs", pendulum_springs, replayed<law>},
-    {"4.6", "pendulum", 3, 2, {"state", "first-order form"}, "The chain", chain_shape, replayed<first_look>},
-    {"4.7", "pendulum", 3, 2, {"gravity", "drag"}, "Gravity and drag", chain_forces, replayed<first_look>},
-    {"4.8", "pendulum", 3, 2, {"springs", "connectivity"}, "The chain", chain_links, replayed<links>},
-    {"4.9", "pendulum", 3, 2, {"springs", "third law"}, "Springs", chain_law, replayed<law>},
-    {"5.1", "cloth", 3, 2, {"state"}, "The state that evalF is given", cloth_purity, replayed<first_look>},
-    {"5.2", "cloth", 2, 1, {"first-order form"}, "The cloth", cloth_motion, replayed<cloth_look>},
-    {"5.3", "cloth", 3, 2, {"gravity", "drag"}, "Gravity and drag", cloth_forces, replayed<first_look>},
-    {"5.4",
-     "cloth",
-     3,
-     2,
-     {"structural springs"},
-     "Three families of springs",
-     cloth_structural,
-     replayed<family<0, 1, 1, 0>>},
-    {"5.5", "cloth", 3, 2, {"shear springs"}, "Three families of springs", cloth_shear, replayed<family<1, 1, 1, -1>>},
-    {"5.6",
-     "cloth",
-     3,
-     2,
-     {"flexion springs"},
-     "Three families of springs",
-     cloth_flexion,
-     replayed<family<0, 2, 2, 0>>},
-    {"5.7", "cloth", 2, 1, {"connectivity"}, "Three families of springs", cloth_others, replayed<others>},
-    {"5.8", "cloth", 2, 2, {"springs", "third law"}, "Springs", cloth_law, replayed<law>},
-    {"5.9", "cloth", 2, 1, {"rest lengths"}, "Three families of springs", cloth_lengths, replayed<lengths>},
-    {"5.10", "cloth", 1, 1, {"constraint"}, "Hanging it up", cloth_pins, replayed<pins>},
+     features},
+    {"4.3", "pendulum", 2, 2, {"gravity"}, "Gravity and drag", pendulum_gravity, features},
+    {"4.4", "pendulum", 2, 2, {"drag"}, "Gravity and drag", pendulum_drag, features},
+    {"4.5", "pendulum", 2, 2, {"springs"}, "Springs", pendulum_springs, features},
+    {"4.6", "pendulum", 3, 2, {"state", "first-order form"}, "The chain", chain_shape, features},
+    {"4.7", "pendulum", 3, 2, {"gravity", "drag"}, "Gravity and drag", chain_forces, features},
+    {"4.8", "pendulum", 3, 2, {"springs", "connectivity"}, "The chain", chain_links, features},
+    {"4.9", "pendulum", 3, 2, {"springs", "third law"}, "Springs", chain_law, features},
+    {"5.1", "cloth", 3, 2, {"state"}, "The state that evalF is given", cloth_purity, features},
+    {"5.2", "cloth", 2, 1, {"first-order form"}, "The cloth", cloth_motion, features},
+    {"5.3", "cloth", 3, 2, {"gravity", "drag"}, "Gravity and drag", cloth_forces, features},
+    {"5.4", "cloth", 3, 2, {"structural springs"}, "Three families of springs", cloth_structural, features},
+    {"5.5", "cloth", 3, 2, {"shear springs"}, "Three families of springs", cloth_shear, features},
+    {"5.6", "cloth", 3, 2, {"flexion springs"}, "Three families of springs", cloth_flexion, features},
+    {"5.7", "cloth", 2, 1, {"connectivity"}, "Three families of springs", cloth_others, features},
+    {"5.8", "cloth", 2, 2, {"springs", "third law"}, "Springs", cloth_law, features},
+    {"5.9", "cloth", 2, 1, {"rest lengths"}, "Three families of springs", cloth_lengths, features},
+    {"5.10", "cloth", 1, 1, {"constraint"}, "Hanging it up", cloth_pins, features},
 };
 
 constexpr int total(const auto& all) {

@@ -26,7 +26,7 @@ void take_step(S& stepper, Own& own, float h) {
     stepper_base(stepper).takeStep(&system, h);
 }
 
-/// "path": in h, count of steps, nine numbers of A, q, and the state, three numbers each; out the state after each
+/// "PART.path": in h, count of steps, nine numbers of A, q, and the state, three numbers each; out the state after each
 /// step, row after row.
 template <class S>
 bool path(const coursework::Numbers& in, coursework::Numbers& out) {

@@ -34,8 +34,10 @@ struct Zero {
   operator T() const { return T(); }
 };
 
-/// Some print in evalF, which is asked ten thousand times: nobody reads it, and the grader would stop it.
+/// Some print in evalF, which is asked ten thousand times: nobody reads it, and the grader would stop it. The
+/// hand-out's check speaks on the same streams, and there the student does read it.
 inline void quiet() {
+#ifdef OWN_PROCESS
   static bool done = false;
   if (done) return;
   done = true;
@@ -44,6 +46,15 @@ inline void quiet() {
   std::clog.setstate(std::ios::badbit);
   if (!std::freopen("/dev/null", "w", stdout)) std::fclose(stdout);
   if (!std::freopen("/dev/null", "w", stderr)) std::fclose(stderr);
+#endif
+}
+
+/// rand() and its kind begin anew, so that a random wind is the same wind whenever it is asked.
+inline void start_random_numbers() {
+  std::srand(1);
+#ifndef _WIN32  // which has no drand48
+  srand48(1);
+#endif
 }
 
 /// Zeroed memory with room behind it, so that a flag nobody initialised is off on every run.
@@ -105,11 +116,9 @@ void store(T& system, Vec state) {
     base_of(system).setState(state);
 }
 
-/// rand() starts anew each time, so that a random wind is the same wind whenever it is asked.
 template <class T>
 Vec evaluate(T& system, Vec state) {
-  std::srand(1);
-  srand48(1);
+  start_random_numbers();
   if constexpr (requires { Vec(system.evalF(state)); })
     return Vec(system.evalF(state));
   else if constexpr (requires { Vec(system.evalF(state, Zero{})); })

@@ -1,0 +1,93 @@
+// Motions of the student's systems beside the exact ones. Of a pendulum masses and lengths are his choice, so the exact
+// one is computed with those that his own answers show. Of the hand-out's check.
+#include <cmath>
+#include <complex>
+
+#include "calls.h"
+#include "tests/coursework/classic/replay.h"
+#include "tests/coursework/classic/springs.h"
+
+namespace coursework {
+namespace {
+
+struct Pendulum {
+  std::size_t bob = 1;           // the particle that moves
+  Numbers anchor, first;         // m: where the other one is, and where particle 1 starts
+  double k = 0, rest = 0;        // 1/s^2 (stiffness by mass), m
+  double gravity = 0, drag = 0;  // m/s^2, 1/s (drag by mass)
+};
+
+Numbers raw_of(const char* call) {
+  Case what;
+  what.call = call, what.in = {2, 1};
+  Numbers record;
+  return answer(call, what.in, record) ? classic::replay(what, record) : Numbers();
+}
+
+/// False where no spring moves either particle. Signs are taken as they should be; where gravity or the rest length is
+/// missing, the earth's or the distance at the start stands in.
+bool read(Pendulum& p) {
+  const classic::Springs springs = classic::springs_of(raw_of("pendulum.springs"));
+  const Numbers gravity = raw_of("pendulum.gravity"), drag = raw_of("pendulum.drag");
+  if (springs.particles != 2 || gravity.size() < 13 || drag.size() < 25) return false;
+  const auto place = [&](std::size_t i) { return Numbers{springs.x[i], springs.y[i], springs.z[i]}; };
+  p.bob = springs.fixed[1] && !springs.fixed[0] ? 0 : 1;
+  p.anchor = place(1 - p.bob), p.first = place(1);
+  for (const classic::Spring& spring : springs.all)
+    if (spring.a == static_cast<int>(p.bob)) p.k = std::abs(spring.k), p.rest = spring.rest;
+  const Numbers start = place(p.bob);
+  if (!(p.rest > 1e-3)) p.rest = std::hypot(start[0] - p.anchor[0], start[1] - p.anchor[1], start[2] - p.anchor[2]);
+  // v' at a state and at its mirror image: gravity is what does not turn around with it
+  const double* pulled = &gravity[1 + 6 * p.bob];
+  const double even = std::abs(pulled[1] + pulled[4]) / 2;
+  p.gravity = even > 1e-3 ? even : 9.81;
+  // a velocity w, v' without it, v' with it
+  const double* w = &drag[1 + 12 * p.bob];
+  double along = 0, size = 0;
+  for (int i = 0; i < 3; ++i) along += w[i] * (w[3 + i] - w[6 + i]), size += w[i] * w[i];
+  p.drag = std::abs(along / size);
+  return p.k > 0 && p.rest > 0;
+}
+
+/// Let go straight below the anchor, lower than where it hangs at rest: up and down, a damped vibration.
+bool bounce(Case& drawn, Numbers& got) {
+  Pendulum p;
+  if (!read(p)) return false;
+  const double hangs = p.rest + p.gravity / p.k, lower = hangs / 4, beat = std::sqrt(p.k);
+  const double h = 0.05 / beat;
+  const int steps = 500;  // four vibrations
+  drawn = {"pendulum.bounce", {h, double(steps), double(p.bob)}, {}, 3, 0, "time", "bounce", -1, 1, h};
+  drawn.in.insert(drawn.in.end(), p.first.begin(), p.first.end());
+  drawn.in.insert(drawn.in.end(), {p.anchor[0], p.anchor[1] - hangs - lower, p.anchor[2]});
+  const std::complex<double> root = std::sqrt(std::complex<double>(p.drag * p.drag / 4 - p.k));
+  const std::complex<double> one = -p.drag / 2 + root, other = -p.drag / 2 - root;
+  for (int step = 0; step <= steps; ++step) {
+    const double t = step * h;
+    const double share = ((one * std::exp(other * t) - other * std::exp(one * t)) / (one - other)).real();
+    drawn.expected.insert(drawn.expected.end(), {p.anchor[0], p.anchor[1] - hangs - lower * share, p.anchor[2]});
+  }
+  return answer(drawn.call, drawn.in, got);
+}
+
+/// Once around the circle on which the student's point starts.
+bool turn(Case& drawn, Numbers& got) {
+  const double h = 0.03;
+  const int steps = 209;
+  drawn = {"simple.turn", {h, double(steps)}, {}, 3, 0, "step", "vector", 0, 1, h};
+  if (!answer(drawn.call, drawn.in, got)) return false;
+  for (int step = 0; step <= steps; ++step) {
+    const double cosine = std::cos(step * h), sine = std::sin(step * h);
+    const Numbers at = {got[0] * cosine - got[1] * sine, got[0] * sine + got[1] * cosine, got[2]};
+    drawn.expected.insert(drawn.expected.end(), at.begin(), at.end());
+  }
+  return true;
+}
+
+}  // namespace
+
+bool motion_of(const std::string& test, Case& drawn, Numbers& got) {
+  // the pendulum's beside the last of its tests: all its forces act in it
+  return test == "3.1" ? turn(drawn, got) : test == "4.5" && bounce(drawn, got);
+}
+
+}  // namespace coursework

@@ -1,0 +1,51 @@
+// Calls of what the hand-out's check draws: the student's systems, moved by his own trapezoidal rule.
+#include "TimeStepper.hpp"
+#include "calls.h"
+#include "pendulumSystem.h"
+#include "probe/system.h"
+#include "simpleSystem.h"
+
+namespace coursework {
+namespace {
+
+Vector3f vector_at(const Numbers& in, std::size_t i) {
+  return Vector3f(static_cast<float>(in.at(i)), static_cast<float>(in.at(i + 1)), static_cast<float>(in.at(i + 2)));
+}
+
+/// Where the entry of the state is at first and after each step of h (s).
+template <class T>
+void follow(T& system, std::size_t entry, float h, double steps, Numbers& out) {
+  Trapzoidal& rule = *probe::make<Trapzoidal>(1, false);
+  TimeStepper& stepper = rule;  // takeStep is private in the class itself
+  for (int step = 0; step <= steps; ++step) {
+    if (step > 0) stepper.takeStep(&system, h);
+    const Vector3f at = probe::state_of(system).at(entry);
+    for (int k = 0; k < 3; ++k) out.push_back(at[k]);
+  }
+}
+
+}  // namespace
+
+/// All begin with h (s) and steps; a row per step, the start among them: position (3).
+///   simple.turn       nothing more
+///   pendulum.bounce   which particle is followed, where particle 1 starts (3), where the followed one is let go (3)
+bool answer_motion(const std::string& call, const Numbers& in, Numbers& out) {
+  if (call != "simple.turn" && call != "pendulum.bounce") return false;
+  const float h = static_cast<float>(in.at(0));
+  if (call == "simple.turn") {
+    follow(probe::ready<SimpleSystem>(1, false), 0, h, in.at(1), out);
+    return true;
+  }
+  PendulumSystem& pendulum = probe::ready<PendulumSystem>(2, true);
+  probe::Vec state = probe::state_of(pendulum);
+  // positions and velocities by turns, unless the second entry is a position
+  const bool apart = state.at(1) == vector_at(in, 3) && !(state.at(2) == vector_at(in, 3));
+  const auto which = static_cast<std::size_t>(in.at(2)), entry = apart ? which : 2 * which;
+  state.at(entry) = vector_at(in, 6);
+  state.at(entry + (apart ? 2 : 1)) = Vector3f(0.0f, 0.0f, 0.0f);
+  probe::store(pendulum, state);
+  follow(pendulum, entry, h, in.at(1), out);
+  return true;
+}
+
+}  // namespace coursework
