@@ -131,6 +131,25 @@ int run(int argc, char** argv) {
   advise->add_option("--out", advise_options.out, "folder (out/advise)");
   advise->callback([&] { advise_options.command_line = line, status = advise_command(advise_options); });
 
+  RegressOptions regress_options;
+  auto* regress = app.add_subcommand("regress", "what moved since somebody last said that it is right");
+  regress->add_option("--filter", regress_options.filter, "GLOB on SCENE or SCENE/METHOD");
+  regress->add_option("--method", regress_options.methods, "A,B,... (default: all of mysim and Bullet)");
+  regress->add_option("--against", regress_options.against, "a method to set --method beside, instead of baselines");
+  regress->add_option("--baselines", regress_options.baselines, "folder (default: those that come with Crosscheck)");
+  auto* bless = regress->add_flag("--bless", regress_options.bless, "makes today's answers the baseline");
+  regress->add_option("--reason", regress_options.reason, "why they are right")->needs(bless);
+  regress->add_flag("--bisect", regress_options.bisect, "exit 125 where nothing can be said, for git bisect run");
+  auto* prove = regress->add_flag("--prove", regress_options.prove, "runs wrong changes to mysim: all must be caught")
+                    ->excludes(bless);
+  regress->add_option("--mutant", regress_options.mutant, "only this one of them")->needs(prove);
+  regress->add_option("--out", regress_options.out, "folder (out/regress)");
+  quick_or_full(regress, regress_options.full);
+  regress->callback([&] {
+    regress_options.command_line = line,
+    status = regress_options.prove ? prove_command(regress_options) : regress_command(regress_options);
+  });
+
   EngineOptions engine_options;
   auto* engine = app.add_subcommand("engine", "builds the Bullet adapter against another Bullet tree, for exec:");
   engine->add_option("NAME", engine_options.what, "bullet")->required();

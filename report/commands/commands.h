@@ -74,6 +74,20 @@ struct AdviseOptions {
 };
 int advise_command(const AdviseOptions& options);
 
+struct RegressOptions {
+  std::string filter, methods, against, reason;
+  std::filesystem::path baselines;  // empty: the shipped ones
+  bool full = false, bless = false, bisect = false, prove = false;
+  std::string mutant;  // with `prove`, one of the wrong changes; empty: all
+  std::filesystem::path out = "out/regress";
+  std::string command_line;
+};
+/// 0 all the same; 1 something moved; with `bisect` 125 where nothing can be said.
+int regress_command(const RegressOptions& options);
+/// Runs the mutants against the baselines and says which were caught. 1 where one escaped, where a cause was named
+/// wrongly, or where mysim as it is was caught.
+int prove_command(const RegressOptions& options);
+
 struct RenderOptions {
   std::string scene, methods, mode = "shaded", quality = "still", size = "1280x720";
   double at = -1;  // s; negative: the end

@@ -1,0 +1,49 @@
+#include "experiments/regress/answer.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+
+#include "experiments/estimate.h"
+
+namespace crosscheck {
+namespace {
+
+/// Ends a run that takes many times what it should: an adaptive rule in a motion that explodes takes ever shorter
+/// steps.
+class Patience : public Observer {
+ public:
+  explicit Patience(double seconds) : until_(std::clock() + static_cast<std::clock_t>(seconds * CLOCKS_PER_SEC)) {}
+  bool every_step() const override { return true; }
+  Verdict observe(const State&, bool) override { return std::clock() > until_ ? Verdict::timeout : Verdict::ok; }
+
+ private:
+  std::clock_t until_;
+};
+
+}  // namespace
+
+std::string Question::in_words() const {
+  return fmt::format("{} under {}{}", scene.name, method.name, without.empty() ? "" : " without " + without);
+}
+
+Answered answer_to(const Question& question) {
+  const Scene& scene = question.scene;
+  Run run = default_run(scene);
+  run.samples = std::max(1, static_cast<int>(std::lround(scene.samples * scene.window / scene.duration)));
+  run.duration = scene.duration / scene.samples * run.samples;
+  run.timed = false;
+  Recorder recorder;
+  Ledger ledger(scene.model, question.method.contact);
+  Patience patience(2 + 20 * estimated_seconds(question.method, scene, run));
+  std::vector<Observer*> observers{&recorder, &patience};
+  if (!scene.model.first_order()) observers.push_back(&ledger);
+  Answered answered;
+  answered.outcome = run_method(question.method, scene, run, observers);
+  answered.trajectory = std::move(recorder.trajectory);
+  answered.ledger = ledger.rows();
+  return answered;
+}
+
+}  // namespace crosscheck

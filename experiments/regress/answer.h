@@ -1,0 +1,50 @@
+// What a method does with a scene, seen as a list of numbers: what regression tests compare.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mysim/observers/ledger.h"
+#include "mysim/observers/trajectory.h"
+#include "reference/method.h"
+
+namespace crosscheck {
+
+/// One scene under one method: what is asked. `dear`: in full runs only. `without` names the ingredient that was taken
+/// out; empty for the scene as it is.
+struct Question {
+  Scene scene;
+  Method method;
+  std::string without = {};
+  bool dear = false;
+  /// "chain under mysim/rk4 without drag"
+  std::string in_words() const;
+};
+
+/// A number with its unit, or a word.
+struct Quantity {
+  std::string name, unit;
+  double value = 0;
+  std::string word = {};
+  bool count = false;  // a whole number that rounding cannot change
+  double size = 0;     // of the numbers that it is a difference of: its last digits are theirs
+  double bar = 0;      // what is not known of it whatever the engine does: the error bar of a truth
+  bool is_word() const { return !word.empty(); }
+};
+
+/// One run over the scene's window, beyond which single places cannot be predicted.
+struct Answered {
+  Outcome outcome;
+  Trajectory trajectory;
+  std::vector<LedgerRow> ledger;  // empty in first-order scenes and without velocities
+};
+/// The scene's own step and tolerance, samples where its own lie. Runs that take more than 2 s and twenty times their
+/// estimate end with the verdict `timeout`.
+Answered answer_to(const Question& question);
+
+/// The quantities that this answer has, in a fixed order: the table of them is in quantities.cpp. A failed run has its
+/// verdict and nothing else.
+std::vector<Quantity> quantities_of(const Question& question, const Answered& answered);
+
+}  // namespace crosscheck

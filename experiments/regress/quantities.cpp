@@ -1,0 +1,175 @@
+// The table of quantities, and how each is taken from a run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "experiments/metrics.h"
+#include "experiments/regress/answer.h"
+#include "mysim/uniform.h"
+#include "reference/exact/exact.h"
+#include "reference/truth.h"
+
+namespace crosscheck {
+namespace {
+
+struct Seen {
+  const Question& question;
+  const Answered& answered;
+  const Scene& scene() const { return question.scene; }
+  const Trajectory& path() const { return answered.trajectory; }
+};
+using Quantities = std::vector<Quantity>;
+
+/// Frames at so many equal parts of the run, the last one included.
+std::vector<int> frames_at(const Trajectory& path, int parts) {
+  std::vector<int> frames;
+  for (int i = 1; i <= parts; ++i) {
+    const int frame = static_cast<int>(std::lround(static_cast<double>(path.frames() - 1) * i / parts));
+    if (frame > 0 && (frames.empty() || frame > frames.back())) frames.push_back(frame);
+  }
+  return frames;
+}
+
+std::string at_time(const std::string& what, double t) { return fmt::format("{} at {:.6g} s", what, t); }
+
+/// Of the numbers whose differences quantities are: places, energies, and a spring's length over that at rest.
+double size_of_unit(const std::string& unit, const Answered& answered) {
+  double most = unit == "1" ? 1 : 0;
+  if (unit == "m")
+    for (const Points& x : answered.trajectory.x) most = std::max(most, x.cwiseAbs().maxCoeff());
+  if (unit == "J")
+    for (const LedgerRow& row : answered.ledger)
+      most = std::max({most, row.energy.kinetic, row.energy.elastic, std::abs(row.energy.gravitational)});
+  return most;
+}
+
+/// Counts that rounding cannot change: of rules at a fixed step, without an equation inside that is solved to a
+/// tolerance.
+void counts(const Seen& seen, Quantities& out) {
+  const Stepper* rule = seen.question.method.stepper;
+  if (!rule || rule->adaptive || rule->evaluations == 0) return;
+  out.push_back({"steps", "1", static_cast<double>(seen.answered.outcome.steps), {}, true});
+  out.push_back({"force evaluations", "1", static_cast<double>(seen.answered.outcome.evaluations), {}, true});
+}
+
+/// How far the particles are from where they started, RMS.
+void offsets(const Seen& seen, Quantities& out) {
+  for (const int i : frames_at(seen.path(), 8))
+    out.push_back({at_time("offset", seen.path().t[i]), "m", rms_distance(seen.path().x[i], seen.path().x.front())});
+}
+
+/// Where they are, seen along directions drawn once for each particle: tells apart what moves alike on the whole.
+void places(const Seen& seen, Quantities& out) {
+  const auto n = seen.path().x.front().cols();
+  std::mt19937_64 engine(20250101);
+  Points along(3, n);
+  for (double& part : along.reshaped()) part = 2 * uniform(engine) - 1;
+  along /= std::sqrt(static_cast<double>(n));
+  for (const int i : frames_at(seen.path(), 8))
+    out.push_back({at_time("places along drawn directions", seen.path().t[i]), "m",
+                   dot(along, seen.path().x[i] - seen.path().x.front())});
+}
+
+/// Kinetic, elastic and gravitational energy, above that at the start.
+void energies(const Seen& seen, Quantities& out) {
+  const auto& rows = seen.answered.ledger;
+  if (rows.empty()) return;
+  for (const int i : frames_at(seen.path(), 4)) {
+    const auto row = std::min_element(rows.begin(), rows.end(), [&](const LedgerRow& a, const LedgerRow& b) {
+      return std::abs(a.t - seen.path().t[i]) < std::abs(b.t - seen.path().t[i]);
+    });
+    out.push_back({at_time("energy gained", seen.path().t[i]), "J", row->energy.total() - rows.front().energy.total()});
+  }
+  if (seen.scene().model.find<Spheres>()) out.push_back({"energy lost in contact", "J", rows.back().contact});
+}
+
+void peak_stretch(const Seen& seen, Quantities& out) {
+  const auto* springs = seen.scene().model.find<Springs>();
+  if (!springs) return;
+  double most = -INFINITY;
+  for (const Points& x : seen.path().x)
+    for (const Spring& s : springs->list)
+      if (s.rest > 0) most = std::max(most, (x.col(s.a) - x.col(s.b)).norm() / s.rest - 1);
+  if (std::isfinite(most)) out.push_back({"peak stretch", "1", most});
+}
+
+/// The offset at the end as waves along and across the scene: sag is the first of them.
+void shape(const Seen& seen, Quantities& out) {
+  const Points &x0 = seen.path().x.front(), offset = seen.path().x.back() - x0;
+  if (x0.cols() < 9) return;
+  // the two widest directions of the start
+  const Vec3 low = x0.rowwise().minCoeff(), width = x0.rowwise().maxCoeff() - low;
+  std::array<int, 3> axes{0, 1, 2};
+  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return width[a] > width[b]; });
+  if (!(width[axes[1]] > 0)) return;
+  for (const auto& [along, across] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 0}}) {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < x0.cols(); ++i) {
+      const double a = (x0(axes[0], i) - low[axes[0]]) / width[axes[0]],
+                   b = (x0(axes[1], i) - low[axes[1]]) / width[axes[1]];
+      sum += std::cos(std::numbers::pi * along * a) * std::cos(std::numbers::pi * across * b) * offset.col(i);
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      out.push_back({fmt::format("wave {}, {} of the last shape, {}", along, across, "xyz"[axis]), "m",
+                     sum[axis] / static_cast<double>(x0.cols())});
+  }
+}
+
+/// Twice the mean time between turning points of the mean of the particles, parabolas through three samples.
+void period(const Seen& seen, Quantities& out) {
+  const Trajectory& path = seen.path();
+  if (seen.scene().model.find<Spheres>() || path.frames() < 8) return;
+  Points means(3, path.frames());
+  for (int i = 0; i < path.frames(); ++i) means.col(i) = path.x[i].rowwise().mean();
+  const Vec3 width = means.rowwise().maxCoeff() - means.rowwise().minCoeff();
+  int axis = 0;
+  if (!(width.maxCoeff(&axis) > 0)) return;
+  std::vector<double> turns;
+  for (int i = 1; i + 1 < path.frames(); ++i) {
+    const double before = means(axis, i) - means(axis, i - 1), after = means(axis, i + 1) - means(axis, i);
+    if ((before > 0) == (after > 0)) continue;
+    turns.push_back(path.t[i] + 0.5 * (path.t[i] - path.t[i - 1]) * (before + after) / (before - after));
+  }
+  // as many as a swing or two have: small ripples are no period
+  if (turns.size() < 3 || turns.size() > 40) return;
+  out.push_back({"period", "s", 2 * (turns.back() - turns.front()) / static_cast<double>(turns.size() - 1)});
+}
+
+void smallest_clearance(const Seen& seen, Quantities& out) {
+  if (!seen.scene().model.find<Spheres>()) return;
+  double least = INFINITY;
+  for (int i = 0; i < seen.path().frames(); ++i)
+    least = std::min(least, *clearance(seen.scene(), seen.path().t[i], seen.path().x[i]));
+  out.push_back({"smallest clearance", "m", least});
+}
+
+/// Largest RMS distance from the closed form, where the scene has one. What a converged truth says of a method is
+/// said by its places already, and takes minutes to find.
+void error_against_truth(const Seen& seen, Quantities& out) {
+  const Scene& scene = seen.scene();
+  if (!exact_solution(scene)) return;
+  const auto truth = truth_of(scene, default_run(scene));
+  if (!truth || truth->tier != Tier::exact) return;
+  out.push_back({"error against truth", "m", largest_rms_distance(seen.path(), truth->trajectory, scene.window)});
+  out.back().bar = truth->bar;
+}
+
+constexpr void (*table[])(const Seen&, Quantities&) = {
+    counts, offsets, places, energies, peak_stretch, shape, period, smallest_clearance, error_against_truth};
+
+}  // namespace
+
+std::vector<Quantity> quantities_of(const Question& question, const Answered& answered) {
+  Quantities all{{"verdict", "word", 0, std::string(name_of(answered.outcome.verdict))}};
+  if (answered.outcome.verdict != Verdict::ok) return all;
+  for (const auto add : table) add({question, answered}, all);
+  for (Quantity& q : all)
+    if (!q.count) q.size = size_of_unit(q.unit, answered);
+  return all;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,19 @@
+// What a regression run asks: which scenes under which methods, and which of them without one ingredient.
+#pragma once
+
+#include "experiments/regress/answer.h"
+
+namespace crosscheck {
+
+struct Asked {
+  bool full = false;            // dear questions too
+  std::string filter;           // glob on SCENE or SCENE/METHOD; empty: all
+  std::vector<Method> methods;  // empty: all of mysim and Bullet
+};
+
+/// Every shipped scene under every method, as far as its cost allows (0.5 s by the estimate of estimate.h, 20 s in
+/// full runs); and under its own method also without each of its ingredients, which tells causes apart. Methods that
+/// refuse a scene are asked too: a refusal is behaviour. Throws InputError where the filter leaves nothing.
+std::vector<Question> questions(const Asked& asked);
+
+}  // namespace crosscheck

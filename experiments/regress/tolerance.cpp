@@ -1,0 +1,98 @@
+#include "experiments/regress/tolerance.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "experiments/metrics.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+bool solves(const Method& method) {
+  const Stepper* rule = rule_of(method);
+  return (rule && rule->evaluations == 0) || method.name.starts_with("bullet/deformable-implicit");
+}
+
+bool single(const Method& method, const Answered& answered) {
+  if (answered.outcome.readback) return answered.outcome.readback->precision == "single";
+  return method.name.starts_with("bullet32/");
+}
+
+/// To two digits, which is all that a tolerance means.
+double rounded_up(double tolerance) {
+  if (!(tolerance > 0)) return 0;  // all of the unit is exactly zero
+  const double unit = std::pow(10, std::floor(std::log10(tolerance)) - 1);
+  return std::ceil(tolerance / unit) * unit;
+}
+
+const Quantity* find(const std::vector<Quantity>& all, const std::string& name) {
+  const auto at = std::find_if(all.begin(), all.end(), [&](const Quantity& q) { return q.name == name; });
+  return at == all.end() ? nullptr : &*at;
+}
+
+}  // namespace
+
+Rounding rounding_of(const Question& question, const Answered& answered) {
+  const double motion = answered.trajectory.frames() > 0 ? motion_of(answered.trajectory) : 0;
+  const double lengths = question.scene.size() + motion;
+  if (single(question.method, answered))
+    return {*single_precision_bound(question.scene, motion, 1, answered.outcome.steps), "single precision"};
+  if (solves(question.method)) return {1e-10 * std::max(1.0, lengths), "solver"};
+  return {*round_off_bound(question.scene, motion, 1), "double precision"};
+}
+
+std::vector<std::string> words_of_derivations() {
+  return {
+      "word, count: must be the same",
+      "start moved by A: B; rounding: C: moving every free particle by A changes the quantity by B at most (3 tries),",
+      "  and all roundings of a run are as a change of the start by C: B C / A, and 64 last digits of the largest",
+      "  quantity of the unit, or of the places or energies whose difference it is",
+      "double precision: C is 1e-15 of the scene's size and motion in a step, a hundredfold for thousands of steps",
+      "single precision: ten roundings of 6e-8 of them in a step, adding up like a random walk",
+      "solver: an equation in each step, solved to 1e-10 of its forces: C is 1e-10 of them",
+      "truth known to D: the error bar of what the error is measured against, on top",
+  };
+}
+
+std::vector<Toleranced> with_tolerances(const Question& question) {
+  const Answered answered = answer_to(question);
+  const std::vector<Quantity> quantities = quantities_of(question, answered);
+  std::vector<Toleranced> all;
+  if (answered.outcome.verdict != Verdict::ok) return {{quantities.front(), 0, "word"}};
+
+  const Rounding rounding = rounding_of(question, answered);
+  const double little = std::max(1e-10, rounding.size);  // m: far above a number's last digits
+  std::vector<std::vector<Quantity>> moved;
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    Question other = question;
+    other.scene = perturbed(question.scene, little, seed);
+    moved.push_back(quantities_of(other, answer_to(other)));
+  }
+  std::map<std::string, double> scale;  // of each unit: what is zero but for rounding is bounded beside it
+  for (const Quantity& q : quantities) scale[q.unit] = std::max(scale[q.unit], std::abs(q.value));
+  for (const Quantity& q : quantities) {
+    if (q.is_word() || q.count) {
+      all.push_back({q, 0, q.is_word() ? "word" : "count"});
+      continue;
+    }
+    double change = 0;
+    for (const auto& list : moved) {
+      const Quantity* other = find(list, q.name);
+      change = std::max(change, other ? std::abs(other->value - q.value) : scale[q.unit]);
+    }
+    const double tolerance = change * rounding.size / little + 64 * eps * std::max(scale[q.unit], q.size) + q.bar;
+    all.push_back(
+        {q, rounded_up(tolerance),
+         fmt::format("start moved by {:.1e} m: {:.1e}; rounding: {:.1e} m, {}{}", little, change, rounding.size,
+                     rounding.kind, q.bar > 0 ? fmt::format("; truth known to {:.1e}", q.bar) : "")});
+  }
+  return all;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,31 @@
+// How much of a change rounding explains: the tolerance of each quantity, found by measurement.
+#pragma once
+
+#include "experiments/regress/answer.h"
+
+namespace crosscheck {
+
+struct Toleranced {
+  Quantity quantity;
+  double tolerance = 0;    // in the quantity's unit; 0 for words and counts: they must be equal
+  std::string derivation;  // short: words_of_derivation() explains it
+};
+
+/// m: what all roundings of a run amount to as a change of the start.
+struct Rounding {
+  double size;
+  std::string kind;
+};
+Rounding rounding_of(const Question& question, const Answered& answered);
+
+/// What derivations say, line by line, for the reader of a file of them.
+std::vector<std::string> words_of_derivations();
+
+/// The answer's quantities with their tolerances: the start is moved by a little in three seeded sets of directions,
+/// and the largest change of the quantity, scaled from that little to the rounding, is what rounding can do to it; the
+/// last digits of the number itself come on top. A quantity
+/// that is zero but for rounding is bounded beside the largest one of its unit. A run that failed has its verdict
+/// only.
+std::vector<Toleranced> with_tolerances(const Question& question);
+
+}  // namespace crosscheck

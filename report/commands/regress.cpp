@@ -1,0 +1,130 @@
+// regress: answers beside baselines or beside another method's; --bless writes baselines.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "experiments/regress/cause.h"
+#include "experiments/regress/regress.h"
+#include "mysim/errors.h"
+#include "mysim/files.h"
+#include "report/commands/commands.h"
+#include "report/provenance.h"
+#include "report/regress/verdict_files.h"
+
+namespace crosscheck {
+namespace {
+
+std::string shown(const std::optional<double>& value, const std::string& word) {
+  return value ? fmt::format("{:.9g}", *value) : word.empty() ? "-" : word;
+}
+
+void print_row(const Compared& row) {
+  std::string where = row.scene;
+  if (!row.method.empty()) where += ", " + row.method;
+  if (!row.without.empty()) where += " without " + row.without;
+  fmt::print("{:<10} {}: {}", name_of(row.state), where, row.quantity);
+  if (!row.note.empty()) {
+    fmt::print(": {}\n", row.note);
+    return;
+  }
+  fmt::print(": was {}, is {}", shown(row.was, row.was_word), shown(row.is, row.is_word));
+  if (row.unit != "word" && row.unit != "1") fmt::print(" {}", row.unit);
+  if (row.state == Standing::moved && row.was)
+    fmt::print("; tolerance {:.2g}, {} off", row.tolerance,
+               std::isinf(row.off()) ? "a count" : fmt::format("{:.3g} tolerances", row.off()));
+  fmt::print("\n");
+}
+
+/// Of each question the row that is off most, so that a thousand rows are read in a screen.
+std::vector<Compared> worst_of_each(const std::vector<Compared>& rows) {
+  std::vector<Compared> worst;
+  for (const Compared& row : rows) {
+    if (!failed(row.state)) continue;
+    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Compared& w) {
+      return w.scene == row.scene && w.method == row.method && w.without == row.without && w.state == row.state;
+    });
+    if (same == worst.end())
+      worst.push_back(row);
+    else if (row.off() > same->off())
+      *same = row;
+  }
+  return worst;
+}
+
+long count_of(const std::vector<Compared>& rows, Standing state) {
+  return std::count_if(rows.begin(), rows.end(), [&](const Compared& row) { return row.state == state; });
+}
+
+int told(const Regressed& result, const std::string& cause, const std::filesystem::path& out) {
+  const std::vector<Compared> worst = worst_of_each(result.rows);
+  for (const Compared& row : worst) print_row(row);
+  for (const FailedPoint& f : result.failures) fmt::print("no answer  {}: {}\n", f.name, f.why);
+  const long fresh = count_of(result.rows, Standing::fresh), same = count_of(result.rows, Standing::same);
+  long wrong = 0;
+  for (const Compared& row : result.rows) wrong += failed(row.state);
+  fmt::print("\n{} quantities: {} the same, {} failed{}{}\n", result.rows.size(), same, wrong,
+             fresh > 0 ? fmt::format(", {} new (not blessed yet)", fresh) : "",
+             result.failures.empty() ? "" : fmt::format("; {} questions without an answer", result.failures.size()));
+  if (count_of(result.rows, Standing::moved) > 0) fmt::print("cause: {}\n", cause.empty() ? "not attributed" : cause);
+  fmt::print("{}\n", (out / "regress.csv").string());
+  return result.passed() ? 0 : 1;
+}
+
+int blessed(const Regression& regression, const RegressOptions& options, const Provenance& lines) {
+  if (options.reason.find_first_not_of(" \n\t") == std::string::npos)
+    throw InputError("--bless: expected --reason TEXT: why the new values are right");
+  if (options.reason.find('|') != std::string::npos) throw InputError("--reason: expected a text without '|'");
+  if (const char* ci = std::getenv("CI"); ci && *ci) throw InputError("--bless: CI never blesses (CI is set)");
+  if (regression.against) throw InputError("--bless: expected no --against: baselines are what is blessed");
+  Progress progress(0);
+  const Blessing blessing{value_of(lines, "date").substr(0, 10), value_of(lines, "commit"), value_of(lines, "compiler"),
+                          options.reason};
+  const Blessed result = bless(regression, blessing, progress);
+  progress.done();
+  for (const Compared& row : result.changed) print_row(row);
+  fmt::print("\n{} quantities blessed: {}\n", result.changed.size(), options.reason);
+  for (const auto& file : result.files) fmt::print("{}\n", file.string());
+  return 0;
+}
+
+int regressed(const RegressOptions& options) {
+  Regression regression;
+  regression.asked.full = options.full;
+  regression.asked.filter = options.filter;
+  if (!options.methods.empty()) regression.asked.methods = find_methods(options.methods);
+  if (!options.against.empty()) {
+    if (regression.asked.methods.size() != 1)
+      throw InputError("--against: expected one --method, which is set beside that one");
+    regression.against = find_method(options.against);
+  }
+  regression.baselines = options.baselines.empty() ? std::filesystem::path(CROSSCHECK_BASELINES) : options.baselines;
+  regression.out = options.out;
+  require_writable(options.out);
+  const Provenance lines = provenance(options.command_line);
+  if (options.bless) return blessed(regression, options, lines);
+  if (!options.reason.empty()) throw InputError("--reason: expected --bless beside it");
+
+  Progress progress(0);
+  const Regressed result = regress(regression, progress);
+  progress.done();
+  const std::string cause = cause_of(questions(regression.asked), result.rows);
+  write_verdict(result, cause, lines, options.out);
+  return told(result, cause, options.out);
+}
+
+}  // namespace
+
+int regress_command(const RegressOptions& options) {
+  try {
+    return regressed(options);
+  } catch (const std::exception& error) {
+    if (!options.bisect) throw;
+    // what `git bisect run` takes for "this one cannot be tested"
+    fmt::print(stderr, "crosscheck: cannot be tested: {}\n", error.what());
+    return 125;
+  }
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,136 @@
+// regress on the command line: what is blessed stays the same, what is changed is caught, and nobody blesses by
+// mistake.
+#include "tests/unit/cli.h"
+
+namespace crosscheck::testing_tools {
+namespace {
+
+class CliRegress : public Cli {
+ protected:
+  /// In a shell where no CI runs, or in one where it does.
+  ProgramResult regress(std::vector<std::string> words, const std::string& ci = "") const {
+    words.insert(words.begin(), {CROSSCHECK_PROGRAM, "regress", "--baselines", "mine"});
+    return run_program(words, folder_, {"ASAN_OPTIONS=detect_leaks=0", "CI=" + ci});
+  }
+  ProgramResult bless(const std::string& filter, const std::string& reason = "as it is today") const {
+    return regress({"--filter", filter, "--bless", "--reason", reason});
+  }
+};
+
+TEST_F(CliRegress, WhatIsBlessedIsTheSameAndTheFileStaysAsItIs) {
+  const ProgramResult missing = regress({"--filter", "pendulum"});
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_NE(missing.out.find("missing    pendulum: baseline"), std::string::npos) << missing.out;
+  ASSERT_EQ(bless("pendulum").status, 0);
+  const std::string file = read(folder_ / "mine/pendulum.csv");
+  const ProgramResult same = regress({"--filter", "pendulum"});
+  EXPECT_EQ(same.status, 0) << same.out;
+  EXPECT_NE(same.out.find("0 failed"), std::string::npos) << same.out;
+  const ProgramResult again = bless("pendulum");
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_NE(again.out.find("0 quantities blessed"), std::string::npos) << again.out;
+  EXPECT_EQ(read(folder_ / "mine/pendulum.csv"), file) << "nothing moved, so nobody's word is needed";
+}
+
+TEST_F(CliRegress, AChangedValueIsCaughtNamedAndBlessedByItself) {
+  ASSERT_EQ(bless("spring").status, 0);
+  const std::string good = read(folder_ / "mine/spring.csv");
+  std::string bad = good;
+  const size_t row = bad.find("mysim/rk4,,always,peak stretch");
+  ASSERT_NE(row, std::string::npos);
+  bad.replace(bad.find(",1,", row) + 3, 1, "7");  // the first digit of the value
+  write("mine/spring.csv", bad);
+  const ProgramResult caught = regress({"--filter", "spring"});
+  EXPECT_EQ(caught.status, 1);
+  EXPECT_NE(caught.out.find("moved      spring, mysim/rk4: peak stretch: was 7"), std::string::npos) << caught.out;
+  EXPECT_NE(caught.out.find("1 failed"), std::string::npos) << caught.out;
+  EXPECT_NE(read(folder_ / "out/regress/junit.xml").find("failures=\"1\""), std::string::npos);
+  EXPECT_NE(read(folder_ / "out/regress/regress.json").find("\"passed\": false"), std::string::npos);
+
+  const ProgramResult other = bless("spring/mysim/leapfrog", "another method");
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_EQ(read(folder_ / "mine/spring.csv"), bad) << "a part that is the same changes nothing";
+  const ProgramResult blessed = bless("spring/mysim/rk4", "the digit was wrong");
+  EXPECT_EQ(blessed.status, 0) << blessed.err;
+  EXPECT_NE(blessed.out.find("was 7"), std::string::npos) << "before and after: " << blessed.out;
+  EXPECT_NE(read(folder_ / "mine/spring.csv").find("# blessing 2: "), std::string::npos);
+  EXPECT_NE(read(folder_ / "mine/spring.csv").find("| the digit was wrong"), std::string::npos);
+  EXPECT_EQ(regress({"--filter", "spring"}).status, 0);
+}
+
+TEST_F(CliRegress, StaleAndUnreadableBaselinesFail) {
+  ASSERT_EQ(bless("spring").status, 0);
+  const std::string good = read(folder_ / "mine/spring.csv");
+  std::string other = good;
+  other.replace(other.find("# hash: ") + 8, 16, "0123456789abcdef");
+  write("mine/spring.csv", other);
+  const ProgramResult stale = regress({"--filter", "spring"});
+  EXPECT_EQ(stale.status, 1);
+  EXPECT_NE(stale.out.find("stale      spring: baseline"), std::string::npos) << stale.out;
+  const ProgramResult part = bless("spring/mysim/rk4");
+  EXPECT_EQ(part.status, 2);
+  EXPECT_NE(part.err.find("expected the whole scene to be blessed"), std::string::npos) << part.err;
+  write("mine/spring.csv", good.substr(0, good.size() / 2));
+  const ProgramResult torn = regress({"--filter", "spring"});
+  EXPECT_EQ(torn.status, 1);
+  EXPECT_NE(torn.out.find("unreadable spring: baseline: "), std::string::npos) << torn.out;
+}
+
+TEST_F(CliRegress, BadUseIsNamed) {
+  const struct {
+    std::vector<std::string> words;
+    const char *ci, *says;
+  } cases[] = {
+      {{"--filter", "spring", "--bless"}, "", "expected --reason TEXT"},
+      {{"--filter", "spring", "--bless", "--reason", "x"}, "true", "CI never blesses"},
+      {{"--filter", "spring", "--bless", "--reason", "a | b"}, "", "expected a text without '|'"},
+      {{"--filter", "nothing-like-it"}, "", "no scene and method match"},
+      {{"--filter", "spring", "--against", "rk4"}, "", "--against: expected one --method"},
+      {{"--filter", "spring", "--method", "rk5"}, "", "unknown method 'rk5'"},
+  };
+  for (const auto& [words, ci, says] : cases) {
+    const ProgramResult result = regress(words, ci);
+    EXPECT_EQ(result.status, 2) << result.out;
+    EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+  }
+  const ProgramResult bisected = regress({"--filter", "spring", "--method", "rk5", "--bisect"});
+  EXPECT_EQ(bisected.status, 125) << "what git takes for: cannot be tested";
+  EXPECT_FALSE(fs::exists(folder_ / "mine"));
+}
+
+TEST_F(CliRegress, OneMethodBesideAnother) {
+  const ProgramResult same = regress({"--filter", "chain", "--method", "leapfrog", "--against", "leapfrog"});
+  EXPECT_EQ(same.status, 0) << same.out;
+  // the same rule in Bullet: other sums, within the rounding of both
+  const ProgramResult twins = regress({"--filter", "spring", "--method", "symplectic-euler", "--against", "leapfrog"});
+  EXPECT_EQ(twins.status, 1) << twins.out;
+  EXPECT_NE(twins.out.find("moved      spring, mysim/symplectic-euler"), std::string::npos) << twins.out;
+  const ProgramResult precision = regress(
+      {"--filter", "chain", "--method", "bullet32/deformable-explicit", "--against", "bullet/deformable-explicit"});
+  EXPECT_EQ(precision.status, 1) << precision.out;
+}
+
+/// Five of the wrong changes, each on one scene that shows it; all of them by `regress --prove`.
+TEST_F(CliRegress, MutantsAreCaughtAndTheOriginalIsNot) {
+  const struct {
+    const char *mutant, *scene;
+  } some[] = {{"spring-softer", "spring"},
+              {"leapfrog-drag", "chain"},
+              {"friction-of-velocities-off", "slide"},
+              {"restitution-sign", "bounce"},
+              {"suzuki4-coefficient", "normal-modes"}};
+  for (const auto& [mutant, scene] : some) {
+    SCOPED_TRACE(mutant);
+    ASSERT_EQ(bless(scene).status, 0);
+    const ProgramResult proof = regress({"--prove", "--filter", scene, "--mutant", mutant});
+    EXPECT_EQ(proof.status, 0) << proof.out << proof.err;
+    EXPECT_NE(proof.out.find(std::string("caught   ") + mutant), std::string::npos) << proof.out;
+    EXPECT_NE(proof.out.find("passed   (mysim as it is)"), std::string::npos) << proof.out;
+  }
+  const ProgramResult unknown = regress({"--prove", "--mutant", "no-such"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("no such mutation"), std::string::npos) << unknown.err;
+}
+
+}  // namespace
+}  // namespace crosscheck::testing_tools

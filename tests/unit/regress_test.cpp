@@ -1,0 +1,210 @@
+// Regression tests tested: files of baselines, verdicts on single quantities, causes, and the list of mutations.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "experiments/adequacy/ingredients.h"
+#include "experiments/regress/cause.h"
+#include "experiments/regress/mutations.h"
+#include "experiments/scenes.h"
+#include "mysim/errors.h"
+#include "mysim/files.h"
+#include "mysim/temporary_folder.h"
+
+namespace crosscheck {
+namespace {
+
+Expected expected(const std::string& name, double value, double tolerance) {
+  return {"mysim/leapfrog", "", false, {{name, "m", value}, tolerance, "why, and why not"}, 1};
+}
+
+Baseline small_baseline() {
+  Baseline b{"chain",
+             "0123456789abcdef",
+             {{"2026-01-02", "abc", "g++ -O3", "first"}, {"2026-01-03", "abd", "g++", "new"}},
+             {}};
+  b.expected = {expected("sag, \"deep\"", 0.1, 1.2e-13), expected("period", -1. / 3, 0.5)};
+  b.expected.push_back({"bullet/pbd", "drag", true, {{"verdict", "word", 0, "ok"}, 0, "word"}, 2});
+  return b;
+}
+
+TEST(Baselines, ComeBackToTheSameBits) {
+  const TemporaryFolder folder("baselines");
+  write_file(file_of(folder.path, "chain"), text_of(small_baseline()));
+  const auto read = read_baseline(folder.path, "chain");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(text_of(*read), text_of(small_baseline()));
+  EXPECT_EQ(read->expected[1].what.quantity.value, -1. / 3);
+  EXPECT_EQ(read->expected[0].what.quantity.name, "sag, \"deep\"");
+  EXPECT_EQ(read->blessings[1].reason, "new");
+  EXPECT_FALSE(read_baseline(folder.path, "no-such-scene"));
+}
+
+TEST(Baselines, EachDamageIsNamedWithItsLine) {
+  const TemporaryFolder folder("baselines");
+  const std::string good = text_of(small_baseline());
+  const struct {
+    const char *right, *wrong, *says;
+  } damages[] = {
+      {"# scene: chain", "# scene: cloth", ":2: expected the scene chain"},
+      {"# hash: ", "# hush: ", ":3: expected a line '# hash: ...'"},
+      {"# blessing 2: ", "# blessing 3: ", ":5: expected a line '# blessing 2: ...'"},
+      {" | first", " | ", ":4: expected DATE | COMMIT | BUILD | REASON, none of them empty"},
+      {"method,without", "methods,without", "expected the header"},
+      {",1.2e-13,1,", ",nan,1,", "expected a finite number for the tolerance, got 'nan'"},
+      {",1.2e-13,1,", ",-1,1,", "expected a tolerance that is not negative"},
+      {",1.2e-13,1,", ",1.2e-13,3,", "expected the number of a blessing from 1 to 2, got 3"},
+      {",0.5,1,", ",0.5,1,0,", "expected 9 fields, got 10"},
+      {"always", "sometimes", "expected always or full, got 'sometimes'"},
+      {"\"why, and why not\"", "\"why, and why not", "expected a closing quote"},
+  };
+  for (const auto& [right, wrong, says] : damages) {
+    SCOPED_TRACE(wrong);
+    std::string text = good;
+    ASSERT_NE(text.find(right), std::string::npos);
+    text.replace(text.find(right), std::string(right).size(), wrong);
+    write_file(file_of(folder.path, "chain"), text);
+    try {
+      read_baseline(folder.path, "chain");
+      ADD_FAILURE() << "it was read";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("chain.csv:"), std::string::npos) << error.what();
+    }
+  }
+  write_file(file_of(folder.path, "chain"), good.substr(0, good.find("mysim/leapfrog")));
+  EXPECT_THROW(read_baseline(folder.path, "chain"), InputError);  // no rows
+}
+
+Question question(const std::string& scene = "spring", const std::string& method = "leapfrog") {
+  return {load_scene(scene), find_method(method)};
+}
+
+TEST(Compared, SaysOfEachQuantityHowItStands) {
+  const std::vector<Expected> was{expected("at the edge", 1, 0.25),
+                                  expected("beyond", 1, 0.25),
+                                  expected("zero but for rounding", 0, 1e-15),
+                                  expected("no number", 1, 0.25),
+                                  expected("not there", 1, 0.25),
+                                  expected("count", 3, 0),
+                                  {"mysim/leapfrog", "", false, {{"verdict", "word", 0, "ok"}, 0, "word"}, 1}};
+  const std::vector<Quantity> is{
+      {"at the edge", "m", 1.25}, {"beyond", "m", 1.2500001}, {"zero but for rounding", "m", -9e-16},
+      {"no number", "m", NAN},    {"count", "m", 4},          {"verdict", "word", 0, "nan"},
+      {"unheard of", "m", 1}};
+  const std::map<std::string, Standing> expected_standings{
+      {"at the edge", Standing::same},     {"beyond", Standing::moved},    {"zero but for rounding", Standing::same},
+      {"no number", Standing::not_finite}, {"not there", Standing::gone},  {"count", Standing::moved},
+      {"verdict", Standing::moved},        {"unheard of", Standing::fresh}};
+  const std::vector<Compared> rows = compared(question(), is, was);
+  ASSERT_EQ(rows.size(), expected_standings.size());
+  for (const Compared& row : rows) EXPECT_EQ(row.state, expected_standings.at(row.quantity)) << row.quantity;
+  EXPECT_TRUE(failed(Standing::gone));
+  EXPECT_FALSE(failed(Standing::fresh));
+  // nobody blessed anything: that fails, too
+  for (const Compared& row : compared(question(), {{"sag", "m", 1}}, {})) EXPECT_EQ(row.state, Standing::missing);
+}
+
+/// Rows of all questions, of which those that `moves` names have moved.
+std::vector<Compared> rows_where(const std::vector<Question>& questions, bool (*moves)(const Question&)) {
+  std::vector<Compared> rows;
+  for (const Question& q : questions) {
+    Compared row;
+    row.scene = q.scene.name, row.method = q.method.name, row.without = q.without;
+    row.quantity = "verdict", row.was_word = row.is_word = "ok";
+    rows.push_back(row);
+    row.quantity = "places", row.was_word = row.is_word = "", row.was = 0, row.is = 1;
+    row.state = moves(q) ? Standing::moved : Standing::same;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<Question> some_questions() {
+  std::vector<Question> all;
+  for (const char* name : {"spring", "pendulum", "chain", "slide", "bounce", "cloth-wind", "cloth-hang"}) {
+    const Scene scene = load_scene(name);
+    for (const char* method : {"leapfrog", "rk4", "bullet/deformable-explicit"})
+      all.push_back({scene, find_method(method)});
+    for (const Ingredient& i : ingredients_of(scene))
+      all.push_back({without(scene, i), find_method("leapfrog"), i.name});
+  }
+  return all;
+}
+
+template <class T>
+bool has(const Question& q) {
+  return q.scene.model.find<T>() != nullptr;
+}
+
+bool has_friction(const Question& q) {
+  const auto* spheres = q.scene.model.find<Spheres>();
+  return spheres && spheres->list[0].friction > 0;
+}
+
+TEST(Cause, IsTheIngredientThatAllWhoMovedHave) {
+  const std::vector<Question> all = some_questions();
+  const auto cause = [&](bool (*moves)(const Question&)) { return cause_of(all, rows_where(all, moves)); };
+  EXPECT_EQ(cause(has<Drag>), "drag");
+  EXPECT_EQ(cause(has<Wind>), "wind");
+  EXPECT_EQ(cause([](const Question& q) { return q.method.name == "mysim/rk4"; }), "the rule mysim/rk4");
+  EXPECT_EQ(cause([](const Question& q) { return q.method.name == "mysim/leapfrog" && has<Drag>(q); }),
+            "drag under the rule mysim/leapfrog");
+}
+
+TEST(Cause, IsNotNamedWhereTwoFitOrNone) {
+  const std::vector<Question> all = some_questions();
+  const auto cause = [&](bool (*moves)(const Question&)) { return cause_of(all, rows_where(all, moves)); };
+  EXPECT_EQ(cause([](const Question&) { return false; }), "");
+  EXPECT_EQ(cause([](const Question&) { return true; }), "");
+  // one scene alone, with all that it has; the same scene without anything moves as well
+  EXPECT_EQ(cause([](const Question& q) { return q.scene.name == "chain"; }), "");
+  // drag, but one scene with drag held: something else is needed for it
+  EXPECT_EQ(cause([](const Question& q) { return has<Drag>(q) && q.scene.name != "cloth-hang"; }), "");
+  // friction and the ball it needs: taking either out helps, and no scene tells them apart
+  std::vector<Question> few;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(few),
+               [](const Question& q) { return q.scene.name == "slide" || q.scene.name == "chain"; });
+  EXPECT_EQ(
+      cause_of(few, rows_where(few, [](const Question& q) { return q.scene.name == "slide" && has_friction(q); })), "");
+}
+
+TEST(Mutations, EachStandsOnceInItsFile) {
+  const std::filesystem::path source = CROSSCHECK_SOURCE;
+  const auto all = read_mutations(source / "tests/mutants/mutations.txt");
+  EXPECT_GE(all.size(), 25u);
+  std::set<std::string> names;
+  for (const Mutation& m : all) {
+    SCOPED_TRACE(m.name);
+    EXPECT_TRUE(names.insert(m.name).second);
+    std::ifstream in(source / "mysim" / m.file);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const size_t at = text.find(m.right);
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_EQ(text.find(m.right, at + 1), std::string::npos);
+  }
+}
+
+TEST(Mutations, BadFilesAreNamed) {
+  const TemporaryFolder folder("mutations");
+  const auto says = [&](const std::string& text) -> std::string {
+    write_file(folder.path / "list.txt", text);
+    try {
+      read_mutations(folder.path / "list.txt");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(says("== a\nfile: b\nwhat: c\n").find("list.txt:3: expected file:, cause:, right: or wrong:"),
+            std::string::npos);
+  EXPECT_NE(says("== a\nfile: b\nright:\nc\nwrong:\nc\n")
+                .find("a: expected a file, and a right and a wrong text that differ"),
+            std::string::npos);
+  EXPECT_EQ(says("== a\nfile: b\nright:\nc\nwrong:\nd\n"), "");
+  EXPECT_THROW(read_mutations(folder.path / "none.txt"), InputError);
+}
+
+}  // namespace
+}  // namespace crosscheck
