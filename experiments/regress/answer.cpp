@@ -28,12 +28,17 @@ std::string Question::in_words() const {
   return fmt::format("{} under {}{}", scene.name, method.name, without.empty() ? "" : " without " + without);
 }
 
-Answered answer_to(const Question& question) {
-  const Scene& scene = question.scene;
+Run run_over_window(const Scene& scene) {
   Run run = default_run(scene);
   run.samples = std::max(1, static_cast<int>(std::lround(scene.samples * scene.window / scene.duration)));
   run.duration = scene.duration / scene.samples * run.samples;
   run.timed = false;
+  return run;
+}
+
+Answered answer_to(const Question& question) {
+  const Scene& scene = question.scene;
+  const Run run = run_over_window(scene);
   Recorder recorder;
   Ledger ledger(scene.model, question.method.contact);
   Patience patience(2 + 20 * estimated_seconds(question.method, scene, run));

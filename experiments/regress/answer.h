@@ -39,9 +39,12 @@ struct Answered {
   Trajectory trajectory;
   std::vector<LedgerRow> ledger;  // empty in first-order scenes and without velocities
 };
-/// The scene's own step and tolerance, samples where its own lie. Runs that take more than 2 s and twenty times their
+/// By run_over_window(). Runs that take more than 2 s and twenty times their
 /// estimate end with the verdict `timeout`.
 Answered answer_to(const Question& question);
+
+/// The scene's own step and tolerance over its window, samples where its own lie.
+Run run_over_window(const Scene& scene);
 
 /// The quantities that this answer has, in a fixed order: the table of them is in quantities.cpp. A failed run has its
 /// verdict and nothing else.

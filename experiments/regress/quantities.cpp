@@ -8,21 +8,13 @@
 #include <random>
 
 #include "experiments/metrics.h"
-#include "experiments/regress/answer.h"
+#include "experiments/regress/rows.h"
 #include "mysim/uniform.h"
 #include "reference/exact/exact.h"
 #include "reference/truth.h"
 
 namespace crosscheck {
 namespace {
-
-struct Seen {
-  const Question& question;
-  const Answered& answered;
-  const Scene& scene() const { return question.scene; }
-  const Trajectory& path() const { return answered.trajectory; }
-};
-using Quantities = std::vector<Quantity>;
 
 /// Frames at so many equal parts of the run, the last one included.
 std::vector<int> frames_at(const Trajectory& path, int parts) {
@@ -97,14 +89,14 @@ void peak_stretch(const Seen& seen, Quantities& out) {
   if (std::isfinite(most)) out.push_back({"peak stretch", "1", most});
 }
 
-/// The offset at the end as waves along and across the scene: sag is the first of them.
+/// The offset at the end as waves along and across the scene as it is written: sag is the first of them.
 void shape(const Seen& seen, Quantities& out) {
-  const Points &x0 = seen.path().x.front(), offset = seen.path().x.back() - x0;
+  const Points &x0 = seen.scene().start.x, offset = seen.path().x.back() - seen.path().x.front();
   if (x0.cols() < 9) return;
-  // the two widest directions of the start
+  // the two widest directions of the start, the first of equals
   const Vec3 low = x0.rowwise().minCoeff(), width = x0.rowwise().maxCoeff() - low;
   std::array<int, 3> axes{0, 1, 2};
-  std::sort(axes.begin(), axes.end(), [&](int a, int b) { return width[a] > width[b]; });
+  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return width[a] > (1 + 1e-9) * width[b]; });
   if (!(width[axes[1]] > 0)) return;
   for (const auto& [along, across] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 0}}) {
     Vec3 sum = Vec3::Zero();
@@ -158,8 +150,12 @@ void error_against_truth(const Seen& seen, Quantities& out) {
   out.back().bar = truth->bar;
 }
 
-constexpr void (*table[])(const Seen&, Quantities&) = {
-    counts, offsets, places, energies, peak_stretch, shape, period, smallest_clearance, error_against_truth};
+constexpr void (*table[])(const Seen&, Quantities&) = {counts,         offsets,
+                                                       places,         energies,
+                                                       peak_stretch,   shape,
+                                                       period,         smallest_clearance,
+                                                       rebound_height, error_against_truth,
+                                                       order_of_error, largest_stable_step};
 
 }  // namespace
 
