@@ -73,6 +73,7 @@ TEST(Baselines, EachDamageIsNamedWithItsLine) {
     const char *right, *wrong, *says;
   } damages[] = {
       {"# scene: chain", "# scene: cloth", ":2: expected the scene chain"},
+      {"# rows: 3", "# rows: 4", "expected 4 rows, got 3"},
       {"# hash: ", "# hush: ", ":3: expected a line '# hash: ...'"},
       {"# blessing 2: ", "# blessing 3: ", ":5: expected a line '# blessing 2: ...'"},
       {" | first", " | ", ":4: expected DATE | COMMIT | BUILD | REASON, none of them empty"},
