@@ -10,7 +10,16 @@
 namespace crosscheck {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string text_of(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return csv_field(*text);
+  if (const auto* number = std::get_if<double>(&cell)) return exact_text(*number);
+  if (const auto* whole = std::get_if<long>(&cell)) return fmt::format("{}", *whole);
+  return "";
+}
+
+}  // namespace
+
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string out = "\"";
   for (char c : text) {
@@ -19,15 +28,6 @@ std::string quoted(const std::string& text) {
   }
   return out + '"';
 }
-
-std::string text_of(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return quoted(*text);
-  if (const auto* number = std::get_if<double>(&cell)) return exact_text(*number);
-  if (const auto* whole = std::get_if<long>(&cell)) return fmt::format("{}", *whole);
-  return "";
-}
-
-}  // namespace
 
 std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
 
@@ -48,7 +48,7 @@ std::string csv(const Table& table, const Provenance& provenance) {
   std::string out;
   for (const auto& [key, value] : provenance) out += fmt::format("# {}: {}\n", key, value);
   for (size_t i = 0; i < table.columns.size(); ++i)
-    out += (i ? "," : "") + quoted(fmt::format("{} [{}]", table.columns[i].name, table.columns[i].unit));
+    out += (i ? "," : "") + csv_field(fmt::format("{} [{}]", table.columns[i].name, table.columns[i].unit));
   out += "\n";
   for (const auto& row : table.rows) {
     for (size_t i = 0; i < row.size(); ++i) out += (i ? "," : "") + text_of(row[i]);

@@ -35,6 +35,9 @@ struct Table {
 /// Text of a number: 17 significant digits, so that it reads back to the same bits.
 std::string exact_text(double value);
 
+/// A field of CSV, in quotes where it needs them.
+std::string csv_field(const std::string& text);
+
 /// RFC 4180: comma, LF, quotes where needed; one header row "name [unit]".
 std::string csv(const Table& table, const Provenance& provenance);
 void write_csv(const Table& table, const Provenance& provenance, const std::filesystem::path& folder);

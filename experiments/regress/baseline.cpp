@@ -54,13 +54,6 @@ std::string one_line(std::string text) {
   return text;
 }
 
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
 /// The rest of a line that begins so; throws InputError, "expected ...".
 std::string after(const std::string& begin, const std::string& line) {
   if (!line.starts_with(begin)) throw InputError(fmt::format("expected a line '{}...'", begin));
@@ -123,9 +116,10 @@ std::string text_of(const Baseline& baseline) {
   out += fmt::format("{}\n", header);
   for (const Expected& e : baseline.expected) {
     const Quantity& q = e.what.quantity;
-    out += fmt::format("{},{},{},{},{},{},{},{},{}\n", quoted(e.method), quoted(e.without), e.dear ? "full" : "always",
-                       quoted(q.name), q.unit, q.is_word() ? q.word : exact_text(q.value),
-                       fmt::format("{:.2g}", e.what.tolerance), e.blessing, quoted(e.what.derivation));
+    out +=
+        fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_field(e.method), csv_field(e.without),
+                    e.dear ? "full" : "always", csv_field(q.name), q.unit, q.is_word() ? q.word : exact_text(q.value),
+                    fmt::format("{:.2g}", e.what.tolerance), e.blessing, csv_field(e.what.derivation));
   }
   return out;
 }

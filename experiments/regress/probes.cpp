@@ -6,9 +6,15 @@
 #include "experiments/regress/rows.h"
 #include "experiments/stability/trial.h"
 #include "reference/exact/exact.h"
-#include "reference/truth.h"
 
 namespace crosscheck {
+
+std::optional<Truth> exact_truth(const Scene& scene) {
+  if (!exact_solution(scene)) return std::nullopt;
+  auto truth = truth_of(scene, default_run(scene));
+  if (truth && truth->tier != Tier::exact) truth.reset();
+  return truth;
+}
 
 void rebound_height(const Seen& seen, Quantities& out) {
   const auto* spheres = seen.scene().model.find<Spheres>();
@@ -30,9 +36,9 @@ void rebound_height(const Seen& seen, Quantities& out) {
 void order_of_error(const Seen& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const Stepper* rule = seen.question.method.stepper;
-  if (!rule || rule->adaptive || scene.model.find<Spheres>() || !exact_solution(scene)) return;
-  const auto truth = truth_of(scene, default_run(scene));
-  if (!truth || truth->tier != Tier::exact) return;
+  if (!rule || rule->adaptive || scene.model.find<Spheres>()) return;
+  const auto truth = exact_truth(scene);
+  if (!truth) return;
   const Run run = run_over_window(scene);
   Run half = run;
   half.step = seen.answered.outcome.step / 2;

@@ -10,8 +10,6 @@
 #include "experiments/metrics.h"
 #include "experiments/regress/rows.h"
 #include "mysim/uniform.h"
-#include "reference/exact/exact.h"
-#include "reference/truth.h"
 
 namespace crosscheck {
 namespace {
@@ -140,12 +138,11 @@ void smallest_clearance(const Seen& seen, Quantities& out) {
 }
 
 /// Largest RMS distance from the closed form, where the scene has one. What a converged truth says of a method is
-/// said by its places already, and takes minutes to find.
+/// said by its places already.
 void error_against_truth(const Seen& seen, Quantities& out) {
   const Scene& scene = seen.scene();
-  if (!exact_solution(scene)) return;
-  const auto truth = truth_of(scene, default_run(scene));
-  if (!truth || truth->tier != Tier::exact) return;
+  const auto truth = exact_truth(scene);
+  if (!truth) return;
   out.push_back({"error against truth", "m", largest_rms_distance(seen.path(), truth->trajectory, scene.window)});
   out.back().bar = truth->bar;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiments/regress/answer.h"
+#include "reference/truth.h"
 
 namespace crosscheck {
 
@@ -12,6 +13,9 @@ struct Seen {
   const Trajectory& path() const { return answered.trajectory; }
 };
 using Quantities = std::vector<Quantity>;
+
+/// The truth over the scene's run where it has a closed form, else nothing: a converged one takes minutes to find.
+std::optional<Truth> exact_truth(const Scene& scene);
 
 /// How high particles rise above a ball after they first touched it, m.
 void rebound_height(const Seen& seen, Quantities& out);
