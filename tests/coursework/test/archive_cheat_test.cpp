@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 
+#include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/grade.h"
 #include "tests/coursework/test/canaries.h"
 #include "tests/coursework/test/lanes.h"
@@ -16,11 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 const char* const parts[] = {"euler.cpp", "trapezoidal.cpp", "rk4.cpp"};
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// An archive as no honest packer writes it.
 class Packer {
@@ -76,7 +72,7 @@ void honest(const fs::path& folder, const Canaries& canaries) {
 
 void honest(Packer& packer, const Canaries& canaries) {
   for (const char* part : {"trapezoidal.cpp", "rk4.cpp"})
-    packer.file(part, content_of(canaries.tests() / "solution" / part));
+    packer.file(part, content_of_file(canaries.tests() / "solution" / part));
 }
 
 const std::vector<Trick> tricks = {

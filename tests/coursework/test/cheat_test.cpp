@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/grade.h"
 #include "tests/coursework/test/canaries.h"
 #include "tests/coursework/test/lanes.h"
@@ -12,11 +13,6 @@
 namespace coursework {
 namespace fs = std::filesystem;
 namespace {
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
   for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
@@ -75,8 +71,8 @@ class CheatTest : public testing::TestWithParam<std::tuple<std::string, std::str
 
   /// The cheat as a student would hand it in: one file, with all that could be known about this machine.
   std::string source() const {
-    std::string text = content_of(cheat());
-    std::string shared = content_of(cheat().parent_path() / "cheat.h");
+    std::string text = content_of_file(cheat());
+    std::string shared = content_of_file(cheat().parent_path() / "cheat.h");
     shared = replaced(shared, "#pragma once", "");
     text = replaced(text, "#include \"cheat.h\"", shared);
     text = replaced(text, "#include \"public_table.inc\"", public_table(few_.assignment));
@@ -90,7 +86,7 @@ class CheatTest : public testing::TestWithParam<std::tuple<std::string, std::str
 
 /// What its second line says: keys of the texts, any of which will do. Wrong numbers may be wrong in number as well.
 std::vector<std::string> expected(const fs::path& cheat) {
-  std::istringstream lines(content_of(cheat));
+  std::istringstream lines(content_of_file(cheat));
   std::string line;
   std::getline(lines, line);
   std::getline(lines, line);
@@ -123,7 +119,7 @@ TEST_P(CheatTest, EarnsNothingAndHarmsNothing) {
   submission.name = cheat().stem().string();
   submission.files["euler.cpp"] = source();
   for (const char* part : {"trapezoidal.cpp", "rk4.cpp"})
-    submission.files[part] = content_of(canaries_.tests() / "solution" / part);
+    submission.files[part] = content_of_file(canaries_.tests() / "solution" / part);
   GradeOptions options;
   options.seed = 7;
   options.common = Texts::read((fs::path(COURSEWORK_FOLDER) / "check/common.en.txt").string());
