@@ -133,12 +133,15 @@ int run(int argc, char** argv) {
 
   RegressOptions regress_options;
   auto* regress = app.add_subcommand("regress", "what moved since somebody last said that it is right");
+  regress->add_option("scenes", regress_options.scenes, "names or files (default: all that come with Crosscheck)");
   regress->add_option("--filter", regress_options.filter, "GLOB on SCENE or SCENE/METHOD");
   regress->add_option("--method", regress_options.methods, "A,B,... (default: all of mysim and Bullet)");
   regress->add_option("--against", regress_options.against, "a method to set --method beside, instead of baselines");
   regress->add_option("--baselines", regress_options.baselines, "folder (default: those that come with Crosscheck)");
   auto* bless = regress->add_flag("--bless", regress_options.bless, "makes today's answers the baseline");
   regress->add_option("--reason", regress_options.reason, "why they are right")->needs(bless);
+  regress->add_option("--figures", regress_options.figures, "of so many failed questions (6); 0: no page")
+      ->check(CLI::Range(0, 100));
   regress->add_flag("--bisect", regress_options.bisect, "exit 125 where nothing can be said, for git bisect run");
   auto* prove = regress->add_flag("--prove", regress_options.prove, "runs wrong changes to mysim: all must be caught")
                     ->excludes(bless);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
@@ -49,6 +50,20 @@ Answered answer_to(const Question& question) {
   answered.trajectory = std::move(recorder.trajectory);
   answered.ledger = ledger.rows();
   return answered;
+}
+
+Answered as_compared(const Answered& answered) {
+  if (answered.outcome.verdict == Verdict::ok) return answered;
+  Answered half{answered.outcome, {}, {}};
+  const Trajectory& path = answered.trajectory;
+  for (int i = 0; i < path.frames() && path.t[i] <= answered.outcome.end / 2; ++i)
+    half.trajectory.t.push_back(path.t[i]), half.trajectory.x.push_back(path.x[i]);
+  return half;
+}
+
+const Quantity* find(const std::vector<Quantity>& all, const std::string& name) {
+  const auto at = std::find_if(all.begin(), all.end(), [&](const Quantity& q) { return q.name == name; });
+  return at == all.end() ? nullptr : &*at;
 }
 
 }  // namespace crosscheck

@@ -18,11 +18,10 @@ bool passes(const std::string& filter, const Question& q) {
          fnmatch(filter.c_str(), (q.scene.name + "/" + q.method.name).c_str(), 0) == 0;
 }
 
-/// The engines that somebody here changes; what stands beside them as a judge is not asked.
 std::vector<Method> engines() {
   std::vector<Method> methods;
   for (Method& method : all_methods())
-    if (method.name.starts_with("mysim/") || method.name.starts_with("bullet")) methods.push_back(std::move(method));
+    if (asked_by_itself(method.name)) methods.push_back(std::move(method));
   return methods;
 }
 
@@ -35,6 +34,8 @@ double seconds(const Question& q) {
 
 }  // namespace
 
+bool asked_by_itself(const std::string& method) { return method.starts_with("mysim/") || method.starts_with("bullet"); }
+
 std::vector<Question> questions(const Asked& asked) {
   std::vector<Question> all;
   const auto add = [&](Question q) {
@@ -43,15 +44,17 @@ std::vector<Question> questions(const Asked& asked) {
     if (passes(asked.filter, q) && cost <= (asked.full ? dearest : cheap)) all.push_back(std::move(q));
   };
   const std::vector<Method> methods = asked.methods.empty() ? engines() : asked.methods;
-  for (const std::string_view name : shipped_scenes()) {
-    const Scene scene = load_scene(std::string(name));
+  std::vector<std::string> names = asked.scenes;
+  if (names.empty()) names.assign(shipped_scenes().begin(), shipped_scenes().end());
+  for (const std::string& name : names) {
+    const Scene scene = load_scene(name);
     const std::string own = find_method(scene.method).name;
     for (const Method& method : methods) {
-      add({scene, method});
+      add({scene, method, "", false, scene.hash});
       if (method.name != own && asked.methods.empty()) continue;
       for (const Ingredient& ingredient : ingredients_of(scene))
         if (ingredient.name != "rotation")  // the whole of a first-order scene
-          add({without(scene, ingredient), method, ingredient.name});
+          add({without(scene, ingredient), method, ingredient.name, false, scene.hash});
     }
   }
   if (all.empty()) throw InputError(fmt::format("--filter {}: no scene and method match", asked.filter));

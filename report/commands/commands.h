@@ -78,7 +78,9 @@ struct RegressOptions {
   std::string filter, methods, against, reason;
   std::filesystem::path baselines;  // empty: the shipped ones
   bool full = false, bless = false, bisect = false, prove = false;
-  std::string mutant;  // with `prove`, one of the wrong changes; empty: all
+  std::vector<std::string> scenes;  // names or files; empty: all shipped ones
+  int figures = 6;                  // of so many failed questions
+  std::string mutant;               // with `prove`, one of the wrong changes; empty: all
   std::filesystem::path out = "out/regress";
   std::string command_line;
 };
