@@ -12,7 +12,7 @@ namespace crosscheck {
 namespace {
 
 std::string shown(const std::optional<double>& value, const std::string& word) {
-  return value ? fmt::format("{:.9g}", *value) : word.empty() ? "-" : word;
+  return value ? fmt::format("{:.7g}", *value) : word.empty() ? "-" : word;
 }
 
 std::string off_in_words(const Compared& row) {
@@ -83,7 +83,9 @@ void first_screen(const VerdictPage& page, std::string& out) {
   for (const FailedPoint& f : page.result.failures) say("failure", fmt::format("No answer: {}: {}", f.name, f.why));
   const auto fresh = std::count_if(page.result.rows.begin(), page.result.rows.end(),
                                    [](const auto& row) { return row.state == Standing::fresh; });
-  if (fresh > 0) say("contact", fmt::format("{} quantities are new: nobody has blessed them yet.", fresh));
+  if (fresh > 0)
+    say("contact", fmt::format("New, with nothing to stand beside yet: {}.",
+                               fresh == 1 ? "one quantity" : fmt::format("{} quantities", fresh)));
   out += "</ul>\n";
   for (const std::string& problem : page.problems)
     out += fmt::format("<p class=\"problem\">Missing: {}</p>\n", escaped(problem));
@@ -113,8 +115,8 @@ std::vector<FailurePart> failure_parts(const std::vector<Question>& questions, c
     std::vector<Compared> wrong;
     std::copy_if(evidence.rows.begin(), evidence.rows.end(), std::back_inserter(wrong),
                  [](const Compared& row) { return failed(row.state); });
-    part.table =
-        table_of(fmt::format("What failed: {} of {} quantities", wrong.size(), evidence.rows.size()), wrong, false);
+    const std::vector<Compared> worst = by_size(wrong, 6);
+    part.table = table_of(some_of(worst.size(), wrong.size(), "quantities that failed"), worst, false);
     parts.push_back(std::move(part));
   }
   return parts;
