@@ -1,0 +1,221 @@
+// See kernel.h. Compiled once for each instruction set, CROSSCHECK_ISA naming it.
+#include "mysim/strip/kernel.h"
+
+#include "mysim/strip/lanes.h"
+
+namespace crosscheck::strip {
+namespace {
+
+template <class T>
+using V = typename Lanes<T>::V;
+
+/// Three coordinates of as many particles as a register has lanes; in memory a cache line apart.
+template <class T>
+struct Three {
+  V<T> x, y, z;
+};
+template <class T>
+ALWAYS Three<T> load(const T* p) {
+  using L = Lanes<T>;
+  return {L::load(p), L::load(p + lanes<T>), L::load(p + 2 * lanes<T>)};
+}
+template <class T>
+ALWAYS void store(T* p, const Three<T>& a) {
+  using L = Lanes<T>;
+  L::store(p, a.x), L::store(p + lanes<T>, a.y), L::store(p + 2 * lanes<T>, a.z);
+}
+
+template <class T>
+inline constexpr int line = 3 * lanes<T>;  // numbers of a block
+
+template <class T>
+ALWAYS long row_length(const Sheet<T>& s) {
+  return static_cast<long>(before + s.blocks + after) * line<T>;
+}
+
+/// One spring for each lane: takes its force from the far end and gives it to the near one.
+template <class T, bool fast, bool first>
+ALWAYS void spring(const Three<T>& near, Three<T>& force, const T* far, T* far_force, const T* k, V<T> rest,
+                   V<T>& least) {
+  using L = Lanes<T>;
+  const Three<T> q = load(far);
+  const V<T> dx = near.x - q.x, dy = near.y - q.y, dz = near.z - q.z;
+  V<T> s = L::fma(dz, dz, L::fma(dy, dy, dx * dx));
+  least = L::min(least, s);
+  // ends that met: a large number times a difference of 0
+  s = L::max(s, L::all(sizeof(T) == 8 ? T(1e-30) : T(1e-30f)));
+  const V<T> scale = L::load(k) * L::fma(rest, inverse_root<T, fast>(s), L::all(-1));
+  force.x = L::fma(scale, dx, force.x), force.y = L::fma(scale, dy, force.y), force.z = L::fma(scale, dz, force.z);
+  if constexpr (first) {
+    const V<T> none = L::all(0);
+    store(far_force, Three<T>{L::fnma(scale, dx, none), L::fnma(scale, dy, none), L::fnma(scale, dz, none)});
+  } else {
+    const Three<T> f = load(far_force);
+    store(far_force, Three<T>{L::fnma(scale, dx, f.x), L::fnma(scale, dy, f.y), L::fnma(scale, dz, f.z)});
+  }
+}
+
+/// A number known when this is compiled.
+template <int n>
+struct Number {
+  static constexpr int value = n;
+};
+
+template <class T>
+struct Rows {
+  const T* x[3];  // this row and the two below, at block 0; the last ones of a sheet have no row below
+  T* f[3];
+};
+
+template <class T>
+ALWAYS void clear(T* row, long numbers) {
+  for (long i = 0; i < numbers; i += Lanes<T>::width) Lanes<T>::store(row + i, Lanes<T>::all(0));
+}
+
+/// All springs that begin in a row. Six times the same, written as a fold so that each direction is known when this is
+/// compiled.
+template <class T, bool fast>
+ALWAYS void springs_of_row(const Sheet<T>& s, const Rows<T>& rows, int rows_below, V<T>& least) {
+  using L = Lanes<T>;
+  for (int b = 0; b < s.blocks; ++b)
+    for (int lane = 0; lane < lanes<T>; lane += L::width) {
+      const long at = static_cast<long>(b) * line<T> + lane;
+      const Three<T> near = load(rows.x[0] + at);
+      Three<T> force = load(rows.f[0] + at);
+      const auto take = [&](auto d) __attribute__((always_inline)) {
+        constexpr Direction to = direction[decltype(d)::value];
+        if (!s.k[decltype(d)::value] || to.down > rows_below) return;
+        const long there = at + static_cast<long>(to.right) * line<T>;
+        spring<T, fast, false>(near, force, rows.x[to.down] + there, rows.f[to.down] + there,
+                               s.k[decltype(d)::value] + static_cast<long>(b) * lanes<T> + lane,
+                               L::all(s.rest[decltype(d)::value]), least);
+      };
+      take(Number<0>{}), take(Number<1>{}), take(Number<2>{}), take(Number<3>{}), take(Number<4>{}), take(Number<5>{});
+      store(rows.f[0] + at, force);
+    }
+}
+
+/// What the copies beside a row of forces were given goes to the blocks that they are copies of, a lane to the side.
+/// The one lane of a copy that has no original holds 0, so that what it is added to, which lies beyond, stays as it is.
+template <class T>
+ALWAYS void fold(T* row, int blocks) {
+  using L = Lanes<T>;
+  const auto give = [](T * to, const T* from) __attribute__((always_inline)) {
+    for (int i = 0; i < line<T>; i += L::width) L::store(to + i, L::load(to + i) + L::load(from + i));
+  };
+  for (int b = 0; b < after; ++b) give(row + b * line<T> + 1, row + (blocks + b) * line<T>);
+  give(row + (blocks - 1) * line<T> - 1, row - line<T>);
+}
+
+/// The copies beside a row of positions. The one lane that has no original is given some number nearby; no spring
+/// reaches it.
+template <class T>
+ALWAYS void copy_ends(T* row, int blocks) {
+  using L = Lanes<T>;
+  const auto copy = [](T * to, const T* from) __attribute__((always_inline)) {
+    for (int i = 0; i < line<T>; i += L::width) L::store(to + i, L::load(from + i));
+  };
+  for (int b = 0; b < after; ++b) copy(row + (blocks + b) * line<T>, row + b * line<T> + 1);
+  copy(row - line<T>, row + (blocks - 1) * line<T> - 1);
+}
+
+template <class T>
+ALWAYS bool touches(const Three<T>& x, const Ball& ball) {
+  using L = Lanes<T>;
+  const V<T> dx = x.x - L::all(T(ball.centre[0])), dy = x.y - L::all(T(ball.centre[1])),
+             dz = x.z - L::all(T(ball.centre[2]));
+  return L::any_below(L::fma(dz, dz, L::fma(dy, dy, dx * dx)), L::all(T(ball.squared_radius)));
+}
+
+/// Kick, contacts and drift of a row.
+template <class T>
+ALWAYS void move_row(const Sheet<T>& s, const Stride<T>& step, int row, T* x, const T* f) {
+  using L = Lanes<T>;
+  const V<T> out = L::all(step.out), on = L::all(step.on);
+  const V<T> fall_x = L::all(step.fall[0]), fall_y = L::all(step.fall[1]), fall_z = L::all(step.fall[2]);
+  for (int b = 0; b < s.blocks; ++b) {
+    T *x_b = x + static_cast<long>(b) * line<T>, *v_b = s.v + (static_cast<long>(row) * s.blocks + b) * line<T>;
+    alignas(64) T end[line<T>], speed[line<T>];
+    bool touched = false;
+    for (int lane = 0; lane < lanes<T>; lane += L::width) {
+      const long own = (static_cast<long>(row) * s.blocks + b) * s.stride + lane;
+      const V<T> keep = L::load(s.keep + own), push = L::load(s.push + own), span = L::load(s.span + own);
+      const Three<T> p = load(x_b + lane), u = load(v_b + lane), pull = load(f + static_cast<long>(b) * line<T> + lane);
+      const Three<T> v{L::fma(keep, u.x, L::fma(push, pull.x, span * fall_x)),
+                       L::fma(keep, u.y, L::fma(push, pull.y, span * fall_y)),
+                       L::fma(keep, u.z, L::fma(push, pull.z, span * fall_z))};
+      const Three<T> e{L::fma(out, v.x, p.x), L::fma(out, v.y, p.y), L::fma(out, v.z, p.z)};
+      if (step.ball_count > 0) {
+        store(end + lane, e), store(speed + lane, v);
+        for (int i = 0; i < step.ball_count; ++i) touched |= touches(e, step.balls[i]);
+      } else {
+        store(v_b + lane, v);
+        store(x_b + lane, Three<T>{L::fma(on, v.x, e.x), L::fma(on, v.y, e.y), L::fma(on, v.z, e.z)});
+      }
+    }
+    if (step.ball_count == 0) continue;
+    if (touched) step.touch(step.whom, row, b, end, speed);
+    for (int lane = 0; lane < lanes<T>; lane += L::width) {
+      const Three<T> e = load(end + lane), v = load(speed + lane);
+      store(v_b + lane, v);
+      store(x_b + lane, Three<T>{L::fma(on, v.x, e.x), L::fma(on, v.y, e.y), L::fma(on, v.z, e.z)});
+    }
+  }
+  copy_ends(x, s.blocks);
+}
+
+/// Goes over all rows from the first; `finished(row, x, f)` is told of each whose forces are complete.
+template <class T, bool fast, class Finished>
+ALWAYS T over_rows(const Sheet<T>& s, Finished finished) {
+  const long length = row_length(s), first = before * line<T>;
+  T* f[3] = {s.force + first, s.force + length + first, s.force + 2 * length + first};
+  for (T* row : f) clear(row - first, length);
+  V<T> least = Lanes<T>::all(T(1e30));
+  for (int r = 0; r < s.rows; ++r) {
+    T* x = s.x + r * length + first;
+    const Rows<T> rows{{x, x + length, x + 2 * length}, {f[0], f[1], f[2]}};
+    springs_of_row<T, fast>(s, rows, s.rows - 1 - r, least);
+    fold(f[0], s.blocks);
+    finished(r, x, f[0]);
+    T* done = f[0];
+    clear(done - first, length);
+    f[0] = f[1], f[1] = f[2], f[2] = done;
+  }
+  alignas(64) T all[Lanes<T>::width];
+  Lanes<T>::store(all, least);
+  T smallest = all[0];
+  for (const T each : all) smallest = each < smallest ? each : smallest;
+  return smallest;
+}
+
+template <class T, bool fast>
+T sweep(const Sheet<T>& s, const Stride<T>& step) {
+  return over_rows<T, fast>(
+      s, [&](int row, T* x, const T* f) __attribute__((always_inline)) { move_row(s, step, row, x, f); });
+}
+
+template <class T, bool fast>
+T forces(const Sheet<T>& s, T* out) {
+  return over_rows<T, fast>(
+      s, [&](int row, T*, const T* f) __attribute__((always_inline)) {
+        T* to = out + static_cast<long>(row) * s.blocks * line<T>;
+        for (long i = 0; i < static_cast<long>(s.blocks) * line<T>; i += Lanes<T>::width)
+          Lanes<T>::store(to + i, Lanes<T>::load(f + i));
+      });
+}
+
+}  // namespace
+
+namespace CROSSCHECK_ISA {
+
+Kernel<double> double_kernel(bool fast) {
+  if (fast) return {sweep<double, true>, forces<double, true>};
+  return {sweep<double, false>, forces<double, false>};
+}
+Kernel<float> float_kernel(bool fast) {
+  if (fast) return {sweep<float, true>, forces<float, true>};
+  return {sweep<float, false>, forces<float, false>};
+}
+
+}  // namespace CROSSCHECK_ISA
+}  // namespace crosscheck::strip

@@ -1,0 +1,69 @@
+// The sweep over a sheet: what a step costs is decided here. kernel.cpp is compiled once for each instruction set.
+//
+// A sheet is a regular grid of rows x columns. Column c of a row stands in lane c / blocks of block c % blocks, so that
+// neighbours in a row are whole blocks side by side and nothing is gathered; a block is one cache line of each
+// coordinate on every machine, so that data do not depend on the instruction set. Beside each row stand copies of its
+// first two blocks and of its last one, shifted by a lane: with them every spring is block against block, without an
+// exception at the ends. Lanes without a particle have stiffness 0.
+//
+// A row is finished when the rows above and itself have given it their forces; then it is kicked and drifted in place,
+// since no later row asks for its old positions. So a whole step is one sweep, each spring is taken once, and three
+// rows of forces are all the memory it needs.
+#pragma once
+
+namespace crosscheck::strip {
+
+inline constexpr int directions = 6;  // of springs, towards later particles
+/// Rows and columns from one end of a spring to the other: along the row, next and skip-one; to the next row, straight
+/// and along both diagonals; two rows on.
+struct Direction {
+  int down, right;
+};
+inline constexpr Direction direction[directions] = {{0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, -1}, {2, 0}};
+
+template <class T>
+inline constexpr int lanes = 64 / sizeof(T);
+
+inline constexpr int before = 1, after = 2;  // copies beside a row, in blocks
+
+/// A contact is not the sweep's business: it asks for it where a particle comes closer to `centre` than the root of
+/// `squared_radius`.
+struct Ball {
+  double centre[3], squared_radius;  // m, m^2
+};
+/// Of one block: where it would be at the end of the step, how fast, lane by lane; what it says there is taken over.
+template <class T>
+using Touch = void (*)(void* whom, int row, int block, T* x, T* v);
+
+template <class T>
+struct Sheet {
+  int rows, blocks;             // of a row, without its copies
+  T *x, *v;                     // m, m/s: rows x (before + blocks + after) x 3 x lanes; v without copies: rows x blocks
+  T* force;                     // N: three rows as those of x, working memory
+  const T* k[directions];       // N/m: blocks x lanes; null where there are no springs of that direction
+  T rest[directions];           // m
+  const T *keep, *push, *span;  // of each particle (rows x blocks x lanes), or of all (one line): see kick
+  int stride;                   // of these: lanes, or 0 where one line is for all
+};
+
+/// What a sweep does: v' = keep v + push f + span fall; x_end = x + out v'; contacts; x' = x_end + on v'.
+template <class T>
+struct Stride {
+  T fall[3];  // m/s^2: of all particles alike
+  T out, on;  // s
+  const Ball* balls;
+  int ball_count;
+  Touch<T> touch;
+  void* whom;
+};
+
+/// The functions of one instruction set.
+template <class T>
+struct Kernel {
+  /// Returns the smallest squared length of a spring, m^2 (0: ends met, which pull at nothing).
+  T (*sweep)(const Sheet<T>&, const Stride<T>&);
+  /// Forces of the springs alone, into `force` (N, laid out as v).
+  T (*forces)(const Sheet<T>&, T* force);
+};
+
+}  // namespace crosscheck::strip
