@@ -151,10 +151,9 @@ ALWAYS typename Lanes<T>::V inverse_root(typename Lanes<T>::V s) {
   auto y = L::rough_inverse_root(s);
   const auto e = L::fnma(s * y, y, L::all(1));
   if constexpr (sizeof(T) == 4) return L::fma(y * e, L::all(0.5f), y);  // one step of Newton's is enough
-  if constexpr (L::width == 4) {  // from 12 bits: a step of order three, one of Newton's
-    y = L::fma(y * e, L::fma(e, L::all(0.375f), L::all(0.5f)), y);
-    return L::fma(y * L::fnma(s * y, y, L::all(1)), L::all(0.5f), y);
-  }
+  if constexpr (L::width == 4)                                          // 12 bits need one power more: e^5 is 1e-16
+    return L::fma(
+        y * e, L::fma(e, L::fma(e, L::fma(e, L::all(0.2734375f), L::all(0.3125f)), L::all(0.375f)), L::all(0.5f)), y);
   return better(s, y);
 #else
   return L::inverse_root(s);
