@@ -1,7 +1,22 @@
-// Spheres act one after the other, each in its own frame.
+// Spheres act one after the other on each particle.
 #include "mysim/contacts.h"
 
 namespace crosscheck {
+
+bool touch(const Spheres& spheres, ContactFunction act, double t_n, double t, const Vec3& x_n, Eigen::Ref<Vec3> x,
+           Eigen::Ref<Vec3> v) {
+  bool touched = false;
+  for (const Sphere& sphere : spheres.list) {
+    const Vec3 centre = sphere.centre_at(t), shift = centre - sphere.centre_at(t_n);
+    const Vec3 velocity = sphere.motion ? velocity_at(*sphere.motion, t) : Vec3::Zero();
+    Vec3 relative = v - velocity;
+    if (act(sphere, centre, x_n + shift, x, relative) > 0) {
+      v = relative + velocity;
+      touched = true;
+    }
+  }
+  return touched;
+}
 
 Contacts::Contacts(const Model& model, ContactRule rule)
     : particles_(model.particles), spheres_(model.find<Spheres>()), rule_(rule) {}
@@ -16,19 +31,9 @@ bool Contacts::resolve(State& s) {
   if (!spheres_) return false;
   proposed_ = s;
   touched_ = false;
-  const auto act = rule_ == ContactRule::sticky ? resolve_contact_sticky : resolve_contact;
-  for (const Sphere& sphere : spheres_->list) {
-    const Vec3 centre = sphere.centre_at(s.t), shift = centre - sphere.centre_at(t_n_);
-    const Vec3 velocity = sphere.motion ? velocity_at(*sphere.motion, s.t) : Vec3::Zero();
-    for (int i = 0; i < particles_.size(); ++i) {
-      if (particles_.pinned[i]) continue;
-      Vec3 relative = s.v.col(i) - velocity;
-      if (act(sphere, centre, x_n_.col(i) + shift, s.x.col(i), relative) > 0) {
-        s.v.col(i) = relative + velocity;
-        touched_ = true;
-      }
-    }
-  }
+  const ContactFunction act = rule_ == ContactRule::sticky ? resolve_contact_sticky : resolve_contact;
+  for (int i = 0; i < particles_.size(); ++i)
+    if (!particles_.pinned[i]) touched_ |= touch(*spheres_, act, t_n_, s.t, x_n_.col(i), s.x.col(i), s.v.col(i));
   return touched_;
 }
 

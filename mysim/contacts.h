@@ -8,6 +8,15 @@ namespace crosscheck {
 
 enum class ContactRule { coulomb, sticky };  // sticky: the assignment's sphere, kept to be shown failing
 
+/// What a rule does to one particle that touches a sphere: as resolve_contact.
+using ContactFunction = double (*)(const Sphere&, const Vec3& centre, const Vec3& x_n, Eigen::Ref<Vec3> x,
+                                   Eigen::Ref<Vec3> v);
+
+/// Lets every sphere act, each in its own frame, on a particle that was at x_n at time t_n and would be at x with v at
+/// t; true when one touched.
+bool touch(const Spheres& spheres, ContactFunction act, double t_n, double t, const Vec3& x_n, Eigen::Ref<Vec3> x,
+           Eigen::Ref<Vec3> v);
+
 class Contacts {
  public:
   Contacts(const Model& model, ContactRule rule);

@@ -4,6 +4,7 @@
 #include "mysim/adaptive.h"
 #include "mysim/errors.h"
 #include "mysim/march_adaptively.h"
+#include "mysim/strip/sheet_world.h"
 
 namespace crosscheck {
 namespace {
@@ -55,9 +56,16 @@ Outcome simulate_adaptively(ContactRule contact, const Scene& scene, const Run& 
 
 }  // namespace
 
-Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer) {
+Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer,
+                 Precision precision) {
   require_supported(stepper, scene.model);
   if (stepper.adaptive) return simulate_adaptively(contact, scene, run, observer);
+  if (const auto sheet = strip::sheet_world(stepper, contact, scene, plan(run).h, precision, observer)) {
+    Outcome out = march(*sheet, run, observer);
+    out.evaluations = sheet->evaluations();
+    out.coincident = sheet->coincident();
+    return out;
+  }
   FixedStepWorld world(stepper, contact, scene, plan(run).h);
   Outcome out = march(world, run, observer);
   out.evaluations = world.right_hand_side().evaluations();

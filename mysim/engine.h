@@ -6,8 +6,13 @@
 
 namespace crosscheck {
 
+/// How mysim computes: on regular cloths reproducible (the same bits with AVX2 and AVX-512), as fast as the machine
+/// can, or in single precision; plain is the general engine, whatever the scene.
+enum class Precision { reproducible, fastest, single, plain };
+
 /// Runs the scene, at run.step or, where the stepper is adaptive, to run.tolerance. Throws Unsupported with the reason
 /// when the stepper does not take the scene.
-Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer);
+Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer,
+                 Precision precision = Precision::reproducible);
 
 }  // namespace crosscheck

@@ -2,6 +2,8 @@
 // velocity, v' = v + h a - h gamma (v + v') / 2, so that the step stays its own inverse under h -> -h and of order 2.
 #include "mysim/steppers/leapfrog.h"
 
+#include "mysim/steppers/stepper.h"
+
 namespace crosscheck {
 namespace {
 
@@ -47,5 +49,7 @@ void leapfrog_step(System& f, State& s, double h, int passes, Workspace& w) {
 }
 
 void leapfrog(System& f, State& s, double h, Workspace& w) { leapfrog_step(f, s, h, 2, w); }
+
+Chain chain_of_leapfrog() { return {{1}}; }
 
 }  // namespace crosscheck

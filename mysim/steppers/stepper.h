@@ -40,6 +40,14 @@ using StepFunction = void (*)(System&, State&, double h, Workspace&);
 /// where none is. Without drag and without a spring (omega = 0) it says what drag alone allows.
 using StabilityLimit = double (*)(double omega, double gamma);
 
+/// A rule made of kicks v' = v + h F/m and drifts x' = x + h v' alone. Leapfrogs (half drift, kick, half drift) of
+/// these parts of the step, one after the other, with drag averaged over old and new velocity; or, `kick_first`, whole
+/// kicks and then whole drifts, with drag at the old velocity. Such rules have a fast path on cloth (mysim/strip/).
+struct Chain {
+  std::vector<double> parts;  // of the step; they add up to 1
+  bool kick_first = false;
+};
+
 struct Stepper {
   std::string_view name;
   StepFunction step;
@@ -53,6 +61,7 @@ struct Stepper {
   bool adaptive = false;           // chooses its own steps to meet a tolerance; `step` is then its rule at a fixed step
   bool hard_constraints = false;   // keeps fixed distances
   StepFunction linear = nullptr;   // the rule behind the option +linear
+  Chain (*chain)() = nullptr;      // where it is one
 };
 
 void explicit_euler(System& f, State& s, double h, Workspace& w);
@@ -66,6 +75,10 @@ void implicit_euler(System& f, State& s, double h, Workspace& w);
 void implicit_euler_linear(System& f, State& s, double h, Workspace& w);
 void implicit_midpoint(System& f, State& s, double h, Workspace& w);
 void xpbd(System& f, State& s, double h, Workspace& w);
+
+Chain chain_of_symplectic_euler();
+Chain chain_of_leapfrog();
+Chain chain_of_suzuki4();
 
 std::span<const Stepper> steppers();
 

@@ -6,12 +6,17 @@
 
 namespace crosscheck {
 
+Chain chain_of_suzuki4() {
+  const double p = 1 / (4 - std::cbrt(4.0));
+  return {{p, p, 1 - 4 * p, p, p}};
+}
+
 void suzuki4(System& f, State& s, double h, Workspace& w) {
-  const double p = 1 / (4 - std::cbrt(4.0)), start = s.t;
+  const double start = s.t;
   // four passes: what is left of the asymmetry of forces on moving particles is of order h^5, as is the rule's error
   constexpr int passes = 4;
   double done = 0;
-  for (const double part : {p, p, 1 - 4 * p, p, p}) {
+  for (const double part : chain_of_suzuki4().parts) {
     leapfrog_step(f, s, part * h, passes, w);
     done += part;
     s.t = start + done * h;

@@ -10,4 +10,6 @@ void symplectic_euler(System& f, State& s, double h, Workspace& w) {
   s.x += h * s.v;
 }
 
+Chain chain_of_symplectic_euler() { return {{1}, true}; }
+
 }  // namespace crosscheck

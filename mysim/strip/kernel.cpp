@@ -28,13 +28,17 @@ ALWAYS void store(T* p, const Three<T>& a) {
 template <class T>
 inline constexpr int line = 3 * lanes<T>;  // numbers of a block
 
+/// m^2: nothing that is not 0 comes so close.
+template <class T>
+inline constexpr T smallest = T(1e-30);
+
 template <class T>
 ALWAYS long row_length(const Sheet<T>& s) {
   return static_cast<long>(before + s.blocks + after) * line<T>;
 }
 
 /// One spring for each lane: takes its force from the far end and gives it to the near one.
-template <class T, bool fast, bool first>
+template <class T, bool fast>
 ALWAYS void spring(const Three<T>& near, Three<T>& force, const T* far, T* far_force, const T* k, V<T> rest,
                    V<T>& least) {
   using L = Lanes<T>;
@@ -43,16 +47,11 @@ ALWAYS void spring(const Three<T>& near, Three<T>& force, const T* far, T* far_f
   V<T> s = L::fma(dz, dz, L::fma(dy, dy, dx * dx));
   least = L::min(least, s);
   // ends that met: a large number times a difference of 0
-  s = L::max(s, L::all(sizeof(T) == 8 ? T(1e-30) : T(1e-30f)));
+  s = L::max(s, L::all(smallest<T>));
   const V<T> scale = L::load(k) * L::fma(rest, inverse_root<T, fast>(s), L::all(-1));
   force.x = L::fma(scale, dx, force.x), force.y = L::fma(scale, dy, force.y), force.z = L::fma(scale, dz, force.z);
-  if constexpr (first) {
-    const V<T> none = L::all(0);
-    store(far_force, Three<T>{L::fnma(scale, dx, none), L::fnma(scale, dy, none), L::fnma(scale, dz, none)});
-  } else {
-    const Three<T> f = load(far_force);
-    store(far_force, Three<T>{L::fnma(scale, dx, f.x), L::fnma(scale, dy, f.y), L::fnma(scale, dz, f.z)});
-  }
+  const Three<T> f = load(far_force);
+  store(far_force, Three<T>{L::fnma(scale, dx, f.x), L::fnma(scale, dy, f.y), L::fnma(scale, dz, f.z)});
 }
 
 /// A number known when this is compiled.
@@ -86,9 +85,9 @@ ALWAYS void springs_of_row(const Sheet<T>& s, const Rows<T>& rows, int rows_belo
         constexpr Direction to = direction[decltype(d)::value];
         if (!s.k[decltype(d)::value] || to.down > rows_below) return;
         const long there = at + static_cast<long>(to.right) * line<T>;
-        spring<T, fast, false>(near, force, rows.x[to.down] + there, rows.f[to.down] + there,
-                               s.k[decltype(d)::value] + static_cast<long>(b) * lanes<T> + lane,
-                               L::all(s.rest[decltype(d)::value]), least);
+        spring<T, fast>(near, force, rows.x[to.down] + there, rows.f[to.down] + there,
+                        s.k[decltype(d)::value] + static_cast<long>(b) * lanes<T> + lane,
+                        L::all(s.rest[decltype(d)::value]), least);
       };
       take(Number<0>{}), take(Number<1>{}), take(Number<2>{}), take(Number<3>{}), take(Number<4>{}), take(Number<5>{});
       store(rows.f[0] + at, force);
@@ -164,38 +163,55 @@ ALWAYS void move_row(const Sheet<T>& s, const Stride<T>& step, int row, T* x, co
   copy_ends(x, s.blocks);
 }
 
-/// Goes over all rows from the first; `finished(row, x, f)` is told of each whose forces are complete.
+/// Springs that begin in a row and whose ends met, one by one; asked only where a length was 0.
+template <class T>
+[[gnu::noinline]] long count_met(const Sheet<T>& s, const Rows<T>& rows, int rows_below) {
+  long met = 0;
+  for (int d = 0; d < directions; ++d) {
+    if (!s.k[d] || direction[d].down > rows_below || !(s.rest[d] > 0)) continue;
+    for (int b = 0; b < s.blocks; ++b)
+      for (int lane = 0; lane < lanes<T>; ++lane) {
+        const long at = static_cast<long>(b) * line<T> + lane;
+        const T *near = rows.x[0] + at, *far = rows.x[direction[d].down] + at + direction[d].right * line<T>;
+        met += s.k[d][b * lanes<T> + lane] > 0 && near[0] == far[0] && near[lanes<T>] == far[lanes<T>] &&
+               near[2 * lanes<T>] == far[2 * lanes<T>];
+      }
+  }
+  return met;
+}
+
+/// Goes over all rows from the first; `finished(row, x, f)` is told of each whose forces are complete. Returns how many
+/// springs had ends that met.
 template <class T, bool fast, class Finished>
-ALWAYS T over_rows(const Sheet<T>& s, Finished finished) {
+ALWAYS long over_rows(const Sheet<T>& s, Finished finished) {
+  using L = Lanes<T>;
   const long length = row_length(s), first = before * line<T>;
   T* f[3] = {s.force + first, s.force + length + first, s.force + 2 * length + first};
   for (T* row : f) clear(row - first, length);
-  V<T> least = Lanes<T>::all(T(1e30));
+  long met = 0;
   for (int r = 0; r < s.rows; ++r) {
     T* x = s.x + r * length + first;
     const Rows<T> rows{{x, x + length, x + 2 * length}, {f[0], f[1], f[2]}};
+    V<T> least = L::all(T(1));
     springs_of_row<T, fast>(s, rows, s.rows - 1 - r, least);
+    if (L::any_below(least, L::all(smallest<T>))) met += count_met(s, rows, s.rows - 1 - r);
     fold(f[0], s.blocks);
     finished(r, x, f[0]);
     T* done = f[0];
     clear(done - first, length);
     f[0] = f[1], f[1] = f[2], f[2] = done;
   }
-  alignas(64) T all[Lanes<T>::width];
-  Lanes<T>::store(all, least);
-  T smallest = all[0];
-  for (const T each : all) smallest = each < smallest ? each : smallest;
-  return smallest;
+  return met;
 }
 
 template <class T, bool fast>
-T sweep(const Sheet<T>& s, const Stride<T>& step) {
+long sweep(const Sheet<T>& s, const Stride<T>& step) {
   return over_rows<T, fast>(
       s, [&](int row, T* x, const T* f) __attribute__((always_inline)) { move_row(s, step, row, x, f); });
 }
 
 template <class T, bool fast>
-T forces(const Sheet<T>& s, T* out) {
+long forces(const Sheet<T>& s, T* out) {
   return over_rows<T, fast>(
       s, [&](int row, T*, const T* f) __attribute__((always_inline)) {
         T* to = out + static_cast<long>(row) * s.blocks * line<T>;

@@ -60,10 +60,10 @@ struct Stride {
 /// The functions of one instruction set.
 template <class T>
 struct Kernel {
-  /// Returns the smallest squared length of a spring, m^2 (0: ends met, which pull at nothing).
-  T (*sweep)(const Sheet<T>&, const Stride<T>&);
+  /// Both return how many springs of some rest length had ends that met, which pull at nothing.
+  long (*sweep)(const Sheet<T>&, const Stride<T>&);
   /// Forces of the springs alone, into `force` (N, laid out as v).
-  T (*forces)(const Sheet<T>&, T* force);
+  long (*forces)(const Sheet<T>&, T* force);
 };
 
 }  // namespace crosscheck::strip

@@ -1,0 +1,23 @@
+// A cloth on the sweep: rules that are kicks and drifts alone, in one pass over memory a kick.
+#pragma once
+
+#include <memory>
+
+#include "mysim/engine.h"
+#include "mysim/march.h"
+
+namespace crosscheck::strip {
+
+class SheetWorld : public World {
+ public:
+  virtual long evaluations() const = 0;
+  virtual long coincident() const = 0;
+};
+
+/// Null where the general engine has to do it: the rule is not a chain of kicks and drifts, the scene has terms other
+/// than springs, gravity, drag, uniform wind and spheres, its springs are no regular grid or one too narrow, or
+/// somebody wants to see both sides of each contact. Nothing else differs but the order of sums.
+std::unique_ptr<SheetWorld> sheet_world(const Stepper& stepper, ContactRule contact, const Scene& scene, double h,
+                                        Precision precision, const Observer& observer);
+
+}  // namespace crosscheck::strip
