@@ -220,17 +220,23 @@ long forces(const Sheet<T>& s, T* out) {
       });
 }
 
+template <class T, bool fast>
+void inverse_roots(const T* s, T* y, long count) {
+  using L = Lanes<T>;
+  for (long i = 0; i < count; i += L::width) L::store(y + i, inverse_root<T, fast>(L::load(s + i)));
+}
+
 }  // namespace
 
 namespace CROSSCHECK_ISA {
 
 Kernel<double> double_kernel(bool fast) {
-  if (fast) return {sweep<double, true>, forces<double, true>};
-  return {sweep<double, false>, forces<double, false>};
+  if (fast) return {sweep<double, true>, forces<double, true>, inverse_roots<double, true>};
+  return {sweep<double, false>, forces<double, false>, inverse_roots<double, false>};
 }
 Kernel<float> float_kernel(bool fast) {
-  if (fast) return {sweep<float, true>, forces<float, true>};
-  return {sweep<float, false>, forces<float, false>};
+  if (fast) return {sweep<float, true>, forces<float, true>, inverse_roots<float, true>};
+  return {sweep<float, false>, forces<float, false>, inverse_roots<float, false>};
 }
 
 }  // namespace CROSSCHECK_ISA

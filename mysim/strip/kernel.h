@@ -64,6 +64,8 @@ struct Kernel {
   long (*sweep)(const Sheet<T>&, const Stride<T>&);
   /// Forces of the springs alone, into `force` (N, laid out as v).
   long (*forces)(const Sheet<T>&, T* force);
+  /// 1 / sqrt of each, as the springs take it: `count` is a multiple of the lanes.
+  void (*inverse_roots)(const T* s, T* y, long count);
 };
 
 }  // namespace crosscheck::strip

@@ -85,11 +85,15 @@ void SheetBody<T>::put(const Points& x, const Points& v) {
 
 template <class T>
 void SheetBody<T>::get(Points& x, Points& v) const {
-  for (int i = 0; i < x.cols(); ++i)
-    for (int c = 0; c < 3; ++c) {
-      x(c, i) = static_cast<double>(x_.data()[x_at(i) + c * lanes<T>]);
-      v(c, i) = static_cast<double>(v_.data()[v_at(i) + c * lanes<T>]);
-    }
+  int i = 0;
+  for (int row = 0; row < rows_; ++row) {
+    const T *x_row = x_.data() + x_at(row * columns_), *v_row = v_.data() + v_at(row * columns_);
+    for (int lane = 0; lane < lanes<T>; ++lane)
+      for (int block = 0; block < blocks_ && lane * blocks_ + block < columns_; ++block, ++i) {
+        const T *from = x_row + block * block_size<T> + lane, *speed = v_row + block * block_size<T> + lane;
+        for (int c = 0; c < 3; ++c) x(c, i) = from[c * lanes<T>], v(c, i) = speed[c * lanes<T>];
+      }
+  }
 }
 
 template <class T>
