@@ -9,12 +9,12 @@
 namespace crosscheck::strip {
 namespace {
 
-/// The only number of columns that fits: springs to the next row, straight, are the ones with the largest difference of
-/// indices but for those two rows on, which have twice as large a one.
+/// What the largest difference of indices says: the springs that have it lead two rows on, or to the next row.
 std::vector<int> possible_columns(const Springs& springs, int particles) {
   int farthest = 0;
   for (const Spring& s : springs.list) farthest = std::max(farthest, std::abs(s.b - s.a));
   std::vector<int> columns;
+  if (farthest <= 2) columns.push_back(particles);  // a single row
   // the farthest is two rows on, or one and to the right, straight, or to the left
   for (const int c : {farthest / 2, farthest - 1, farthest, farthest + 1})
     if (c > 1 && particles % c == 0 && std::find(columns.begin(), columns.end(), c) == columns.end())

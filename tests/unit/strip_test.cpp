@@ -44,11 +44,23 @@ Springs& springs_of(Scene& scene) {
   throw std::logic_error("no springs");
 }
 
+/// A grid has two rows at least; one row is written spring by spring.
+std::string one_row(int columns) {
+  std::string text;
+  for (int i = 0; i < columns; ++i) text += fmt::format("[[particle]]\nposition = [{}, 0, 0]\nmass = 0.01\n", 0.1 * i);
+  for (const int skip : {1, 2})
+    for (int i = 0; i + skip < columns; ++i)
+      text +=
+          fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\nrest = {}\n", i, i + skip, 40 / skip, 0.1 * skip);
+  return text;
+}
+
 std::string text_of(const Cloth& cloth, const std::string& stiffness) {
+  if (cloth.rows == 1) return one_row(cloth.columns) + cloth.more;
   return fmt::format(
       "[grid]\nsize = [{}, {}]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\nv = [0, 0, {}]\nmass = 0.2\n"
       "[grid.stiffness]\n{}\n{}",
-      cloth.columns, cloth.rows, std::max(1, cloth.rows - 1) / (cloth.columns - 1.), stiffness, cloth.more);
+      cloth.columns, cloth.rows, (cloth.rows - 1) / (cloth.columns - 1.), stiffness, cloth.more);
 }
 
 /// A wave, so that springs pull from the first step on.
@@ -82,7 +94,7 @@ std::vector<Cloth> cloths() {
       {"pins in the middle and at the ends", 6, 26,
        "[pins]\nparticles = [0, 25, 60, 77, 100, 130, 155]\n" + std::string(gravity_text)},
       {"moved pins", 5, 30,
-       "[pins]\nparticles = [0, 29]\n[pins.move]\namplitude = [0.1, 0, 0.05]\nfrequency = 3\n" +
+       "[pins]\nparticles = [0, 29]\n[pins.motion]\namplitude = [0.1, 0, 0.05]\nfrequency = 3\nramp = 0.1\n" +
            std::string(gravity_text)},
       {"wind that comes and goes", 6, 20,
        hang + "[wind]\nacceleration = [3, 0, 1]\n[wind.gusts]\nvariation = 0.5\nside = [0, 1, 0]\nseed = 3\n"},
@@ -95,7 +107,7 @@ std::vector<Cloth> cloths() {
            "[sphere]\ncentre = [0, -0.3, 0.25]\nradius = 0.28\nmargin = 0.01\nfriction = 0.3\n"},
       {"on a ball that moves", 12, 24,
        std::string(gravity_text) + "[sphere]\ncentre = [0, -0.3, 0.25]\nradius = 0.28\nmargin = 0.01\nfriction = 0.3\n"
-                                   "[sphere.move]\namplitude = [0.1, 0, 0]\nfrequency = 2\n"},
+                                   "[sphere.motion]\namplitude = [0.1, 0, 0]\nfrequency = 2\nramp = 0.1\n"},
   };
 }
 
