@@ -66,6 +66,9 @@ struct Kernel {
   long (*forces)(const Sheet<T>&, T* force);
   /// 1 / sqrt of each, as the springs take it: `count` is a multiple of the lanes.
   void (*inverse_roots)(const T* s, T* y, long count);
+  /// What the machine can do at most: so many rounds of multiplications and additions in registers that wait for
+  /// nobody. `sum` takes something that hangs on all of them. Returns how many operations a round has.
+  int (*multiply_and_add)(long rounds, T* sum);
 };
 
 }  // namespace crosscheck::strip

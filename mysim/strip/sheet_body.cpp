@@ -21,7 +21,6 @@ void Lines<T>::Free::operator()(T* memory) const {
 
 template <class T>
 Lines<T>::Lines(size_t count) : size_(count) {
-  if (count == 0) return;
   const size_t bytes = (count * sizeof(T) + line_bytes - 1) / line_bytes * line_bytes + 2 * line_bytes;
   memory_.reset(static_cast<T*>(std::aligned_alloc(line_bytes, bytes)));
   if (!memory_) throw std::bad_alloc();

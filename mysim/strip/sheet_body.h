@@ -13,7 +13,8 @@ namespace crosscheck::strip {
 template <class T>
 class Lines {
  public:
-  explicit Lines(size_t count = 0);
+  Lines() = default;
+  explicit Lines(size_t count);
   T* data() { return data_; }
   const T* data() const { return data_; }
   size_t size() const { return size_; }
