@@ -77,8 +77,9 @@ int advise_command(const AdviseOptions& options);
 struct RegressOptions {
   std::string filter, methods, against, reason;
   std::filesystem::path baselines;  // empty: the shipped ones
-  bool full = false, bless = false, bisect = false, prove = false;
+  bool full = false, bless = false, bisect = false, prove = false, prove_builds = false;
   std::string mutant;  // with `prove`, one of the wrong changes; empty: all
+  std::string build;   // with `prove_builds`, one of the builds; empty: all
   std::filesystem::path out = "out/regress";
   std::string command_line;
 };
@@ -87,6 +88,9 @@ int regress_command(const RegressOptions& options);
 /// Runs the mutants against the baselines and says which were caught. 1 where one escaped, where a cause was named
 /// wrongly, or where mysim as it is was caught.
 int prove_command(const RegressOptions& options);
+/// Builds Crosscheck in other ways and runs each against the baselines: none of them has anything to say. 1 where one
+/// has, or could not be built; InputError where there is no such build.
+int prove_builds_command(const RegressOptions& options);
 
 struct RenderOptions {
   std::string scene, methods, mode = "shaded", quality = "still", size = "1280x720";
