@@ -1,4 +1,4 @@
-// regress --prove-builds: the same baselines in every build of the table in builds.cpp; in none may anything have moved.
+// regress --prove-builds: the same baselines in every build of the table in builds.cpp; nothing may have moved there.
 #include <fmt/format.h>
 
 #include <cmath>
