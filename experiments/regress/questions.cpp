@@ -14,8 +14,8 @@ namespace {
 constexpr double cheap = 0.5, dearest = 20;  // s
 
 bool passes(const std::string& filter, const Question& q) {
-  return filter.empty() || fnmatch(filter.c_str(), q.scene.name.c_str(), 0) == 0 ||
-         fnmatch(filter.c_str(), (q.scene.name + "/" + q.method.name).c_str(), 0) == 0;
+  return filter.empty() || fnmatch(filter.c_str(), q.scene.name.c_str(), FNM_EXTMATCH) == 0 ||
+         fnmatch(filter.c_str(), (q.scene.name + "/" + q.method.name).c_str(), FNM_EXTMATCH) == 0;
 }
 
 /// The engines that somebody here changes; what stands beside them as a judge is not asked.

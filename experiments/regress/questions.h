@@ -7,7 +7,7 @@ namespace crosscheck {
 
 struct Asked {
   bool full = false;            // dear questions too
-  std::string filter;           // glob on SCENE or SCENE/METHOD; empty: all
+  std::string filter;           // glob on SCENE or SCENE/METHOD, with !(A|B) and @(A|B); empty: all
   std::vector<Method> methods;  // empty: all of mysim and Bullet
 };
 

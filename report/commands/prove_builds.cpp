@@ -51,12 +51,17 @@ Finding finding_of(const nlohmann::json& verdict) {
   return finding;
 }
 
+const std::string& filter_of(const Build& build, const RegressOptions& options) {
+  return options.filter.empty() ? build.filter : options.filter;
+}
+
 /// Runs the build's program over the baselines.
 Finding asked(const fs::path& program, const Build& build, const RegressOptions& options) {
   const fs::path out = options.out / build.name;
   std::vector<std::string> words{program.string(), "regress",     "--out",
                                  out.string(),     "--baselines", options.baselines.string()};
-  if (!options.filter.empty()) words.insert(words.end(), {"--filter", options.filter});
+  if (const std::string& filter = filter_of(build, options); !filter.empty())
+    words.insert(words.end(), {"--filter", filter});
   if (!options.methods.empty()) words.insert(words.end(), {"--method", options.methods});
   if (options.full) words.push_back("--full");
   std::vector<std::string> environment;
@@ -81,14 +86,15 @@ Finding found(const Build& build, const RegressOptions& options) {
   return asked(program, build, options);
 }
 
-void print_finding(const Build& build, const Finding& f) {
+void print_finding(const Build& build, const RegressOptions& options, const Finding& f) {
   fmt::print("{:<12} {:<12} ", f.state, build.name);
   if (f.state == not_here)
     fmt::print("{}\n", f.note);
   else if (f.state == not_built || f.state == no_verdict)
     fmt::print("\n{}\n", f.note);
   else
-    fmt::print("{:>6} quantities: {} failed, {} identical, {} differ{}\n", f.quantities, f.failures, f.identical,
+    fmt::print("{:>6} quantities{}: {} failed, {} identical, {} differ{}\n", f.quantities,
+               options.filter.empty() && !build.filter.empty() ? " of " + build.filter : "", f.failures, f.identical,
                f.differing,
                f.off ? fmt::format(", by {:.2g} tolerances at most ({})", *f.off, f.furthest) : std::string());
   std::fflush(stdout);
@@ -101,6 +107,7 @@ Table empty_table() {
            {"type", "1"},
            {"flags", "1"},
            {"environment", "1"},
+           {"filter", "1"},
            {"state", "1"},
            {"quantities", "1"},
            {"failures", "1"},
@@ -112,10 +119,11 @@ Table empty_table() {
           {}};
 }
 
-void add_row(Table& table, const Build& build, const Finding& f) {
+void add_row(Table& table, const Build& build, const RegressOptions& options, const Finding& f) {
   const auto count = [&](long n) { return f.state == passed || f.state == alarm ? Cell(n) : Cell(); };
-  table.add({build.name, build.compiler, build.type, build.flags, build.environment, f.state, count(f.quantities),
-             count(f.failures), count(f.identical), count(f.differing), cell_of(f.off), f.furthest, f.note});
+  table.add({build.name, build.compiler, build.type, build.flags, build.environment, filter_of(build, options), f.state,
+             count(f.quantities), count(f.failures), count(f.identical), count(f.differing), cell_of(f.off), f.furthest,
+             f.note});
 }
 
 void require_known(const std::string& name) {
@@ -142,8 +150,8 @@ int prove_builds_command(const RegressOptions& asked_for) {
   for (const Build& build : builds()) {
     if (!options.build.empty() && options.build != build.name) continue;
     const Finding finding = found(build, options);
-    print_finding(build, finding);
-    add_row(table, build, finding);
+    print_finding(build, options, finding);
+    add_row(table, build, options, finding);
     ++count[finding.state];
   }
   write_csv(table, provenance(options.command_line), options.out);

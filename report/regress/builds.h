@@ -13,6 +13,7 @@ struct Build {
   std::string compiler, package;  // Debian's package; both empty: the program as it is, in another environment
   std::string type, flags;        // as CMake has them
   std::string environment;        // NAME=value, or empty
+  std::string filter = {};        // what it is asked where nobody says; empty: all
   bool fused = false;             // needs a processor with AVX2 and fused multiply-adds
   bool compiled() const { return !compiler.empty(); }
 };
