@@ -15,6 +15,7 @@ struct Toleranced {
 struct Rounding {
   double size;
   std::string kind;
+  bool solved = false;  // an equation in each step, to an accuracy
 };
 Rounding rounding_of(const Question& question, const Answered& answered);
 
