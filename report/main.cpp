@@ -135,8 +135,8 @@ int run(int argc, char** argv) {
   auto* regress = app.add_subcommand("regress", "what moved since somebody last said that it is right");
   regress->add_option("--filter", regress_options.filter, "GLOB on SCENE or SCENE/METHOD");
   regress->add_option("--method", regress_options.methods, "A,B,... (default: all of mysim and Bullet)");
-  auto* against =
-      regress->add_option("--against", regress_options.against, "a method to set --method beside, instead of baselines");
+  auto* against = regress->add_option("--against", regress_options.against,
+                                      "a method to set --method beside, instead of baselines");
   regress->add_option("--baselines", regress_options.baselines, "folder (default: those that come with Crosscheck)");
   auto* bless = regress->add_flag("--bless", regress_options.bless, "makes today's answers the baseline");
   regress->add_option("--reason", regress_options.reason, "why they are right")->needs(bless);
@@ -154,10 +154,9 @@ int run(int argc, char** argv) {
   regress->add_option("--out", regress_options.out, "folder (out/regress)");
   quick_or_full(regress, regress_options.full);
   regress->callback([&] {
-    regress_options.command_line = line,
-    status = regress_options.prove          ? prove_command(regress_options)
-             : regress_options.prove_builds ? prove_builds_command(regress_options)
-                                            : regress_command(regress_options);
+    regress_options.command_line = line, status = regress_options.prove          ? prove_command(regress_options)
+                                                  : regress_options.prove_builds ? prove_builds_command(regress_options)
+                                                                                 : regress_command(regress_options);
   });
 
   EngineOptions engine_options;
