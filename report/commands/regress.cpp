@@ -10,6 +10,7 @@
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "report/commands/commands.h"
+#include "report/commands/regress_speed.h"
 #include "report/provenance.h"
 #include "report/regress/verdict_files.h"
 
@@ -86,6 +87,7 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
   for (const Compared& row : result.changed) print_row(row);
   fmt::print("\n{} quantities blessed: {}\n", result.changed.size(), options.reason);
   for (const auto& file : result.files) fmt::print("{}\n", file.string());
+  if (speed_is_asked(options)) bless_and_print_speeds(regression, blessing, lines);
   return 0;
 }
 
@@ -108,10 +110,14 @@ int regressed(const RegressOptions& options) {
 
   Progress progress(0);
   const Regressed result = regress(regression, progress);
+  Speeds speeds;
+  if (speed_is_asked(options)) speeds = speeds_beside(regression, lines, result.rows, progress);
   progress.done();
   const std::string cause = cause_of(questions(regression.asked), result.rows);
-  write_verdict(result, cause, lines, options.out);
-  return told(result, cause, options.out);
+  write_verdict(result, speeds, cause, lines, options.out);
+  const int status = told(result, cause, options.out);
+  print_speeds(speeds);
+  return speeds.passed() ? status : 1;
 }
 
 }  // namespace

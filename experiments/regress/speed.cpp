@@ -1,0 +1,124 @@
+// Rounds over questions.
+#include "experiments/regress/speed.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/cost/sized_cloth.h"
+#include "experiments/estimate.h"
+#include "experiments/regress/patience.h"
+#include "experiments/regress/plain_loop.h"
+#include "experiments/scenes.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr double long_enough = 5e-3;  // s of CPU time by the estimate: a round of all questions takes half a second
+
+bool inside(const Method& method) { return method.name.starts_with("mysim/") || method.name.starts_with("bullet/"); }
+
+/// From the start up to the end of the window, as far as that is not long; the same on every machine.
+Run first_steps(const Scene& scene, const Method& method) {
+  Run run = default_run(scene);
+  run.samples = 1;  // the clock stops at samples
+  const double each = estimated_seconds(method, scene, 1L), all = std::floor(scene.window / scene.step + 0.5);
+  run.duration = scene.step * std::clamp(std::floor(long_enough / each), 2., std::max(2., all));
+  return run;
+}
+
+/// A run that blows up, is refused or takes many times what it should has no speed.
+bool ends_well(const Method& method, const SpeedQuestion& q) {
+  Patience patience(2 + 20 * estimated_seconds(method, q.scene, q.run));
+  return run_method(method, q.scene, q.run, {&patience}).verdict == Verdict::ok;
+}
+
+bool passes(const std::string& filter, const SpeedQuestion& q) {
+  return filter.empty() || fnmatch(filter.c_str(), q.scene.name.c_str(), 0) == 0 ||
+         fnmatch(filter.c_str(), (q.scene.name + "/" + q.method.name).c_str(), 0) == 0;
+}
+
+class Nobody : public Observer {
+ public:
+  Verdict observe(const State&, bool) override { return Verdict::ok; }
+};
+
+double mean_seconds(double resolution, const std::function<double()>& run) {
+  double sum = 0;
+  int count = 0;
+  do sum += run();
+  while (++count < 1000 && sum < resolution);
+  return sum / count;
+}
+
+double seconds_of(const Method& method, const SpeedQuestion& q, double resolution) {
+  return mean_seconds(resolution, [&] {
+    Nobody nobody;
+    return method.engine(q.scene, q.run, nobody).cpu_seconds;
+  });
+}
+
+/// A question and its plain loop, warm.
+struct Lane {
+  const SpeedQuestion& question;
+  PlainLoop loop;
+  bool runs;
+  long steps = 1;  // of the loop, in one turn
+
+  Lane(const SpeedQuestion& q, double resolution)
+      : question(q), loop(q.scene), runs(ends_well(q.method, q) && (!q.against || ends_well(*q.against, q))) {
+    while (loop.seconds_of(steps) < resolution / 2 && steps < (1L << 40)) steps *= 2;
+  }
+  /// s, of as many steps as the question has.
+  double seconds_of_loop() {
+    return loop.seconds_of(steps) / static_cast<double>(steps) * question.run.duration / question.scene.step;
+  }
+};
+
+}  // namespace
+
+std::string SpeedQuestion::in_words() const { return fmt::format("{} under {}", scene.name, method.name); }
+
+std::vector<SpeedQuestion> speed_questions(const Asked& asked, const std::optional<Method>& against) {
+  std::vector<Method> methods = asked.methods.empty() ? all_methods() : asked.methods;
+  std::erase_if(methods, [](const Method& method) { return !inside(method); });
+  std::vector<SpeedQuestion> all;
+  const auto add = [&](const Scene& scene, const Method& method) {
+    SpeedQuestion q{scene, method, against};
+    q.run = first_steps(scene, method);
+    if (passes(asked.filter, q)) all.push_back(std::move(q));
+  };
+  if (against && !inside(*against)) return all;
+  for (const std::string_view name : shipped_scenes()) {
+    const Scene scene = load_scene(std::string(name));
+    const std::string own = find_method(scene.method).name;
+    for (const Method& method : methods)
+      if (against || method.name == own) add(scene, method);
+  }
+  const Scene cloth = sized_cloth(32);  // large enough that no engine's overhead counts, small enough for its caches
+  for (const Method& method : methods) add(cloth, method);
+  return all;
+}
+
+std::vector<Ratios> measured_ratios(const std::vector<SpeedQuestion>& questions, const SpeedPlan& plan, int layout) {
+  // multiples of what malloc hands out, odd ones, below a page
+  const std::vector<char> pad(static_cast<size_t>(16 * (1 + 37 * layout % 255)));
+  std::vector<Lane> lanes;
+  for (const SpeedQuestion& q : questions) lanes.emplace_back(q, plan.resolution);
+  std::vector<Ratios> all(questions.size());
+  for (int round = 0; round < plan.rounds; ++round)
+    for (size_t i = 0; i < lanes.size(); ++i) {
+      const SpeedQuestion& q = questions[i];
+      if (!lanes[i].runs) continue;
+      const double before = lanes[i].seconds_of_loop(), is = seconds_of(q.method, q, plan.resolution),
+                   was = q.against ? seconds_of(*q.against, q, plan.resolution) : 0,
+                   loop = (before + lanes[i].seconds_of_loop()) / 2;
+      all[i].is.push_back(is / loop);
+      if (q.against) all[i].was.push_back(was / loop);
+    }
+  return all;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,71 @@
+// CSV, JSON and JUnit of speeds.
+#include "report/regress/speed_files.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "report/page/page.h"
+
+namespace crosscheck {
+
+Table table_of(const Speeds& speeds) {
+  Table table{"speed-cost",
+              {{"scene", "1"},
+               {"method", "1"},
+               {"was", "1"},
+               {"is", "1"},
+               {"change", "1"},
+               {"change low", "1"},
+               {"change high", "1"},
+               {"noise", "1"},
+               {"measurements", "1"},
+               {"state", "1"},
+               {"sentence", "1"},
+               {"note", "1"}},
+              {}};
+  for (const SpeedCompared& row : speeds.rows) {
+    const auto where_compared = [&](double value) { return row.was ? Cell(value) : Cell(); };
+    table.add({row.scene, row.method, cell_of(row.was), row.is, where_compared(row.change.median),
+               where_compared(row.change.low), where_compared(row.change.high), where_compared(row.noise),
+               static_cast<long>(row.seen), std::string(name_of(row.state)), row.sentence, row.note});
+  }
+  return table;
+}
+
+nlohmann::ordered_json json_of(const Speeds& speeds) {
+  using Json = nlohmann::ordered_json;
+  Json compared = Json::array(), failures = Json::array();
+  for (const SpeedCompared& row : speeds.rows) {
+    Json json{{"scene", row.scene}, {"method", row.method}, {"state", name_of(row.state)}, {"is", row.is}};
+    if (row.was)
+      json["was"] = *row.was, json["change"] = row.change.median, json["change_low"] = row.change.low,
+      json["change_high"] = row.change.high, json["noise"] = row.noise, json["measurements"] = row.seen;
+    if (!row.sentence.empty()) json["sentence"] = row.sentence;
+    if (!row.note.empty()) json["note"] = row.note;
+    compared.push_back(json);
+  }
+  for (const FailedPoint& f : speeds.failures) failures.push_back({{"what", f.name}, {"why", f.why}});
+  return {{"passed", speeds.passed()}, {"compared", compared}, {"notes", speeds.notes}, {"failures", failures}};
+}
+
+SpeedCases cases_of(const Speeds& speeds) {
+  SpeedCases all;
+  for (const SpeedCompared& row : speeds.rows) {
+    if (!row.was) continue;
+    ++all.cases;
+    all.body += fmt::format("  <testcase classname=\"{}\" name=\"{}: speed\"", escaped(row.scene), escaped(row.method));
+    all.failures += row.state == Pace::slower;
+    all.body += row.state == Pace::slower
+                    ? fmt::format("><failure message=\"{}\"/></testcase>\n", escaped(row.sentence))
+                    : "/>\n";
+  }
+  for (const FailedPoint& f : speeds.failures) {
+    ++all.cases, ++all.errors;
+    all.body += fmt::format("  <testcase classname=\"speed\" name=\"{}\"><error message=\"{}\"/></testcase>\n",
+                            escaped(f.name), escaped(f.why));
+  }
+  return all;
+}
+
+}  // namespace crosscheck
