@@ -54,8 +54,8 @@ std::string text_of(const SpeedFile& file) {
   out += fmt::format("# rows: {}\n", file.speeds.size());
   out += "# ratio: CPU time of the method over that of as many steps of the plain loop on the same scene, in turns;\n";
   out +=
-      "# the middle of five measurements apart in time, each in a process of its own, laid out otherwise in memory\n";
-  out += "# spread: how far the farthest of these is from the middle, relative\n";
+      "# the middle of seven measurements apart in time, each in a process of its own, laid out otherwise in memory\n";
+  out += "# spread: how far the second farthest of these is from the middle, relative\n";
   out += fmt::format("{}\n", header);
   for (const BlessedSpeed& s : file.speeds)
     out += fmt::format("{},{},{},{:.5g},{:.2g},{},{}\n", csv_field(s.scene), s.hash, csv_field(s.method), s.ratio,

@@ -20,8 +20,8 @@ struct Machine {
 
 struct BlessedSpeed {
   std::string scene, hash, method;  // hash: of the scene
-  double ratio = 0;                 // CPU time over the plain loop's: the middle of some blocks apart in time
-  double spread = 0;                // relative: how far the farthest of these blocks is from the middle
+  double ratio = 0;                 // CPU time over the plain loop's: the middle of some measurements apart in time
+  double spread = 0;                // relative: how far the second farthest of these is from the middle
   Machine machine;
   int blessing = 1;  // its number in the file, from 1
 };

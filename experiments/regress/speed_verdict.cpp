@@ -10,7 +10,7 @@ namespace crosscheck {
 namespace {
 
 constexpr SpeedPlan once{.rounds = 9}, again{.rounds = 15};
-constexpr int confirmations = 4, blocks = 5;
+constexpr int confirmations = 4, blocks = 7;
 
 std::vector<double> changes_of(const Ratios& ratios, double was) {
   std::vector<double> changes;
@@ -85,9 +85,10 @@ double noise_of(double spread) { return std::max(0.1, 2 * spread); }
 
 double spread_of(const std::vector<double>& middles) {
   const double m = middle(middles);
-  double most = 0;
-  for (const double each : middles) most = std::max({most, each / m - 1, m / each - 1});
-  return most;
+  std::vector<double> off;
+  for (const double each : middles) off.push_back(std::max(each / m, m / each) - 1);
+  std::sort(off.begin(), off.end());
+  return off.size() > 1 ? off[off.size() - 2] : 0;
 }
 
 int direction_of(const Timing& change, double noise) {

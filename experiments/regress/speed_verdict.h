@@ -30,12 +30,14 @@ struct SpeedCompared {
   std::string note;      // why it is not compared
 };
 
-/// The changes that count: 10 %, or twice the spread of the blocks at bless, or of the rounds now, where that is more.
-/// Of 60 measurements of 32 questions on a loaded machine 99 in 100 lay within 8 % of the middle of theirs; and the
-/// farthest of five is often half as far as the farthest of sixty.
+/// The changes that count: 10 %, or twice the spread of the measurements at bless, or of the rounds now, where that is
+/// more. Of 60 measurements of 32 questions on a loaded machine 99 in 100 lay within 8 % of the middle of theirs, and
+/// the second farthest of seven is often half as far as the farthest of sixty but one.
 double noise_of(double spread);
 
-/// The largest departure from the median, relative.
+/// The second largest departure from the median, relative: one process in a hundred is laid out so badly in memory that
+/// a small scene takes twice its time in it, and the noise of a scene must not hang on that one. Nor can an alarm: it
+/// takes five processes.
 double spread_of(const std::vector<double>& middles);
 
 /// 1 where the whole interval is above 1 + noise (slower), -1 where it is below 1 / (1 + noise) (faster), else 0.
@@ -50,7 +52,7 @@ std::vector<SpeedCompared> first_look(const std::vector<SpeedQuestion>& question
 /// the noise in the same direction, it is the same. The figures left are the middle ones of these four.
 void confirm(std::vector<SpeedCompared>& rows, const std::vector<SpeedQuestion>& questions, const Measure& measure);
 
-/// The speeds of all questions as they are to be blessed, by five measurements.
+/// The speeds of all questions as they are to be blessed, by seven measurements.
 std::vector<BlessedSpeed> speeds_to_bless(const std::vector<SpeedQuestion>& questions, const Machine& machine,
                                           const Measure& measure);
 

@@ -21,7 +21,7 @@ TEST(PlainLoop, IsSymplecticEulerWithSpringsAndGravity) {
     PlainLoop loop(scene);
     const int steps = 50;
     EXPECT_GE(loop.seconds_of(steps), 0);
-    const Run run{loop.step(), steps * loop.step(), 1};
+    const crosscheck::Run run{loop.step(), steps * loop.step(), 1};
     Recorder recorder;
     ASSERT_EQ(run_method(find_method("symplectic-euler"), scene, run, {&recorder}).verdict, Verdict::ok);
     const Points& x = recorder.trajectory.x.back();
@@ -114,8 +114,8 @@ TEST(SpeedFiles, EachDamageIsNamedWithItsLine) {
 TEST(SpeedVerdicts, NoiseIsTenPerCentOrTwiceTheSpread) {
   EXPECT_DOUBLE_EQ(noise_of(0.04), 0.1);
   EXPECT_DOUBLE_EQ(noise_of(0.08), 0.16);
-  EXPECT_DOUBLE_EQ(spread_of({1, 2, 1.5, 2, 4}), 1);
-  EXPECT_DOUBLE_EQ(spread_of({3, 3, 2, 3, 3}), 0.5);
+  EXPECT_DOUBLE_EQ(spread_of({1, 2, 1.6, 2, 9}), 1);
+  EXPECT_DOUBLE_EQ(spread_of({3, 3, 2, 3, 3}), 0) << "one odd one out";
   // the whole interval has to be beyond
   EXPECT_EQ(direction_of({1.2, 1.11, 1.3}, 0.1), 1);
   EXPECT_EQ(direction_of({1.2, 1.09, 1.3}, 0.1), 0);
@@ -236,7 +236,7 @@ TEST(SpeedVerdicts, OneMethodBesideAnotherNeedsNothingStored) {
 TEST(SpeedBlessings, WhatIsTheSameKeepsItsOwn) {
   const std::vector<SpeedQuestion> questions{question("spring", "leapfrog"), question("chain", "leapfrog")};
   const auto speeds =
-      speeds_to_bless(questions, here, invented({{"spring", {5, 5.1, 5, 5, 5.2}}, {"chain", {2, 2, 2, 2, 2}}}));
+      speeds_to_bless(questions, here, invented({{"spring", {5, 5.2, 5, 5, 5, 5.3, 5}}, {"chain", {2}}}));
   ASSERT_EQ(speeds.size(), 2u);
   EXPECT_NEAR(speeds[0].ratio, 5, 1e-12);
   EXPECT_NEAR(speeds[0].spread, 0.04, 1e-12);
