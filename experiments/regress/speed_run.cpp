@@ -46,8 +46,8 @@ std::string nothing_asked(const SpeedRun& run) {
 void tell_what_is_not_compared(Speeds& speeds) {
   std::vector<std::pair<std::string, int>> reasons;
   for (const SpeedCompared& row : speeds.rows) {
+    if (row.state != Pace::fresh && row.state != Pace::elsewhere) continue;
     const std::string why = row.state == Pace::fresh ? "new (not blessed yet)" : row.note;
-    if (why.empty()) continue;
     const auto known = std::find_if(reasons.begin(), reasons.end(), [&](const auto& r) { return r.first == why; });
     if (known == reasons.end())
       reasons.emplace_back(why, 1);
@@ -62,7 +62,7 @@ void tell_what_is_not_compared(Speeds& speeds) {
 
 bool Speeds::passed() const {
   return failures.empty() &&
-         std::none_of(rows.begin(), rows.end(), [](const SpeedCompared& row) { return row.state == Pace::slower; });
+         std::none_of(rows.begin(), rows.end(), [](const SpeedCompared& row) { return failed(row.state); });
 }
 
 std::vector<Ratios> SpeedMeter::operator()(const std::vector<SpeedQuestion>& questions, const SpeedPlan& plan) {

@@ -20,7 +20,8 @@ struct Speeds {
   std::vector<SpeedCompared> rows;  // in the order of the questions
   std::vector<std::string> notes;   // what was not compared and why, one line each
   std::vector<FailedPoint> failures;
-  bool passed() const;  // nothing slower, no failures
+  std::vector<std::string> trades = {};  // what each change was bought with, one sentence each (trade.h)
+  bool passed() const;                   // nothing slower or gone, no failures
 };
 
 /// Measures in processes of their own, alone on this machine and pinned to one core, so that an engine that crashes

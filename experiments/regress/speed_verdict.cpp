@@ -77,7 +77,7 @@ struct Suspect {
 
 std::string_view name_of(Pace state) {
   // in the order of the states
-  constexpr std::string_view names[] = {"slower", "faster", "same", "new", "not compared"};
+  constexpr std::string_view names[] = {"slower", "gone", "faster", "same", "new", "not compared"};
   return names[static_cast<int>(state)];
 }
 
@@ -105,12 +105,19 @@ std::vector<SpeedCompared> first_look(const std::vector<SpeedQuestion>& question
   for (size_t i = 0; i < questions.size(); ++i) {
     const SpeedQuestion& q = questions[i];
     const Ratios& now = measured[i];
-    if (now.is.empty()) continue;
-    SpeedCompared row{q.scene.name, q.method.name, {}, middle(now.is)};
-    const BlessedSpeed* known = blessed ? find_speed(*blessed, q, machine) : nullptr;
+    const BlessedSpeed* known = blessed && !q.against ? find_speed(*blessed, q, machine) : nullptr;
+    if (known && known->hash != q.scene.hash) known = nullptr;
+    SpeedCompared row{q.scene.name, q.method.name};
+    if (now.is.empty()) {
+      if (!known) continue;
+      row.was = known->ratio, row.state = Pace::gone, row.note = "no speed: the run is now refused or fails";
+      rows.push_back(std::move(row));
+      continue;
+    }
+    row.is = middle(now.is);
     if (q.against) {
       row.was = middle(now.was), row.noise = noise_of(noise_now);
-    } else if (known && known->hash == q.scene.hash) {
+    } else if (known) {
       row.was = known->ratio, row.noise = noise_of(std::max(known->spread, noise_now));
     } else {
       row.note = blessed ? why_elsewhere(*blessed, q, machine) : "";

@@ -8,22 +8,24 @@
 
 namespace crosscheck {
 
-/// Only `slower` is held against anybody.
 enum class Pace {
   slower,
+  gone,  // blessed, and the run is now refused or fails
   faster,
   same,
   fresh,      // not blessed yet
   elsewhere,  // blessed on another kind of machine, by another compiler or of another scene: not compared
 };
 std::string_view name_of(Pace state);
+/// What is held against somebody.
+inline bool failed(Pace state) { return state <= Pace::gone; }
 
 struct SpeedCompared {
   std::string scene, method;
   std::optional<double> was;  // CPU time over the plain loop's; with --against the other method's
-  double is = 0;
-  Timing change;     // is/was of the rounds, with its interval; all 0 where there is no `was`
-  double noise = 0;  // relative: what is not beyond it is no change
+  double is = 0;              // 0 where it is gone
+  Timing change;              // is/was of the rounds, with its interval; all 0 where there is no `was`
+  double noise = 0;           // relative: what is not beyond it is no change
   Pace state = Pace::same;
   int seen = 1;          // how many measurements `is` and `change` come from
   std::string sentence;  // what it was bought with or paid for (trade.h); empty where nothing changed
@@ -44,7 +46,7 @@ double spread_of(const std::vector<double>& middles);
 int direction_of(const Timing& change, double noise);
 
 /// One measurement of all questions, beside blessed speeds, or beside the other method of the question where that is
-/// null: `slower` and `faster` are suspicions still. Questions without a speed are left out.
+/// null: `slower` and `faster` are suspicions still. What never had a speed is left out.
 std::vector<SpeedCompared> first_look(const std::vector<SpeedQuestion>& questions, const SpeedFile* blessed,
                                       const Machine& machine, const Measure& measure);
 

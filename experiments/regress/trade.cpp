@@ -28,10 +28,14 @@ int growth_of(const Compared& row) {
 
 double times(const Compared& row) { return std::max(*row.is, *row.was) / std::min(*row.is, *row.was); }
 
+std::string factor_in_words(double factor) {
+  return factor < 100 ? fmt::format("{:.2g}", factor) : fmt::format("{:.0f}", factor);
+}
+
 std::string in_words(const Compared& row, bool name_scene) {
   const char* word = growth_of(row) > 0 ? "larger" : "smaller";
   const std::string size = std::isfinite(times(row))
-                               ? fmt::format("{:.2g} times {}", times(row), word)
+                               ? fmt::format("{} times {}", factor_in_words(times(row)), word)
                                : fmt::format("{}: from {:.2g} to {:.2g} m", word, *row.was, *row.is);
   return fmt::format("{} {}{}", row.quantity, size, name_scene ? " on " + row.scene : "");
 }
@@ -80,7 +84,7 @@ std::string trade_of(const SpeedCompared& speed, std::span<const Compared> answe
   const Evidence seen = evidence_of(elsewhere ? same_method : same_scene);
   const bool faster = speed.state == Pace::faster;
   const double factor = faster ? 1 / speed.change.median : speed.change.median;
-  const std::string pace = fmt::format("{:.3g} times {}", factor, faster ? "faster" : "slower");
+  const std::string pace = fmt::format("{} times {}", factor_in_words(factor), faster ? "faster" : "slower");
   if (!seen.asked) return fmt::format("{}; its answer was not asked for", pace);
   if (!seen.failure.empty()) return fmt::format("{}, and {}", pace, seen.failure);
   if (seen.larger && seen.smaller)

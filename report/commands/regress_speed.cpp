@@ -25,7 +25,7 @@ SpeedRun speed_run_of(const Regression& regression, const Provenance& lines) {
 Speeds speeds_beside(const Regression& regression, const Provenance& lines, const std::vector<Compared>& answers,
                      Progress& progress) {
   Speeds speeds = compared_speeds(speed_run_of(regression, lines), progress);
-  tell_trades(speeds.rows, answers);
+  speeds.trades = tell_trades(speeds.rows, answers);
   return speeds;
 }
 
@@ -40,6 +40,8 @@ void print_speeds(const Speeds& speeds) {
           "{:<10} {}, {}: {}\n           {:.4g} times the plain loop, was {:.4g}; noise {:.0f} %, seen in {} more "
           "measurements\n",
           name_of(row.state), row.scene, row.method, row.sentence, row.is, *row.was, 100 * row.noise, row.seen);
+  for (const SpeedCompared& row : speeds.rows)
+    if (row.state == Pace::gone) fmt::print("gone       {}, {}: {}\n", row.scene, row.method, row.note);
   for (const FailedPoint& f : speeds.failures) fmt::print("no speed   {}: {}\n", f.name, f.why);
   const auto compared = count(Pace::slower) + count(Pace::faster) + count(Pace::same);
   if (compared > 0)

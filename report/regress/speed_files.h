@@ -11,8 +11,8 @@ namespace crosscheck {
 /// speed-cost: every speed that was measured.
 Table table_of(const Speeds& speeds);
 
-/// {"passed": ..., "compared": [...], "notes": [...], "failures": [...]}; an entry for every speed that was measured.
-nlohmann::ordered_json json_of(const Speeds& speeds);
+/// Adds "speed" (an entry for every speed that was measured), "speed_notes" and "speed_failures" to the verdict.
+void add_speeds(nlohmann::ordered_json& verdict, const Speeds& speeds);
 
 /// JUnit: a case for each speed that was compared.
 struct SpeedCases {

@@ -112,7 +112,7 @@ void write_verdict(const Regressed& result, const Speeds& speeds, const std::str
   for (const Compared& row : result.rows)
     if (failed(row.state)) json["failures"].push_back(json_of(row));
   for (const FailedPoint& f : result.failures) json["without_answer"].push_back({{"question", f.name}, {"why", f.why}});
-  json["speed"] = json_of(speeds);
+  add_speeds(json, speeds);
   write_file(folder / "regress.json", json.dump(1) + "\n");
   write_file(folder / "junit.xml", junit(result, speeds));
   if (!speeds.rows.empty()) write_csv(table_of(speeds), lines, folder);

@@ -179,7 +179,8 @@ TEST(SpeedVerdicts, AChangeCountsWhereEveryMeasurementShowsIt) {
   EXPECT_EQ(rows.at("bounce").state, Pace::same);
   EXPECT_EQ(rows.at("slide").state, Pace::same);
   EXPECT_EQ(rows.at("jelly").state, Pace::same);
-  EXPECT_FALSE(rows.contains("flag"));
+  EXPECT_EQ(rows.at("flag").state, Pace::gone);
+  EXPECT_TRUE(failed(Pace::gone));
   EXPECT_FALSE(speeds.passed());
   EXPECT_TRUE(speeds.notes.empty());
   // what became faster is held against nobody

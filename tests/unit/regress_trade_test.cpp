@@ -38,6 +38,8 @@ TEST(Trades, AreNamed) {
             "faster and more accurate: 1.4 times faster, error against truth 2.3 times smaller");
   EXPECT_EQ(slow({error(1e-3, 2.3e-3)}),
             "slower and less accurate: 1.4 times slower, error against truth 2.3 times larger");
+  EXPECT_EQ(fast({error(1e-5, 5e-2)}),
+            "buys speed with accuracy: 1.4 times faster, error against truth 5000 times larger");
   EXPECT_EQ(fast({error(0, 2e-3)}),
             "buys speed with accuracy: 1.4 times faster, error against truth larger: from 0 to 0.002 m");
 }
