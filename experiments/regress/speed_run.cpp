@@ -68,7 +68,7 @@ bool Speeds::passed() const {
 std::vector<Ratios> SpeedMeter::operator()(const std::vector<SpeedQuestion>& questions, const SpeedPlan& plan) {
   std::this_thread::sleep_until(begun_ + std::chrono::seconds(1));
   begun_ = std::chrono::steady_clock::now();
-  const Store store(store_in(out_));
+  const Store store(out_ / "speed-points");
   store.clear();
   const Point point = point_of(questions, plan, ++count_);
   progress_.expect(1);

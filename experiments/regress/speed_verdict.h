@@ -33,13 +33,12 @@ struct SpeedCompared {
 };
 
 /// The changes that count: 10 %, or twice the spread of the measurements at bless, or of the rounds now, where that is
-/// more. Of 60 measurements of 32 questions on a loaded machine 99 in 100 lay within 8 % of the middle of theirs, and
-/// the second farthest of seven is often half as far as the farthest of sixty but one.
+/// more. Measured on a loaded machine, 32 questions sixty times: of seven measurements the middle and this noise leave
+/// six in a thousand of the others outside, each of them in one process; an alarm takes five.
 double noise_of(double spread);
 
-/// The second largest departure from the median, relative: one process in a hundred is laid out so badly in memory that
-/// a small scene takes twice its time in it, and the noise of a scene must not hang on that one. Nor can an alarm: it
-/// takes five processes.
+/// The second largest departure from the median, relative: one process in some hundreds is laid out so badly in memory
+/// that a small scene takes twice its time in it, and the noise of a scene must not hang on that one.
 double spread_of(const std::vector<double>& middles);
 
 /// 1 where the whole interval is above 1 + noise (slower), -1 where it is below 1 / (1 + noise) (faster), else 0.

@@ -78,7 +78,7 @@ struct RegressOptions {
   std::string filter, methods, against, reason;
   std::filesystem::path baselines;  // empty: the shipped ones
   bool full = false, bless = false, bisect = false, prove = false;
-  std::string mutant;  // with `prove`, one of the wrong changes; empty: all
+  std::string mutant;                    // with `prove`, one of the wrong changes; empty: all
   bool no_speed = false, speed = false;  // speed is measured too, when bisecting only where it is asked for
   bool prove_speed = false;
   int repetitions = 200;  // of `prove_speed`
