@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <random>
 
 #include "experiments/cost/sized_cloth.h"
 #include "experiments/estimate.h"
 #include "experiments/regress/patience.h"
 #include "experiments/regress/plain_loop.h"
 #include "experiments/scenes.h"
+#include "mysim/uniform.h"
 
 namespace crosscheck {
 namespace {
@@ -60,22 +63,44 @@ double seconds_of(const Method& method, const SpeedQuestion& q, double resolutio
   });
 }
 
-/// A question and its plain loop, warm.
+/// Takes small pieces of memory and gives some of them back, so that what is asked for next comes to lie elsewhere: a
+/// small scene can take a quarter more time for where its arrays lie beside each other, whoever wrote the program.
+class OtherPlaces {
+ public:
+  explicit OtherPlaces(std::mt19937_64& engine) {
+    std::vector<std::unique_ptr<char[]>> given_back;
+    for (size_t size = 16; size <= 1024; size += 16)  // malloc keeps a list for each of these sizes
+      for (int i = 0; i < 8; ++i)
+        (uniform(engine) < 0.5 ? kept_ : given_back).push_back(std::make_unique<char[]>(size));
+    std::shuffle(given_back.begin(), given_back.end(), engine);
+    for (auto& piece : given_back) piece.reset();
+  }
+
+ private:
+  std::vector<std::unique_ptr<char[]>> kept_;
+};
+
+/// A question that is known to run, and how many steps of the plain loop take long enough.
 struct Lane {
-  const SpeedQuestion& question;
-  PlainLoop loop;
   bool runs;
-  long steps = 1;  // of the loop, in one turn
+  long steps = 1;
 
   Lane(const SpeedQuestion& q, double resolution)
-      : question(q), loop(q.scene), runs(ends_well(q.method, q) && (!q.against || ends_well(*q.against, q))) {
+      : runs(ends_well(q.method, q) && (!q.against || ends_well(*q.against, q))) {
+    PlainLoop loop(q.scene);
     while (loop.seconds_of(steps) < resolution / 2 && steps < (1L << 40)) steps *= 2;
   }
-  /// s, of as many steps as the question has.
-  double seconds_of_loop() {
-    return loop.seconds_of(steps) / static_cast<double>(steps) * question.run.duration / question.scene.step;
-  }
 };
+
+void take_turn(const SpeedQuestion& q, const Lane& lane, double resolution, Ratios& ratios) {
+  PlainLoop loop(q.scene);
+  const double per_steps = q.run.duration / q.scene.step / static_cast<double>(lane.steps);
+  const double before = loop.seconds_of(lane.steps), is = seconds_of(q.method, q, resolution),
+               was = q.against ? seconds_of(*q.against, q, resolution) : 0,
+               plain = (before + loop.seconds_of(lane.steps)) / 2 * per_steps;
+  ratios.is.push_back(is / plain);
+  if (q.against) ratios.was.push_back(was / plain);
+}
 
 }  // namespace
 
@@ -102,22 +127,16 @@ std::vector<SpeedQuestion> speed_questions(const Asked& asked, const std::option
   return all;
 }
 
-std::vector<Ratios> measured_ratios(const std::vector<SpeedQuestion>& questions, const SpeedPlan& plan, int layout) {
-  // multiples of what malloc hands out, odd ones, below a page
-  const std::vector<char> pad(static_cast<size_t>(16 * (1 + 37 * layout % 255)));
+std::vector<Ratios> measured_ratios(const std::vector<SpeedQuestion>& questions, const SpeedPlan& plan, int seed) {
+  std::mt19937_64 engine(static_cast<uint64_t>(seed));
   std::vector<Lane> lanes;
   for (const SpeedQuestion& q : questions) lanes.emplace_back(q, plan.resolution);
   std::vector<Ratios> all(questions.size());
-  for (int round = 0; round < plan.rounds; ++round)
-    for (size_t i = 0; i < lanes.size(); ++i) {
-      const SpeedQuestion& q = questions[i];
-      if (!lanes[i].runs) continue;
-      const double before = lanes[i].seconds_of_loop(), is = seconds_of(q.method, q, plan.resolution),
-                   was = q.against ? seconds_of(*q.against, q, plan.resolution) : 0,
-                   loop = (before + lanes[i].seconds_of_loop()) / 2;
-      all[i].is.push_back(is / loop);
-      if (q.against) all[i].was.push_back(was / loop);
-    }
+  for (int round = 0; round < plan.rounds; ++round) {
+    const OtherPlaces elsewhere(engine);
+    for (size_t i = 0; i < lanes.size(); ++i)
+      if (lanes[i].runs) take_turn(questions[i], lanes[i], plan.resolution, all[i]);
+  }
   return all;
 }
 

@@ -40,7 +40,7 @@ struct Ratios {
 using Measure = std::function<std::vector<Ratios>(const std::vector<SpeedQuestion>&, const SpeedPlan&)>;
 
 /// In each round each question is asked between two turns of the plain loop, so that a slow spell of the machine falls
-/// on both. `layout` says where in memory things come to lie: what it changes is noise, too.
-std::vector<Ratios> measured_ratios(const std::vector<SpeedQuestion>& questions, const SpeedPlan& plan, int layout);
+/// on both, and with everything elsewhere in memory, as drawn from the seed: what that changes is noise, too.
+std::vector<Ratios> measured_ratios(const std::vector<SpeedQuestion>& questions, const SpeedPlan& plan, int seed);
 
 }  // namespace crosscheck

@@ -84,7 +84,7 @@ std::string trade_of(const SpeedCompared& speed, std::span<const Compared> answe
   const Evidence seen = evidence_of(elsewhere ? same_method : same_scene);
   const bool faster = speed.state == Pace::faster;
   const double factor = faster ? 1 / speed.change.median : speed.change.median;
-  const std::string pace = fmt::format("{} times {}", factor_in_words(factor), faster ? "faster" : "slower");
+  const std::string pace = fmt::format("{:.3g} times {}", factor, faster ? "faster" : "slower");
   if (!seen.asked) return fmt::format("{}; its answer was not asked for", pace);
   if (!seen.failure.empty()) return fmt::format("{}, and {}", pace, seen.failure);
   if (seen.larger && seen.smaller)
