@@ -13,11 +13,6 @@ namespace {
 
 constexpr double cheap = 0.5, dearest = 20;  // s
 
-bool passes(const std::string& filter, const Question& q) {
-  return filter.empty() || fnmatch(filter.c_str(), q.scene.name.c_str(), 0) == 0 ||
-         fnmatch(filter.c_str(), (q.scene.name + "/" + q.method.name).c_str(), 0) == 0;
-}
-
 /// The engines that somebody here changes; what stands beside them as a judge is not asked.
 std::vector<Method> engines() {
   std::vector<Method> methods;
@@ -35,12 +30,18 @@ double seconds(const Question& q) {
 
 }  // namespace
 
+bool passes(const std::string& filter, const std::string& scene, const std::string& method) {
+  return filter.empty() || fnmatch(filter.c_str(), scene.c_str(), 0) == 0 ||
+         fnmatch(filter.c_str(), (scene + "/" + method).c_str(), 0) == 0;
+}
+
 std::vector<Question> questions(const Asked& asked) {
   std::vector<Question> all;
   const auto add = [&](Question q) {
     const double cost = seconds(q);
     q.dear = cost > cheap;
-    if (passes(asked.filter, q) && cost <= (asked.full ? dearest : cheap)) all.push_back(std::move(q));
+    if (passes(asked.filter, q.scene.name, q.method.name) && cost <= (asked.full ? dearest : cheap))
+      all.push_back(std::move(q));
   };
   const std::vector<Method> methods = asked.methods.empty() ? engines() : asked.methods;
   for (const std::string_view name : shipped_scenes()) {

@@ -11,6 +11,9 @@ struct Asked {
   std::vector<Method> methods;  // empty: all of mysim and Bullet
 };
 
+/// Whether the filter leaves this scene under this method.
+bool passes(const std::string& filter, const std::string& scene, const std::string& method);
+
 /// Every shipped scene under every method, as far as its cost allows (0.5 s by the estimate of estimate.h, 20 s in
 /// full runs); and under its own method also without each of its ingredients, which tells causes apart. Methods that
 /// refuse a scene are asked too: a refusal is behaviour. Throws InputError where the filter leaves nothing.

@@ -2,7 +2,6 @@
 #include "experiments/regress/speed.h"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,11 +35,6 @@ Run first_steps(const Scene& scene, const Method& method) {
 bool ends_well(const Method& method, const SpeedQuestion& q) {
   Patience patience(2 + 20 * estimated_seconds(method, q.scene, q.run));
   return run_method(method, q.scene, q.run, {&patience}).verdict == Verdict::ok;
-}
-
-bool passes(const std::string& filter, const SpeedQuestion& q) {
-  return filter.empty() || fnmatch(filter.c_str(), q.scene.name.c_str(), 0) == 0 ||
-         fnmatch(filter.c_str(), (q.scene.name + "/" + q.method.name).c_str(), 0) == 0;
 }
 
 class Nobody : public Observer {
@@ -113,7 +107,7 @@ std::vector<SpeedQuestion> speed_questions(const Asked& asked, const std::option
   const auto add = [&](const Scene& scene, const Method& method) {
     SpeedQuestion q{scene, method, against};
     q.run = first_steps(scene, method);
-    if (passes(asked.filter, q)) all.push_back(std::move(q));
+    if (passes(asked.filter, scene.name, method.name)) all.push_back(std::move(q));
   };
   if (against && !inside(*against)) return all;
   for (const std::string_view name : shipped_scenes()) {
