@@ -146,11 +146,21 @@ int run(int argc, char** argv) {
   auto* prove = regress->add_flag("--prove", regress_options.prove, "runs wrong changes to mysim: all must be caught")
                     ->excludes(bless);
   regress->add_option("--mutant", regress_options.mutant, "only this one of them")->needs(prove);
+  auto* no_speed = regress->add_flag("--no-speed", regress_options.no_speed, "answers only");
+  regress->add_flag("--speed", regress_options.speed, "with --bisect: speeds too")->excludes(no_speed);
+  auto* prove_speed = regress->add_flag("--prove-speed", regress_options.prove_speed,
+                                        "measures this program's speeds beside its own: none should differ");
+  prove_speed->excludes(bless)->excludes(prove)->excludes(no_speed);
+  regress->add_option("--repetitions", regress_options.repetitions, "how often (200)")
+      ->needs(prove_speed)
+      ->check(CLI::Range(1, 100000));
   regress->add_option("--out", regress_options.out, "folder (out/regress)");
   quick_or_full(regress, regress_options.full);
   regress->callback([&] {
-    regress_options.command_line = line,
-    status = regress_options.prove ? prove_command(regress_options) : regress_command(regress_options);
+    regress_options.command_line = line;
+    status = regress_options.prove         ? prove_command(regress_options)
+             : regress_options.prove_speed ? prove_speed_command(regress_options)
+                                           : regress_command(regress_options);
   });
 
   EngineOptions engine_options;
