@@ -37,8 +37,8 @@ std::vector<std::string> scenes_of(const Asked& asked) {
 bool asked_by_itself(const std::string& method) { return method.starts_with("mysim/") || method.starts_with("bullet"); }
 
 bool passes(const std::string& filter, const std::string& scene, const std::string& method) {
-  return filter.empty() || fnmatch(filter.c_str(), scene.c_str(), 0) == 0 ||
-         fnmatch(filter.c_str(), (scene + "/" + method).c_str(), 0) == 0;
+  return filter.empty() || fnmatch(filter.c_str(), scene.c_str(), FNM_EXTMATCH) == 0 ||
+         fnmatch(filter.c_str(), (scene + "/" + method).c_str(), FNM_EXTMATCH) == 0;
 }
 
 std::vector<Question> questions(const Asked& asked) {

@@ -8,7 +8,7 @@ namespace crosscheck {
 struct Asked {
   std::vector<std::string> scenes = {};  // names or files; empty: all shipped ones
   bool full = false;                     // dear questions too
-  std::string filter;                    // glob on SCENE or SCENE/METHOD; empty: all
+  std::string filter;                    // glob on SCENE or SCENE/METHOD, with !(A|B) and @(A|B); empty: all
   std::vector<Method> methods;           // empty: all of mysim and Bullet
 };
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "experiments/regress/closeness.h"
 #include "mysim/files.h"
 #include "report/page/page.h"
 #include "report/regress/speed_files.h"
@@ -104,11 +105,15 @@ std::string junit(const Regressed& result, const Speeds& speeds) {
 void write_verdict(const Regressed& result, const Speeds& speeds, const std::string& cause, const Provenance& lines,
                    const std::filesystem::path& folder) {
   write_csv(table_of(result), lines, folder);
+  const Closeness close = closeness_of(result.rows);
   nlohmann::ordered_json json{{"passed", result.passed() && speeds.passed()},
                               {"cause", cause.empty() ? "not attributed" : cause},
                               {"quantities", result.rows.size()},
+                              {"identical", close.identical},
+                              {"differing", close.differing},
                               {"failures", nlohmann::ordered_json::array()},
                               {"without_answer", nlohmann::ordered_json::array()}};
+  if (close.furthest) json["furthest"] = json_of(*close.furthest);
   for (const Compared& row : result.rows)
     if (failed(row.state)) json["failures"].push_back(json_of(row));
   for (const FailedPoint& f : result.failures) json["without_answer"].push_back({{"question", f.name}, {"why", f.why}});
