@@ -60,35 +60,19 @@ std::string text_of(const Baseline& baseline) {
 std::optional<Baseline> read_baseline(const std::filesystem::path& folder, const std::string& scene) {
   const std::filesystem::path file = file_of(folder, scene);
   if (!std::filesystem::exists(file)) return std::nullopt;
-  std::ifstream in(file);
   Baseline baseline;
-  int number = 0;
-  std::string line;
-  const auto next = [&] {
-    ++number;
-    if (!std::getline(in, line)) throw InputError("expected more lines");
-  };
-  try {
-    next();
-    next();
-    baseline.scene = after("# scene: ", line);
+  read_strictly(file, [&](StrictLines& lines) {
+    lines.next(), lines.next();
+    baseline.scene = after("# scene: ", lines.line());
     if (baseline.scene != scene) throw InputError(fmt::format("expected the scene {}", scene));
-    next();
-    baseline.hash = after("# hash: ", line);
-    for (next(); line.starts_with("# blessing"); next())
-      baseline.blessings.push_back(
-          blessing_from(after(fmt::format("# blessing {}: ", baseline.blessings.size() + 1), line)));
-    const double rows = finite_number(after("# rows: ", line), "rows");
-    while (line.starts_with("#")) next();
-    if (line != header) throw InputError(fmt::format("expected the header {}", header));
-    for (++number; std::getline(in, line); ++number)
-      baseline.expected.push_back(expected_from(line, baseline.blessings.size()));
-    // a file that lost its end would else pass what it no longer holds for new
-    if (baseline.expected.empty() || static_cast<double>(baseline.expected.size()) != rows)
-      throw InputError(fmt::format("expected {} rows, got {}", rows, baseline.expected.size()));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}:{}: {}", file.string(), number, error.what()));
-  }
+    lines.next();
+    baseline.hash = after("# hash: ", lines.line());
+    lines.next();
+    baseline.blessings = lines.blessings();
+    lines.rows(header, [&](const std::string& row) {
+      baseline.expected.push_back(expected_from(row, baseline.blessings.size()));
+    });
+  });
   return baseline;
 }
 

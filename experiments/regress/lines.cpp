@@ -85,4 +85,36 @@ std::vector<std::string> parts_of(const std::string& text, size_t count, const s
   return parts;
 }
 
+void StrictLines::next() {
+  ++number_;
+  if (!std::getline(in_, line_)) throw InputError("expected more lines");
+}
+
+std::vector<Blessing> StrictLines::blessings() {
+  std::vector<Blessing> all;
+  for (; line_.starts_with("# blessing"); next())
+    all.push_back(blessing_from(after(fmt::format("# blessing {}: ", all.size() + 1), line_)));
+  return all;
+}
+
+void StrictLines::rows(const std::string& header, const std::function<void(const std::string&)>& add) {
+  const double expected = finite_number(after("# rows: ", line_), "rows");
+  while (line_.starts_with("#")) next();
+  if (line_ != header) throw InputError(fmt::format("expected the header {}", header));
+  long count = 0;
+  for (++number_; std::getline(in_, line_); ++number_, ++count) add(line_);
+  // a file that lost its end would else pass what it no longer holds for new
+  if (count == 0 || static_cast<double>(count) != expected)
+    throw InputError(fmt::format("expected {} rows, got {}", expected, count));
+}
+
+void read_strictly(const std::filesystem::path& file, const std::function<void(StrictLines&)>& read) {
+  StrictLines lines(file);
+  try {
+    read(lines);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}:{}: {}", file.string(), lines.number(), error.what()));
+  }
+}
+
 }  // namespace crosscheck

@@ -2,6 +2,9 @@
 // one.
 #pragma once
 
+#include <filesystem>
+#include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,5 +35,26 @@ std::string after(const std::string& begin, const std::string& line);
 
 /// The parts of "A | B | C", so many, none of them empty; `form` is what is expected, for the message.
 std::vector<std::string> parts_of(const std::string& text, size_t count, const std::string& form);
+
+/// A file of comment lines, a header and rows, line by line. What is thrown inside read_strictly() gets "FILE:LINE: "
+/// in front.
+class StrictLines {
+ public:
+  explicit StrictLines(const std::filesystem::path& file) : in_(file) {}
+  const std::string& line() const { return line_; }
+  int number() const { return number_; }
+  /// Throws InputError where there are no more.
+  void next();
+  /// The lines "# blessing 1: ...", "# blessing 2: ..." from this one on.
+  std::vector<Blessing> blessings();
+  /// From the line "# rows: N" on: further comments, the header, and N rows, each of which is handed to `add`.
+  void rows(const std::string& header, const std::function<void(const std::string&)>& add);
+
+ private:
+  std::ifstream in_;
+  std::string line_;
+  int number_ = 0;
+};
+void read_strictly(const std::filesystem::path& file, const std::function<void(StrictLines&)>& read);
 
 }  // namespace crosscheck

@@ -67,34 +67,20 @@ std::string text_of(const SpeedFile& file) {
 std::optional<SpeedFile> read_speed_file(const std::filesystem::path& folder) {
   const std::filesystem::path name = speed_file_in(folder);
   if (!std::filesystem::exists(name)) return std::nullopt;
-  std::ifstream in(name);
   SpeedFile file;
-  std::vector<Machine> machines;
-  int number = 0;
-  std::string line;
-  const auto next = [&] {
-    ++number;
-    if (!std::getline(in, line)) throw InputError("expected more lines");
-  };
-  try {
-    next();
-    for (next(); line.starts_with("# blessing"); next())
-      file.blessings.push_back(blessing_from(after(fmt::format("# blessing {}: ", file.blessings.size() + 1), line)));
-    for (; line.starts_with("# machine"); next()) {
-      const auto parts = parts_of(after(fmt::format("# machine {}: ", machines.size() + 1), line), 3, form_of_machine);
+  read_strictly(name, [&file](StrictLines& lines) {
+    lines.next(), lines.next();
+    file.blessings = lines.blessings();
+    std::vector<Machine> machines;
+    for (; lines.line().starts_with("# machine"); lines.next()) {
+      const auto parts =
+          parts_of(after(fmt::format("# machine {}: ", machines.size() + 1), lines.line()), 3, form_of_machine);
       machines.push_back({parts[0], parts[1], parts[2]});
     }
-    const double rows = finite_number(after("# rows: ", line), "rows");
-    while (line.starts_with("#")) next();
-    if (line != header) throw InputError(fmt::format("expected the header {}", header));
-    for (++number; std::getline(in, line); ++number)
-      file.speeds.push_back(speed_from(line, machines, file.blessings.size()));
-    // a file that lost its end would else pass what it no longer holds for new
-    if (file.speeds.empty() || static_cast<double>(file.speeds.size()) != rows)
-      throw InputError(fmt::format("expected {} rows, got {}", rows, file.speeds.size()));
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}:{}: {}", name.string(), number, error.what()));
-  }
+    lines.rows(header, [&](const std::string& row) {
+      file.speeds.push_back(speed_from(row, machines, file.blessings.size()));
+    });
+  });
   return file;
 }
 
