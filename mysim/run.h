@@ -105,13 +105,14 @@ struct Readback {
   std::optional<Vec3> gravity;              // m/s^2
   std::optional<std::vector<double>> drag;  // 1/s, drag rate gamma of each free particle
   std::optional<std::vector<Ball>> spheres;
-  std::optional<Places> later;                // what a prescribed motion leads, at a later time
-  std::optional<double> margin;               // m, half the thickness of the cloth
-  std::optional<State> start;                 // positions and velocities that the first step began from
-  double step = 0;                            // s
-  std::string precision;                      // "double" or "single"
-  bool may_sleep = false;                     // the engine may freeze slow bodies
-  std::map<std::string, std::string> mapped;  // quantity -> how it was handed over, for the certificate
+  std::optional<Places> later;                  // what a prescribed motion leads, at a later time
+  std::optional<double> margin;                 // m, half the thickness of the cloth
+  std::optional<State> start;                   // positions and velocities that the first step began from
+  double step = 0;                              // s
+  std::string precision;                        // "double" or "single"
+  bool may_sleep = false;                       // the engine may freeze slow bodies
+  std::map<std::string, std::string> settings;  // of the engine, beyond these, that its answers hang on: name -> value
+  std::map<std::string, std::string> mapped;    // quantity -> how it was handed over, for the certificate
 };
 
 struct Outcome {

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "experiments/estimate.h"
+#include "experiments/regress/patience.h"
 
 namespace crosscheck {
 namespace {
@@ -18,18 +19,6 @@ constexpr double slower = 1;
 #else
 constexpr double slower = 350;
 #endif
-
-/// Ends a run that takes many times what it should: an adaptive rule in a motion that explodes takes ever shorter
-/// steps.
-class Patience : public Observer {
- public:
-  explicit Patience(double seconds) : until_(std::clock() + static_cast<std::clock_t>(seconds * CLOCKS_PER_SEC)) {}
-  bool every_step() const override { return true; }
-  Verdict observe(const State&, bool) override { return std::clock() > until_ ? Verdict::timeout : Verdict::ok; }
-
- private:
-  std::clock_t until_;
-};
 
 }  // namespace
 
@@ -58,6 +47,20 @@ Answered answer_to(const Question& question) {
   answered.trajectory = std::move(recorder.trajectory);
   answered.ledger = ledger.rows();
   return answered;
+}
+
+Answered as_compared(const Answered& answered) {
+  if (answered.outcome.verdict == Verdict::ok) return answered;
+  Answered half{answered.outcome, {}, {}};
+  const Trajectory& path = answered.trajectory;
+  for (int i = 0; i < path.frames() && path.t[i] <= answered.outcome.end / 2; ++i)
+    half.trajectory.t.push_back(path.t[i]), half.trajectory.x.push_back(path.x[i]);
+  return half;
+}
+
+const Quantity* find(const std::vector<Quantity>& all, const std::string& name) {
+  const auto at = std::find_if(all.begin(), all.end(), [&](const Quantity& q) { return q.name == name; });
+  return at == all.end() ? nullptr : &*at;
 }
 
 }  // namespace crosscheck

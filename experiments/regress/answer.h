@@ -18,6 +18,7 @@ struct Question {
   Method method;
   std::string without = {};
   bool dear = false;
+  std::string hash = {};  // of the scene as it is, nothing taken out
   /// "chain under mysim/rk4 without drag"
   std::string in_words() const;
 };
@@ -33,6 +34,10 @@ struct Quantity {
   bool is_word() const { return !word.empty(); }
 };
 
+/// How quantities are called that others look for.
+inline constexpr const char *setting_prefix = "setting ", *time_of_failure = "time of failure",
+                            *error_quantity = "error against truth", *halving_quantity = "change at half the step";
+
 /// One run over the scene's window, beyond which single places cannot be predicted.
 struct Answered {
   Outcome outcome;
@@ -47,7 +52,19 @@ Answered answer_to(const Question& question);
 Run run_over_window(const Scene& scene);
 
 /// The quantities that this answer has, in a fixed order: the table of them is in quantities.cpp. A failed run has its
-/// verdict and nothing else.
+/// verdict, when it failed, and what it did in the first half of the time until then.
 std::vector<Quantity> quantities_of(const Question& question, const Answered& answered);
+
+/// The name of the quantity that is the offset of the particles from their start at time t (s), and of that of their
+/// places.
+std::string offset_at(double t);
+std::string places_at(double t);
+
+/// Null where there is none of that name.
+const Quantity* find(const std::vector<Quantity>& all, const std::string& name);
+
+/// What quantities are taken from: the answer, of a failed run the first half of the time until it failed, since there
+/// the motion is still the scene's.
+Answered as_compared(const Answered& answered);
 
 }  // namespace crosscheck

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -63,9 +64,42 @@ bool others_held(const std::vector<Seen>& all, const Names& methods) {
   });
 }
 
+/// The settings that changed in every question that moved; empty where there is none.
+std::string settings_in_common(std::span<const Compared> rows) {
+  using Changes = std::map<std::string, std::string>;  // name -> "was, is"
+  using Key = std::tuple<std::string, std::string, std::string>;
+  std::map<Key, Changes> moved;
+  std::set<Key> refused;
+  for (const Compared& row : rows) {
+    if (row.state != Standing::moved && row.state != Standing::not_finite && row.state != Standing::gone) continue;
+    Changes& changes = moved[{row.scene, row.method, row.without}];
+    if (const std::string_view no = name_of(Verdict::unsupported); row.was_word == no || row.is_word == no)
+      refused.emplace(row.scene, row.method, row.without);
+    if (row.quantity.starts_with(setting_prefix) && row.state == Standing::moved)
+      changes[row.quantity.substr(std::string_view(setting_prefix).size())] =
+          fmt::format("was {}, is {}", row.was_word, row.is_word);
+  }
+  for (const auto& question : refused) moved.erase(question);  // these tell nothing
+  if (moved.empty()) return "";
+  Changes common = moved.begin()->second;
+  for (const auto& [question, changes] : moved)
+    for (auto it = common.begin(); it != common.end();) {
+      const auto here = changes.find(it->first);
+      if (here != changes.end() && here->second != it->second) it->second.clear();  // another value in each scene
+      it = here == changes.end() ? common.erase(it) : std::next(it);
+    }
+  std::vector<std::string> words;
+  for (const auto& [name, values] : common)
+    words.push_back(values.empty() ? name : fmt::format("{} ({})", name, values));
+  return words.empty()
+             ? ""
+             : fmt::format("{} {}", words.size() == 1 ? "the setting" : "the settings", fmt::join(words, ", "));
+}
+
 }  // namespace
 
 std::string cause_of(std::span<const Question> questions, std::span<const Compared> rows) {
+  if (const std::string settings = settings_in_common(rows); !settings.empty()) return settings;
   const std::vector<Seen> all = seen_in(questions, rows);
   Names methods, asked, ingredients, fitting;
   for (const Seen& s : all) {

@@ -7,7 +7,8 @@
 
 namespace crosscheck {
 
-/// In words for people; empty where it is not attributed. An ingredient is named only where
+/// In words for people; empty where it is not attributed. Settings that the engine tells are named where they changed
+/// in every question that moved. An ingredient is named only where
 ///   every question that moved has it,
 ///   taking it out makes the difference vanish, wherever that was asked and moved before,
 ///   every shipped scene that has it moved (under the methods that moved),

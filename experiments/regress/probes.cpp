@@ -1,6 +1,7 @@
 // Quantities that take runs of their own, and those of a ball.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "experiments/metrics.h"
 #include "experiments/regress/rows.h"
@@ -11,9 +12,8 @@ namespace crosscheck {
 
 std::optional<Truth> exact_truth(const Scene& scene) {
   if (!exact_solution(scene)) return std::nullopt;
-  auto truth = truth_of(scene, default_run(scene));
-  if (truth && truth->tier != Tier::exact) truth.reset();
-  return truth;
+  const auto truth = truth_of(scene, default_run(scene));
+  return truth && truth->tier == Tier::exact ? truth : std::nullopt;
 }
 
 void rebound_height(const Seen& seen, Quantities& out) {
@@ -31,6 +31,37 @@ void rebound_height(const Seen& seen, Quantities& out) {
     if (touched) highest = std::max(highest, gap);
   }
   if (touched) out.push_back({"rebound height", "m", highest});
+}
+
+void leaving_angle(const Seen& seen, Quantities& out) {
+  constexpr double gap = 1e-3;  // m
+  const auto* spheres = seen.scene().model.find<Spheres>();
+  const auto* gravity = seen.scene().model.find<Gravity>();
+  const Points& start = seen.scene().start.x;
+  if (!spheres || spheres->list.size() != 1 || !gravity || start.cols() != 1) return;
+  if (std::abs(*clearance(seen.scene(), 0, start)) > 1e-9) return;
+  for (int i = 1; i < seen.path().frames(); ++i) {
+    const double before = *clearance(seen.scene(), seen.path().t[i - 1], seen.path().x[i - 1]),
+                 after = *clearance(seen.scene(), seen.path().t[i], seen.path().x[i]);
+    if (after < gap) continue;
+    const double part = (gap - before) / (after - before), t = std::lerp(seen.path().t[i - 1], seen.path().t[i], part);
+    const Vec3 place = (1 - part) * seen.path().x[i - 1].col(0) + part * seen.path().x[i].col(0);
+    const Vec3 up = -gravity->acceleration.normalized(),
+               out_of_ball = (place - spheres->list[0].centre_at(t)).normalized();
+    out.push_back({"leaving angle", "degrees", std::acos(up.dot(out_of_ball)) * 180 / std::numbers::pi});
+    return;
+  }
+}
+
+void change_at_half_the_step(const Seen& seen, Quantities& out) {
+  const Scene& scene = seen.scene();
+  const Method& method = seen.question.method;
+  if (method.adaptive || !seen.question.without.empty() || exact_solution(scene)) return;
+  Run half = run_over_window(scene);
+  half.step = seen.answered.outcome.step / 2;
+  Recorder recorder;
+  if (run_method(method, scene, half, {&recorder}).verdict != Verdict::ok) return;
+  out.push_back({halving_quantity, "m", largest_rms_distance(seen.path(), recorder.trajectory, scene.window)});
 }
 
 void order_of_error(const Seen& seen, Quantities& out) {

@@ -2,38 +2,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
-#include <random>
 
 #include "experiments/metrics.h"
 #include "experiments/regress/rows.h"
-#include "mysim/uniform.h"
 
 namespace crosscheck {
 namespace {
 
-/// Frames at so many equal parts of the run, the last one included.
-std::vector<int> frames_at(const Trajectory& path, int parts) {
-  std::vector<int> frames;
-  for (int i = 1; i <= parts; ++i) {
-    const int frame = static_cast<int>(std::lround(static_cast<double>(path.frames() - 1) * i / parts));
-    if (frame > 0 && (frames.empty() || frame > frames.back())) frames.push_back(frame);
-  }
-  return frames;
-}
-
-std::string at_time(const std::string& what, double t) { return fmt::format("{} at {:.6g} s", what, t); }
-
-/// Of the numbers whose differences quantities are: places, energies, and a spring's length over that at rest.
-double size_of_unit(const std::string& unit, const Answered& answered) {
+/// Of the numbers whose differences quantities are: places, energies, and a spring's length over that at rest. Where
+/// nothing moves, what is zero but for rounding is bounded by the energy of a motion through the scene in its window.
+double size_of_unit(const std::string& unit, const Scene& scene, const Answered& answered) {
   double most = unit == "1" ? 1 : 0;
   if (unit == "m")
     for (const Points& x : answered.trajectory.x) most = std::max(most, x.cwiseAbs().maxCoeff());
-  if (unit == "J")
+  if (unit == "J" && !answered.ledger.empty()) {
+    const double speed = scene.size() / scene.window;
+    most = scene.model.particles.mass.sum() * speed * speed;
     for (const LedgerRow& row : answered.ledger)
       most = std::max({most, row.energy.kinetic, row.energy.elastic, std::abs(row.energy.gravitational)});
+  }
   return most;
 }
 
@@ -46,122 +34,78 @@ void counts(const Seen& seen, Quantities& out) {
   out.push_back({"force evaluations", "1", static_cast<double>(seen.answered.outcome.evaluations), {}, true});
 }
 
-/// How far the particles are from where they started, RMS.
-void offsets(const Seen& seen, Quantities& out) {
-  for (const int i : frames_at(seen.path(), 8))
-    out.push_back({at_time("offset", seen.path().t[i]), "m", rms_distance(seen.path().x[i], seen.path().x.front())});
-}
-
-/// Where they are, seen along directions drawn once for each particle: tells apart what moves alike on the whole.
-void places(const Seen& seen, Quantities& out) {
-  const auto n = seen.path().x.front().cols();
-  std::mt19937_64 engine(20250101);
-  Points along(3, n);
-  for (double& part : along.reshaped()) part = 2 * uniform(engine) - 1;
-  along /= std::sqrt(static_cast<double>(n));
-  for (const int i : frames_at(seen.path(), 8))
-    out.push_back({at_time("places along drawn directions", seen.path().t[i]), "m",
-                   dot(along, seen.path().x[i] - seen.path().x.front())});
-}
-
-/// Kinetic, elastic and gravitational energy, above that at the start.
-void energies(const Seen& seen, Quantities& out) {
-  const auto& rows = seen.answered.ledger;
-  if (rows.empty()) return;
-  for (const int i : frames_at(seen.path(), 4)) {
-    const auto row = std::min_element(rows.begin(), rows.end(), [&](const LedgerRow& a, const LedgerRow& b) {
-      return std::abs(a.t - seen.path().t[i]) < std::abs(b.t - seen.path().t[i]);
-    });
-    out.push_back({at_time("energy gained", seen.path().t[i]), "J", row->energy.total() - rows.front().energy.total()});
-  }
-  if (seen.scene().model.find<Spheres>()) out.push_back({"energy lost in contact", "J", rows.back().contact});
-}
-
-void peak_stretch(const Seen& seen, Quantities& out) {
-  const auto* springs = seen.scene().model.find<Springs>();
-  if (!springs) return;
-  double most = -INFINITY;
-  for (const Points& x : seen.path().x)
-    for (const Spring& s : springs->list)
-      if (s.rest > 0) most = std::max(most, (x.col(s.a) - x.col(s.b)).norm() / s.rest - 1);
-  if (std::isfinite(most)) out.push_back({"peak stretch", "1", most});
-}
-
-/// The offset at the end as waves along and across the scene as it is written: sag is the first of them.
-void shape(const Seen& seen, Quantities& out) {
-  const Points &x0 = seen.scene().start.x, offset = seen.path().x.back() - seen.path().x.front();
-  if (x0.cols() < 9) return;
-  // the two widest directions of the start, the first of equals
-  const Vec3 low = x0.rowwise().minCoeff(), width = x0.rowwise().maxCoeff() - low;
-  std::array<int, 3> axes{0, 1, 2};
-  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return width[a] > (1 + 1e-9) * width[b]; });
-  if (!(width[axes[1]] > 0)) return;
-  for (const auto& [along, across] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 0}}) {
-    Vec3 sum = Vec3::Zero();
-    for (int i = 0; i < x0.cols(); ++i) {
-      const double a = (x0(axes[0], i) - low[axes[0]]) / width[axes[0]],
-                   b = (x0(axes[1], i) - low[axes[1]]) / width[axes[1]];
-      sum += std::cos(std::numbers::pi * along * a) * std::cos(std::numbers::pi * across * b) * offset.col(i);
-    }
-    for (int axis = 0; axis < 3; ++axis)
-      out.push_back({fmt::format("wave {}, {} of the last shape, {}", along, across, "xyz"[axis]), "m",
-                     sum[axis] / static_cast<double>(x0.cols())});
-  }
-}
-
-/// Twice the mean time between turning points of the mean of the particles, parabolas through three samples.
-void period(const Seen& seen, Quantities& out) {
-  const Trajectory& path = seen.path();
-  if (seen.scene().model.find<Spheres>() || path.frames() < 8) return;
-  Points means(3, path.frames());
-  for (int i = 0; i < path.frames(); ++i) means.col(i) = path.x[i].rowwise().mean();
-  const Vec3 width = means.rowwise().maxCoeff() - means.rowwise().minCoeff();
-  int axis = 0;
-  if (!(width.maxCoeff(&axis) > 0)) return;
-  std::vector<double> turns;
-  for (int i = 1; i + 1 < path.frames(); ++i) {
-    const double before = means(axis, i) - means(axis, i - 1), after = means(axis, i + 1) - means(axis, i);
-    if ((before > 0) == (after > 0)) continue;
-    turns.push_back(path.t[i] + 0.5 * (path.t[i] - path.t[i - 1]) * (before + after) / (before - after));
-  }
-  // as many as a swing or two have: small ripples are no period
-  if (turns.size() < 3 || turns.size() > 40) return;
-  out.push_back({"period", "s", 2 * (turns.back() - turns.front()) / static_cast<double>(turns.size() - 1)});
-}
-
-void smallest_clearance(const Seen& seen, Quantities& out) {
-  if (!seen.scene().model.find<Spheres>()) return;
-  double least = INFINITY;
-  for (int i = 0; i < seen.path().frames(); ++i)
-    least = std::min(least, *clearance(seen.scene(), seen.path().t[i], seen.path().x[i]));
-  out.push_back({"smallest clearance", "m", least});
-}
-
 /// Largest RMS distance from the closed form, where the scene has one. What a converged truth says of a method is
 /// said by its places already.
 void error_against_truth(const Seen& seen, Quantities& out) {
   const Scene& scene = seen.scene();
   const auto truth = exact_truth(scene);
   if (!truth) return;
-  out.push_back({"error against truth", "m", largest_rms_distance(seen.path(), truth->trajectory, scene.window)});
+  out.push_back({error_quantity, "m", largest_rms_distance(seen.path(), truth->trajectory, scene.window)});
   out.back().bar = truth->bar;
 }
 
-constexpr void (*table[])(const Seen&, Quantities&) = {counts,         offsets,
-                                                       places,         energies,
-                                                       peak_stretch,   shape,
-                                                       period,         smallest_clearance,
-                                                       rebound_height, error_against_truth,
-                                                       order_of_error, largest_stable_step};
+/// What the engine says that it is set to. Six digits: single precision rounds what it is told.
+void settings(const Seen& seen, Quantities& out) {
+  if (!seen.answered.outcome.readback) return;
+  const Readback& told = *seen.answered.outcome.readback;
+  const auto add = [&out](const std::string& name, const std::string& word) {
+    if (!word.empty()) out.push_back({setting_prefix + name, "word", 0, word});
+  };
+  add("precision", told.precision);
+  add("sleeping", told.may_sleep ? "on" : "off");
+  if (told.margin) add("margin", fmt::format("{:.6g} m", *told.margin));
+  for (const auto& [name, value] : told.settings) add(name, value);
+}
+
+constexpr void (*table[])(const Seen&, Quantities&) = {settings,
+                                                       offsets,
+                                                       places,
+                                                       energies,
+                                                       peak_stretch,
+                                                       shape,
+                                                       sag,
+                                                       period,
+                                                       settle_time,
+                                                       counts,
+                                                       leaving_angle,
+                                                       smallest_clearance,
+                                                       rebound_height,
+                                                       error_against_truth,
+                                                       order_of_error,
+                                                       change_at_half_the_step,
+                                                       largest_stable_step};
+
+/// Of a run that failed: what it did before.
+constexpr void (*table_of_failed[])(const Seen&, Quantities&) = {offsets, places};
+
+/// Whether the motion itself failed, at a time that is the same in each run.
+bool failed_in_time(Verdict verdict) {
+  return verdict != Verdict::ok && verdict != Verdict::unsupported && verdict != Verdict::timeout &&
+         verdict != Verdict::crash;
+}
 
 }  // namespace
 
 std::vector<Quantity> quantities_of(const Question& question, const Answered& answered) {
   Quantities all{{"verdict", "word", 0, std::string(name_of(answered.outcome.verdict))}};
-  if (answered.outcome.verdict != Verdict::ok) return all;
-  for (const auto add : table) add({question, answered}, all);
-  for (Quantity& q : all)
-    if (!q.count) q.size = size_of_unit(q.unit, answered);
+  const auto size = [&question](Quantities& list, const Answered& by) {
+    for (Quantity& q : list)
+      if (!q.count && !q.is_word()) q.size = size_of_unit(q.unit, question.scene, by);
+  };
+  if (answered.outcome.verdict == Verdict::ok) {
+    for (const auto add : table) add({question, answered}, all);
+    size(all, answered);
+  } else if (failed_in_time(answered.outcome.verdict)) {
+    const Answered half = as_compared(answered);
+    settings({question, half}, all);
+    if (half.trajectory.frames() > 1)
+      for (const auto add : table_of_failed) add({question, half}, all);
+    size(all, half);
+    all.push_back({time_of_failure, "s", answered.outcome.end});
+    // a threshold may be passed at the next sample, where failures are looked for, or a step later
+    const Run run = run_over_window(question.scene);
+    all.back().bar = run.duration / run.samples + 2 * answered.outcome.step;
+  }
   return all;
 }
 

@@ -13,16 +13,10 @@ namespace {
 
 constexpr double cheap = 0.5, dearest = 20;  // s
 
-bool passes(const std::string& filter, const Question& q) {
-  return filter.empty() || fnmatch(filter.c_str(), q.scene.name.c_str(), FNM_EXTMATCH) == 0 ||
-         fnmatch(filter.c_str(), (q.scene.name + "/" + q.method.name).c_str(), FNM_EXTMATCH) == 0;
-}
-
-/// The engines that somebody here changes; what stands beside them as a judge is not asked.
 std::vector<Method> engines() {
   std::vector<Method> methods;
   for (Method& method : all_methods())
-    if (method.name.starts_with("mysim/") || method.name.starts_with("bullet")) methods.push_back(std::move(method));
+    if (asked_by_itself(method.name)) methods.push_back(std::move(method));
   return methods;
 }
 
@@ -35,23 +29,36 @@ double seconds(const Question& q) {
 
 }  // namespace
 
+std::vector<std::string> scenes_of(const Asked& asked) {
+  if (!asked.scenes.empty()) return asked.scenes;
+  return {shipped_scenes().begin(), shipped_scenes().end()};
+}
+
+bool asked_by_itself(const std::string& method) { return method.starts_with("mysim/") || method.starts_with("bullet"); }
+
+bool passes(const std::string& filter, const std::string& scene, const std::string& method) {
+  return filter.empty() || fnmatch(filter.c_str(), scene.c_str(), FNM_EXTMATCH) == 0 ||
+         fnmatch(filter.c_str(), (scene + "/" + method).c_str(), FNM_EXTMATCH) == 0;
+}
+
 std::vector<Question> questions(const Asked& asked) {
   std::vector<Question> all;
   const auto add = [&](Question q) {
     const double cost = seconds(q);
     q.dear = cost > cheap;
-    if (passes(asked.filter, q) && cost <= (asked.full ? dearest : cheap)) all.push_back(std::move(q));
+    if (passes(asked.filter, q.scene.name, q.method.name) && cost <= (asked.full ? dearest : cheap))
+      all.push_back(std::move(q));
   };
   const std::vector<Method> methods = asked.methods.empty() ? engines() : asked.methods;
-  for (const std::string_view name : shipped_scenes()) {
-    const Scene scene = load_scene(std::string(name));
+  for (const std::string& name : scenes_of(asked)) {
+    const Scene scene = load_scene(name);
     const std::string own = find_method(scene.method).name;
     for (const Method& method : methods) {
-      add({scene, method});
+      add({scene, method, "", false, scene.hash});
       if (method.name != own && asked.methods.empty()) continue;
       for (const Ingredient& ingredient : ingredients_of(scene))
         if (ingredient.name != "rotation")  // the whole of a first-order scene
-          add({without(scene, ingredient), method, ingredient.name});
+          add({without(scene, ingredient), method, ingredient.name, false, scene.hash});
     }
   }
   if (all.empty()) throw InputError(fmt::format("--filter {}: no scene and method match", asked.filter));

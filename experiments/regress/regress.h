@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 
 #include "experiments/regress/questions.h"
 #include "experiments/regress/verdicts.h"
@@ -28,12 +29,13 @@ struct Regressed {
 Regressed regress(const Regression& regression, Progress& progress);
 
 struct Blessed {
-  std::vector<Compared> changed;  // before and after
-  std::vector<std::filesystem::path> files;
+  std::vector<Compared> changed;                                     // before and after
+  std::vector<std::pair<std::filesystem::path, std::string>> files;  // to be written, with their text
+  std::map<std::string, int> numbers;                                // of the blessing in each changed scene's baseline
 };
-/// Asks with tolerances, and writes what moved, is new or is gone into the baselines under this blessing; rows that are
-/// the same keep theirs. Throws InputError where a file cannot be read, where a part of a stale one is asked for (the
-/// rest would stay stale), and where a question has no answer.
+/// Asks with tolerances; what moved, is new or is gone stands in the new baselines under this blessing, rows that are
+/// the same keep theirs. Nothing is written yet. Throws InputError where a file cannot be read, where a part of a stale
+/// one is asked for (the rest would stay stale), and where a question has no answer.
 Blessed bless(const Regression& regression, const Blessing& blessing, Progress& progress);
 
 }  // namespace crosscheck

@@ -17,8 +17,36 @@ using Quantities = std::vector<Quantity>;
 /// The truth over the scene's run where it has a closed form, else nothing: a converged one takes minutes to find.
 std::optional<Truth> exact_truth(const Scene& scene);
 
+// ---- of the run itself ----
+/// How far the particles are from where they started, RMS.
+void offsets(const Seen& seen, Quantities& out);
+/// Where they are, seen along directions drawn once for each particle: tells apart what moves alike on the whole.
+void places(const Seen& seen, Quantities& out);
+/// Kinetic, elastic and gravitational energy, above that at the start.
+void energies(const Seen& seen, Quantities& out);
+void peak_stretch(const Seen& seen, Quantities& out);
+/// The offset at the end as waves along and across the scene as it is written: sag is the first of them.
+void shape(const Seen& seen, Quantities& out);
+/// How far the lowest particle, along gravity, hangs below where it was at most.
+void sag(const Seen& seen, Quantities& out);
+/// Twice the mean time between turning points of the mean of the particles, parabolas through three samples.
+void period(const Seen& seen, Quantities& out);
+/// The last time at which the kinetic energy falls through a hundredth of its largest value, of runs that come to rest.
+void settle_time(const Seen& seen, Quantities& out);
+void smallest_clearance(const Seen& seen, Quantities& out);
+
+// ---- of a ball ----
 /// How high particles rise above a ball after they first touched it, m.
 void rebound_height(const Seen& seen, Quantities& out);
+
+/// Of a particle that starts on a ball: how far from the top it is when it first rises 1 mm above the contact surface,
+/// degrees.
+void leaving_angle(const Seen& seen, Quantities& out);
+
+// ---- of runs of their own ----
+/// Largest RMS distance from the same run at half the step, m, where there is no closed form: an estimate of the error,
+/// right to a factor that its order says. One more run, twice as long; not of scenes without an ingredient.
+void change_at_half_the_step(const Seen& seen, Quantities& out);
 
 /// log2 of the error against the closed form over that at half the step, where there is one: near the rule's order.
 /// One more run. Where the error is below 1e-10 of the scene's size it says nothing, and is left out.

@@ -25,8 +25,8 @@ std::vector<std::string> words_of_derivations();
 /// The answer's quantities with their tolerances: the start is moved by a little in three seeded sets of directions,
 /// and the largest change of the quantity, scaled from that little to the rounding, is what rounding can do to it; the
 /// last digits of the number itself come on top. A quantity
-/// that is zero but for rounding is bounded beside the largest one of its unit. A run that failed has its verdict
-/// only.
+/// that is zero but for rounding is bounded beside the largest one of its unit. The time at which a run failed is not
+/// scaled.
 std::vector<Toleranced> with_tolerances(const Question& question);
 
 }  // namespace crosscheck

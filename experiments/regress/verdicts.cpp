@@ -39,6 +39,21 @@ double Compared::off() const {
   return std::abs(*is - *was) / tolerance;
 }
 
+std::vector<Compared> worst_of_each(const std::vector<Compared>& rows) {
+  std::vector<Compared> worst;
+  for (const Compared& row : rows) {
+    if (!failed(row.state)) continue;
+    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Compared& w) {
+      return w.scene == row.scene && w.method == row.method && w.without == row.without && w.state == row.state;
+    });
+    if (same == worst.end())
+      worst.push_back(row);
+    else if (row.off() > same->off())
+      *same = row;
+  }
+  return worst;
+}
+
 std::vector<Expected> expected_of(const Baseline& baseline, const Question& question) {
   std::vector<Expected> rows;
   for (const Expected& e : baseline.expected)

@@ -34,6 +34,9 @@ struct Compared {
 std::vector<Compared> compared(const Question& question, const std::vector<Quantity>& is,
                                const std::vector<Expected>& expected);
 
+/// Of each question and standing the failed row that is off most, so that a thousand rows are read in a screen.
+std::vector<Compared> worst_of_each(const std::vector<Compared>& rows);
+
 /// The rows of `baseline` that belong to the question.
 std::vector<Expected> expected_of(const Baseline& baseline, const Question& question);
 

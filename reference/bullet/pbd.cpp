@@ -92,6 +92,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     r.later = places_later();
     r.probe = probe(0);
     r.mapped = mapped_;
+    r.settings["iterations"] = std::to_string(cfg.piterations);
     return r;
   }
 

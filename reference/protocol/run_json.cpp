@@ -20,7 +20,7 @@ void add(Json& json, const char* key, const std::optional<T>& value) {
 
 Json readback_json(const Readback& r) {
   Json json{{"mass", r.mass},           {"pinned", Json::array()}, {"links", Json::array()}, {"precision", r.precision},
-            {"may_sleep", r.may_sleep}, {"step", r.step},          {"mapped", r.mapped}};
+            {"may_sleep", r.may_sleep}, {"step", r.step},          {"mapped", r.mapped},     {"settings", r.settings}};
   for (char pinned : r.pinned) json["pinned"].push_back(int(pinned));
   for (const Readback::Link& link : r.links) {
     json["links"].push_back({{"a", link.a}, {"b", link.b}, {"rest_length", link.rest}});
@@ -104,9 +104,9 @@ Readback readback_of(const JsonField& f, double step) {
   if (const auto later = f.find("later")) r.later = places_of(*later);
   if (const auto start = f.find("start")) r.start = State{0, (*start)["x"].points(n), (*start)["v"].points(n)};
   if (const auto probe = f.find("probe")) r.probe = probe_of(*probe, n);
-  if (const auto mapped = f.find("mapped")) {
-    for (const auto& [quantity, how] : mapped->items()) r.mapped[quantity] = how.text();
-  }
+  for (const auto& [key, map] : {std::pair{"mapped", &r.mapped}, {"settings", &r.settings}})
+    if (const auto list = f.find(key))
+      for (const auto& [name, value] : list->items()) (*map)[name] = value.text();
   return r;
 }
 

@@ -29,7 +29,8 @@ bool may_be_named(const std::string& cause, const Mutation& mutation) {
 
 Proof proof_of(const Mutation& mutation, const std::filesystem::path& program, const RegressOptions& options) {
   const std::filesystem::path out = options.out / mutation.name;
-  std::vector<std::string> words{program.string(), "regress",     "--out",
+  std::vector<std::string> words{program.string(), "regress",     "--no-speed",
+                                 "--figures",      "0",           "--out",
                                  out.string(),     "--baselines", options.baselines.string()};
   if (!options.filter.empty()) words.insert(words.end(), {"--filter", options.filter});
   std::filesystem::remove(out / "regress.json");

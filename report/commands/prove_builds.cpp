@@ -58,7 +58,8 @@ const std::string& filter_of(const Build& build, const RegressOptions& options) 
 /// Runs the build's program over the baselines.
 Finding asked(const fs::path& program, const Build& build, const RegressOptions& options) {
   const fs::path out = options.out / build.name;
-  std::vector<std::string> words{program.string(), "regress",     "--out",
+  std::vector<std::string> words{program.string(), "regress",     "--no-speed",
+                                 "--figures",      "0",           "--out",
                                  out.string(),     "--baselines", options.baselines.string()};
   if (const std::string& filter = filter_of(build, options); !filter.empty())
     words.insert(words.end(), {"--filter", filter});
@@ -140,7 +141,7 @@ void require_known(const std::string& name) {
 int prove_builds_command(const RegressOptions& asked_for) {
   RegressOptions options = asked_for;
   require_known(options.build);
-  Asked asked{options.full, options.filter, {}};
+  Asked asked{options.scenes, options.full, options.filter, {}};
   if (!options.methods.empty()) asked.methods = find_methods(options.methods);
   questions(asked);  // refuses what no build could answer
   if (options.baselines.empty()) options.baselines = CROSSCHECK_BASELINES;

@@ -4,21 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 #include "experiments/regress/cause.h"
 #include "experiments/regress/regress.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "report/commands/commands.h"
+#include "report/commands/regress_speed.h"
 #include "report/provenance.h"
 #include "report/regress/verdict_files.h"
+#include "report/regress/verdict_page.h"
 
 namespace crosscheck {
 namespace {
-
-std::string shown(const std::optional<double>& value, const std::string& word) {
-  return value ? fmt::format("{:.9g}", *value) : word.empty() ? "-" : word;
-}
 
 void print_row(const Compared& row) {
   std::string where = row.scene;
@@ -29,28 +28,7 @@ void print_row(const Compared& row) {
     fmt::print(": {}\n", row.note);
     return;
   }
-  fmt::print(": was {}, is {}", shown(row.was, row.was_word), shown(row.is, row.is_word));
-  if (row.unit != "word" && row.unit != "1") fmt::print(" {}", row.unit);
-  if (row.state == Standing::moved && row.was)
-    fmt::print("; tolerance {:.2g}, {} off", row.tolerance,
-               std::isinf(row.off()) ? "a count" : fmt::format("{:.3g} tolerances", row.off()));
-  fmt::print("\n");
-}
-
-/// Of each question the row that is off most, so that a thousand rows are read in a screen.
-std::vector<Compared> worst_of_each(const std::vector<Compared>& rows) {
-  std::vector<Compared> worst;
-  for (const Compared& row : rows) {
-    if (!failed(row.state)) continue;
-    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Compared& w) {
-      return w.scene == row.scene && w.method == row.method && w.without == row.without && w.state == row.state;
-    });
-    if (same == worst.end())
-      worst.push_back(row);
-    else if (row.off() > same->off())
-      *same = row;
-  }
-  return worst;
+  fmt::print(": {}\n", change_in_words(row));
 }
 
 long count_of(const std::vector<Compared>& rows, Standing state) {
@@ -68,8 +46,34 @@ int told(const Regressed& result, const std::string& cause, const std::filesyste
              fresh > 0 ? fmt::format(", {} new (not blessed yet)", fresh) : "",
              result.failures.empty() ? "" : fmt::format("; {} questions without an answer", result.failures.size()));
   if (count_of(result.rows, Standing::moved) > 0) fmt::print("cause: {}\n", cause.empty() ? "not attributed" : cause);
-  fmt::print("{}\n", (out / "regress.csv").string());
+  for (const char* name : {"index.html", "regress.csv"})
+    if (std::filesystem::exists(out / name)) fmt::print("{}\n", (out / name).string());
   return result.passed() ? 0 : 1;
+}
+
+using Figures = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;  // drawn as, kept as
+
+/// A page of what changes, and of each scene in which something moved the curve that goes beside its baseline.
+Figures before_and_after(const Regression& regression, const RegressOptions& options, const Blessed& result,
+                         const Provenance& lines) {
+  Regressed changes;
+  std::copy_if(result.changed.begin(), result.changed.end(), std::back_inserter(changes.rows),
+               [](const Compared& row) { return row.state == Standing::moved; });
+  if (changes.rows.empty()) return {};  // what is new has no before
+  const Speeds none;
+  VerdictPage page{changes, none};
+  page.blessed = options.reason, page.beside = "what was blessed before";
+  page.lines = lines;
+  write_verdict_page(page, questions(regression.asked), regression,
+                     std::max(options.figures, static_cast<int>(result.numbers.size())));
+  Figures figures;
+  std::set<std::string> scenes;
+  for (const FailurePart& part : page.parts)
+    if (!part.images.empty() && scenes.insert(part.scene).second)
+      figures.emplace_back(part.images[0].file,
+                           regression.baselines / fmt::format("{}-blessing-{}.svg", file_name_of(part.scene),
+                                                              result.numbers.at(part.scene)));
+  return figures;
 }
 
 int blessed(const Regression& regression, const RegressOptions& options, const Provenance& lines) {
@@ -84,8 +88,15 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
   const Blessed result = bless(regression, blessing, progress);
   progress.done();
   for (const Compared& row : result.changed) print_row(row);
+  // before the files are written: pictures need the old shapes
+  const auto drawn = options.figures > 0 ? before_and_after(regression, options, result, lines) : Figures{};
+  for (const auto& [file, text] : result.files) write_file(file, text);
+  for (const auto& [from, to] : drawn)
+    std::filesystem::copy_file(from, to, std::filesystem::copy_options::overwrite_existing);
   fmt::print("\n{} quantities blessed: {}\n", result.changed.size(), options.reason);
-  for (const auto& file : result.files) fmt::print("{}\n", file.string());
+  for (const auto& file : result.files) fmt::print("{}\n", file.first.string());
+  for (const auto& figure : drawn) fmt::print("{}\n", figure.second.string());
+  if (speed_is_asked(options)) bless_and_print_speeds(regression, blessing, lines);
   return 0;
 }
 
@@ -93,6 +104,7 @@ int regressed(const RegressOptions& options) {
   Regression regression;
   regression.asked.full = options.full;
   regression.asked.filter = options.filter;
+  regression.asked.scenes = options.scenes;
   if (!options.methods.empty()) regression.asked.methods = find_methods(options.methods);
   if (!options.against.empty()) {
     if (regression.asked.methods.size() != 1)
@@ -108,10 +120,22 @@ int regressed(const RegressOptions& options) {
 
   Progress progress(0);
   const Regressed result = regress(regression, progress);
+  Speeds speeds;
+  if (speed_is_asked(options)) speeds = speeds_beside(regression, lines, result.rows, progress);
   progress.done();
-  const std::string cause = cause_of(questions(regression.asked), result.rows);
-  write_verdict(result, cause, lines, options.out);
-  return told(result, cause, options.out);
+  const std::vector<Question> asked = questions(regression.asked);
+  const std::string cause = cause_of(asked, result.rows);
+  write_verdict(result, speeds, cause, lines, options.out);
+  std::filesystem::remove(options.out / "index.html");
+  if (options.figures > 0 && !options.bisect) {
+    VerdictPage page{result, speeds, cause};
+    page.beside = regression.against ? regression.against->name : "the baselines in " + regression.baselines.string();
+    page.lines = lines;
+    write_verdict_page(page, asked, regression, options.figures);
+  }
+  const int status = told(result, cause, options.out);
+  print_speeds(speeds);
+  return speeds.passed() ? status : 1;
 }
 
 }  // namespace

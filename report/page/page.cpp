@@ -38,15 +38,6 @@ std::vector<Finding> of_chapter(const std::vector<Finding>& findings, const std:
   return own;
 }
 
-std::string head() {
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width, "
-      "initial-scale=1\"><meta name=\"color-scheme\" content=\"light dark\"><title>Crosscheck: mysim beside "
-      "Bullet</title>\n<style>\n{}</style></head>\n<body>\n",
-      asset("page/style.css"));
-}
-
 std::string first_screen(const PageContent& c) {
   std::string out = "<header><h1>Do mysim and Bullet agree?</h1></header>\n<main>\n<section class=\"answer\"><div>\n";
   out += finding_list(front_of(c.findings), "findings", true);
@@ -100,8 +91,24 @@ std::string chapter_section(const Chapter& chapter, const std::vector<Finding>& 
 
 }  // namespace
 
+std::string page_head(const std::string& title) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width, "
+      "initial-scale=1\"><meta name=\"color-scheme\" content=\"light dark\"><title>{}</title>\n<style>\n{}</style>"
+      "</head>\n<body>\n",
+      escaped(title), asset("page/style.css"));
+}
+
+std::string provenance_html(const Provenance& lines) {
+  std::string out = "<table class=\"provenance\">\n";
+  for (const auto& [key, value] : lines)
+    out += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td></tr>\n", escaped(key), escaped(value));
+  return out + "</table>";
+}
+
 std::string page_html(const PageContent& c) {
-  std::string out = head() + first_screen(c);
+  std::string out = page_head("Crosscheck: mysim beside Bullet") + first_screen(c);
   out += "<section>\n<h2>Scene by scene</h2>\n" + scene_table_html(c.scenes);
   out += "</section>\n";
   for (const Chapter& chapter : c.chapters)
@@ -123,10 +130,7 @@ std::string page_html(const PageContent& c) {
       "<p>The second route is {} on a right-hand side written apart from mysim's.</p>\n",
       sundials_version() ? "SUNDIALS ARKODE" : "odeint; SUNDIALS is not there (Debian's package libsundials-dev)");
   for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", escaped(note));
-  out += "<table class=\"provenance\">\n";
-  for (const auto& [key, value] : c.provenance)
-    out += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td></tr>\n", escaped(key), escaped(value));
-  return out + "</table></section>\n</main></body></html>\n";
+  return out + provenance_html(c.provenance) + "</section>\n</main></body></html>\n";
 }
 
 }  // namespace crosscheck

@@ -50,13 +50,18 @@ struct PageContent {
 /// The whole page. Throws std::runtime_error when an image cannot be read.
 std::string page_html(const PageContent& content);
 
+/// The beginning of a page up to its body, styles included; and the table of who made it.
+std::string page_head(const std::string& title);
+std::string provenance_html(const Provenance& lines);
+
 /// Text made safe for HTML.
 std::string escaped(const std::string& text);
 
 /// The chapters of the report, in order, without entries. A new one is a row.
 std::vector<Chapter> chapters();
 
-std::string page_table_html(const PageTable& table);
+/// A long table is folded unless it is to be open.
+std::string page_table_html(const PageTable& table, bool open = false);
 
 /// <figure> with the image inside the page as base64.
 std::string image_html(const PageImage& image, const std::string& css_class);

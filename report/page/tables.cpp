@@ -54,9 +54,9 @@ std::string narrow(const std::string& cell) {
 
 }  // namespace
 
-std::string page_table_html(const PageTable& table) {
+std::string page_table_html(const PageTable& table, bool open) {
   // long ones open when asked: the figure above has said most of it
-  const bool shut = table.rows.size() > 6;
+  const bool shut = !open && table.rows.size() > 6;
   std::string out = shut ? fmt::format("<details><summary>{}</summary>\n", escaped(table.caption)) : "";
   out += "<div class=\"scroll\"><table>";
   if (!shut) out += fmt::format("<caption>{}</caption>", escaped(table.caption));

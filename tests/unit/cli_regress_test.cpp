@@ -9,7 +9,7 @@ class CliRegress : public Cli {
  protected:
   /// In a shell where no CI runs, or in one where it does.
   ProgramResult regress(std::vector<std::string> words, const std::string& ci = "") const {
-    words.insert(words.begin(), {CROSSCHECK_PROGRAM, "regress", "--baselines", "mine"});
+    words.insert(words.begin(), {CROSSCHECK_PROGRAM, "regress", "--no-speed", "--baselines", "mine"});
     return run_program(words, folder_, {"ASAN_OPTIONS=detect_leaks=0", "CI=" + ci});
   }
   ProgramResult bless(const std::string& filter, const std::string& reason = "as it is today") const {
@@ -115,6 +115,89 @@ TEST_F(CliRegress, OneMethodBesideAnother) {
   const ProgramResult precision = regress(
       {"--filter", "chain", "--method", "bullet32/deformable-explicit", "--against", "bullet/deformable-explicit"});
   EXPECT_EQ(precision.status, 1) << precision.out;
+}
+
+TEST_F(CliRegress, SettingsOfBulletAreToldApartAndNamed) {
+  const struct {
+    const char *scene, *is, *was, *cause;
+  } cases[] = {
+      {"chain", "bullet/pbd+n=10", "bullet/pbd", "cause: the setting iterations (was 1, is 10)"},
+      {"chain", "bullet32/deformable-explicit", "bullet/deformable-explicit",
+       "cause: the setting precision (was double, is single)"},
+      {"slide", "bullet/deformable-explicit+default-margin", "bullet/deformable-explicit", "cause: the setting margin"},
+      {"pendulum", "bullet/deformable-explicit+default-sleep", "bullet/deformable-explicit",
+       "cause: the setting sleeping (was off, is on)"},
+  };
+  for (const auto& [scene, is, was, cause] : cases) {
+    const ProgramResult result = regress({"--filter", scene, "--method", is, "--against", was, "--figures", "0"});
+    EXPECT_EQ(result.status, 1) << result.out;
+    EXPECT_NE(result.out.find(cause), std::string::npos) << result.out;
+  }
+}
+
+TEST_F(CliRegress, AFailureHasItsCurvesItsPicturesAndTheTimeAtWhichTheyPart) {
+  const ProgramResult result =
+      regress({"--filter", "chain", "--method", "symplectic-euler", "--against", "leapfrog", "--figures", "1"});
+  EXPECT_EQ(result.status, 1) << result.out;
+  const std::string page = read(folder_ / "out/regress/index.html");
+  EXPECT_NE(page.find("They part by more than the tolerance between 0 s and"), std::string::npos);
+  EXPECT_NE(page.find("quantities failed"), std::string::npos);
+  EXPECT_NE(page.find("data:image/png"), std::string::npos) << "a picture of both";
+  for (const char* figure : {"curve.svg", "difference.svg", "shape.png"})
+    EXPECT_TRUE(fs::exists(folder_ / "out/regress/figures" / (std::string("chain-mysim-symplectic-euler-") + figure)));
+  regress({"--filter", "chain", "--method", "symplectic-euler", "--against", "leapfrog", "--figures", "0"});
+  EXPECT_FALSE(fs::exists(folder_ / "out/regress/index.html"))
+      << "a page of an earlier run would be taken for this one's";
+}
+
+TEST_F(CliRegress, ABlessingKeepsAFigureOfWhatMovedAndTheShape) {
+  ASSERT_EQ(bless("spring/mysim/leapfrog").status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "mine/spring-shape.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "mine/spring-blessing-1.svg")) << "nothing was before";
+  std::string text = read(folder_ / "mine/spring.csv");
+  const size_t row = text.find("mysim/leapfrog,,always,sag");
+  ASSERT_NE(row, std::string::npos);
+  text.replace(text.find(",m,", row) + 3, 1, "7");
+  write("mine/spring.csv", text);
+  const ProgramResult blessed = bless("spring/mysim/leapfrog", "the digit was wrong");
+  EXPECT_EQ(blessed.status, 0) << blessed.err;
+  EXPECT_TRUE(fs::exists(folder_ / "mine/spring-blessing-2.svg")) << blessed.out;
+  EXPECT_NE(read(folder_ / "out/regress/index.html").find("1 quantities blessed: the digit was wrong"),
+            std::string::npos);
+}
+
+TEST_F(CliRegress, AUsersOwnSceneHasBaselinesToo) {
+  std::string scene = read(fs::path(CROSSCHECK_SOURCE) / "experiments/scenes/pendulum.toml");
+  write("my-swing.toml", scene);
+  const std::vector<std::string> ask{"my-swing.toml", "--method", "leapfrog"};
+  EXPECT_EQ(regress(ask).status, 1) << "nobody blessed it";
+  ASSERT_EQ(regress({"my-swing.toml", "--method", "leapfrog", "--bless", "--reason", "mine", "--full"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "mine/my-swing.csv"));
+  EXPECT_EQ(regress(ask).status, 0);
+  scene.replace(scene.find("-9.81"), 5, "-9.82");
+  write("my-swing.toml", scene);
+  const ProgramResult stale = regress(ask);
+  EXPECT_EQ(stale.status, 1);
+  EXPECT_NE(stale.out.find("stale      my-swing: baseline"), std::string::npos) << stale.out;
+}
+
+/// A method that is taken out of the suite takes its quantities with it; that must not look like success.
+TEST_F(CliRegress, WhatNobodyAsksAnyMoreIsSaid) {
+  ASSERT_EQ(regress({"projectile", "--bless", "--full", "--reason", "all of it"}).status, 0);
+  EXPECT_EQ(regress({"projectile"}).status, 0);
+  std::string text = read(folder_ / "mine/projectile.csv");
+  const size_t at = text.find("# rows: ");
+  const int rows = std::stoi(text.substr(at + 8));
+  text.replace(at + 8, std::to_string(rows).size(), std::to_string(rows + 1));
+  text += "mysim/forgotten,,always,verdict,word,ok,0,1,word\n";
+  write("mine/projectile.csv", text);
+  const ProgramResult rot = regress({"projectile"});
+  EXPECT_EQ(rot.status, 1);
+  EXPECT_NE(rot.out.find("gone       projectile, mysim/forgotten: all: nobody asks for it any more"), std::string::npos)
+      << rot.out;
+  EXPECT_EQ(regress({"projectile", "--method", "leapfrog"}).status, 0) << "a part of it was asked, and is there";
+  ASSERT_EQ(regress({"projectile", "--bless", "--full", "--reason", "it was taken out"}).status, 0);
+  EXPECT_EQ(regress({"projectile"}).status, 0);
 }
 
 /// Five of the wrong changes, each on one scene that shows it; all of them by `regress --prove`.

@@ -35,7 +35,7 @@ fs::path find_compiler() {
 }
 
 fs::path cache_folder() {
-  if (const char* named = std::getenv("CROSSCHECK_CACHE"); named && *named) return fs::path(named) / "coursework";
+  if (const char* named = std::getenv("CROSSCHECK_CACHE"); named && *named) return fs::absolute(named) / "coursework";
   if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache/crosscheck/coursework";
   return fs::temp_directory_path() / fmt::format("crosscheck-coursework-{}", getuid());
 }
