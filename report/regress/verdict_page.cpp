@@ -44,12 +44,9 @@ PageTable table_of(const std::string& caption, const std::vector<Compared>& rows
   return table;
 }
 
-/// Those that are off most first; words before numbers.
+/// Those to look at first.
 std::vector<Compared> by_size(std::vector<Compared> rows, size_t most) {
-  std::stable_sort(rows.begin(), rows.end(), [](const Compared& a, const Compared& b) {
-    if ((a.unit == "word") != (b.unit == "word")) return a.unit == "word";
-    return a.off() > b.off();
-  });
+  std::stable_sort(rows.begin(), rows.end(), [](const Compared& a, const Compared& b) { return a.rank() > b.rank(); });
   if (rows.size() > most) rows.erase(rows.begin() + static_cast<long>(most), rows.end());
   return rows;
 }

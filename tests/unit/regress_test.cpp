@@ -138,6 +138,24 @@ TEST(Compared, SaysOfEachQuantityHowItStands) {
   for (const Compared& row : compared(question(), {{"sag", "m", 1}}, {})) EXPECT_EQ(row.state, Standing::missing);
 }
 
+TEST(Compared, OfEachQuestionTheRowToLookAtFirstIsAWordThenANumberThenACount) {
+  const auto row = [](const std::string& scene, const std::string& quantity, double is, double tolerance) {
+    Compared r;
+    r.scene = scene, r.method = "mysim/rk4", r.quantity = quantity, r.unit = "m", r.state = Standing::moved;
+    r.was = 1, r.is = is, r.tolerance = tolerance;
+    return r;
+  };
+  Compared word = row("chain", "verdict", 1, 0);
+  word.unit = "word";
+  const std::vector<Compared> worst =
+      worst_of_each({row("spring", "steps", 2, 0), row("spring", "sag", 2, 0.1), row("spring", "period", 2, 0.5),
+                     row("chain", "sag", 9, 1e-9), word, row("rod", "steps", 3, 0)});
+  ASSERT_EQ(worst.size(), 3u);
+  EXPECT_EQ(worst[0].quantity, "sag") << "ten tolerances off, not two, and no count";
+  EXPECT_EQ(worst[1].quantity, "verdict");
+  EXPECT_EQ(worst[2].quantity, "steps");
+}
+
 /// Rows of all questions, of which those that `moves` names have moved.
 std::vector<Compared> rows_where(const std::vector<Question>& questions, bool (*moves)(const Question&)) {
   std::vector<Compared> rows;
