@@ -136,7 +136,8 @@ int run(int argc, char** argv) {
   regress->add_option("scenes", regress_options.scenes, "names or files (default: all that come with Crosscheck)");
   regress->add_option("--filter", regress_options.filter, "GLOB on SCENE or SCENE/METHOD");
   regress->add_option("--method", regress_options.methods, "A,B,... (default: all of mysim and Bullet)");
-  regress->add_option("--against", regress_options.against, "a method to set --method beside, instead of baselines");
+  auto* against = regress->add_option("--against", regress_options.against,
+                                      "a method to set --method beside, instead of baselines");
   regress->add_option("--baselines", regress_options.baselines, "folder (default: those that come with Crosscheck)");
   auto* bless = regress->add_flag("--bless", regress_options.bless, "makes today's answers the baseline");
   regress->add_option("--reason", regress_options.reason, "why they are right")->needs(bless);
@@ -146,11 +147,29 @@ int run(int argc, char** argv) {
   auto* prove = regress->add_flag("--prove", regress_options.prove, "runs wrong changes to mysim: all must be caught")
                     ->excludes(bless);
   regress->add_option("--mutant", regress_options.mutant, "only this one of them")->needs(prove);
+  auto* no_speed = regress->add_flag("--no-speed", regress_options.no_speed, "answers only");
+  regress->add_flag("--speed", regress_options.speed, "with --bisect: speeds too")->excludes(no_speed);
+  auto* prove_speed = regress->add_flag("--prove-speed", regress_options.prove_speed,
+                                        "measures this program's speeds beside its own: none should differ");
+  prove_speed->excludes(bless)->excludes(prove)->excludes(no_speed);
+  regress->add_option("--repetitions", regress_options.repetitions, "how often (200)")
+      ->needs(prove_speed)
+      ->check(CLI::Range(1, 100000));
+  auto* prove_builds = regress
+                           ->add_flag("--prove-builds", regress_options.prove_builds,
+                                      "builds with other compilers and options, and runs each: all must pass")
+                           ->excludes(bless)
+                           ->excludes(prove)
+                           ->excludes(against);
+  regress->add_option("--build", regress_options.build, "only this one of the builds")->needs(prove_builds);
   regress->add_option("--out", regress_options.out, "folder (out/regress)");
   quick_or_full(regress, regress_options.full);
   regress->callback([&] {
-    regress_options.command_line = line,
-    status = regress_options.prove ? prove_command(regress_options) : regress_command(regress_options);
+    regress_options.command_line = line;
+    status = regress_options.prove          ? prove_command(regress_options)
+             : regress_options.prove_speed  ? prove_speed_command(regress_options)
+             : regress_options.prove_builds ? prove_builds_command(regress_options)
+                                            : regress_command(regress_options);
   });
 
   EngineOptions engine_options;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
@@ -92,6 +93,23 @@ ProgramResult run_program(const std::vector<std::string>& argv, const std::files
   }
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return result;
+}
+
+bool on_path(const std::string& program) {
+  const char* path = std::getenv("PATH");
+  std::string folders = path ? path : "";
+  for (size_t begin = 0; begin <= folders.size();) {
+    const size_t end = std::min(folders.find(':', begin), folders.size());
+    if (std::filesystem::exists(std::filesystem::path(folders.substr(begin, end - begin)) / program)) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+std::string last_lines(const std::string& text, int count) {
+  size_t at = text.find_last_not_of('\n');
+  for (; at != std::string::npos && count > 0; --count) at = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
+  return text.substr(at == std::string::npos ? 0 : at + 1);
 }
 
 }  // namespace crosscheck

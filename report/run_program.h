@@ -18,4 +18,10 @@ struct ProgramResult {
 ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
                           const std::vector<std::string>& extra_env = {});
 
+/// Whether a program of this name is in PATH.
+bool on_path(const std::string& program);
+
+/// The end of what a program said.
+std::string last_lines(const std::string& text, int count);
+
 }  // namespace crosscheck

@@ -45,7 +45,7 @@ struct Answered {
   std::vector<LedgerRow> ledger;  // empty in first-order scenes and without velocities
 };
 /// By run_over_window(). Runs that take more than 2 s and twenty times their
-/// estimate end with the verdict `timeout`.
+/// estimate, which in builds with assertions is 350 times that of others, end with the verdict `timeout`.
 Answered answer_to(const Question& question);
 
 /// The scene's own step and tolerance over its window, samples where its own lie.

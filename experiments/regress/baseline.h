@@ -6,14 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "experiments/regress/lines.h"
 #include "experiments/regress/tolerance.h"
 
 namespace crosscheck {
-
-/// Who said so, and why.
-struct Blessing {
-  std::string date, commit, build, reason;
-};
 
 struct Expected {
   std::string method, without;

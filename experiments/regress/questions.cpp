@@ -13,11 +13,6 @@ namespace {
 
 constexpr double cheap = 0.5, dearest = 20;  // s
 
-bool passes(const std::string& filter, const Question& q) {
-  return filter.empty() || fnmatch(filter.c_str(), q.scene.name.c_str(), 0) == 0 ||
-         fnmatch(filter.c_str(), (q.scene.name + "/" + q.method.name).c_str(), 0) == 0;
-}
-
 std::vector<Method> engines() {
   std::vector<Method> methods;
   for (Method& method : all_methods())
@@ -34,19 +29,28 @@ double seconds(const Question& q) {
 
 }  // namespace
 
+std::vector<std::string> scenes_of(const Asked& asked) {
+  if (!asked.scenes.empty()) return asked.scenes;
+  return {shipped_scenes().begin(), shipped_scenes().end()};
+}
+
 bool asked_by_itself(const std::string& method) { return method.starts_with("mysim/") || method.starts_with("bullet"); }
+
+bool passes(const std::string& filter, const std::string& scene, const std::string& method) {
+  return filter.empty() || fnmatch(filter.c_str(), scene.c_str(), FNM_EXTMATCH) == 0 ||
+         fnmatch(filter.c_str(), (scene + "/" + method).c_str(), FNM_EXTMATCH) == 0;
+}
 
 std::vector<Question> questions(const Asked& asked) {
   std::vector<Question> all;
   const auto add = [&](Question q) {
     const double cost = seconds(q);
     q.dear = cost > cheap;
-    if (passes(asked.filter, q) && cost <= (asked.full ? dearest : cheap)) all.push_back(std::move(q));
+    if (passes(asked.filter, q.scene.name, q.method.name) && cost <= (asked.full ? dearest : cheap))
+      all.push_back(std::move(q));
   };
   const std::vector<Method> methods = asked.methods.empty() ? engines() : asked.methods;
-  std::vector<std::string> names = asked.scenes;
-  if (names.empty()) names.assign(shipped_scenes().begin(), shipped_scenes().end());
-  for (const std::string& name : names) {
+  for (const std::string& name : scenes_of(asked)) {
     const Scene scene = load_scene(name);
     const std::string own = find_method(scene.method).name;
     for (const Method& method : methods) {

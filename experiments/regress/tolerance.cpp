@@ -39,6 +39,32 @@ Scene pushed(Scene scene, double size, int axis) {
   return scene;
 }
 
+/// What the equation of one step leaves in places, m: mysim's rules stop at 1e-12 of the inertial forces, or where the
+/// spring forces, of places known to their last digits, are no longer told apart; the lightest particle yields most.
+double left_by_one_step(const Question& question, const Answered& answered, double lengths) {
+  const Model& model = question.scene.model;
+  double stiffest = 0, lightest = INFINITY;
+  if (const auto* springs = model.find<Springs>())
+    for (const Spring& s : springs->list) stiffest = std::max(stiffest, s.k);
+  for (int i = 0; i < model.particles.size(); ++i)
+    if (!model.particles.pinned[i]) lightest = std::min(lightest, model.particles.mass[i]);
+  const double h = answered.outcome.step;
+  return lengths * (1e-12 + 8 * eps * stiffest * h * h / lightest);
+}
+
+/// What solvers leave in the quantity. A change of the start tells nothing of that where the rule damps: what the start
+/// had in excess is gone by then, and what the last steps leave is not.
+double left_by_steps(const Question& question, const Answered& answered, const Rounding& rounding, const Quantity& q) {
+  const Outcome& outcome = answered.outcome;
+  if (q.unit == "m") return rounding.one_step * std::sqrt(static_cast<double>(outcome.steps));
+  if (q.unit != "J" || !(outcome.step > 0)) return 0;
+  const Particles& particles = question.scene.model.particles;
+  double mass = 0;
+  for (int i = 0; i < particles.size(); ++i)
+    if (!particles.pinned[i]) mass += particles.mass[i];
+  return rounding.one_step / outcome.step * std::sqrt(2 * mass * q.size);
+}
+
 }  // namespace
 
 Rounding rounding_of(const Question& question, const Answered& answered) {
@@ -46,7 +72,8 @@ Rounding rounding_of(const Question& question, const Answered& answered) {
   const double lengths = question.scene.size() + motion;
   if (single(question.method, answered))
     return {*single_precision_bound(question.scene, motion, 1, answered.outcome.steps), "single precision"};
-  if (solves(question.method)) return {1e-10 * std::max(1.0, lengths), "solver"};
+  if (solves(question.method))
+    return {1e-10 * std::max(1.0, lengths), "solver", left_by_one_step(question, answered, lengths)};
   return {*round_off_bound(question.scene, motion, 1), "double precision"};
 }
 
@@ -61,11 +88,12 @@ std::vector<std::string> words_of_derivations() {
       "double precision: C is 1e-15 of the scene's size and motion in a step, a hundredfold for thousands of steps",
       "single precision: ten roundings of 6e-8 of them in a step, adding up like a random walk",
       "solver: an equation in each step, solved to 1e-10 of its forces: C is 1e-10 of them",
+      "steps leave D: 1e-12 of the lengths in a step, and what 64-bit places make of the stiffest spring on the",
+      "  lightest particle; in places adding up like a random walk, in energies as the velocities of one step; no",
+      "  damping counted",
       "truth known to D: the error bar of what the error is measured against, on top",
-      "steps: D: of a time of failure: a sampling interval and two steps on top of B, which is not scaled, as the time "
-      "goes as the logarithm "
-      "of",
-      "  what grew until it failed",
+      "steps: D: of a time of failure: a sampling interval and two steps on top of B, which is not scaled, as the time",
+      "  goes as the logarithm of what grew until it failed",
   };
 }
 
@@ -101,11 +129,13 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
                      fmt::format("start moved by {:.1e} m: {:.1e}; steps: {:.1e}", little, change, q.bar)});
       continue;
     }
-    const double tolerance = change * rounding.size / little + 64 * eps * std::max(scale[q.unit], q.size) + q.bar;
-    all.push_back(
-        {q, rounded_up(tolerance),
-         fmt::format("start moved by {:.1e} m: {:.1e}; rounding: {:.1e} m, {}{}", little, change, rounding.size,
-                     rounding.kind, q.bar > 0 ? fmt::format("; truth known to {:.1e}", q.bar) : "")});
+    const double left = left_by_steps(question, answered, rounding, q);
+    const double tolerance =
+        change * rounding.size / little + 64 * eps * std::max(scale[q.unit], q.size) + left + q.bar;
+    all.push_back({q, rounded_up(tolerance),
+                   fmt::format("start moved by {:.1e} m: {:.1e}; rounding: {:.1e} m, {}{}{}", little, change,
+                               rounding.size, rounding.kind, left > 0 ? fmt::format("; steps leave {:.1e}", left) : "",
+                               q.bar > 0 ? fmt::format("; truth known to {:.1e}", q.bar) : "")});
   }
   return all;
 }

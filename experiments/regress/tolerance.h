@@ -15,6 +15,7 @@ struct Toleranced {
 struct Rounding {
   double size;
   std::string kind;
+  double one_step = 0;  // m: of rules that solve an equation in each step, what that leaves
 };
 Rounding rounding_of(const Question& question, const Answered& answered);
 

@@ -39,6 +39,11 @@ double Compared::off() const {
   return std::abs(*is - *was) / tolerance;
 }
 
+double Compared::rank() const {
+  if (unit == "word") return INFINITY;
+  return std::isinf(off()) ? 0 : off();
+}
+
 std::vector<Compared> worst_of_each(const std::vector<Compared>& rows) {
   std::vector<Compared> worst;
   for (const Compared& row : rows) {
@@ -48,7 +53,7 @@ std::vector<Compared> worst_of_each(const std::vector<Compared>& rows) {
     });
     if (same == worst.end())
       worst.push_back(row);
-    else if (row.off() > same->off())
+    else if (row.rank() > same->rank())
       *same = row;
   }
   return worst;

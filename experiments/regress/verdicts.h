@@ -28,6 +28,8 @@ struct Compared {
   std::string note;  // what else is to be said, e.g. what is wrong with a file
   /// How many tolerances it is off; 0 for words, infinite for counts.
   double off() const;
+  /// What to look at first: words, then numbers by how far they are off, then counts.
+  double rank() const;
 };
 
 /// One question's quantities beside those expected of it.

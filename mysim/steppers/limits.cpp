@@ -55,7 +55,8 @@ double runge_kutta(std::span<const double> coefficients, double omega, double ga
   };
   const double fastest = std::max(std::abs(slow), std::abs(fast));
   if (fastest == 0) return infinity;
-  return first_exit([&](double h) { return std::max(size(h * slow), size(h * fast)); }, 8 / fastest);
+  return first_exit([&, slow = slow, fast = fast](double h) { return std::max(size(h * slow), size(h * fast)); },
+                    8 / fastest);
 }
 
 /// The leapfrog step as a matrix on (u, v), h of either sign.

@@ -9,7 +9,7 @@ namespace crosscheck::bullet {
 /// coordinates, turned by one place, as m/s); puts all back when it goes.
 class ProbeState {
  public:
-  ProbeState(const Scene& scene, SceneBody& body, double t) : scene_(scene), body_(body) {
+  ProbeState(const Scene& scene, SceneBody& body, double t) : body_(body) {
     const Particles& particles = scene.model.particles;
     const int n = particles.size();
     asked_.t = t;
@@ -58,7 +58,6 @@ class ProbeState {
     return points;
   }
 
-  const Scene& scene_;
   SceneBody& body_;
   ForceProbe asked_;
   std::vector<Kept> kept_;  // by particle

@@ -3,8 +3,8 @@ set(BULLET_WORLDS_DIR ${CMAKE_CURRENT_LIST_DIR})
 function(add_bullet_worlds name bullet)
   list(TRANSFORM BULLET_WORLDS_SOURCES PREPEND ${BULLET_WORLDS_DIR}/)
   add_library(${name} STATIC ${BULLET_WORLDS_SOURCES})
-  # Bullet headers trip the maybe-uninitialized check where they are inlined
-  target_compile_options(${name} PRIVATE -Wno-maybe-uninitialized)
+  # Bullet headers trip g++'s maybe-uninitialized check where they are inlined
+  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_libraries(${name} PUBLIC mysim PRIVATE ${bullet})
 endfunction()
 set(BULLET_WORLDS_SOURCES

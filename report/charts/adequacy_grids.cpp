@@ -14,9 +14,8 @@
 namespace crosscheck {
 namespace {
 
-constexpr MethodStyle looks[] = {{"#0072B2", "1", 7},      {"#D55E00", "(6,3)", 5},
-                                 {"#009E73", "(2,2)", 9},  {"#CC79A7", "(10,3,2,3)", 13},
-                                 {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
+const MethodStyle looks[] = {{"#0072B2", "1", 7},           {"#D55E00", "(6,3)", 5},  {"#009E73", "(2,2)", 9},
+                             {"#CC79A7", "(10,3,2,3)", 13}, {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
 
 std::set<double> values_of(const Table& t, const char* column) {
   std::set<double> values;

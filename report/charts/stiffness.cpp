@@ -10,7 +10,7 @@
 namespace crosscheck {
 namespace {
 
-constexpr MethodStyle by_iterations[] = {
+const MethodStyle by_iterations[] = {
     {"#7A3B00", "1", 7}, {"#0072B2", "(6,3)", 5}, {"#009E73", "(2,2)", 9}, {"#CC79A7", "(10,3,2,3)", 13}};
 
 std::string iterations_text(long n) { return n == 1 ? "1 iteration" : fmt::format("{} iterations", n); }

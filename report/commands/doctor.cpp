@@ -18,17 +18,6 @@ struct Tool {
   bool required;
 };
 
-bool on_path(const std::string& program) {
-  const char* path = std::getenv("PATH");
-  std::string folders = path ? path : "";
-  for (size_t begin = 0; begin <= folders.size();) {
-    const size_t end = std::min(folders.find(':', begin), folders.size());
-    if (std::filesystem::exists(std::filesystem::path(folders.substr(begin, end - begin)) / program)) return true;
-    begin = end + 1;
-  }
-  return false;
-}
-
 }  // namespace
 
 int doctor_command() {
@@ -48,6 +37,7 @@ int doctor_command() {
       {"git", "git", "names the commit in tables and captions", false},
       {"ctest", "cmake", "runs the tests", true},
       {"python3", "python3-numpy", "runs the example of an outside engine, with NumPy; the tests need it", false},
+      {"clang++", "clang", "another compiler, in which `regress --prove-builds` builds too", false},
       {"chromium", "chromium", "prints the page as PDF by hand; nothing here needs it", false},
   };
   bool complete = true;

@@ -28,12 +28,6 @@ void require_bullet(const fs::path& prefix) {
                   prefix.string()));
 }
 
-std::string last_lines(const std::string& text, int count) {
-  size_t at = text.find_last_not_of('\n');
-  for (; at != std::string::npos && count > 0; --count) at = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
-  return text.substr(at == std::string::npos ? 0 : at + 1);
-}
-
 /// Runs cmake; on failure prints the end of what it said. True when all went well.
 bool cmake(const std::vector<std::string>& words, const std::string& what) {
   std::vector<std::string> argv{"cmake"};

@@ -29,8 +29,9 @@ bool may_be_named(const std::string& cause, const Mutation& mutation) {
 
 Proof proof_of(const Mutation& mutation, const std::filesystem::path& program, const RegressOptions& options) {
   const std::filesystem::path out = options.out / mutation.name;
-  std::vector<std::string> words{program.string(),           "regress",   "--out", out.string(), "--baselines",
-                                 options.baselines.string(), "--figures", "0"};
+  std::vector<std::string> words{program.string(), "regress",     "--no-speed",
+                                 "--figures",      "0",           "--out",
+                                 out.string(),     "--baselines", options.baselines.string()};
   if (!options.filter.empty()) words.insert(words.end(), {"--filter", options.filter});
   std::filesystem::remove(out / "regress.json");
   const auto ended = run_program(words, std::filesystem::current_path(), {"CROSSCHECK_MUTANT=" + mutation.name});

@@ -11,6 +11,7 @@
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "report/commands/commands.h"
+#include "report/commands/regress_speed.h"
 #include "report/provenance.h"
 #include "report/regress/verdict_files.h"
 #include "report/regress/verdict_page.h"
@@ -59,7 +60,8 @@ Figures before_and_after(const Regression& regression, const RegressOptions& opt
   std::copy_if(result.changed.begin(), result.changed.end(), std::back_inserter(changes.rows),
                [](const Compared& row) { return row.state == Standing::moved; });
   if (changes.rows.empty()) return {};  // what is new has no before
-  VerdictPage page{changes};
+  const Speeds none;
+  VerdictPage page{changes, none};
   page.blessed = options.reason, page.beside = "what was blessed before";
   page.lines = lines;
   write_verdict_page(page, questions(regression.asked), regression,
@@ -94,6 +96,7 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
   fmt::print("\n{} quantities blessed: {}\n", result.changed.size(), options.reason);
   for (const auto& file : result.files) fmt::print("{}\n", file.first.string());
   for (const auto& figure : drawn) fmt::print("{}\n", figure.second.string());
+  if (speed_is_asked(options)) bless_and_print_speeds(regression, blessing, lines);
   return 0;
 }
 
@@ -117,18 +120,22 @@ int regressed(const RegressOptions& options) {
 
   Progress progress(0);
   const Regressed result = regress(regression, progress);
+  Speeds speeds;
+  if (speed_is_asked(options)) speeds = speeds_beside(regression, lines, result.rows, progress);
   progress.done();
   const std::vector<Question> asked = questions(regression.asked);
   const std::string cause = cause_of(asked, result.rows);
-  write_verdict(result, cause, lines, options.out);
+  write_verdict(result, speeds, cause, lines, options.out);
   std::filesystem::remove(options.out / "index.html");
   if (options.figures > 0 && !options.bisect) {
-    VerdictPage page{result, cause};
+    VerdictPage page{result, speeds, cause};
     page.beside = regression.against ? regression.against->name : "the baselines in " + regression.baselines.string();
     page.lines = lines;
     write_verdict_page(page, asked, regression, options.figures);
   }
-  return told(result, cause, options.out);
+  const int status = told(result, cause, options.out);
+  print_speeds(speeds);
+  return speeds.passed() ? status : 1;
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ std::vector<Question> worth_a_picture(const std::vector<Question>& all, const st
     if (at == all.end() ||
         std::any_of(ranked.begin(), ranked.end(), [&](const Ranked& r) { return r.question == &*at; }))
       continue;
-    ranked.push_back({&*at, row.unit == "word" ? INFINITY : row.off()});
+    ranked.push_back({&*at, row.rank()});
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
     if (a.question->without.empty() != b.question->without.empty()) return a.question->without.empty();

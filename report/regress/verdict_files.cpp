@@ -6,8 +6,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "experiments/regress/closeness.h"
 #include "mysim/files.h"
 #include "report/page/page.h"
+#include "report/regress/speed_files.h"
 
 namespace crosscheck {
 namespace {
@@ -63,7 +65,7 @@ std::string sentence(const Compared& row) {
   return text;
 }
 
-std::string junit(const Regressed& result) {
+std::string junit(const Regressed& result, const Speeds& speeds) {
   struct Case {
     int failures = 0;
     std::string text;
@@ -89,27 +91,36 @@ std::string junit(const Regressed& result) {
   for (const FailedPoint& f : result.failures)
     body += fmt::format("  <testcase classname=\"no answer\" name=\"{}\"><error message=\"{}\"/></testcase>\n",
                         escaped(f.name), escaped(f.why));
+  const SpeedCases of_speed = cases_of(speeds);
+  body += of_speed.body;
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"regress\" tests=\"{}\" "
       "failures=\"{}\" errors=\"{}\">\n{}</testsuite>\n</testsuites>\n",
-      cases.size() + result.failures.size(), failures, result.failures.size(), body);
+      cases.size() + result.failures.size() + of_speed.cases, failures + of_speed.failures,
+      result.failures.size() + of_speed.errors, body);
 }
 
 }  // namespace
 
-void write_verdict(const Regressed& result, const std::string& cause, const Provenance& lines,
+void write_verdict(const Regressed& result, const Speeds& speeds, const std::string& cause, const Provenance& lines,
                    const std::filesystem::path& folder) {
   write_csv(table_of(result), lines, folder);
-  nlohmann::ordered_json json{{"passed", result.passed()},
+  const Closeness close = closeness_of(result.rows);
+  nlohmann::ordered_json json{{"passed", result.passed() && speeds.passed()},
                               {"cause", cause.empty() ? "not attributed" : cause},
                               {"quantities", result.rows.size()},
+                              {"identical", close.identical},
+                              {"differing", close.differing},
                               {"failures", nlohmann::ordered_json::array()},
                               {"without_answer", nlohmann::ordered_json::array()}};
+  if (close.furthest) json["furthest"] = json_of(*close.furthest);
   for (const Compared& row : result.rows)
     if (failed(row.state)) json["failures"].push_back(json_of(row));
   for (const FailedPoint& f : result.failures) json["without_answer"].push_back({{"question", f.name}, {"why", f.why}});
+  add_speeds(json, speeds);
   write_file(folder / "regress.json", json.dump(1) + "\n");
-  write_file(folder / "junit.xml", junit(result));
+  write_file(folder / "junit.xml", junit(result, speeds));
+  if (!speeds.rows.empty()) write_csv(table_of(speeds), lines, folder);
 }
 
 }  // namespace crosscheck

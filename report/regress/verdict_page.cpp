@@ -44,12 +44,9 @@ PageTable table_of(const std::string& caption, const std::vector<Compared>& rows
   return table;
 }
 
-/// Those that are off most first; words before numbers.
+/// Those to look at first.
 std::vector<Compared> by_size(std::vector<Compared> rows, size_t most) {
-  std::stable_sort(rows.begin(), rows.end(), [](const Compared& a, const Compared& b) {
-    if ((a.unit == "word") != (b.unit == "word")) return a.unit == "word";
-    return a.off() > b.off();
-  });
+  std::stable_sort(rows.begin(), rows.end(), [](const Compared& a, const Compared& b) { return a.rank() > b.rank(); });
   if (rows.size() > most) rows.erase(rows.begin() + static_cast<long>(most), rows.end());
   return rows;
 }
@@ -64,8 +61,27 @@ std::string headline(const VerdictPage& page) {
   const auto wrong = std::count_if(page.result.rows.begin(), page.result.rows.end(),
                                    [](const auto& row) { return failed(row.state); });
   if (!page.blessed.empty()) return fmt::format("{} quantities blessed: {}", page.result.rows.size(), page.blessed);
+  if (page.result.passed() && !page.speeds.passed()) return "The answers are the same, and something is slower";
   if (page.result.passed()) return fmt::format("Nothing moved: {} quantities are the same", page.result.rows.size());
   return fmt::format("{} of {} quantities failed", wrong, page.result.rows.size());
+}
+
+/// CPU times over those of a plain loop; empty where none was measured.
+std::string speed_section(const Speeds& speeds) {
+  if (speeds.rows.empty() && speeds.notes.empty()) return "";
+  PageTable table{fmt::format("Speed of {} runs: CPU time over that of a plain loop of springs and gravity, in turns",
+                              speeds.rows.size()),
+                  {"run", "was", "is", "is / was", "interval", "noise", "verdict", "at what price"},
+                  {}};
+  for (const SpeedCompared& row : speeds.rows)
+    table.rows.push_back({row.scene + " under " + row.method, row.was ? fmt::format("{:.3g}", *row.was) : "",
+                          fmt::format("{:.3g}", row.is), row.was ? fmt::format("{:.3f}", row.change.median) : "",
+                          row.was ? fmt::format("{:.3f} to {:.3f}", row.change.low, row.change.high) : "",
+                          row.was ? fmt::format("{:.0f} %", 100 * row.noise) : "", std::string(name_of(row.state)),
+                          row.sentence.empty() ? row.note : row.sentence});
+  std::string out = "<section class=\"chapter\"><h2>Speed beside accuracy</h2>\n";
+  for (const std::string& note : speeds.notes) out += fmt::format("<p class=\"note\">{}</p>\n", escaped(note));
+  return out + (table.rows.empty() ? "" : page_table_html(table, !speeds.trades.empty())) + "</section>\n";
 }
 
 void first_screen(const VerdictPage& page, std::string& out) {
@@ -79,7 +95,7 @@ void first_screen(const VerdictPage& page, std::string& out) {
     say("failure", page.cause.empty() ? "Cause: not attributed. No single ingredient, rule or setting fits what moved "
                                         "and what held."
                                       : fmt::format("Cause: {}.", page.cause));
-  for (const std::string& sentence : page.findings) say("accuracy", sentence);
+  for (const std::string& trade : page.speeds.trades) say("accuracy", fmt::format("Speed: {}.", trade));
   for (const FailedPoint& f : page.result.failures) say("failure", fmt::format("No answer: {}: {}", f.name, f.why));
   const auto fresh = std::count_if(page.result.rows.begin(), page.result.rows.end(),
                                    [](const auto& row) { return row.state == Standing::fresh; });
@@ -141,6 +157,7 @@ std::string verdict_html(const VerdictPage& page) {
             table_of(some_of(std::min<size_t>(worst.size(), 15), worst.size(), "questions"), by_size(worst, 15), true),
             true) +
         "</section>\n";
+  out += speed_section(page.speeds);
   if (!page.parts.empty() && page.parts.size() < worst.size())
     out += fmt::format(
         "<p class=\"note\">Drawn below: {} of {} questions, of each scene that which is off most first "

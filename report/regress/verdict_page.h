@@ -1,6 +1,7 @@
 // The page of a regression run: what moved, by how much, why, and pictures of it.
 #pragma once
 
+#include "experiments/regress/speed_run.h"
 #include "report/page/page.h"
 #include "report/regress/evidence.h"
 
@@ -15,10 +16,10 @@ struct FailurePart {
 
 struct VerdictPage {
   const Regressed& result;
-  std::string cause;                  // empty: not attributed
-  std::string blessed;                // why, where these changes are blessed; empty elsewhere
-  std::string beside;                 // "baselines in ..." or the other method
-  std::vector<std::string> findings;  // more sentences for the first screen
+  const Speeds& speeds;
+  std::string cause;    // empty: not attributed
+  std::string blessed;  // why, where these changes are blessed; empty elsewhere
+  std::string beside;   // "baselines in ..." or the other method
   std::vector<FailurePart> parts;
   std::vector<std::string> problems;  // what could not be drawn
   Provenance lines;

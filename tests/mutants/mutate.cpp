@@ -17,7 +17,7 @@ namespace {
 std::string switched(const Mutation& m) {
   const std::string on =
       fmt::format("[]() -> bool {{ static const bool on = ::crosscheck::mutant(\"{}\"); return on; }}()", m.name);
-  return m.right.ends_with(';') ? fmt::format("if ({}) {{ {} }} else {{ {} }}", on, m.wrong, m.right)
+  return m.right.ends_with(';') ? fmt::format("{{ if ({}) {{ {} }} else {{ {} }} }}", on, m.wrong, m.right)
                                 : fmt::format("({} ? ({}) : ({}))", on, m.wrong, m.right);
 }
 

@@ -9,7 +9,7 @@ class CliRegress : public Cli {
  protected:
   /// In a shell where no CI runs, or in one where it does.
   ProgramResult regress(std::vector<std::string> words, const std::string& ci = "") const {
-    words.insert(words.begin(), {CROSSCHECK_PROGRAM, "regress", "--baselines", "mine"});
+    words.insert(words.begin(), {CROSSCHECK_PROGRAM, "regress", "--no-speed", "--baselines", "mine"});
     return run_program(words, folder_, {"ASAN_OPTIONS=detect_leaks=0", "CI=" + ci});
   }
   ProgramResult bless(const std::string& filter, const std::string& reason = "as it is today") const {

@@ -1,0 +1,229 @@
+// Speeds in regression tests: the yardstick, and verdicts on invented measurements. Nothing here is timed.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "experiments/regress/plain_loop.h"
+#include "experiments/regress/speed_run.h"
+#include "experiments/scenes.h"
+#include "mysim/observers/trajectory.h"
+
+namespace crosscheck {
+namespace {
+
+TEST(PlainLoop, IsSymplecticEulerWithSpringsAndGravity) {
+  for (const char* name : {"spring", "normal-modes", "jelly"}) {
+    const Scene scene = load_scene(name);
+    PlainLoop loop(scene);
+    const int steps = 50;
+    EXPECT_GE(loop.seconds_of(steps), 0);
+    const crosscheck::Run run{loop.step(), steps * loop.step(), 1};
+    Recorder recorder;
+    ASSERT_EQ(run_method(find_method("symplectic-euler"), scene, run, {&recorder}).verdict, Verdict::ok);
+    const Points& x = recorder.trajectory.x.back();
+    const double moved = (x - scene.start.x).cwiseAbs().maxCoeff();
+    ASSERT_GT(moved, 0) << name;
+    // sums of about twenty forces in another order, a few units in the last place of the places themselves; drag, which
+    // the loop leaves out, takes less than 50 steps of its rate times 1e-6 s from what moved
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      EXPECT_NEAR(loop.places()[static_cast<size_t>(i)], x.data()[i], 1e-14 + 1e-3 * moved) << name;
+  }
+}
+
+const Machine here{"a CPU", "a compiler -O3", "a loop"};
+
+SpeedQuestion question(const std::string& scene, const std::string& method, const std::string& against = "") {
+  SpeedQuestion q{load_scene(scene), find_method(method)};
+  if (!against.empty()) q.against = find_method(against);
+  return q;
+}
+
+BlessedSpeed speed_of(const SpeedQuestion& q, double ratio, double spread = 0.01) {
+  return {q.scene.name, q.scene.hash, q.method.name, ratio, spread, here};
+}
+
+TEST(SpeedVerdicts, NoiseIsTenPerCentOrTwiceTheSpread) {
+  EXPECT_DOUBLE_EQ(noise_of(0.04), 0.1);
+  EXPECT_DOUBLE_EQ(noise_of(0.08), 0.16);
+  EXPECT_DOUBLE_EQ(spread_of({1, 2, 1.6, 2, 9}), 1);
+  EXPECT_DOUBLE_EQ(spread_of({3, 3, 2, 3, 3}), 0) << "one odd one out";
+  // the whole interval has to be beyond
+  EXPECT_EQ(direction_of({1.2, 1.11, 1.3}, 0.1), 1);
+  EXPECT_EQ(direction_of({1.2, 1.09, 1.3}, 0.1), 0);
+  EXPECT_EQ(direction_of({0.8, 0.7, 0.9}, 0.1), -1);
+  EXPECT_EQ(direction_of({0.8, 0.7, 0.92}, 0.1), 0);
+  EXPECT_EQ(direction_of({1, 0.99, 1.01}, 0.1), 0);
+}
+
+/// Rounds of one question whose ratios are all near `middle`.
+Ratios rounds(double middle, double other = 0) {
+  Ratios ratios;
+  for (const double off : {0.99, 1., 1.01, 1., 0.99, 1.01, 1.}) {
+    ratios.is.push_back(off * middle);
+    if (other > 0) ratios.was.push_back(off * other);
+  }
+  return ratios;
+}
+
+/// Hands out for each measurement the next ratio of each scene; the last one for ever.
+Measure invented(std::map<std::string, std::vector<double>> ratios) {
+  return
+      [ratios = std::move(ratios), count = 0u](const std::vector<SpeedQuestion>& questions, const SpeedPlan&) mutable {
+        std::vector<Ratios> all;
+        for (const SpeedQuestion& q : questions) {
+          const std::vector<double>& list = ratios.at(q.scene.name);
+          const double now = list[std::min<size_t>(count, list.size() - 1)];
+          all.push_back(now == 0 ? Ratios{} : rounds(now, q.against ? 1 : 0));
+        }
+        ++count;
+        return all;
+      };
+}
+
+std::map<std::string, SpeedCompared> by_scene(const Speeds& speeds) {
+  std::map<std::string, SpeedCompared> all;
+  for (const SpeedCompared& row : speeds.rows) all[row.scene] = row;
+  return all;
+}
+
+TEST(SpeedVerdicts, AChangeCountsWhereEveryMeasurementShowsIt) {
+  std::vector<SpeedQuestion> questions;
+  SpeedFile file;
+  for (const char* name : {"spring", "chain", "pendulum", "bounce", "slide", "jelly", "flag"})
+    questions.push_back(question(name, "leapfrog")), file.speeds.push_back(speed_of(questions.back(), 2));
+  file.speeds[5].spread = 0.2;
+  const Speeds speeds = compared_speeds(questions, &file, here,
+                                        invented({{"spring", {2.1}},
+                                                  {"chain", {3}},
+                                                  {"pendulum", {1.5}},
+                                                  {"bounce", {3, 3, 3, 2.1}},  // once not
+                                                  {"slide", {3, 3, 1, 3}},     // once the other way
+                                                  {"jelly", {2.6}},            // its noise is 40 %
+                                                  {"flag", {0}}}));            // refused or failed
+  const auto rows = by_scene(speeds);
+  EXPECT_EQ(rows.at("spring").state, Pace::same);
+  EXPECT_EQ(rows.at("chain").state, Pace::slower);
+  EXPECT_EQ(rows.at("chain").seen, 4);
+  EXPECT_DOUBLE_EQ(rows.at("chain").is, 3);
+  EXPECT_DOUBLE_EQ(rows.at("chain").change.median, 1.5);
+  EXPECT_EQ(rows.at("pendulum").state, Pace::faster);
+  EXPECT_EQ(rows.at("bounce").state, Pace::same);
+  EXPECT_EQ(rows.at("slide").state, Pace::same);
+  EXPECT_EQ(rows.at("jelly").state, Pace::same);
+  EXPECT_EQ(rows.at("flag").state, Pace::gone);
+  EXPECT_TRUE(failed(Pace::gone));
+  EXPECT_FALSE(speeds.passed());
+  EXPECT_TRUE(speeds.notes.empty());
+  // what became faster is held against nobody
+  EXPECT_TRUE(compared_speeds({questions[2]}, &file, here, invented({{"pendulum", {1.5}}})).passed());
+}
+
+TEST(SpeedVerdicts, ARunThatVariesALotNowIsGivenMoreNoise) {
+  const SpeedQuestion q = question("spring", "leapfrog");
+  SpeedFile file;
+  file.speeds = {speed_of(q, 1)};
+  // every other round takes half again as long: even and odd rounds differ by 40 %
+  const Measure uneven = [](const std::vector<SpeedQuestion>&, const SpeedPlan&) {
+    return std::vector<Ratios>{{{1.2, 1.8, 1.2, 1.8, 1.2, 1.8, 1.2, 1.8}, {}}};
+  };
+  const Speeds speeds = compared_speeds({q}, &file, here, uneven);
+  EXPECT_EQ(speeds.rows.at(0).state, Pace::same);
+  EXPECT_GT(speeds.rows.at(0).noise, 0.5);
+}
+
+TEST(SpeedVerdicts, WhatIsOfAnotherKindIsNotCompared) {
+  const SpeedQuestion q = question("spring", "leapfrog");
+  const auto state = [&](const SpeedFile* file) {
+    const Speeds speeds = compared_speeds({q}, file, here, invented({{"spring", {50}}}));
+    EXPECT_TRUE(speeds.passed());
+    EXPECT_EQ(speeds.notes.size(), 1u);
+    EXPECT_FALSE(speeds.rows.at(0).was);
+    return std::pair{speeds.rows.at(0).state, speeds.notes.at(0)};
+  };
+  EXPECT_EQ(state(nullptr).first, Pace::fresh);
+  SpeedFile file;
+  EXPECT_EQ(state(&file).first, Pace::fresh);
+  EXPECT_EQ(state(&file).second, "1 of 1 speeds not compared: new (not blessed yet)");
+  for (const auto part : {&Machine::cpu, &Machine::compiler, &Machine::yardstick}) {
+    file.speeds = {speed_of(q, 5)};
+    file.speeds[0].machine.*part = "another";
+    EXPECT_EQ(state(&file).first, Pace::elsewhere);
+    EXPECT_NE(state(&file).second.find("another"), std::string::npos);
+  }
+  file.speeds = {speed_of(q, 5)};
+  file.speeds[0].hash = "0123456789abcdef";
+  EXPECT_EQ(state(&file).first, Pace::elsewhere);
+  EXPECT_NE(state(&file).second.find("another scene"), std::string::npos);
+}
+
+TEST(SpeedVerdicts, OneMethodBesideAnotherNeedsNothingStored) {
+  const SpeedQuestion q = question("spring", "rk4", "leapfrog");
+  const Speeds speeds = compared_speeds({q}, nullptr, here, invented({{"spring", {4}}}));
+  EXPECT_EQ(speeds.rows.at(0).state, Pace::slower);
+  EXPECT_DOUBLE_EQ(*speeds.rows.at(0).was, 1);
+  EXPECT_DOUBLE_EQ(speeds.rows.at(0).change.median, 4);
+  EXPECT_TRUE(speeds.notes.empty());
+}
+
+TEST(SpeedBlessings, WhatIsTheSameKeepsItsOwn) {
+  const std::vector<SpeedQuestion> questions{question("spring", "leapfrog"), question("chain", "leapfrog")};
+  const auto speeds =
+      speeds_to_bless(questions, here, invented({{"spring", {5, 5.2, 5, 5, 5, 5.3, 5}}, {"chain", {2}}}));
+  ASSERT_EQ(speeds.size(), 2u);
+  EXPECT_NEAR(speeds[0].ratio, 5, 1e-12);
+  EXPECT_NEAR(speeds[0].spread, 0.04, 1e-12);
+  SpeedFile file;
+  EXPECT_EQ(put_into(file, speeds, {"d", "c", "b", "first"}).size(), 2u);
+  const std::string before = text_of(file);
+  std::vector<BlessedSpeed> near = speeds;
+  near[0].ratio = 5.3;
+  EXPECT_TRUE(put_into(file, near, {"d", "c", "b", "again"}).empty());
+  EXPECT_EQ(text_of(file), before) << "within the noise nobody's word is needed";
+  near[0].ratio = 7;
+  EXPECT_EQ(put_into(file, near, {"d", "c", "b", "slower, and right"}).size(), 1u);
+  EXPECT_EQ(file.speeds[0].ratio, 7);
+  EXPECT_EQ(file.speeds[0].blessing, 2);
+  EXPECT_EQ(file.speeds[1].blessing, 1);
+  near[0].machine.cpu = "another";
+  put_into(file, {near[0]}, {"d", "c", "b", "a new machine"});
+  EXPECT_EQ(file.speeds.size(), 3u) << "kinds of machine stand side by side";
+}
+
+TEST(SpeedQuestions, AreEachSceneUnderItsOwnMethodAndACloth) {
+  const auto all = speed_questions({}, {});
+  EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const auto& q) { return q.scene.name != "cloth-32x32"; }),
+            static_cast<long>(shipped_scenes().size()));
+  for (const SpeedQuestion& q : all) {
+    EXPECT_TRUE(q.method.name.starts_with("mysim/") || q.method.name.starts_with("bullet/")) << q.in_words();
+    EXPECT_GE(q.run.duration, 2 * q.scene.step) << q.in_words();
+    EXPECT_EQ(q.run.samples, 1) << "the clock stops at samples";
+  }
+  Asked asked;
+  asked.filter = "chain";
+  EXPECT_EQ(speed_questions(asked, {}).size(), 1u);
+  asked.filter = "cloth-32x32/bullet/*";
+  EXPECT_EQ(speed_questions(asked, {}).size(), 3u);
+  asked.filter = "chain/mysim/rk4";
+  EXPECT_TRUE(speed_questions(asked, {}).empty());
+  asked.filter = "chain", asked.methods = {find_method("rk4")};
+  EXPECT_EQ(speed_questions(asked, find_method("leapfrog")).size(), 1u);
+  EXPECT_TRUE(speed_questions(asked, find_method("exec:" CROSSCHECK_EXAMPLE)).empty());
+}
+
+TEST(SpeedMeasurements, LeaveOutWhatARuleRefuses) {
+  Asked asked;
+  asked.filter = "rod", asked.methods = {find_method("rk4")};
+  const auto refused = measured_ratios(speed_questions(asked, find_method("xpbd")), {.rounds = 1}, 0);
+  ASSERT_EQ(refused.size(), 1u);
+  EXPECT_TRUE(refused[0].is.empty());
+  asked.filter = "spring";
+  const auto taken = measured_ratios(speed_questions(asked, find_method("leapfrog")), {.rounds = 2}, 0);
+  ASSERT_EQ(taken.size(), 1u);
+  EXPECT_EQ(taken[0].is.size(), 2u);
+  EXPECT_EQ(taken[0].was.size(), 2u);
+  EXPECT_GT(taken[0].is[0], 0);
+}
+
+}  // namespace
+}  // namespace crosscheck
