@@ -1,40 +1,29 @@
-// The spring term for any network, fast: each spring once, then a gather per particle; no scatter, no atomics.
+// The spring term for any network, fast: bands of springs side by side where there are some, else each spring once and
+// then a sum for each particle; no scatter, no atomics.
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "mysim/terms/springs.h"
 
 namespace crosscheck {
 
-/// Adds the same forces as the plain edge loop of terms/springs.h, up to the order of summation. The springs are kept
-/// in the order of their ends a. A first pass goes over them in blocks: ends are gathered, roots and quotients are
-/// taken side by side, and each spring's force is written to its own place. A second pass goes over the particles: each
-/// adds up the springs that begin at it, which lie side by side, and subtracts those that end at it. Nothing depends on
-/// threads or on the instruction set: the same input gives the same bits.
+/// Adds the same forces as the plain edge loop of terms/springs.h, up to the order of summation and to the rounding of
+/// 1 / length. Each spring goes the cheapest of three ways (network/plan.h): in a band (network/bands.h), in the list
+/// of pairs (network/pairs.h), or, where a network is too small for lanes, through the plain loop itself. Nothing
+/// depends on threads; AVX2 and AVX-512 give the same bits.
 class SpringKernel {
  public:
   /// For springs between `particles` particles. The springs' law must be Hooke's or Bullet's link law.
   SpringKernel(const Springs& springs, int particles);
+  SpringKernel(SpringKernel&&) noexcept;
+  ~SpringKernel();
   void add_force(const Points& x, Forces& forces);
 
  private:
-  struct Ends {
-    int a, b;
-  };
-  /// Four numbers a column, the last one 0: two machine words of the plainest instruction set, where three would be one
-  /// and a half.
-  using Columns = Eigen::Matrix4Xd;
-  long spring_pass();
-
-  SpringLaw law_;
-  std::vector<Ends> ends_;
-  std::vector<double> k_, rest_;  // one for each spring, padded to whole blocks
-  Columns x_;                     // positions, m
-  Columns force_;                 // N: of each spring on its end a
-  std::vector<int> begin_at_;  // particles + 1: the springs whose end a is particle i are begin_at_[i] ... [i + 1] - 1
-  std::vector<int> end_at_;    // particles + 1: likewise, the part of ending_ of those whose end b it is
-  std::vector<int> ending_;
+  struct Lanes;
+  std::unique_ptr<Lanes> lanes_;  // none where no spring is worth it
+  Springs plain_;                 // those that the plain loop is for
 };
 
 }  // namespace crosscheck

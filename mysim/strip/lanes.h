@@ -2,7 +2,10 @@
 // of its own, without any function of std::, so that no instruction of a newer machine can end up in shared code.
 //
 // Lanes<T> is as many numbers as one register holds, with + - * of the compiler's vector types and the few operations
-// that these lack: loads, fused multiply-add, the smaller and the larger of two, and 1 / sqrt.
+// that these lack: loads, fused multiply-add, the smaller and the larger of two, and 1 / sqrt. Points come in memory as
+// x y z x y z: add_points turns lanes of x, of y and of z into that. A record is four numbers, x y z and one more that
+// is 0; Records are as many of them as there are lanes. They are loaded as wholes, wherever they lie, and only the sums
+// of their squares go to lanes.
 #pragma once
 
 #include <immintrin.h>
@@ -14,6 +17,14 @@ namespace {
 
 template <class T>
 struct Lanes;
+
+#if defined(__AVX2__)
+/// The first three numbers of a record, onto a point.
+ALWAYS void add_record(double* p, __m256d a) {
+  _mm_storeu_pd(p, _mm_loadu_pd(p) + _mm256_castpd256_pd128(a));
+  _mm_store_sd(p + 2, _mm_add_sd(_mm_load_sd(p + 2), _mm256_extractf128_pd(a, 1)));
+}
+#endif
 
 #if defined(__AVX512F__)
 
@@ -34,6 +45,50 @@ struct Lanes<double> {
         _mm512_sub_epi64(_mm512_set1_epi64(0x5FE6EB50C7B537A9), _mm512_srli_epi64(_mm512_castpd_si512(s), 1)));
   }
   ALWAYS bool any_below(V a, V b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ) != 0; }
+
+  ALWAYS void add(double* p, V a) { store(p, load(p) + a); }
+  ALWAYS void add_points(double* p, V x, V y, V z) {
+    const auto three = [&](__m512i xy, __m512i and_z) __attribute__((always_inline)) {
+      return _mm512_permutex2var_pd(_mm512_permutex2var_pd(x, xy, y), and_z, z);
+    };
+    add(p, three(_mm512_setr_epi64(0, 8, 0, 1, 9, 0, 2, 10), _mm512_setr_epi64(0, 1, 8, 3, 4, 9, 6, 7)));
+    add(p + 8, three(_mm512_setr_epi64(0, 3, 11, 0, 4, 12, 0, 5), _mm512_setr_epi64(10, 1, 2, 11, 4, 5, 12, 7)));
+    add(p + 16, three(_mm512_setr_epi64(13, 0, 6, 14, 0, 7, 15, 0), _mm512_setr_epi64(0, 13, 2, 3, 14, 5, 6, 15)));
+  }
+
+  using Record = __m256d;
+  struct Records {
+    V r[4];  // two records each
+  };
+  ALWAYS Record record(const double* p) { return _mm256_loadu_pd(p); }
+  /// x[ends[0]] - x[ends[1]], x[ends[2]] - x[ends[3]] ...
+  ALWAYS Records apart(const double* x, const int* ends) {
+    const auto one = [&](int i) __attribute__((always_inline)) {
+      return record(x + ends[2 * i]) - record(x + ends[2 * i + 1]);
+    };
+    const auto two = [&](int i) __attribute__((always_inline)) {
+      return _mm512_insertf64x4(_mm512_castpd256_pd512(one(i)), one(i + 1), 1);
+    };
+    return {two(0), two(2), two(4), two(6)};
+  }
+  /// The sum of the squares of each record.
+  ALWAYS V squares(const Records& d) {
+    const auto two = [](V a, V b) __attribute__((always_inline)) {
+      const V even = _mm512_unpacklo_pd(a, b), odd = _mm512_unpackhi_pd(a, b);
+      return fma(odd, odd, even * even);
+    };
+    const V a = two(d.r[0], d.r[1]), b = two(d.r[2], d.r[3]);
+    return _mm512_permutex_pd(_mm512_shuffle_f64x2(a, b, 0x88) + _mm512_shuffle_f64x2(a, b, 0xdd), 0b11011000);
+  }
+  /// Each record times its lane of `by`.
+  ALWAYS void store_scaled(double* p, const Records& d, V by) {
+    const auto two = [&](long a, long b) __attribute__((always_inline)) {
+      return _mm512_permutexvar_pd(_mm512_setr_epi64(a, a, a, a, b, b, b, b), by);
+    };
+    store(p, d.r[0] * two(0, 1)), store(p + 8, d.r[1] * two(2, 3));
+    store(p + 16, d.r[2] * two(4, 5)), store(p + 24, d.r[3] * two(6, 7));
+  }
+  ALWAYS void add_point(double* p, Record a) { add_record(p, a); }
 };
 
 template <>
@@ -75,6 +130,39 @@ struct Lanes<double> {
         _mm256_sub_epi64(_mm256_set1_epi64x(0x5FE6EB50C7B537A9), _mm256_srli_epi64(_mm256_castpd_si256(s), 1)));
   }
   ALWAYS bool any_below(V a, V b) { return _mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ)) != 0; }
+
+  ALWAYS void add(double* p, V a) { store(p, load(p) + a); }
+  ALWAYS void add_points(double* p, V x, V y, V z) {
+    const V xy = _mm256_unpacklo_pd(x, y), zx = _mm256_shuffle_pd(z, x, 0b1010), yz = _mm256_unpackhi_pd(y, z);
+    add(p, _mm256_permute2f128_pd(xy, zx, 0x20));
+    add(p + 4, _mm256_blend_pd(yz, xy, 0b1100));
+    add(p + 8, _mm256_permute2f128_pd(zx, yz, 0x31));
+  }
+
+  using Record = __m256d;
+  struct Records {
+    V r[4];
+  };
+  ALWAYS Record record(const double* p) { return _mm256_loadu_pd(p); }
+  ALWAYS Records apart(const double* x, const int* ends) {
+    const auto one = [&](int i) __attribute__((always_inline)) {
+      return record(x + ends[2 * i]) - record(x + ends[2 * i + 1]);
+    };
+    return {one(0), one(1), one(2), one(3)};
+  }
+  ALWAYS V squares(const Records& d) {
+    const auto two = [](V a, V b) __attribute__((always_inline)) {
+      const V even = _mm256_unpacklo_pd(a, b), odd = _mm256_unpackhi_pd(a, b);
+      return fma(odd, odd, even * even);
+    };
+    const V a = two(d.r[0], d.r[1]), b = two(d.r[2], d.r[3]);
+    return _mm256_permute2f128_pd(a, b, 0x20) + _mm256_permute2f128_pd(a, b, 0x31);
+  }
+  ALWAYS void store_scaled(double* p, const Records& d, V by) {
+    store(p, d.r[0] * _mm256_permute4x64_pd(by, 0x00)), store(p + 4, d.r[1] * _mm256_permute4x64_pd(by, 0x55));
+    store(p + 8, d.r[2] * _mm256_permute4x64_pd(by, 0xaa)), store(p + 12, d.r[3] * _mm256_permute4x64_pd(by, 0xff));
+  }
+  ALWAYS void add_point(double* p, Record a) { add_record(p, a); }
 };
 
 template <>
@@ -111,6 +199,38 @@ struct Lanes<double> {
   ALWAYS V max(V a, V b) { return _mm_max_pd(a, b); }
   ALWAYS V inverse_root(V s) { return all(1) / _mm_sqrt_pd(s); }
   ALWAYS bool any_below(V a, V b) { return _mm_movemask_pd(_mm_cmplt_pd(a, b)) != 0; }
+
+  ALWAYS void add(double* p, V a) { store(p, load(p) + a); }
+  ALWAYS void add_points(double* p, V x, V y, V z) {
+    add(p, _mm_unpacklo_pd(x, y)), add(p + 2, _mm_shuffle_pd(z, x, 0b10)), add(p + 4, _mm_unpackhi_pd(y, z));
+  }
+
+  struct Record {
+    V xy, z;
+    [[gnu::always_inline]] Record operator+(Record b) const { return {xy + b.xy, z + b.z}; }
+    [[gnu::always_inline]] Record operator-(Record b) const { return {xy - b.xy, z - b.z}; }
+  };
+  struct Records {
+    Record r[2];
+  };
+  ALWAYS Record record(const double* p) { return {load(p), load(p + 2)}; }
+  ALWAYS Records apart(const double* x, const int* ends) {
+    return {record(x + ends[0]) - record(x + ends[1]), record(x + ends[2]) - record(x + ends[3])};
+  }
+  ALWAYS V squares(const Records& d) {
+    const V x = _mm_unpacklo_pd(d.r[0].xy, d.r[1].xy), y = _mm_unpackhi_pd(d.r[0].xy, d.r[1].xy),
+            z = _mm_unpacklo_pd(d.r[0].z, d.r[1].z);
+    return fma(y, y, x * x) + z * z;
+  }
+  ALWAYS void store_scaled(double* p, const Records& d, V by) {
+    const V first = _mm_unpacklo_pd(by, by), second = _mm_unpackhi_pd(by, by);
+    store(p, d.r[0].xy * first), store(p + 2, d.r[0].z * first);
+    store(p + 4, d.r[1].xy * second), store(p + 6, d.r[1].z * second);
+  }
+  ALWAYS void add_point(double* p, Record a) {
+    add(p, a.xy);
+    _mm_store_sd(p + 2, _mm_add_sd(_mm_load_sd(p + 2), a.z));
+  }
 };
 
 template <>

@@ -29,8 +29,12 @@ Tension tension_of(const Spring& s, SpringLaw law, double length) {
 }
 
 void add_force(const Springs& springs, const Particles&, const State& state, Forces& forces) {
+  add_force(springs, state.x, forces);
+}
+
+void add_force(const Springs& springs, const Points& x, Forces& forces) {
   for (const Spring& s : springs.list) {
-    const Vec3 d = state.x.col(s.a) - state.x.col(s.b);
+    const Vec3 d = x.col(s.a) - x.col(s.b);
     const double length = d.norm();
     if (length == 0) {
       // the ends met: no direction, no force, but the run says how often it happened

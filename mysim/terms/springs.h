@@ -41,6 +41,7 @@ Tension tension_of(const Spring& spring, SpringLaw law, double length);
 
 /// The plain edge loop: the definition of the term, and the oracle of every faster kernel (spring_kernel.h).
 void add_force(const Springs& springs, const Particles& particles, const State& state, Forces& forces);
+void add_force(const Springs& springs, const Points& x, Forces& forces);
 double potential_energy(const Springs& springs, const Particles& particles, const State& state);  // J
 /// -dF/dx. Clamped: what a shortened spring takes from the stiffness across itself is left out, which makes the matrix
 /// positive semidefinite.

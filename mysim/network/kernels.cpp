@@ -1,0 +1,33 @@
+#include "mysim/network/kernels.h"
+
+namespace crosscheck::network {
+
+#define FUNCTIONS_OF(isa)                                     \
+  namespace isa {                                             \
+  bool hooke_bands(const Bands&, const double* x, double* f); \
+  bool link_bands(const Bands&, const double* x, double* f);  \
+  bool hooke_pairs(const Pairs&, const double* x, double* f); \
+  bool link_pairs(const Pairs&, const double* x, double* f);  \
+  inline Functions functions(bool hooke) {                    \
+    if (hooke) return {hooke_bands, hooke_pairs};             \
+    return {link_bands, link_pairs};                          \
+  }                                                           \
+  }
+FUNCTIONS_OF(sse2)
+FUNCTIONS_OF(avx2)
+FUNCTIONS_OF(avx512)
+#undef FUNCTIONS_OF
+
+Functions functions(strip::Isa isa, SpringLaw law) {
+  const bool hooke = law == SpringLaw::hooke;
+  return isa == strip::Isa::avx512 ? avx512::functions(hooke)
+         : isa == strip::Isa::avx2 ? avx2::functions(hooke)
+                                   : sse2::functions(hooke);
+}
+
+Costs costs(strip::Isa isa) {
+  if (isa == strip::Isa::sse2) return {.line = 17, .block = 16, .pair = 2.6, .particle = 3, .plain = 3.2, .call = 30};
+  return {.line = 10, .block = 12, .pair = 1.7, .particle = 3, .plain = 3.2, .call = 30};
+}
+
+}  // namespace crosscheck::network

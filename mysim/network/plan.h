@@ -1,0 +1,16 @@
+// Sorts the springs of a network into bands, pairs and plain ones.
+#pragma once
+
+#include "mysim/network/memory.h"
+
+namespace crosscheck::network {
+
+/// Which springs go which way: what costs least.
+struct Plan {
+  std::vector<Turned> bands;
+  Turned pairs;
+  std::vector<Spring> plain;  // as they were
+};
+Plan plan_for(const std::vector<Spring>& springs, int particles, const Costs& costs);
+
+}  // namespace crosscheck::network
