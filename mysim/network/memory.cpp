@@ -81,49 +81,21 @@ long BandMemory::met() const {
   return met;
 }
 
-PairMemory::PairMemory(const Turned& springs, int particles) : begin_(particles + 1, 0), end_(particles + 1, 0) {
-  const size_t count = springs.size(), padded = (count + group - 1) / group * group;
-  ends_.assign(2 * padded, 0);
+PairMemory::PairMemory(const Turned& springs, int particles) {
+  const size_t count = springs.size(), padded = (count + block - 1) / block * block;
   k_ = Lines<double>(padded);
   rest_ = Lines<double>(padded);
   for (size_t i = 0; i < padded; ++i) {
-    ends_[2 * i + 1] = 4 * particles;
-    if (i >= count) continue;
-    const Spring& s = springs[i];
-    ends_[2 * i] = 4 * s.a;
-    ends_[2 * i + 1] = 4 * s.b;
+    const Spring& s = i < count ? springs[i] : Spring{particles, particles + 1, 0, 0, Family::single};
+    ends_.insert(ends_.end(), {4 * s.a, 4 * s.b});
     k_.data()[i] = s.k;
     rest_.data()[i] = s.rest;
-    ++begin_[s.a + 1];
-    ++end_[s.b + 1];
   }
-  for (int i = 0; i < particles; ++i) {
-    begin_[i + 1] += begin_[i];
-    end_[i + 1] += end_[i];
-  }
-  ending_.resize(count);
-  std::vector<int> next = end_;
-  for (size_t i = 0; i < count; ++i) ending_[next[springs[i].b]++] = static_cast<int>(i);
-
-  x_ = Lines<double>(4 * (particles + 1L));
-  for (int c = 0; c < 3; ++c) x_.data()[4L * particles + c] = nowhere(0);
-  const long ring = places();
-  for (int& place : ending_) place = static_cast<int>(place & (ring - 1));
-  force_ = Lines<double>(4 * (ring + 1));
-  view_ = {particles,   static_cast<int>(padded), ends_.data(), k_.data(),     rest_.data(), begin_.data(),
-           end_.data(), ending_.data(),           x_.data(),    force_.data(), ring - 1};
-}
-
-/// A power of two: as many as are computed after the first spring of a particle and before it is finished.
-long PairMemory::places() const {
-  long most = group;
-  for (size_t i = 0; i + 1 < begin_.size(); ++i) {
-    const long finished = (begin_[i + 1] + group - 1) / group * group;
-    long first = begin_[i];
-    if (end_[i] < end_[i + 1]) first = std::min<long>(first, ending_[end_[i]]);
-    most = std::max(most, finished - first);
-  }
-  return static_cast<long>(std::bit_ceil(static_cast<unsigned long>(most)));
+  x_ = Lines<double>(4 * (particles + 2L));
+  for (int i = 0; i < 2; ++i)
+    for (int c = 0; c < 3; ++c) x_.data()[4L * (particles + i) + c] = nowhere(i);
+  force_ = Lines<double>(x_.size());
+  view_ = {particles, static_cast<int>(padded), ends_.data(), k_.data(), rest_.data(), x_.data(), force_.data()};
 }
 
 long PairMemory::met() const {

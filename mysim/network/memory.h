@@ -35,10 +35,8 @@ class PairMemory {
   long met() const;
 
  private:
-  long places() const;
-
   Pairs view_{};
-  std::vector<int> ends_, begin_, end_, ending_;
+  std::vector<int> ends_;
   Lines<double> k_, rest_, x_, force_;
 };
 

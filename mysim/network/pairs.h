@@ -1,27 +1,19 @@
 // Springs of a network one by one, wherever their ends are. pairs.cpp is compiled once for each instruction set.
 //
-// Positions are records of four numbers, x y z 0, each fetched as a whole: that is cheaper than gathering coordinates.
-// Each spring is turned so that its end a is the earlier particle, and springs are in the order of their ends a. A
-// spring's force, again a record, is written to a place of its own. A particle is finished when the springs that begin
-// at it are done, since those that end at it began earlier: it adds up the former, which lie side by side, and
-// subtracts the latter. Nothing is added to in memory, so that no sum waits for another. The places are a ring, no
-// longer than the farthest that a particle looks back.
+// Positions and forces are records of four numbers, x y z 0, each fetched as a whole: that is cheaper than gathering
+// coordinates. As many springs as a register has lanes are taken together: records of their ends are subtracted, the
+// sums of squares and the laws go lane by lane, and each record times its lane is added to one end and subtracted from
+// the other, spring after spring, so that no two meet. Springs come in the order of their first ends, which keeps what
+// they fetch close together.
 #pragma once
 
 namespace crosscheck::network {
 
-inline constexpr int group = 32;  // springs between two looks at which particles are finished
-
 struct Pairs {
-  int particles, springs;  // springs: filled up to whole groups with some of no stiffness
-  const int* ends;         // of each spring, a and b: where in x
+  int particles, springs;  // springs: whole blocks, filled up with some between two particles that there are none of
+  const int* ends;         // of each spring, two: where in x
   const double *k, *rest;  // N/m, m: of each spring
-  const int* begin;        // particles + 1: springs begin[i] ... begin[i + 1] - 1 begin at particle i
-  const int* end;  // particles + 1: ending[end[i]] ... ending[end[i + 1] - 1] are the places of those that end there
-  const int* ending;
-  double* x;      // m: records, of each particle and of somewhere far from all
-  double* force;  // N: records, of springs on their ends a: spring i stands in place i & mask; behind the last one a 0
-  long mask;      // places less 1: a power of two less 1
+  double *x, *force;       // m, N: records of particles + 2
 };
 
 }  // namespace crosscheck::network

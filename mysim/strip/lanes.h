@@ -80,14 +80,16 @@ struct Lanes<double> {
     const V a = two(d.r[0], d.r[1]), b = two(d.r[2], d.r[3]);
     return _mm512_permutex_pd(_mm512_shuffle_f64x2(a, b, 0x88) + _mm512_shuffle_f64x2(a, b, 0xdd), 0b11011000);
   }
-  /// Each record times its lane of `by`.
-  ALWAYS void store_scaled(double* p, const Records& d, V by) {
+  /// take(i, record i times lane i of `by`), for each i.
+  template <class Take>
+  ALWAYS void each_scaled(const Records& d, V by, Take take) {
     const auto two = [&](long a, long b) __attribute__((always_inline)) {
-      return _mm512_permutexvar_pd(_mm512_setr_epi64(a, a, a, a, b, b, b, b), by);
+      const V f = d.r[a / 2] * _mm512_permutexvar_pd(_mm512_setr_epi64(a, a, a, a, b, b, b, b), by);
+      take(a, _mm512_castpd512_pd256(f)), take(b, _mm512_extractf64x4_pd(f, 1));
     };
-    store(p, d.r[0] * two(0, 1)), store(p + 8, d.r[1] * two(2, 3));
-    store(p + 16, d.r[2] * two(4, 5)), store(p + 24, d.r[3] * two(6, 7));
+    two(0, 1), two(2, 3), two(4, 5), two(6, 7);
   }
+  ALWAYS void store_record(double* p, Record a) { _mm256_storeu_pd(p, a); }
   ALWAYS void add_point(double* p, Record a) { add_record(p, a); }
 };
 
@@ -158,10 +160,12 @@ struct Lanes<double> {
     const V a = two(d.r[0], d.r[1]), b = two(d.r[2], d.r[3]);
     return _mm256_permute2f128_pd(a, b, 0x20) + _mm256_permute2f128_pd(a, b, 0x31);
   }
-  ALWAYS void store_scaled(double* p, const Records& d, V by) {
-    store(p, d.r[0] * _mm256_permute4x64_pd(by, 0x00)), store(p + 4, d.r[1] * _mm256_permute4x64_pd(by, 0x55));
-    store(p + 8, d.r[2] * _mm256_permute4x64_pd(by, 0xaa)), store(p + 12, d.r[3] * _mm256_permute4x64_pd(by, 0xff));
+  template <class Take>
+  ALWAYS void each_scaled(const Records& d, V by, Take take) {
+    take(0, d.r[0] * _mm256_permute4x64_pd(by, 0x00)), take(1, d.r[1] * _mm256_permute4x64_pd(by, 0x55));
+    take(2, d.r[2] * _mm256_permute4x64_pd(by, 0xaa)), take(3, d.r[3] * _mm256_permute4x64_pd(by, 0xff));
   }
+  ALWAYS void store_record(double* p, Record a) { store(p, a); }
   ALWAYS void add_point(double* p, Record a) { add_record(p, a); }
 };
 
@@ -222,11 +226,12 @@ struct Lanes<double> {
             z = _mm_unpacklo_pd(d.r[0].z, d.r[1].z);
     return fma(y, y, x * x) + z * z;
   }
-  ALWAYS void store_scaled(double* p, const Records& d, V by) {
+  template <class Take>
+  ALWAYS void each_scaled(const Records& d, V by, Take take) {
     const V first = _mm_unpacklo_pd(by, by), second = _mm_unpackhi_pd(by, by);
-    store(p, d.r[0].xy * first), store(p + 2, d.r[0].z * first);
-    store(p + 4, d.r[1].xy * second), store(p + 6, d.r[1].z * second);
+    take(0, Record{d.r[0].xy * first, d.r[0].z * first}), take(1, Record{d.r[1].xy * second, d.r[1].z * second});
   }
+  ALWAYS void store_record(double* p, Record a) { store(p, a.xy), store(p + 2, a.z); }
   ALWAYS void add_point(double* p, Record a) {
     add(p, a.xy);
     _mm_store_sd(p + 2, _mm_add_sd(_mm_load_sd(p + 2), a.z));

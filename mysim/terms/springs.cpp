@@ -32,19 +32,29 @@ void add_force(const Springs& springs, const Particles&, const State& state, For
   add_force(springs, state.x, forces);
 }
 
-void add_force(const Springs& springs, const Points& x, Forces& forces) {
-  for (const Spring& s : springs.list) {
+/// For each law a loop of its own: nothing is asked spring by spring.
+template <SpringLaw law>
+static void loop(const std::vector<Spring>& list, const Points& x, Forces& forces) {
+  for (const Spring& s : list) {
     const Vec3 d = x.col(s.a) - x.col(s.b);
-    const double length = d.norm();
-    if (length == 0) {
+    const double squared = d.squaredNorm();
+    if (squared == 0) {
       // the ends met: no direction, no force, but the run says how often it happened
       forces.coincident += s.rest > 0;
       continue;
     }
-    const Vec3 f = (-tension_of(s, springs.law, length).force / length) * d;
+    const double length = std::sqrt(squared);
+    const Vec3 f = (-tension_of(s, law, length).force / length) * d;
     forces.f.col(s.a) += f;
     forces.f.col(s.b) -= f;
   }
+}
+
+void add_force(const Springs& springs, const Points& x, Forces& forces) {
+  if (springs.law == SpringLaw::hooke)
+    loop<SpringLaw::hooke>(springs.list, x, forces);
+  else
+    loop<SpringLaw::bullet_link>(springs.list, x, forces);
 }
 
 double potential_energy(const Springs& springs, const Particles&, const State& state) {
