@@ -13,12 +13,13 @@ struct SpringKernel::Lanes {
   std::optional<network::PairMemory> pairs;
 };
 
-SpringKernel::SpringKernel(const Springs& springs, int particles) : plain_{{}, springs.law} {
+SpringKernel::SpringKernel(const Springs& springs, int particles) {
   const strip::Isa isa = strip::chosen();
+  const SpringLaw law = springs.law;
   network::Plan plan = network::plan_for(springs.list, particles, network::costs(isa));
-  plain_.list = std::move(plan.plain);
+  plain_ = {std::move(plan.plain), law};
   if (plan.bands.empty() && plan.pairs.empty()) return;
-  lanes_ = std::make_unique<Lanes>(Lanes{network::functions(isa, springs.law), {}, {}});
+  lanes_ = std::make_unique<Lanes>(Lanes{network::functions(isa, law), {}, {}});
   if (!plan.bands.empty()) lanes_->bands.emplace(plan.bands, particles);
   if (!plan.pairs.empty()) lanes_->pairs.emplace(plan.pairs, particles);
 }
