@@ -9,7 +9,7 @@ namespace crosscheck {
 
 struct SpringKernel::Lanes {
   network::Functions run;
-  std::optional<network::BandMemory> bands;
+  std::optional<network::DiagonalMemory> diagonals;
   std::optional<network::PairMemory> pairs;
 };
 
@@ -18,9 +18,9 @@ SpringKernel::SpringKernel(const Springs& springs, int particles) {
   const SpringLaw law = springs.law;
   network::Plan plan = network::plan_for(springs.list, particles, network::costs(isa));
   plain_ = {std::move(plan.plain), law};
-  if (plan.bands.empty() && plan.pairs.empty()) return;
+  if (plan.diagonals.empty() && plan.pairs.empty()) return;
   lanes_ = std::make_unique<Lanes>(Lanes{network::functions(isa, law), {}, {}});
-  if (!plan.bands.empty()) lanes_->bands.emplace(plan.bands, particles);
+  if (!plan.diagonals.empty()) lanes_->diagonals.emplace(plan.diagonals, particles);
   if (!plan.pairs.empty()) lanes_->pairs.emplace(plan.pairs, particles);
 }
 
@@ -29,8 +29,8 @@ SpringKernel::~SpringKernel() = default;
 
 void SpringKernel::add_force(const Points& x, Forces& forces) {
   if (lanes_) {
-    auto& [run, bands, pairs] = *lanes_;
-    if (bands && run.bands(bands->view(), x.data(), forces.f.data())) forces.coincident += bands->met();
+    auto& [run, diagonals, pairs] = *lanes_;
+    if (diagonals && run.diagonals(diagonals->view(), x.data(), forces.f.data())) forces.coincident += diagonals->met();
     if (pairs && run.pairs(pairs->view(), x.data(), forces.f.data())) forces.coincident += pairs->met();
   }
   crosscheck::add_force(plain_, x, forces);

@@ -1,5 +1,4 @@
-// The spring term for any network, fast: bands of springs side by side where there are some, else each spring once and
-// then a sum for each particle; no scatter, no atomics.
+// The spring term for any network, fast: on lanes where that is worth it, else through the plain loop.
 #pragma once
 
 #include <memory>
@@ -9,9 +8,9 @@
 namespace crosscheck {
 
 /// Adds the same forces as the plain edge loop of terms/springs.h, up to the order of summation and to the rounding of
-/// 1 / length. Each spring goes the cheapest of three ways (network/plan.h): in a band (network/bands.h), in the list
-/// of pairs (network/pairs.h), or, where a network is too small for lanes, through the plain loop itself. Nothing
-/// depends on threads; AVX2 and AVX-512 give the same bits.
+/// 1 / length. Each spring goes the cheapest of three ways (network/plan.h): on a diagonal (network/diagonals.h), in a
+/// pair (network/pairs.h), or, where there are too few for lanes, through the plain loop itself. Nothing depends on
+/// threads; AVX2 and AVX-512 give the same bits.
 class SpringKernel {
  public:
   /// For springs between `particles` particles. The springs' law must be Hooke's or Bullet's link law.

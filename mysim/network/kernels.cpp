@@ -2,16 +2,16 @@
 
 namespace crosscheck::network {
 
-#define FUNCTIONS_OF(isa)                                     \
-  namespace isa {                                             \
-  bool hooke_bands(const Bands&, const double* x, double* f); \
-  bool link_bands(const Bands&, const double* x, double* f);  \
-  bool hooke_pairs(const Pairs&, const double* x, double* f); \
-  bool link_pairs(const Pairs&, const double* x, double* f);  \
-  inline Functions functions(bool hooke) {                    \
-    if (hooke) return {hooke_bands, hooke_pairs};             \
-    return {link_bands, link_pairs};                          \
-  }                                                           \
+#define FUNCTIONS_OF(isa)                                             \
+  namespace isa {                                                     \
+  bool hooke_diagonals(const Diagonals&, const double* x, double* f); \
+  bool link_diagonals(const Diagonals&, const double* x, double* f);  \
+  bool hooke_pairs(const Pairs&, const double* x, double* f);         \
+  bool link_pairs(const Pairs&, const double* x, double* f);          \
+  inline Functions functions(bool hooke) {                            \
+    if (hooke) return {hooke_diagonals, hooke_pairs};                 \
+    return {link_diagonals, link_pairs};                              \
+  }                                                                   \
   }
 FUNCTIONS_OF(sse2)
 FUNCTIONS_OF(avx2)

@@ -18,37 +18,39 @@ long apart_in_cache(long lines) { return lines + (21 - lines % 64 + 64) % 64; }
 
 }  // namespace
 
-BandMemory::BandMemory(const std::vector<Turned>& bands, int particles) {
+DiagonalMemory::DiagonalMemory(const std::vector<Turned>& diagonals, int particles) {
   const int blocks = (particles + block - 1) / block;
-  for (const Turned& band : bands) {
-    const int offset = band.front().b - band.front().a;
+  for (const Turned& diagonal : diagonals) {
+    const int offset = diagonal.front().b - diagonal.front().a;
     // the springs of a block, of the one before, which is finished then, and what their loads go beyond
     const long places = std::bit_ceil(static_cast<unsigned long>(offset + 3 * block));
     rings_.emplace_back(3 * (places + block));
-    bands_.push_back({offset, band.front().a / block, band.back().a / block + 1, places - 1, rings_.back().data()});
+    diagonals_.push_back(
+        {offset, diagonal.front().a / block, diagonal.back().a / block + 1, places - 1, rings_.back().data()});
   }
   const long apart = block * apart_in_cache(blocks + 2);
   x_ = Lines<double>(3 * apart);
   for (int c = 0; c < 3; ++c)
     for (long i = 0; i < apart; ++i) x_.data()[c * apart + i] = nowhere(i);
   pulls_ = Lines<double>(2 * 3 * block);
-  view_ = {particles, blocks, static_cast<int>(bands.size()), bands_.data(), nullptr, nullptr, {}, pulls_.data()};
+  view_ = {particles, blocks,       static_cast<int>(diagonals.size()), diagonals_.data(), nullptr, nullptr,
+           {},        pulls_.data()};
   for (int c = 0; c < 3; ++c) view_.x[c] = x_.data() + c * apart + block;
-  fill_lines(bands);
+  fill_lines(diagonals);
 }
 
-void BandMemory::fill_lines(const std::vector<Turned>& bands) {
+void DiagonalMemory::fill_lines(const std::vector<Turned>& diagonals) {
   using Line = std::array<double, 2 * block>;
   using Bits = std::array<std::uint64_t, 2 * block>;
   std::map<Bits, int> known;
   std::vector<Line> lines;
-  std::vector<size_t> next(bands.size(), 0);
+  std::vector<size_t> next(diagonals.size(), 0);
   for (int b = 0; b < view_.blocks; ++b)
-    for (size_t i = 0; i < bands.size(); ++i) {
-      if (b < bands_[i].first || b >= bands_[i].last) continue;
+    for (size_t i = 0; i < diagonals.size(); ++i) {
+      if (b < diagonals_[i].first || b >= diagonals_[i].last) continue;
       Line line{};
-      for (; next[i] < bands[i].size() && bands[i][next[i]].a / block == b; ++next[i]) {
-        const Spring& s = bands[i][next[i]];
+      for (; next[i] < diagonals[i].size() && diagonals[i][next[i]].a / block == b; ++next[i]) {
+        const Spring& s = diagonals[i][next[i]];
         line[s.a % block] = s.k;
         line[block + s.a % block] = s.rest;
       }
@@ -62,17 +64,17 @@ void BandMemory::fill_lines(const std::vector<Turned>& bands) {
   view_.lines = lines_.data();
 }
 
-long BandMemory::met() const {
+long DiagonalMemory::met() const {
   long met = 0;
   const int* line = view_.line;
   for (int b = 0; b < view_.blocks; ++b)
-    for (const Band& band : bands_) {
-      if (b < band.first || b >= band.last) continue;
+    for (const Diagonal& diagonal : diagonals_) {
+      if (b < diagonal.first || b >= diagonal.last) continue;
       const double* rest = view_.lines + 2L * block * *line++ + block;
       for (int lane = 0; lane < block; ++lane) {
         double squared = 0;
         for (const double* x : view_.x) {
-          const double d = x[b * block + lane] - x[b * block + lane + band.offset];
+          const double d = x[b * block + lane] - x[b * block + lane + diagonal.offset];
           squared += d * d;
         }
         met += rest[lane] > 0 && squared == 0;

@@ -1,4 +1,4 @@
-// The memory of bands and of pairs: springs laid out as their functions read them.
+// The memory of diagonals and of pairs: springs laid out as their functions read them.
 #pragma once
 
 #include "mysim/network/kernels.h"
@@ -10,19 +10,19 @@ using strip::Lines;
 /// Springs turned so that a < b, in the order of a.
 using Turned = std::vector<Spring>;
 
-class BandMemory {
+class DiagonalMemory {
  public:
   /// Each of them springs of one offset, no two alike.
-  BandMemory(const std::vector<Turned>& bands, int particles);
-  const Bands& view() const { return view_; }
+  DiagonalMemory(const std::vector<Turned>& diagonals, int particles);
+  const Diagonals& view() const { return view_; }
   /// Springs of some rest length whose ends are in one place, as last put there.
   long met() const;
 
  private:
-  void fill_lines(const std::vector<Turned>& bands);
+  void fill_lines(const std::vector<Turned>& diagonals);
 
-  Bands view_{};
-  std::vector<Band> bands_;
+  Diagonals view_{};
+  std::vector<Diagonal> diagonals_;
   std::vector<int> line_;
   std::vector<Lines<double>> rings_;
   Lines<double> lines_, x_, pulls_;

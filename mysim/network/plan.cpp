@@ -37,10 +37,10 @@ std::map<int, std::vector<int>> by_offset(const std::vector<Spring>& springs) {
 Plan plan_for(const std::vector<Spring>& springs, int particles, const Costs& costs) {
   const auto in_pairs = [&](double n) { return costs.call + particles * costs.particle + n * costs.pair; };
   const double all = static_cast<double>(springs.size());
-  const double elsewhere = std::min(costs.plain, in_pairs(all) / std::max(1.0, all));  // what a spring costs in no band
+  const double elsewhere = std::min(costs.plain, in_pairs(all) / std::max(1.0, all));  // what a spring costs otherwise
 
   Plan plan;
-  std::vector<bool> banded(springs.size(), false);
+  std::vector<bool> taken(springs.size(), false);
   double cost = costs.call + (particles + block - 1) / block * costs.block, saved = 0;
   for (const auto& [offset, order] : by_offset(springs)) {
     const double lines = blocks_of(springs, order) * costs.line,
@@ -48,25 +48,25 @@ Plan plan_for(const std::vector<Spring>& springs, int particles, const Costs& co
     if (lines >= instead) continue;
     cost += lines;
     saved += instead;
-    plan.bands.emplace_back();
+    plan.diagonals.emplace_back();
     for (const int i : order) {
-      plan.bands.back().push_back(turned(springs[i]));
-      banded[i] = true;
+      plan.diagonals.back().push_back(turned(springs[i]));
+      taken[i] = true;
     }
   }
   if (cost >= saved) {
-    plan.bands.clear();
-    banded.assign(springs.size(), false);
+    plan.diagonals.clear();
+    taken.assign(springs.size(), false);
   }
 
   for (size_t i = 0; i < springs.size(); ++i)
-    if (!banded[i]) (springs[i].a == springs[i].b ? plan.plain : plan.pairs).push_back(springs[i]);
+    if (!taken[i]) (springs[i].a == springs[i].b ? plan.plain : plan.pairs).push_back(springs[i]);
   const double left = static_cast<double>(plan.pairs.size());
   if (in_pairs(left) >= left * costs.plain) {
     plan.pairs.clear();
     plan.plain.clear();
     for (size_t i = 0; i < springs.size(); ++i)
-      if (!banded[i]) plan.plain.push_back(springs[i]);
+      if (!taken[i]) plan.plain.push_back(springs[i]);
   }
   for (Spring& s : plan.pairs) s = turned(s);
   std::stable_sort(plan.pairs.begin(), plan.pairs.end(), earlier);

@@ -1,4 +1,4 @@
-// Sorts the springs of a network into bands, pairs and plain ones.
+// Sorts the springs of a network into diagonals, pairs and plain ones.
 #pragma once
 
 #include "mysim/network/memory.h"
@@ -7,7 +7,7 @@ namespace crosscheck::network {
 
 /// Which springs go which way: what costs least.
 struct Plan {
-  std::vector<Turned> bands;
+  std::vector<Turned> diagonals;
   Turned pairs;
   std::vector<Spring> plain;  // as they were
 };

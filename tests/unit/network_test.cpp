@@ -1,4 +1,5 @@
-// The lanes of the general spring kernel tested: bands and pairs against the plain edge loop, on every instruction set.
+// The lanes of the general spring kernel tested: diagonals and pairs against the plain edge loop, on every instruction
+// set.
 #include "mysim/network/plan.h"
 #include "mysim/spring_kernel.h"
 #include "tests/unit/networks.h"
@@ -15,8 +16,8 @@ struct Loose {
   Points x;
 };
 
-/// So dear a plain loop that none is taken; and bands that cost nothing, or too much.
-constexpr Costs into_bands{.line = 0, .block = 0, .pair = 1, .particle = 0, .plain = 1e9, .call = 0};
+/// So dear a plain loop that none is taken; and diagonals that cost nothing, or too much.
+constexpr Costs into_diagonals{.line = 0, .block = 0, .pair = 1, .particle = 0, .plain = 1e9, .call = 0};
 constexpr Costs into_pairs{.line = 1e9, .block = 0, .pair = 1, .particle = 0, .plain = 1e9, .call = 0};
 
 /// As SpringKernel does it, but on instructions of our choice and sorted by other costs.
@@ -24,19 +25,19 @@ struct Sorted {
   network::Plan plan;
   network::Functions run;
   SpringLaw law;
-  std::optional<network::BandMemory> bands;
+  std::optional<network::DiagonalMemory> diagonals;
   std::optional<network::PairMemory> pairs;
 
   Sorted(const Loose& net, Isa isa, const Costs& costs)
       : plan(network::plan_for(net.springs.list, static_cast<int>(net.x.cols()), costs)),
         run(network::functions(isa, net.springs.law)),
         law(net.springs.law) {
-    if (!plan.bands.empty()) bands.emplace(plan.bands, net.x.cols());
+    if (!plan.diagonals.empty()) diagonals.emplace(plan.diagonals, net.x.cols());
     if (!plan.pairs.empty()) pairs.emplace(plan.pairs, net.x.cols());
   }
   Forces forces(const Points& x) {
     Forces sum{Points::Zero(3, x.cols())};
-    if (bands && run.bands(bands->view(), x.data(), sum.f.data())) sum.coincident += bands->met();
+    if (diagonals && run.diagonals(diagonals->view(), x.data(), sum.f.data())) sum.coincident += diagonals->met();
     if (pairs && run.pairs(pairs->view(), x.data(), sum.f.data())) sum.coincident += pairs->met();
     add_force({plan.plain, law}, x, sum);
     return sum;
@@ -130,7 +131,7 @@ void expect_close(const Loose& net, const Forces& fast, const Forces& plain) {
     EXPECT_LE((fast.f.col(i) - plain.f.col(i)).norm(), (8 + springs[i]) * eps * sizes[i]) << i;
 }
 
-TEST(Network, BandsAndPairsAreTheEdgeLoopButForRounding) {
+TEST(Network, DiagonalsAndPairsAreTheEdgeLoopButForRounding) {
   long met = 0;
   for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
     for (const auto& [name, net] : networks(law)) {
@@ -138,7 +139,7 @@ TEST(Network, BandsAndPairsAreTheEdgeLoopButForRounding) {
       add_force(net.springs, net.x, plain);
       met += plain.coincident;
       for (const Isa isa : strip::available())
-        for (const Costs& costs : {into_bands, into_pairs}) {
+        for (const Costs& costs : {into_diagonals, into_pairs}) {
           SCOPED_TRACE(fmt::format("{}, {}, {}", name_of(law), name, name_of(isa)));
           Sorted sorted(net, isa, costs);
           EXPECT_TRUE(sorted.plan.plain.empty());
@@ -157,7 +158,7 @@ TEST(Network, Avx2AndAvx512GiveTheSameBits) {
   if (strip::available().size() < 3) GTEST_SKIP() << "this machine has no AVX-512 to compare with";
   for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
     for (const auto& [name, net] : networks(law))
-      for (const Costs& costs : {into_bands, into_pairs, network::costs(Isa::avx512)}) {
+      for (const Costs& costs : {into_diagonals, into_pairs, network::costs(Isa::avx512)}) {
         Sorted avx2(net, Isa::avx2, costs), avx512(net, Isa::avx512, costs);
         EXPECT_EQ(avx2.forces(net.x).f, avx512.forces(net.x).f) << name_of(law) << ", " << name;
       }
@@ -174,7 +175,8 @@ TEST(Network, StiffSpringsNearTheirRestLengthLoseNoMoreThanThePlainLoop) {
   Forces plain{Points::Zero(3, 64)};
   add_force(net.springs, net.x, plain);
   for (const Isa isa : strip::available())
-    for (const Costs& costs : {into_bands, into_pairs}) expect_close(net, Sorted(net, isa, costs).forces(net.x), plain);
+    for (const Costs& costs : {into_diagonals, into_pairs})
+      expect_close(net, Sorted(net, isa, costs).forces(net.x), plain);
 }
 
 TEST(Network, SortsCheaply) {
@@ -184,12 +186,12 @@ TEST(Network, SortsCheaply) {
   };
   // a pendulum and a short chain are not worth lanes
   EXPECT_EQ(plan(strands(1, 2, {1}, SpringLaw::hooke)).plain.size(), 1u);
-  EXPECT_EQ(plan(strands(1, 8, {1}, SpringLaw::hooke)).bands.size(), 0u);
-  // what is numbered row by row is banded, but for springs that are there twice and a few across
+  EXPECT_EQ(plan(strands(1, 8, {1}, SpringLaw::hooke)).diagonals.size(), 0u);
+  // what is numbered row by row is taken, but for springs that are there twice and a few across
   Loose net = strands(1, 400, {1, 2, 20, 21, 19, 40}, SpringLaw::hooke);
   net.springs.list.push_back({3, 350, 1, 1, Family::single});
   const network::Plan rows = plan(net);
-  EXPECT_EQ(rows.bands.size(), 6u);
+  EXPECT_EQ(rows.diagonals.size(), 6u);
   EXPECT_LT(rows.plain.size() + rows.pairs.size(), net.springs.list.size() / 10);
   EXPECT_EQ(plan(tangle(1, 1000, SpringLaw::hooke)).pairs.size(), 1000u);
 }

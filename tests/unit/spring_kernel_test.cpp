@@ -1,4 +1,5 @@
 // The fast spring kernel against the plain edge loop: any network, within the round-off of another summation order.
+// Its ways over lanes are tested one by one in network_test.cpp.
 #include "mysim/spring_kernel.h"
 #include "tests/unit/networks.h"
 
@@ -83,7 +84,9 @@ TEST(SpringKernel, GivesTheSameBitsTwiceAndAddsToWhatIsThere) {
       kernel.add_force(net.state.x, onto);
       other.add_force(net.state.x, again);
       EXPECT_EQ(once.f, again.f);
-      EXPECT_EQ(onto.f, Points(once.f.array() + 1e6));
+      // rounded once for each spring at most, at the size of what is there
+      const double most = 1e6 + once.f.cwiseAbs().maxCoeff() * size;
+      EXPECT_LE((onto.f.array() - once.f.array() - 1e6).abs().maxCoeff(), (size + 1) * eps * most);
       again.f.setZero();
       kernel.add_force(net.state.x, again);
       EXPECT_EQ(once.f, again.f);

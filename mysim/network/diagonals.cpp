@@ -1,5 +1,5 @@
-// See bands.h. Compiled once for each instruction set, CROSSCHECK_ISA naming it.
-#include "mysim/network/bands.h"
+// See diagonals.h. Compiled once for each instruction set, CROSSCHECK_ISA naming it.
+#include "mysim/network/diagonals.h"
 
 #include "mysim/network/law.h"
 
@@ -15,54 +15,54 @@ struct Sums {
   V f[3][abreast];
 };
 
-ALWAYS long ring_length(const Band& band) { return band.mask + 1 + block; }
+ALWAYS long ring_length(const Diagonal& diagonal) { return diagonal.mask + 1 + block; }
 ALWAYS long place(int b) { return static_cast<long>(b) * block; }
 
 /// The springs that begin in a stretch of a block.
 template <bool hooke>
-ALWAYS Sums begin_at(const Bands& s, int b, int lane, const int* line, V& least) {
+ALWAYS Sums begin_at(const Diagonals& s, int b, int lane, const int* line, V& least) {
   const long at = place(b) + lane;
   const double *const x[3] = {s.x[0] + at, s.x[1] + at, s.x[2] + at}, *const lines = s.lines + lane;
   V near[3][abreast];
   Sums sum;
   for (int c = 0; c < 3; ++c)
     for (int a = 0; a < abreast; ++a) near[c][a] = L::load(x[c] + a * L::width), sum.f[c][a] = L::all(0);
-  for (const Band *band = s.bands, *last = band + s.count; band < last; ++band) {
-    if (b < band->first || b >= band->last) continue;
+  for (const Diagonal *diagonal = s.diagonals, *last = diagonal + s.count; diagonal < last; ++diagonal) {
+    if (b < diagonal->first || b >= diagonal->last) continue;
     const double* own = lines + 2L * block * *line++;
-    const long n = ring_length(*band), r = at & band->mask;
+    const long n = ring_length(*diagonal), r = at & diagonal->mask;
     for (int a = 0; a < abreast; ++a, own += L::width) {
       V d[3];
-      for (int c = 0; c < 3; ++c) d[c] = near[c][a] - L::load(x[c] + a * L::width + band->offset);
+      for (int c = 0; c < 3; ++c) d[c] = near[c][a] - L::load(x[c] + a * L::width + diagonal->offset);
       const V squared = L::fma(d[2], d[2], L::fma(d[1], d[1], d[0] * d[0]));
       least = L::min(least, squared);
       const V scale = scale_of<hooke>(squared, L::load(own), L::load(own + block));
-      double* to = band->ring + r + a * L::width;
+      double* to = diagonal->ring + r + a * L::width;
       for (int c = 0; c < 3; ++c) {
         d[c] = scale * d[c];  // now the force
         sum.f[c][a] = sum.f[c][a] + d[c];
         L::store(to + c * n, d[c]);
       }
       if (r < block)
-        for (int c = 0; c < 3; ++c) L::store(to + c * n + band->mask + 1, d[c]);
+        for (int c = 0; c < 3; ++c) L::store(to + c * n + diagonal->mask + 1, d[c]);
     }
   }
   return sum;
 }
 
 template <bool hooke>
-ALWAYS void begin_block(const Bands& s, int b, const int*& line, V& least) {
+ALWAYS void begin_block(const Diagonals& s, int b, const int*& line, V& least) {
   for (int lane = 0; lane < block; lane += stretch) {
     const Sums sum = begin_at<hooke>(s, b, lane, line, least);
     double* to = s.pulls + (b & 1) * 3 * block + lane;
     for (int c = 0; c < 3; ++c)
       for (int a = 0; a < abreast; ++a) L::store(to + c * block + a * L::width, sum.f[c][a]);
   }
-  for (int i = 0; i < s.count; ++i) line += b >= s.bands[i].first && b < s.bands[i].last;
+  for (int i = 0; i < s.count; ++i) line += b >= s.diagonals[i].first && b < s.diagonals[i].last;
 }
 
 /// What all springs do to a block, onto f.
-ALWAYS void finish_block(const Bands& s, int b, double* f) {
+ALWAYS void finish_block(const Diagonals& s, int b, double* f) {
   alignas(64) double last[3 * block];  // of the last block, which may hold fewer particles
   const int there = s.particles - b * block;
   double* to = f + 3 * place(b);
@@ -77,12 +77,12 @@ ALWAYS void finish_block(const Bands& s, int b, double* f) {
     for (int c = 0; c < 3; ++c)
       for (int a = 0; a < abreast; ++a) sum.f[c][a] = L::load(pulls + c * block + a * L::width);
     for (int i = 0; i < s.count; ++i) {
-      const Band& band = s.bands[i];
-      const long from = place(b) - band.offset;
-      if (from + block <= place(band.first) || from >= place(band.last)) continue;
-      const long n = ring_length(band);
+      const Diagonal& diagonal = s.diagonals[i];
+      const long from = place(b) - diagonal.offset;
+      if (from + block <= place(diagonal.first) || from >= place(diagonal.last)) continue;
+      const long n = ring_length(diagonal);
       // a block at most goes beyond the end of the ring, where it begins again
-      const double* pushes = band.ring + (from & band.mask) + lane;
+      const double* pushes = diagonal.ring + (from & diagonal.mask) + lane;
       for (int c = 0; c < 3; ++c)
         for (int a = 0; a < abreast; ++a) sum.f[c][a] = sum.f[c][a] - L::load(pushes + c * n + a * L::width);
     }
@@ -94,30 +94,30 @@ ALWAYS void finish_block(const Bands& s, int b, double* f) {
 }
 
 /// No forces in a block of a ring: before the first springs and after the last ones.
-ALWAYS void clear(const Band& band, int b) {
-  const long r = place(b) & band.mask;
+ALWAYS void clear(const Diagonal& diagonal, int b) {
+  const long r = place(b) & diagonal.mask;
   for (int c = 0; c < 3; ++c)
     for (int i = 0; i < block; ++i) {
-      double* ring = band.ring + c * ring_length(band) + i;
+      double* ring = diagonal.ring + c * ring_length(diagonal) + i;
       ring[r] = 0;
-      if (r == 0) ring[band.mask + 1] = 0;
+      if (r == 0) ring[diagonal.mask + 1] = 0;
     }
 }
 
-ALWAYS void put(const Bands& s, const double* x) {
+ALWAYS void put(const Diagonals& s, const double* x) {
   for (int i = 0; i < s.particles; ++i)
     for (int c = 0; c < 3; ++c) s.x[c][i] = x[3L * i + c];
 }
 
 template <bool hooke>
-bool bands(const Bands& s, const double* x, double* f) {
+bool diagonals(const Diagonals& s, const double* x, double* f) {
   put(s, x);
-  for (int i = 0; i < s.count; ++i) clear(s.bands[i], s.bands[i].first - 1);
+  for (int i = 0; i < s.count; ++i) clear(s.diagonals[i], s.diagonals[i].first - 1);
   const int* line = s.line;
   V least = L::all(1);
   for (int b = 0; b < s.blocks; ++b) {
     for (int i = 0; i < s.count; ++i)
-      if (s.bands[i].last == b) clear(s.bands[i], b);
+      if (s.diagonals[i].last == b) clear(s.diagonals[i], b);
     begin_block<hooke>(s, b, line, least);
     if (b > 0) finish_block(s, b - 1, f);
   }
@@ -129,8 +129,8 @@ bool bands(const Bands& s, const double* x, double* f) {
 
 namespace CROSSCHECK_ISA {
 
-bool hooke_bands(const Bands& s, const double* x, double* f) { return bands<true>(s, x, f); }
-bool link_bands(const Bands& s, const double* x, double* f) { return bands<false>(s, x, f); }
+bool hooke_diagonals(const Diagonals& s, const double* x, double* f) { return diagonals<true>(s, x, f); }
+bool link_diagonals(const Diagonals& s, const double* x, double* f) { return diagonals<false>(s, x, f); }
 
 }  // namespace CROSSCHECK_ISA
 }  // namespace crosscheck::network
