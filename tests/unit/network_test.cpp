@@ -1,7 +1,11 @@
 // The lanes of the general spring kernel tested: diagonals and pairs against the plain edge loop, on every instruction
 // set.
 #include "mysim/network/plan.h"
+
+#include <sstream>
+
 #include "mysim/spring_kernel.h"
+#include "report/run_program.h"
 #include "tests/unit/networks.h"
 
 namespace crosscheck {
@@ -208,6 +212,23 @@ TEST(Network, SpringKernelRunsOnTheInstructionsThatAreAskedFor) {
     expect_close(net, fast, plain);
   }
   unsetenv("CROSSCHECK_INSTRUCTIONS");
+}
+
+/// Code for a newer machine must not be what the linker takes for every machine.
+TEST(Network, ObjectsOfAnInstructionSetShareNoFunctions) {
+  std::istringstream objects(CROSSCHECK_NETWORK_OBJECTS);
+  int count = 0;
+  for (std::string object; std::getline(objects, object, '|'); ++count) {
+    const std::string listed = run_program({"nm", "-C", object}, ".", {}).out;
+    ASSERT_NE(listed.find("hooke_"), std::string::npos) << object;
+    std::istringstream lines(listed);
+    for (std::string line; std::getline(lines, line);) {
+      const char kind = line.size() > 17 ? line[17] : ' ';
+      EXPECT_EQ(std::string("WwVvu").find(kind), std::string::npos) << object << ": " << line;
+      EXPECT_EQ(line.find("std::"), std::string::npos) << object << ": " << line;
+    }
+  }
+  EXPECT_EQ(count, 6);
 }
 
 }  // namespace
