@@ -7,10 +7,10 @@
 
 namespace crosscheck {
 
-/// Adds the same forces as the plain edge loop of terms/springs.h, up to the order of summation and to the rounding of
-/// 1 / length. Each spring goes the cheapest of three ways (network/plan.h): on a diagonal (network/diagonals.h), in a
-/// pair (network/pairs.h), or, where there are too few for lanes, through the plain loop itself. Nothing depends on
-/// threads; AVX2 and AVX-512 give the same bits.
+/// Adds the same forces as the plain edge loop of terms/springs.h, in another order. Each spring goes the cheapest of
+/// three ways (network/plan.h): on a diagonal (network/diagonals.h), in a pair (network/pairs.h), or, where there are
+/// too few for lanes, through the plain loop itself. On all of them its force is the same to the last bit. Nothing
+/// depends on threads; AVX2 and AVX-512 sort springs alike and give the same bits.
 class SpringKernel {
  public:
   /// For springs between `particles` particles. The springs' law must be Hooke's or Bullet's link law.

@@ -34,7 +34,7 @@ ALWAYS Sums begin_at(const Diagonals& s, int b, int lane, const int* line, V& le
     for (int a = 0; a < abreast; ++a, own += L::width) {
       V d[3];
       for (int c = 0; c < 3; ++c) d[c] = near[c][a] - L::load(x[c] + a * L::width + diagonal->offset);
-      const V squared = L::fma(d[2], d[2], L::fma(d[1], d[1], d[0] * d[0]));
+      const V squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
       least = L::min(least, squared);
       const V scale = scale_of<hooke>(squared, L::load(own), L::load(own + block));
       double* to = diagonal->ring + r + a * L::width;

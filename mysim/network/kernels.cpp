@@ -26,8 +26,8 @@ Functions functions(strip::Isa isa, SpringLaw law) {
 }
 
 Costs costs(strip::Isa isa) {
-  if (isa == strip::Isa::sse2) return {.line = 17, .block = 16, .pair = 2.6, .particle = 2, .plain = 3.2, .call = 30};
-  return {.line = 10, .block = 12, .pair = 2.3, .particle = 2, .plain = 3.2, .call = 30};
+  if (isa == strip::Isa::sse2) return {.line = 17, .block = 16, .pair = 2.6, .particle = 2, .plain = 3.1, .call = 30};
+  return {.line = 9, .block = 10, .pair = 1.8, .particle = 2, .plain = 3.1, .call = 30};
 }
 
 }  // namespace crosscheck::network

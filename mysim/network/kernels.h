@@ -16,8 +16,8 @@ struct Functions {
 };
 Functions functions(strip::Isa isa, SpringLaw law);
 
-/// What things take on this kind of instructions, ns, as measured on one machine; only their ratios matter, and both
-/// kinds of AVX share one set, so that they sort springs alike and give the same bits.
+/// What things take on this kind of instructions, ns, as measured on one machine; only their ratios matter. Both kinds
+/// of AVX share one set: they sort springs alike, add them up in the same order, and so give the same bits.
 struct Costs {
   double line, block;  // eight springs of a diagonal side by side; putting eight particles in and getting them out
   double pair, particle;

@@ -39,6 +39,7 @@ struct Lanes<double> {
   ALWAYS V fnma(V a, V b, V c) { return _mm512_fnmadd_pd(a, b, c); }
   ALWAYS V min(V a, V b) { return _mm512_min_pd(a, b); }
   ALWAYS V max(V a, V b) { return _mm512_max_pd(a, b); }
+  ALWAYS V root(V s) { return _mm512_sqrt_pd(s); }
   ALWAYS V rough_inverse_root(V s) { return _mm512_rsqrt14_pd(s); }  // 14 bits
   ALWAYS V guessed_inverse_root(V s) {                               // 5 bits, from the bits of s
     return _mm512_castsi512_pd(
@@ -71,11 +72,11 @@ struct Lanes<double> {
     };
     return {two(0), two(2), two(4), two(6)};
   }
-  /// The sum of the squares of each record.
+  /// The sum of the squares of each record, rounded as x x + y y + z z.
   ALWAYS V squares(const Records& d) {
     const auto two = [](V a, V b) __attribute__((always_inline)) {
       const V even = _mm512_unpacklo_pd(a, b), odd = _mm512_unpackhi_pd(a, b);
-      return fma(odd, odd, even * even);
+      return even * even + odd * odd;
     };
     const V a = two(d.r[0], d.r[1]), b = two(d.r[2], d.r[3]);
     return _mm512_permutex_pd(_mm512_shuffle_f64x2(a, b, 0x88) + _mm512_shuffle_f64x2(a, b, 0xdd), 0b11011000);
@@ -125,6 +126,7 @@ struct Lanes<double> {
   ALWAYS V fnma(V a, V b, V c) { return _mm256_fnmadd_pd(a, b, c); }
   ALWAYS V min(V a, V b) { return _mm256_min_pd(a, b); }
   ALWAYS V max(V a, V b) { return _mm256_max_pd(a, b); }
+  ALWAYS V root(V s) { return _mm256_sqrt_pd(s); }
   /// 12 bits, for 1e-38 < s < 1e38.
   ALWAYS V rough_inverse_root(V s) { return _mm256_cvtps_pd(_mm_rsqrt_ps(_mm256_cvtpd_ps(s))); }
   ALWAYS V guessed_inverse_root(V s) {
@@ -155,7 +157,7 @@ struct Lanes<double> {
   ALWAYS V squares(const Records& d) {
     const auto two = [](V a, V b) __attribute__((always_inline)) {
       const V even = _mm256_unpacklo_pd(a, b), odd = _mm256_unpackhi_pd(a, b);
-      return fma(odd, odd, even * even);
+      return even * even + odd * odd;
     };
     const V a = two(d.r[0], d.r[1]), b = two(d.r[2], d.r[3]);
     return _mm256_permute2f128_pd(a, b, 0x20) + _mm256_permute2f128_pd(a, b, 0x31);
@@ -201,7 +203,8 @@ struct Lanes<double> {
   ALWAYS V fnma(V a, V b, V c) { return c - a * b; }
   ALWAYS V min(V a, V b) { return _mm_min_pd(a, b); }
   ALWAYS V max(V a, V b) { return _mm_max_pd(a, b); }
-  ALWAYS V inverse_root(V s) { return all(1) / _mm_sqrt_pd(s); }
+  ALWAYS V root(V s) { return _mm_sqrt_pd(s); }
+  ALWAYS V inverse_root(V s) { return all(1) / root(s); }
   ALWAYS bool any_below(V a, V b) { return _mm_movemask_pd(_mm_cmplt_pd(a, b)) != 0; }
 
   ALWAYS void add(double* p, V a) { store(p, load(p) + a); }
@@ -224,7 +227,7 @@ struct Lanes<double> {
   ALWAYS V squares(const Records& d) {
     const V x = _mm_unpacklo_pd(d.r[0].xy, d.r[1].xy), y = _mm_unpackhi_pd(d.r[0].xy, d.r[1].xy),
             z = _mm_unpacklo_pd(d.r[0].z, d.r[1].z);
-    return fma(y, y, x * x) + z * z;
+    return x * x + y * y + z * z;
   }
   template <class Take>
   ALWAYS void each_scaled(const Records& d, V by, Take take) {

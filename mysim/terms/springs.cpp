@@ -32,6 +32,17 @@ void add_force(const Springs& springs, const Particles&, const State& state, For
   add_force(springs, state.x, forces);
 }
 
+/// -T / L at squared length L^2 > 0.
+template <SpringLaw law>
+static double scale_of(const Spring& s, double squared) {
+  if constexpr (law == SpringLaw::hooke) {
+    const double length = std::sqrt(squared);
+    return s.k * (s.rest - length) / length;
+  }
+  const double r2 = s.rest * s.rest;
+  return s.k * (r2 - squared) / (squared + r2);
+}
+
 /// For each law a loop of its own: nothing is asked spring by spring.
 template <SpringLaw law>
 static void loop(const std::vector<Spring>& list, const Points& x, Forces& forces) {
@@ -43,8 +54,7 @@ static void loop(const std::vector<Spring>& list, const Points& x, Forces& force
       forces.coincident += s.rest > 0;
       continue;
     }
-    const double length = std::sqrt(squared);
-    const Vec3 f = (-tension_of(s, law, length).force / length) * d;
+    const Vec3 f = scale_of<law>(s, squared) * d;
     forces.f.col(s.a) += f;
     forces.f.col(s.b) -= f;
   }
