@@ -12,10 +12,6 @@ namespace {
 /// m: where particles that there are none of stand, far from the others and from each other.
 double nowhere(long i) { return 1e6 + 17 * static_cast<double>(i); }
 
-/// Coordinates of the same particle should not fall on the same places of the first-level cache, which repeat every 64
-/// lines.
-long apart_in_cache(long lines) { return lines + (21 - lines % 64 + 64) % 64; }
-
 }  // namespace
 
 DiagonalMemory::DiagonalMemory(const std::vector<Turned>& diagonals, int particles) {
@@ -28,7 +24,7 @@ DiagonalMemory::DiagonalMemory(const std::vector<Turned>& diagonals, int particl
     diagonals_.push_back(
         {offset, diagonal.front().a / block, diagonal.back().a / block + 1, places - 1, rings_.back().data()});
   }
-  const long apart = block * apart_in_cache(blocks + 2);
+  const long apart = block * (blocks + 2L);
   x_ = Lines<double>(3 * apart);
   for (int c = 0; c < 3; ++c)
     for (long i = 0; i < apart; ++i) x_.data()[c * apart + i] = nowhere(i);
