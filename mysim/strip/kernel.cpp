@@ -180,8 +180,8 @@ template <class T>
   return met;
 }
 
-/// Goes over all rows from the first; `finished(row, x, f)` is told of each whose forces are complete. Returns how many
-/// springs had ends that met.
+/// Goes over the rows from the first; `finished(row, x, f)` is told of each of its own whose forces are complete.
+/// Returns how many springs that begin in these had ends that met.
 template <class T, bool fast, class Finished>
 ALWAYS long over_rows(const Sheet<T>& s, Finished finished) {
   using L = Lanes<T>;
@@ -189,14 +189,16 @@ ALWAYS long over_rows(const Sheet<T>& s, Finished finished) {
   T* f[3] = {s.force + first, s.force + length + first, s.force + 2 * length + first};
   for (T* row : f) clear(row - first, length);
   long met = 0;
-  for (int r = 0; r < s.rows; ++r) {
+  for (int r = 0; r < s.rows - s.tail; ++r) {
     T* x = s.x + r * length + first;
     const Rows<T> rows{{x, x + length, x + 2 * length}, {f[0], f[1], f[2]}};
     V<T> least = L::all(T(1));
     springs_of_row<T, fast>(s, rows, s.rows - 1 - r, least);
-    if (L::any_below(least, L::all(smallest<T>))) met += count_met(s, rows, s.rows - 1 - r);
-    fold(f[0], s.blocks);
-    finished(r, x, f[0]);
+    if (r >= s.lead) {
+      if (L::any_below(least, L::all(smallest<T>))) met += count_met(s, rows, s.rows - 1 - r);
+      fold(f[0], s.blocks);
+      finished(r, x, f[0]);
+    }
     T* done = f[0];
     clear(done - first, length);
     f[0] = f[1], f[1] = f[2], f[2] = done;

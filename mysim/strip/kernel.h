@@ -9,6 +9,9 @@
 // A row is finished when the rows above and itself have given it their forces; then it is kicked and drifted in place,
 // since no later row asks for its old positions. So a whole step is one sweep, each spring is taken once, and three
 // rows of forces are all the memory it needs.
+//
+// A band of a sheet is swept like a whole one. Rows of its neighbours stand around it: those before it give it their
+// forces anew, in the order in which a sweep over the whole sheet would, and neither these nor those after it move.
 #pragma once
 
 namespace crosscheck::strip {
@@ -19,7 +22,7 @@ inline constexpr int directions = 6;  // of springs, towards later particles
 struct Direction {
   int down, right;
 };
-inline constexpr Direction direction[directions] = {{0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, -1}, {2, 0}};
+static constexpr Direction direction[directions] = {{0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, -1}, {2, 0}};
 
 template <class T>
 inline constexpr int lanes = 64 / sizeof(T);
@@ -38,6 +41,7 @@ using Touch = void (*)(void* whom, int row, int block, T* x, T* v);
 template <class T>
 struct Sheet {
   int rows, blocks;             // of a row, without its copies
+  int lead, tail;               // of the rows, how many at the beginning and at the end are a neighbour's
   T *x, *v;                     // m, m/s: rows x (before + blocks + after) x 3 x lanes; v without copies: rows x blocks
   T* force;                     // N: three rows as those of x, working memory
   const T* k[directions];       // N/m: blocks x lanes; null where there are no springs of that direction
