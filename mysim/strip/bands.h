@@ -17,7 +17,7 @@ class Bands {
  public:
   /// See Stride: of each particle, or one line for all.
   struct Factors {
-    Lines<T> keep, push, span;
+    Lines<T> lose, push, span;
   };
   struct Band {
     int which;

@@ -138,11 +138,11 @@ ALWAYS void move_row(const Sheet<T>& s, const Stride<T>& step, int row, T* x, co
     bool touched = false;
     for (int lane = 0; lane < lanes<T>; lane += L::width) {
       const long own = (static_cast<long>(row) * s.blocks + b) * s.stride + lane;
-      const V<T> keep = L::load(s.keep + own), push = L::load(s.push + own), span = L::load(s.span + own);
+      const V<T> lose = L::load(s.lose + own), push = L::load(s.push + own), span = L::load(s.span + own);
       const Three<T> p = load(x_b + lane), u = load(v_b + lane), pull = load(f + static_cast<long>(b) * line<T> + lane);
-      const Three<T> v{L::fma(keep, u.x, L::fma(push, pull.x, span * fall_x)),
-                       L::fma(keep, u.y, L::fma(push, pull.y, span * fall_y)),
-                       L::fma(keep, u.z, L::fma(push, pull.z, span * fall_z))};
+      const Three<T> v{u.x + L::fnma(lose, u.x, L::fma(push, pull.x, span * fall_x)),
+                       u.y + L::fnma(lose, u.y, L::fma(push, pull.y, span * fall_y)),
+                       u.z + L::fnma(lose, u.z, L::fma(push, pull.z, span * fall_z))};
       const Three<T> e{L::fma(out, v.x, p.x), L::fma(out, v.y, p.y), L::fma(out, v.z, p.z)};
       if (step.ball_count > 0) {
         store(end + lane, e), store(speed + lane, v);

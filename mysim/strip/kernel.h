@@ -46,11 +46,12 @@ struct Sheet {
   T* force;                     // N: three rows as those of x, working memory
   const T* k[directions];       // N/m: blocks x lanes; null where there are no springs of that direction
   T rest[directions];           // m
-  const T *keep, *push, *span;  // of each particle (rows x blocks x lanes), or of all (one line): see kick
+  const T *lose, *push, *span;  // of each particle (rows x blocks x lanes), or of all (one line): see Stride
   int stride;                   // of these: lanes, or 0 where one line is for all
 };
 
-/// What a sweep does: v' = keep v + push f + span fall; x_end = x + out v'; contacts; x' = x_end + on v'.
+/// What a sweep does: v' = v + (push f + span fall - lose v); x_end = x + out v'; contacts; x' = x_end + on v'. What
+/// drag takes is kept as a number of its own: in 1 - lose, rounded, a fraction of it would be gone in every step.
 template <class T>
 struct Stride {
   T fall[3];  // m/s^2: of all particles alike

@@ -124,11 +124,10 @@ class World : public SheetWorld {
         const double part = fraction * h;
         const Eigen::ArrayXd half = part / 2 * c;
         // drag: at the old velocity, or averaged over old and new
-        const Eigen::ArrayXd keep =
-            chain.kick_first ? Eigen::ArrayXd(1 - part * c) : Eigen::ArrayXd((1 - half) / (1 + half));
+        const Eigen::ArrayXd lose = chain.kick_first ? Eigen::ArrayXd(part * c) : Eigen::ArrayXd(part * c / (1 + half));
         const Eigen::ArrayXd span =
             chain.kick_first ? Eigen::ArrayXd::Constant(count, part) : Eigen::ArrayXd(part / (1 + half));
-        band.factors.push_back({band.body.spread(keep), band.body.spread(span / m), band.body.spread(span)});
+        band.factors.push_back({band.body.spread(lose), band.body.spread(span / m), band.body.spread(span)});
       }
     }
   }
@@ -140,7 +139,7 @@ class World : public SheetWorld {
         band.body.place(here, particles.pin_home.col(static_cast<int>(i)) + shift);
     Sheet<T>& sheet = band.body.sheet();
     const auto& factors = band.factors[kick];
-    sheet.keep = factors.keep.data(), sheet.push = factors.push.data(), sheet.span = factors.span.data();
+    sheet.lose = factors.lose.data(), sheet.push = factors.push.data(), sheet.span = factors.span.data();
     sheet.stride = stride_;
     Asked asked{this, &band, &seen_[band.which]};
     stride.whom = &asked;
@@ -226,7 +225,7 @@ std::unique_ptr<SheetWorld> sheet_world(const Stepper& stepper, ContactRule cont
   if (execution.precision == Precision::plain || !stepper.chain || !springs || !only_known_terms(model)) return nullptr;
   const Chain chain = stepper.chain();
   if (model.find<Spheres>() && (contact != ContactRule::coulomb || chain.parts.size() > 1)) return nullptr;
-  const auto weave = weave_of(*springs, model.particles.size(), scene.start.x.cwiseAbs().maxCoeff());
+  const auto weave = weave_of(*springs, model.particles.size());
   if (!weave) return nullptr;
   if (execution.precision == Precision::single)
     return world_on<float>(*weave, chain, scene, h, true, execution.threads, observer);

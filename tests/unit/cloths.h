@@ -21,8 +21,7 @@ class Instructions {
 
 inline std::optional<strip::Weave> weave_in(const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
-  return springs ? strip::weave_of(*springs, scene.model.particles.size(), scene.start.x.cwiseAbs().maxCoeff())
-                 : std::nullopt;
+  return springs ? strip::weave_of(*springs, scene.model.particles.size()) : std::nullopt;
 }
 
 struct Cloth {

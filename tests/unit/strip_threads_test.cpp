@@ -52,12 +52,12 @@ TEST(Crew, CountsWhatTheOthersWork) {
     crew.all([&](int which) {
       CpuClock clock;
       double s = 0;
-      while (s < 1e-3) clock.start(), clock.stop(), s = clock.seconds();
+      while (s < (which == 0 ? 20e-3 : 1e-3)) clock.start(), clock.stop(), s = clock.seconds();
       own[which] += s;
     });
-  // what the others did, and the reading of clocks around it; not what the first did
+  // the reading of clocks comes on top; what the first did is twenty times as much
   EXPECT_GE(crew.seconds(), own[1] + own[2]);
-  EXPECT_LT(crew.seconds(), 1.5 * (own[1] + own[2]));
+  EXPECT_LT(crew.seconds(), own[0]);
 }
 
 TEST(Crew, AsleepItWakesUp) {
