@@ -56,9 +56,10 @@ double left_by_one_step(const Question& question, const Answered& answered, doub
   return lengths * (1e-12 + 8 * eps * stiffest * h * h / lightest);
 }
 
-/// Beyond so many times what the start was moved by, relative to the largest quantity of the unit, changes are no
-/// longer in proportion, as nothing goes further than the scene lets it: chaos has taken over.
-constexpr double predictable_growth = 1e6;
+/// A run whose places, or a quantity that, change by such a part of the largest is beyond prediction: chaos has taken
+/// over, and changes are no longer in proportion to what the start was moved by, as nothing goes further than the scene
+/// lets it.
+constexpr double saturated = 0.01;
 
 /// What solvers leave in the quantity. A change of the start tells nothing of that where the rule damps: what the start
 /// had in excess is gone by then, and what the last steps leave is not.
@@ -102,8 +103,8 @@ std::vector<std::string> words_of_derivations() {
       "  lightest particle; in places adding up like a random walk, in energies as the velocities of one step; no",
       "  damping counted",
       "truth known to D: the error bar of what the error is measured against, on top",
-      "beyond prediction: the change is more than 1e6 times what the start was moved by, relative to the largest",
-      "  quantity of the unit and the lengths: three times as much is bound to chance, and B is not scaled",
+      "beyond prediction: a run whose places change by more than a hundredth of the lengths is one of chance, and a",
+      "  quantity that changes by as much of the largest of its unit may be anything: thrice B says no more than that",
       "steps: D: of a time of failure: a sampling interval and two steps on top of B, which is not scaled, as the time",
       "  goes as the logarithm of what grew until it failed",
   };
@@ -125,24 +126,31 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
   std::map<std::string, double> scale;  // of each unit: what is zero but for rounding is bounded beside it
   for (const Quantity& q : quantities)
     if (!q.count) scale[q.unit] = std::max(scale[q.unit], std::abs(q.value));
-  for (const Quantity& q : quantities) {
-    if (q.is_word() || q.count) {
-      all.push_back({q, 0, q.is_word() ? "word" : "count"});
-      continue;
-    }
+  const auto change_of = [&](const Quantity& q) {
     double change = 0;
     for (const auto& list : moved) {
       const Quantity* other = find(list, q.name);
       change = std::max(change, other ? std::abs(other->value - q.value) : scale[q.unit]);
     }
+    return change;
+  };
+  const double far = saturated * (question.scene.size() + motion_in(answered));
+  const bool chaotic = std::any_of(quantities.begin(), quantities.end(), [&](const Quantity& q) {
+    return q.unit == "m" && q.name != error_quantity && change_of(q) > far;
+  });
+  for (const Quantity& q : quantities) {
+    if (q.is_word() || q.count) {
+      all.push_back({q, 0, q.is_word() ? "word" : "count"});
+      continue;
+    }
+    const double change = change_of(q);
     if (q.name == time_of_failure) {
       // not scaled: what grows until it fails may have begun as a rounding, so that the time goes as its logarithm
       all.push_back({q, rounded_up(change + q.bar),
                      fmt::format("start moved by {:.1e} m: {:.1e}; steps: {:.1e}", little, change, q.bar)});
       continue;
     }
-    const double most = predictable_growth * little / (question.scene.size() + motion_in(answered));
-    if (change > most * scale[q.unit]) {
+    if (chaotic && change > saturated * scale[q.unit]) {
       all.push_back({q, rounded_up(3 * change + q.bar),
                      fmt::format("start moved by {:.1e} m: {:.1e}, beyond prediction", little, change)});
       continue;
