@@ -135,9 +135,10 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
     return change;
   };
   const double far = saturated * (question.scene.size() + motion_in(answered));
-  const bool chaotic = std::any_of(quantities.begin(), quantities.end(), [&](const Quantity& q) {
-    return q.unit == "m" && q.name != error_quantity && change_of(q) > far;
-  });
+  const bool chaotic = answered.outcome.verdict == Verdict::ok &&
+                       std::any_of(quantities.begin(), quantities.end(), [&](const Quantity& q) {
+                         return q.unit == "m" && q.name != error_quantity && change_of(q) > far;
+                       });
   for (const Quantity& q : quantities) {
     if (q.is_word() || q.count) {
       all.push_back({q, 0, q.is_word() ? "word" : "count"});
