@@ -57,13 +57,14 @@ Outcome simulate_adaptively(ContactRule contact, const Scene& scene, const Run& 
 }  // namespace
 
 Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer,
-                 Precision precision) {
+                 const Execution& execution) {
   require_supported(stepper, scene.model);
   if (stepper.adaptive) return simulate_adaptively(contact, scene, run, observer);
-  if (const auto sheet = strip::sheet_world(stepper, contact, scene, plan(run).h, precision, observer)) {
+  if (const auto sheet = strip::sheet_world(stepper, contact, scene, plan(run).h, execution, observer)) {
     Outcome out = march(*sheet, run, observer);
     out.evaluations = sheet->evaluations();
     out.coincident = sheet->coincident();
+    if (run.timed) out.cpu_seconds += sheet->other_seconds();
     return out;
   }
   FixedStepWorld world(stepper, contact, scene, plan(run).h);

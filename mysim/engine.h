@@ -10,9 +10,14 @@ namespace crosscheck {
 /// can, or in single precision; plain is the general engine, whatever the scene.
 enum class Precision { reproducible, fastest, single, plain };
 
+struct Execution {
+  Precision precision = Precision::reproducible;
+  int threads = 1;  // at most: small cloths are stepped by fewer; the same bits, however many
+};
+
 /// Runs the scene, at run.step or, where the stepper is adaptive, to run.tolerance. Throws Unsupported with the reason
 /// when the stepper does not take the scene.
 Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer,
-                 Precision precision = Precision::reproducible);
+                 const Execution& execution = {});
 
 }  // namespace crosscheck

@@ -56,8 +56,9 @@ Points grid_points(const Grid& g) {
   return x;
 }
 
-std::vector<Spring> grid_springs(const Grid& g, const Points& x) {
+std::vector<Spring> grid_springs(const Grid& g) {
   std::vector<Spring> list;
+  const Vec3* side[3] = {&g.u, &g.v, &g.w};
   const int size[3] = {g.nu, g.nv, g.nw}, stride[3] = {1, g.nu, g.nu * g.nv};
   using Steps = std::array<int, 3>;
   auto inside = [&](const Steps& at) {
@@ -68,8 +69,12 @@ std::vector<Spring> grid_springs(const Grid& g, const Points& x) {
   auto add = [&](const Steps& from, const Steps& to, double k, Family family) {
     if (k == 0 || !inside(from) || !inside(to)) return;
     int a = 0, b = 0;
-    for (int axis = 0; axis < 3; ++axis) a += stride[axis] * from[axis], b += stride[axis] * to[axis];
-    list.push_back({a, b, k, (x.col(a) - x.col(b)).norm(), family});
+    Vec3 apart = Vec3::Zero();
+    for (int axis = 0; axis < 3; ++axis) {
+      a += stride[axis] * from[axis], b += stride[axis] * to[axis];
+      if (size[axis] > 1) apart += double(to[axis] - from[axis]) / (size[axis] - 1) * *side[axis];
+    }
+    list.push_back({a, b, k, apart.norm(), family});
   };
   auto moved = [](Steps at, int axis, int by) {
     at[axis] += by;

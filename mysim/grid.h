@@ -25,9 +25,10 @@ struct Grid {
 Grid read_grid(const Section& s);
 Points grid_points(const Grid& grid);
 /// Pairs in the order of the particles: for each one, structural along the axes, both shear diagonals of each face of
-/// the cell that starts there, bend (skip one) along the axes. Rest lengths are the distances at the start; stiffness
-/// is infinite for the structural family of an inextensible grid.
-std::vector<Spring> grid_springs(const Grid& grid, const Points& x);
+/// the cell that starts there, bend (skip one) along the axes. Rest lengths are the distances of the grid, the same
+/// number for all springs of a direction, to which the places that they start from are rounded; stiffness is infinite
+/// for the structural family of an inextensible grid.
+std::vector<Spring> grid_springs(const Grid& grid);
 /// The cloth, or the six faces of the block seen from outside.
 std::vector<std::array<int, 3>> grid_triangles(const Grid& grid);
 

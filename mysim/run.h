@@ -124,7 +124,7 @@ struct Outcome {
   long steps = 0;                          // taken
   long evaluations = 0;                    // of the right-hand side, or the engine's own force passes
   long coincident = 0;                     // springs met at zero length, summed over the evaluations
-  double cpu_seconds = 0;                  // of the stepping thread, observers excluded; an outside program's own word
+  double cpu_seconds = 0;                  // of the stepping threads, observers excluded; an outside program's own word
   double process_seconds = 0;              // CPU of a whole outside process, its start and its files included; 0 inside
   std::string remark;                      // what else a reader should know, e.g. what an outside program complained of
   std::vector<std::string> different_law;  // ingredients that the engine has under another law, one sentence each

@@ -73,7 +73,7 @@ void read_pairs(const Section& file, const std::optional<Grid>& grid, Scene& sce
   Dashpots dashpots;
   Constraints constraints;
   if (grid)
-    for (const Spring& s : grid_springs(*grid, scene.start.x)) {
+    for (const Spring& s : grid_springs(*grid)) {
       if (std::isinf(s.k)) {
         constraints.list.push_back({s.a, s.b, s.rest});
         continue;

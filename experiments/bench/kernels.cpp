@@ -79,18 +79,17 @@ template <class T>
 std::function<void()> sweep(const Scene& scene, strip::Isa isa, bool fast) {
   struct Work {
     strip::SheetBody<T> body;
-    strip::Lines<T> keep, push, span;
+    strip::Lines<T> lose, push, span;
   };
-  const auto weave =
-      strip::weave_of(*scene.model.find<Springs>(), scene.model.particles.size(), scene.start.x.cwiseAbs().maxCoeff());
+  const auto weave = strip::weave_of(*scene.model.find<Springs>(), scene.model.particles.size());
   auto work = std::make_shared<Work>(Work{strip::SheetBody<T>(*weave), {}, {}, {}});
   const double h = scene.step, m = scene.model.particles.mass[0];
   const auto all = [&](double value) { return work->body.spread(Eigen::ArrayXd::Constant(1, value)); };
   // strongly damped: it comes to rest, and its springs go on being computed
-  work->keep = all(0.9), work->push = all(h / m), work->span = all(h);
+  work->lose = all(0.1), work->push = all(h / m), work->span = all(h);
   work->body.put(scene.start.x, scene.start.v);
   strip::Sheet<T>& sheet = work->body.sheet();
-  sheet.keep = work->keep.data(), sheet.push = work->push.data(), sheet.span = work->span.data();
+  sheet.lose = work->lose.data(), sheet.push = work->push.data(), sheet.span = work->span.data();
   const strip::Stride<T> stride{{0, 0, 0}, static_cast<T>(h / 2), static_cast<T>(h / 2), nullptr, 0, nullptr, nullptr};
   return [work, stride, kernel = strip::kernel<T>(isa, fast)] { kernel.sweep(work->body.sheet(), stride); };
 }

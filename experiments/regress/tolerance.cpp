@@ -39,6 +39,10 @@ Scene pushed(Scene scene, double size, int axis) {
   return scene;
 }
 
+double motion_in(const Answered& answered) {
+  return answered.trajectory.frames() > 0 ? motion_of(answered.trajectory) : 0;
+}
+
 /// What the equation of one step leaves in places, m: mysim's rules stop at 1e-12 of the inertial forces, or where the
 /// spring forces, of places known to their last digits, are no longer told apart; the lightest particle yields most.
 double left_by_one_step(const Question& question, const Answered& answered, double lengths) {
@@ -51,6 +55,11 @@ double left_by_one_step(const Question& question, const Answered& answered, doub
   const double h = answered.outcome.step;
   return lengths * (1e-12 + 8 * eps * stiffest * h * h / lightest);
 }
+
+/// A run whose places, or a quantity that, change by such a part of the largest is beyond prediction: chaos has taken
+/// over, and changes are no longer in proportion to what the start was moved by, as nothing goes further than the scene
+/// lets it.
+constexpr double saturated = 0.01;
 
 /// What solvers leave in the quantity. A change of the start tells nothing of that where the rule damps: what the start
 /// had in excess is gone by then, and what the last steps leave is not.
@@ -68,13 +77,14 @@ double left_by_steps(const Question& question, const Answered& answered, const R
 }  // namespace
 
 Rounding rounding_of(const Question& question, const Answered& answered) {
-  const double motion = answered.trajectory.frames() > 0 ? motion_of(answered.trajectory) : 0;
-  const double lengths = question.scene.size() + motion;
+  const double motion = motion_in(answered), lengths = question.scene.size() + motion;
   if (single(question.method, answered))
     return {*single_precision_bound(question.scene, motion, 1, answered.outcome.steps), "single precision"};
   if (solves(question.method))
     return {1e-10 * std::max(1.0, lengths), "solver", left_by_one_step(question, answered, lengths)};
-  return {*round_off_bound(question.scene, motion, 1), "double precision"};
+  const Outcome& out = answered.outcome;
+  const double stages = out.steps > 0 ? std::max(1.0, static_cast<double>(out.evaluations) / out.steps) : 1;
+  return {*round_off_bound(question.scene, motion, 1) * std::sqrt(stages), "double precision"};
 }
 
 std::vector<std::string> words_of_derivations() {
@@ -85,13 +95,16 @@ std::vector<std::string> words_of_derivations() {
       "  z by their speed within the run, changes the quantity by B at most (3 tries),",
       "  and all roundings of a run are as a change of the start by C: B C / A, and 64 last digits of the largest",
       "  quantity of the unit, or of the places or energies whose difference it is",
-      "double precision: C is 1e-15 of the scene's size and motion in a step, a hundredfold for thousands of steps",
+      "double precision: C is 1e-15 of the scene's size and motion in a step, more by the root of the step's stages, a",
+      "  hundredfold for thousands of steps",
       "single precision: ten roundings of 6e-8 of them in a step, adding up like a random walk",
       "solver: an equation in each step, solved to 1e-10 of its forces: C is 1e-10 of them",
       "steps leave D: 1e-12 of the lengths in a step, and what 64-bit places make of the stiffest spring on the",
       "  lightest particle; in places adding up like a random walk, in energies as the velocities of one step; no",
       "  damping counted",
       "truth known to D: the error bar of what the error is measured against, on top",
+      "beyond prediction: a run whose places change by more than a hundredth of the lengths is one of chance, and a",
+      "  quantity that changes by as much of the largest of its unit may be anything: thrice B says no more than that",
       "steps: D: of a time of failure: a sampling interval and two steps on top of B, which is not scaled, as the time",
       "  goes as the logarithm of what grew until it failed",
   };
@@ -113,20 +126,34 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
   std::map<std::string, double> scale;  // of each unit: what is zero but for rounding is bounded beside it
   for (const Quantity& q : quantities)
     if (!q.count) scale[q.unit] = std::max(scale[q.unit], std::abs(q.value));
-  for (const Quantity& q : quantities) {
-    if (q.is_word() || q.count) {
-      all.push_back({q, 0, q.is_word() ? "word" : "count"});
-      continue;
-    }
+  const auto change_of = [&](const Quantity& q) {
     double change = 0;
     for (const auto& list : moved) {
       const Quantity* other = find(list, q.name);
       change = std::max(change, other ? std::abs(other->value - q.value) : scale[q.unit]);
     }
+    return change;
+  };
+  const double far = saturated * (question.scene.size() + motion_in(answered));
+  const bool chaotic = answered.outcome.verdict == Verdict::ok &&
+                       std::any_of(quantities.begin(), quantities.end(), [&](const Quantity& q) {
+                         return q.unit == "m" && q.name != error_quantity && change_of(q) > far;
+                       });
+  for (const Quantity& q : quantities) {
+    if (q.is_word() || q.count) {
+      all.push_back({q, 0, q.is_word() ? "word" : "count"});
+      continue;
+    }
+    const double change = change_of(q);
     if (q.name == time_of_failure) {
       // not scaled: what grows until it fails may have begun as a rounding, so that the time goes as its logarithm
       all.push_back({q, rounded_up(change + q.bar),
                      fmt::format("start moved by {:.1e} m: {:.1e}; steps: {:.1e}", little, change, q.bar)});
+      continue;
+    }
+    if (chaotic && change > saturated * scale[q.unit]) {
+      all.push_back({q, rounded_up(3 * change + q.bar),
+                     fmt::format("start moved by {:.1e} m: {:.1e}, beyond prediction", little, change)});
       continue;
     }
     const double left = left_by_steps(question, answered, rounding, q);

@@ -7,11 +7,11 @@
 namespace crosscheck {
 namespace {
 
-/// v' = ((1 - h gamma/2) v + h a) / (1 + h gamma/2), for each particle.
+/// v' = v + h (a - gamma v) / (1 + h gamma/2), for each particle. Written as ((1 - h gamma/2) v + h a) / (1 + h
+/// gamma/2) it would round the little that drag takes as a part of v, by the same amount in every step.
 void kick(const Eigen::ArrayXd& gamma, const Points& v, const Points& a, double h, Points& out) {
   for (int i = 0; i < v.cols(); ++i) {
-    const double half = h / 2 * gamma[i];
-    out.col(i) = ((1 - half) * v.col(i) + h * a.col(i)) / (1 + half);
+    out.col(i) = v.col(i) + h / (1 + h / 2 * gamma[i]) * (a.col(i) - gamma[i] * v.col(i));
   }
 }
 

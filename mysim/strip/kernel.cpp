@@ -138,11 +138,11 @@ ALWAYS void move_row(const Sheet<T>& s, const Stride<T>& step, int row, T* x, co
     bool touched = false;
     for (int lane = 0; lane < lanes<T>; lane += L::width) {
       const long own = (static_cast<long>(row) * s.blocks + b) * s.stride + lane;
-      const V<T> keep = L::load(s.keep + own), push = L::load(s.push + own), span = L::load(s.span + own);
+      const V<T> lose = L::load(s.lose + own), push = L::load(s.push + own), span = L::load(s.span + own);
       const Three<T> p = load(x_b + lane), u = load(v_b + lane), pull = load(f + static_cast<long>(b) * line<T> + lane);
-      const Three<T> v{L::fma(keep, u.x, L::fma(push, pull.x, span * fall_x)),
-                       L::fma(keep, u.y, L::fma(push, pull.y, span * fall_y)),
-                       L::fma(keep, u.z, L::fma(push, pull.z, span * fall_z))};
+      const Three<T> v{u.x + L::fnma(lose, u.x, L::fma(push, pull.x, span * fall_x)),
+                       u.y + L::fnma(lose, u.y, L::fma(push, pull.y, span * fall_y)),
+                       u.z + L::fnma(lose, u.z, L::fma(push, pull.z, span * fall_z))};
       const Three<T> e{L::fma(out, v.x, p.x), L::fma(out, v.y, p.y), L::fma(out, v.z, p.z)};
       if (step.ball_count > 0) {
         store(end + lane, e), store(speed + lane, v);
@@ -180,8 +180,8 @@ template <class T>
   return met;
 }
 
-/// Goes over all rows from the first; `finished(row, x, f)` is told of each whose forces are complete. Returns how many
-/// springs had ends that met.
+/// Goes over the rows from the first; `finished(row, x, f)` is told of each of its own whose forces are complete.
+/// Returns how many springs that begin in these had ends that met.
 template <class T, bool fast, class Finished>
 ALWAYS long over_rows(const Sheet<T>& s, Finished finished) {
   using L = Lanes<T>;
@@ -189,14 +189,16 @@ ALWAYS long over_rows(const Sheet<T>& s, Finished finished) {
   T* f[3] = {s.force + first, s.force + length + first, s.force + 2 * length + first};
   for (T* row : f) clear(row - first, length);
   long met = 0;
-  for (int r = 0; r < s.rows; ++r) {
+  for (int r = 0; r < s.rows - s.tail; ++r) {
     T* x = s.x + r * length + first;
     const Rows<T> rows{{x, x + length, x + 2 * length}, {f[0], f[1], f[2]}};
     V<T> least = L::all(T(1));
     springs_of_row<T, fast>(s, rows, s.rows - 1 - r, least);
-    if (L::any_below(least, L::all(smallest<T>))) met += count_met(s, rows, s.rows - 1 - r);
-    fold(f[0], s.blocks);
-    finished(r, x, f[0]);
+    if (r >= s.lead) {
+      if (L::any_below(least, L::all(smallest<T>))) met += count_met(s, rows, s.rows - 1 - r);
+      fold(f[0], s.blocks);
+      finished(r, x, f[0]);
+    }
     T* done = f[0];
     clear(done - first, length);
     f[0] = f[1], f[1] = f[2], f[2] = done;

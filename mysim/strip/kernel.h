@@ -9,6 +9,9 @@
 // A row is finished when the rows above and itself have given it their forces; then it is kicked and drifted in place,
 // since no later row asks for its old positions. So a whole step is one sweep, each spring is taken once, and three
 // rows of forces are all the memory it needs.
+//
+// A band of a sheet is swept like a whole one. Rows of its neighbours stand around it: those before it give it their
+// forces anew, in the order in which a sweep over the whole sheet would, and neither these nor those after it move.
 #pragma once
 
 namespace crosscheck::strip {
@@ -19,7 +22,7 @@ inline constexpr int directions = 6;  // of springs, towards later particles
 struct Direction {
   int down, right;
 };
-inline constexpr Direction direction[directions] = {{0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, -1}, {2, 0}};
+static constexpr Direction direction[directions] = {{0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, -1}, {2, 0}};
 
 template <class T>
 inline constexpr int lanes = 64 / sizeof(T);
@@ -38,15 +41,17 @@ using Touch = void (*)(void* whom, int row, int block, T* x, T* v);
 template <class T>
 struct Sheet {
   int rows, blocks;             // of a row, without its copies
+  int lead, tail;               // of the rows, how many at the beginning and at the end are a neighbour's
   T *x, *v;                     // m, m/s: rows x (before + blocks + after) x 3 x lanes; v without copies: rows x blocks
   T* force;                     // N: three rows as those of x, working memory
   const T* k[directions];       // N/m: blocks x lanes; null where there are no springs of that direction
   T rest[directions];           // m
-  const T *keep, *push, *span;  // of each particle (rows x blocks x lanes), or of all (one line): see kick
+  const T *lose, *push, *span;  // of each particle (rows x blocks x lanes), or of all (one line): see Stride
   int stride;                   // of these: lanes, or 0 where one line is for all
 };
 
-/// What a sweep does: v' = keep v + push f + span fall; x_end = x + out v'; contacts; x' = x_end + on v'.
+/// What a sweep does: v' = v + (push f + span fall - lose v); x_end = x + out v'; contacts; x' = x_end + on v'. What
+/// drag takes is kept as a number of its own: in 1 - lose, rounded, a fraction of it would be gone in every step.
 template <class T>
 struct Stride {
   T fall[3];  // m/s^2: of all particles alike

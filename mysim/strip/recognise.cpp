@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <vector>
 
 namespace crosscheck::strip {
@@ -34,9 +32,9 @@ long how_many(int rows, int columns, const Direction& d) {
   return std::max(0L, static_cast<long>(rows - d.down)) * std::max(0, columns - std::abs(d.right));
 }
 
-std::optional<Weave> weave_with(const Springs& springs, int rows, int columns, double extent) {
+std::optional<Weave> weave_with(const Springs& springs, int rows, int columns) {
   struct Collected {
-    double k = 0, low = std::numeric_limits<double>::infinity(), high = 0, sum = 0;
+    Weave::Family family;
     std::vector<char> seen;  // by the earlier end
     long count = 0;
   };
@@ -46,29 +44,27 @@ std::optional<Weave> weave_with(const Springs& springs, int rows, int columns, d
     const auto d = direction_of(a, b, columns);
     if (!d) return std::nullopt;
     Collected& c = all[*d];
-    if (c.count == 0) c.k = s.k, c.seen.assign(static_cast<size_t>(rows) * columns, 0);
-    if (s.k != c.k || c.seen[a]) return std::nullopt;
+    if (c.count == 0) c.family = {s.k, s.rest}, c.seen.assign(static_cast<size_t>(rows) * columns, 0);
+    if (s.k != c.family.k || s.rest != c.family.rest || c.seen[a]) return std::nullopt;
     c.seen[a] = 1;
-    c.low = std::min(c.low, s.rest), c.high = std::max(c.high, s.rest), c.sum += s.rest;
     ++c.count;
   }
   Weave weave{rows, columns, {}};
   for (int d = 0; d < directions; ++d) {
     const Collected& c = all[d];
     if (c.count == 0) continue;
-    if (c.count != how_many(rows, columns, direction[d]) || !(c.low > 0)) return std::nullopt;
-    if (c.high - c.low > 8 * std::numeric_limits<double>::epsilon() * extent) return std::nullopt;
-    weave.families[d] = {c.k, c.sum / static_cast<double>(c.count)};
+    if (c.count != how_many(rows, columns, direction[d]) || !(c.family.rest > 0)) return std::nullopt;
+    weave.families[d] = c.family;
   }
   return weave;
 }
 
 }  // namespace
 
-std::optional<Weave> weave_of(const Springs& springs, int particles, double extent) {
+std::optional<Weave> weave_of(const Springs& springs, int particles) {
   if (springs.law != SpringLaw::hooke || springs.list.empty()) return std::nullopt;
   for (const int columns : possible_columns(springs, particles))
-    if (const auto weave = weave_with(springs, particles / columns, columns, extent)) return weave;
+    if (const auto weave = weave_with(springs, particles / columns, columns)) return weave;
   return std::nullopt;
 }
 

@@ -20,8 +20,7 @@ struct Weave {
 };
 
 /// Empty where the springs are of another law, no such grid, or not all of one: such scenes are left to kernels for any
-/// network. Rest lengths of a direction may differ by what rounding does to the places that they were taken from (8
-/// units in the last place of `extent`, m, the largest coordinate); the mean is taken.
-std::optional<Weave> weave_of(const Springs& springs, int particles, double extent);
+/// network.
+std::optional<Weave> weave_of(const Springs& springs, int particles);
 
 }  // namespace crosscheck::strip

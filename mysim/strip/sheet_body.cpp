@@ -37,7 +37,7 @@ SheetBody<T>::SheetBody(const Weave& weave)
   force_ = Lines<T>(3 * row);
   // lanes without a particle stay far from the others and from each other
   for (size_t i = 0; i < x_.size(); ++i) x_.data()[i] = T(1e6) + static_cast<T>(i % 4096) * T(17);
-  sheet_ = {rows_, blocks_, x_.data(), v_.data(), force_.data(), {}, {}, nullptr, nullptr, nullptr, 0};
+  sheet_ = {rows_, blocks_, 0, 0, x_.data(), v_.data(), force_.data(), {}, {}, nullptr, nullptr, nullptr, 0};
   for (int d = 0; d < directions; ++d) {
     if (!weave.families[d]) continue;
     k_[d] = Lines<T>(static_cast<size_t>(blocks_) * lanes<T>);
@@ -75,7 +75,7 @@ void SheetBody<T>::place(int particle, const Vec3& x) {
 }
 
 template <class T>
-void SheetBody<T>::put(const Points& x, const Points& v) {
+void SheetBody<T>::put(const Eigen::Ref<const Points>& x, const Eigen::Ref<const Points>& v) {
   for (int i = 0; i < x.cols(); ++i) {
     place(i, x.col(i));
     for (int c = 0; c < 3; ++c) v_.data()[v_at(i) + c * lanes<T>] = static_cast<T>(v(c, i));
@@ -83,9 +83,9 @@ void SheetBody<T>::put(const Points& x, const Points& v) {
 }
 
 template <class T>
-void SheetBody<T>::get(Points& x, Points& v) const {
-  int i = 0;
-  for (int row = 0; row < rows_; ++row) {
+void SheetBody<T>::get(int begin, int rows, int first, Points& x, Points& v) const {
+  int i = first + begin * columns_;
+  for (int row = begin; row < begin + rows; ++row) {
     const T *x_row = x_.data() + x_at(row * columns_), *v_row = v_.data() + v_at(row * columns_);
     for (int lane = 0; lane < lanes<T>; ++lane)
       for (int block = 0; block < blocks_ && lane * blocks_ + block < columns_; ++block, ++i) {

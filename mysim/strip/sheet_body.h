@@ -40,9 +40,15 @@ class SheetBody {
   explicit SheetBody(const Weave& weave);
 
   Sheet<T>& sheet() { return sheet_; }
+  int size() const { return rows_ * columns_; }  // particles
+  /// A row of positions, with the copies beside it: so many numbers.
+  T* row(int which) { return x_.data() + which * row_length(); }
+  long row_length() const { return static_cast<long>(before + blocks_ + after) * 3 * lanes<T>; }
+
   /// All particles, and the copies beside the rows.
-  void put(const Points& x, const Points& v);
-  void get(Points& x, Points& v) const;
+  void put(const Eigen::Ref<const Points>& x, const Eigen::Ref<const Points>& v);
+  /// Some rows; the column of x and v of particle i is first + i.
+  void get(int row, int rows, int first, Points& x, Points& v) const;
   /// One particle, with the copies of it: v is set to 0.
   void place(int particle, const Vec3& x);
   Vec3 position(int particle) const;

@@ -1,19 +1,24 @@
 #include "mysim/strip/sheet_world.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "mysim/strip/bands.h"
 #include "mysim/strip/kernels.h"
-#include "mysim/strip/sheet_body.h"
 
 namespace crosscheck::strip {
 namespace {
 
-/// One kick: v' = keep v + push f + span fall, and how far positions drift after it.
-template <class T>
+/// One kick: when forces are taken (s, after the beginning of the step), and how far positions drift after it, before
+/// contacts and behind them (s).
 struct Kick {
-  double at;  // s, after the beginning of the step: when forces are taken
-  double out, on;
-  Lines<T> keep, push, span;
+  double at, out, on;
+};
+
+/// A particle that came too near: as it would have been at the end of the step.
+struct Touched {
+  int particle;
+  Vec3 x, v;
 };
 
 /// What leaves the general engine its work.
@@ -29,66 +34,122 @@ bool only_known_terms(const Model& model) {
 template <class T>
 class World : public SheetWorld {
  public:
-  World(const Chain& chain, const Weave& weave, const Scene& scene, double h, Kernel<T> kernel)
-      : scene_(scene), h_(h), kernel_(kernel), body_(weave), spheres_(scene.model.find<Spheres>()), s_(scene.start) {
-    const Particles& particles = scene.model.particles;
-    Eigen::ArrayXd gamma = Eigen::ArrayXd::Zero(particles.size());
-    if (const auto* drag = scene.model.find<Drag>()) gamma = drag->c.array() / particles.mass.array();
-    const Eigen::ArrayXd mass = particles.mass.array();
-    const bool alike = (mass == mass[0]).all() && (gamma == gamma[0]).all();
+  World(const Chain& chain, const Weave& weave, const Scene& scene, double h, Kernel<T> kernel, int threads,
+        bool asked_of_contacts)
+      : scene_(scene),
+        kernel_(kernel),
+        bands_(weave, threads),
+        seen_(bands_.all().size()),
+        spheres_(scene.model.find<Spheres>()),
+        asked_of_contacts_(asked_of_contacts),
+        s_(scene.start) {
     double begin = 0;
     for (size_t i = 0; i < chain.parts.size(); ++i) {
       const double part = chain.parts[i] * h, next = chain.parts[(i + 1) % chain.parts.size()] * h;
-      const Eigen::ArrayXd half = part / 2 * gamma;
-      // drag: at the old velocity, or averaged over old and new
-      const Eigen::ArrayXd keep =
-          chain.kick_first ? Eigen::ArrayXd(1 - part * gamma) : Eigen::ArrayXd((1 - half) / (1 + half));
-      const Eigen::ArrayXd span =
-          chain.kick_first ? Eigen::ArrayXd::Constant(gamma.size(), part) : Eigen::ArrayXd(part / (1 + half));
-      const auto lines = [&](const Eigen::ArrayXd& all) { return body_.spread(alike ? all.head(1) : all); };
-      kicks_.push_back({chain.kick_first ? begin : begin + part / 2, chain.kick_first ? part : part / 2,
-                        chain.kick_first ? 0 : next / 2, lines(keep), lines(span / mass), lines(span)});
+      kicks_.push_back(chain.kick_first ? Kick{begin, part, 0} : Kick{begin + part / 2, part / 2, next / 2});
       begin += part;
     }
-    stride_ = alike ? 0 : lanes<T>;
-    body_.put(s_.x + kicks_.back().on * s_.v, s_.v);
+    set_factors(chain, h);
+    bands_.put(s_.x + kicks_.back().on * s_.v, s_.v);
   }
 
   void step(double t, double t_next) override {
     began_ = true;
     t_ = t, t_next_ = t_next;
-    for (Kick<T>& kick : kicks_) {
-      place_pins(t + kick.at);
-      Sheet<T>& sheet = body_.sheet();
-      sheet.keep = kick.keep.data(), sheet.push = kick.push.data(), sheet.span = kick.span.data();
-      sheet.stride = stride_;
-      const Vec3 fall = fall_at(t + kick.at);
-      Stride<T> stride{{T(fall[0]), T(fall[1]), T(fall[2])}, T(kick.out), T(kick.on), nullptr, 0, &touched, this};
-      set_balls(stride);
-      coincident_ += kernel_.sweep(sheet, stride);
-      ++evaluations_;
+    set_balls();
+    for (Seen& seen : seen_) seen.touched.clear();
+    for (size_t i = 0; i < kicks_.size(); ++i) {
+      const Kick& kick = kicks_[i];
+      const Vec3 fall = fall_at(t + kick.at), shift = pins_at(t + kick.at);
+      const Stride<T> stride{{T(fall[0]), T(fall[1]), T(fall[2])}, T(kick.out),         T(kick.on), balls_.data(),
+                             static_cast<int>(balls_.size()),      &World::touch_block, nullptr};
+      bands_.sweep([&](Band& band) { sweep(band, i, stride, shift); });
     }
   }
 
   const State& state(double t) override {
     s_.t = t;
     if (!began_) return s_;
-    body_.get(s_.x, s_.v);
+    bands_.get(s_.x, s_.v);
     s_.x -= kicks_.back().on * s_.v;
     scene_.model.particles.place_pins(s_);
     return s_;
   }
 
+  void tell_contact(Observer& observer) override {
+    const bool any = std::any_of(seen_.begin(), seen_.end(), [](const Seen& s) { return !s.touched.empty(); });
+    if (!any) return;
+    const State resolved = state(t_next_);
+    State proposed = resolved;
+    for (const Seen& seen : seen_)
+      for (const Touched& each : seen.touched)
+        proposed.x.col(each.particle) = each.x, proposed.v.col(each.particle) = each.v;
+    observer.contact(proposed, resolved);
+  }
+
   long evaluations() const override { return evaluations_; }
-  long coincident() const override { return coincident_; }
+  long coincident() const override {
+    long sum = 0;
+    for (const Seen& seen : seen_) sum += seen.coincident;
+    return sum;
+  }
+  double other_seconds() const override { return bands_.other_seconds(); }
 
  private:
-  void place_pins(double t) {
+  using Band = typename Bands<T>::Band;
+  /// What the thread of a band has come by.
+  struct Seen {
+    long coincident = 0;
+    std::vector<Touched> touched;
+  };
+  /// Whom the sweep of a band asks.
+  struct Asked {
+    World* world;
+    Band* band;
+    Seen* seen;
+  };
+
+  /// Drag, mass and length of each kick as factors of velocity, force and fall; one line of each part.
+  void set_factors(const Chain& chain, double h) {
     const Particles& particles = scene_.model.particles;
-    if (particles.pins.empty()) return;
-    const Vec3 shift = particles.move ? displacement_at(*particles.move, t) : Vec3::Zero();
+    const Eigen::ArrayXd mass = particles.mass.array();
+    Eigen::ArrayXd gamma = Eigen::ArrayXd::Zero(particles.size());
+    if (const auto* drag = scene_.model.find<Drag>()) gamma = drag->c.array() / mass;
+    const bool alike = (mass == mass[0]).all() && (gamma == gamma[0]).all();
+    stride_ = alike ? 0 : lanes<T>;
+    for (Band& band : bands_.all()) {
+      const int first = alike ? 0 : band.first, count = alike ? 1 : band.body.size();
+      const Eigen::ArrayXd m = mass.segment(first, count), c = gamma.segment(first, count);
+      for (const double fraction : chain.parts) {
+        const double part = fraction * h;
+        const Eigen::ArrayXd half = part / 2 * c;
+        // drag: at the old velocity, or averaged over old and new
+        const Eigen::ArrayXd lose = chain.kick_first ? Eigen::ArrayXd(part * c) : Eigen::ArrayXd(part * c / (1 + half));
+        const Eigen::ArrayXd span =
+            chain.kick_first ? Eigen::ArrayXd::Constant(count, part) : Eigen::ArrayXd(part / (1 + half));
+        band.factors.push_back({band.body.spread(lose), band.body.spread(span / m), band.body.spread(span)});
+      }
+    }
+  }
+
+  void sweep(Band& band, size_t kick, Stride<T> stride, const Vec3& shift) {
+    const Particles& particles = scene_.model.particles;
     for (size_t i = 0; i < particles.pins.size(); ++i)
-      body_.place(particles.pins[i], particles.pin_home.col(static_cast<int>(i)) + shift);
+      if (const int here = band.here(particles.pins[i]); here >= 0)
+        band.body.place(here, particles.pin_home.col(static_cast<int>(i)) + shift);
+    Sheet<T>& sheet = band.body.sheet();
+    const auto& factors = band.factors[kick];
+    sheet.lose = factors.lose.data(), sheet.push = factors.push.data(), sheet.span = factors.span.data();
+    sheet.stride = stride_;
+    Asked asked{this, &band, &seen_[band.which]};
+    stride.whom = &asked;
+    asked.seen->coincident += kernel_.sweep(sheet, stride);
+    if (band.which == 0) ++evaluations_;
+  }
+
+  Vec3 pins_at(double t) const {
+    const auto& move = scene_.model.particles.move;
+    return move ? displacement_at(*move, t) : Vec3::Zero();
   }
 
   Vec3 fall_at(double t) const {
@@ -98,68 +159,78 @@ class World : public SheetWorld {
     return fall;
   }
 
-  void set_balls(Stride<T>& stride) {
+  void set_balls() {
     if (!spheres_) return;
     balls_.clear();
     for (const Sphere& sphere : spheres_->list) {
       const Vec3 centre = sphere.centre_at(t_next_);
-      // a little more than the radius: what is asked decides, this only asks
+      // a little more than the radius: who is asked decides, this only asks
       const double radius = sphere.contact_radius() * (1 + 1e-6);
       balls_.push_back({{centre[0], centre[1], centre[2]}, radius * radius});
     }
-    stride.balls = balls_.data(), stride.ball_count = static_cast<int>(balls_.size());
   }
 
-  /// The contact rule, for the particles of a block.
-  static void touched(void* whom, int row, int block, T* x, T* v) {
-    auto& self = *static_cast<World*>(whom);
-    for (int lane = 0; lane < lanes<T>; ++lane) {
-      const int i = self.body_.particle(row, block, lane);
-      if (i < 0 || self.scene_.model.particles.pinned[i]) continue;
-      const auto at = [lane](const T* p) { return Vec3(p[lane], p[lanes<T> + lane], p[2 * lanes<T> + lane]); };
-      Vec3 place = at(x), speed = at(v);
-      // where it was when the step began
-      const Vec3 before_step = self.body_.position(i) - self.kicks_.back().on * self.body_.velocity(i);
-      if (!touch(*self.spheres_, resolve_contact, self.t_, self.t_next_, before_step, place, speed)) continue;
-      for (int c = 0; c < 3; ++c)
-        x[c * lanes<T> + lane] = static_cast<T>(place[c]), v[c * lanes<T> + lane] = static_cast<T>(speed[c]);
-    }
+  static void touch_block(void* whom, int row, int block, T* x, T* v) {
+    const Asked& asked = *static_cast<Asked*>(whom);
+    for (int lane = 0; lane < lanes<T>; ++lane)
+      if (const int here = asked.band->body.particle(row, block, lane); here >= 0)
+        asked.world->touch_particle(*asked.band, *asked.seen, here, x + lane, v + lane);
+  }
+
+  /// The contact rule; coordinates stand a line apart.
+  void touch_particle(const Band& band, Seen& seen, int here, T* x, T* v) {
+    const int i = band.first + here;
+    if (scene_.model.particles.pinned[i]) return;
+    const auto at = [](const T* p) { return Vec3(p[0], p[lanes<T>], p[2 * lanes<T>]); };
+    Vec3 place = at(x), speed = at(v);
+    // where it was when the step began
+    const Vec3 before_step = band.body.position(here) - kicks_.back().on * band.body.velocity(here);
+    if (!touch(*spheres_, resolve_contact, t_, t_next_, before_step, place, speed)) return;
+    if (asked_of_contacts_) seen.touched.push_back({i, at(x), at(v)});
+    for (int c = 0; c < 3; ++c) x[c * lanes<T>] = static_cast<T>(place[c]), v[c * lanes<T>] = static_cast<T>(speed[c]);
   }
 
   const Scene& scene_;
-  double h_;
   Kernel<T> kernel_;
-  SheetBody<T> body_;
+  Bands<T> bands_;
+  std::vector<Seen> seen_;
   const Spheres* spheres_;
-  std::vector<Kick<T>> kicks_;
+  bool asked_of_contacts_;
+  std::vector<Kick> kicks_;
   std::vector<Ball> balls_;
   int stride_ = 0;
   State s_;
   bool began_ = false;
   double t_ = 0, t_next_ = 0;  // s, of the step under way
-  long evaluations_ = 0, coincident_ = 0;
+  long evaluations_ = 0;
 };
 
+/// Fewer particles than this are not worth a thread of their own.
+constexpr int worth_a_thread = 4096;
+
 template <class T>
-std::unique_ptr<SheetWorld> world_on(const Weave& weave, const Chain& chain, const Scene& scene, double h, bool fast) {
+std::unique_ptr<SheetWorld> world_on(const Weave& weave, const Chain& chain, const Scene& scene, double h, bool fast,
+                                     int threads, const Observer& observer) {
   if (!fits<T>(weave)) return nullptr;
-  return std::make_unique<World<T>>(chain, weave, scene, h, kernel<T>(chosen(), fast));
+  const int worth = std::clamp(scene.model.particles.size() / worth_a_thread, 1, threads);
+  return std::make_unique<World<T>>(chain, weave, scene, h, kernel<T>(chosen(), fast), worth, observer.every_step());
 }
 
 }  // namespace
 
 std::unique_ptr<SheetWorld> sheet_world(const Stepper& stepper, ContactRule contact, const Scene& scene, double h,
-                                        Precision precision, const Observer& observer) {
+                                        const Execution& execution, const Observer& observer) {
   const Model& model = scene.model;
   const auto* springs = model.find<Springs>();
-  if (precision == Precision::plain || !stepper.chain || !springs || !only_known_terms(model)) return nullptr;
+  if (execution.precision == Precision::plain || !stepper.chain || !springs || !only_known_terms(model)) return nullptr;
   const Chain chain = stepper.chain();
-  if (model.find<Spheres>() && (contact != ContactRule::coulomb || chain.parts.size() > 1 || observer.every_step()))
-    return nullptr;
-  const auto weave = weave_of(*springs, model.particles.size(), scene.start.x.cwiseAbs().maxCoeff());
+  if (model.find<Spheres>() && (contact != ContactRule::coulomb || chain.parts.size() > 1)) return nullptr;
+  const auto weave = weave_of(*springs, model.particles.size());
   if (!weave) return nullptr;
-  if (precision == Precision::single) return world_on<float>(*weave, chain, scene, h, true);
-  return world_on<double>(*weave, chain, scene, h, precision == Precision::fastest);
+  if (execution.precision == Precision::single)
+    return world_on<float>(*weave, chain, scene, h, true, execution.threads, observer);
+  const bool fast = execution.precision == Precision::fastest;
+  return world_on<double>(*weave, chain, scene, h, fast, execution.threads, observer);
 }
 
 }  // namespace crosscheck::strip

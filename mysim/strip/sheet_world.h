@@ -12,12 +12,13 @@ class SheetWorld : public World {
  public:
   virtual long evaluations() const = 0;
   virtual long coincident() const = 0;
+  virtual double other_seconds() const = 0;  // CPU time of threads beside the one that steps, s
 };
 
-/// Null where the general engine has to do it: the rule is not a chain of kicks and drifts, the scene has terms other
-/// than springs, gravity, drag, uniform wind and spheres, its springs are no regular grid or one too narrow, or
-/// somebody wants to see both sides of each contact. Nothing else differs but the order of sums.
+/// Null where the general engine has to do it: the rule is not a chain of kicks and drifts (or one of several, and
+/// there are spheres), the scene has terms other than springs, gravity, drag, uniform wind and spheres, or its springs
+/// are no regular grid or one too narrow. Nothing else differs but the order of sums.
 std::unique_ptr<SheetWorld> sheet_world(const Stepper& stepper, ContactRule contact, const Scene& scene, double h,
-                                        Precision precision, const Observer& observer);
+                                        const Execution& execution, const Observer& observer);
 
 }  // namespace crosscheck::strip

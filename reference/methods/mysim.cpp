@@ -1,15 +1,28 @@
 // mysim's steppers as methods.
 #include <fmt/format.h>
 
+#include <charconv>
+
 #include "mysim/engine.h"
 #include "reference/methods/families.h"
 
 namespace crosscheck {
 namespace {
 
+/// N of "threads=N", 1 to 256.
+std::optional<int> threads_in(const std::string& option) {
+  constexpr std::string_view key = "threads=";
+  if (!option.starts_with(key)) return std::nullopt;
+  int n = 0;
+  const char *begin = option.data() + key.size(), *end = option.data() + option.size();
+  const auto [rest, error] = std::from_chars(begin, end, n);
+  if (error != std::errc() || rest != end || n < 1 || n > 256) return std::nullopt;
+  return n;
+}
+
 Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
   ContactRule contact = ContactRule::coulomb;
-  Precision precision = Precision::reproducible;
+  Execution execution;
   Stepper rule = stepper;
   std::string same_as(stepper.name);  // another contact rule changes nothing where nothing touches
   const std::string name = fmt::format("mysim/{}", stepper.name);
@@ -19,20 +32,25 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
     else if (option == "linear" && stepper.linear)
       rule.step = stepper.linear, same_as += "+linear";
     else if (option == "plain" && stepper.chain)
-      precision = Precision::plain;
+      execution.precision = Precision::plain;
     else if (option == "fast" && stepper.chain)
-      precision = Precision::fastest;
+      execution.precision = Precision::fastest;
     else if (option == "single" && stepper.chain)
-      precision = Precision::single;
+      execution.precision = Precision::single;
+    else if (const auto threads = threads_in(option); threads && stepper.chain)
+      execution.threads = *threads;
     else
-      refuse_option(name, option, stepper.linear ? "+linear, +sticky or none" : "+sticky or none");
+      refuse_option(name, option,
+                    stepper.linear  ? "+linear, +sticky or none"
+                    : stepper.chain ? "+sticky, +fast, +single, +plain, +threads=N or none"
+                                    : "+sticky or none");
   }
   return {name,
           fmt::format("{} (order {}{}; {})", stepper.what, stepper.order, stepper.symplectic ? ", symplectic" : "",
                       stepper.limit_formula),
           same_as,
-          [rule, contact, precision](const Scene& scene, const Run& run, Observer& observer) {
-            Outcome out = simulate(rule, contact, scene, run, observer, precision);
+          [rule, contact, execution](const Scene& scene, const Run& run, Observer& observer) {
+            Outcome out = simulate(rule, contact, scene, run, observer, execution);
             if (contact == ContactRule::sticky && scene.model.find<Spheres>())
               out.different_law.push_back(
                   "contact: a touching particle is put back to where it came from and loses all its velocity");

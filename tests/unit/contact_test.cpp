@@ -106,7 +106,7 @@ Scene dropped_cloth(double offset, const std::string& surface = "friction = 0.3\
 }
 
 TEST(Contact, NoParticleEndsAStepInsideNotEvenInABlowUp) {
-  const Scene scene = dropped_cloth(0.3);
+  const Scene scene = dropped_cloth(0.1);  // close above: it touches before it is torn to pieces
   for (const Stepper& s : steppers())
     for (const double h : {1e-3, 5e-2}) {  // the larger one blows up in every stepper
       SCOPED_TRACE(fmt::format("{} h = {}", s.name, h));

@@ -37,7 +37,7 @@ Sheet random_sheet(Random& random, int smallest, int largest, double bent) {
   Sheet sheet{random_mesh(random, smallest, largest), {}, {}};
   sheet.x = sheet.mesh.points();
   const double structural = random.uniform(80, 120), shear = random.uniform(40, 60), flexion = random.uniform(20, 30);
-  sheet.springs = grid_springs(grid_of(sheet.mesh, structural, shear, flexion), sheet.x);
+  sheet.springs = grid_springs(grid_of(sheet.mesh, structural, shear, flexion));
   for (int i = 0; i < sheet.mesh.size(); ++i) sheet.x.col(i) += random_vector(random, bent);
   return sheet;
 }

@@ -20,7 +20,7 @@ Case mesh_case(const char* call, const Mesh& mesh, const char* row, const char* 
 using crosscheck::Family;
 
 std::vector<crosscheck::Spring> family_of(const Mesh& mesh, Family family) {
-  std::vector<crosscheck::Spring> all = grid_springs(grid_of(mesh, 1, 1, 1), mesh.points());
+  std::vector<crosscheck::Spring> all = grid_springs(grid_of(mesh, 1, 1, 1));
   std::erase_if(all, [&](const auto& s) { return s.family != family; });
   return all;
 }

@@ -38,7 +38,7 @@ Scene square(Random& random, int n, double side, const Vec3& middle, const Vec3&
   const double k = random.uniform(80, 120);
   grid.stiffness = {k, 0.8 * k, 0.7 * k};
   scene.start = {0, grid_points(grid), Points::Zero(3, grid.size())};
-  scene.springs = grid_springs(grid, scene.start.x);
+  scene.springs = grid_springs(grid);
   scene.gravity = {0, -random.uniform(8, 12), 0};
   scene.drag = random.uniform(0.03, 0.05);
   crosscheck::Particles& p = scene.model.particles;

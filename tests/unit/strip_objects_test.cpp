@@ -1,0 +1,30 @@
+// What is compiled for one instruction set is no other code's.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "report/run_program.h"
+
+namespace crosscheck::testing_tools {
+namespace {
+
+/// Code for a newer machine must not be what the linker takes for every machine: objects compiled for an instruction
+/// set share no function with others.
+TEST(Strip, ObjectsOfAnInstructionSetKeepTheirCodeToThemselves) {
+  std::istringstream objects(CROSSCHECK_SWEEP_OBJECTS);
+  int count = 0;
+  for (std::string object; std::getline(objects, object, '|'); ++count) {
+    const std::string listed = run_program({"nm", "-C", object}, ".", {}).out;
+    ASSERT_NE(listed.find("double_kernel"), std::string::npos) << object;
+    std::istringstream lines(listed);
+    for (std::string line; std::getline(lines, line);) {
+      const char kind = line.size() > 17 ? line[17] : ' ';
+      EXPECT_EQ(std::string("WwVvu").find(kind), std::string::npos) << object << ": " << line;
+      EXPECT_EQ(line.find("std::"), std::string::npos) << object << ": " << line;
+    }
+  }
+  EXPECT_GE(count, 3);
+}
+
+}  // namespace
+}  // namespace crosscheck::testing_tools
