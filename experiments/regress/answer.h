@@ -36,7 +36,8 @@ struct Quantity {
 
 /// How quantities are called that others look for.
 inline constexpr const char *setting_prefix = "setting ", *time_of_failure = "time of failure",
-                            *error_quantity = "error against truth", *halving_quantity = "change at half the step";
+                            *error_quantity = "error against truth", *halving_quantity = "change at half the step",
+                            *contact_quantity = "energy lost in contact";
 
 /// One run over the scene's window, beyond which single places cannot be predicted.
 struct Answered {

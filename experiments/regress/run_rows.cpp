@@ -55,7 +55,7 @@ void energies(const Seen& seen, Quantities& out) {
     });
     out.push_back({at_time("energy gained", seen.path().t[i]), "J", row->energy.total() - rows.front().energy.total()});
   }
-  if (seen.scene().model.find<Spheres>()) out.push_back({"energy lost in contact", "J", rows.back().contact});
+  if (seen.scene().model.find<Spheres>()) out.push_back({contact_quantity, "J", rows.back().contact});
 }
 
 void peak_stretch(const Seen& seen, Quantities& out) {

@@ -56,15 +56,12 @@ double left_by_one_step(const Question& question, const Answered& answered, doub
   return lengths * (1e-12 + 8 * eps * stiffest * h * h / lightest);
 }
 
-/// A run whose places, or a quantity that, change by such a part of the largest is beyond prediction: chaos has taken
-/// over, and changes are no longer in proportion to what the start was moved by, as nothing goes further than the scene
-/// lets it.
-constexpr double saturated = 0.01;
-
-/// What solvers leave in the quantity. A change of the start tells nothing of that where the rule damps: what the start
-/// had in excess is gone by then, and what the last steps leave is not.
+/// What steps leave in the quantity: solvers, and sums over steps. A change of the start tells nothing of that where
+/// the rule damps: what the start had in excess is gone by then, and what the last steps leave is not.
 double left_by_steps(const Question& question, const Answered& answered, const Rounding& rounding, const Quantity& q) {
   const Outcome& outcome = answered.outcome;
+  // a sum over steps of energies before and behind contacts; what rests on a sphere is rounded alike in each of them
+  if (q.name == contact_quantity) return 8 * eps * static_cast<double>(outcome.steps) * q.size;
   if (q.unit == "m") return rounding.one_step * std::sqrt(static_cast<double>(outcome.steps));
   if (q.unit != "J" || !(outcome.step > 0)) return 0;
   const Particles& particles = question.scene.model.particles;
@@ -82,9 +79,9 @@ Rounding rounding_of(const Question& question, const Answered& answered) {
     return {*single_precision_bound(question.scene, motion, 1, answered.outcome.steps), "single precision"};
   if (solves(question.method))
     return {1e-10 * std::max(1.0, lengths), "solver", left_by_one_step(question, answered, lengths)};
-  const Outcome& out = answered.outcome;
-  const double stages = out.steps > 0 ? std::max(1.0, static_cast<double>(out.evaluations) / out.steps) : 1;
-  return {*round_off_bound(question.scene, motion, 1) * std::sqrt(stages), "double precision"};
+  // the bound is for ten thousand roundings that add up like a random walk
+  const double more = std::sqrt(std::max(1.0, static_cast<double>(answered.outcome.evaluations) / 1e4));
+  return {*round_off_bound(question.scene, motion, 1) * more, "double precision"};
 }
 
 std::vector<std::string> words_of_derivations() {
@@ -95,16 +92,17 @@ std::vector<std::string> words_of_derivations() {
       "  z by their speed within the run, changes the quantity by B at most (3 tries),",
       "  and all roundings of a run are as a change of the start by C: B C / A, and 64 last digits of the largest",
       "  quantity of the unit, or of the places or energies whose difference it is",
-      "double precision: C is 1e-15 of the scene's size and motion in a step, more by the root of the step's stages, a",
-      "  hundredfold for thousands of steps",
+      "double precision: C is 1e-15 of the scene's size and motion in an evaluation of forces, adding up like a random",
+      "  walk of ten thousand of them or of as many as there are",
       "single precision: ten roundings of 6e-8 of them in a step, adding up like a random walk",
       "solver: an equation in each step, solved to 1e-10 of its forces: C is 1e-10 of them",
       "steps leave D: 1e-12 of the lengths in a step, and what 64-bit places make of the stiffest spring on the",
       "  lightest particle; in places adding up like a random walk, in energies as the velocities of one step; no",
-      "  damping counted",
+      "  damping counted; in the energy lost in contact 8 last digits of the largest energy in each step",
       "truth known to D: the error bar of what the error is measured against, on top",
-      "beyond prediction: a run whose places change by more than a hundredth of the lengths is one of chance, and a",
-      "  quantity that changes by as much of the largest of its unit may be anything: thrice B says no more than that",
+      "beyond prediction: the start moved by ten times C, far less than A, changes the quantity by more than a tenth "
+      "of",
+      "  B: what grows has grown as far as it can, and within thrice B the quantity may be anything",
       "steps: D: of a time of failure: a sampling interval and two steps on top of B, which is not scaled, as the time",
       "  goes as the logarithm of what grew until it failed",
   };
@@ -116,13 +114,16 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
   std::vector<Toleranced> all;
   const Rounding rounding = rounding_of(question, answered);
   const double little = std::max(1e-10, rounding.size);  // m: far above a number's last digits
-  std::vector<std::vector<Quantity>> moved;
-  for (const unsigned seed : {1u, 2u, 3u}) {
+  const auto moved_by = [&](double size, unsigned seed) {
     Question other = question;
-    other.scene = pushed(perturbed(question.scene, little, seed), little, static_cast<int>(seed) - 1);
+    other.scene = pushed(perturbed(question.scene, size, seed), size, static_cast<int>(seed) - 1);
     // asked as before: where a closed form is left by the move, the error from the one of the unmoved scene counts
-    moved.push_back(quantities_of(question, answer_to(other)));
-  }
+    return quantities_of(question, answer_to(other));
+  };
+  std::vector<std::vector<Quantity>> moved;
+  for (const unsigned seed : {1u, 2u, 3u}) moved.push_back(moved_by(little, seed));
+  const double less = 10 * rounding.size;
+  const std::vector<Quantity> moved_less = less < little / 2 ? moved_by(less, 1) : std::vector<Quantity>{};
   std::map<std::string, double> scale;  // of each unit: what is zero but for rounding is bounded beside it
   for (const Quantity& q : quantities)
     if (!q.count) scale[q.unit] = std::max(scale[q.unit], std::abs(q.value));
@@ -134,11 +135,10 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
     }
     return change;
   };
-  const double far = saturated * (question.scene.size() + motion_in(answered));
-  const bool chaotic = answered.outcome.verdict == Verdict::ok &&
-                       std::any_of(quantities.begin(), quantities.end(), [&](const Quantity& q) {
-                         return q.unit == "m" && q.name != error_quantity && change_of(q) > far;
-                       });
+  const auto saturated = [&](const Quantity& q, double change, double digits) {
+    const Quantity* other = find(moved_less, q.name);
+    return other && change > 1e3 * digits && std::abs(other->value - q.value) > 0.1 * change;
+  };
   for (const Quantity& q : quantities) {
     if (q.is_word() || q.count) {
       all.push_back({q, 0, q.is_word() ? "word" : "count"});
@@ -151,14 +151,14 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
                      fmt::format("start moved by {:.1e} m: {:.1e}; steps: {:.1e}", little, change, q.bar)});
       continue;
     }
-    if (chaotic && change > saturated * scale[q.unit]) {
+    const double digits = 64 * eps * std::max(scale[q.unit], q.size);
+    if (saturated(q, change, digits)) {
       all.push_back({q, rounded_up(3 * change + q.bar),
                      fmt::format("start moved by {:.1e} m: {:.1e}, beyond prediction", little, change)});
       continue;
     }
     const double left = left_by_steps(question, answered, rounding, q);
-    const double tolerance =
-        change * rounding.size / little + 64 * eps * std::max(scale[q.unit], q.size) + left + q.bar;
+    const double tolerance = change * rounding.size / little + digits + left + q.bar;
     all.push_back({q, rounded_up(tolerance),
                    fmt::format("start moved by {:.1e} m: {:.1e}; rounding: {:.1e} m, {}{}{}", little, change,
                                rounding.size, rounding.kind, left > 0 ? fmt::format("; steps leave {:.1e}", left) : "",

@@ -47,6 +47,8 @@ crosscheck::Grid grid_of(const Mesh& mesh, double structural, double shear, doub
   grid.nu = mesh.columns;
   grid.nv = mesh.rows;
   grid.nw = 1;
+  grid.u = Vec3(mesh.across * (mesh.columns - 1), 0, 0);
+  grid.v = Vec3(0, 0, mesh.down * (mesh.rows - 1));
   grid.stiffness = {structural, shear, flexion};
   return grid;
 }
