@@ -1,0 +1,30 @@
+// Speed, as ratios against peers in one run: all that `crosscheck bench` measures.
+#pragma once
+
+#include "experiments/bench/equal_error.h"
+#include "experiments/bench/micro.h"
+#include "experiments/bench/same_step.h"
+
+namespace crosscheck {
+
+struct BenchPlan {
+  struct Sheet {
+    int side;  // particles
+    std::vector<Peer> peers;
+  };
+  std::vector<int> kernel_sides;    // of sheets that kernels run on
+  std::vector<std::string> scenes;  // on which the engine's kernels stand beside the naive loop
+  std::vector<Sheet> sheets;        // for the same error
+  SameStepAsked same_step;
+  MicroPlan micro;
+  TurnPlan turns;
+};
+
+/// quick: within 90 s on a quiet machine of two cores; full: the largest sheet and every peer on each.
+BenchPlan bench_plan(bool full);
+
+/// The tables of kernels.h, on_scenes.h, equal_error.h and same_step.h, measured on one core alone. Notes say what was
+/// left out and why.
+Rows bench(const BenchPlan& plan);
+
+}  // namespace crosscheck
