@@ -23,11 +23,12 @@ std::string nice_seconds(double seconds) {
   return fmt::format("{:.3g} µs", 1e6 * seconds);
 }
 
-/// "sheet-32x32" as "32 × 32".
+/// "sheet-32x32-two-stiffnesses" as "32 × 32, two stiffnesses".
 std::string size_text(const std::string& scene) {
-  const size_t from = scene.find('-'), times = scene.find('x', from);
-  if (from == std::string::npos || times == std::string::npos) return scene;
-  return fmt::format("{} × {}", scene.substr(from + 1, times - from - 1), scene.substr(times + 1));
+  std::string text = scene.substr(scene.find('-') + 1);
+  for (const auto& [from, to] : {std::pair{"x", " × "}, {"-", ", "}, {"-", " "}})
+    if (const size_t at = text.find(from); at != std::string::npos) text.replace(at, 1, to);
+  return text;
 }
 
 void add_kernels(const Table& table, const std::string& best, std::vector<BenchLine>& lines) {
@@ -45,8 +46,9 @@ void add_kernels(const Table& table, const std::string& best, std::vector<BenchL
         std::find(seen.begin(), seen.end(), label) != seen.end())
       continue;
     seen.push_back(label);
-    BenchLine line{
-        fmt::format("springs of a sheet of {0:.0f} × {0:.0f}, beside the naive loop", side), label, "", {}, {}};
+    BenchLine line;
+    line.group = fmt::format("springs of a sheet of {0:.0f} × {0:.0f}, beside the naive loop", side);
+    line.label = label, line.alone = fmt::format("{}: {}", naive, label);
     std::optional<size_t> chosen;
     for (size_t j = 0; j < table.rows.size(); ++j) {
       if (*number_at(table, j, "particles a side") != side || text_at(table, j, "precision") != precision) continue;
@@ -69,6 +71,7 @@ void add_kernels(const Table& table, const std::string& best, std::vector<BenchL
 /// The scene where the engine's own way (the sweep where there is one) gains least over the naive loop.
 void add_scenes(const Table& table, const std::string& best, std::vector<BenchLine>& lines) {
   std::optional<BenchLine> least;
+  int slower = 0, all = 0;
   for (const std::string& scene : distinct(table, "scene")) {
     std::optional<size_t> chosen;
     std::optional<BenchRatio> plain;
@@ -79,14 +82,20 @@ void add_scenes(const Table& table, const std::string& best, std::vector<BenchLi
       if (text_at(table, i, "instructions") == plainest) plain = ratio_at(table, i, "times the naive loop");
     }
     const BenchRatio ratio = ratio_at(table, *chosen, "times the naive loop");
+    ++all, slower += ratio.ratio < 1;
     if (least && least->best->ratio <= ratio.ratio) continue;
-    least = BenchLine{"the shipped scene where mysim's kernels gain least on the naive loop",
-                      fmt::format("{}, {:g} springs: {}", scene, *number_at(table, *chosen, "springs"),
-                                  text_at(table, *chosen, "kernel")),
-                      fmt::format("{} an evaluation", nice_seconds(1e-9 * *number_at(table, *chosen, "time"))), ratio,
-                      plain};
+    const double springs = *number_at(table, *chosen, "springs");
+    least.emplace();
+    least->group = "the shipped scene where mysim's kernels gain least on the naive loop";
+    least->label =
+        fmt::format("{}, {:g} spring{}: {}", scene, springs, springs > 1 ? "s" : "", text_at(table, *chosen, "kernel"));
+    least->alone = fmt::format("{}: {}", naive, least->label);
+    least->detail = fmt::format("{} an evaluation", nice_seconds(1e-9 * *number_at(table, *chosen, "time")));
+    least->best = ratio, least->plain = plain;
   }
-  if (least) lines.push_back(*least);
+  if (!least) return;
+  least->detail += fmt::format("; slower on {} of {} scenes", slower, all);
+  lines.push_back(*least);
 }
 
 void add_equal_error(const Table& table, std::vector<BenchLine>& lines) {
@@ -96,18 +105,17 @@ void add_equal_error(const Table& table, std::vector<BenchLine>& lines) {
     const std::string &scene = text_at(table, i, "scene"), &peer = text_at(table, i, "peer");
     if (text_at(table, i, "path of mysim") == "best") {
       const auto error = number_at(table, i, "error");
-      const std::string other = text_at(table, i, "model") == "same" ? "" : ", other model";
-      lines.push_back(
-          {fmt::format("the same error on a sheet of {}, 1 s", size_text(scene)),
-           fmt::format("{}, {}{}", peer, error ? fmt::format("{:.2g} m", *error) : text_at(table, i, "verdict"), other),
-           "",
-           {},
-           {},
-           text_or_none(table, i, "remark")});
+      BenchLine& line = lines.emplace_back();
+      line.group = fmt::format("the same error on a sheet of {}, 1 s", size_text(scene));
+      line.label =
+          fmt::format("{} {}{}", peer, error ? fmt::format("to {} m", nice(*error)) : text_at(table, i, "verdict"),
+                      text_at(table, i, "model") == "same" ? "" : ", other model");
+      line.alone = fmt::format("{}; {}", line.label, size_text(scene));
+      line.remark = text_or_none(table, i, "remark");
       subject.push_back(scene + " " + peer);
       if (const auto own = number_at(table, i, "cpu of mysim"))
-        lines.back().detail = fmt::format("{} : {} {}", nice_seconds(*number_at(table, i, "cpu")), nice_seconds(*own),
-                                          text_at(table, i, "mysim").substr(6));
+        line.detail = fmt::format("{} : {} {}", nice_seconds(*number_at(table, i, "cpu")), nice_seconds(*own),
+                                  text_at(table, i, "mysim").substr(6));
     }
     if (!number_at(table, i, "ratio")) continue;
     (text_at(table, i, "path of mysim") == "best" ? lines.back().best : lines.back().plain) =
@@ -128,15 +136,15 @@ void add_same_step(const Table& table, std::vector<BenchLine>& lines) {
       continue;
     }
     const bool own = text_at(table, i, "force of Bullet").starts_with("force class");
-    lines.push_back(
-        {"the same step in Bullet's explicit world and in symplectic-euler",
-         fmt::format("{}, {}", size_text(text_at(table, i, "scene").substr(0, text_at(table, i, "scene").find("-two"))),
-                     own ? "force class of our own" : "Bullet's own spring force"),
-         fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Bullet")),
-                     nice_seconds(*number_at(table, i, "cpu per step of mysim")),
-                     *number_at(table, i, "farthest particle")),
-         ratio,
-         {}});
+    BenchLine& line = lines.emplace_back();
+    line.group = "the same step in Bullet's explicit world and in symplectic-euler";
+    line.label = fmt::format("{}: {}", size_text(text_at(table, i, "scene")),
+                             own ? "force class of our own" : "Bullet's own spring force");
+    line.alone = "Bullet, same step; " + line.label;
+    line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Bullet")),
+                              nice_seconds(*number_at(table, i, "cpu per step of mysim")),
+                              *number_at(table, i, "farthest particle"));
+    line.best = ratio;
   }
 }
 

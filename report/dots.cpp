@@ -30,24 +30,37 @@ double offset_of(size_t series, size_t count) {
   return count < 2 ? 0 : 0.3 * (static_cast<double>(series) / static_cast<double>(count - 1) - 0.5);
 }
 
-}  // namespace
-
-Drawing drawing_of(const Dots& dots) {
-  Drawing drawing{dots.name, data_of(dots), ""};
+/// The logarithmic axis, with ticks at 1, 2, 5 and so on, or over many decades at powers of ten alone.
+std::string axis_of(const Dots& dots) {
   double least = 1, most = 1;
   for (const Dots::Series& series : dots.series)
     for (const auto& dot : series.dots)
       if (dot) least = std::min(least, dot->low), most = std::max(most, dot->high);
-  std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", dots.title, dots.name);
-  out += fmt::format("set title {}\nset xlabel {}\n", single_quoted(dots.title), single_quoted(dots.label));
-  out += fmt::format("set logscale x 10\nset format x \"%g\"\nset xrange [{:.6g}:{:.6g}]\nset xtics (", least / 1.3,
-                     most * 1.3);
+  least /= 1.3, most *= 1.3;
   std::string ticks;
-  for (double ten = 0.001; ten < 1.3 * most; ten *= 10)
-    for (const double tick : {ten, 2 * ten, 5 * ten})
-      if (tick > least / 1.3 && tick < most * 1.3) ticks += fmt::format("{}{:.6g}", ticks.empty() ? "" : ", ", tick);
-  out += fmt::format("{})\nset yrange [{:.1f}:0.4]\nset ytics noenhanced (", ticks,
-                     static_cast<double>(dots.names.size()) + 0.6);
+  for (int power = -6; power <= 9; ++power)
+    for (const double digit : {1, 2, 5}) {
+      const double tick = digit * std::pow(10, power);
+      if (tick < least || tick > most || (digit > 1 && most > 200 * least)) continue;
+      ticks += fmt::format("{}{:.6g}", ticks.empty() ? "" : ", ", tick);
+    }
+  return fmt::format("set logscale x 10\nset format x \"%g\"\nset xrange [{:.6g}:{:.6g}]\nset xtics ({})\n", least,
+                     most, ticks);
+}
+
+}  // namespace
+
+Drawing drawing_of(const Dots& dots) {
+  Drawing drawing{dots.name, data_of(dots), ""};
+  std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", dots.title, dots.name);
+  // beside long names title and key stand in the middle of the figure, not of the plot
+  out += fmt::format(
+      "set title ' '\nset label {} at screen 0.5, screen 1 offset 0,-1.2 center noenhanced font \"DejaVu "
+      "Sans:Bold,13\"\n"
+      "set key at screen 0.5, screen 0 center bottom horizontal\nset bmargin 5.5\nset xlabel {}\n",
+      single_quoted(dots.title), single_quoted(dots.label));
+  out += axis_of(dots);
+  out += fmt::format("set yrange [{:.1f}:0.4]\nset ytics noenhanced (", static_cast<double>(dots.names.size()) + 0.6);
   for (size_t i = 0; i < dots.names.size(); ++i)
     out += fmt::format("{}{} {}", i ? ", " : "", single_quoted(dots.names[i]), i + 1);
   out += ")\nset arrow from 1, graph 0 to 1, graph 1 nohead lc rgb \"#333333\" lw 1.5 back\n";

@@ -4,6 +4,7 @@
 #include "experiments/bench/equal_error.h"
 #include "experiments/bench/micro.h"
 #include "experiments/bench/same_step.h"
+#include "experiments/bench/sheet.h"
 
 namespace crosscheck {
 
@@ -11,12 +12,14 @@ struct BenchPlan {
   struct Sheet {
     int side;  // particles
     std::vector<Peer> peers;
+    bool two_stiffnesses = false;  // which Bullet's own spring force can carry
+    Scene scene() const { return two_stiffnesses ? sheet_of_two_stiffnesses(side) : sheet(side); }
   };
   std::vector<int> kernel_sides;    // of sheets that kernels run on
   std::vector<std::string> scenes;  // on which the engine's kernels stand beside the naive loop
   std::vector<Sheet> sheets;        // for the same error
   SameStepAsked same_step;
-  MicroPlan micro;
+  MicroPlan kernels, on_scenes;
   TurnPlan turns;
 };
 

@@ -26,31 +26,24 @@ Scene waving_sheet(int n) {
 
 struct Row {
   std::string kernel, instructions, precision;
-  int n;
-  long springs;
   Piece once;
-  std::string name() const { return fmt::format("{}, {}, {}, {}", kernel, instructions, precision, n); }
+  std::string name() const { return fmt::format("{}, {}, {}", kernel, instructions, precision); }
 };
 
-void add_sweep(std::vector<Row>& rows, int n, long springs, std::string kernel, Isa isa, std::string precision,
-               std::optional<Piece> once) {
-  if (once)
-    rows.push_back({std::move(kernel), std::string(name_of(isa)), std::move(precision), n, springs, std::move(*once)});
+void add_sweep(std::vector<Row>& rows, std::string kernel, Isa isa, std::string precision, std::optional<Piece> once) {
+  if (once) rows.push_back({std::move(kernel), std::string(name_of(isa)), std::move(precision), std::move(*once)});
 }
 
-std::vector<Row> rows_for(int n) {
-  const Scene scene = waving_sheet(n);
-  const auto springs = static_cast<long>(scene.model.find<Springs>()->list.size());
+std::vector<Row> rows_for(const Scene& scene) {
   const std::string plainest(name_of(Isa::sse2));  // what the suite is compiled for
-  std::vector<Row> rows{{naive, plainest, double_precision, n, springs, naive_loop(scene)},
-                        {"plain loop", plainest, double_precision, n, springs, plain_loop(scene)},
-                        {"general kernel", plainest, double_precision, n, springs, general_kernel(scene)}};
+  std::vector<Row> rows{{naive, plainest, double_precision, naive_loop(scene)},
+                        {"plain loop", plainest, double_precision, plain_loop(scene)},
+                        {"general kernel", plainest, double_precision, general_kernel(scene)}};
   for (const Isa isa : strip::available()) {
-    add_sweep(rows, n, springs, "sweep, reproducible", isa, double_precision, sweep<double>(scene, isa, false));
+    add_sweep(rows, "sweep, reproducible", isa, double_precision, sweep<double>(scene, isa, false));
     // with SSE2 both are the same
-    if (isa != Isa::sse2)
-      add_sweep(rows, n, springs, "sweep, fastest", isa, double_precision, sweep<double>(scene, isa, true));
-    add_sweep(rows, n, springs, "sweep, fastest", isa, single_precision, sweep<float>(scene, isa, true));
+    if (isa != Isa::sse2) add_sweep(rows, "sweep, fastest", isa, double_precision, sweep<double>(scene, isa, true));
+    add_sweep(rows, "sweep, fastest", isa, single_precision, sweep<float>(scene, isa, true));
   }
   return rows;
 }
@@ -86,10 +79,10 @@ std::vector<Peak> peaks() {
 
 }  // namespace
 
-Table kernels_table(const std::vector<int>& sides, const MicroPlan& plan) {
-  std::vector<Row> rows;
-  for (const int n : sides)
-    for (Row& row : rows_for(n)) rows.push_back(std::move(row));
+Table kernels_table(int side, const MicroPlan& plan) {
+  const Scene scene = waving_sheet(side);
+  const auto springs = static_cast<long>(scene.model.find<Springs>()->list.size());
+  const std::vector<Row> rows = rows_for(scene);
   std::vector<Micro> micros;
   for (const Row& row : rows) micros.push_back({row.name(), row.once});
   const std::vector<Peak> most = peaks();
@@ -114,12 +107,11 @@ Table kernels_table(const std::vector<int>& sides, const MicroPlan& plan) {
               {}};
   for (const Row& row : rows) {
     const std::vector<double>& own = times.at(row.name());
-    const Timing each = timing_of(own).times(1e9 / static_cast<double>(row.springs));
-    const Row beside{naive, std::string(name_of(Isa::sse2)), double_precision, row.n, 0, {}};
-    const Timing ratio = timing_of(quotients(times.at(beside.name()), own));
+    const Timing each = timing_of(own).times(1e9 / static_cast<double>(springs));
+    const Timing ratio = timing_of(quotients(times.at(rows[0].name()), own));
     const double rate = flop_per_spring / each.median;
-    table.add({static_cast<long>(row.n), row.springs, row.kernel, row.instructions, row.precision, each.median,
-               each.low, each.high, ratio.median, ratio.low, ratio.high, rate,
+    table.add({static_cast<long>(side), springs, row.kernel, row.instructions, row.precision, each.median, each.low,
+               each.high, ratio.median, ratio.low, ratio.high, rate,
                rate / rate_of.at(peak_name(row.instructions, row.precision))});
   }
   return table;

@@ -24,8 +24,8 @@ Outcome run_odeint_fehlberg78(const Scene& scene, const Run& run, Observer& obse
 Outcome run_arkode(const Scene& scene, const Run& run, Observer& observer);
 /// The same with ARKODE's default rule of order 4 (Zonneveld's 5 4 3).
 Outcome run_arkode_order4(const Scene& scene, const Run& run, Observer& observer);
-/// SUNDIALS CVODE, backward differentiation of varying order with GMRES, to run.tolerance; steps end at the samples.
-/// Throws Unsupported likewise.
+/// SUNDIALS CVODE, Adams' formulas of varying order with GMRES, to run.tolerance; steps end at the samples. Throws
+/// Unsupported likewise.
 Outcome run_cvode(const Scene& scene, const Run& run, Observer& observer);
 
 std::string odeint_version();                   // Boost's, e.g. "1.74"

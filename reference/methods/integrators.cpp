@@ -28,7 +28,7 @@ std::vector<Integrator> integrators() {
       {"sundials/arkode", "order=4", "SUNDIALS ARKODE, Zonneveld 4(3) with error control, on the same", "",
        run_arkode_order4, true},
       {"sundials/cvode", "",
-       "SUNDIALS CVODE, backward differentiation with GMRES and error control, on the same: give --tol, not --step", "",
+       "SUNDIALS CVODE, Adams' formulas with GMRES and error control, on the same: give --tol, not --step", "",
        run_cvode, true}};
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "experiments/bench/bench.h"
-#include "experiments/bench/sheet.h"
 #include "experiments/scenes.h"
 #include "mysim/files.h"
 #include "reference/independent/integrators.h"
@@ -50,7 +49,8 @@ int bench_command(const BenchOptions& options, const BenchPlan& plan) {
   require_writable(options.out);
   const Rows rows = bench(plan);
   std::vector<Scene> scenes = load_scenes(plan.scenes);
-  for (const BenchPlan::Sheet& asked : plan.sheets) scenes.push_back(sheet(asked.side));
+  for (const BenchPlan::Sheet& asked : plan.sheets) scenes.push_back(asked.scene());
+  scenes.push_back(sheet(plan.same_step.side));
   scenes.push_back(sheet_of_two_stiffnesses(plan.same_step.side));
   Provenance lines = with_scenes(provenance(options.command_line), scenes);
   for (auto& line : builds()) lines.push_back(std::move(line));

@@ -23,6 +23,7 @@ BenchPlan tiny_plan() {
           {{20, {{"odeint/rk4", {1.2, 0.6}}, {"bullet/deformable-explicit", {0.9}}, {"bullet/pbd", {1}, true}}}},
           {20, 0.02, turns},
           micro,
+          micro,
           turns};
 }
 

@@ -78,7 +78,7 @@ TEST(BenchInstructions, AreAsBeforeAfterwards) {
 }
 
 TEST(BenchKernels, EachOneForEachInstructionSet) {
-  const Table table = kernels_table({40}, hasty);  // wide enough for single precision
+  const Table table = kernels_table(40, hasty);  // wide enough for single precision
   expect_finite(table);
   // three that are compiled once; of the sweep three for each instruction set, two with SSE2
   EXPECT_EQ(table.rows.size(), 3 + 3 * strip::available().size() - 1);
@@ -102,7 +102,7 @@ TEST(BenchKernels, EachOneForEachInstructionSet) {
   EXPECT_EQ(*number_at(table, 0, "times the naive loop"), 1);
 }
 
-TEST(BenchKernels, OnNarrowSheetsWithoutTheSweep) { EXPECT_EQ(kernels_table({8}, hasty).rows.size(), 3u); }
+TEST(BenchKernels, OnNarrowSheetsWithoutTheSweep) { EXPECT_EQ(kernels_table(8, hasty).rows.size(), 3u); }
 
 TEST(BenchScenes, EveryOneWithSprings) {
   std::vector<Scene> scenes;
