@@ -48,7 +48,7 @@ void add_kernels(const Table& table, const std::string& best, std::vector<BenchL
     seen.push_back(label);
     BenchLine line;
     line.group = fmt::format("springs of a sheet of {0:.0f} × {0:.0f}, beside the naive loop", side);
-    line.label = label, line.alone = fmt::format("{}: {}", naive, label);
+    line.heading = fmt::format("naive loop, {0:.0f} × {0:.0f}", side), line.label = label;
     std::optional<size_t> chosen;
     for (size_t j = 0; j < table.rows.size(); ++j) {
       if (*number_at(table, j, "particles a side") != side || text_at(table, j, "precision") != precision) continue;
@@ -89,7 +89,7 @@ void add_scenes(const Table& table, const std::string& best, std::vector<BenchLi
     least->group = "the shipped scene where mysim's kernels gain least on the naive loop";
     least->label =
         fmt::format("{}, {:g} spring{}: {}", scene, springs, springs > 1 ? "s" : "", text_at(table, *chosen, "kernel"));
-    least->alone = fmt::format("{}: {}", naive, least->label);
+    least->heading = "naive loop, the shipped scene of least gain";
     least->detail = fmt::format("{} an evaluation", nice_seconds(1e-9 * *number_at(table, *chosen, "time")));
     least->best = ratio, least->plain = plain;
   }
@@ -110,7 +110,7 @@ void add_equal_error(const Table& table, std::vector<BenchLine>& lines) {
       line.label =
           fmt::format("{} {}{}", peer, error ? fmt::format("to {} m", nice(*error)) : text_at(table, i, "verdict"),
                       text_at(table, i, "model") == "same" ? "" : ", other model");
-      line.alone = fmt::format("{}; {}", line.label, size_text(scene));
+      line.heading = "the same error, " + size_text(scene);
       line.remark = text_or_none(table, i, "remark");
       subject.push_back(scene + " " + peer);
       if (const auto own = number_at(table, i, "cpu of mysim"))
@@ -137,10 +137,12 @@ void add_same_step(const Table& table, std::vector<BenchLine>& lines) {
     }
     const bool own = text_at(table, i, "force of Bullet").starts_with("force class");
     BenchLine& line = lines.emplace_back();
-    line.group = "the same step in Bullet's explicit world and in symplectic-euler";
-    line.label = fmt::format("{}: {}", size_text(text_at(table, i, "scene")),
-                             own ? "force class of our own" : "Bullet's own spring force");
-    line.alone = "Bullet, same step; " + line.label;
+    line.group =
+        "the same step: Bullet's explicit world and symplectic-euler; springs by a force class of our own, or by "
+        "Bullet's";
+    line.heading = "the same step";
+    line.label =
+        fmt::format("{}: {}", size_text(text_at(table, i, "scene")), own ? "own force class" : "Bullet's force");
     line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Bullet")),
                               nice_seconds(*number_at(table, i, "cpu per step of mysim")),
                               *number_at(table, i, "farthest particle"));

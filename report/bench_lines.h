@@ -16,8 +16,8 @@ struct BenchRatio {
 
 struct BenchLine {
   std::string group;                      // what is compared, a heading
+  std::string heading;                    // the same in few words, for the figure
   std::string label;                      // with whom, at which accuracy
-  std::string alone;                      // the same where no heading stands above
   std::string detail;                     // times or rates behind the ratio; of the best path
   std::optional<BenchRatio> best, plain;  // best instructions; SSE2 alone
   std::string remark = {};                // why there is no ratio

@@ -9,6 +9,13 @@
 namespace crosscheck {
 namespace {
 
+/// Where a line stands: headings take lines of their own.
+double place_of(const Dots& dots, size_t line) {
+  const auto above = std::count_if(dots.headings.begin(), dots.headings.end(),
+                                   [&](const auto& heading) { return heading.first <= line; });
+  return static_cast<double>(line + 1) + static_cast<double>(above);
+}
+
 Table data_of(const Dots& dots) {
   Table table{
       dots.name, {{"series", "1"}, {"name", "1"}, {"place", "1"}, {"value", "1"}, {"low", "1"}, {"high", "1"}}, {}};
@@ -19,7 +26,7 @@ Table data_of(const Dots& dots) {
       for (const double value : {dot->value, dot->low, dot->high})
         if (!(value > 0) || !std::isfinite(value))
           throw std::runtime_error(fmt::format("figure {}: a value is not above zero", dots.name));
-      table.add({series.title, dots.names[i], static_cast<double>(i + 1), dot->value, dot->low, dot->high});
+      table.add({series.title, dots.names[i], place_of(dots, i), dot->value, dot->low, dot->high});
     }
   if (table.rows.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", dots.name));
   return table;
@@ -53,21 +60,22 @@ std::string axis_of(const Dots& dots) {
 Drawing drawing_of(const Dots& dots) {
   Drawing drawing{dots.name, data_of(dots), ""};
   std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", dots.title, dots.name);
-  // beside long names title and key stand in the middle of the figure, not of the plot
+  // beside the names title and key stand in the middle of the figure, not of the plot
   out += fmt::format(
       "set title ' '\nset label {} at screen 0.5, screen 1 offset 0,-1.2 center noenhanced font \"DejaVu "
       "Sans:Bold,13\"\n"
-      "set key at screen 0.5, screen 0 center bottom horizontal\nset bmargin 5.5\nset xlabel {}\n",
+      "set key at screen 0.5, screen 0 center bottom horizontal\nset lmargin at screen 0.44\nset bmargin 5.5\n"
+      "set xlabel {}\n",
       single_quoted(dots.title), single_quoted(dots.label));
   out += axis_of(dots);
-  out += fmt::format("set yrange [{:.1f}:0.4]\nset ytics noenhanced (", static_cast<double>(dots.names.size()) + 0.6);
+  const double lines = static_cast<double>(dots.names.size() + dots.headings.size());
+  out += fmt::format("set yrange [{:.1f}:0.4]\nset ytics noenhanced (", lines + 0.6);
   for (size_t i = 0; i < dots.names.size(); ++i)
-    out += fmt::format("{}{} {}", i ? ", " : "", single_quoted(dots.names[i]), i + 1);
+    out += fmt::format("{}{} {:g}", i ? ", " : "", single_quoted(dots.names[i]), place_of(dots, i));
   out += ")\nset arrow from 1, graph 0 to 1, graph 1 nohead lc rgb \"#333333\" lw 1.5 back\n";
-  for (const size_t group : dots.groups)
-    out += fmt::format(
-        "set arrow from graph 0, first {0:.1f} to graph 1, first {0:.1f} nohead lc rgb \"#AAAAAA\" lw 1 back\n",
-        static_cast<double>(group) + 0.5);
+  for (const auto& [line, heading] : dots.headings)
+    out += fmt::format("set label {} at screen 0.02, first {:g} left noenhanced font \"DejaVu Sans:Bold,11\"\n",
+                       single_quoted(heading), place_of(dots, line) - 1);
   std::string plot;
   for (size_t i = 0; i < dots.series.size(); ++i) {
     const Dots::Series& series = dots.series[i];
@@ -78,7 +86,7 @@ Drawing drawing_of(const Dots& dots) {
         plot.empty() ? "plot " : ", \\\n     ", single_quoted(dots.name + ".csv"), single_quoted(series.title),
         offset_of(i, dots.series.size()), series.style.colour, series.style.marker, single_quoted(series.title));
   }
-  drawing.script = out + terminals(dots.name, 0.3 + 0.05 * static_cast<double>(dots.names.size()), plot + "\n");
+  drawing.script = out + terminals(dots.name, 0.3 + 0.045 * lines, plot + "\n");
   return drawing;
 }
 

@@ -16,7 +16,8 @@ struct Dots : FigureWords {
   };
   std::string label;               // of the values
   std::vector<std::string> names;  // of the lines, from above
-  std::vector<size_t> groups;      // lines before which a rule is drawn
+  /// Headings, each above the line of that index.
+  std::vector<std::pair<size_t, std::string>> headings;
   std::vector<Series> series;
 };
 

@@ -13,16 +13,19 @@
 namespace crosscheck {
 namespace {
 
-/// mysim's ways to an accuracy, and where the ladder of steps begins: in 2 / omega, below the rule's limit.
+/// mysim's ways to an accuracy: where the ladder of steps begins (in 2 / omega, below the rule's limit), and each step
+/// over the next longer one.
 struct Own {
   const char* method;
-  double first;
+  double first, rung;
 };
+constexpr double fine = 0.8409, coarse = 0.5;  // 2^(-1/4); where runs are dear and a better rule is at hand
 // the most accurate for its work first: where others take more evaluations than it, there is no use in going on
-constexpr Own own_methods[] = {
-    {"mysim/suzuki4+fast", 1.3}, {"mysim/leapfrog+fast", 0.95}, {"mysim/leapfrog+single", 0.95}, {"mysim/rk4", 1.35}};
+constexpr Own own_methods[] = {{"mysim/suzuki4+fast", 1.3, fine},
+                               {"mysim/leapfrog+fast", 0.95, fine},
+                               {"mysim/leapfrog+single", 0.95, fine},
+                               {"mysim/rk4", 1.35, coarse}};
 constexpr double shortest = 0.05;        // step of any of them over its first
-constexpr double rung = 0.8409;          // a step over the next longer one: 2^(-1/4)
 constexpr double truth_step = 1.36 / 8;  // in 2 / omega: an eighth of suzuki4's largest, and then halved
 
 }  // namespace
@@ -71,7 +74,7 @@ std::vector<SheetRun> SheetRuns::own(double wanted) const {
     const Method method = find_method(own.method);
     progress_.begin(fmt::format("{}: {}", scene_.name, own.method));
     if (method.name.ends_with("+single") && !sweep<float>(scene_, strip::Isa::sse2, true)) continue;
-    for (double part = own.first; part > shortest * own.first; part *= rung) {
+    for (double part = own.first; part > shortest * own.first; part *= own.rung) {
       runs.push_back(done(method, part));
       const SheetRun& last = runs.back();
       if (last.ok() && *last.error <= wanted) enough = std::min(enough, last.outcome.evaluations);

@@ -31,12 +31,12 @@ std::string text_of(const std::optional<BenchRatio>& ratio) {
 }
 
 void print(const std::vector<BenchLine>& lines, const std::string& instructions) {
-  fmt::print("{:<50} {:>22} {:>22}\n", "their CPU time over mysim's (90 % interval)", instructions, "SSE2 alone");
+  fmt::print("{:<48} {:>22} {:>22}\n", "their CPU time over mysim's (90 % interval)", instructions, "SSE2 alone");
   std::string group;
   for (const BenchLine& line : lines) {
     if (line.group != group) fmt::print("\n{}\n", line.group);
     group = line.group;
-    fmt::print("  {:<48} {:>22} {:>22}  {}\n", line.label, text_of(line.best), text_of(line.plain),
+    fmt::print("  {:<46} {:>22} {:>22}  {}\n", line.label, text_of(line.best), text_of(line.plain),
                line.remark.empty() ? line.detail : line.remark);
   }
 }

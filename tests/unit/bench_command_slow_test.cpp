@@ -94,7 +94,7 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
     EXPECT_NE(provenance.find(key), std::string::npos) << key;
   for (const char* ending : {".svg", ".png", ".pdf", ".csv", ".gp"})
     EXPECT_TRUE(fs::exists(folder_ / (std::string("bench-ratios") + ending))) << ending;
-  for (const char* words : {"odeint/rk4", "other model", "sweep, fastest, double", "Bullet's own spring force",
+  for (const char* words : {"odeint/rk4", "other model", "sweep, fastest, double", "two stiffnesses: Bullet's force",
                             "beside the naive loop", "SSE2 alone"})
     EXPECT_NE(said.find(words), std::string::npos) << words << "\n" << said;
 }
