@@ -89,7 +89,7 @@ void add_scenes(const Table& table, const std::string& best, std::vector<BenchLi
     least->group = "the shipped scene where mysim's kernels gain least on the naive loop";
     least->label =
         fmt::format("{}, {:g} spring{}: {}", scene, springs, springs > 1 ? "s" : "", text_at(table, *chosen, "kernel"));
-    least->heading = "naive loop, the shipped scene of least gain";
+    least->heading = "naive loop, least of the scenes";
     least->detail = fmt::format("{} an evaluation", nice_seconds(1e-9 * *number_at(table, *chosen, "time")));
     least->best = ratio, least->plain = plain;
   }
@@ -140,7 +140,7 @@ void add_same_step(const Table& table, std::vector<BenchLine>& lines) {
     line.group =
         "the same step: Bullet's explicit world and symplectic-euler; springs by a force class of our own, or by "
         "Bullet's";
-    line.heading = "the same step";
+    line.heading = "the same step as Bullet";
     line.label =
         fmt::format("{}: {}", size_text(text_at(table, i, "scene")), own ? "own force class" : "Bullet's force");
     line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Bullet")),

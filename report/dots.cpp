@@ -65,7 +65,7 @@ Drawing drawing_of(const Dots& dots) {
       "set title ' '\nset label {} at screen 0.5, screen 1 offset 0,-1.2 center noenhanced font \"DejaVu "
       "Sans:Bold,13\"\n"
       "set key at screen 0.5, screen 0 center bottom horizontal\nset lmargin at screen 0.44\nset bmargin 5.5\n"
-      "set xlabel {}\n",
+      "set xlabel {} offset 0,0.2\n",
       single_quoted(dots.title), single_quoted(dots.label));
   out += axis_of(dots);
   const double lines = static_cast<double>(dots.names.size() + dots.headings.size());

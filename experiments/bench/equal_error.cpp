@@ -84,7 +84,7 @@ std::vector<Cell> cells_of(const SheetRun& run, const std::string& scene, double
     const Timing t = time_of(run, times.per_evaluation);
     append(cells, {t.median, t.low, t.high, times.share});
   }
-  cells.push_back(build_of(run.method.name));
+  append(cells, {run.outcome.cpu_seconds, build_of(run.method.name)});
   return cells;
 }
 

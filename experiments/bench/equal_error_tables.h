@@ -6,7 +6,8 @@
 namespace crosscheck {
 
 /// Each run of a peer twice, once for each path of mysim. `evaluations` are the right-hand side's; of Bullet's worlds
-/// steps.
+/// steps. `cpu` is that of the whole run, from the part that was timed in turns; beside it stands what the whole run
+/// took when it was run once, for its error.
 inline Table equal_error_table() {
   return {"bench-equal-error-cost",
           {{"scene", "1"},           {"peer", "1"},          {"model", "1"},          {"setting", "1"},

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
+#include "experiments/bench/paths.h"
 #include "experiments/timing.h"
 
 namespace crosscheck {
@@ -34,8 +37,8 @@ Table scenes_table(const std::vector<Scene>& scenes, const MicroPlan& plan) {
     if (springs_of(scene) == 0) continue;
     micros.push_back({naive_name(scene), naive_loop(scene)});
     add(scene, "general kernel", Isa::sse2, general_kernel(scene));
-    std::vector<Isa> sets{strip::available().back()};
-    if (sets[0] != Isa::sse2) sets.push_back(Isa::sse2);
+    std::set<Isa> sets;
+    for (const Path& path : paths()) sets.insert(path.instructions);
     for (const Isa isa : sets)
       if (auto piece = sweep<double>(scene, isa, false)) add(scene, "sweep, reproducible", isa, std::move(*piece));
   }

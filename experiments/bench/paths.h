@@ -13,8 +13,8 @@ struct Path {
   strip::Isa instructions;
 };
 
-/// With the best instructions that the machine has; and with those alone that builds for every machine use, as the
-/// distribution's libraries are built.
-inline std::vector<Path> paths() { return {{"best", strip::available().back()}, {"sse2", strip::Isa::sse2}}; }
+/// With the best instructions that the machine has (or those that CROSSCHECK_INSTRUCTIONS names); and with those alone
+/// that builds for every machine use, as the distribution's libraries are built.
+inline std::vector<Path> paths() { return {{"best", strip::chosen()}, {"sse2", strip::Isa::sse2}}; }
 
 }  // namespace crosscheck
