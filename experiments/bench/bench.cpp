@@ -6,7 +6,6 @@
 #include "experiments/bench/on_scenes.h"
 #include "experiments/scenes.h"
 #include "experiments/sweep/cores.h"
-#include "experiments/sweep/machine_lock.h"
 #include "mysim/errors.h"
 
 namespace crosscheck {
@@ -44,17 +43,16 @@ BenchPlan bench_plan(bool full) {
                    {32, {bullet_explicit()}, true},
                    {64, all},
                    {64, {bullet_explicit()}, true},
-                   {128, {odeint_rk4(), odeint_dopri5(), bullet_explicit()}}};
-    plan.kernels = {25, 0.05};
-    plan.on_scenes = {25, 0.01};
-    plan.turns = {15, 0.05};
+                   {128, {odeint_rk4(), {"odeint/dopri5", {1e-4}}, {"bullet/deformable-explicit", {0.95}}}}};
+    plan.kernels = {21, 0.02};
+    plan.on_scenes = {21, 0.005};
+    plan.turns = {11, 0.04};
   }
   plan.same_step.turns = plan.turns;
   return plan;
 }
 
 Rows bench(const BenchPlan& plan) {
-  const MachineLock alone(MachineLock::Hold::alone);
   pin_to_one_core();
   Rows rows;
   std::vector<EqualErrorAsked> sheets;

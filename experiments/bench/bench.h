@@ -26,8 +26,8 @@ struct BenchPlan {
 /// quick: within 90 s on a quiet machine of two cores; full: the largest sheet and every peer on each.
 BenchPlan bench_plan(bool full);
 
-/// The tables of kernels.h, on_scenes.h, equal_error.h and same_step.h, measured on one core alone. Notes say what was
-/// left out and why.
+/// The tables of kernels.h, on_scenes.h, equal_error.h and same_step.h, measured on one core, which the process keeps
+/// to from then on. Notes say what was left out and why.
 Rows bench(const BenchPlan& plan);
 
 }  // namespace crosscheck

@@ -153,9 +153,12 @@ void equal_error(const EqualErrorAsked& asked, Rows& rows, Progress& progress) {
     return refused;
   });
   double wanted = INFINITY;  // m: the least error that can be told
-  for (const SheetRun& run : peers)
+  long most = 0;             // evaluations of any of them
+  for (const SheetRun& run : peers) {
     if (run.ok() && *run.error > 2 * bar) wanted = std::min(wanted, *run.error - 2 * bar);
-  const std::vector<SheetRun> own = runs.own(wanted);
+    most = std::max(most, run.outcome.evaluations);
+  }
+  const std::vector<SheetRun> own = runs.own(wanted, most);
 
   progress.begin(fmt::format("{}: all in turns", scene));
   const Times times = in_turns(asked, peers, own);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "experiments/sweep/machine_lock.h"
+
 namespace crosscheck {
 namespace {
 
@@ -43,6 +45,7 @@ std::map<std::string, double> round_of(const std::vector<Micro>& all, double sec
 }  // namespace
 
 std::map<std::string, std::vector<double>> measured(const std::vector<Micro>& all, const MicroPlan& plan) {
+  const MachineLock alone(MachineLock::Hold::alone);
   const auto first = round_of(all, plan.seconds, {});
   std::map<std::string, std::vector<double>> times;
   for (int round = 0; round < plan.rounds; ++round)

@@ -20,7 +20,8 @@ struct MicroPlan {
 };
 
 /// CPU time of one run of each, s, one for each round; by name. In a round all have their turn one after the other, so
-/// that a slow spell of the machine falls on all, and quotients within a round tell most. Names must differ. Throws
+/// that a slow spell of the machine falls on all, and quotients within a round tell most; alone on this machine among
+/// all of Crosscheck (machine_lock.h). Names must differ. Throws
 /// Unsupported with the package's name where the suite was built without Google Benchmark.
 std::map<std::string, std::vector<double>> measured(const std::vector<Micro>& all, const MicroPlan& plan);
 

@@ -33,9 +33,10 @@ class SheetRuns {
   double bar() const { return bar_; }
 
   std::vector<SheetRun> of(const std::vector<Peer>& peers) const;
-  /// mysim's, of each method from long steps to short ones: until a run errs no more than `wanted` (m), or takes more
-  /// evaluations than another that did. In single precision where the sheet is wide enough for it.
-  std::vector<SheetRun> own(double wanted) const;
+  /// mysim's, of each method from long steps to short ones: until a run errs no more than `wanted` (m), takes more
+  /// evaluations than `most`, or more than a run of another method that errs less. In single precision where the sheet
+  /// is wide enough for it.
+  std::vector<SheetRun> own(double wanted, long most) const;
 
   /// How many are announced, the truth's and mysim's own among them.
   static int count(const std::vector<Peer>& peers);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/sweep/machine_lock.h"
 #include "experiments/timing.h"
 #include "mysim/errors.h"
 
@@ -54,6 +55,7 @@ double share_to_time(const Turn& turn, double seconds) {
 }  // namespace
 
 std::vector<TurnTimes> timed_in_turns(const std::vector<Turn>& turns, const TurnPlan& plan) {
+  const MachineLock alone(MachineLock::Hold::alone);
   std::vector<TurnTimes> all(turns.size());
   std::vector<std::function<double()>> runs;
   for (size_t i = 0; i < turns.size(); ++i) {
