@@ -52,8 +52,13 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
   ASSERT_EQ(status, 0) << said;
 
   const auto json = nlohmann::json::parse(read(folder_ / "bench.json"));
-  const std::set<std::string> names{"bench-kernels-cost", "bench-scenes-cost", "bench-equal-error-cost",
-                                    "bench-own-runs-cost", "bench-same-step-cost"};
+  std::set<std::string> names{"bench-equal-error-cost", "bench-own-runs-cost", "bench-same-step-cost"};
+  std::vector<std::string> lines{"odeint/rk4", "other model", "two stiffnesses: Bullet's force", "SSE2 alone"};
+  // where the suite was built without Google Benchmark it says so
+  if (json["notes"].dump().find("libbenchmark-dev") == std::string::npos) {
+    names.insert({"bench-kernels-cost", "bench-scenes-cost"});
+    lines.insert(lines.end(), {"sweep, fastest, double", "beside the naive loop"});
+  }
   std::set<std::string> found;
   for (const auto& [name, table] : json["tables"].items()) {
     found.insert(name);
@@ -65,10 +70,10 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
                             column["unit"].get<std::string>());
     EXPECT_EQ(csv.substr(0, csv.find('\n')), header);
     // 17 digits read back to the same bits
-    std::istringstream lines(csv.substr(csv.find('\n') + 1));
+    std::istringstream in(csv.substr(csv.find('\n') + 1));
     for (const auto& row : table["rows"]) {
       std::string line, cell;
-      std::getline(lines, line);
+      std::getline(in, line);
       for (const auto& column : table["columns"]) {
         const auto& value = row[column["name"].get<std::string>()];
         const bool quoted = line.starts_with('"');
@@ -94,9 +99,7 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
     EXPECT_NE(provenance.find(key), std::string::npos) << key;
   for (const char* ending : {".svg", ".png", ".pdf", ".csv", ".gp"})
     EXPECT_TRUE(fs::exists(folder_ / (std::string("bench-ratios") + ending))) << ending;
-  for (const char* words : {"odeint/rk4", "other model", "sweep, fastest, double", "two stiffnesses: Bullet's force",
-                            "beside the naive loop", "SSE2 alone"})
-    EXPECT_NE(said.find(words), std::string::npos) << words << "\n" << said;
+  for (const std::string& words : lines) EXPECT_NE(said.find(words), std::string::npos) << words << "\n" << said;
 }
 
 TEST(BenchLines, OfAPeerOneIsTheChief) {
