@@ -153,10 +153,10 @@ void equal_error(const EqualErrorAsked& asked, Rows& rows, Progress& progress) {
     return refused;
   });
   double wanted = INFINITY;  // m: the least error that can be told
-  long most = 0;             // evaluations of any of them
+  long most = 0;             // evaluations: as many as take mysim about the time that the dearest run takes a peer
   for (const SheetRun& run : peers) {
     if (run.ok() && *run.error > 2 * bar) wanted = std::min(wanted, *run.error - 2 * bar);
-    most = std::max(most, run.outcome.evaluations);
+    most = std::max(most, 5 * run.outcome.evaluations);
   }
   const std::vector<SheetRun> own = runs.own(wanted, most);
 
