@@ -66,6 +66,12 @@ std::vector<std::vector<double>> timed_in_turns(std::span<const std::function<do
   return times;
 }
 
+std::vector<double> quotients(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> all;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) all.push_back(a[i] / b[i]);
+  return all;
+}
+
 double noise_floor(std::span<const std::vector<double>> times) {
   std::vector<double> apart;
   for (const auto& run : times) {

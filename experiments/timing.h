@@ -34,6 +34,9 @@ struct TimingPlan {
 /// its only time is 0.
 std::vector<std::vector<double>> timed_in_turns(std::span<const std::function<double()>> runs, const TimingPlan& plan);
 
+/// Quotients of the times of two runs, round by round; of as many rounds as both have.
+std::vector<double> quotients(const std::vector<double>& a, const std::vector<double>& b);
+
 /// What two measurements of the same thing differ by here, relative: the 90 % quantile over the runs of the difference
 /// between the medians of their even and their odd repetitions; at least 1 %.
 double noise_floor(std::span<const std::vector<double>> times);

@@ -216,6 +216,7 @@ MethodStyle style_of(const std::string& method) {
       {"odeint/rk4", {"#44AA99", "(9,3)", 12}},
       {"odeint/dopri5", {"#88CCEE", "(3,4)", 8}},
       {"sundials/arkode", {"#DDCC77", "(12,2,2,2)", 10}},
+      {"sundials/cvode", {"#AA8855", "(4,2,2,2)", 8}},
       {"mysim/symplectic-euler+sticky", {"#666666", "(3,3)", 8}},
   };
   for (const Row& row : table)

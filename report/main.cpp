@@ -172,6 +172,12 @@ int run(int argc, char** argv) {
                                             : regress_command(regress_options);
   });
 
+  BenchOptions bench_options;
+  auto* bench = app.add_subcommand("bench", "speed, as ratios against the peers, in one run");
+  bench->add_option("--out", bench_options.out, "folder (out/bench)");
+  quick_or_full(bench, bench_options.full);
+  bench->callback([&] { bench_options.command_line = line, status = bench_command(bench_options); });
+
   EngineOptions engine_options;
   auto* engine = app.add_subcommand("engine", "builds the Bullet adapter against another Bullet tree, for exec:");
   engine->add_option("NAME", engine_options.what, "bullet")->required();

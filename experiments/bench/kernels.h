@@ -1,4 +1,4 @@
-// What a spring costs in one step, kernel by kernel.
+// What a spring costs, kernel by kernel.
 #pragma once
 
 #include "experiments/bench/micro.h"
@@ -6,15 +6,10 @@
 
 namespace crosscheck {
 
-struct KernelsAsked {
-  std::vector<int> sizes = {64, 128, 256};  // particles along a side
-  MicroPlan plan;
-};
-
-/// `bench-kernels-cost`: ns of CPU time per spring and step with 90 % intervals, how many times the naive loop's speed
-/// (medians over rounds of the same run), operations per second counting `flop_per_spring`, and their share of the most
-/// that the same instructions do in registers. The naive loop: Eigen::Vector3d, spring by spring, forces only; the
-/// general kernel: forces only; the sweep: a whole step.
-Table kernels_table(const KernelsAsked& asked);
+/// `bench-kernels-cost`: ns of CPU time per spring and step on a sheet with so many particles along a side, with 90 %
+/// intervals; how many times the naive loop's speed, round by round; operations per second, counting `flop_per_spring`;
+/// and their share of the most that the same instructions do in registers. The naive loop: Eigen::Vector3d, spring by
+/// spring; it, the plain loop and the general kernel: forces only; the sweep: a whole step.
+Table kernels_table(int side, const MicroPlan& plan);
 
 }  // namespace crosscheck

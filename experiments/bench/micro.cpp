@@ -2,7 +2,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
+
+#include "experiments/sweep/machine_lock.h"
 
 namespace crosscheck {
 namespace {
@@ -14,33 +18,39 @@ class Collector : public benchmark::BenchmarkReporter {
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs) {
       if (run.error_occurred) throw std::runtime_error(run.benchmark_name() + ": " + run.error_message);
-      if (run.run_type == Run::RT_Iteration)
-        times[run.run_name.function_name].push_back(run.cpu_accumulated_time / static_cast<double>(run.iterations));
+      times[run.run_name.function_name] = run.cpu_accumulated_time / static_cast<double>(run.iterations);
     }
   }
-  std::map<std::string, std::vector<double>> times;
+  std::map<std::string, double> times;  // s, of one run of each
 };
+
+/// One round; with nothing known of how long each takes, Google Benchmark finds it out.
+std::map<std::string, double> round_of(const std::vector<Micro>& all, double seconds,
+                                       const std::map<std::string, double>& known) {
+  for (const Micro& micro : all) {
+    auto* entry = benchmark::RegisterBenchmark(micro.name.c_str(), [once = micro.once](benchmark::State& state) {
+      for (auto _ : state) once();
+    });
+    if (const auto time = known.find(micro.name); time != known.end())
+      entry->Iterations(std::max(1L, std::lround(seconds / time->second)));
+    else
+      entry->MinTime(seconds);
+  }
+  Collector collector;
+  benchmark::RunSpecifiedBenchmarks(&collector);
+  benchmark::ClearRegisteredBenchmarks();
+  return collector.times;
+}
 
 }  // namespace
 
 std::map<std::string, std::vector<double>> measured(const std::vector<Micro>& all, const MicroPlan& plan) {
-  std::vector<std::string> words{"bench", "--benchmark_enable_random_interleaving=true"};
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  int argc = static_cast<int>(argv.size());
-  benchmark::Initialize(&argc, argv.data());
-  for (const Micro& micro : all)
-    benchmark::RegisterBenchmark(micro.name.c_str(),
-                                 [once = micro.once](benchmark::State& state) {
-                                   for (auto _ : state) once();
-                                 })
-        ->MinTime(plan.seconds)
-        ->Repetitions(plan.repetitions);
-  Collector collector;
-  benchmark::RunSpecifiedBenchmarks(&collector);
-  benchmark::ClearRegisteredBenchmarks();
-  benchmark::Shutdown();
-  return collector.times;
+  const MachineLock alone(MachineLock::Hold::alone);
+  const auto first = round_of(all, plan.seconds, {});
+  std::map<std::string, std::vector<double>> times;
+  for (int round = 0; round < plan.rounds; ++round)
+    for (const auto& [name, seconds] : round_of(all, plan.seconds, first)) times[name].push_back(seconds);
+  return times;
 }
 
 }  // namespace crosscheck

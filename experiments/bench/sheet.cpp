@@ -6,17 +6,24 @@
 
 namespace crosscheck {
 
-Scene sheet(int n) {
-  // 0.72 of the explicit limit: omega^2 = 8 (400 + 200 + 20) N/m over the mass of a particle, at most
-  const double step = 0.72 * 2 / std::sqrt(8 * 620 * n * n / 0.25);
+Scene sheet(int n, const Threads& threads) {
+  constexpr double mass = 0.25;  // kg
+  // omega^2 is at most 8 times the sum of the stiffnesses over the mass of a particle; leapfrog is stable up to 2/omega
+  const double omega = std::sqrt(8 * (threads.structural + threads.shear + threads.bend) * n * n / mass);
   return parse_scene(
       fmt::format("question = \"What does the same accuracy cost?\"\nparameters = \"a sheet hung by two corners\"\n"
                   "[time]\nduration = 1\nsamples = 10\nstep = {1:.17g}\nwindow = 1\ntolerance = 1e-3\n"
                   "method = \"leapfrog\"\n[grid]\nsize = [{0}, {0}]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\n"
-                  "v = [0, 0, 1]\nmass = 0.25\n[grid.stiffness]\nstructural = 400\nshear = 200\nbend = 20\n"
+                  "v = [0, 0, 1]\nmass = {6}\n[grid.stiffness]\nstructural = {3}\nshear = {4}\nbend = {5}\n"
                   "[pins]\nparticles = [0, {2}]\n[gravity]\nacceleration = [0, -9.81, 0]\n[drag]\ngamma = 5\n",
-                  n, step, n - 1),
+                  n, 0.72 * 2 / omega, n - 1, threads.structural, threads.shear, threads.bend, mass),
       fmt::format("sheet-{0}x{0}", n));
+}
+
+Scene sheet_of_two_stiffnesses(int n) {
+  Scene scene = sheet(n, {400, 400, 20});
+  scene.name += "-two-stiffnesses";
+  return scene;
 }
 
 }  // namespace crosscheck

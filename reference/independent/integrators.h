@@ -22,6 +22,11 @@ Outcome run_odeint_fehlberg78(const Scene& scene, const Run& run, Observer& obse
 /// SUNDIALS ARKODE, explicit, Fehlberg 7(8), to run.tolerance; steps end at the samples. Throws Unsupported with the
 /// package's name where the suite was built without.
 Outcome run_arkode(const Scene& scene, const Run& run, Observer& observer);
+/// The same with ARKODE's default rule of order 4 (Zonneveld's 5 4 3).
+Outcome run_arkode_order4(const Scene& scene, const Run& run, Observer& observer);
+/// SUNDIALS CVODE, Adams' formulas of varying order with GMRES, to run.tolerance; steps end at the samples. Throws
+/// Unsupported likewise.
+Outcome run_cvode(const Scene& scene, const Run& run, Observer& observer);
 
 std::string odeint_version();                   // Boost's, e.g. "1.74"
 std::optional<std::string> sundials_version();  // none: the suite was built without

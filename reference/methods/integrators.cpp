@@ -5,25 +5,52 @@
 
 namespace crosscheck {
 
+namespace {
+
+struct Integrator {
+  std::string name, option;  // the one behind a plus that chooses it; empty: none
+  std::string what, rule;
+  Outcome (*run)(const Scene&, const Run&, Observer&);
+  bool adaptive;
+};
+
+std::vector<Integrator> integrators() {
+  return {
+      {"odeint/rk4", "", "Boost's odeint, classic Runge-Kutta, on a right-hand side written apart", "rk4",
+       run_odeint_rk4, false},
+      {"odeint/dopri5", "",
+       "Boost's odeint, Dormand-Prince 5(4) with error control, on the same: give --tol, not --step", "",
+       run_odeint_dopri5, true},
+      {"sundials/arkode", "",
+       "SUNDIALS ARKODE, Fehlberg 7(8) with error control, on the same: give --tol, not --step; +order=4: Zonneveld "
+       "4(3)",
+       "", run_arkode, true},
+      {"sundials/arkode", "order=4", "SUNDIALS ARKODE, Zonneveld 4(3) with error control, on the same", "",
+       run_arkode_order4, true},
+      {"sundials/cvode", "",
+       "SUNDIALS CVODE, Adams' formulas with GMRES and error control, on the same: give --tol, not --step", "",
+       run_cvode, true}};
+}
+
+Method integrator_method(const std::string& name, const MethodOptions& options) {
+  std::string known = "none";
+  for (const Integrator& i : integrators()) {
+    if (i.name != name) continue;
+    if (options.empty() ? i.option.empty() : options == MethodOptions{i.option})
+      return {i.name, i.what, i.rule, i.run, ContactLoss::inferred, nullptr, i.adaptive};
+    if (!i.option.empty()) known = "+" + i.option + " or none";
+  }
+  refuse_option(name, options.back(), known);
+}
+
+}  // namespace
+
 std::vector<MethodRow> integrator_methods() {
-  struct Integrator {
-    const char *name, *what, *rule;
-    Outcome (*run)(const Scene&, const Run&, Observer&);
-    bool adaptive;
-  };
-  static constexpr Integrator table[] = {
-      {"odeint/rk4", "Boost's odeint, classic Runge-Kutta, on a right-hand side written apart", "rk4", run_odeint_rk4,
-       false},
-      {"odeint/dopri5", "Boost's odeint, Dormand-Prince 5(4) with error control, on the same: give --tol, not --step",
-       "", run_odeint_dopri5, true},
-      {"sundials/arkode", "SUNDIALS ARKODE, Fehlberg 7(8) with error control, on the same: give --tol, not --step", "",
-       run_arkode, true}};
   std::vector<MethodRow> rows;
-  for (const Integrator& i : table)
-    rows.push_back({i.name, [&i](const MethodOptions& options) -> Method {
-                      if (!options.empty()) refuse_option(i.name, options[0], "none");
-                      return {i.name, i.what, i.rule, i.run, ContactLoss::inferred, nullptr, i.adaptive};
-                    }});
+  for (const Integrator& i : integrators())
+    if (i.option.empty())
+      rows.push_back(
+          {i.name, [name = i.name](const MethodOptions& options) { return integrator_method(name, options); }});
   return rows;
 }
 

@@ -7,6 +7,8 @@
 
 namespace crosscheck {
 
+struct BenchPlan;
+
 int doctor_command();
 
 int list_command(const std::string& what, bool json);
@@ -98,6 +100,15 @@ int prove_speed_command(const RegressOptions& options);
 /// Builds Crosscheck in other ways and runs each against the baselines: none of them has anything to say. 1 where one
 /// has, or could not be built; InputError where there is no such build.
 int prove_builds_command(const RegressOptions& options);
+
+struct BenchOptions {
+  bool full = false;
+  std::filesystem::path out = "out/bench";
+  std::string command_line;
+};
+int bench_command(const BenchOptions& options);
+/// The same with a plan of one's own, in place of the short or the long one.
+int bench_command(const BenchOptions& options, const BenchPlan& plan);
 
 struct RenderOptions {
   std::string scene, methods, mode = "shaded", quality = "still", size = "1280x720";

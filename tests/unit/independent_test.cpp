@@ -201,7 +201,7 @@ TEST(Integrators, FollowTheirTolerance) {
   const Scene scene = load_scene("pendulum");
   const Trajectory fine = answer("rk4", scene, {2e-5, 1, 20}).trajectory;
   std::vector<std::string> names{"odeint/dopri5"};
-  if (sundials_version()) names.push_back("sundials/arkode");
+  if (sundials_version()) names.insert(names.end(), {"sundials/arkode", "sundials/arkode+order=4", "sundials/cvode"});
   for (const std::string& name : names) {
     SCOPED_TRACE(name);
     double before = 0;
@@ -220,7 +220,7 @@ TEST(Integrators, FollowTheirTolerance) {
 
 TEST(Integrators, SampleAtTheTimesAskedForHoweverOftenTheyAreWatched) {
   const Scene scene = small_cloth();  // its wind makes the watch look at every step
-  for (const auto name : {"odeint/dopri5", "sundials/arkode"}) {
+  for (const auto name : {"odeint/dopri5", "sundials/arkode", "sundials/arkode+order=4", "sundials/cvode"}) {
     const Method method = find_method(name);
     const crosscheck::Run run{1e-3, 0.5, 7, 1e-8};
     Recorder alone, watched;
@@ -239,7 +239,8 @@ TEST(Integrators, SampleAtTheTimesAskedForHoweverOftenTheyAreWatched) {
 }
 
 TEST(Integrators, AreListedAndAskedForByName) {
-  for (const auto name : {"odeint/rk4", "odeint/dopri5", "sundials/arkode"}) {
+  for (const auto name :
+       {"odeint/rk4", "odeint/dopri5", "sundials/arkode", "sundials/arkode+order=4", "sundials/cvode"}) {
     EXPECT_EQ(find_method(name).name, name);
     EXPECT_EQ(find_method(name).adaptive, std::string(name) != "odeint/rk4");
     EXPECT_THROW(find_method(std::string(name) + "+n=2"), InputError);

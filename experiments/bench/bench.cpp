@@ -1,0 +1,80 @@
+#include "experiments/bench/bench.h"
+
+#include <fmt/format.h>
+
+#include "experiments/bench/kernels.h"
+#include "experiments/bench/on_scenes.h"
+#include "experiments/scenes.h"
+#include "experiments/sweep/cores.h"
+#include "mysim/errors.h"
+
+namespace crosscheck {
+namespace {
+
+// fixed steps: below each rule's limit, and shorter; in 2 / omega
+Peer odeint_rk4() { return {"odeint/rk4", {1.35, 1, 0.5}}; }
+Peer odeint_dopri5() { return {"odeint/dopri5", {1e-4, 1e-6, 1e-7}}; }
+Peer arkode() { return {"sundials/arkode+order=4", {1e-3, 1e-5, 1e-7}}; }
+Peer cvode() { return {"sundials/cvode", {1e-3, 1e-4}}; }
+Peer bullet_explicit() { return {"bullet/deformable-explicit", {0.95, 0.5}}; }
+Peer bullet_implicit() { return {"bullet/deformable-implicit", {4, 1}}; }
+Peer bullet_pbd() { return {"bullet/pbd", {1, 0.5}, true}; }
+
+std::vector<std::string> all_scenes() {
+  std::vector<std::string> names;
+  for (const auto name : shipped_scenes()) names.emplace_back(name);
+  return names;
+}
+
+}  // namespace
+
+BenchPlan bench_plan(bool full) {
+  const std::vector<Peer> all{odeint_rk4(),      odeint_dopri5(),   arkode(),    cvode(),
+                              bullet_explicit(), bullet_implicit(), bullet_pbd()};
+  BenchPlan plan{{64, 128, 256},
+                 all_scenes(),
+                 {{32, all}, {32, {bullet_explicit()}, true}, {64, {odeint_rk4()}}},
+                 {},
+                 {11, 0.015},
+                 {11, 0.004},
+                 {}};
+  if (full) {
+    plan.sheets = {{32, all},
+                   {32, {bullet_explicit()}, true},
+                   {64, all},
+                   {64, {bullet_explicit()}, true},
+                   {128, {odeint_rk4(), {"odeint/dopri5", {1e-4}}, {"bullet/deformable-explicit", {0.95}}}}};
+    plan.kernels = {21, 0.02};
+    plan.on_scenes = {21, 0.005};
+    plan.turns = {11, 0.04};
+  }
+  plan.same_step.turns = plan.turns;
+  return plan;
+}
+
+Rows bench(const BenchPlan& plan) {
+  pin_to_one_core();
+  Rows rows;
+  std::vector<EqualErrorAsked> sheets;
+  for (const BenchPlan::Sheet& asked : plan.sheets)
+    sheets.push_back({std::make_shared<const Scene>(asked.scene()), asked.peers, plan.turns});
+  int work = 3 + static_cast<int>(plan.kernel_sides.size());  // shipped scenes, two sheets at the same step
+  for (const EqualErrorAsked& asked : sheets) work += work_of(asked);
+  Progress progress(work);
+  try {
+    for (const int side : plan.kernel_sides) {
+      progress.begin(fmt::format("kernels on a sheet of {0} x {0}", side));
+      rows.add(kernels_table(side, plan.kernels));
+    }
+    progress.begin("kernels on the shipped scenes");
+    rows.add(scenes_table(load_scenes(plan.scenes), plan.on_scenes));
+  } catch (const Unsupported& refusal) {
+    rows.notes.push_back(fmt::format("bench leaves out kernels: {}", refusal.what()));
+  }
+  for (const EqualErrorAsked& asked : sheets) equal_error(asked, rows, progress);
+  same_step(plan.same_step, rows, progress);
+  progress.done();
+  return rows;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,33 @@
+// Speed, as ratios against peers in one run: all that `crosscheck bench` measures.
+#pragma once
+
+#include "experiments/bench/equal_error.h"
+#include "experiments/bench/micro.h"
+#include "experiments/bench/same_step.h"
+#include "experiments/bench/sheet.h"
+
+namespace crosscheck {
+
+struct BenchPlan {
+  struct Sheet {
+    int side;  // particles
+    std::vector<Peer> peers;
+    bool two_stiffnesses = false;  // which Bullet's own spring force can carry
+    Scene scene() const { return two_stiffnesses ? sheet_of_two_stiffnesses(side) : sheet(side); }
+  };
+  std::vector<int> kernel_sides;    // of sheets that kernels run on
+  std::vector<std::string> scenes;  // on which the engine's kernels stand beside the naive loop
+  std::vector<Sheet> sheets;        // for the same error
+  SameStepAsked same_step;
+  MicroPlan kernels, on_scenes;
+  TurnPlan turns;
+};
+
+/// quick: within 90 s on a quiet machine of two cores; full: the largest sheet and every peer on each.
+BenchPlan bench_plan(bool full);
+
+/// The tables of kernels.h, on_scenes.h, equal_error.h and same_step.h, measured on one core, which the process keeps
+/// to from then on. Notes say what was left out and why.
+Rows bench(const BenchPlan& plan);
+
+}  // namespace crosscheck

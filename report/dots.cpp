@@ -1,0 +1,93 @@
+#include "report/dots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace crosscheck {
+namespace {
+
+/// Where a line stands: headings take lines of their own.
+double place_of(const Dots& dots, size_t line) {
+  const auto above = std::count_if(dots.headings.begin(), dots.headings.end(),
+                                   [&](const auto& heading) { return heading.first <= line; });
+  return static_cast<double>(line + 1) + static_cast<double>(above);
+}
+
+Table data_of(const Dots& dots) {
+  Table table{
+      dots.name, {{"series", "1"}, {"name", "1"}, {"place", "1"}, {"value", "1"}, {"low", "1"}, {"high", "1"}}, {}};
+  for (const Dots::Series& series : dots.series)
+    for (size_t i = 0; i < dots.names.size(); ++i) {
+      const auto& dot = series.dots.at(i);
+      if (!dot) continue;
+      for (const double value : {dot->value, dot->low, dot->high})
+        if (!(value > 0) || !std::isfinite(value))
+          throw std::runtime_error(fmt::format("figure {}: a value is not above zero", dots.name));
+      table.add({series.title, dots.names[i], place_of(dots, i), dot->value, dot->low, dot->high});
+    }
+  if (table.rows.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", dots.name));
+  return table;
+}
+
+/// The series lie a little above and below the middle of their line, so that they do not hide each other.
+double offset_of(size_t series, size_t count) {
+  return count < 2 ? 0 : 0.3 * (static_cast<double>(series) / static_cast<double>(count - 1) - 0.5);
+}
+
+/// The logarithmic axis, with ticks at 1, 2, 5 and so on, or over many decades at powers of ten alone.
+std::string axis_of(const Dots& dots) {
+  double least = 1, most = 1;
+  for (const Dots::Series& series : dots.series)
+    for (const auto& dot : series.dots)
+      if (dot) least = std::min(least, dot->low), most = std::max(most, dot->high);
+  least /= 1.3, most *= 1.3;
+  std::string ticks;
+  for (int power = -6; power <= 9; ++power)
+    for (const double digit : {1, 2, 5}) {
+      const double tick = digit * std::pow(10, power);
+      if (tick < least || tick > most || (digit > 1 && most > 200 * least)) continue;
+      ticks += fmt::format("{}{:.6g}", ticks.empty() ? "" : ", ", tick);
+    }
+  return fmt::format("set logscale x 10\nset format x \"%g\"\nset xrange [{:.6g}:{:.6g}]\nset xtics ({})\n", least,
+                     most, ticks);
+}
+
+}  // namespace
+
+Drawing drawing_of(const Dots& dots) {
+  Drawing drawing{dots.name, data_of(dots), ""};
+  std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", dots.title, dots.name);
+  // beside the names title and key stand in the middle of the figure, not of the plot
+  out += fmt::format(
+      "set title ' '\nset label {} at screen 0.5, screen 1 offset 0,-1.2 center noenhanced font \"DejaVu "
+      "Sans:Bold,13\"\n"
+      "set key at screen 0.5, screen 0 center bottom horizontal\nset lmargin at screen 0.44\nset bmargin 5.5\n"
+      "set xlabel {} offset 0,0.2\n",
+      single_quoted(dots.title), single_quoted(dots.label));
+  out += axis_of(dots);
+  const double lines = static_cast<double>(dots.names.size() + dots.headings.size());
+  out += fmt::format("set yrange [{:.1f}:0.4]\nset ytics noenhanced (", lines + 0.6);
+  for (size_t i = 0; i < dots.names.size(); ++i)
+    out += fmt::format("{}{} {:g}", i ? ", " : "", single_quoted(dots.names[i]), place_of(dots, i));
+  out += ")\nset arrow from 1, graph 0 to 1, graph 1 nohead lc rgb \"#333333\" lw 1.5 back\n";
+  for (const auto& [line, heading] : dots.headings)
+    out += fmt::format("set label {} at screen 0.02, first {:g} left noenhanced font \"DejaVu Sans:Bold,11\"\n",
+                       single_quoted(heading), place_of(dots, line) - 1);
+  std::string plot;
+  for (size_t i = 0; i < dots.series.size(); ++i) {
+    const Dots::Series& series = dots.series[i];
+    if (std::none_of(series.dots.begin(), series.dots.end(), [](const auto& dot) { return dot.has_value(); })) continue;
+    plot += fmt::format(
+        "{}{} using (strcol(1) eq {} ? $4 : NaN):($3 + {:.3g}):5:6 with xerrorbars lc rgb \"{}\" pt {} ps 1 lw 2 title "
+        "{}",
+        plot.empty() ? "plot " : ", \\\n     ", single_quoted(dots.name + ".csv"), single_quoted(series.title),
+        offset_of(i, dots.series.size()), series.style.colour, series.style.marker, single_quoted(series.title));
+  }
+  drawing.script = out + terminals(dots.name, 0.3 + 0.045 * lines, plot + "\n");
+  return drawing;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,137 @@
+// bench on the command line, and the whole of it on a plan that is over at once.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "experiments/bench/bench.h"
+#include "experiments/bench/sheet.h"
+#include "experiments/scenes.h"
+#include "report/bench_lines.h"
+#include "report/commands/commands.h"
+#include "tests/unit/cli.h"
+
+namespace crosscheck::testing_tools {
+namespace {
+
+BenchPlan tiny_plan() {
+  const MicroPlan micro{3, 1e-4};
+  const TurnPlan turns{3, 1e-3};
+  return {{20, 40},
+          {"pendulum", "cloth-hang"},
+          {{20, {{"odeint/rk4", {1.2, 0.6}}, {"bullet/deformable-explicit", {0.9}}, {"bullet/pbd", {1}, true}}}},
+          {20, 0.02, turns},
+          micro,
+          micro,
+          turns};
+}
+
+class CliBench : public Cli {};
+
+TEST_F(CliBench, BadUseIsExitTwoWithAMessage) {
+  for (const auto& [words, said] :
+       std::vector<std::pair<std::vector<std::string>, std::string>>{{{"bench", "--quick", "--full"}, "--quick"},
+                                                                     {{"bench", "--rounds", "3"}, "--rounds"},
+                                                                     {{"bench", "cloth-hang"}, "cloth-hang"},
+                                                                     {{"bench", "--out"}, "--out"},
+                                                                     {{"bench", "--out", "taken/deeper"}, "taken"}}) {
+    write("taken", "a file");
+    const ProgramResult result = call(words);
+    EXPECT_EQ(result.status, 2) << result.out;
+    EXPECT_NE(result.err.find(said), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
+  const BenchPlan plan = tiny_plan();
+  int status = 1;
+  testing::internal::CaptureStdout();
+  EXPECT_NO_THROW(status = bench_command({false, folder_, "crosscheck bench"}, plan));
+  const std::string said = testing::internal::GetCapturedStdout();
+  ASSERT_EQ(status, 0) << said;
+
+  const auto json = nlohmann::json::parse(read(folder_ / "bench.json"));
+  std::set<std::string> names{"bench-equal-error-cost", "bench-own-runs-cost", "bench-same-step-cost"};
+  std::vector<std::string> lines{"odeint/rk4", "other model", "two stiffnesses: Bullet's force", "SSE2 alone"};
+  // where the suite was built without Google Benchmark it says so
+  if (json["notes"].dump().find("libbenchmark-dev") == std::string::npos) {
+    names.insert({"bench-kernels-cost", "bench-scenes-cost"});
+    lines.insert(lines.end(), {"sweep, fastest, double", "beside the naive loop"});
+  }
+  std::set<std::string> found;
+  for (const auto& [name, table] : json["tables"].items()) {
+    found.insert(name);
+    const std::string csv = rows(folder_ / (name + ".csv"));
+    EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), table["rows"].size() + 1) << name;
+    std::string header;
+    for (const auto& column : table["columns"])
+      header += fmt::format("{}{} [{}]", header.empty() ? "" : ",", column["name"].get<std::string>(),
+                            column["unit"].get<std::string>());
+    EXPECT_EQ(csv.substr(0, csv.find('\n')), header);
+    // 17 digits read back to the same bits
+    std::istringstream in(csv.substr(csv.find('\n') + 1));
+    for (const auto& row : table["rows"]) {
+      std::string line, cell;
+      std::getline(in, line);
+      for (const auto& column : table["columns"]) {
+        const auto& value = row[column["name"].get<std::string>()];
+        const bool quoted = line.starts_with('"');
+        const size_t end = quoted ? line.find('"', 1) + 1 : std::min(line.find(','), line.size());
+        cell = quoted ? line.substr(1, end - 2) : line.substr(0, end);
+        line.erase(0, std::min(end + 1, line.size()));
+        if (value.is_null())
+          EXPECT_EQ(cell, "");
+        else if (value.is_string())
+          EXPECT_EQ(cell, value.get<std::string>());
+        else
+          EXPECT_EQ(std::stod(cell), value.get<double>());
+      }
+    }
+  }
+  EXPECT_EQ(found, names);
+
+  std::string provenance;
+  for (const auto& line : json["provenance"])
+    provenance += line["key"].get<std::string>() + ": " + line["value"].get<std::string>() + "\n";
+  for (const char* key : {"command: crosscheck bench", "build of mysim", "build of Bullet", "build of odeint", "cpu",
+                          "scene: sheet-20x20 ", "best instructions"})
+    EXPECT_NE(provenance.find(key), std::string::npos) << key;
+  for (const char* ending : {".svg", ".png", ".pdf", ".csv", ".gp"})
+    EXPECT_TRUE(fs::exists(folder_ / (std::string("bench-ratios") + ending))) << ending;
+  for (const std::string& words : lines) EXPECT_NE(said.find(words), std::string::npos) << words << "\n" << said;
+}
+
+TEST(BenchLines, OfAPeerOneIsTheChief) {
+  BenchPlan plan = tiny_plan();
+  plan.kernel_sides = {20};
+  const Rows rows = bench(plan);
+  const std::vector<BenchLine> lines = bench_lines(rows);
+  int chiefs = 0, all = 0;
+  for (const BenchLine& line : lines) {
+    EXPECT_TRUE(line.best.has_value() || !line.remark.empty()) << line.label;
+    if (line.group.starts_with("the same error")) chiefs += line.chief, ++all;
+  }
+  EXPECT_EQ(all, 4);
+  EXPECT_EQ(chiefs, 3);
+}
+
+TEST(BenchPlans, QuickAndFullAskWhatTheTablesPromise) {
+  for (const bool full : {false, true}) {
+    const BenchPlan plan = bench_plan(full);
+    EXPECT_EQ(plan.kernel_sides, (std::vector<int>{64, 128, 256}));
+    EXPECT_EQ(plan.scenes.size(), shipped_scenes().size());
+    std::set<int> sides;
+    for (const BenchPlan::Sheet& asked : plan.sheets) {
+      sides.insert(asked.side);
+      for (const Peer& peer : asked.peers) {
+        EXPECT_NO_THROW(find_method(peer.method));
+        EXPECT_EQ(peer.other_model, peer.method.starts_with("bullet/pbd"));
+      }
+    }
+    EXPECT_EQ(sides, full ? (std::set<int>{32, 64, 128}) : (std::set<int>{32, 64}));
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck::testing_tools
