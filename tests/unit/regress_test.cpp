@@ -63,7 +63,8 @@ TEST(Baselines, ShippedOnesAreOfTheScenesAsTheyAreAndTheirTolerancesCanFail) {
       ++all;
       const bool beyond = e.what.derivation.ends_with("beyond prediction");
       unpredictable += beyond;
-      if (beyond && !e.without.empty()) continue;
+      // explicit Euler gains energy: what it amplifies is not the scene's
+      if (beyond && (!e.without.empty() || e.method == "mysim/explicit-euler")) continue;
       if (e.method.starts_with("bullet32/")) continue;  // beside a quantity that is nearly zero its rounding is large
       if (e.what.quantity.name == time_of_failure) {    // known to the sample; beside a ball to a few of them
         EXPECT_LE(e.what.tolerance, 8 * scene.duration / scene.samples) << name << ", " << e.method;
