@@ -56,6 +56,10 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
   EXPECT_TRUE(contains(refusal("rk5"), "unknown method 'rk5'; expected one of: "));
   for (const Method& m : all_methods()) EXPECT_TRUE(contains(refusal("rk5"), m.name));
   const std::pair<const char*, const char*> cases[] = {
+      {"leapfrog+threads=0",
+       "unknown option '+threads=0'; expected +sticky, +fast, +single, +plain, +threads=N or none"},
+      {"leapfrog+threads=2x", "unknown option '+threads=2x'"},
+      {"rk4+single", "method mysim/rk4: unknown option '+single'; expected +sticky or none"},
       {"rk4+stick", "method mysim/rk4: unknown option '+stick'; expected +sticky or none"},
       {"implicit-euler+x", "unknown option '+x'; expected +linear, +sticky or none"},
       {"rk4+linear", "method mysim/rk4: unknown option '+linear'; expected +sticky or none"},

@@ -93,6 +93,14 @@ TEST(Strip, RecognisesRegularCloths) {
   }
 }
 
+TEST(Strip, SingleSaysWhereItIsDouble) {
+  for (const int columns : {20, 40}) {
+    const Scene scene = scene_of({"", 5, columns, hang});
+    const Outcome out = run_method(find_method("leapfrog+single"), scene, default_run(scene), {});
+    EXPECT_EQ(out.remark.find("double precision") != std::string::npos, columns == 20) << out.remark;
+  }
+}
+
 TEST(Strip, EndsThatMeetPullAtNothingAndAreCounted) {
   Scene scene = scene_of({"", 5, 20, hang});
   scene.start.x.col(45) = scene.start.x.col(46);
