@@ -100,9 +100,9 @@ std::vector<std::string> words_of_derivations() {
       "  lightest particle; in places adding up like a random walk, in energies as the velocities of one step; no",
       "  damping counted; in the energy lost in contact 8 last digits of the largest energy in each step",
       "truth known to D: the error bar of what the error is measured against, on top",
-      "beyond prediction: the start moved by ten times C, far less than A, changes the quantity by more than a tenth "
-      "of",
-      "  B: what grows has grown as far as it can, and within thrice B the quantity may be anything",
+      "beyond prediction: the start moved by ten times C, far less than A, changes the quantity by more than a tenth",
+      "  of B: what grows has grown as far as it can, and within thrice B it may be anything; within ten times B where",
+      "  three quantities of the run do so, all that changes in it, and times within their own size",
       "steps: D: of a time of failure: a sampling interval and two steps on top of B, which is not scaled, as the time",
       "  goes as the logarithm of what grew until it failed",
   };
@@ -135,10 +135,16 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
     }
     return change;
   };
-  const auto saturated = [&](const Quantity& q, double change, double digits) {
+  const auto digits_of = [&](const Quantity& q) { return 64 * eps * std::max(scale[q.unit], q.size); };
+  const auto grown = [&](const Quantity& q) { return change_of(q) > 1e3 * digits_of(q); };
+  const auto saturated = [&](const Quantity& q) {
     const Quantity* other = find(moved_less, q.name);
-    return other && change > 1e3 * digits && std::abs(other->value - q.value) > 0.1 * change;
+    return other && !q.is_word() && !q.count && grown(q) && std::abs(other->value - q.value) > 0.1 * change_of(q);
   };
+  // a projection alone turns with whatever direction a start at rest is pushed in
+  const bool chance = std::count_if(quantities.begin(), quantities.end(), [&](const Quantity& q) {
+                        return !q.name.starts_with("places along") && saturated(q);
+                      }) >= 3;
   for (const Quantity& q : quantities) {
     if (q.is_word() || q.count) {
       all.push_back({q, 0, q.is_word() ? "word" : "count"});
@@ -151,14 +157,15 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
                      fmt::format("start moved by {:.1e} m: {:.1e}; steps: {:.1e}", little, change, q.bar)});
       continue;
     }
-    const double digits = 64 * eps * std::max(scale[q.unit], q.size);
-    if (saturated(q, change, digits)) {
-      all.push_back({q, rounded_up(3 * change + q.bar),
+    if (saturated(q) || (chance && grown(q))) {
+      // times are those of crossings, which come and go
+      const double within = !chance ? 3 * change : std::max(10 * change, q.unit == "s" ? scale[q.unit] : 0);
+      all.push_back({q, rounded_up(within + q.bar),
                      fmt::format("start moved by {:.1e} m: {:.1e}, beyond prediction", little, change)});
       continue;
     }
     const double left = left_by_steps(question, answered, rounding, q);
-    const double tolerance = change * rounding.size / little + digits + left + q.bar;
+    const double tolerance = change * rounding.size / little + digits_of(q) + left + q.bar;
     all.push_back({q, rounded_up(tolerance),
                    fmt::format("start moved by {:.1e} m: {:.1e}; rounding: {:.1e} m, {}{}{}", little, change,
                                rounding.size, rounding.kind, left > 0 ? fmt::format("; steps leave {:.1e}", left) : "",

@@ -76,7 +76,7 @@ TEST(Baselines, ShippedOnesAreOfTheScenesAsTheyAreAndTheirTolerancesCanFail) {
           << name << ", " << e.method << " without '" << e.without << "', " << e.what.quantity.name;
     }
   }
-  EXPECT_LT(unpredictable, all / 50);
+  EXPECT_LT(unpredictable, all / 25);
 }
 
 TEST(Baselines, EachDamageIsNamedWithItsLine) {
