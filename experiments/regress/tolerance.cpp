@@ -102,7 +102,8 @@ std::vector<std::string> words_of_derivations() {
       "truth known to D: the error bar of what the error is measured against, on top",
       "beyond prediction: the start moved by ten times C, far less than A, changes the quantity by more than a tenth",
       "  of B: what grows has grown as far as it can, and within thrice B it may be anything; within ten times B where",
-      "  three quantities of the run do so, all that changes in it, and times within their own size",
+      "  three quantities of the run do so, all that changes in it, and times that move by a hundredth within their "
+      "size",
       "steps: D: of a time of failure: a sampling interval and two steps on top of B, which is not scaled, as the time",
       "  goes as the logarithm of what grew until it failed",
   };
@@ -159,7 +160,8 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
     }
     if (saturated(q) || (chance && grown(q))) {
       // times are those of crossings, which come and go
-      const double within = !chance ? 3 * change : std::max(10 * change, q.unit == "s" ? scale[q.unit] : 0);
+      const bool elsewhere = chance && q.unit == "s" && change > 0.01 * scale[q.unit];
+      const double within = elsewhere ? scale[q.unit] : (chance ? 10 : 3) * change;
       all.push_back({q, rounded_up(within + q.bar),
                      fmt::format("start moved by {:.1e} m: {:.1e}, beyond prediction", little, change)});
       continue;
