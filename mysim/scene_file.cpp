@@ -72,15 +72,17 @@ void read_pairs(const Section& file, const std::optional<Grid>& grid, Scene& sce
   Springs springs;
   Dashpots dashpots;
   Constraints constraints;
-  if (grid)
-    for (const Spring& s : grid_springs(*grid)) {
-      if (std::isinf(s.k)) {
+  if (grid) {
+    springs.list = grid_springs(*grid);
+    const auto hard = [](const Spring& s) { return std::isinf(s.k); };
+    for (const Spring& s : springs.list) {
+      if (hard(s))
         constraints.list.push_back({s.a, s.b, s.rest});
-        continue;
-      }
-      springs.list.push_back(s);
-      if (grid->dashpot > 0) dashpots.list.push_back({s.a, s.b, grid->dashpot});
+      else if (grid->dashpot > 0)
+        dashpots.list.push_back({s.a, s.b, grid->dashpot});
     }
+    std::erase_if(springs.list, hard);
+  }
   for (const Section& s : file.sections("spring")) {
     const auto [a, b, distance] = read_ends(s, scene);
     const double rest = s.has("rest") ? s.not_negative("rest") : distance;

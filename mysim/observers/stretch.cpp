@@ -5,13 +5,43 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <span>
 
 namespace crosscheck {
 namespace {
 
-struct Link {
-  int to;
-  double length;  // m, at rest
+/// Springs and hard distances as one list, and which of them end at each particle: numbers only, as large cloths have
+/// millions.
+class Links {
+ public:
+  struct Link {
+    int a, b;
+    double length;  // m, at rest
+  };
+
+  Links(const Springs& springs, const Constraints* constraints, int particles)
+      : springs_(springs), constraints_(constraints), begin_(particles + 1, 0) {
+    const int count = static_cast<int>(springs.list.size() + (constraints ? constraints->list.size() : 0));
+    at_.resize(2L * count);
+    for (int i = 0; i < count; ++i) ++begin_[link(i).a], ++begin_[link(i).b];
+    for (int i = 0, sum = 0; i <= particles; ++i) sum += begin_[i], begin_[i] = sum;  // where those of i end
+    for (int i = 0; i < count; ++i) at_[--begin_[link(i).a]] = i, at_[--begin_[link(i).b]] = i;
+  }
+
+  Link link(int i) const {
+    const int springs = static_cast<int>(springs_.list.size());
+    if (i < springs) return {springs_.list[i].a, springs_.list[i].b, springs_.list[i].rest};
+    const auto& [a, b, length] = constraints_->list[i - springs];
+    return {a, b, length};
+  }
+  std::span<const int> at(int particle) const {
+    return std::span(at_).subspan(begin_[particle], begin_[particle + 1] - begin_[particle]);
+  }
+
+ private:
+  const Springs& springs_;
+  const Constraints* constraints_;
+  std::vector<int> begin_, at_;
 };
 
 /// Room for round-off, of a bound that no true motion comes near.
@@ -24,18 +54,9 @@ StretchBound::StretchBound(const Model& model, const State& start) : model_(mode
   const Particles& particles = model.particles;
   if (!springs || particles.pins.empty()) return;
   const int n = particles.size();
-  std::vector<std::vector<Link>> links(n);
+  const Links links(*springs, model.find<Constraints>(), n);
   double softest = std::numeric_limits<double>::infinity();
-  for (const Spring& s : springs->list) {
-    softest = std::min(softest, s.k);
-    links[s.a].push_back({s.b, s.rest});
-    links[s.b].push_back({s.a, s.rest});
-  }
-  if (const auto* constraints = model.find<Constraints>())
-    for (const auto& [a, b, length] : constraints->list) {
-      links[a].push_back({b, length});
-      links[b].push_back({a, length});
-    }
+  for (const Spring& s : springs->list) softest = std::min(softest, s.k);
 
   // shortest paths from the pins (E. W. Dijkstra, 1959)
   struct Reached {
@@ -53,11 +74,14 @@ StretchBound::StretchBound(const Model& model, const State& start) : model_(mode
     const auto [length, at] = open.top();
     open.pop();
     if (length > reached[at].length) continue;
-    for (const Link& link : links[at])
-      if (length + link.length < reached[link.to].length) {
-        reached[link.to] = {length + link.length, reached[at].pin, reached[at].hops + 1};
-        open.push({length + link.length, link.to});
+    for (const int i : links.at(at)) {
+      const Links::Link link = links.link(i);
+      const int to = link.a == at ? link.b : link.a;
+      if (length + link.length < reached[to].length) {
+        reached[to] = {length + link.length, reached[at].pin, reached[at].hops + 1};
+        open.push({length + link.length, to});
       }
+    }
   }
   double deepest = 0;
   int hops = 0;
