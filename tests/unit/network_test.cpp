@@ -226,6 +226,7 @@ TEST(Network, ObjectsOfAnInstructionSetShareNoFunctions) {
     ASSERT_NE(listed.find("hooke_"), std::string::npos) << object;
     std::istringstream lines(listed);
     for (std::string line; std::getline(lines, line);) {
+      if (line.find("DW.ref.") != std::string::npos) continue;  // data of the sanitizers: no instructions
       const char kind = line.size() > 17 ? line[17] : ' ';
       EXPECT_EQ(std::string("WwVvu").find(kind), std::string::npos) << object << ": " << line;
       EXPECT_EQ(line.find("std::"), std::string::npos) << object << ": " << line;

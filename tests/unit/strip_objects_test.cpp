@@ -18,6 +18,7 @@ TEST(Strip, ObjectsOfAnInstructionSetKeepTheirCodeToThemselves) {
     ASSERT_NE(listed.find("double_kernel"), std::string::npos) << object;
     std::istringstream lines(listed);
     for (std::string line; std::getline(lines, line);) {
+      if (line.find("DW.ref.") != std::string::npos) continue;  // data of the sanitizers: no instructions
       const char kind = line.size() > 17 ? line[17] : ' ';
       EXPECT_EQ(std::string("WwVvu").find(kind), std::string::npos) << object << ": " << line;
       EXPECT_EQ(line.find("std::"), std::string::npos) << object << ": " << line;
