@@ -4,20 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "experiments/scenes.h"
 #include "mysim/strip/recognise.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck::testing_tools {
-
-/// What CROSSCHECK_INSTRUCTIONS says for as long as this is there.
-class Instructions {
- public:
-  explicit Instructions(const std::string& name) { setenv("CROSSCHECK_INSTRUCTIONS", name.c_str(), 1); }
-  ~Instructions() { unsetenv("CROSSCHECK_INSTRUCTIONS"); }
-};
 
 inline std::optional<strip::Weave> weave_in(const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();

@@ -2,10 +2,8 @@
 // set.
 #include "mysim/network/plan.h"
 
-#include <sstream>
-
+#include "experiments/bench/instructions.h"
 #include "mysim/spring_kernel.h"
-#include "report/run_program.h"
 #include "tests/unit/networks.h"
 
 namespace crosscheck {
@@ -208,31 +206,12 @@ TEST(Network, SpringKernelRunsOnTheInstructionsThatAreAskedFor) {
   Forces plain{Points::Zero(3, 300)};
   add_force(net.springs, net.x, plain);
   for (const Isa isa : strip::available()) {
-    setenv("CROSSCHECK_INSTRUCTIONS", std::string(name_of(isa)).c_str(), 1);
+    const Instructions only(isa);
     Forces fast{Points::Zero(3, 300)};
     SpringKernel kernel(net.springs, 300);
     kernel.add_force(net.x, fast);
     expect_close(net, fast, plain);
   }
-  unsetenv("CROSSCHECK_INSTRUCTIONS");
-}
-
-/// Code for a newer machine must not be what the linker takes for every machine.
-TEST(Network, ObjectsOfAnInstructionSetShareNoFunctions) {
-  std::istringstream objects(CROSSCHECK_NETWORK_OBJECTS);
-  int count = 0;
-  for (std::string object; std::getline(objects, object, '|'); ++count) {
-    const std::string listed = run_program({"nm", "-C", object}, ".", {}).out;
-    ASSERT_NE(listed.find("hooke_"), std::string::npos) << object;
-    std::istringstream lines(listed);
-    for (std::string line; std::getline(lines, line);) {
-      if (line.find("DW.ref.") != std::string::npos) continue;  // data of the sanitizers: no instructions
-      const char kind = line.size() > 17 ? line[17] : ' ';
-      EXPECT_EQ(std::string("WwVvu").find(kind), std::string::npos) << object << ": " << line;
-      EXPECT_EQ(line.find("std::"), std::string::npos) << object << ": " << line;
-    }
-  }
-  EXPECT_EQ(count, 6);
 }
 
 }  // namespace

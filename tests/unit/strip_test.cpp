@@ -1,6 +1,9 @@
 // The sweep over regular cloth tested: it takes the same steps as the general engine, on every instruction set.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
+#include "experiments/bench/instructions.h"
 #include "experiments/metrics.h"
 #include "mysim/errors.h"
 #include "mysim/strip/kernels.h"
@@ -21,7 +24,7 @@ TEST(Strip, TakesTheSameStepsAsTheGeneralEngine) {
       // what 200 steps make of a perturbation, measured; summing in another order is one
       const double growth = perturbation_growth(find_method(std::string(rule) + "+plain"), scene, scene.step, 0.2);
       for (const Isa isa : strip::available()) {
-        const Instructions with{std::string(name_of(isa))};
+        const Instructions only(isa);
         for (const char* how : {"", "+fast", "+single"}) {
           const Trajectory path = path_of(std::string(rule) + how, scene);
           const bool single = std::string(how) == "+single";
@@ -45,7 +48,7 @@ TEST(Strip, ReproducibleIsTheSameBitsOnAvx2AndAvx512) {
       const Scene scene = scene_of(cloth);
       std::vector<Trajectory> paths;
       for (const Isa isa : {Isa::avx2, Isa::avx512}) {
-        const Instructions with{std::string(name_of(isa))};
+        const Instructions only(isa);
         paths.push_back(path_of(rule, scene));
       }
       for (int i = 0; i < paths[0].frames(); ++i) {
@@ -111,7 +114,7 @@ TEST(Strip, EndsThatMeetPullAtNothingAndAreCounted) {
     const Outcome plain = run_method(find_method(std::string(rule) + "+plain"), scene, run, {&recorder});
     ASSERT_GT(plain.coincident, 0);
     for (const Isa isa : strip::available()) {
-      const Instructions with{std::string(name_of(isa))};
+      const Instructions only(isa);
       Recorder again;
       const Outcome out = run_method(find_method(rule), scene, run, {&again});
       EXPECT_EQ(out.coincident, plain.coincident) << name_of(isa);
@@ -161,7 +164,8 @@ TEST(Strip, InverseRootsAreGoodToTwoUnitsInTheLastPlace) {
 }
 
 TEST(Strip, InstructionsThatAreNotThereAreNamed) {
-  const Instructions with("mmx");
+  const Instructions as_before(Isa::sse2);  // afterwards
+  setenv("CROSSCHECK_INSTRUCTIONS", "mmx", 1);
   try {
     path_of("leapfrog", scene_of(cloths()[0]));
     ADD_FAILURE() << "it ran";

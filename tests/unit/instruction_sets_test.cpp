@@ -9,13 +9,13 @@ namespace crosscheck::testing_tools {
 namespace {
 
 /// Code for a newer machine must not be what the linker takes for every machine: objects compiled for an instruction
-/// set share no function with others.
-TEST(Strip, ObjectsOfAnInstructionSetKeepTheirCodeToThemselves) {
-  std::istringstream objects(CROSSCHECK_SWEEP_OBJECTS);
+/// set share no function with others. The objects of a list hold something of this name.
+void expect_own_code(const char* list, const char* name, int expected) {
+  std::istringstream objects(list);
   int count = 0;
   for (std::string object; std::getline(objects, object, '|'); ++count) {
     const std::string listed = run_program({"nm", "-C", object}, ".", {}).out;
-    ASSERT_NE(listed.find("double_kernel"), std::string::npos) << object;
+    ASSERT_NE(listed.find(name), std::string::npos) << object;
     std::istringstream lines(listed);
     for (std::string line; std::getline(lines, line);) {
       if (line.find("DW.ref.") != std::string::npos) continue;  // data of the sanitizers: no instructions
@@ -24,8 +24,11 @@ TEST(Strip, ObjectsOfAnInstructionSetKeepTheirCodeToThemselves) {
       EXPECT_EQ(line.find("std::"), std::string::npos) << object << ": " << line;
     }
   }
-  EXPECT_GE(count, 3);
+  EXPECT_EQ(count, expected);
 }
+
+TEST(Objects, OfTheSweepKeepTheirCodeToThemselves) { expect_own_code(CROSSCHECK_SWEEP_OBJECTS, "double_kernel", 3); }
+TEST(Objects, OfNetworksKeepTheirCodeToThemselves) { expect_own_code(CROSSCHECK_NETWORK_OBJECTS, "hooke_", 6); }
 
 }  // namespace
 }  // namespace crosscheck::testing_tools
