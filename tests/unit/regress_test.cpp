@@ -1,4 +1,4 @@
-// Regression tests tested: files of baselines, verdicts on single quantities, causes, and the list of mutations.
+// Regression tests tested: files of baselines and shapes, verdicts on single quantities, causes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -10,16 +10,18 @@
 
 #include "experiments/adequacy/ingredients.h"
 #include "experiments/regress/cause.h"
-#include "experiments/regress/mutations.h"
 #include "experiments/regress/rows.h"
 #include "experiments/regress/shape.h"
 #include "experiments/scenes.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "mysim/temporary_folder.h"
+#include "tests/unit/question.h"
 
 namespace crosscheck {
 namespace {
+
+using testing_tools::question;
 
 Expected expected(const std::string& name, double value, double tolerance) {
   return {"mysim/leapfrog", "", false, {{name, "m", value}, tolerance, "why, and why not"}, 1};
@@ -114,10 +116,6 @@ TEST(Baselines, EachDamageIsNamedWithItsLine) {
   }
   write_file(file_of(folder.path, "chain"), good.substr(0, good.find("mysim/leapfrog")));
   EXPECT_THROW(read_baseline(folder.path, "chain"), InputError);  // no rows
-}
-
-Question question(const std::string& scene = "spring", const std::string& method = "leapfrog") {
-  return {load_scene(scene), find_method(method)};
 }
 
 TEST(Compared, SaysOfEachQuantityHowItStands) {
@@ -255,81 +253,6 @@ TEST(Cause, IsTheSettingThatChangedWhereverSomethingMoved) {
   EXPECT_EQ(cause_of(all, rows).find("setting"), std::string::npos) << "one moved at the same settings";
 }
 
-/// Seen by one quantity of the table.
-Quantities taken(void (*row)(const Seen&, Quantities&), const Question& q, const Answered& answered) {
-  Quantities out;
-  row({q, answered}, out);
-  return out;
-}
-
-TEST(Quantities, SettleTimeIsWhereMotionHasDiedAway) {
-  const Question q = question("chain");
-  Answered decaying;
-  for (int i = 0; i <= 100; ++i) {
-    LedgerRow row{};
-    row.t = 0.1 * i;
-    row.energy.kinetic = 3 * std::exp(-row.t);
-    decaying.ledger.push_back(row);
-  }
-  const Quantities settled = taken(settle_time, q, decaying);
-  ASSERT_EQ(settled.size(), 1u);
-  EXPECT_NEAR(settled[0].value, std::log(100.), 1e-12) << "an exponential is a line between samples";
-  decaying.ledger.resize(40);  // 4 s: not there yet
-  EXPECT_TRUE(taken(settle_time, q, decaying).empty());
-}
-
-TEST(Quantities, OfARunThatSlidesOffABallTheAngleIsThatOfTheClosedForm) {
-  const Question q = question("slide");
-  const Answered answered = answer_to(q);
-  const Quantities angle = taken(leaving_angle, q, answered);
-  ASSERT_EQ(angle.size(), 1u);
-  // contact ends at 53.1 degrees; a flight of 1 mm above the surface takes some more
-  EXPECT_GT(angle[0].value, 53.1);
-  EXPECT_LT(angle[0].value, 60);
-  EXPECT_TRUE(taken(leaving_angle, question("bounce"), answer_to(question("bounce"))).empty());
-}
-
-TEST(Quantities, OfAFailedRunWhenItFailedAndWhatItDidBefore) {
-  const Question q = question("cloth-hang", "explicit-euler");
-  const std::vector<Toleranced> all = with_tolerances(q);
-  std::map<std::string, Toleranced> by_name;
-  for (const Toleranced& t : all) by_name[t.quantity.name] = t;
-  ASSERT_NE(by_name["verdict"].quantity.word, "ok");
-  ASSERT_TRUE(by_name.contains(time_of_failure));
-  const Toleranced& when = by_name[time_of_failure];
-  EXPECT_GT(when.quantity.value, 0);
-  EXPECT_GE(when.tolerance, q.scene.duration / q.scene.samples) << "failures are looked for at samples";
-  EXPECT_LT(when.tolerance, 0.5 * when.quantity.value + 3 * q.scene.duration / q.scene.samples);
-}
-
-TEST(Quantities, SettingsAreWhatTheEngineTells) {
-  const auto settings_of = [](const std::string& method) {
-    std::map<std::string, std::string> words;
-    const Question q = question("chain", method);
-    for (const Quantity& each : quantities_of(q, answer_to(q)))
-      if (each.name.starts_with(setting_prefix)) words[each.name] = each.word;
-    return words;
-  };
-  EXPECT_EQ(settings_of("bullet/pbd+n=7")["setting iterations"], "7");
-  EXPECT_EQ(settings_of("bullet/deformable-explicit")["setting sleeping"], "off");
-  EXPECT_EQ(settings_of("bullet/deformable-explicit+default-sleep")["setting sleeping"], "on");
-  EXPECT_EQ(settings_of("bullet/pbd")["setting precision"], "double");
-  EXPECT_TRUE(settings_of("mysim/leapfrog").empty());
-}
-
-/// What the rounding of a step is taken for must hold where two engines take the same steps in other words.
-TEST(Tolerances, HoldBetweenTwoEnginesOfOneRule) {
-  for (const char* scene : {"projectile", "chain", "pendulum", "spring"}) {
-    const Question ours = question(scene, "symplectic-euler"), theirs = question(scene, "bullet/deformable-explicit");
-    const std::vector<Quantity> is = quantities_of(theirs, answer_to(theirs));
-    for (const Toleranced& was : with_tolerances(ours)) {
-      const Quantity* other = find(is, was.quantity.name);
-      if (!other || was.quantity.is_word() || was.quantity.count) continue;
-      EXPECT_NEAR(other->value, was.quantity.value, was.tolerance) << scene << ", " << was.quantity.name;
-    }
-  }
-}
-
 TEST(Shapes, ComeBackAndDamagedOnesAreNone) {
   const TemporaryFolder folder("shapes");
   Points x(3, 2);
@@ -344,42 +267,6 @@ TEST(Shapes, ComeBackAndDamagedOnesAreNone) {
   EXPECT_FALSE(read_shape(folder.path, "cloth", 2));
   write_file(shape_file(folder.path, "chain"), text.substr(0, text.size() - 12));
   EXPECT_FALSE(read_shape(folder.path, "chain", 2));
-}
-
-TEST(Mutations, EachStandsOnceInItsFile) {
-  const std::filesystem::path source = CROSSCHECK_SOURCE;
-  const auto all = read_mutations(source / "tests/mutants/mutations.txt");
-  EXPECT_GE(all.size(), 25u);
-  std::set<std::string> names;
-  for (const Mutation& m : all) {
-    SCOPED_TRACE(m.name);
-    EXPECT_TRUE(names.insert(m.name).second);
-    std::ifstream in(source / "mysim" / m.file);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    const size_t at = text.find(m.right);
-    ASSERT_NE(at, std::string::npos);
-    EXPECT_EQ(text.find(m.right, at + 1), std::string::npos);
-  }
-}
-
-TEST(Mutations, BadFilesAreNamed) {
-  const TemporaryFolder folder("mutations");
-  const auto says = [&](const std::string& text) -> std::string {
-    write_file(folder.path / "list.txt", text);
-    try {
-      read_mutations(folder.path / "list.txt");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_NE(says("== a\nfile: b\nwhat: c\n").find("list.txt:3: expected file:, cause:, right: or wrong:"),
-            std::string::npos);
-  EXPECT_NE(says("== a\nfile: b\nright:\nc\nwrong:\nc\n")
-                .find("a: expected a file, and a right and a wrong text that differ"),
-            std::string::npos);
-  EXPECT_EQ(says("== a\nfile: b\nright:\nc\nwrong:\nd\n"), "");
-  EXPECT_THROW(read_mutations(folder.path / "none.txt"), InputError);
 }
 
 }  // namespace
