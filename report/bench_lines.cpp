@@ -152,6 +152,25 @@ void add_same_step(const Table& table, std::vector<BenchLine>& lines) {
   }
 }
 
+void add_implicit_steps(const Table& table, std::vector<BenchLine>& lines) {
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    const BenchRatio ratio = ratio_at(table, i, "ratio");
+    if (text_at(table, i, "path of mysim") != "best") {
+      lines.back().plain = ratio;
+      continue;
+    }
+    BenchLine& line = lines.emplace_back();
+    const std::string size = size_text(text_at(table, i, "scene"));
+    line.group = "a linear implicit Euler step: Eigen's SimplicialLDLT and implicit-euler+linear";
+    line.heading = "implicit step, " + size;
+    line.label = fmt::format("{}, {:g} steps a second", size, *number_at(table, i, "rate"));
+    line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Eigen")),
+                              nice_seconds(*number_at(table, i, "cpu per step of mysim")),
+                              *number_at(table, i, "farthest particle"));
+    line.best = ratio;
+  }
+}
+
 }  // namespace
 
 std::string best_instructions(const Rows& rows) {
@@ -169,6 +188,7 @@ std::vector<BenchLine> bench_lines(const Rows& rows) {
   if (const Table* table = rows.table("bench-scenes-cost")) add_scenes(*table, best, lines);
   if (const Table* table = rows.table("bench-equal-error-cost")) add_equal_error(*table, lines);
   if (const Table* table = rows.table("bench-same-step-cost")) add_same_step(*table, lines);
+  if (const Table* table = rows.table("bench-implicit-step-cost")) add_implicit_steps(*table, lines);
   return lines;
 }
 

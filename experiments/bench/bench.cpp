@@ -35,6 +35,7 @@ BenchPlan bench_plan(bool full) {
                  all_scenes(),
                  {{32, all}, {32, {bullet_explicit()}, true}, {64, {odeint_rk4()}}},
                  {},
+                 {{64}, {60, 240}, {3, 0.1}},
                  {11, 0.015},
                  {11, 0.004},
                  {}};
@@ -44,6 +45,7 @@ BenchPlan bench_plan(bool full) {
                    {64, all},
                    {64, {bullet_explicit()}, true},
                    {128, {odeint_rk4(), {"odeint/dopri5", {1e-4}}, {"bullet/deformable-explicit", {0.95}}}}};
+    plan.implicit_step = {{32, 64, 128}, {60, 240}, {5, 0.1}};
     plan.kernels = {21, 0.02};
     plan.on_scenes = {21, 0.005};
     plan.turns = {11, 0.04};
@@ -58,7 +60,8 @@ Rows bench(const BenchPlan& plan) {
   std::vector<EqualErrorAsked> sheets;
   for (const BenchPlan::Sheet& asked : plan.sheets)
     sheets.push_back({std::make_shared<const Scene>(asked.scene()), asked.peers, plan.turns});
-  int work = 3 + static_cast<int>(plan.kernel_sides.size());  // shipped scenes, two sheets at the same step
+  // shipped scenes, two sheets at the same step, and implicit steps
+  int work = 3 + static_cast<int>(plan.kernel_sides.size()) + work_of(plan.implicit_step);
   for (const EqualErrorAsked& asked : sheets) work += work_of(asked);
   Progress progress(work);
   try {
@@ -73,6 +76,7 @@ Rows bench(const BenchPlan& plan) {
   }
   for (const EqualErrorAsked& asked : sheets) equal_error(asked, rows, progress);
   same_step(plan.same_step, rows, progress);
+  implicit_step(plan.implicit_step, rows, progress);
   progress.done();
   return rows;
 }

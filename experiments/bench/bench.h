@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiments/bench/equal_error.h"
+#include "experiments/bench/implicit_step.h"
 #include "experiments/bench/micro.h"
 #include "experiments/bench/same_step.h"
 #include "experiments/bench/sheet.h"
@@ -19,6 +20,7 @@ struct BenchPlan {
   std::vector<std::string> scenes;  // on which the engine's kernels stand beside the naive loop
   std::vector<Sheet> sheets;        // for the same error
   SameStepAsked same_step;
+  ImplicitStepAsked implicit_step;
   MicroPlan kernels, on_scenes;
   TurnPlan turns;
 };
@@ -26,8 +28,8 @@ struct BenchPlan {
 /// quick: within 90 s on a quiet machine of two cores; full: the largest sheet and every peer on each.
 BenchPlan bench_plan(bool full);
 
-/// The tables of kernels.h, on_scenes.h, equal_error.h and same_step.h, measured on one core, which the process keeps
-/// to from then on. Notes say what was left out and why.
+/// The tables of kernels.h, on_scenes.h, equal_error.h, same_step.h and implicit_step.h, measured on one core, which
+/// the process keeps to from then on. Notes say what was left out and why.
 Rows bench(const BenchPlan& plan);
 
 }  // namespace crosscheck

@@ -1,6 +1,8 @@
 // The function whose minimum is the implicit Euler step.
 #pragma once
 
+#include <cmath>
+
 #include "mysim/system.h"
 #include "mysim/tangent.h"
 
@@ -32,6 +34,10 @@ class IncrementalPotential {
   void linearise(const Points& u, Curvature curvature);
   void apply(const Points& p, Points& out);               // out = matrix p. One evaluation
   void precondition(const Points& r, Points& out) const;  // by the inverse 3 x 3 blocks on the diagonal
+
+  const Eigen::ArrayXd& inertia() const { return inertia_; }  // of each particle, in the matrix, N/m
+  /// Products with the matrix that were taken elsewhere.
+  void count(double products) { f_.count(std::lround(products)); }
 
   const Points& inertial() const { return y_; }  // y, m
   const std::vector<int>& pins() const { return model_.particles.pins; }

@@ -13,10 +13,26 @@ constexpr double force_tolerance = 1e-12;  // of the largest force; round-off of
 
 }  // namespace
 
+ImplicitStep::ImplicitStep(System& f, bool plain) : potential_(f) {
+  if (!plain) sheet_ = multigrid::sheet_solver_of(f.model());
+}
+
 /// p_ = -matrix^-1 g at u_.
 CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
-  potential_.linearise(u_, curvature);
   minus_g_ = -g_;
+  CgResult result;
+  if (sheet_) {
+    result = sheet_->solve(potential_.inertia(), potential_.end(u_).x, curvature, minus_g_, tolerance, p_);
+    potential_.count(result.iterations * sheet_->products());
+  }
+  // a sheet on which the V-cycle does not help is solved like any other network; none is known
+  if (!result.converged && !result.negative_curvature) result = by_pairs(curvature, tolerance);
+  iterations_ = result.iterations;
+  return result;
+}
+
+CgResult ImplicitStep::by_pairs(Curvature curvature, double tolerance) {
+  potential_.linearise(u_, curvature);
   // in exact arithmetic as many iterations as unknowns would do
   return conjugate_gradients([&](const Points& p, Points& q) { potential_.apply(p, q); },
                              [&](const Points& r, Points& z) { potential_.precondition(r, z); }, minus_g_, tolerance,

@@ -29,6 +29,7 @@ void expect_own_code(const char* list, const char* name, int expected) {
 
 TEST(Objects, OfTheSweepKeepTheirCodeToThemselves) { expect_own_code(CROSSCHECK_SWEEP_OBJECTS, "double_kernel", 3); }
 TEST(Objects, OfNetworksKeepTheirCodeToThemselves) { expect_own_code(CROSSCHECK_NETWORK_OBJECTS, "hooke_", 6); }
+TEST(Objects, OfMultigridKeepTheirCodeToThemselves) { expect_own_code(CROSSCHECK_MULTIGRID_OBJECTS, "set_", 12); }
 
 }  // namespace
 }  // namespace crosscheck::testing_tools

@@ -1,0 +1,86 @@
+#include "experiments/bench/factorised_step.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "mysim/errors.h"
+#include "mysim/frequency.h"
+
+namespace crosscheck {
+
+FactorisedStep::FactorisedStep(const Scene& scene, double h)
+    : springs_(scene.model.find<Springs>()->list),
+      mass_(scene.model.particles.mass.array()),
+      gravity_(scene.model.find<Gravity>()->acceleration),
+      h_(h),
+      gamma_(uniform_drag_rate(scene.model).value_or(0)) {
+  int rows = 0;
+  for (const char pinned : scene.model.particles.pinned) first_.push_back(pinned ? -1 : std::exchange(rows, rows + 3));
+  std::vector<Eigen::Triplet<double>> pattern;
+  const auto kept = [&](int row, int column) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (row + i >= column + j) pattern.emplace_back(row + i, column + j, 1.0);
+  };
+  for (const int row : first_)
+    if (row >= 0) kept(row, row);
+  const auto ends = [&](const Spring& s) { return std::minmax(first_[s.a], first_[s.b]); };
+  for (const Spring& s : springs_)
+    if (const auto [early, late] = ends(s); early >= 0) kept(late, early);
+  matrix_.resize(rows, rows);
+  matrix_.setFromTriplets(pattern.begin(), pattern.end());
+  matrix_.makeCompressed();
+  const auto places = [&](int row, int column) {
+    Places p;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        p.number[i][j] = row < 0 || column < 0 || row + i < column + j
+                             ? -1
+                             : static_cast<int>(&matrix_.coeffRef(row + i, column + j) - matrix_.valuePtr());
+    return p;
+  };
+  for (const int row : first_) diagonal_.push_back(places(row, row));
+  for (const Spring& s : springs_) {
+    const auto [early, late] = ends(s);
+    off_.push_back(places(early < 0 ? -1 : late, early));
+  }
+  solver_.analyzePattern(matrix_);
+  right_.resize(rows);
+}
+
+void FactorisedStep::add(const Places& places, const Eigen::Matrix3d& block) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (places.number[i][j] >= 0) matrix_.valuePtr()[places.number[i][j]] += block(i, j);
+}
+
+const Points& FactorisedStep::step(const Points& x, const Points& v) {
+  std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0);
+  end_ = x + h_ * v;
+  for (int i = 0; i < x.cols(); ++i) {
+    if (first_[i] < 0) {
+      end_.col(i) = x.col(i);
+      continue;
+    }
+    add(diagonal_[i], mass_[i] * (1 / h_ + gamma_) / h_ * Eigen::Matrix3d::Identity());
+    right_.segment<3>(first_[i]) = mass_[i] * (gravity_ - gamma_ * v.col(i));
+  }
+  for (size_t i = 0; i < springs_.size(); ++i) {
+    const Spring& s = springs_[i];
+    const Vec3 d = end_.col(s.a) - end_.col(s.b);
+    const double length = d.norm(), across = std::max(0.0, s.k * (1 - s.rest / length));
+    const Vec3 n = d / length, pull = s.k * (length - s.rest) * n;
+    const Eigen::Matrix3d block = across * Eigen::Matrix3d::Identity() + (s.k - across) * n * n.transpose();
+    if (first_[s.a] >= 0) add(diagonal_[s.a], block), right_.segment<3>(first_[s.a]) -= pull;
+    if (first_[s.b] >= 0) add(diagonal_[s.b], block), right_.segment<3>(first_[s.b]) += pull;
+    add(off_[i], -block);
+  }
+  solver_.factorize(matrix_);
+  if (solver_.info() != Eigen::Success) throw SolverFailure("the matrix of the step could not be factorised");
+  const Eigen::VectorXd u = solver_.solve(right_);
+  for (int i = 0; i < x.cols(); ++i)
+    if (first_[i] >= 0) end_.col(i) += u.segment<3>(first_[i]);
+  return end_;
+}
+
+}  // namespace crosscheck
