@@ -44,16 +44,19 @@ int Table::column(const std::string& wanted) const {
   throw std::out_of_range(fmt::format("table {} has no column {}", name, wanted));
 }
 
+std::string csv_row(const std::vector<Cell>& row) {
+  std::string out;
+  for (size_t i = 0; i < row.size(); ++i) out += (i ? "," : "") + text_of(row[i]);
+  return out;
+}
+
 std::string csv(const Table& table, const Provenance& provenance) {
   std::string out;
   for (const auto& [key, value] : provenance) out += fmt::format("# {}: {}\n", key, value);
   for (size_t i = 0; i < table.columns.size(); ++i)
     out += (i ? "," : "") + csv_field(fmt::format("{} [{}]", table.columns[i].name, table.columns[i].unit));
   out += "\n";
-  for (const auto& row : table.rows) {
-    for (size_t i = 0; i < row.size(); ++i) out += (i ? "," : "") + text_of(row[i]);
-    out += "\n";
-  }
+  for (const auto& row : table.rows) out += csv_row(row) + "\n";
   return out;
 }
 

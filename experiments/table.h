@@ -38,6 +38,9 @@ std::string exact_text(double value);
 /// A field of CSV, in quotes where it needs them.
 std::string csv_field(const std::string& text);
 
+/// A row of it, without the line feed.
+std::string csv_row(const std::vector<Cell>& row);
+
 /// RFC 4180: comma, LF, quotes where needed; one header row "name [unit]".
 std::string csv(const Table& table, const Provenance& provenance);
 void write_csv(const Table& table, const Provenance& provenance, const std::filesystem::path& folder);

@@ -22,25 +22,25 @@ void agreement(const Scene& scene, const SceneFacts& facts, std::vector<Finding>
           "stay "
           "within {} over the whole run.",
           nice_length(b->centres.value_or(0)));
-    out.push_back({scene.name, "agreement", sentence, "another engine"});
+    out.push_back({scene.name, "agreement", sentence, "another engine", "same-rule"});
   } else if (!b->different_law.empty()) {
     out.push_back({scene.name, "agreement",
                    fmt::format("{} and {} part {} in {:.3g} s; they are not the same rule here: {}.", ours, theirs,
                                apart, scene.window, b->different_law),
-                   "another engine"});
+                   "another engine", "same-rule"});
   } else if (!facts.round_off) {
     out.push_back({scene.name, "failure",
                    fmt::format("Nothing can be said of agreement: within {:.3g} s a perturbation of 1e-10 m grows "
                                "{}-fold, so that two correct "
                                "engines part as well. {} and {} part {}.",
                                scene.window, nice(facts.growth), ours, theirs, apart),
-                   "another engine"});
+                   "another engine", "same-rule"});
   } else if (same_rule_differs(facts)) {
     out.push_back({scene.name, "failure",
                    fmt::format("The same rule at the same step does NOT give the same motion: {} and {} part {}, and "
                                "only {} would be round-off.",
                                ours, theirs, apart, nice_length(*facts.round_off)),
-                   "another engine"});
+                   "another engine", "same-rule"});
   } else {
     out.push_back(
         {scene.name, "agreement",
@@ -48,7 +48,7 @@ void agreement(const Scene& scene, const SceneFacts& facts, std::vector<Finding>
                      "up to {} is "
                      "round-off.",
                      ours, theirs, apart, scene.window, growth_text(facts.growth), nice_length(*facts.round_off)),
-         "another engine"});
+         "another engine", "same-rule"});
   }
 }
 
@@ -63,13 +63,13 @@ void other_law(const Scene& scene, const SceneFacts& facts, std::vector<Finding>
     out.push_back({scene.name, "accuracy",
                    fmt::format("{} differs from the truth by up to {}, {} of the motion: {}.", position_based,
                                nice_length(*p->error), percent(*p->error, facts.motion), why),
-                   facts.tier});
+                   facts.tier, "other-law"});
   else if (p->difference)
     out.push_back(
         {scene.name, "accuracy",
          fmt::format("{} differs by up to {} (RMS) until {:.3g} s: {}{}.", position_based, nice_length(*p->difference),
                      scene.window, why, facts.touched() ? "; its friction follows another law too" : ""),
-         "another engine"});
+         "another engine", "other-law"});
 }
 
 void accuracy(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
@@ -88,7 +88,7 @@ void accuracy(const Scene& scene, const SceneFacts& facts, std::vector<Finding>&
   if (thrifty && thrifty != best)
     sentence += fmt::format("; of those with one force evaluation a step it is {} ({})", thrifty->method,
                             nice_length(*thrifty->error));
-  out.push_back({scene.name, "accuracy", sentence + ".", facts.tier});
+  out.push_back({scene.name, "accuracy", sentence + ".", facts.tier, "nearest"});
 }
 
 /// Differences from the converged in-house contact rule: no errors, as other rules converge to something else.
@@ -103,7 +103,7 @@ void converged_contact(const Scene& scene, const SceneFacts& facts, std::vector<
                    fmt::format("Until {:.3g} s the motion under the in-house contact rule is converged in the step, to "
                                "{}; other rules converge to something else. Differences from it: {}.",
                                *facts.contact_until, nice_length(facts.bar), parts),
-                   "converged, in-house contact rule"});
+                   "converged, in-house contact rule", "converged-contact"});
 }
 
 void failures(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
@@ -128,7 +128,7 @@ void failures(const Scene& scene, const SceneFacts& facts, std::vector<Finding>&
           : fmt::format("At a step of {:.3g} s {} of {} methods failed; {} came to the end.{}", scene.step,
                         failed.size(), failed.size() + held.size(), joined(held),
                         limits.empty() ? "" : " By theory the others are stable: " + joined(limits) + ".");
-  out.push_back({scene.name, "failure", sentence, "measured"});
+  out.push_back({scene.name, "failure", sentence, "measured", "failed"});
 }
 
 /// "0.36 mm inside the contact surface"; what is within round-off of the surface is on it.
@@ -147,7 +147,8 @@ void contact(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& 
           "{}{}: {}{}", parts.empty() ? "" : "; ", name, depth(*m->clearance),
           m->creep ? fmt::format(", touching particles slide at {} mm/s in the end", nice(1000 * *m->creep)) : "");
   if (!parts.empty())
-    out.push_back({scene.name, "contact", "Nearest to the contact surface at any sample: " + parts + ".", "measured"});
+    out.push_back({scene.name, "contact", "Nearest to the contact surface at any sample: " + parts + ".", "measured",
+                   "clearance"});
 }
 
 void sticky(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
@@ -158,7 +159,7 @@ void sticky(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& o
                              "the centre of mass "
                              "is up to {} away from where it moves otherwise.",
                              nice_length(*m->centres)),
-                 "another engine"});
+                 "another engine", "sticky"});
 }
 
 void cost(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
@@ -168,7 +169,7 @@ void cost(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out
                                      nice(1e6 * *a->cpu_per_step), theirs, *b->cpu_per_step / *a->cpu_per_step);
   if (p && p->ok() && p->cpu_per_step)
     sentence += fmt::format(", {} {:.1f} times", position_based, *p->cpu_per_step / *a->cpu_per_step);
-  out.push_back({scene.name, "cost", sentence + " (one run each, one thread).", "measured"});
+  out.push_back({scene.name, "cost", sentence + " (one run each, one thread).", "measured", "step-cost"});
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ struct Finding {
   std::string topic;         // agreement, accuracy, failure, cost, contact, order, energy, adequacy
   std::string sentence;      // for a reader who has never seen the code
   std::string tier;          // of the truth that it rests on; "another engine" for differences; "measured" for costs
+  std::string rule;          // how it comes from the tables (finding_rules.h)
   std::string chapter = {};  // of the report, by its id, that shows what it rests on; empty: none
 };
 

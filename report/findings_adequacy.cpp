@@ -40,7 +40,7 @@ void least_models(const Table& t, std::vector<Finding>& out) {
     sentence += fmt::format("At 10 % of the motion {} can do without {}. ", joined(scenes), gone);
   if (sentence.empty()) return;
   sentence.pop_back();
-  out.push_back({"", "adequacy", sentence, "see each scene"});
+  out.push_back({"", "adequacy", sentence, "see each scene", "least-model"});
 }
 
 void families(const Table& t, std::vector<Finding>& out) {
@@ -49,7 +49,7 @@ void families(const Table& t, std::vector<Finding>& out) {
   for (size_t i = 0; i < t.rows.size(); ++i) {
     const std::string scene = text_at(t, i, "scene"), gone = text_at(t, i, "left out");
     const bool family = gone == "structural springs" || gone == "shear springs" || gone == "bend springs";
-    const auto* error = std::get_if<double>(&t.at(i, "error"));
+    const auto error = number_at(t, i, "error");
     if (!family || text_at(t, i, "kind") != "single" || !error) continue;
     if (per_scene[scene].empty()) order.push_back(scene);
     // a part of no motion is no measure
@@ -65,7 +65,7 @@ void families(const Table& t, std::vector<Finding>& out) {
   if (!sentence.empty())
     out.push_back({"", "adequacy",
                    fmt::format("What leaving out a family of springs costs, in parts of the motion: {}.", sentence),
-                   "see each scene"});
+                   "see each scene", "families"});
 }
 
 void grids(const Rows& rows, const Table& t, std::vector<Finding>& out) {
@@ -78,7 +78,7 @@ void grids(const Rows& rows, const Table& t, std::vector<Finding>& out) {
     sentence = fmt::format(
         "For the same sag on a finer grid all stiffnesses go as the number of cells to the power {}.", joined(all));
   if (const std::string bend = bend_sentence(rows); !bend.empty()) sentence += (sentence.empty() ? "" : " ") + bend;
-  if (!sentence.empty()) out.push_back({"", "adequacy", sentence, "measured"});
+  if (!sentence.empty()) out.push_back({"", "adequacy", sentence, "measured", "grid-powers"});
 }
 
 }  // namespace

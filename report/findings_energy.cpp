@@ -56,8 +56,8 @@ void drift(const Table& table, std::vector<Finding>& out) {
     if (!stays(what)) drifting.push_back(fmt::format("{} ({})", who, what));
   }
   if (!failed.empty())
-    out.push_back(
-        {"", "failure", fmt::format("Symplectic rules that failed in long runs: {}.", joined(failed)), "measured"});
+    out.push_back({"", "failure", fmt::format("Symplectic rules that failed in long runs: {}.", joined(failed)),
+                   "measured", "symplectic-energy"});
   if (worst < 0) return;
   const std::vector<std::string> others = beside(table, scene);
   out.push_back({"", "energy",
@@ -65,7 +65,7 @@ void drift(const Table& table, std::vector<Finding>& out) {
                              steps_text(fewest, most), percent(worst, 1),
                              drifting.empty() ? "without drift" : "but not all without drift: " + joined(drifting),
                              others.empty() ? "" : fmt::format("; on {} {}", scene, joined(others))),
-                 "exact balance"});
+                 "exact balance", "symplectic-energy"});
 }
 
 /// Numerical damping against the closed form.
@@ -93,7 +93,7 @@ void damping(const Table& table, std::vector<Finding>& out) {
                             range(fmt::format("{:.2f}", low), fmt::format("{:.2f}", high)));
   sentence += worst <= 0.01 ? fmt::format(", as theory says to {}.", percent(worst, 1))
                             : fmt::format("; theory says otherwise by up to {}.", percent(worst, 1));
-  out.push_back({"", "energy", sentence, "exact"});
+  out.push_back({"", "energy", sentence, "exact", "numerical-damping"});
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "experiments/cells.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
 
@@ -37,7 +38,7 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneF
     }
   }
   auto add = [&](const char* topic, std::string sentence) {
-    out.push_back({"", topic, std::move(sentence), "another engine"});
+    out.push_back({"", topic, std::move(sentence), "another engine", "agreement-of-all"});
   };
   if (!differing.empty())
     add("failure",
@@ -81,7 +82,7 @@ void other_law_of_all(const std::vector<Scene>& scenes, const std::vector<SceneF
         {"", "accuracy",
          fmt::format("Bullet's position-based world follows another spring law: its error is {} of the motion.",
                      range(percent(best, 1), percent(worst, 1))),
-         "see each scene"});
+         "see each scene", "other-law-of-all"});
 }
 
 /// Who failed where others held, by kind of failure, and where all failed.
@@ -107,10 +108,11 @@ void failures_of_all(const std::vector<SceneFacts>& facts, std::vector<Finding>&
   std::string sentence;
   for (const std::string& part : parts) sentence += (sentence.empty() ? "" : "; ") + part;
   if (!sentence.empty())
-    out.push_back({"", "failure", fmt::format("{}. Other methods hold there at the same step.", sentence), "measured"});
+    out.push_back({"", "failure", fmt::format("{}. Other methods hold there at the same step.", sentence), "measured",
+                   "failed-of-all"});
   if (!all.empty())
-    out.push_back(
-        {"", "failure", fmt::format("No method that was asked comes to the end on {}.", joined(all)), "measured"});
+    out.push_back({"", "failure", fmt::format("No method that was asked comes to the end on {}.", joined(all)),
+                   "measured", "failed-of-all"});
 }
 
 void orders(const Rows& result, std::vector<Finding>& out) {
@@ -119,8 +121,8 @@ void orders(const Rows& result, std::vector<Finding>& out) {
   double off = -1;
   std::string which;
   for (size_t i = 0; i < slopes->rows.size(); ++i) {
-    const double measured = std::get<double>(slopes->at(i, "measured order"));
-    const auto declared = static_cast<double>(std::get<long>(slopes->at(i, "declared order")));
+    const double measured = number_at(*slopes, i, "measured order", NAN);
+    const double declared = number_at(*slopes, i, "declared order", NAN);
     if (std::abs(measured - declared) <= off) continue;
     off = std::abs(measured - declared);
     which = fmt::format("{} on {}: {:.2f} instead of {:g}", std::get<std::string>(slopes->at(i, "method")),
@@ -129,10 +131,10 @@ void orders(const Rows& result, std::vector<Finding>& out) {
   // 0.1: what the finest three steps of a smooth scene still carry of the next order
   if (off <= 0.1)
     out.push_back({"", "order", fmt::format("Measured orders of accuracy lie within {:.2f} of the declared ones.", off),
-                   "see each scene"});
+                   "see each scene", "orders"});
   else
     out.push_back({"", "failure", fmt::format("Not all measured orders of accuracy are the declared ones ({}).", which),
-                   "see each scene"});
+                   "see each scene", "orders"});
 }
 
 /// Where sizes were timed one by one, single runs have nothing to add.
@@ -152,7 +154,7 @@ void cost_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>
                                "CPU time of mysim (Debian's "
                                "build of Bullet; one run each).",
                                range(fmt::format("{:.1f}", cheapest), fmt::format("{:.1f}", dearest))),
-                   "measured"});
+                   "measured", "step-cost-of-all"});
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ void cone(const Table& table, std::vector<Finding>& out) {
   if (!parts.empty())
     out.push_back({"", "contact",
                    "On slopes a particle sticks or slides as Coulomb's law says with " + joined(parts) + " cases.",
-                   "exact"});
+                   "exact", "cone"});
 }
 
 /// The cloth that should slide off, at the finest step.
@@ -53,7 +53,7 @@ void slide_off(const Table& table, std::vector<Finding>& out) {
     out.push_back({"", "contact",
                    fmt::format("A cloth dropped aside with too little friction slides off the ball in {}; {}.", ours,
                                joined(parts)),
-                   "another engine"});
+                   "another engine", "slide-off"});
 }
 
 void depth(const Table& table, std::vector<Finding>& out) {
@@ -78,7 +78,7 @@ void depth(const Table& table, std::vector<Finding>& out) {
              particles < 1e-9 ? "no particle of mysim sinks in but for rounding"
                               : fmt::format("particles of mysim sink in by up to {:.2g} %", particles),
              triangles, of_pbd),
-         "measured"});
+         "measured", "penetration"});
 }
 
 }  // namespace

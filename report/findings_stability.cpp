@@ -40,7 +40,7 @@ void without_stable_step(const Table& table, const Table* growth, std::vector<Fi
     rate = fmt::format(": vibrations grow in every step, at the rate that theory gives (to {})", percent(off, 1));
   if (off > 0.01)
     rate = fmt::format("; the growth in a step differs from theory by up to {} ({})", percent(off, 1), which);
-  out.push_back({"", "failure", fmt::format("{}, as theory says{}.", who, rate), "measured"});
+  out.push_back({"", "failure", fmt::format("{}, as theory says{}.", who, rate), "measured", "no-stable-step"});
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ std::vector<Finding> stability_findings(const Rows& rows) {
                    told.theory_holds ? "agreement"
                    : told.at_rest    ? "failure"
                                      : "accuracy",
-                   told.sentence, "measured"});
+                   told.sentence, "measured", "step-limits"});
   without_stable_step(*table, rows.table("stability-growth"), out);
   return out;
 }

@@ -108,7 +108,12 @@ int run(int argc, char** argv) {
   report->add_option("--methods", report_options.methods, "A,B,...");
   report->add_option("--out", report_options.out, "folder (out/report)");
   quick_or_full(report, report_options.full);
-  report->callback([&] { report_options.command_line = line, status = report_command(report_options); });
+  std::filesystem::path verified;
+  report->add_option("--verify", verified, "DIR: recomputes every finding of the report in it from its data, no more");
+  report->callback([&] {
+    report_options.command_line = line;
+    status = verified.empty() ? report_command(report_options) : verify_command(verified);
+  });
 
   RenderOptions render_options;
   auto* render = app.add_subcommand("render", "a picture of a scene, methods side by side");

@@ -68,6 +68,9 @@ struct ReportOptions {
 };
 int report_command(const ReportOptions& options);
 
+/// Whether all findings of a report follow from its data.
+int verify_command(const std::filesystem::path& folder);
+
 struct AdviseOptions {
   std::string scene, methods;
   double tolerance = 0;  // m; 0: only parameters are fitted

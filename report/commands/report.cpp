@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "experiments/scenes.h"
 #include "experiments/sweep/sweep.h"
@@ -14,6 +13,8 @@
 #include "report/page/page.h"
 #include "report/pictures.h"
 #include "report/provenance.h"
+#include "report/report_json.h"
+#include "report/verify.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -30,31 +31,6 @@ void write_data(const Rows& result, const Provenance& lines, const fs::path& fol
   for (const Table& table : result.tables) write_csv(table, lines, folder);
   for (const Certificate& c : result.certificates)
     write_file(folder / fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method)), certificate_json(c));
-}
-
-nlohmann::ordered_json finding_json(const Finding& f) {
-  return {{"scene", f.scene}, {"topic", f.topic}, {"sentence", f.sentence}, {"tier", f.tier}, {"chapter", f.chapter}};
-}
-
-std::string report_json(const PageContent& page, const std::vector<Chart>& charts) {
-  nlohmann::ordered_json json;
-  for (const auto& [key, value] : page.provenance)
-    if (key != "scene") json["provenance"][key] = value;
-  json["findings"] = nlohmann::ordered_json::array();
-  for (const Finding& f : page.findings) json["findings"].push_back(finding_json(f));
-  for (const ScenePart& part : page.scenes) {
-    json["scenes"][part.scene->name] = {
-        {"hash", part.scene->hash}, {"truth", part.facts->tier}, {"truth_bar", part.facts->bar}};
-    for (const Finding& f : part.findings) json["findings"].push_back(finding_json(f));
-  }
-  json["figures"] = nlohmann::ordered_json::array();
-  for (const Chart& c : charts)
-    if (const FigureWords* f = words_of(c))
-      json["figures"].push_back(
-          {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"finding", f->finding}});
-  json["notes"] = page.notes;
-  json["problems"] = page.problems;
-  return json.dump(1) + "\n";
 }
 
 void write_picture(const Scene& scene, const std::vector<const Answer*>& shown, const Shot& shot,
@@ -109,12 +85,14 @@ class Builder {
         page_.problems.push_back(
             fmt::format("{} on {}: it built another scene, see its certificate", c.method, c.scene));
     write_data(rows_, page_.provenance, options_.out / "data");
-    for (const Scene& scene : request_.scenes) facts_.push_back(facts_of(scene.name, rows_));
+    for (const Scene& scene : request_.scenes)
+      write_file(options_.out / "data" / "scenes" / (file_name_of(scene.name) + ".toml"), scene.source);
+    findings_ = all_findings(request_.scenes, rows_);
     page_.notes = rows_.notes;
     if (!options_.full) page_.notes.insert(page_.notes.begin(), left_out());
-    page_.findings = overall_findings(request_.scenes, facts_, rows_);
-    for (size_t i = 0; i < request_.scenes.size(); ++i) add_part(request_.scenes[i], facts_[i]);
-    charts_ = all_charts({request_.scenes, facts_, rows_, value_of(page_.provenance, "commit")});
+    page_.findings = findings_.overall;
+    for (size_t i = 0; i < request_.scenes.size(); ++i) add_part(i);
+    charts_ = all_charts({request_.scenes, findings_.facts, rows_, value_of(page_.provenance, "commit")});
     draw_charts();
     for (const Chart& chart : charts_) add(chart);
     // beside the answer stands the last scene that Bullet answers too
@@ -125,7 +103,7 @@ class Builder {
     }
     if (shown) page_.hero.insert(page_.hero.begin(), shown->pictures[0]);
 
-    write_file(options_.out / "report.json", report_json(page_, charts_));
+    write_file(options_.out / "report.json", report_json(page_, findings_, charts_, rows_));
     write_file(options_.out / "index.html", page_html(page_));
     store_.clear();
     for (const std::string& problem : page_.problems)
@@ -133,7 +111,7 @@ class Builder {
     for (const Finding& f : page_.findings) fmt::print("- {}\n", f.sentence);
     fmt::print("{}\n", (options_.out / "index.html").string());
     bool agree = true;  // where the same rule must agree, it does
-    for (const SceneFacts& facts : facts_) agree &= !same_rule_differs(facts);
+    for (const SceneFacts& facts : findings_.facts) agree &= !same_rule_differs(facts);
     return page_.problems.empty() && agree ? 0 : 1;
   }
 
@@ -197,8 +175,9 @@ class Builder {
     return points;
   }
 
-  void add_part(const Scene& scene, const SceneFacts& facts) {
-    page_.scenes.push_back({&scene, &facts, findings_of(scene, facts), {}, {}, {}});
+  void add_part(size_t i) {
+    const Scene& scene = request_.scenes[i];
+    page_.scenes.push_back({&scene, &findings_.facts[i], findings_.of_scenes[i], {}, {}, {}});
     ScenePart& part = page_.scenes.back();
     part.statistics = rows_.table(scene.name + "-statistics");
     for (const Certificate& c : rows_.certificates)
@@ -269,12 +248,21 @@ class Builder {
   fs::path figures_;
   Store store_{store_in(options_.out)};
   Rows rows_;
-  std::vector<SceneFacts> facts_;
+  AllFindings findings_;
   std::vector<Chart> charts_;
   PageContent page_;
 };
 
 }  // namespace
+
+int verify_command(const fs::path& folder) {
+  const Verification found = verify_report(folder);
+  for (const std::string& mismatch : found.mismatches) fmt::print("{}\n", mismatch);
+  fmt::print(
+      "{} findings recomputed from {} rows: {}\n", found.findings, found.rows,
+      found.mismatches.empty() ? "all follow from the data" : fmt::format("{} mismatches", found.mismatches.size()));
+  return found.mismatches.empty() ? 0 : 1;
+}
 
 int report_command(const ReportOptions& options) {
   Request request;

@@ -1,0 +1,53 @@
+#include "report/evidence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "experiments/cells.h"
+#include "mysim/fnv.h"
+#include "report/finding_rules.h"
+
+namespace crosscheck {
+namespace {
+
+bool has_column(const Table& table, const char* name) {
+  return std::any_of(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.name == name; });
+}
+
+template <class Keep>
+Evidence rows_of(const Table& table, Keep keep) {
+  Evidence evidence{table.name, {}, {}};
+  std::string text;
+  for (size_t i = 0; i < table.rows.size(); ++i)
+    if (keep(i)) evidence.rows.push_back(static_cast<long>(i) + 1), text += csv_row(table.rows[i]) + "\n";
+  evidence.fingerprint = fmt::format("{:016x}", Fnv1a::of(text));
+  return evidence;
+}
+
+}  // namespace
+
+Evidence evidence_of(const Table& table) {
+  return rows_of(table, [](size_t) { return true; });
+}
+
+std::vector<Evidence> evidence_of(const Finding& finding, const Rows& result) {
+  std::vector<Evidence> all;
+  for (const std::string_view name : finding_rule(finding.rule).tables)
+    if (const Table* table = result.table(std::string(name))) {
+      const bool by_scene = !finding.scene.empty() && has_column(*table, "scene");
+      all.push_back(
+          rows_of(*table, [&](size_t i) { return !by_scene || text_or_none(*table, i, "scene") == finding.scene; }));
+    }
+  return all;
+}
+
+AllFindings all_findings(const std::vector<Scene>& scenes, const Rows& result) {
+  AllFindings all;
+  for (const Scene& scene : scenes) all.facts.push_back(facts_of(scene.name, result));
+  all.overall = overall_findings(scenes, all.facts, result);
+  for (size_t i = 0; i < scenes.size(); ++i) all.of_scenes.push_back(findings_of(scenes[i], all.facts[i]));
+  return all;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,67 @@
+#include "report/finding_rules.h"
+
+#include <stdexcept>
+
+namespace crosscheck {
+
+const std::vector<FindingRule>& finding_rules() {
+  static const std::vector<FindingRule> rules = {
+      {"same-rule",
+       "largest difference = max over samples up to the window of the RMS distance from mysim/symplectic-euler; agrees "
+       "where it is at most the round-off bound",
+       {"engines"}},
+      {"nearest",
+       "least of largest error = max over samples up to the window of the RMS distance from the truth, over runs that "
+       "are ok; never said to be less than the truth bar",
+       {"engines"}},
+      {"other-law", "largest error, and largest error / motion, of bullet/pbd", {"engines"}},
+      {"failed",
+       "runs whose verdict is not ok, at their end; predicted step limit where it is below the step",
+       {"engines"}},
+      {"clearance", "smallest clearance and creep at end of runs that are ok", {"engines"}},
+      {"converged-contact", "largest difference from converged contact, up to truth until", {"engines"}},
+      {"sticky", "largest difference of centres of mysim/symplectic-euler+sticky", {"engines"}},
+      {"step-cost", "cpu per step / cpu per step of mysim/symplectic-euler", {"engines-cost", "engines"}},
+      {"agreement-of-all", "over scenes: max of largest difference, and of largest difference of centres", {"engines"}},
+      {"other-law-of-all", "over scenes: min and max of largest error / motion of bullet/pbd", {"engines"}},
+      {"failed-of-all", "runs whose verdict is not ok, where another method's is ok", {"engines"}},
+      {"orders", "max of |measured order - declared order|", {"order-slopes"}},
+      {"step-cost-of-all",
+       "over scenes: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
+       {"engines-cost", "engines"}},
+      {"cheapest",
+       "at part of motion = 0.01 and measure = error: method, and min and max of Bullet / best",
+       {"speed-accuracy-cheapest-cost", "speed-accuracy"}},
+      {"size-cost",
+       "over sides: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
+       {"size-cost"}},
+      {"symplectic-energy",
+       "over runs of symplectic rules on undamped scenes whose balance closes: max of largest residual / energy turned "
+       "over",
+       {"energy"}},
+      {"numerical-damping", "max of |equivalent drag / by theory - 1|", {"energy-damping"}},
+      {"cone", "cases whose answer is the answer by theory, of those whose verdict is ok", {"sphere-cone"}},
+      {"slide-off", "creep, and centre height less mysim's, of drop-aside at mysim's finest step", {"sphere-drape"}},
+      {"penetration",
+       "max of particles and of triangles on drop-centred, in parts of the radius",
+       {"sphere-penetration"}},
+      {"step-limits", "largest stable step / predicted", {"stability"}},
+      {"no-stable-step",
+       "runs at rest whose prediction and measurement are no stable step; max of |deviation| of the growth in a step",
+       {"stability", "stability-growth"}},
+      {"least-model",
+       "left out, where it holds, at the scene's tolerance and at 10 % of the motion",
+       {"adequacy-least"}},
+      {"families", "error / motion without one family of springs", {"adequacy"}},
+      {"grid-powers", "slope of log stiffness over log cells at the same sag", {"adequacy-scaling"}},
+  };
+  return rules;
+}
+
+const FindingRule& finding_rule(std::string_view name) {
+  for (const FindingRule& rule : finding_rules())
+    if (rule.name == name) return rule;
+  throw std::logic_error("no rule for findings named " + std::string(name));
+}
+
+}  // namespace crosscheck

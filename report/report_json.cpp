@@ -1,0 +1,57 @@
+#include "report/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "report/finding_rules.h"
+
+namespace crosscheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json evidence_json(const Evidence& e) { return {{"table", e.table}, {"rows", e.rows}, {"fingerprint", e.fingerprint}}; }
+
+Json finding_json(const Finding& f, const Rows& result) {
+  Json json = {{"scene", f.scene},
+               {"topic", f.topic},
+               {"sentence", f.sentence},
+               {"tier", f.tier},
+               {"chapter", f.chapter},
+               {"rule", f.rule},
+               {"formula", finding_rule(f.rule).formula}};
+  json["evidence"] = Json::array();
+  for (const Evidence& e : evidence_of(f, result)) json["evidence"].push_back(evidence_json(e));
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const PageContent& page, const AllFindings& findings, const std::vector<Chart>& charts,
+                        const Rows& result) {
+  Json json;
+  for (const auto& [key, value] : page.provenance)
+    if (key != "scene") json["provenance"][key] = value;
+  json["findings"] = Json::array();
+  for (const Finding& f : findings.overall) json["findings"].push_back(finding_json(f, result));
+  for (const auto& of_scene : findings.of_scenes)
+    for (const Finding& f : of_scene) json["findings"].push_back(finding_json(f, result));
+  json["scenes"] = Json::object();
+  for (const ScenePart& part : page.scenes)
+    json["scenes"][part.scene->name] = {
+        {"hash", part.scene->hash}, {"truth", part.facts->tier}, {"truth_bar", part.facts->bar}};
+  json["tables"] = Json::array();
+  for (const Table& table : result.tables) {
+    const Evidence whole = evidence_of(table);
+    json["tables"].push_back({{"name", whole.table}, {"rows", whole.rows.size()}, {"fingerprint", whole.fingerprint}});
+  }
+  json["figures"] = Json::array();
+  for (const Chart& c : charts)
+    if (const FigureWords* f = words_of(c))
+      json["figures"].push_back(
+          {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"finding", f->finding}});
+  json["notes"] = page.notes;
+  json["problems"] = page.problems;
+  return json.dump(1) + "\n";
+}
+
+}  // namespace crosscheck
