@@ -37,7 +37,9 @@ BenchPlan bench_plan(bool full) {
                  {},
                  {11, 0.015},
                  {11, 0.004},
-                 {}};
+                 {},
+                 // one thread is at work; the least for two; what the caches of two cores hold; more than that
+                 {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
     plan.sheets = {{32, all},
                    {32, {bullet_explicit()}, true},
@@ -47,20 +49,23 @@ BenchPlan bench_plan(bool full) {
     plan.kernels = {21, 0.02};
     plan.on_scenes = {21, 0.005};
     plan.turns = {11, 0.04};
+    plan.threads.turns = {21, 0.2};
   }
   plan.same_step.turns = plan.turns;
   return plan;
 }
 
 Rows bench(const BenchPlan& plan) {
-  pin_to_one_core();
   Rows rows;
   std::vector<EqualErrorAsked> sheets;
   for (const BenchPlan::Sheet& asked : plan.sheets)
     sheets.push_back({std::make_shared<const Scene>(asked.scene()), asked.peers, plan.turns});
-  int work = 3 + static_cast<int>(plan.kernel_sides.size());  // shipped scenes, two sheets at the same step
+  // shipped scenes, two sheets at the same step
+  int work = 3 + static_cast<int>(plan.kernel_sides.size() + plan.threads.sides.size());
   for (const EqualErrorAsked& asked : sheets) work += work_of(asked);
   Progress progress(work);
+  two_threads(plan.threads, rows, progress);
+  pin_to_one_core();
   try {
     for (const int side : plan.kernel_sides) {
       progress.begin(fmt::format("kernels on a sheet of {0} x {0}", side));

@@ -5,6 +5,7 @@
 #include "experiments/bench/micro.h"
 #include "experiments/bench/same_step.h"
 #include "experiments/bench/sheet.h"
+#include "experiments/bench/threads.h"
 
 namespace crosscheck {
 
@@ -21,13 +22,14 @@ struct BenchPlan {
   SameStepAsked same_step;
   MicroPlan kernels, on_scenes;
   TurnPlan turns;
+  ThreadsAsked threads;
 };
 
 /// quick: within 90 s on a quiet machine of two cores; full: the largest sheet and every peer on each.
 BenchPlan bench_plan(bool full);
 
-/// The tables of kernels.h, on_scenes.h, equal_error.h and same_step.h, measured on one core, which the process keeps
-/// to from then on. Notes say what was left out and why.
+/// The tables of threads.h, and then those of kernels.h, on_scenes.h, equal_error.h and same_step.h, measured on one
+/// core, which the process keeps to from then on. Notes say what was left out and why.
 Rows bench(const BenchPlan& plan);
 
 }  // namespace crosscheck

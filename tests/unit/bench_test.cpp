@@ -11,6 +11,7 @@
 #include "experiments/bench/paths.h"
 #include "experiments/bench/same_step.h"
 #include "experiments/bench/sheet.h"
+#include "experiments/bench/threads.h"
 #include "experiments/cells.h"
 #include "experiments/metrics.h"
 #include "experiments/scenes.h"
@@ -222,6 +223,26 @@ TEST_F(BenchEqualError, OthersComeToMysimsTruthAsTheirOrdersSay) {
     if (errors.empty() && !rows.notes.empty()) continue;  // built without SUNDIALS
     EXPECT_LT(errors[0], 1e-4);
     EXPECT_LT(errors[1], errors[0] / 10);
+  }
+}
+
+TEST(BenchThreads, OneIsAtWorkWhereASheetIsSmallAndTheRatioIsThatOfTheTimes) {
+  Rows rows;
+  Progress progress(1);
+  two_threads({{64, 96}, hasty_turns}, rows, progress);
+  const Table* table = rows.table("bench-threads-cost");
+  if (!table) GTEST_SKIP() << rows.notes.at(0);
+  expect_finite(*table);
+  ASSERT_EQ(table->rows.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(*number_at(*table, i, "threads at work"), i == 0 ? 1 : 2);
+    EXPECT_GT(*number_at(*table, i, "share of the cores"), 0);
+    // clocks of the machine and of the process are read one after the other
+    EXPECT_LT(*number_at(*table, i, "share of the cores"), 1.1);
+    EXPECT_LE(*number_at(*table, i, "ratio"),
+              *number_at(*table, i, "high of one") / *number_at(*table, i, "low of two") * (1 + 1e-9));
+    EXPECT_GE(*number_at(*table, i, "ratio"),
+              *number_at(*table, i, "low of one") / *number_at(*table, i, "high of two") * (1 - 1e-9));
   }
 }
 
