@@ -19,6 +19,7 @@ Peer cvode() { return {"sundials/cvode", {1e-3, 1e-4}}; }
 Peer bullet_explicit() { return {"bullet/deformable-explicit", {0.95, 0.5}}; }
 Peer bullet_implicit() { return {"bullet/deformable-implicit", {4, 1}}; }
 Peer bullet_pbd() { return {"bullet/pbd", {1, 0.5}, true}; }
+Peer bullet_pbd_on_links() { return {"bullet/pbd", {1, 0.25}}; }
 
 std::vector<std::string> all_scenes() {
   std::vector<std::string> names;
@@ -33,7 +34,10 @@ BenchPlan bench_plan(bool full) {
                               bullet_explicit(), bullet_implicit(), bullet_pbd()};
   BenchPlan plan{{64, 128, 256},
                  all_scenes(),
-                 {{32, all}, {32, {bullet_explicit()}, true}, {64, {odeint_rk4()}}},
+                 {{32, all},
+                  {32, {bullet_explicit()}, sheet_of_two_stiffnesses},
+                  {32, {bullet_pbd_on_links()}, sheet_of_links},
+                  {64, {odeint_rk4()}}},
                  {},
                  {11, 0.015},
                  {11, 0.004},
@@ -42,9 +46,11 @@ BenchPlan bench_plan(bool full) {
                  {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
     plan.sheets = {{32, all},
-                   {32, {bullet_explicit()}, true},
+                   {32, {bullet_explicit()}, sheet_of_two_stiffnesses},
+                   {32, {bullet_pbd_on_links()}, sheet_of_links},
                    {64, all},
-                   {64, {bullet_explicit()}, true},
+                   {64, {bullet_explicit()}, sheet_of_two_stiffnesses},
+                   {64, {bullet_pbd_on_links()}, sheet_of_links},
                    {128, {odeint_rk4(), {"odeint/dopri5", {1e-4}}, {"bullet/deformable-explicit", {0.95}}}}};
     plan.kernels = {21, 0.02};
     plan.on_scenes = {21, 0.005};

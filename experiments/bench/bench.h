@@ -13,8 +13,9 @@ struct BenchPlan {
   struct Sheet {
     int side;  // particles
     std::vector<Peer> peers;
-    bool two_stiffnesses = false;  // which Bullet's own spring force can carry
-    Scene scene() const { return two_stiffnesses ? sheet_of_two_stiffnesses(side) : sheet(side); }
+    Scene (*of)(int side) = hooke;  // or of sheet.h: what suits the peers
+    Scene scene() const { return of(side); }
+    static Scene hooke(int side) { return sheet(side); }
   };
   std::vector<int> kernel_sides;    // of sheets that kernels run on
   std::vector<std::string> scenes;  // on which the engine's kernels stand beside the naive loop

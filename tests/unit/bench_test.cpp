@@ -54,7 +54,7 @@ TEST(BenchSheet, IsTheOneThatPeersWereMeasuredOn) {
 }
 
 TEST(BenchSheet, ItsStepIsBelowEveryExplicitLimit) {
-  for (const Scene& scene : {sheet(24), sheet_of_two_stiffnesses(24)})
+  for (const Scene& scene : {sheet(24), sheet_of_two_stiffnesses(24), sheet_of_links(24)})
     EXPECT_LT(scene.step, 2 / fastest_frequency(scene.model, scene.start));
   std::set<double> stiffnesses;
   const Scene two = sheet_of_two_stiffnesses(24);
@@ -224,6 +224,21 @@ TEST_F(BenchEqualError, OthersComeToMysimsTruthAsTheirOrdersSay) {
     EXPECT_LT(errors[0], 1e-4);
     EXPECT_LT(errors[1], errors[0] / 10);
   }
+}
+
+TEST(BenchLinks, PositionBasedOnesComeToTheirOwnLawsTruth) {
+  Rows rows;
+  Progress progress(1);
+  equal_error({std::make_shared<const Scene>(sheet_of_links(20)), {{"bullet/pbd", {0.125, 0.0625}}}, hasty_turns}, rows,
+              progress);
+  EXPECT_TRUE(rows.notes.empty());
+  const Table& table = *rows.table("bench-equal-error-cost");
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    EXPECT_EQ(text_at(table, i, "model"), "same");
+    EXPECT_TRUE(number_at(table, i, "ratio"));
+  }
+  const auto errors = errors_of(rows, "bullet/pbd");
+  EXPECT_NEAR(slope(errors[0], errors[1]), 1, 0.3);  // of first order, as backward Euler
 }
 
 TEST(BenchThreads, OneIsAtWorkWhereASheetIsSmallAndTheRatioIsThatOfTheTimes) {
