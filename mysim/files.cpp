@@ -1,37 +1,21 @@
-// Temporary name, then rename.
+// Whole files at once, and where they can be put.
 #include "mysim/files.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cctype>
-#include <fstream>
 
 #include "mysim/errors.h"
+#include "mysim/growing_file.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
 
 void write_file(const fs::path& file, std::string_view content) {
-  std::error_code error;
-  if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
-  const fs::path temporary = fs::path(file) += fmt::format(".{}.part", getpid());
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    out.close();
-    if (!out) {
-      fs::remove(temporary, error);
-      throw InputError(
-          fmt::format("{}: cannot be written; expected a folder with write permission and free space", file.string()));
-    }
-  }
-  fs::rename(temporary, file, error);
-  if (error) {
-    const std::string why = error.message();
-    fs::remove(temporary, error);
-    throw InputError(fmt::format("{}: cannot be written: {}", file.string(), why));
-  }
+  GrowingFile growing(file);
+  growing.append(content);
+  growing.finish();
 }
 
 void require_writable(const fs::path& folder) {

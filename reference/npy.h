@@ -3,13 +3,19 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mysim/types.h"
 
 namespace crosscheck {
 
-/// Frames x particles x 3, float64, little endian, C order (format 1.0).
+/// What stands before frames x particles x 3 numbers, float64, little endian, C order (format 1.0): 128 bytes, whatever
+/// the numbers.
+std::string npy_header(long frames, long particles);
+/// The numbers of a frame as they stand behind it.
+std::string_view npy_data(const Points& frame);
+/// A whole file.
 std::string npy_bytes(const std::vector<Points>& frames);
 
 /// Reads frames x particles x 3 numbers: float64 or float32, little endian, C order, format 1.0 or 2.0. Throws

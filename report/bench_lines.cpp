@@ -171,6 +171,23 @@ void add_implicit_steps(const Table& table, std::vector<BenchLine>& lines) {
   }
 }
 
+void add_threads(const Table& table, std::vector<BenchLine>& lines) {
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    BenchLine& line = lines.emplace_back();
+    line.group = "two threads beside one: leapfrog, time on the wall";
+    line.heading = "two threads";
+    line.label = size_text(text_at(table, i, "scene"));
+    line.detail = fmt::format("{} : {}", nice_seconds(*number_at(table, i, "wall per step of one")),
+                              nice_seconds(*number_at(table, i, "wall per step of two")));
+    if (*number_at(table, i, "threads at work") > 1)
+      line.detail += fmt::format(", with {:.0f} % of two cores", 100 * *number_at(table, i, "share of the cores"));
+    else
+      line.label += ", too small for a second";
+    line.best = ratio_at(table, i, "ratio");
+    line.wall = true;
+  }
+}
+
 }  // namespace
 
 std::string best_instructions(const Rows& rows) {
@@ -189,6 +206,7 @@ std::vector<BenchLine> bench_lines(const Rows& rows) {
   if (const Table* table = rows.table("bench-equal-error-cost")) add_equal_error(*table, lines);
   if (const Table* table = rows.table("bench-same-step-cost")) add_same_step(*table, lines);
   if (const Table* table = rows.table("bench-implicit-step-cost")) add_implicit_steps(*table, lines);
+  if (const Table* table = rows.table("bench-threads-cost")) add_threads(*table, lines);
   return lines;
 }
 

@@ -22,10 +22,11 @@ struct BenchLine {
   std::optional<BenchRatio> best, plain;  // best instructions; SSE2 alone
   std::string remark = {};                // why there is no ratio
   bool chief = true;                      // of several lines about one peer the one where it does best
+  bool wall = false;                      // the ratio is one of times on the wall, not of CPU times
 };
 
 /// From the tables of bench(). Kernels on the sheet in the middle of those asked; of the shipped scenes the one where
-/// the engine's own way gains least; all runs of all peers.
+/// the engine's own way gains least; all runs of all peers; two threads beside one.
 std::vector<BenchLine> bench_lines(const Rows& rows);
 
 /// The name of the best instructions in the tables: "avx512".

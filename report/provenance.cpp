@@ -43,15 +43,18 @@ Provenance provenance(const std::string& command) {
           {"date", fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(now))}};
 }
 
+Provenance with_scene(Provenance lines, const Scene& scene) {
+  std::string value = fmt::format("{} {}", scene.name, scene.hash);
+  const auto* wind = scene.model.find<Wind>();
+  const auto* air = scene.model.find<Aerodynamics>();
+  for (const Blowing* blowing : {wind ? &wind->acceleration : nullptr, air ? &air->velocity : nullptr})
+    if (blowing && blowing->gusts) value += fmt::format(", seed {}", blowing->gusts->seed);
+  lines.emplace_back("scene", value);
+  return lines;
+}
+
 Provenance with_scenes(Provenance lines, const std::vector<Scene>& scenes) {
-  for (const Scene& scene : scenes) {
-    std::string value = fmt::format("{} {}", scene.name, scene.hash);
-    const auto* wind = scene.model.find<Wind>();
-    const auto* air = scene.model.find<Aerodynamics>();
-    for (const Blowing* blowing : {wind ? &wind->acceleration : nullptr, air ? &air->velocity : nullptr})
-      if (blowing && blowing->gusts) value += fmt::format(", seed {}", blowing->gusts->seed);
-    lines.emplace_back("scene", value);
-  }
+  for (const Scene& scene : scenes) lines = with_scene(std::move(lines), scene);
   return lines;
 }
 

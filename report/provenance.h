@@ -9,7 +9,8 @@ namespace crosscheck {
 /// Everything but the scenes. `command` is the command line as given.
 Provenance provenance(const std::string& command);
 
-/// The same with the hash of each scene.
+/// The same with the hash of the scene, and of each scene.
+Provenance with_scene(Provenance lines, const Scene& scene);
 Provenance with_scenes(Provenance lines, const std::vector<Scene>& scenes);
 
 /// The value of a line, or "".

@@ -19,6 +19,7 @@ Peer cvode() { return {"sundials/cvode", {1e-3, 1e-4}}; }
 Peer bullet_explicit() { return {"bullet/deformable-explicit", {0.95, 0.5}}; }
 Peer bullet_implicit() { return {"bullet/deformable-implicit", {4, 1}}; }
 Peer bullet_pbd() { return {"bullet/pbd", {1, 0.5}, true}; }
+Peer bullet_pbd_on_links() { return {"bullet/pbd", {1, 0.25}}; }
 
 std::vector<std::string> all_scenes() {
   std::vector<std::string> names;
@@ -33,37 +34,46 @@ BenchPlan bench_plan(bool full) {
                               bullet_explicit(), bullet_implicit(), bullet_pbd()};
   BenchPlan plan{{64, 128, 256},
                  all_scenes(),
-                 {{32, all}, {32, {bullet_explicit()}, true}, {64, {odeint_rk4()}}},
+                 {{32, all},
+                  {32, {bullet_explicit()}, sheet_of_two_stiffnesses},
+                  {32, {bullet_pbd_on_links()}, sheet_of_links},
+                  {64, {odeint_rk4()}}},
                  {},
                  {{64}, {60, 240}, {3, 0.1}},
                  {11, 0.015},
                  {11, 0.004},
-                 {}};
+                 {},
+                 // one thread is at work; the least for two; what the caches of two cores hold; more than that
+                 {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
     plan.sheets = {{32, all},
-                   {32, {bullet_explicit()}, true},
+                   {32, {bullet_explicit()}, sheet_of_two_stiffnesses},
+                   {32, {bullet_pbd_on_links()}, sheet_of_links},
                    {64, all},
-                   {64, {bullet_explicit()}, true},
+                   {64, {bullet_explicit()}, sheet_of_two_stiffnesses},
+                   {64, {bullet_pbd_on_links()}, sheet_of_links},
                    {128, {odeint_rk4(), {"odeint/dopri5", {1e-4}}, {"bullet/deformable-explicit", {0.95}}}}};
     plan.implicit_step = {{32, 64, 128}, {60, 240}, {5, 0.1}};
     plan.kernels = {21, 0.02};
     plan.on_scenes = {21, 0.005};
     plan.turns = {11, 0.04};
+    plan.threads.turns = {21, 0.2};
   }
   plan.same_step.turns = plan.turns;
   return plan;
 }
 
 Rows bench(const BenchPlan& plan) {
-  pin_to_one_core();
   Rows rows;
   std::vector<EqualErrorAsked> sheets;
   for (const BenchPlan::Sheet& asked : plan.sheets)
     sheets.push_back({std::make_shared<const Scene>(asked.scene()), asked.peers, plan.turns});
   // shipped scenes, two sheets at the same step, and implicit steps
-  int work = 3 + static_cast<int>(plan.kernel_sides.size()) + work_of(plan.implicit_step);
+  int work = 3 + static_cast<int>(plan.kernel_sides.size() + plan.threads.sides.size()) + work_of(plan.implicit_step);
   for (const EqualErrorAsked& asked : sheets) work += work_of(asked);
   Progress progress(work);
+  two_threads(plan.threads, rows, progress);
+  pin_to_one_core();
   try {
     for (const int side : plan.kernel_sides) {
       progress.begin(fmt::format("kernels on a sheet of {0} x {0}", side));

@@ -26,4 +26,12 @@ Scene sheet_of_two_stiffnesses(int n) {
   return scene;
 }
 
+Scene sheet_of_links(int n) {
+  Scene scene = sheet(n);
+  scene.name += "-link-law";
+  scene.model.find<Springs>()->law = SpringLaw::bullet_link;
+  scene.hash = hash_of(scene);
+  return scene;
+}
+
 }  // namespace crosscheck

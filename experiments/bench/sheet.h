@@ -19,4 +19,8 @@ Scene sheet(int n, const Threads& threads = {});
 /// spring force can carry.
 Scene sheet_of_two_stiffnesses(int n);
 
+/// The same with the law of Bullet's position-based links in place of Hooke's (terms/springs.h): what they converge to,
+/// so that their error can be told from their model.
+Scene sheet_of_links(int n);
+
 }  // namespace crosscheck

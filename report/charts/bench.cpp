@@ -25,8 +25,8 @@ Dots bench_figure(const std::vector<BenchLine>& lines, const std::string& instru
   std::string heading;
   const BenchLine* least = nullptr;
   for (const BenchLine& line : lines) {
-    // the plain loop is nothing that mysim runs
-    if (!line.chief || !line.best || line.label.starts_with("plain loop")) continue;
+    // the plain loop is nothing that mysim runs, and the axis is one of CPU time
+    if (!line.chief || !line.best || line.wall || line.label.starts_with("plain loop")) continue;
     if (line.heading != heading) f.headings.emplace_back(f.names.size(), line.heading);
     heading = line.heading;
     f.names.push_back(line.label);

@@ -163,7 +163,7 @@ int advise_command(const AdviseOptions& options) try {
     for (Method& m : all_methods())
       if (options.methods.empty() && m.name.starts_with("mysim/")) methods.push_back(std::move(m));
     const Advice a = advise(*scene, options.tolerance, std::move(methods));
-    const Provenance lines = with_scenes(provenance(options.command_line), {*scene});
+    const Provenance lines = with_scene(provenance(options.command_line), *scene);
     write_csv(trials_table(a), lines, options.out);
     write_csv(costs_table(a), lines, options.out);
     write_file(file, a.toml);

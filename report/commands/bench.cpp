@@ -50,6 +50,7 @@ int bench_command(const BenchOptions& options, const BenchPlan& plan) {
   const Rows rows = bench(plan);
   std::vector<Scene> scenes = load_scenes(plan.scenes);
   for (const BenchPlan::Sheet& asked : plan.sheets) scenes.push_back(asked.scene());
+  for (const int side : plan.threads.sides) scenes.push_back(sheet(side));
   scenes.push_back(sheet(plan.same_step.side));
   scenes.push_back(sheet_of_two_stiffnesses(plan.same_step.side));
   Provenance lines = with_scenes(provenance(options.command_line), scenes);

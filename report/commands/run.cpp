@@ -7,20 +7,20 @@
 #include "experiments/scenes.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
-#include "reference/npy.h"
+#include "reference/frame_files.h"
 #include "report/commands/commands.h"
 #include "report/provenance.h"
 
 namespace crosscheck {
 namespace {
 
-std::string run_json(const Scene& scene, const Method& method, const Outcome& out, const Trajectory& path) {
+std::string run_json(const Scene& scene, const Method& method, const Outcome& out, const std::vector<double>& times) {
   nlohmann::ordered_json json{{"scene", scene.name},
                               {"scene_hash", scene.hash},
                               {"method", method.name},
                               {"step", out.step},
                               {"tolerance", out.tolerance > 0 ? nlohmann::ordered_json(out.tolerance) : nullptr},
-                              {"times", path.t},
+                              {"times", times},
                               {"verdict", name_of(out.verdict)},
                               {"reason", out.reason},
                               {"end", out.end},
@@ -56,9 +56,9 @@ int run_command(const RunOptions& options) {
     throw InputError(fmt::format("--step: expected at most the duration of {} s, got {}", run.duration, run.step));
   require_writable(options.out);
 
-  Recorder recorder;
+  FrameFiles frames(options.out);
   Ledger ledger(scene.model, method.contact);
-  std::vector<Observer*> observers{&recorder};
+  std::vector<Observer*> observers{&frames};
   if (!scene.model.first_order()) observers.push_back(&ledger);
   const Outcome out = run_method(method, scene, run, observers);
   if (out.verdict == Verdict::unsupported) {
@@ -66,20 +66,18 @@ int run_command(const RunOptions& options) {
     return 1;
   }
 
-  const Trajectory& path = recorder.trajectory;
-  write_file(options.out / "trajectory.npy", npy_bytes(path.x));
+  frames.finish();
   if (!ledger.rows().empty()) {  // none without velocities
-    write_file(options.out / "velocities.npy", npy_bytes(path.v));
     Table energy = ledger_table("energy");
     add_ledger(energy, method.name, ledger.rows(), ledger.contact_inferred());
-    write_csv(energy, with_scenes(provenance(options.command_line), {scene}), options.out);
+    write_csv(energy, with_scene(provenance(options.command_line), scene), options.out);
   }
-  write_file(options.out / "run.json", run_json(scene, method, out, path));
+  write_file(options.out / "run.json", run_json(scene, method, out, frames.times()));
   fmt::print("{} by {}: {}{}\n", scene.name, method.name, in_words(out.verdict),
              out.reason.empty() ? "" : ", " + out.reason);
   fmt::print("  {} steps of {:.6g} s{}, {} force evaluations, {:.3g} s of CPU time, {} frames\n", out.steps, out.step,
              adaptive ? fmt::format(" in the mean (relative tolerance {:.3g})", out.tolerance) : "", out.evaluations,
-             out.cpu_seconds, path.frames());
+             out.cpu_seconds, frames.times().size());
   if (!out.remark.empty()) fmt::print("  {}\n", out.remark);
   if (out.coincident > 0) fmt::print("  springs met at zero length {} times and got no force there\n", out.coincident);
   fmt::print("  {}\n", options.out.string());

@@ -11,6 +11,7 @@
 #include "experiments/bench/paths.h"
 #include "experiments/bench/same_step.h"
 #include "experiments/bench/sheet.h"
+#include "experiments/bench/threads.h"
 #include "experiments/cells.h"
 #include "experiments/metrics.h"
 #include "experiments/scenes.h"
@@ -53,7 +54,7 @@ TEST(BenchSheet, IsTheOneThatPeersWereMeasuredOn) {
 }
 
 TEST(BenchSheet, ItsStepIsBelowEveryExplicitLimit) {
-  for (const Scene& scene : {sheet(24), sheet_of_two_stiffnesses(24)})
+  for (const Scene& scene : {sheet(24), sheet_of_two_stiffnesses(24), sheet_of_links(24)})
     EXPECT_LT(scene.step, 2 / fastest_frequency(scene.model, scene.start));
   std::set<double> stiffnesses;
   const Scene two = sheet_of_two_stiffnesses(24);
@@ -222,6 +223,41 @@ TEST_F(BenchEqualError, OthersComeToMysimsTruthAsTheirOrdersSay) {
     if (errors.empty() && !rows.notes.empty()) continue;  // built without SUNDIALS
     EXPECT_LT(errors[0], 1e-4);
     EXPECT_LT(errors[1], errors[0] / 10);
+  }
+}
+
+TEST(BenchLinks, PositionBasedOnesComeToTheirOwnLawsTruth) {
+  Rows rows;
+  Progress progress(1);
+  equal_error({std::make_shared<const Scene>(sheet_of_links(20)), {{"bullet/pbd", {0.125, 0.0625}}}, hasty_turns}, rows,
+              progress);
+  EXPECT_TRUE(rows.notes.empty());
+  const Table& table = *rows.table("bench-equal-error-cost");
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    EXPECT_EQ(text_at(table, i, "model"), "same");
+    EXPECT_TRUE(number_at(table, i, "ratio"));
+  }
+  const auto errors = errors_of(rows, "bullet/pbd");
+  EXPECT_NEAR(slope(errors[0], errors[1]), 1, 0.3);  // of first order, as backward Euler
+}
+
+TEST(BenchThreads, OneIsAtWorkWhereASheetIsSmallAndTheRatioIsThatOfTheTimes) {
+  Rows rows;
+  Progress progress(1);
+  two_threads({{64, 96}, hasty_turns}, rows, progress);
+  const Table* table = rows.table("bench-threads-cost");
+  if (!table) GTEST_SKIP() << rows.notes.at(0);
+  expect_finite(*table);
+  ASSERT_EQ(table->rows.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(*number_at(*table, i, "threads at work"), i == 0 ? 1 : 2);
+    EXPECT_GT(*number_at(*table, i, "share of the cores"), 0);
+    // clocks of the machine and of the process are read one after the other
+    EXPECT_LT(*number_at(*table, i, "share of the cores"), 1.1);
+    EXPECT_LE(*number_at(*table, i, "ratio"),
+              *number_at(*table, i, "high of one") / *number_at(*table, i, "low of two") * (1 + 1e-9));
+    EXPECT_GE(*number_at(*table, i, "ratio"),
+              *number_at(*table, i, "low of one") / *number_at(*table, i, "high of two") * (1 - 1e-9));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "reference/protocol/run_json.h"
 #include "reference/protocol/scene_json.h"
 #include "tests/unit/helpers.h"
+#include "tests/unit/refusal.h"
 #include "tests/unit/temporary.h"
 
 namespace crosscheck {
@@ -15,17 +16,6 @@ using namespace testing_tools;
 using SceneJson = InFolder;
 using RunJson = InFolder;
 using Npy = InFolder;
-
-/// The message of the InputError that f throws; empty when it throws none.
-template <class F>
-std::string refusal_of(F f) {
-  try {
-    f();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
-}
 
 TEST_F(SceneJson, GivesEveryShippedSceneAndItsRunBackToTheBit) {
   std::vector<Scene> scenes{small_cloth(), small_cloth_in_air()};

@@ -1,0 +1,116 @@
+#include "experiments/bench/threads.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "experiments/bench/sheet.h"
+#include "experiments/sweep/cores.h"
+#include "experiments/sweep/machine_lock.h"
+#include "experiments/timing.h"
+#include "mysim/strip/sheet_world.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr auto rule = "mysim/leapfrog";
+/// What is missing then is as much as two threads that are 1.9 times as fast as one lose themselves.
+constexpr double nearly_all = 0.95;
+
+double cpu_of_all_threads() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+/// A sheet that is stepped on and on.
+class Stepped {
+ public:
+  Stepped(const Scene& scene, int threads)
+      : h_(scene.step),
+        world_(strip::sheet_world(*find_method(rule).stepper, ContactRule::coulomb, scene, h_,
+                                  {Precision::reproducible, threads}, nobody_)) {}
+
+  /// Wall time of a step, s.
+  double step(int steps) {
+    using Clock = std::chrono::steady_clock;
+    const double cpu = cpu_of_all_threads();
+    const auto begin = Clock::now();
+    for (int i = 0; i < steps; ++i, ++taken_) world_->step(taken_ * h_, (taken_ + 1) * h_);
+    const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
+    share_.push_back((cpu_of_all_threads() - cpu) / (threads() * wall));
+    return wall / steps;
+  }
+  /// How many are at work.
+  int threads() const { return world_->other_seconds() > 0 ? 2 : 1; }
+  /// Of the time of as many cores.
+  double share() const { return timing_of(share_).median; }
+
+ private:
+  Observers nobody_{{}};
+  double h_;
+  std::unique_ptr<strip::SheetWorld> world_;
+  long taken_ = 0;
+  std::vector<double> share_;
+};
+
+/// As many steps as take so long.
+int steps_in(double seconds, Stepped& world) {
+  int steps = 1;
+  for (double taken; steps < 1000000 && (taken = world.step(steps) * steps) < seconds;)
+    steps = static_cast<int>(std::ceil(steps * std::clamp(1.2 * seconds / taken, 2., 64.)));
+  return steps;
+}
+
+}  // namespace
+
+void two_threads(const ThreadsAsked& asked, Rows& rows, Progress& progress) {
+  if (cores_allowed() < 2) {
+    rows.notes.emplace_back("bench leaves out two threads: this process may use one core");
+    return;
+  }
+  Table table{"bench-threads-cost",
+              {{"scene", "1"},
+               {"method", "1"},
+               {"instructions", "1"},
+               {"threads at work", "1"},
+               {"steps timed", "1"},
+               {"wall per step of one", "s"},
+               {"low of one", "s"},
+               {"high of one", "s"},
+               {"wall per step of two", "s"},
+               {"low of two", "s"},
+               {"high of two", "s"},
+               {"share of the cores", "1"},
+               {"ratio", "1"},
+               {"ratio low", "1"},
+               {"ratio high", "1"}},
+              {}};
+  for (const int side : asked.sides) {
+    const Scene scene = sheet(side);
+    progress.begin(fmt::format("{}: two threads", scene.name));
+    Stepped one(scene, 1), two(scene, 2);
+    const MachineLock alone(MachineLock::Hold::alone);
+    const int steps = steps_in(asked.turns.seconds, one), rounds = asked.turns.rounds;
+    const std::vector<std::function<double()>> runs{[&] { return one.step(steps); }, [&] { return two.step(steps); }};
+    const auto times =
+        timed_in_turns(runs, TimingPlan{.least = rounds, .most = rounds, .resolution = 0, .warm = INFINITY});
+    const Timing a = timing_of(times[0]), b = timing_of(times[1]), ratio = timing_of(quotients(times[0], times[1]));
+    const long at_work = two.threads();
+    const double share = two.share();
+    table.add({scene.name, fmt::format("{}+threads=2", rule), std::string(name_of(strip::chosen())), at_work,
+               static_cast<long>(steps), a.median, a.low, a.high, b.median, b.low, b.high, share, ratio.median,
+               ratio.low, ratio.high});
+    if (at_work > 1 && share < nearly_all)
+      rows.notes.push_back(
+          fmt::format("bench: two threads on {} got {:.0f} % of the time of two cores, as something else ran: their "
+                      "ratio is less than this machine can give",
+                      scene.name, 100 * share));
+  }
+  rows.add(table);
+}
+
+}  // namespace crosscheck
