@@ -14,7 +14,7 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;  // scenes in the order of the report
 
 Json read_json(const fs::path& file) {
   std::ifstream in(file);
