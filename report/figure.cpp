@@ -232,6 +232,21 @@ MethodStyle style_of(const std::string& method) {
   return others[sum % std::size(others)];
 }
 
+std::vector<std::vector<std::string>> told_of(const Figure& figure) {
+  std::vector<std::vector<std::string>> all;
+  if (!figure.pareto.empty()) all.emplace_back();
+  for (const Curve& c : figure.curves)
+    if (!c.points.empty()) all.push_back(c.told);
+  // crosses of one title are one element
+  std::map<std::string, size_t> place;
+  for (const FailureMark& m : figure.failures) {
+    const auto [at, first] = place.emplace(m.title, all.size());
+    if (first) all.emplace_back();
+    if (!m.told.empty()) all[at->second].push_back(m.told);
+  }
+  return all;
+}
+
 Drawing drawing_of(const Figure& figure) { return {figure.name, data_of(figure), script_of(figure)}; }
 
 std::string terminals(const std::string& name, double tall, const std::string& plot) {

@@ -22,8 +22,9 @@ struct Curve {
   std::string title;  // shown in the key
   MethodStyle style;
   std::vector<std::pair<double, double>> points;
-  bool line = true;      // joined by a line
-  bool markers = false;  // a marker on every point; otherwise on a few
+  bool line = true;                    // joined by a line
+  bool markers = false;                // a marker on every point; otherwise on a few
+  std::vector<std::string> told = {};  // of each marker: what it says in the page to a pointer above it; or empty
 };
 
 /// A run that failed, drawn as a cross with its verdict.
@@ -33,6 +34,7 @@ struct FailureMark {
   double x, y;
   std::string kind = "failed";  // in the key, where the colour tells the method
   int cross = 2;                // gnuplot point type, one for each kind
+  std::string told = {};        // what it says in the page to a pointer above it
 };
 
 struct Axis {
@@ -69,6 +71,8 @@ struct Drawing {
 };
 /// Throws std::runtime_error that names the figure when there is nothing to draw or a number is not finite.
 Drawing drawing_of(const Figure& figure);
+/// What the markers of each element of its plot say, in the order of the script.
+std::vector<std::vector<std::string>> told_of(const Figure& figure);
 
 /// Writes and draws it into the folder (style.gp is put beside it). Throws std::runtime_error that names the figure
 /// when gnuplot complains.

@@ -76,6 +76,18 @@ SceneRows rows_of(const ChartInput& input, const Table& runs, const std::string&
   return s;
 }
 
+/// A run in three lines, for a pointer above it.
+std::string told(const SceneRows& s, size_t row, const std::string& outcome) {
+  std::string cost;
+  for (const Cost kind : {Cost{false}, Cost{true}})
+    if (const auto value = s.cost_of(row, kind); value && *value > 0)
+      cost +=
+          fmt::format("{}{} {}", cost.empty() ? "" : ", ", kind.text_of(*value), kind.time ? "of CPU" : "evaluations");
+  return fmt::format("{}, {}\n{}\n{}", text_or_none(s.runs, row, "method"),
+                     setting_text(text_or_none(s.runs, row, "setting"), *number_at(s.runs, row, "asked")), outcome,
+                     cost);
+}
+
 int cross_of(const std::string& word) { return word == "blew up" ? 2 : word == "solver gave up" ? 1 : 3; }
 
 Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) {
@@ -99,7 +111,8 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     furthest = std::max(furthest, *cost);
     if (verdict != "ok") {
       const std::string word = failure_word(verdict);
-      f.failures.push_back({method + ": " + word, style_of(method), *cost, 4 * s.motion, word, cross_of(word)});
+      f.failures.push_back({method + ": " + word, style_of(method), *cost, 4 * s.motion, word, cross_of(word),
+                            told(s, i, fmt::format("{} at {:.3g} s", word, *number_at(s.runs, i, "end")))});
       ++failed;
       continue;
     }
@@ -111,6 +124,7 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     const double y = std::min(highest, s.bar ? std::max(*apart, *s.bar) : *apart);
     beyond += *apart > highest;
     curve->points.emplace_back(*cost, y);
+    curve->told.push_back(told(s, i, s.measure() + " " + nice_length(*apart)));
     lowest = std::min(lowest, y);
     ++good;
   }

@@ -222,8 +222,10 @@ class Builder {
     Chapter::Entry entry{chart.heading, chart.text, {}, chart.tables};
     if (const FigureWords* words = words_of(chart)) {
       if (entry.heading.empty()) entry.heading = words->title;
-      if (const fs::path file = figures_ / (words->name + ".svg"); fs::exists(file))
+      if (const fs::path file = figures_ / (words->name + ".svg"); fs::exists(file)) {
         entry.images.push_back({file, words->title + ". " + words->finding, words->finding + " " + words->caption});
+        if (const auto* figure = std::get_if<Figure>(&chart.figure)) entry.images.back().told = told_of(*figure);
+      }
     }
     for (const Snapshot& s : chart.snapshots)
       if (fs::exists(file_of(s))) entry.images.push_back({file_of(s), s.caption, s.caption});

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "report/page/inline_svg.h"
 #include "report/page/page.h"
 
 namespace crosscheck {
@@ -46,10 +47,12 @@ std::string image_html(const PageImage& image, const std::string& css_class) {
   std::ifstream in(image.file, std::ios::binary);
   std::stringstream bytes;
   if (!in || !(bytes << in.rdbuf())) throw std::runtime_error("cannot read " + image.file.string());
-  const std::string type = image.file.extension() == ".svg" ? "image/svg+xml" : "image/png";
-  return fmt::format(
-      "<figure class=\"{}\"><img src=\"data:{};base64,{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-      css_class, type, base64(bytes.str()), escaped(image.alt), escaped(image.caption));
+  const std::string shown =
+      image.file.extension() == ".svg"
+          ? inline_svg(bytes.str(), image.alt, image.told)
+          : fmt::format("<img src=\"data:image/png;base64,{}\" alt=\"{}\">", base64(bytes.str()), escaped(image.alt));
+  return fmt::format("<figure class=\"{}\">{}<figcaption>{}</figcaption></figure>\n", css_class, shown,
+                     escaped(image.caption));
 }
 
 }  // namespace crosscheck

@@ -7,6 +7,7 @@
 
 #include "reference/independent/integrators.h"
 #include "report/assets.h"
+#include "report/page/inline_svg.h"
 #include "report/provenance.h"
 
 namespace crosscheck {
@@ -130,7 +131,8 @@ std::string page_html(const PageContent& c) {
       "<p>The second route is {} on a right-hand side written apart from mysim's.</p>\n",
       sundials_version() ? "SUNDIALS ARKODE" : "odeint; SUNDIALS is not there (Debian's package libsundials-dev)");
   for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", escaped(note));
-  return out + provenance_html(c.provenance) + "</section>\n</main></body></html>\n";
+  return sharing_markers(out + provenance_html(c.provenance) + "</section>\n</main>\n<script>\n" +
+                         asset("page/page.js") + "</script>\n</body></html>\n");
 }
 
 }  // namespace crosscheck

@@ -14,6 +14,7 @@ namespace crosscheck {
 struct PageImage {
   std::filesystem::path file;  // .png or .svg
   std::string alt, caption;
+  std::vector<std::vector<std::string>> told = {};  // of .svg: what its markers say (inline_svg.h)
 };
 
 struct ScenePart {

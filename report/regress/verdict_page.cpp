@@ -1,4 +1,5 @@
 #include "report/regress/verdict_page.h"
+#include "report/page/inline_svg.h"
 
 #include <fmt/format.h>
 
@@ -173,11 +174,12 @@ std::string verdict_html(const VerdictPage& page) {
       if (image.file.extension() == ".png") out += image_html(image, "render");
     out += "<div class=\"chapter\">" + page_table_html(part.table) + "</div></section>\n";
   }
-  return out +
-         "<section class=\"made\"><h2>How this was made</h2>\n<p>A tolerance is what rounding can do to the "
-         "quantity in that engine, measured by moving the start a little; each row of a baseline says how. A "
-         "cause is named only where it alone fits all that moved and all that held.</p>\n" +
-         provenance_html(page.lines) + "</section>\n</main></body></html>\n";
+  return sharing_markers(
+      out +
+      "<section class=\"made\"><h2>How this was made</h2>\n<p>A tolerance is what rounding can do to the "
+      "quantity in that engine, measured by moving the start a little; each row of a baseline says how. A "
+      "cause is named only where it alone fits all that moved and all that held.</p>\n" +
+      provenance_html(page.lines) + "</section>\n</main></body></html>\n");
 }
 
 }  // namespace crosscheck

@@ -1,0 +1,230 @@
+#include "report/page/inline_svg.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "mysim/fnv.h"
+#include "report/page/page.h"
+
+namespace crosscheck {
+namespace {
+
+/// From `begin` to behind `end`; where it stands, or npos.
+struct Part {
+  size_t from, size;
+};
+Part part_of(const std::string& text, const std::string& begin, const std::string& end, size_t after = 0) {
+  const size_t from = text.find(begin, after);
+  if (from == std::string::npos) return {from, 0};
+  const size_t to = text.find(end, from);
+  if (to == std::string::npos) throw std::runtime_error("a drawing of gnuplot's without " + end);
+  return {from, to + end.size() - from};
+}
+
+void remove(std::string& text, const std::string& begin, const std::string& end) {
+  for (Part p = part_of(text, begin, end); p.from != std::string::npos; p = part_of(text, begin, end, p.from))
+    text.erase(p.from, p.size);
+}
+
+/// Tenths as a number without what is not needed: -0.5 is -.5.
+std::string tenths(long n) {
+  std::string text = n < 0 ? "-" : "";
+  n = std::abs(n);
+  if (n >= 10 || n == 0) text += std::to_string(n / 10);
+  if (n % 10) text += fmt::format(".{}", n % 10);
+  return text;
+}
+
+void join(std::string& out, const std::string& number) {
+  if (!out.empty() && (std::isdigit(static_cast<unsigned char>(out.back())) || out.back() == '.') && number[0] != '-')
+    out += ' ';
+  out += number;
+}
+
+/// "M1.23,4.56 L7.89,0.12 Z" with differences in tenths; what is more than moves and lines stays as it is.
+std::string shorter_path(const std::string& path) {
+  std::string out;
+  long x = 0, y = 0;
+  char last = 0;
+  const char* at = path.c_str();
+  while (true) {
+    while (*at == ' ' || *at == '\n' || *at == '\t') ++at;
+    if (!*at) return out;
+    const char command = *at++;
+    if (command == 'Z') {
+      out += 'z', last = 0;
+      continue;
+    }
+    if (command != 'M' && command != 'L') return path;
+    char* end = nullptr;
+    const long to_x = std::lround(10 * std::strtod(at, &end));
+    if (end == at || *end != ',') return path;
+    at = end + 1;
+    const long to_y = std::lround(10 * std::strtod(at, &end));
+    if (end == at) return path;
+    at = end;
+    if (command == 'M') {
+      out += 'M' + tenths(to_x);
+      join(out, tenths(to_y));
+    } else {
+      if (last != 'L') out += 'l';
+      join(out, tenths(to_x - x));
+      join(out, tenths(to_y - y));
+    }
+    x = to_x, y = to_y, last = command;
+  }
+}
+
+/// Numbers with two decimals rounded to one, whatever stands around them.
+std::string in_tenths(const std::string& text) {
+  std::string out;
+  for (size_t i = 0; i < text.size();) {
+    if (text[i] != '-' && !std::isdigit(static_cast<unsigned char>(text[i]))) {
+      out += text[i++];
+      continue;
+    }
+    char* end = nullptr;
+    out += tenths(std::lround(10 * std::strtod(text.c_str() + i, &end)));
+    i = static_cast<size_t>(end - text.c_str());
+  }
+  return out;
+}
+
+/// Replaces what stands in quotes behind `name=` by what `change` makes of it.
+template <class Change>
+void change_attribute(std::string& text, const std::string& name, Change change) {
+  std::string out;
+  size_t done = 0;
+  for (size_t at = text.find(name); at != std::string::npos; at = text.find(name, done)) {
+    const size_t open = at + name.size(), close = text.find(text[open], open + 1);
+    if (close == std::string::npos) throw std::runtime_error("a drawing of gnuplot's with an open quote");
+    out.append(text, done, open + 1 - done);
+    out += change(text.substr(open + 1, close - open - 1));
+    done = close;
+  }
+  text = out + text.substr(done);
+}
+
+/// White space between and in tags, where one blank or nothing says the same; texts stay.
+std::string without_white_space(const std::string& text) {
+  std::string out;
+  bool in_tag = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const bool blank = text[i] == ' ' || text[i] == '\n' || text[i] == '\t';
+    if (text[i] == '<') in_tag = true;
+    if (!blank || (!in_tag && text[i] == ' ')) {
+      out += text[i];
+    } else if (in_tag && out.back() != ' ') {
+      out += ' ';
+    }
+    if (text[i] == '>') {
+      in_tag = false;
+      // indentation behind a tag, up to the next one
+      size_t next = i + 1;
+      while (next < text.size() && std::isspace(static_cast<unsigned char>(text[next]))) ++next;
+      if (next < text.size() && text[next] == '<' && text.find('\n', i) < next) i = next - 1;
+    }
+  }
+  return out;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+/// "rgb( 85,  85,  85)" as "#555555".
+void shorten_colours(std::string& text) {
+  for (Part p = part_of(text, "rgb(", ")"); p.from != std::string::npos; p = part_of(text, "rgb(", ")", p.from + 1)) {
+    int r = 0, g = 0, b = 0;
+    if (std::sscanf(text.c_str() + p.from, "rgb( %d , %d , %d", &r, &g, &b) == 3)
+      text.replace(p.from, p.size, fmt::format("#{:02x}{:02x}{:02x}", r, g, b));
+  }
+}
+
+/// Groups that hold nothing.
+void remove_empty_groups(std::string& text) {
+  for (size_t end = text.find("></g>"); end != std::string::npos; end = text.find("></g>", end)) {
+    const size_t open = text.rfind('<', end);
+    if (text.compare(open, 2, "<g") == 0)
+      text.erase(open, end + 5 - open), end = open > 0 ? open - 1 : 0;
+    else
+      end += 5;
+  }
+}
+
+/// Gives the markers of the so-manieth element of the plot their words; gnuplot draws the key's sample last.
+void tell(std::string& body, size_t element, const std::vector<std::string>& words) {
+  size_t at = body.find(fmt::format("_plot_{}\"", element));
+  for (const std::string& word : words) {
+    at = at == std::string::npos ? at : body.find("<use ", at);
+    if (at == std::string::npos)
+      throw std::runtime_error(fmt::format("a drawing with fewer markers than runs in its element {}", element));
+    const size_t close = body.find("/>", at);
+    body.replace(close, 2, fmt::format("><title>{}</title></use>", escaped(word)));
+    body.insert(at + 5, "class=\"told\" ");
+    at = close;
+  }
+}
+
+}  // namespace
+
+std::string sharing_markers(const std::string& page) {
+  const std::string begin = "<defs><circle id='gpDot'";
+  std::string out;
+  size_t done = 0;
+  bool first = true;
+  for (Part p = part_of(page, begin, "</defs>"); p.from != std::string::npos;
+       p = part_of(page, begin, "</defs>", p.from + p.size)) {
+    out.append(page, done, p.from + (first ? p.size : 0) - done);
+    done = p.from + p.size, first = false;
+  }
+  return out + page.substr(done);
+}
+
+std::string inline_svg(const std::string& svg, const std::string& alt, const Told& told) {
+  const Part head = part_of(svg, "<svg", ">");
+  const std::string view = "viewBox=\"";
+  const size_t box = svg.find(view), end = svg.rfind("</svg>");
+  if (head.from == std::string::npos || box > head.from + head.size || end == std::string::npos)
+    throw std::runtime_error("no drawing of gnuplot's");
+  const std::string seen = svg.substr(box, svg.find('"', box + view.size()) + 1 - box);
+  std::string body = svg.substr(head.from + head.size, end - head.from - head.size);
+  remove(body, "<desc>", "</desc>");
+  if (const Part title = part_of(body, "<title>", "</title>"); title.from != std::string::npos)
+    body.erase(title.from, title.size);  // the file's name; those of curves follow
+  shorten_colours(body);
+  change_attribute(body, " d=", shorter_path);
+  change_attribute(body, "points = ", in_tenths);
+  change_attribute(body, "transform=", [](const std::string& text) {
+    const Part moved = part_of(text, "translate(", ")");
+    if (moved.from != 0) return text;
+    return in_tenths(text.substr(0, moved.size)) + text.substr(moved.size);
+  });
+  body = without_white_space(body);
+  replace_all(body, " stroke-linecap=\"butt\" stroke-linejoin=\"miter\"", "");  // as they are without
+  replace_all(body, "xlink:href", "href");
+  // what nearly every group says is said once, around all
+  replace_all(body, "<g fill=\"none\" color=\"black\" stroke=\"currentColor\" stroke-width=\"1.00\">", "<g>");
+  replace_all(body, " font-family=\"DejaVu Sans\"", "");
+  replace_all(body, " font-size=\"12.00\"", "");
+  replace_all(body, "font-family=\"DejaVu Sans:Bold\"", "font-weight=\"bold\"");
+  replace_all(body, "fill=\"#ffffff\"/>", "fill=\"#ffffff\" stroke=\"none\"/>");  // the paper
+  replace_all(body, "<title>gnuplot_canvas</title>", "");
+  // of another drawing with patterns of its own
+  replace_all(body, "gpPat", fmt::format("gpPat{:x}-", Fnv1a::of(body)));
+  remove_empty_groups(body);
+  for (size_t i = 0; i < told.size(); ++i)
+    if (!told[i].empty()) tell(body, i + 1, told[i]);
+  return fmt::format(
+      "<svg {} role=\"img\" aria-label=\"{}\"><g fill=\"none\" color=\"black\" stroke=\"currentColor\" "
+      "font-family=\"DejaVu Sans\" font-size=\"12\">{}</g></svg>",
+      seen, escaped(alt), body);
+}
+
+}  // namespace crosscheck
