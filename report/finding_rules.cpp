@@ -23,6 +23,7 @@ const std::vector<FindingRule>& finding_rules() {
       {"sticky", "largest difference of centres of mysim/symplectic-euler+sticky", {"engines"}},
       {"step-cost", "cpu per step / cpu per step of mysim/symplectic-euler", {"engines-cost", "engines"}},
       {"agreement-of-all", "over scenes: max of largest difference, and of largest difference of centres", {"engines"}},
+      {"nearest-of-all", "over scenes: the method whose largest error is least, of runs that are ok", {"engines"}},
       {"other-law-of-all", "over scenes: min and max of largest error / motion of bullet/pbd", {"engines"}},
       {"failed-of-all", "runs whose verdict is not ok, where another method's is ok", {"engines"}},
       {"orders", "max of |measured order - declared order|", {"order-slopes"}},

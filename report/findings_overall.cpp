@@ -59,7 +59,45 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneF
   if (!unknown.empty())
     add("failure", "Nothing can be said of agreement on " + joined(unknown) + ": the motion is chaotic.");
   if (!alone.empty())
-    add("accuracy", "Bullet's explicit world cannot model " + joined(alone) + ": see why in the table of runs.");
+    add("failure", "Bullet's explicit world cannot model " + joined(alone) + ": see why in the table of runs.");
+}
+
+/// Who is nearest to the truth at the scenes' own steps, and who of those that take one evaluation for a step.
+void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts, std::vector<Finding>& out) {
+  std::map<std::string, int> first, first_of_thrifty;
+  int asked = 0;
+  const auto nearest = [](const SceneFacts& scene, auto takes_part) {
+    const MethodFacts* best = nullptr;
+    for (const MethodFacts& m : scene.methods)
+      if (m.ok() && m.error && !m.method.starts_with("truth/") && takes_part(m) && (!best || *m.error < *best->error))
+        best = &m;
+    return best;
+  };
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    if (!(facts[i].motion > 0)) continue;
+    const MethodFacts* best = nearest(facts[i], [](const MethodFacts&) { return true; });
+    if (!best) continue;
+    ++asked, ++first[best->method];
+    if (const MethodFacts* thrifty = nearest(facts[i], [&](const MethodFacts& m) {
+          return static_cast<double>(m.evaluations) * m.step / scenes[i].duration < 1.5;
+        }))
+      ++first_of_thrifty[thrifty->method];
+  }
+  const auto told = [](const std::map<std::string, int>& counts) {
+    std::vector<std::pair<int, std::string>> order;
+    for (const auto& [method, count] : counts) order.emplace_back(-count, method);
+    std::sort(order.begin(), order.end());
+    std::vector<std::string> parts;
+    for (const auto& [count, method] : order) parts.push_back(fmt::format("{} on {}", method, -count));
+    return joined(parts);
+  };
+  if (asked > 0)
+    out.push_back(
+        {"", "accuracy",
+         fmt::format("Nearest to the truth at the scenes' own steps, of {} scenes with one: {}; of the methods "
+                     "with one force evaluation a step: {}.",
+                     asked, told(first), told(first_of_thrifty)),
+         "see each scene", "nearest-of-all"});
 }
 
 /// True where the scene's springs follow Hooke's law, which position-based links do not.
@@ -163,6 +201,7 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
                                       const Rows& result) {
   std::vector<Finding> out;
   agreement_of_all(scenes, facts, out);
+  nearest_of_all(scenes, facts, out);
   other_law_of_all(scenes, facts, out);
   failures_of_all(facts, out);
   orders(result, out);

@@ -46,8 +46,8 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   std::string sentence = fmt::format(
       "For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, are of {}", joined(who));
   if (high > 0)
-    sentence += fmt::format("; the best of Bullet's worlds takes {} times as much",
-                            range(fmt::format("{:.2g}", low), fmt::format("{:.2g}", high)));
+    sentence +=
+        fmt::format("; the best of Bullet's worlds takes {} times as much", range(times_text(low), times_text(high)));
   if (!without.empty()) sentence += "; no run of Bullet that was tried meets it on " + joined(without);
   out.push_back({"", "cost", sentence + ".", "measured", "cheapest"});
 }
@@ -74,8 +74,7 @@ void step_of_both(const Rows& result, std::vector<Finding>& out) {
       {"", "cost",
        fmt::format("On cloth of {0} x {0} to {1} x {1} particles a step of symplectic Euler costs Bullet (Debian's "
                    "build) {2} times the CPU time of mysim.",
-                   per_side.begin()->first, per_side.rbegin()->first,
-                   range(fmt::format("{:.2g}", low), fmt::format("{:.2g}", high))),
+                   per_side.begin()->first, per_side.rbegin()->first, range(times_text(low), times_text(high))),
        "measured", "size-cost"});
 }
 

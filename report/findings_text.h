@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,13 @@ inline constexpr auto ours = "mysim/symplectic-euler", theirs = "bullet/deformab
 inline std::string percent(double part, double whole) {
   const double value = 100 * part / whole;
   return value < 99.5 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
+}
+
+/// How many times as much: two digits, written plainly ("160", "2.4").
+inline std::string times_text(double factor) {
+  if (!(factor >= 100)) return fmt::format("{:.2g}", factor);
+  const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
+  return fmt::format("{:.0f}", std::round(factor / unit) * unit);
 }
 
 inline std::string joined(const std::vector<std::string>& words) {

@@ -122,6 +122,15 @@ std::string key_plot(const HeatMap& map) {
 
 }  // namespace
 
+std::vector<std::string> told_of(const HeatMap& map) {
+  std::vector<std::string> all;
+  for (const HeatMap::Panel& p : map.panels)
+    for (size_t k = 0; k < map.kinds.size(); ++k)
+      for (const HeatMap::HeatCell& c : p.cells)
+        if (c.kind == static_cast<int>(k)) all.push_back(c.told);
+  return all;
+}
+
 Drawing drawing_of(const HeatMap& map) {
   const Grid grid = axes_of(map);
   const int panels = static_cast<int>(map.panels.size()), across = std::min(columns, panels),

@@ -83,9 +83,10 @@ std::string told(const SceneRows& s, size_t row, const std::string& outcome) {
     if (const auto value = s.cost_of(row, kind); value && *value > 0)
       cost +=
           fmt::format("{}{} {}", cost.empty() ? "" : ", ", kind.text_of(*value), kind.time ? "of CPU" : "evaluations");
-  return fmt::format("{}, {}\n{}\n{}", text_or_none(s.runs, row, "method"),
-                     setting_text(text_or_none(s.runs, row, "setting"), *number_at(s.runs, row, "asked")), outcome,
-                     cost);
+  const std::string setting = text_or_none(s.runs, row, "setting");
+  return fmt::format("{}, {}{}\n{}\n{}", text_or_none(s.runs, row, "method"),
+                     setting.starts_with("step") ? "step " : "",
+                     setting_text(setting, *number_at(s.runs, row, "asked")), outcome, cost);
 }
 
 int cross_of(const std::string& word) { return word == "blew up" ? 2 : word == "solver gave up" ? 1 : 3; }

@@ -118,7 +118,18 @@ HeatMap map_of(const Table& cells, const Table& limits, const std::string& scene
     if (text_at(cells, i, "scene") != scene || text_at(cells, i, "map") != kind) continue;
     const std::string& verdict = text_at(cells, i, "verdict");
     const double step = *number_at(cells, i, "step");
-    panel(text_at(cells, i, "method")).cells.push_back({step, *number_at(cells, i, "value"), kind_of(verdict)});
+    const double value = *number_at(cells, i, "value");
+    const std::string& method = text_at(cells, i, "method");
+    const std::string outcome = verdict == "ok" ? "holds"
+                                : verdict == "unsupported"
+                                    ? "refused"
+                                    : fmt::format("{} at {:.3g} s", failure_word(verdict), *number_at(cells, i, "end"));
+    panel(method).cells.push_back(
+        {step, value, kind_of(verdict),
+         fmt::format("{}, step {}, {}\n{}", method, step_text(step),
+                     kind == "drag" ? fmt::format("drag {} 1/s", nice(value))
+                                    : fmt::format("{} times the scene's stiffness", nice(value)),
+                     outcome)});
     if (verdict == "ok") steps.insert(std::lround(*number_at(cells, i, "end") / step));
   }
   RowsAgainstTheory rows(kind);

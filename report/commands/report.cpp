@@ -224,7 +224,9 @@ class Builder {
       if (entry.heading.empty()) entry.heading = words->title;
       if (const fs::path file = figures_ / (words->name + ".svg"); fs::exists(file)) {
         entry.images.push_back({file, words->title + ". " + words->finding, words->finding + " " + words->caption});
-        if (const auto* figure = std::get_if<Figure>(&chart.figure)) entry.images.back().told = told_of(*figure);
+        Told& told = entry.images.back().told;
+        if (const auto* figure = std::get_if<Figure>(&chart.figure)) told.markers = told_of(*figure);
+        if (const auto* map = std::get_if<HeatMap>(&chart.figure)) told.boxes = told_of(*map);
       }
     }
     for (const Snapshot& s : chart.snapshots)

@@ -158,16 +158,15 @@ void remove_empty_groups(std::string& text) {
   }
 }
 
-/// Gives the markers of the so-manieth element of the plot their words; gnuplot draws the key's sample last.
-void tell(std::string& body, size_t element, const std::vector<std::string>& words) {
-  size_t at = body.find(fmt::format("_plot_{}\"", element));
+/// Gives the shapes from a place on their words. Where there are more, the last is the key's sample.
+void tell(std::string& body, size_t at, const std::string& shape, const std::vector<std::string>& words) {
+  const std::string open = "<" + shape + " ";
   for (const std::string& word : words) {
-    at = at == std::string::npos ? at : body.find("<use ", at);
-    if (at == std::string::npos)
-      throw std::runtime_error(fmt::format("a drawing with fewer markers than runs in its element {}", element));
+    at = at == std::string::npos ? at : body.find(open, at);
+    if (at == std::string::npos) throw std::runtime_error("a drawing with fewer shapes than runs");
     const size_t close = body.find("/>", at);
-    body.replace(close, 2, fmt::format("><title>{}</title></use>", escaped(word)));
-    body.insert(at + 5, "class=\"told\" ");
+    body.replace(close, 2, fmt::format("><title>{}</title></{}>", escaped(word), shape));
+    body.insert(at + open.size(), "class=\"told\" ");
     at = close;
   }
 }
@@ -175,16 +174,21 @@ void tell(std::string& body, size_t element, const std::vector<std::string>& wor
 }  // namespace
 
 std::string sharing_markers(const std::string& page) {
-  const std::string begin = "<defs><circle id='gpDot'";
-  std::string out;
+  const std::string begin = "<defs><circle id='gpDot'", body = "<body>";
+  std::string out, shapes;
   size_t done = 0;
-  bool first = true;
   for (Part p = part_of(page, begin, "</defs>"); p.from != std::string::npos;
        p = part_of(page, begin, "</defs>", p.from + p.size)) {
-    out.append(page, done, p.from + (first ? p.size : 0) - done);
-    done = p.from + p.size, first = false;
+    if (shapes.empty()) shapes = page.substr(p.from, p.size);
+    out.append(page, done, p.from - done);
+    done = p.from + p.size;
   }
-  return out + page.substr(done);
+  out += page.substr(done);
+  // in a drawing of no size of their own: where none is shown, or the first is folded away, the others need them
+  if (const size_t at = out.find(body); !shapes.empty() && at != std::string::npos)
+    out.insert(at + body.size(),
+               "<svg width=\"0\" height=\"0\" style=\"position:absolute\" aria-hidden=\"true\">" + shapes + "</svg>");
+  return out;
 }
 
 std::string inline_svg(const std::string& svg, const std::string& alt, const Told& told) {
@@ -219,8 +223,9 @@ std::string inline_svg(const std::string& svg, const std::string& alt, const Tol
   // of another drawing with patterns of its own
   replace_all(body, "gpPat", fmt::format("gpPat{:x}-", Fnv1a::of(body)));
   remove_empty_groups(body);
-  for (size_t i = 0; i < told.size(); ++i)
-    if (!told[i].empty()) tell(body, i + 1, told[i]);
+  for (size_t i = 0; i < told.markers.size(); ++i)
+    if (!told.markers[i].empty()) tell(body, body.find(fmt::format("_plot_{}\"", i + 1)), "use", told.markers[i]);
+  tell(body, 0, "polygon", told.boxes);
   return fmt::format(
       "<svg {} role=\"img\" aria-label=\"{}\"><g fill=\"none\" color=\"black\" stroke=\"currentColor\" "
       "font-family=\"DejaVu Sans\" font-size=\"12\">{}</g></svg>",

@@ -10,12 +10,15 @@ namespace crosscheck {
 /// pixel of the 680 that a figure is wide, and given as differences. Titles of curves stay, so that a pointer above a
 /// curve shows its name. Throws std::runtime_error where the text is no SVG of gnuplot's.
 ///
-/// told[i]: what each marker of the plot's i-th element says to a pointer above it, in the order in which they are
-/// drawn; an element may have none. Throws std::runtime_error where an element has fewer markers.
-using Told = std::vector<std::vector<std::string>>;
+/// What parts of a drawing say to a pointer above them, in the order in which they are drawn.
+struct Told {
+  std::vector<std::vector<std::string>> markers;  // of each element of the plot; an element may have none
+  std::vector<std::string> boxes;                 // of all the drawing
+};
+/// Throws std::runtime_error where there are fewer markers or boxes than words.
 std::string inline_svg(const std::string& svg, const std::string& alt, const Told& told = {});
 
-/// The page with the shapes of markers, which gnuplot defines in each drawing alike, in the first one alone.
+/// The page with the shapes of markers, which gnuplot defines in each drawing alike, once at its beginning.
 std::string sharing_markers(const std::string& page);
 
 }  // namespace crosscheck

@@ -18,7 +18,9 @@ std::string finding_list(const std::vector<Finding>& findings, const std::string
   for (const Finding& f : findings)
     out += fmt::format("<li class=\"{}\">{} <span class=\"tier\">{}{}</span></li>\n", f.topic, escaped(f.sentence),
                        f.tier == "measured" || f.tier == "see each scene" ? f.tier : "against: " + escaped(f.tier),
-                       links && !f.chapter.empty() ? fmt::format("; <a href=\"#{}\">figures</a>", f.chapter) : "");
+                       !links              ? ""
+                       : f.chapter.empty() ? "; <a href=\"#scenes\">scenes</a>"
+                                           : fmt::format("; <a href=\"#{}\">figures</a>", f.chapter));
   return out + "</ul>\n";
 }
 
@@ -39,14 +41,45 @@ std::vector<Finding> of_chapter(const std::vector<Finding>& findings, const std:
   return own;
 }
 
+/// What a reader asks first, and the findings that answer it: of a chapter, or of a topic where they have none.
+struct Question {
+  const char* text;
+  std::vector<std::string> topics, chapters;
+  bool answered_by(const Finding& f) const {
+    const std::vector<std::string>& asked = f.chapter.empty() ? topics : chapters;
+    return std::find(asked.begin(), asked.end(), f.chapter.empty() ? f.topic : f.chapter) != asked.end();
+  }
+};
+const std::vector<Question>& questions() {
+  static const std::vector<Question> all = {{"Do they agree?", {"agreement", "contact"}, {"sphere"}},
+                                            {"Who is more accurate?", {"accuracy", "order"}, {}},
+                                            {"Who is faster?", {"cost"}, {"speed-accuracy", "cost"}},
+                                            {"Where does each fail?", {"failure"}, {"stability"}},
+                                            {"Who keeps the energy?", {"energy"}, {"energy"}},
+                                            {"How little model is enough?", {"adequacy"}, {"adequacy"}}};
+  return all;
+}
+
 std::string first_screen(const PageContent& c) {
-  std::string out = "<header><h1>Do mysim and Bullet agree?</h1></header>\n<main>\n<section class=\"answer\"><div>\n";
-  out += finding_list(front_of(c.findings), "findings", true);
+  std::string out =
+      "<header><h1>Crosscheck: mysim beside Bullet</h1></header>\n<main>\n<section class=\"answer\"><div "
+      "class=\"questions\">\n";
+  const std::vector<Finding> front = front_of(c.findings);
+  // the picture ends the left column
+  size_t before_picture = 2;
+  for (const Question& question : questions()) {
+    std::vector<Finding> answers;
+    for (const Finding& f : front)
+      if (question.answered_by(f)) answers.push_back(f);
+    if (!answers.empty())
+      out += fmt::format("<div><h2>{}</h2>\n{}</div>\n", question.text, finding_list(answers, "findings", true));
+    if (--before_picture == 0 && !c.hero.empty()) out += image_html(c.hero[0], "hero");
+  }
+  out += "</div>\n";
   for (const std::string& problem : c.problems)
     out += fmt::format("<p class=\"problem\">Missing: {}</p>\n", escaped(problem));
-  out += "</div>\n";
-  out += "<div>\n";
-  for (const PageImage& image : c.hero) out += image_html(image, "hero");
+  out += "<div class=\"heroes\">\n";
+  for (size_t i = 1; i < c.hero.size(); ++i) out += image_html(c.hero[i], "hero");
   return out + "</div></section>\n";
 }
 
@@ -110,7 +143,7 @@ std::string provenance_html(const Provenance& lines) {
 
 std::string page_html(const PageContent& c) {
   std::string out = page_head("Crosscheck: mysim beside Bullet") + first_screen(c);
-  out += "<section>\n<h2>Scene by scene</h2>\n" + scene_table_html(c.scenes);
+  out += "<section id=\"scenes\">\n<h2>Scene by scene</h2>\n" + scene_table_html(c.scenes);
   out += "</section>\n";
   for (const Chapter& chapter : c.chapters)
     if (!chapter.entries.empty()) out += chapter_section(chapter, c.findings);

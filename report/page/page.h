@@ -7,6 +7,7 @@
 
 #include "report/charts/charts.h"
 #include "report/findings.h"
+#include "report/page/inline_svg.h"
 
 namespace crosscheck {
 
@@ -14,7 +15,7 @@ namespace crosscheck {
 struct PageImage {
   std::filesystem::path file;  // .png or .svg
   std::string alt, caption;
-  std::vector<std::vector<std::string>> told = {};  // of .svg: what its markers say (inline_svg.h)
+  Told told = {};  // of .svg
 };
 
 struct ScenePart {

@@ -1,0 +1,124 @@
+// Drawings inside the page: what they show stays, what they weigh does not.
+#include "report/page/inline_svg.h"
+
+#include <cmath>
+#include <regex>
+
+#include "report/figure.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+class InlineSvg : public InFolder {
+ protected:
+  Figure figure() const {
+    Figure f;
+    f.name = "waves", f.title = "two waves", f.caption = "c", f.finding = "f";
+    f.x = {"t / s"}, f.y = {"x / m"};
+    Curve a{"mysim/leapfrog", style_of("mysim/leapfrog"), {}, true, true}, b{"bullet/pbd", style_of("bullet/pbd"), {}};
+    for (int i = 0; i < 40; ++i)
+      a.points.emplace_back(i, std::sin(0.3 * i)), a.told.push_back(fmt::format("run {}", i));
+    for (int i = 0; i < 400; ++i) b.points.emplace_back(0.1 * i, std::cos(0.03 * i));
+    f.curves = {a, b};
+    f.failures = {{"mysim/rk4: blew up", style_of("mysim/rk4"), 5, 0.5, "blew up", 2, "lost < \"here\""}};
+    return f;
+  }
+  std::string drawn(const Figure& f) const {
+    draw(drawing_of(f), {}, folder_);
+    return read(folder_ / (f.name + ".svg"));
+  }
+  /// All coordinates of lines, absolute, in the order in which they are drawn.
+  static std::vector<double> coordinates(const std::string& svg) {
+    std::vector<double> all;
+    const std::regex path(" d='([^']*)'"), number("-?(\\d+\\.?\\d*|\\.\\d+)");
+    for (std::sregex_iterator p(svg.begin(), svg.end(), path), none; p != none; ++p) {
+      const std::string d = (*p)[1];
+      double x = 0, y = 0;
+      bool relative = false;
+      for (size_t i = 0; i < d.size();) {
+        if (d[i] == 'M' || d[i] == 'L' || d[i] == 'l') {
+          relative = d[i++] == 'l';
+          continue;
+        }
+        std::smatch found;
+        const std::string rest = d.substr(i);
+        if (!std::regex_search(rest, found, number, std::regex_constants::match_continuous)) {
+          ++i;
+          continue;
+        }
+        const double first = std::stod(found.str());
+        std::string after = rest.substr(found.length());
+        after = after.substr(after.find_first_of("-.0123456789"));
+        std::regex_search(after, found, number, std::regex_constants::match_continuous);
+        const double second = std::stod(found.str());
+        i = d.size() - after.size() + static_cast<size_t>(found.length());
+        x = relative ? x + first : first, y = relative ? y + second : second;
+        all.push_back(x), all.push_back(y);
+      }
+    }
+    return all;
+  }
+};
+
+TEST_F(InlineSvg, LinesStayWhereTheyAre) {
+  const std::string svg = drawn(figure());
+  // markers' own shapes aside, which stay as they are
+  const auto body = [](const std::string& text) { return text.substr(text.find("</defs>")); };
+  const std::vector<double> before = coordinates(body(svg)), after = coordinates(body(inline_svg(svg, "alt")));
+  ASSERT_EQ(before.size(), after.size());
+  EXPECT_GT(before.size(), 800u);
+  // rounded to tenths of a pixel, not to be seen; differences of rounded numbers do not add up
+  for (size_t i = 0; i < before.size(); ++i) ASSERT_NEAR(before[i], after[i], 0.0501) << i;
+}
+
+TEST_F(InlineSvg, WeighsLessAndKeepsItsWords) {
+  const std::string svg = drawn(figure()), out = inline_svg(svg, "a \"finding\"");
+  EXPECT_LT(out.size(), 0.6 * static_cast<double>(svg.size()));
+  EXPECT_TRUE(contains(out, "role=\"img\" aria-label=\"a &quot;finding&quot;\""));
+  for (const char* word : {"two waves", "mysim/leapfrog", "t / s", "x / m"}) EXPECT_TRUE(contains(out, word));
+}
+
+TEST_F(InlineSvg, MarkersSayWhatTheirRunsAre) {
+  const Figure f = figure();
+  const Told told{told_of(f), {}};
+  ASSERT_EQ(told.markers.size(), 3u);
+  EXPECT_TRUE(told.markers[1].empty());
+  const std::string out = inline_svg(drawn(f), "alt", told);
+  EXPECT_TRUE(contains(out, "lost &lt; &quot;here&quot;</title>"));
+  // each word at its marker: further right as the runs are
+  const std::regex marker("<use class=\"told\"[^>]*translate\\(([0-9.]+),[^>]*><title>run ([0-9]+)</title>");
+  double last = 0;
+  int count = 0;
+  for (std::sregex_iterator m(out.begin(), out.end(), marker), none; m != none; ++m, ++count) {
+    EXPECT_EQ(std::stoi((*m)[2]), count);
+    EXPECT_GT(std::stod((*m)[1]), last);
+    last = std::stod((*m)[1]);
+  }
+  EXPECT_EQ(count, 40);
+}
+
+TEST_F(InlineSvg, FewerMarkersThanWordsAreAnError) {
+  Told told{{std::vector<std::string>(1000, "run")}, {}};
+  EXPECT_THROW(inline_svg(drawn(figure()), "alt", told), std::runtime_error);
+  EXPECT_THROW(inline_svg("<html>", "alt"), std::runtime_error);
+}
+
+TEST_F(InlineSvg, APageHoldsTheShapesOfMarkersOnce) {
+  const std::string one = inline_svg(drawn(figure()), "alt");
+  const std::string page = sharing_markers("<body>" + one + one + "</body>");
+  const auto count = [&](const std::string& what) {
+    int n = 0;
+    for (size_t at = page.find(what); at != std::string::npos; at = page.find(what, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("id='gpDot'"), 1);
+  EXPECT_EQ(count("<svg"), 3);
+  EXPECT_LT(page.find("id='gpDot'"), page.find("role=\"img\""));
+}
+
+}  // namespace
+}  // namespace crosscheck
