@@ -6,30 +6,13 @@
 #include <cmath>
 
 #include "experiments/cells.h"
+#include "report/bench_lines_parts.h"
 #include "report/facts.h"
 
 namespace crosscheck {
 namespace {
 
 constexpr auto naive = "naive loop", plainest = "sse2";
-
-BenchRatio ratio_at(const Table& table, size_t row, const char* column) {
-  return {*number_at(table, row, column), *number_at(table, row, "ratio low"), *number_at(table, row, "ratio high")};
-}
-
-std::string nice_seconds(double seconds) {
-  if (seconds >= 0.1) return fmt::format("{:.2f} s", seconds);
-  if (seconds >= 1e-4) return fmt::format("{:.3g} ms", 1e3 * seconds);
-  return fmt::format("{:.3g} µs", 1e6 * seconds);
-}
-
-/// "sheet-32x32-two-stiffnesses" as "32 × 32, two stiffnesses".
-std::string size_text(const std::string& scene) {
-  std::string text = scene.substr(scene.find('-') + 1);
-  for (const auto& [from, to] : {std::pair{"x", " × "}, {"-", ", "}, {"-", " "}})
-    if (const size_t at = text.find(from); at != std::string::npos) text.replace(at, 1, to);
-  return text;
-}
 
 void add_kernels(const Table& table, const std::string& best, std::vector<BenchLine>& lines) {
   std::vector<double> sides;
@@ -128,64 +111,6 @@ void add_equal_error(const Table& table, std::vector<BenchLine>& lines) {
       if (subject[i - begin] == subject[j - begin] && lines[j].best &&
           (!lines[i].best || lines[j].best->ratio < lines[i].best->ratio))
         lines[i].chief = false;
-}
-
-void add_same_step(const Table& table, std::vector<BenchLine>& lines) {
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    const BenchRatio ratio = ratio_at(table, i, "ratio");
-    if (text_at(table, i, "path of mysim") != "best") {
-      lines.back().plain = ratio;
-      continue;
-    }
-    const bool own = text_at(table, i, "force of Bullet").starts_with("force class");
-    BenchLine& line = lines.emplace_back();
-    line.group =
-        "the same step: Bullet's explicit world and symplectic-euler; springs by a force class of our own, or by "
-        "Bullet's";
-    line.heading = "the same step as Bullet";
-    line.label =
-        fmt::format("{}: {}", size_text(text_at(table, i, "scene")), own ? "own force class" : "Bullet's force");
-    line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Bullet")),
-                              nice_seconds(*number_at(table, i, "cpu per step of mysim")),
-                              *number_at(table, i, "farthest particle"));
-    line.best = ratio;
-  }
-}
-
-void add_implicit_steps(const Table& table, std::vector<BenchLine>& lines) {
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    const BenchRatio ratio = ratio_at(table, i, "ratio");
-    if (text_at(table, i, "path of mysim") != "best") {
-      lines.back().plain = ratio;
-      continue;
-    }
-    BenchLine& line = lines.emplace_back();
-    const std::string size = size_text(text_at(table, i, "scene"));
-    line.group = "a linear implicit Euler step: Eigen's SimplicialLDLT and implicit-euler+linear";
-    line.heading = "implicit step, " + size;
-    line.label = fmt::format("{}, {:g} steps a second", size, *number_at(table, i, "rate"));
-    line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Eigen")),
-                              nice_seconds(*number_at(table, i, "cpu per step of mysim")),
-                              *number_at(table, i, "farthest particle"));
-    line.best = ratio;
-  }
-}
-
-void add_threads(const Table& table, std::vector<BenchLine>& lines) {
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    BenchLine& line = lines.emplace_back();
-    line.group = "two threads beside one: leapfrog, time on the wall";
-    line.heading = "two threads";
-    line.label = size_text(text_at(table, i, "scene"));
-    line.detail = fmt::format("{} : {}", nice_seconds(*number_at(table, i, "wall per step of one")),
-                              nice_seconds(*number_at(table, i, "wall per step of two")));
-    if (*number_at(table, i, "threads at work") > 1)
-      line.detail += fmt::format(", with {:.0f} % of two cores", 100 * *number_at(table, i, "share of the cores"));
-    else
-      line.label += ", too small for a second";
-    line.best = ratio_at(table, i, "ratio");
-    line.wall = true;
-  }
 }
 
 }  // namespace
