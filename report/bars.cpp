@@ -31,7 +31,7 @@ Table data_of(const Bars& bars) {
 Drawing drawing_of(const Bars& bars) {
   Drawing drawing{bars.name, data_of(bars), ""};
   std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", bars.title, bars.name);
-  out += fmt::format("set title {}\n", single_quoted(bars.title));
+  out += title_command(bars);
   out += axis_commands({bars.label}, "x");
   out += fmt::format("set yrange [{:.1f}:0.4]\nset yzeroaxis lt 1 lc rgb \"#333333\" lw 1.5\nset grid noytics\n",
                      static_cast<double>(bars.names.size()) + 0.6);
@@ -50,7 +50,7 @@ Drawing drawing_of(const Bars& bars) {
         plot.empty() ? "plot " : ", \\\n     ", single_quoted(bars.name + ".csv"), single_quoted(part.title),
         part.colour, part.hatched ? "transparent pattern 4" : "solid 0.85", part.colour, single_quoted(part.title));
   }
-  drawing.script = out + terminals(bars.name, 0.45 + 0.06 * static_cast<double>(bars.names.size()), plot + "\n");
+  drawing.script = out + terminals(bars, 0.45 + 0.06 * static_cast<double>(bars.names.size()), plot + "\n");
   return drawing;
 }
 

@@ -86,7 +86,7 @@ Drawing drawing_of(const Dots& dots) {
         plot.empty() ? "plot " : ", \\\n     ", single_quoted(dots.name + ".csv"), single_quoted(series.title),
         offset_of(i, dots.series.size()), series.style.colour, series.style.marker, single_quoted(series.title));
   }
-  drawing.script = out + terminals(dots.name, 0.3 + 0.045 * lines, plot + "\n");
+  drawing.script = out + terminals(dots, 0.3 + 0.045 * lines, plot + "\n");
   return drawing;
 }
 

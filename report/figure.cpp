@@ -95,8 +95,9 @@ double key_room(const Figure& f) {
   if (!f.pareto.empty()) entries.insert(pareto_title);
   size_t longest = 0;
   for (const std::string& e : entries) longest = std::max(longest, shown(e).size());
-  // as many columns as gnuplot finds room for in this width
-  const int columns = longest <= 14 ? 3 : longest <= 28 ? 2 : 1;
+  // as many columns as gnuplot finds room for in this width, as seen: three of 14 letters, two of 28
+  const double column = 114 + 8 * static_cast<double>(longest);
+  const int columns = std::clamp(static_cast<int>(f.size.units() / column), 1, 3);
   const int rows = (static_cast<int>(entries.size()) + columns - 1) / columns;
   return 0.036 * std::max(0, rows - 3);
 }
@@ -153,7 +154,7 @@ Axis closed(const Figure& f, bool of_x) {
 
 std::string script_of(const Figure& f) {
   std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", f.title, f.name);
-  out += fmt::format("set title {}\n", single_quoted(f.title));
+  out += title_command(f);
   out += axis_commands(closed(f, true), "x") + axis_commands(closed(f, false), "y");
   if (!f.categories.empty()) {
     const bool short_ones = std::all_of(f.categories.begin(), f.categories.end(),
@@ -173,7 +174,7 @@ std::string script_of(const Figure& f) {
         "\"#777777\" front\n",
         single_quoted(f.window->second), f.window->first);
   }
-  return out + terminals(f.name, 1 + key_room(f), plot_command(f));
+  return out + terminals(f, 1 + key_room(f), plot_command(f));
 }
 
 /// Sets the one date in a PDF that Debian's cairo writes (it knows no SOURCE_DATE_EPOCH) to 1970, so that two runs
@@ -249,21 +250,51 @@ std::vector<std::vector<std::string>> told_of(const Figure& figure) {
 
 Drawing drawing_of(const Figure& figure) { return {figure.name, data_of(figure), script_of(figure)}; }
 
-std::string terminals(const std::string& name, double tall, const std::string& plot) {
-  std::string svg_name = name;  // gnuplot takes letters, digits and _ only
+namespace {
+
+struct Terminal {
+  std::string set, ending;
+};
+
+std::vector<Terminal> terminals_of(const FigureWords& figure, double height) {
+  const double wide = figure.size.units();
+  std::string svg_name = figure.name;  // gnuplot takes letters, digits and _ only
   for (char& c : svg_name)
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  std::string out =
-      fmt::format("set term svg size 680,{:.0f} dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}\n",
-                  500 * tall, single_quoted(svg_name));
-  out += fmt::format("set output {}\n{}", single_quoted(name + ".svg"), plot);
-  out += fmt::format("set term pdfcairo size 17cm,{:.4g}cm font \"DejaVu Sans,11\"\nset output {}\nreplot\n",
-                     12.5 * tall, single_quoted(name + ".pdf"));
-  return out +
-         fmt::format(
-             "set term pngcairo size 1360,{:.0f} font \"DejaVu Sans,12\" fontscale 1.6 linewidth 1.7 pointscale 1.6\n"
-             "set output {}\nreplot\nset output\n",
-             1000 * tall, single_quoted(name + ".png"));
+  return {{fmt::format("svg size {:.0f},{:.0f} dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}", wide,
+                       height, single_quoted(svg_name)),
+           ".svg"},
+          {fmt::format("pdfcairo size {:.4g}cm,{:.4g}cm font \"DejaVu Sans,{:g}\" linewidth {:.3g} pointscale {:.3g}",
+                       figure.size.width, figure.size.width * height / wide, figure.size.font, figure.size.font / 11,
+                       figure.size.font / 11),
+           ".pdf"},
+          {fmt::format("pngcairo size {:.0f},{:.0f} font \"DejaVu Sans,12\" fontscale 1.6 linewidth 1.7 pointscale 1.6",
+                       2 * wide, 2 * height),
+           ".png"}};
+}
+
+}  // namespace
+
+std::string terminals(const FigureWords& figure, double tall, const std::string& plot) {
+  // title, labels and key take what they take, the plot between them goes with the width
+  const double height = 140 + 360 * figure.size.units() / 680 + 500 * (tall - 1);
+  std::string out;
+  for (const Terminal& t : terminals_of(figure, height))
+    out += fmt::format("set term {}\nset output {}\n{}", t.set, single_quoted(figure.name + t.ending),
+                       out.empty() ? plot : "replot\n");
+  return out + "set output\n";
+}
+
+std::string terminals_of_block(const FigureWords& figure, double height, const std::string& block) {
+  std::string out;
+  for (const Terminal& t : terminals_of(figure, height))
+    out += fmt::format("reset\nload \"style.gp\"\nset term {}\nset output {}\n{}set output\n", t.set,
+                       single_quoted(figure.name + t.ending), block);
+  return out;
+}
+
+std::string title_command(const FigureWords& figure) {
+  return figure.size.titled ? fmt::format("set title {}\n", single_quoted(figure.title)) : "";
 }
 
 void draw(const Drawing& figure, const Provenance& provenance, const std::filesystem::path& folder) {

@@ -43,6 +43,15 @@ struct Axis {
   std::optional<double> low, high;
 };
 
+/// How large a figure is on paper. What is in it is laid out for its width over its font.
+struct FigureSize {
+  double width = 17;   // cm
+  double font = 11;    // pt
+  bool titled = true;  // false: the caption beside it says what it shows
+  /// Its width where a font is 12 high.
+  double units() const { return 680 * (width / 17) * (11 / font); }
+};
+
 /// What every figure has, whatever it draws.
 struct FigureWords {
   std::string name;         // file name without ending
@@ -50,6 +59,7 @@ struct FigureWords {
   std::string caption;      // scene, truth tier, error bar, step, commit
   std::string finding;      // what one sees in it, in a sentence: the alternative text
   bool from_costs = false;  // drawn from timings: not the same in each run
+  FigureSize size = {};
 };
 
 /// Curves, points and crosses over two axes.
@@ -79,7 +89,11 @@ std::vector<std::vector<std::string>> told_of(const Figure& figure);
 void draw(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
 
 /// The end of a script: the terminals for a figure so much taller than the usual one, each with the plot command.
-std::string terminals(const std::string& name, double tall, const std::string& plot);
+std::string terminals(const FigureWords& figure, double tall, const std::string& plot);
+/// The same for a block that draws everything, reset and style included, so many units high.
+std::string terminals_of_block(const FigureWords& figure, double height, const std::string& block);
+/// The command for its title, or none.
+std::string title_command(const FigureWords& figure);
 /// Text in gnuplot's single quotes.
 std::string single_quoted(const std::string& text);
 /// Commands for label, scale and range of the axis x, y or cb.

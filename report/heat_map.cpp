@@ -12,7 +12,8 @@
 namespace crosscheck {
 namespace {
 
-constexpr int columns = 3;
+/// Panels side by side.
+int columns_of(const HeatMap& map) { return map.size.units() < 600 ? 2 : 3; }
 
 /// Half the distance of two neighbouring values, as a factor.
 double half_spacing(const std::set<double>& values) {
@@ -133,13 +134,20 @@ std::vector<std::string> told_of(const HeatMap& map) {
 
 Drawing drawing_of(const HeatMap& map) {
   const Grid grid = axes_of(map);
+  const int columns = columns_of(map);
   const int panels = static_cast<int>(map.panels.size()), across = std::min(columns, panels),
             down = (panels + columns - 1) / columns;
-  // in parts of a page 680 wide: heights of the title, a row of panels, the axis below, and the key
-  const double title = 40, row = across == 1 ? 340 : across == 2 ? 270 : 205, axis = 46, key = 62;
-  const double tall = title + down * row + axis + key, wide = 680;
-  std::string block =
-      fmt::format("set multiplot title {} font \"DejaVu Sans:Bold,13\" noenhanced\n", single_quoted(map.title));
+  // heights of the title, a row of panels, the axis below, and the key, which takes more lines where it is narrow
+  const double wide = map.size.units(), title = map.size.titled ? 40 : 16,
+               row = (across == 1   ? 340
+                      : across == 2 ? 270
+                                    : 205) *
+                     wide / (columns == 3 ? 680 : 590),
+               axis = 46, key = 62 * std::max(1.0, 680 / wide);
+  const double tall = title + down * row + axis + key;
+  std::string block = map.size.titled ? fmt::format("set multiplot title {} font \"DejaVu Sans:Bold,13\" noenhanced\n",
+                                                    single_quoted(map.title))
+                                      : "set multiplot\n";
   block += fmt::format("set logscale xy 10\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", grid.left,
                        grid.right, grid.bottom, grid.top);
   block += "unset key\nunset grid\nset border 15 front\n";
@@ -167,21 +175,8 @@ Drawing drawing_of(const HeatMap& map) {
       key / tall);
   block += key_plot(map) + "unset multiplot\n";
 
-  std::string svg_name = map.name;
-  for (char& ch : svg_name)
-    if (!std::isalnum(static_cast<unsigned char>(ch))) ch = '_';
-  std::string script = fmt::format("# {}\n# Draw again: gnuplot {}.gp\n", map.title, map.name);
-  const auto on = [&](const std::string& terminal, const std::string& ending) {
-    script += fmt::format("reset\nload \"style.gp\"\nset term {}\nset output {}\n{}set output\n", terminal,
-                          single_quoted(map.name + ending), block);
-  };
-  on(fmt::format("svg size {:.0f},{:.0f} dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}", wide, tall,
-                 single_quoted(svg_name)),
-     ".svg");
-  on(fmt::format("pdfcairo size 17cm,{:.4g}cm font \"DejaVu Sans,11\"", 17 * tall / wide), ".pdf");
-  on(fmt::format("pngcairo size 1360,{:.0f} font \"DejaVu Sans,12\" fontscale 1.6 linewidth 1.7 pointscale 1.6",
-                 2 * tall),
-     ".png");
+  const std::string script =
+      fmt::format("# {}\n# Draw again: gnuplot {}.gp\n", map.title, map.name) + terminals_of_block(map, tall, block);
   return {map.name, data_of(map), script};
 }
 

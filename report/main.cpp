@@ -115,6 +115,16 @@ int run(int argc, char** argv) {
     status = verified.empty() ? report_command(report_options) : verify_command(verified);
   });
 
+  FiguresOptions figures_options;
+  auto* figures = app.add_subcommand("figures", "figures fit to print, with captions, for a paper or a lecture");
+  figures->add_option("NAME", figures_options.names, "experiments whose figures are asked for; default: all");
+  figures->add_option("--scene", figures_options.scenes, "a shipped scene or a TOML file; again for more");
+  figures->add_option("--set", figures_options.set, "paper (8.5 cm, 8 pt) or lecture (24 cm, 20 pt)");
+  figures->add_option("--width", figures_options.width, "8.5cm, 85mm, 3.3in");
+  figures->add_option("--out", figures_options.out, "folder (out/figures)");
+  quick_or_full(figures, figures_options.full);
+  figures->callback([&] { figures_options.command_line = line, status = figures_command(figures_options); });
+
   RenderOptions render_options;
   auto* render = app.add_subcommand("render", "a picture of a scene, methods side by side");
   render->add_option("SCENE", render_options.scene, "a shipped scene or a TOML file")->required();

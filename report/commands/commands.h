@@ -68,6 +68,16 @@ struct ReportOptions {
 };
 int report_command(const ReportOptions& options);
 
+struct FiguresOptions {
+  std::vector<std::string> names;   // of experiments; empty: all
+  std::vector<std::string> scenes;  // empty: those that stand for the others
+  std::string set = "paper", width;
+  bool full = false;
+  std::filesystem::path out = "out/figures";
+  std::string command_line;
+};
+int figures_command(const FiguresOptions& options);
+
 /// Whether all findings of a report follow from its data.
 int verify_command(const std::filesystem::path& folder);
 

@@ -1,0 +1,27 @@
+// A set of figures fit to print: sizes in centimetres, and beside each figure the words that belong to it.
+#pragma once
+
+#include <filesystem>
+
+#include "report/charts/charts.h"
+
+namespace crosscheck {
+
+/// "paper" (8.5 cm, 8 pt, no titles) or "lecture" (24 cm, 20 pt); `width` as "8.5cm", "85mm" or "3.3in", or empty: the
+/// set's own. Throws InputError that says what was expected.
+FigureSize figure_size(const std::string& set, const std::string& width);
+
+/// Text for LaTeX: its special characters escaped, Greek letters and signs in mathematics.
+std::string latex(const std::string& text);
+
+/// Gives the chart's figure a size; false where it has none.
+bool resize(Chart& chart, const FigureSize& size);
+
+/// NAME.txt and NAME.tex beside the files of a figure: caption as text, and a figure environment.
+void write_words(const FigureWords& figure, const std::filesystem::path& folder);
+
+/// figures.json: what each figure shows, on what it rests and how large it is; CITATION.cff: how to cite who made them.
+void write_catalogue(const std::vector<const Chart*>& charts, const Provenance& provenance,
+                     const std::filesystem::path& folder);
+
+}  // namespace crosscheck

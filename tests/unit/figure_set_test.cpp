@@ -1,0 +1,135 @@
+// Sets of figures: sizes as asked, words for text and LaTeX, and a drawing that anybody with gnuplot can make again.
+#include "report/figure_set.h"
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "mysim/errors.h"
+#include "report/run_program.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+std::string message_of(const std::string& set, const std::string& width) {
+  try {
+    figure_size(set, width);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FigureSize, IsThatOfTheSetOrAsAsked) {
+  EXPECT_EQ(figure_size("paper", "").width, 8.5);
+  EXPECT_EQ(figure_size("paper", "85mm").width, 8.5);
+  EXPECT_NEAR(figure_size("paper", "3.3in").width, 8.382, 1e-12);
+  EXPECT_EQ(figure_size("lecture", "").font, 20);
+  EXPECT_EQ(FigureSize{}.units(), 680);
+  for (const char* bad : {"8.5", "cm", "8.5 cm", "-8cm", "1cm", "200cm", "8.5pt", "nancm"})
+    EXPECT_TRUE(contains(message_of("paper", bad), "expected 4cm to 100cm, in cm, mm or in")) << bad;
+  EXPECT_TRUE(contains(message_of("poster", ""), "--set poster: expected paper or lecture"));
+}
+
+TEST(Latex, SpecialCharactersAreEscaped) {
+  EXPECT_EQ(latex("a_b & 5 % of #1 {x} ~ ^ \\ $"),
+            "a\\_b \\& 5 \\% of \\#1 \\{x\\} \\textasciitilde{} \\textasciicircum{} \\textbackslash{} \\$");
+  EXPECT_EQ(latex("< 3 µm ± 1, 2 × ω"), "$<$ 3 $\\mu$m $\\pm$ 1, 2 $\\times$ $\\omega$");
+}
+
+/// One chart of each kind.
+std::vector<Chart> charts() {
+  Figure lines;
+  lines.name = "lines", lines.title = "two lines", lines.caption = "Scene a_b.", lines.finding = "They cross.";
+  lines.x = {"t / s"}, lines.y = {"x / m"};
+  lines.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {{0, 1}, {1, 2}, {2, 0}}},
+                  {"bullet/pbd", style_of("bullet/pbd"), {{0, 2}, {1, 1}, {2, 3}}}};
+  Bars bars;
+  bars.name = "bars", bars.title = "bars", bars.label = "energy / J", bars.names = {"one", "two"};
+  bars.parts = {{"drag", "#0072B2", false, {1, -2}}};
+  HeatMap map;
+  map.name = "map", map.title = "a map", map.x_label = "step / s", map.y_label = "k",
+  map.kinds = {{"holds", "#D8E8F0"}};
+  for (const char* title : {"a", "b", "c", "d"})
+    map.panels.push_back({title, {{1, 1, 0}, {10, 1, 0}, {1, 10, 0}, {10, 10, 0}}, {}, {}});
+  return {{"a_b", lines}, {"", bars, "energy"}, {"", map, "stability"}};
+}
+
+class FigureSet : public InFolder {
+ protected:
+  void make(const FigureSize& size) {
+    all = charts();
+    for (Chart& chart : all) {
+      ASSERT_TRUE(resize(chart, size));
+      std::visit(
+          [&]<class F>(const F& figure) {
+            if constexpr (std::derived_from<F, FigureWords>) draw(drawing_of(figure), {}, folder_);
+          },
+          chart.figure);
+    }
+  }
+  /// Of a PDF's page, points.
+  double width_of(const std::string& name) const {
+    const std::string pdf = read(folder_ / (name + ".pdf"));
+    std::smatch found;
+    EXPECT_TRUE(std::regex_search(pdf, found, std::regex("/MediaBox \\[ ?[0-9.]+ [0-9.]+ ([0-9.]+)")));
+    return std::stod(found[1]);
+  }
+  std::vector<Chart> all;
+};
+
+TEST_F(FigureSet, EveryKindHasTheWidthThatWasAsked) {
+  for (const double width : {8.5, 12.0, 17.0}) {
+    make({width, 8, false});
+    // a point is 1/72 inch, and gnuplot's pages are whole ones
+    for (const char* name : {"lines", "bars", "map"}) EXPECT_NEAR(width_of(name), width / 2.54 * 72, 1.01) << name;
+  }
+}
+
+TEST_F(FigureSet, TitlesStandInLecturesOnly) {
+  make(figure_size("paper", ""));
+  for (const char* name : {"lines", "map"}) {
+    const std::string svg = read(folder_ / (std::string(name) + ".svg"));
+    EXPECT_EQ(svg.find(name == std::string("map") ? ">a map<" : ">two lines<"), std::string::npos) << name;
+  }
+  make(figure_size("lecture", ""));
+  EXPECT_TRUE(contains(read(folder_ / "lines.svg"), ">two lines<"));
+  EXPECT_TRUE(contains(read(folder_ / "map.svg"), ">a map<"));
+}
+
+TEST_F(FigureSet, GnuplotAloneDrawsTheSameAgain) {
+  make(figure_size("paper", ""));
+  for (const char* name : {"lines", "bars", "map"}) {
+    const std::string before = read(folder_ / (std::string(name) + ".svg"));
+    const std::string picture = read(folder_ / (std::string(name) + ".png"));
+    std::filesystem::remove(folder_ / (std::string(name) + ".svg"));
+    const ProgramResult drawn = run_program({"gnuplot", std::string(name) + ".gp"}, folder_);
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_EQ(drawn.err, "");
+    EXPECT_EQ(read(folder_ / (std::string(name) + ".svg")), before) << name;
+    EXPECT_EQ(read(folder_ / (std::string(name) + ".png")), picture) << name;
+  }
+}
+
+TEST_F(FigureSet, WordsSayWhatEachShows) {
+  make(figure_size("paper", ""));
+  std::vector<const Chart*> drawn;
+  for (const Chart& chart : all) drawn.push_back(&chart), write_words(*words_of(chart), folder_);
+  write_catalogue(drawn, {{"commit", "abc"}, {"date", "2026-11-22T10:00:00Z"}}, folder_);
+  EXPECT_EQ(read(folder_ / "lines.txt"), "two lines\nThey cross. Scene a_b.\n");
+  const std::string tex = read(folder_ / "lines.tex");
+  EXPECT_TRUE(contains(tex, "\\includegraphics[width=8.5cm]{lines.pdf}"));
+  EXPECT_TRUE(contains(tex, "\\caption{two lines. They cross. Scene a\\_b.}"));
+  const auto json = nlohmann::json::parse(read(folder_ / "figures.json"));
+  ASSERT_EQ(json["figures"].size(), 3u);
+  EXPECT_EQ(json["figures"][0]["finding"], "They cross.");
+  EXPECT_EQ(json["figures"][0]["files"]["csv"], "lines.csv");
+  EXPECT_EQ(json["provenance"]["commit"], "abc");
+  EXPECT_TRUE(contains(read(folder_ / "CITATION.cff"), "version: \"abc\"\ndate-released: \"2026-11-22\""));
+}
+
+}  // namespace
+}  // namespace crosscheck
