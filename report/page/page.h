@@ -54,6 +54,8 @@ std::string page_html(const PageContent& content);
 std::string page_head(const std::string& title);
 std::string provenance_html(const Provenance& lines);
 
+/// All bytes of a file. Throws std::runtime_error that names it.
+std::string content_of_file(const std::filesystem::path& file);
 /// Text made safe for HTML.
 std::string escaped(const std::string& text);
 
@@ -63,7 +65,8 @@ std::vector<Chapter> chapters();
 /// A long table is folded unless it is to be open.
 std::string page_table_html(const PageTable& table, bool open = false);
 
-/// <figure> with the image inside the page as base64.
+/// <img> with the image inside the page; and a <figure> of it with its caption.
+std::string image_tag(const PageImage& image);
 std::string image_html(const PageImage& image, const std::string& css_class);
 
 /// The run table of one scene, and its parity certificates.
