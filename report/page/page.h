@@ -21,6 +21,7 @@ struct ScenePart {
   const SceneFacts* facts;
   std::vector<Finding> findings;
   std::vector<PageImage> pictures;  // renders
+  std::filesystem::path motions;    // what plays over the first picture (player_data.h); empty: it stays a picture
   std::vector<PageImage> figures;   // charts
   std::vector<const Certificate*> certificates;
   const Table* statistics = nullptr;  // of perturbed runs, where there is contact
@@ -47,11 +48,12 @@ struct PageContent {
   Provenance provenance;
 };
 
-/// The whole page. Throws std::runtime_error when an image cannot be read.
+/// The whole page. Throws std::runtime_error when an image or motions cannot be read.
 std::string page_html(const PageContent& content);
 
-/// The beginning of a page up to its body, styles included; and the table of who made it.
-std::string page_head(const std::string& title);
+/// The beginning of a page up to its body, styles included, and what else belongs into its head; and the table of who
+/// made it.
+std::string page_head(const std::string& title, const std::string& more = "");
 std::string provenance_html(const Provenance& lines);
 
 /// All bytes of a file. Throws std::runtime_error that names it.
