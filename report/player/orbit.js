@@ -3,62 +3,56 @@
 const fieldOfView = 25 * Math.PI / 180;  // vertical
 const tangent = Math.tan(fieldOfView / 2);
 
-/** Towards the key light, from the left behind the viewer, for a viewer in this direction. */
-function keyDirection(from) {
-  const back = Math.hypot(from[0], from[2]) > 1e-9 ? unit([from[0], 0, from[2]]) : [0, 0, 1];
-  const right = [back[2], 0, -back[0]];
-  return unit(plus(plus([0, 1, 0], -0.3, right), 0.44, back));
-}
-
 class Orbit {
   constructor(from) {
-    this.home = { yaw: Math.atan2(from[0], from[2]), pitch: Math.asin(from[1] / norm(from)) };
+    this.home = {yaw: Math.atan2(from[0], from[2]), pitch: Math.asin(from[1] / norm(from))};
     this.reset();
   }
 
-  reset() {
-    Object.assign(this, this.home, { zoom: 1 });
-  }
+  reset() { Object.assign(this, this.home, {zoom: 1}); }
 
   turn(yaw, pitch) {
     this.yaw += yaw;
     this.pitch = Math.max(-1.5, Math.min(1.5, this.pitch + pitch));
   }
 
-  magnify(factor) {
-    this.zoom = Math.max(0.15, Math.min(4, this.zoom / factor));
-  }
+  magnify(factor) { this.zoom = Math.max(0.15, Math.min(4, this.zoom / factor)); }
 
   /** Right, up and backwards. */
-  axes({ yaw, pitch } = this) {
+  axes({yaw, pitch} = this) {
     const back = [Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
     const right = [Math.cos(yaw), 0, -Math.sin(yaw)];
     return [right, cross(back, right), back];
   }
 
-  /** Point looked at and least distance at which the balls {at, radius, margin} lie within a panel of this shape, seen
-      from home. A margin is the part of the view that stays free. */
+  /**
+     Point looked at and least distance at which the balls {at, radius, margin} lie within a panel of this shape, seen
+      from home. A margin is the part of the view that stays free.
+   */
   fit(balls, aspect) {
     const [right, up, back] = this.axes(this.home);
     const half = (axis, slope) => {
       const most = [1e-9, 1e-9];
-      for (const { at, radius, margin } of balls) {
+      for (const {at, radius, margin} of balls) {
         const s = slope * (1 - 2 * margin);
         // the edge of the view is a plane that slants by s
         const reach = radius * Math.sqrt(1 + s * s), deep = s * dot(back, at);
         most[0] = Math.max(most[0], (dot(axis, at) + deep + reach) / s);
         most[1] = Math.max(most[1], (-dot(axis, at) + deep + reach) / s);
       }
-      return { distance: (most[0] + most[1]) / 2, shift: slope * (most[0] - most[1]) / 2 };
+      return {distance: (most[0] + most[1]) / 2, shift: slope * (most[0] - most[1]) / 2};
     };
     const wide = half(right, tangent * aspect), high = half(up, tangent);
-    return { target: plus(plus([0, 0, 0], wide.shift, right), high.shift, up), distance: Math.max(wide.distance, high.distance) };
+    return {
+      target: plus(plus([0, 0, 0], wide.shift, right), high.shift, up),
+      distance: Math.max(wide.distance, high.distance)
+    };
   }
 
   /** Eye and clip matrix for a fit. */
-  view({ target, distance }, aspect) {
+  view({target, distance}, aspect) {
     const axes = this.axes(), far = distance * this.zoom;
     const eye = plus(target, far, axes[2]);
-    return { eye, toClip: times(perspective(tangent, aspect, far / 30, far * 8), toEye(axes, eye)) };
+    return {eye, toClip: times(perspective(tangent, aspect, far / 30, far * 8), toEye(axes, eye))};
   }
 }

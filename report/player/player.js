@@ -22,19 +22,26 @@ class MotionPlayer extends HTMLElement {
     if (!plays || this.scene) return;
     const root = this.parentElement, scene = this.scene = JSON.parse(root.querySelector('script.motion').textContent);
     this.box = root.querySelector('.stage');
-    Object.assign(this, { time: 0, speed: 1, playing: false, seen: false, orbit: new Orbit(scene.from) });
+    Object.assign(this, {time: 0, speed: 1, playing: false, seen: false, orbit: new Orbit(scene.from)});
     const narrow = this.box.clientWidth < 700;
     const first = scene.methods.flatMap((m, i) => (m.first ? [i] : []));
-    this.look = { colour: scene.triangles ? 'stretch' : 'plain', springs: !scene.triangles, shown: narrow ? first.slice(0, 2) : first };
+    this.look = {
+      colour: scene.triangles ? 'stretch' : 'plain',
+      springs: !scene.triangles,
+      shown: narrow ? first.slice(0, 2) : first
+    };
     if (!scene[this.look.colour]) this.look.colour = 'plain';
     this.desk = new Desk(this, scene, this.look, {
-      toggle: () => (this.playing ? this.pause() : this.play()), seek: time => (this.pause(), this.seek(time), this.wake()),
-      speed: speed => (this.speed = speed), look: change => (this.setLook(change), this.wake()),
-      reset: () => (this.orbit.reset(), this.draw()) });
+      toggle: () => (this.playing ? this.pause() : this.play()),
+      seek: time => (this.pause(), this.seek(time), this.wake()),
+      speed: speed => (this.speed = speed),
+      look: change => (this.setLook(change), this.wake()),
+      reset: () => (this.orbit.reset(), this.draw())
+    });
     this.desk.setLook(this.look);
     this.desk.setPlaying(false);
     this.desk.setTime(0, 0);
-    new IntersectionObserver(([entry]) => this.setSeen(entry.isIntersecting), { threshold: 0.4 }).observe(this.box);
+    new IntersectionObserver(([entry]) => this.setSeen(entry.isIntersecting), {threshold: 0.4}).observe(this.box);
     new ResizeObserver(() => this.draw()).observe(this.box);
     dark.addEventListener('change', () => this.draw());
   }
@@ -59,13 +66,24 @@ class MotionPlayer extends HTMLElement {
     const data = await this.data;
     if (this.stage) return;
     while (alive.length >= mostStages) (alive.find(player => !player.seen) ?? alive[0]).sleep();
-    const canvas = make('canvas', { 'aria-hidden': 'true' });
-    canvas.addEventListener('webglcontextlost', event => (event.preventDefault(), this.sleep()));
-    this.stage = new Stage(canvas, this.scene, data);
-    this.titles = make('div', { class: 'titles', 'aria-hidden': 'true' });
-    this.layer = make('div', {
-      class: 'layer', tabindex: 0, role: 'group',
-      'aria-label': `${this.scene.scene} in three dimensions; arrow keys turn, plus and minus zoom, 0 resets the view` }, canvas, this.titles);
+    const canvas = make('canvas', {'aria-hidden': 'true'});
+    canvas.addEventListener('webglcontextlost', () => this.stage?.canvas === canvas && this.sleep());
+    try {
+      this.stage = new Stage(canvas, this.scene, data);
+    } catch (problem) {
+      this.hidden = true;  // the poster stays, without controls that control nothing
+      throw problem;
+    }
+    this.titles = make('div', {class: 'titles', 'aria-hidden': 'true'});
+    this.layer = make(
+        'div', {
+          class: 'layer',
+          tabindex: 0,
+          role: 'group',
+          'aria-label':
+              `${this.scene.scene} in three dimensions; arrow keys turn, plus and minus zoom, 0 resets the view`
+        },
+        canvas, this.titles);
     followHands(this.layer, this.orbit, () => this.draw());
     this.box.append(this.layer);
     alive.push(this);
@@ -73,12 +91,14 @@ class MotionPlayer extends HTMLElement {
     this.dataset.state = 'ready';
   }
 
+  /** Gives its context back; the poster is there again. */
   sleep() {
     this.pause();
     alive.splice(alive.indexOf(this), 1);
-    this.stage?.tools.gl.getExtension('WEBGL_lose_context')?.loseContext();
-    this.layer?.remove();
-    this.stage = this.layer = null;
+    const {gl} = this.stage.tools;
+    this.stage = null;
+    gl.getExtension('WEBGL_lose_context')?.loseContext();
+    this.layer.remove();
     this.dataset.state = 'asleep';
   }
 
@@ -86,7 +106,7 @@ class MotionPlayer extends HTMLElement {
     this.wanted = true;
     await this.wake();
     if (this.playing || !this.wanted) return;
-    const { times } = this.scene, end = times[times.length - 1];
+    const {times} = this.scene, end = times[times.length - 1];
     if (this.time >= end) this.seek(0);
     this.playing = true;
     this.desk.setPlaying(true);
@@ -97,8 +117,10 @@ class MotionPlayer extends HTMLElement {
       const passed = Math.min(0.1, last === null ? 0 : (now - last) / 1000);
       last = now;
       this.seek(this.time + this.speed * passed);
-      if (this.time >= end) this.pause();
-      else requestAnimationFrame(tick);
+      if (this.time >= end)
+        this.pause();
+      else
+        requestAnimationFrame(tick);
     };
     requestAnimationFrame(tick);
   }
@@ -110,7 +132,7 @@ class MotionPlayer extends HTMLElement {
 
   /** Shows a time, s. */
   seek(time) {
-    const { times } = this.scene;
+    const {times} = this.scene;
     this.time = Math.max(0, Math.min(times[times.length - 1], time));
     this.desk.setTime(this.time, this.frame);
     this.draw();
@@ -118,7 +140,7 @@ class MotionPlayer extends HTMLElement {
 
   /** Frame at the present time, with its fraction. */
   get frame() {
-    const { times } = this.scene, last = times.length - 1;
+    const {times} = this.scene, last = times.length - 1;
     return last * this.time / times[last];
   }
 
@@ -130,21 +152,28 @@ class MotionPlayer extends HTMLElement {
 
   draw() {
     if (!this.stage) return;
-    const { canvas } = this.stage, ratio = Math.min(2, window.devicePixelRatio || 1);
+    const {canvas} = this.stage, ratio = Math.min(2, window.devicePixelRatio || 1);
     const wide = Math.round(this.box.clientWidth * ratio), high = Math.round(this.box.clientHeight * ratio);
-    if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, { width: wide, height: high });
+    if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, {width: wide, height: high});
     const background = getComputedStyle(this.box).backgroundColor.match(/[\d.]+/g).slice(0, 3).map(v => v / 255);
-    const panels = this.stage.draw({ ...this.look, frame: this.frame, orbit: this.orbit, background });
+    const panels = this.stage.draw({...this.look, frame: this.frame, orbit: this.orbit, background});
     this.writeTitles(panels);
   }
 
   writeTitles(panels) {
-    const { methods } = this.scene, { shown } = this.look;
+    const {methods} = this.scene, {shown} = this.look;
     this.titles.replaceChildren(...panels.map((panel, k) => {
       const method = methods[shown[k]], over = method.failure && this.time >= method.stops;
-      return make('div', { style: `left:${100 * panel.left}%; top:${100 * panel.top}%; width:${100 * panel.wide}%` },
-        make('b', { style: `--own: ${method.colour}` }, ...method.name.split(/(?<=\/)/).flatMap(part => [part, make('wbr')])),
-        make('span', { class: over ? 'failed' : '' }, over ? method.failure : this.time > method.stops + 1e-9 ? method.end : ''));
+      return make(
+          'div', {style: `left:${100 * panel.left}%; top:${100 * panel.top}%; width:${100 * panel.wide}%`},
+          make(
+              'b', {style: `--own: ${method.colour}`},
+              ...method.name.split(/(?<=\/)/).flatMap(part => [part, make('wbr')])),
+          make(
+              'span', {class: over ? 'failed' : ''},
+              over                                ? method.failure :
+                  this.time > method.stops + 1e-9 ? method.end :
+                                                    ''));
     }));
   }
 }

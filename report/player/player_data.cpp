@@ -29,21 +29,32 @@ std::string dashes_of(const MethodStyle& style) {
   return dash;
 }
 
+/// Why a run failed, without saying again that it did, and when.
+std::string why_failed(const Outcome& out) {
+  const std::string words(in_words(out.verdict));
+  const size_t open = words.find('(');
+  std::string why = open == std::string::npos ? "" : words.substr(open + 1, words.size() - open - 2);
+  std::string told = out.reason;
+  if (told.starts_with("the run failed at"))
+    told = told.find(": ") == std::string::npos ? "" : told.substr(told.find(": ") + 2);
+  if (!told.empty()) why += (why.empty() ? "" : "; ") + told;
+  return why.empty() ? words : why;
+}
+
 /// Name, looks and what became of it.
 Json words_json(const Shown& s) {
-  Json json{{"name", s.name},    {"colour", "#555555"}, {"dash", "1 4"}, {"first", false}, {"stops", s.t.back()},
+  Json json{{"name", s.name},    {"colour", "#555555"}, {"dash", "1 4"}, {"stops", s.t.back()},
             {"failed", nullptr}, {"failure", ""},       {"reason", ""},  {"note", ""}};
   json["end"] = s.answer ? "last good frame" : fmt::format("known up to {:.3g} s", s.t.back());
   if (!s.answer) return json;
   const Outcome& out = s.answer->outcome;
   json["colour"] = style_of(s.answer->method).colour;
   json["dash"] = dashes_of(style_of(s.answer->method));
-  json["first"] = true;
-  if (!out.different_law.empty()) json["note"] = fmt::format("different law: {}", fmt::join(out.different_law, "; "));
+  if (!out.different_law.empty()) json["note"] = fmt::format("{}", fmt::join(out.different_law, "; "));
   if (s.ok()) return json;
   json["failed"] = out.end;
   json["failure"] = fmt::format("{} at {:.3g} s", failure_word(std::string(name_of(out.verdict))), out.end);
-  json["reason"] = out.reason.empty() ? std::string(in_words(out.verdict)) : out.reason;
+  json["reason"] = why_failed(out);
   return json;
 }
 
@@ -61,6 +72,8 @@ Json methods_json(const Scene& scene, const std::vector<Shown>& all, const Shown
     const QuantisedPlaces places = quantised(all[m].x);
     if (all[m].ok()) bound = std::max(bound, places.bound);
     Json json = words_json(all[m]);
+    // the truth stands beside them at once where there is room for it, and it goes all the way
+    json["first"] = all[m].answer || (all.size() <= 4 && all[m].t.back() > 0.98 * scene.duration);
     json["frames"] = all[m].x.size();
     json["low"] = vector_json(places.low), json["unit"] = vector_json(places.unit);
     json["places"] = packed_json(packed(places.numbers, 3 * particles, 2));
@@ -125,7 +138,8 @@ std::string player_json(const Scene& scene, const std::vector<const Answer*>& an
       "Drag to turn. With the picture in focus (click it, or Tab) the wheel zooms, arrow keys turn, + and − zoom, 0 "
       "resets. Places are drawn to within {}.",
       nice_length(bound));
-  return json.dump();
+  // an outside program may have said anything
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace crosscheck

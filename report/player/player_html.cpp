@@ -9,8 +9,8 @@ namespace crosscheck {
 namespace {
 
 /// In the order in which they know each other: pages from a folder cannot load modules.
-constexpr const char* scripts[] = {"unpack", "vectors", "orbit", "shaders", "gl",   "shapes",
-                                   "motion", "stage",   "hands", "plot",    "desk", "player"};
+constexpr const char* scripts[] = {"unpack", "vectors", "colours", "orbit", "shaders", "gl",   "shapes",
+                                   "motion", "extent",  "stage",   "hands", "plot",    "desk", "player"};
 
 /// JSON inside a script element: the one sign that could end it is written otherwise.
 std::string without_brackets(const std::string& json) {

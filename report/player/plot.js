@@ -14,16 +14,21 @@ function ticks(low, high, count) {
   const list = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) list.push(k * step);
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  return list.map(value => ({ value, text: Math.abs(value) < 1e-12 * step ? '0' : (digits > 4 || step >= 1e5 ? value.toExponential(1) : value.toFixed(digits)).replace('-', '−') }));
+  return list.map(value => ({
+                    value,
+                    text: Math.abs(value) < 1e-12 * step ?
+                        '0' :
+                        (digits > 4 || step >= 1e5 ? value.toExponential(1) : value.toFixed(digits)).replace('-', '−')
+                  }));
 }
 
 class Plot {
   /** `series`: {values, colour, dash, well, failure} of each method; `seek` is called with a time in s. */
-  constructor(box, { label, times, series, title }, seek) {
-    Object.assign(this, { box, label, times, series, title, high: 168 });
+  constructor(box, {label, times, series, title}, seek) {
+    Object.assign(this, {box, label, times, series, title, high: 168});
     this.range();
     const at = event => {
-      const { left } = box.getBoundingClientRect();
+      const {left} = box.getBoundingClientRect();
       seek((event.clientX - left - this.left) / (this.wide - this.left - this.right) * times[times.length - 1]);
     };
     box.addEventListener('pointerdown', event => (box.setPointerCapture(event.pointerId), at(event)));
@@ -36,7 +41,7 @@ class Plot {
     const well = this.series.filter(s => s.well);
     const all = (well.length ? well : this.series).flatMap(s => s.values).filter(v => v !== null);
     const low = Math.min(...all), high = Math.max(...all), room = 0.06 * (high - low) || 0.05 * Math.abs(high) || 1;
-    Object.assign(this, { low: low - room, most: high + room });
+    Object.assign(this, {low: low - room, most: high + room});
   }
 
   draw(shown = this.shown) {
@@ -50,33 +55,46 @@ class Plot {
     const x = t => this.left + t / end * (this.wide - this.left - this.right);
     const y = v => foot - (v - this.low) / (this.most - this.low) * (foot - top);
     this.x = x;
-    const root = svg('svg', { width: this.wide, height: this.high, role: 'img', 'aria-label': this.title });
-    for (const { value, text } of yTicks)
-      root.append(svg('line', { class: 'grid', x1: this.left, x2: this.wide - this.right, y1: y(value), y2: y(value) }),
-        svg('text', { x: this.left - 6, y: y(value) + 4, 'text-anchor': 'end' }, text));
-    for (const { value, text } of ticks(0, end, Math.max(3, Math.min(10, this.wide / 110))))
-      root.append(svg('line', { class: 'grid', x1: x(value), x2: x(value), y1: top, y2: foot }),
-        svg('text', { x: x(value), y: foot + 15, 'text-anchor': 'middle' }, text));
-    root.append(svg('text', { x: (this.left + this.wide - this.right) / 2, y: this.high - 4, 'text-anchor': 'middle' }, 't / s'),
-      svg('text', { transform: `translate(12 ${(top + foot) / 2}) rotate(-90)`, 'text-anchor': 'middle' }, this.label));
+    const root = svg('svg', {width: this.wide, height: this.high, role: 'img', 'aria-label': this.title});
+    for (const {value, text} of yTicks)
+      root.append(
+          svg('line', {class: 'grid', x1: this.left, x2: this.wide - this.right, y1: y(value), y2: y(value)}),
+          svg('text', {x: this.left - 6, y: y(value) + 4, 'text-anchor': 'end'}, text));
+    for (const {value, text} of ticks(0, end, Math.max(3, Math.min(10, this.wide / 110))))
+      root.append(
+          svg('line', {class: 'grid', x1: x(value), x2: x(value), y1: top, y2: foot}),
+          svg('text', {x: x(value), y: foot + 15, 'text-anchor': 'middle'}, text));
+    root.append(
+        svg('text', {x: (this.left + this.wide - this.right) / 2, y: this.high - 4, 'text-anchor': 'middle'}, 't / s'),
+        svg('text', {transform: `translate(12 ${(top + foot) / 2}) rotate(-90)`, 'text-anchor': 'middle'}, this.label));
     // what a failed run did beyond the range is cut off at the frame
-    const inside = svg('svg', { x: 0, y: top, width: this.wide, height: foot - top, viewBox: `0 ${top} ${this.wide} ${foot - top}` });
+    const inside = svg(
+        'svg', {x: 0, y: top, width: this.wide, height: foot - top, viewBox: `0 ${top} ${this.wide} ${foot - top}`});
     this.series.forEach((s, i) => {
       if (shown && !shown.includes(i)) return;
-      const points = s.values.map((v, f) => (v === null ? '' : `${x(this.times[f]).toFixed(1)},${Math.max(-1e4, Math.min(1e4, y(v))).toFixed(1)}`));
-      inside.append(svg('polyline', { points: points.join(' '), class: 'curve', style: `--own: ${s.colour}`, 'stroke-dasharray': s.dash }));
+      const points = s.values.map(
+          (v, f) =>
+              (v === null ? '' : `${x(this.times[f]).toFixed(1)},${Math.max(-1e4, Math.min(1e4, y(v))).toFixed(1)}`));
+      inside.append(
+          svg('polyline',
+              {points: points.join(' '), class: 'curve', style: `--own: ${s.colour}`, 'stroke-dasharray': s.dash}));
       if (s.failure === null) return;
-      const at = `${x(Math.min(end, s.failure))} ${Math.max(top + 6, Math.min(foot - 6, y(s.values[s.values.length - 1] ?? this.most)))}`;
-      inside.append(svg('path', { class: 'curve cross', d: 'M-5-5L5 5M-5 5L5-5', transform: `translate(${at})`, style: `--own: ${s.colour}` }));
+      const at = `${x(Math.min(end, s.failure))} ${
+          Math.max(top + 6, Math.min(foot - 6, y(s.values[s.values.length - 1] ?? this.most)))}`;
+      inside.append(svg(
+          'path',
+          {class: 'curve cross', d: 'M-5-5L5 5M-5 5L5-5', transform: `translate(${at})`, style: `--own: ${s.colour}`}));
     });
-    this.head = svg('line', { class: 'head', y1: top, y2: foot });
-    root.append(inside, svg('path', { class: 'axes', d: `M${this.left} ${top}V${foot}H${this.wide - this.right}` }), this.head);
+    this.head = svg('line', {class: 'head', y1: top, y2: foot});
+    root.append(
+        inside, svg('path', {class: 'axes', d: `M${this.left} ${top}V${foot}H${this.wide - this.right}`}), this.head);
     this.box.replaceChildren(root);
     this.moveHead(this.time ?? 0);
   }
 
   moveHead(time) {
     this.time = time;
-    if (this.head) for (const end of ['x1', 'x2']) this.head.setAttribute(end, this.x(time));
+    if (this.head)
+      for (const end of ['x1', 'x2']) this.head.setAttribute(end, this.x(time));
   }
 }

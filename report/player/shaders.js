@@ -103,8 +103,8 @@ float lit(vec3 p, float spread) {
 vec3 light_on(vec3 n, float through) {
   float facing = dot(n, key), side = facing < 0.0 ? -1.0 : 1.0;
   float direct = (facing > 0.0 ? facing : -through * facing) * lit(place + side * n * lift, 0.004);
-  return 0.7 * direct * vec3(1.035, 1.0, 0.955) + (0.24 + 0.18 * n.y) * vec3(0.965, 0.99, 1.045) +
-         0.1 * (0.62 - 0.38 * n.y);
+  return 0.58 * direct * vec3(1.035, 1.0, 0.955) + (0.36 + 0.12 * n.y) * vec3(0.965, 0.99, 1.045) +
+         0.25 * (0.6 - 0.4 * n.y);
 }
 `;
 
@@ -114,7 +114,8 @@ uniform vec3 plain;
 uniform float by_value;
 vec3 colour_of(vec3 own) {
   if (by_value < 0.5) return linear(own);
-  return value < 0.0 ? linear(vec3(0.74, 0.75, 0.76)) : linear(texture(scale_map, vec2(value * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb);
+  if (value < 0.0) return linear(vec3(0.74, 0.75, 0.76));
+  return linear(texture(scale_map, vec2(value * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb);
 }
 `;
 

@@ -1,4 +1,4 @@
-// Corners and instances of what is drawn: cloth, threads, rods, balls, floor; and the colours of the scale.
+// Corners and instances of what is drawn: cloth, threads, rods, balls, floor.
 
 /** A ball of radius 1 as corners and triangles. */
 function ballMesh(around, along) {
@@ -10,7 +10,7 @@ function ballMesh(around, along) {
       const here = j * (around + 1) + i, below = here + around + 1;
       if (i < around && j < along) index.push(here, below, here + 1, here + 1, below, below + 1);
     }
-  return { corners: new Float32Array(corners), size: 3, index: new Uint16Array(index) };
+  return {corners: new Float32Array(corners), size: 3, index: new Uint16Array(index)};
 }
 
 /** Rows (a, b, family) of the springs; `counts` says how many there are of each family, in order. */
@@ -24,29 +24,28 @@ function springRows(ends, counts) {
 }
 
 function shapesOf(tools, scene, triangles, springs) {
-  const strip = { corners: new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]), size: 2, slot: 2, ints: 3, index: new Uint16Array([0, 1, 2, 2, 1, 3]) };
-  const rods = rows => tools.shape({ ...strip, instances: rows });
-  const balls = (mesh, list) => tools.shape({ ...mesh, instances: Int32Array.from(list), slot: 1, ints: 1 });
+  const strip = {
+    corners: new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]),
+    size: 2,
+    slot: 2,
+    ints: 3,
+    index: new Uint16Array([0, 1, 2, 2, 1, 3])
+  };
+  const rods = rows => tools.shape({...strip, instances: rows});
+  const balls = (mesh, list) => tools.shape({...mesh, instances: Int32Array.from(list), slot: 1, ints: 1});
   const small = scene.particles > 60 ? ballMesh(10, 6) : ballMesh(24, 16);
   const frames = Math.max(...scene.methods.map(m => m.frames));
-  const steps = Array.from({ length: frames - 1 }, (_, f) => [f, f + 1, 0]).flat();
+  const steps = Array.from({length: frames - 1}, (_, f) => [f, f + 1, 0]).flat();
   const threads = springs.subarray(0, 2 * scene.springs.threads);
   return {
-    cloth: tools.shape({ index: triangles }), threads: tools.shape({ index: threads }),
-    rods: rods(springRows(springs, scene.springs.families.map(f => f.count))), path: rods(Int32Array.from(steps)),
-    beads: balls(small, Array.from({ length: scene.particles }, (_, i) => i)), pins: balls(small, scene.pins),
+    cloth: tools.shape({index: triangles}),
+    threads: tools.shape({index: threads}),
+    rods: rods(springRows(springs, scene.springs.families.map(f => f.count))),
+    path: rods(Int32Array.from(steps)),
+    beads: balls(small, Array.from({length: scene.particles}, (_, i) => i)),
+    pins: balls(small, scene.pins),
     obstacle: balls(ballMesh(72, 48), [0]),
-    floor: tools.shape({ corners: new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), size: 2, index: new Uint16Array([0, 1, 2, 2, 1, 3]) }),
+    floor: tools.shape(
+        {corners: new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), size: 2, index: new Uint16Array([0, 1, 2, 2, 1, 3])}),
   };
-}
-
-/** 256 colours between the stops, four bytes each. */
-function scaleBytes() {
-  const bytes = new Uint8Array(4 * 256), colours = stops.map(rgb);
-  for (let i = 0; i < 256; ++i) {
-    const at = i / 255 * (stops.length - 1), a = Math.min(Math.floor(at), stops.length - 2);
-    bytes.set([0, 1, 2].map(k => Math.round(255 * (colours[a][k] + (at - a) * (colours[a + 1][k] - colours[a][k])))), 4 * i);
-    bytes[4 * i + 3] = 255;
-  }
-  return bytes;
 }

@@ -17,7 +17,7 @@ Shown thinned(const Answer* answer, const std::string& name, const Trajectory& p
   for (int i = 0; i < path.frames() && path.x[i].allFinite(); i += stride) {
     shown.t.push_back(path.t[i]);
     shown.x.push_back(path.x[i]);
-    shown.v.push_back(path.v[i]);
+    shown.v.push_back(i < std::ssize(path.v) ? path.v[i] : Points(3, 0));
   }
   return shown;
 }

@@ -9,7 +9,7 @@ function bytesOf(base64) {
 }
 
 /** Whole numbers of 16 bits; sums wrap as the differences did. */
-async function unpack({ count, lag, order, data }) {
+async function unpack({count, lag, order, data}) {
   const stream = new Blob([bytesOf(data)]).stream().pipeThrough(new DecompressionStream('gzip'));
   const planes = new Uint8Array(await new Response(stream).arrayBuffer());
   const values = new Uint16Array(count);
@@ -17,7 +17,8 @@ async function unpack({ count, lag, order, data }) {
     const zigzag = planes[i] | (planes[count + i] << 8);
     values[i] = (zigzag >>> 1) ^ -(zigzag & 1);
   }
-  for (let k = order; k > 0; --k) for (let i = k * lag; i < count; ++i) values[i] += values[i - lag];
+  for (let k = order; k > 0; --k)
+    for (let i = k * lag; i < count; ++i) values[i] += values[i - lag];
   return values;
 }
 
@@ -28,8 +29,8 @@ async function unpackScene(scene) {
   const [triangles, springs] = await Promise.all([open(scene.triangles), open(scene.springs.ends)]);
   const motions = await Promise.all(scene.methods.map(async method => {
     const [places, stretch, distance] =
-      await Promise.all([open(method.places), open(method.stretch), open(method.distance)]);
-    return { places, stretch, distance };
+        await Promise.all([open(method.places), open(method.stretch), open(method.distance)]);
+    return {places, stretch, distance};
   }));
-  return { triangles, springs, motions };
+  return {triangles, springs, motions};
 }

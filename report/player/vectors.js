@@ -11,14 +11,16 @@ const unit = a => plus([0, 0, 0], 1 / (norm(a) || 1), a);
 /** Rigid motion that puts the eye at the origin, the axes along x, y and z. */
 function toEye([right, up, back], eye) {
   return [
-    right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0,
-    -dot(right, eye), -dot(up, eye), -dot(back, eye), 1];
+    right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0, -dot(right, eye),
+    -dot(up, eye), -dot(back, eye), 1
+  ];
 }
 
 function times(a, b) {
   const m = new Array(16).fill(0);
   for (let c = 0; c < 4; ++c)
-    for (let r = 0; r < 4; ++r) for (let k = 0; k < 4; ++k) m[4 * c + r] += a[4 * k + r] * b[4 * c + k];
+    for (let r = 0; r < 4; ++r)
+      for (let k = 0; k < 4; ++k) m[4 * c + r] += a[4 * k + r] * b[4 * c + k];
   return m;
 }
 
@@ -26,8 +28,9 @@ function times(a, b) {
 function perspective(tangent, aspect, near, far) {
   const depth = near - far;
   return [
-    1 / (tangent * aspect), 0, 0, 0, 0, 1 / tangent, 0, 0,
-    0, 0, (far + near) / depth, -1, 0, 0, (2 * far * near) / depth, 0];
+    1 / (tangent * aspect), 0, 0, 0, 0, 1 / tangent, 0, 0, 0, 0, (far + near) / depth, -1, 0, 0,
+    (2 * far * near) / depth, 0
+  ];
 }
 
 /** Clip space of a light far away: a box that holds the ball around `centre`. */

@@ -80,7 +80,7 @@ TEST_F(PlayerPage, PlaysFromAFileAndObeysItsControls) {
   EXPECT_EQ(saw["jump"], 0) << "pixels by which the page moved when the player came";
   EXPECT_NE(saw.value("titles", "").find("blew up at"), std::string::npos) << saw["titles"];
   EXPECT_NE(saw.value("list", "").find("blew up at"), std::string::npos) << saw["list"];
-  EXPECT_EQ(saw["lines"], 3) << "energies of the methods shown";
+  EXPECT_EQ(saw["lines"], 4) << "energies of the methods, and of the truth beside them";
 }
 
 TEST_F(PlayerPage, AClothIsDrawnWithItsSphere) {

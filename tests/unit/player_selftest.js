@@ -18,19 +18,19 @@ async function until(condition) {
 /** The stage as it is now: its pixels, as text, and the part of them that is not background. */
 function lookAt(player) {
   player.draw();
-  const { canvas } = player.stage, copy = document.createElement('canvas');
-  Object.assign(copy, { width: canvas.width, height: canvas.height });
+  const {canvas} = player.stage, copy = document.createElement('canvas');
+  Object.assign(copy, {width: canvas.width, height: canvas.height});
   const paper = copy.getContext('2d');
   paper.drawImage(canvas, 0, 0);
-  const { data } = paper.getImageData(0, 0, copy.width, copy.height);
+  const {data} = paper.getImageData(0, 0, copy.width, copy.height);
   let drawn = 0;
   for (let i = 0; i < data.length; i += 4)
     drawn += Math.abs(data[i] - data[0]) + Math.abs(data[i + 1] - data[1]) + Math.abs(data[i + 2] - data[2]) > 30;
-  return { picture: copy.toDataURL(), drawn: drawn / (copy.width * copy.height) };
+  return {picture: copy.toDataURL(), drawn: drawn / (copy.width * copy.height)};
 }
 
 async function use(player, seen) {
-  const { scene } = player, end = scene.times[scene.times.length - 1], height = document.body.scrollHeight;
+  const {scene} = player, end = scene.times[scene.times.length - 1], height = document.body.scrollHeight;
   await player.wake();
   player.pause();
   seen.jump = document.body.scrollHeight - height;
@@ -39,11 +39,14 @@ async function use(player, seen) {
   player.seek(0.7 * end);
   const late = lookAt(player);
   player.seek(0.1 * end);
-  Object.assign(seen, { drawn: early.drawn, moves: early.picture !== late.picture, returns: early.picture === lookAt(player).picture });
+  Object.assign(
+      seen,
+      {drawn: early.drawn, moves: early.picture !== late.picture, returns: early.picture === lookAt(player).picture});
   const slider = player.querySelector('input[type=range]');
   slider.value = 12;
   slider.dispatchEvent(new Event('input'));
-  seen.slider = Math.abs(player.time - scene.times[12]) < 1e-9 && slider.getAttribute('aria-valuetext').startsWith(String(scene.times[12]));
+  seen.slider = Math.abs(player.time - scene.times[12]) < 1e-9 &&
+      slider.getAttribute('aria-valuetext').startsWith(String(scene.times[12]));
   const plain = lookAt(player).picture, [, colour] = player.querySelectorAll('select');
   colour.value = 'distance';
   colour.dispatchEvent(new Event('change'));
@@ -53,7 +56,7 @@ async function use(player, seen) {
   seen.springs = lookAt(player).picture !== plain;
   springs.click();
   const before = lookAt(player).picture;
-  player.box.querySelector('.layer').dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' }));
+  player.box.querySelector('.layer').dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowLeft'}));
   seen.turns = lookAt(player).picture !== before;
   player.seek(end);
   seen.titles = player.titles.textContent;
@@ -66,10 +69,11 @@ async function use(player, seen) {
 }
 
 addEventListener('load', async () => {
-  const seen = { able: document.documentElement.classList.contains('plays') };
+  const seen = {able: document.documentElement.classList.contains('plays')};
   const player = document.querySelector('motion-player'), poster = document.querySelector('.stage img');
-  const { width, height } = poster.getBoundingClientRect();
-  seen.poster = poster.naturalWidth > 0 && width > 200 && height > 50 && getComputedStyle(poster).visibility === 'visible';
+  const {width, height} = poster.getBoundingClientRect();
+  seen.poster =
+      poster.naturalWidth > 0 && width > 200 && height > 50 && getComputedStyle(poster).visibility === 'visible';
   seen.desk = player.getBoundingClientRect().height;
   try {
     if (seen.able) await use(player, seen);
