@@ -56,7 +56,7 @@ class Desk {
     if (scene.distance) colours.push(['distance', scene.distance.name]);
     const [colourLabel, colour] = choice('Colour', colours, look.colour);
     const [springLabel, springs] = check('Springs', look.springs);
-    const reset = make('button', {type: 'button'}, 'Reset view');
+    const reset = make('button', {type: 'button', 'aria-label': `Reset view of ${scene.scene}`}, 'Reset view');
     this.bar = make('div', {class: 'bar'});
     this.list = make('ul', {class: 'methods'});
     this.values = methods.map((method, i) => this.row(method, i, look, act));
@@ -106,7 +106,10 @@ class Desk {
     return value;
   }
 
-  setPlaying(playing) { this.play.textContent = playing ? '❚❚ Pause' : '▶ Play'; }
+  setPlaying(playing) {
+    this.play.textContent = playing ? '❚❚ Pause' : '▶ Play';
+    this.play.setAttribute('aria-label', `${playing ? 'Pause' : 'Play'} ${this.scene.scene}`);
+  }
 
   setLook(look) {
     this.colour.value = look.colour, this.springs.checked = look.springs;

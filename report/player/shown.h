@@ -19,8 +19,8 @@ struct Shown {
   bool ok() const { return !answer || answer->outcome.verdict == Verdict::ok; }
 };
 
-/// Every how many samples the page has a frame: at most 150 frames of a scene of many particles, 300 of a few; the
-/// last sample is one, where that is near. 0 where fewer than 25 frames would fit into the page.
+/// Every how many samples the page has a frame: at most 150 frames of a scene of more than 250 particles, 300 of
+/// others; the last sample is one, where that is near. 0 where fewer than 25 frames would fit into the page.
 int frame_stride(const Scene& scene);
 
 /// The answers that have frames, then the truth, if there is one. A run that failed ends with its last frame near the
