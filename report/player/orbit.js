@@ -26,25 +26,26 @@ class Orbit {
   }
 
   /**
-     Point looked at and least distance at which the balls {at, radius, margin} lie within a panel of this shape, seen
-      from home. A margin is the part of the view that stays free.
+   * Point looked at and least distance at which the balls {at, radius, margin} lie within a panel of this shape, seen
+   * from home; the point lies near their `middle`. A margin is the part of the view that stays free.
    */
-  fit(balls, aspect) {
+  fit(balls, middle, aspect) {
     const [right, up, back] = this.axes(this.home);
     const half = (axis, slope) => {
-      const most = [1e-9, 1e-9];
+      const most = [-Infinity, -Infinity];
       for (const {at, radius, margin} of balls) {
+        const from = minus(at, middle);
         const s = slope * (1 - 2 * margin);
         // the edge of the view is a plane that slants by s
-        const reach = radius * Math.sqrt(1 + s * s), deep = s * dot(back, at);
-        most[0] = Math.max(most[0], (dot(axis, at) + deep + reach) / s);
-        most[1] = Math.max(most[1], (-dot(axis, at) + deep + reach) / s);
+        const reach = radius * Math.sqrt(1 + s * s), deep = s * dot(back, from);
+        most[0] = Math.max(most[0], (dot(axis, from) + deep + reach) / s);
+        most[1] = Math.max(most[1], (-dot(axis, from) + deep + reach) / s);
       }
       return {distance: (most[0] + most[1]) / 2, shift: slope * (most[0] - most[1]) / 2};
     };
     const wide = half(right, tangent * aspect), high = half(up, tangent);
     return {
-      target: plus(plus([0, 0, 0], wide.shift, right), high.shift, up),
+      target: plus(plus(middle, wide.shift, right), high.shift, up),
       distance: Math.max(wide.distance, high.distance)
     };
   }

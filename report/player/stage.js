@@ -56,7 +56,7 @@ class Stage {
     const {columns, rows} = gridOf(shown.length, canvas.width, canvas.height, titleHigh * ratio),
                     cell = Math.floor(canvas.height / rows);
     const wide = Math.floor(canvas.width / columns), high = cell - Math.round(titleHigh * ratio), aspect = wide / high;
-    const fit = orbit.fit(this.held, aspect), view = orbit.view(fit, aspect);
+    const fit = orbit.fit(this.held, this.middle, aspect), view = orbit.view(fit, aspect);
     gl.scissor(0, 0, canvas.width, canvas.height);
     gl.clearColor(...background, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
