@@ -8,6 +8,7 @@
 
 #include "mysim/errors.h"
 #include "report/facts.h"
+#include "report/strain.h"
 
 namespace crosscheck {
 namespace {
@@ -29,41 +30,7 @@ int drawable(const Scene& scene, const Trajectory& path, int frame) {
   return frame;
 }
 
-/// Extension of the line between two particles, % of its length at rest; compression counts as zero.
-double extension(const Points& x, int a, int b, double rest) {
-  return rest > 0 ? std::max(0.0, (x.col(a) - x.col(b)).norm() / rest - 1) * 100 : 0;
-}
-
-/// Mean extension of the springs at each particle, % of their rest length; compression counts as zero.
-std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<double>* per_spring = nullptr) {
-  std::vector<double> sum(x.cols(), 0), count(x.cols(), 0);
-  if (const auto* springs = scene.model.find<Springs>())
-    for (const Spring& s : springs->list) {
-      const double strain = extension(x, s.a, s.b, s.rest);
-      if (per_spring) per_spring->push_back(strain);
-      if (s.family == Family::shear || s.family == Family::bend) continue;
-      for (int end : {s.a, s.b}) sum[end] += strain, count[end] += 1;
-    }
-  if (const auto* constraints = scene.model.find<Constraints>())
-    for (const auto& [a, b, length] : constraints->list)
-      for (int end : {a, b}) {
-        sum[end] += extension(x, a, b, length);
-        count[end] += 1;
-      }
-  for (size_t i = 0; i < sum.size(); ++i) sum[i] /= std::max(1.0, count[i]);
-  return sum;
-}
-
 bool is_thread(const Spring& s) { return s.family == Family::structural; }
-
-/// A round number not below the value: 1, 2 or 5 times a power of ten.
-double round_up(double value) {
-  if (!(value > 0)) return 1;
-  const double power = std::pow(10, std::floor(std::log10(value)));
-  for (double step : {1.0, 2.0, 5.0, 10.0})
-    if (value <= step * power * (1 + 1e-9)) return step * power;
-  return value;
-}
 
 render::Body body_of(const Scene& scene, const Answer& answer, int frame, Mode mode, const Points* base) {
   render::Body body;
@@ -148,16 +115,24 @@ std::vector<render::Ball> balls_of(const Scene& scene, double t) {
   return balls;
 }
 
+/// Whether all that is shown lies in one plane that faces the viewer, so that no ground belongs below it.
+bool is_flat(const Scene& scene, const std::vector<Points>& shown) {
+  double depth = 0;
+  for (const Points& x : shown) depth = std::max(depth, x.row(2).maxCoeff() - x.row(2).minCoeff());
+  return scene.triangles.empty() && depth < 1e-9;
+}
+
+/// The scene's camera says from where; how far away is chosen so that panels of every shape hold everything.
+Vec3 towards_eye(const Scene& scene, bool flat) {
+  if (scene.camera) return scene.camera->eye - scene.camera->target;
+  return flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1);
+}
+
 /// The scene's camera, or one that holds everything that the panels show.
 render::View view_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<render::Ball>& balls,
                      double aspect) {
-  double depth = 0;
-  for (const Points& x : shown) depth = std::max(depth, x.row(2).maxCoeff() - x.row(2).minCoeff());
-  const bool flat = scene.triangles.empty() && depth < 1e-9;
-  // the scene's camera says from where; how far away is chosen so that panels of every shape hold everything
-  Vec3 from = flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1);
-  if (scene.camera) from = scene.camera->eye - scene.camera->target;
-  render::View view = render::view_that_holds(shown, balls, from, aspect);
+  const bool flat = is_flat(scene, shown);
+  render::View view = render::view_that_holds(shown, balls, towards_eye(scene, flat), aspect);
   if (flat) view.floor.reset();
   return view;
 }
@@ -179,6 +154,13 @@ std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Sho
 }
 
 }  // namespace
+
+Vantage vantage_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<double>& times) {
+  std::vector<render::Ball> balls;
+  for (const double t : times)
+    for (const render::Ball& ball : balls_of(scene, t)) balls.push_back(ball);
+  return {towards_eye(scene, is_flat(scene, shown)), view_of(scene, shown, balls, 1).floor};
+}
 
 Mode mode_named(const std::string& name) {
   constexpr std::pair<const char*, Mode> table[] = {{"shaded", Mode::shaded},

@@ -26,6 +26,14 @@ struct Shot {
 /// Throws InputError when nothing can be shown.
 render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>& answers, const Shot& shot);
 
+/// From where a scene is seen, and the ground below all that it does.
+struct Vantage {
+  Vec3 from;                    // from what is looked at towards the eye, of any length
+  std::optional<double> floor;  // m, height; none where all lies in a plane that faces the viewer
+};
+/// Of everything shown, and of the obstacles at all these times (s).
+Vantage vantage_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<double>& times);
+
 /// The methods that a picture of the scene shows when nobody names any.
 std::vector<std::string> pictured_methods(const Scene& scene);
 

@@ -40,7 +40,7 @@ int doctor_command() {
       {"ctest", "cmake", "runs the tests", true},
       {"python3", "python3-numpy", "runs the example of an outside engine, with NumPy; the tests need it", false},
       {"clang++", "clang", "another compiler, in which `regress --prove-builds` builds too", false},
-      {"chromium", "chromium", "prints the page as PDF by hand; nothing here needs it", false},
+      {"chromium", "chromium", "a browser: the tests try the page's player in it; prints the page as PDF", false},
   };
   bool complete = true;
   for (const Tool& tool : tools) {

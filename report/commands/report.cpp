@@ -12,6 +12,7 @@
 #include "report/findings_text.h"
 #include "report/page/page.h"
 #include "report/pictures.h"
+#include "report/player/player_data.h"
 #include "report/provenance.h"
 #include "report/report_json.h"
 #include "report/verify.h"
@@ -150,6 +151,10 @@ class Builder {
 
   fs::path picture_of_scene(const Scene& scene) const { return figures_ / (file_name_of(scene.name) + "-picture.png"); }
 
+  fs::path motions_of_scene(const Scene& scene) const {
+    return options_.out / "data" / (file_name_of(scene.name) + "-motions.json");
+  }
+
   std::vector<std::string> methods_pictured(const Scene& scene) const {
     std::vector<std::string> names, asked;
     for (const Method& m : methods_of(request_, scene)) asked.push_back(m.name);
@@ -171,6 +176,8 @@ class Builder {
                             if (a.trajectory.frames() > 0) shown.push_back(&a);
                           }
                           write_picture(scene, shown, shot_of(scene, options_.full), picture_of_scene(scene));
+                          const auto motions = player_json(scene, shown, truth_of(scene, run_of(request_, scene)));
+                          if (!motions.empty()) write_file(motions_of_scene(scene), motions);
                         }});
     return points;
   }
@@ -189,6 +196,7 @@ class Builder {
          fmt::format("{}, one camera, true sizes; {}", scene.name,
                      scene.triangles.empty() ? "the line is the path of the last particle"
                                              : "coloured by the stretch of the structural springs")});
+    if (fs::exists(motions_of_scene(scene))) part.motions = motions_of_scene(scene);
   }
 
   fs::path file_of(const Snapshot& s) const { return figures_ / (file_name_of(s.name) + ".png"); }

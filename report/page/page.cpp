@@ -8,6 +8,7 @@
 #include "reference/independent/integrators.h"
 #include "report/assets.h"
 #include "report/page/inline_svg.h"
+#include "report/player/player_html.h"
 #include "report/provenance.h"
 
 namespace crosscheck {
@@ -88,7 +89,9 @@ std::string scene_section(const ScenePart& part) {
   std::string out = fmt::format("<section class=\"scene\" id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"question\">{1}</p>\n",
                                 escaped(scene.name), escaped(scene.question));
   out += finding_list(part.findings, "findings");
-  for (const PageImage& image : part.pictures) out += image_html(image, "render");
+  for (const PageImage& image : part.pictures)
+    out += &image == part.pictures.data() && !part.motions.empty() ? player_html(image, part.motions)
+                                                                   : image_html(image, "render");
   out += "<div class=\"figures\">\n";
   for (const PageImage& image : part.figures) out += image_html(image, "chart");
   out += "</div>\n" + run_table_html(part);
@@ -125,13 +128,13 @@ std::string chapter_section(const Chapter& chapter, const std::vector<Finding>& 
 
 }  // namespace
 
-std::string page_head(const std::string& title) {
+std::string page_head(const std::string& title, const std::string& more) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width, "
       "initial-scale=1\"><meta name=\"color-scheme\" content=\"light dark\"><title>{}</title>\n<style>\n{}</style>"
-      "</head>\n<body>\n",
-      escaped(title), asset("page/style.css"));
+      "{}</head>\n<body>\n",
+      escaped(title), asset("page/style.css"), more);
 }
 
 std::string provenance_html(const Provenance& lines) {
@@ -142,7 +145,9 @@ std::string provenance_html(const Provenance& lines) {
 }
 
 std::string page_html(const PageContent& c) {
-  std::string out = page_head("Crosscheck: mysim beside Bullet") + first_screen(c);
+  const bool plays =
+      std::any_of(c.scenes.begin(), c.scenes.end(), [](const ScenePart& part) { return !part.motions.empty(); });
+  std::string out = page_head("Crosscheck: mysim beside Bullet", plays ? player_head() : "") + first_screen(c);
   out += "<section id=\"scenes\">\n<h2>Scene by scene</h2>\n" + scene_table_html(c.scenes);
   out += "</section>\n";
   for (const Chapter& chapter : c.chapters)

@@ -23,6 +23,7 @@ struct ScenePart {
   const SceneFacts* facts;
   std::vector<Finding> findings;
   std::vector<PageImage> pictures;  // renders
+  std::filesystem::path motions;    // what plays over the first picture (player_data.h); empty: it stays a picture
   std::vector<PageImage> figures;   // charts
   std::vector<const Certificate*> certificates;
   const Table* statistics = nullptr;  // of perturbed runs, where there is contact
@@ -49,13 +50,16 @@ struct PageContent {
   Provenance provenance;
 };
 
-/// The whole page. Throws std::runtime_error when an image cannot be read.
+/// The whole page. Throws std::runtime_error when an image or motions cannot be read.
 std::string page_html(const PageContent& content);
 
-/// The beginning of a page up to its body, styles included; and the table of who made it.
-std::string page_head(const std::string& title);
+/// The beginning of a page up to its body, styles included, and what else belongs into its head; and the table of who
+/// made it.
+std::string page_head(const std::string& title, const std::string& more = "");
 std::string provenance_html(const Provenance& lines);
 
+/// All bytes of a file. Throws std::runtime_error that names it.
+std::string content_of_file(const std::filesystem::path& file);
 /// Text made safe for HTML.
 std::string escaped(const std::string& text);
 
@@ -65,7 +69,8 @@ std::vector<Chapter> chapters();
 /// A long table is folded unless it is to be open.
 std::string page_table_html(const PageTable& table, bool open = false);
 
-/// <figure> with the image inside the page as base64.
+/// <img> with the image inside the page; and a <figure> of it with its caption.
+std::string image_tag(const PageImage& image);
 std::string image_html(const PageImage& image, const std::string& css_class);
 
 /// The run table of one scene, and its parity certificates.

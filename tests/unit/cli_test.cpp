@@ -134,6 +134,8 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     for (const char* ending : {".gp", ".csv", ".svg", ".pdf", ".png"})
       EXPECT_TRUE(fs::exists(folder_ / "one/figures" / (std::string(figure) + ending))) << figure << ending;
   EXPECT_TRUE(fs::exists(folder_ / "one/figures/mine-picture.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "one/data/mine-motions.json"));
+  EXPECT_NE(page.find("<motion-player>"), std::string::npos);
 
   // two runs: the same data rows, SVG, PNG and PDF; costs and what is drawn from them aside
   int compared = 0;
@@ -144,7 +146,8 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
     if (ending == ".csv") {
       EXPECT_EQ(rows(file), rows(other)) << file;
       ++compared;
-    } else if (ending == ".svg" || ending == ".png" || ending == ".pdf" || ending == ".gp") {
+    } else if (ending == ".svg" || ending == ".png" || ending == ".pdf" || ending == ".gp" ||
+               file.stem().string().ends_with("-motions")) {
       EXPECT_TRUE(read(file) == read(other)) << file;
       ++compared;
     }

@@ -1,0 +1,145 @@
+// Gathers a scene's motions for the player and writes them as JSON.
+#include "report/player/player_data.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "report/facts.h"
+#include "report/figure.h"
+#include "report/pictures.h"
+#include "report/player/quantised.h"
+#include "report/player/shown.h"
+#include "report/player/still_parts.h"
+#include "report/player/values.h"
+
+namespace crosscheck {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// As many digits as a reader of a plot needs.
+double five_digits(double value) { return std::stod(fmt::format("{:.5g}", value)); }
+
+/// gnuplot's "(14,4)" as SVG's "14 4".
+std::string dashes_of(const MethodStyle& style) {
+  if (style.dash == "1") return "";
+  std::string dash = style.dash.substr(1, style.dash.size() - 2);
+  std::replace(dash.begin(), dash.end(), ',', ' ');
+  return dash;
+}
+
+/// Why a run failed, without saying again that it did, and when.
+std::string why_failed(const Outcome& out) {
+  const std::string words(in_words(out.verdict));
+  const size_t open = words.find('(');
+  std::string why = open == std::string::npos ? "" : words.substr(open + 1, words.size() - open - 2);
+  std::string told = out.reason;
+  if (told.starts_with("the run failed at"))
+    told = told.find(": ") == std::string::npos ? "" : told.substr(told.find(": ") + 2);
+  if (!told.empty()) why += (why.empty() ? "" : "; ") + told;
+  return why.empty() ? words : why;
+}
+
+/// Name, looks and what became of it.
+Json words_json(const Shown& s) {
+  Json json{{"name", s.name},    {"colour", "#555555"}, {"dash", "1 4"}, {"stops", s.t.back()},
+            {"failed", nullptr}, {"failure", ""},       {"reason", ""},  {"note", ""}};
+  json["end"] = s.answer ? "last good frame" : fmt::format("known up to {:.3g} s", s.t.back());
+  if (!s.answer) return json;
+  const Outcome& out = s.answer->outcome;
+  json["colour"] = style_of(s.answer->method).colour;
+  json["dash"] = dashes_of(style_of(s.answer->method));
+  if (!out.different_law.empty()) json["note"] = fmt::format("{}", fmt::join(out.different_law, "; "));
+  if (s.ok()) return json;
+  json["failed"] = out.end;
+  json["failure"] = fmt::format("{} at {:.3g} s", failure_word(std::string(name_of(out.verdict))), out.end);
+  json["reason"] = why_failed(out);
+  return json;
+}
+
+Json values_json(const ColourValues& values, size_t motion, size_t particles) {
+  if (!(values.top > 0) || values.of[motion].empty()) return nullptr;
+  return packed_json(packed(quantised(values.of[motion], values.top), particles, 1));
+}
+
+/// The motions, and the largest distance of a place of a run that went well from what the page draws, m.
+Json methods_json(const Scene& scene, const std::vector<Shown>& all, const Shown* known, const ColourValues& stretch,
+                  const ColourValues& distance, double& bound) {
+  const auto particles = static_cast<size_t>(scene.model.particles.size());
+  Json methods = Json::array();
+  for (size_t m = 0; m < all.size(); ++m) {
+    const QuantisedPlaces places = quantised(all[m].x);
+    if (all[m].ok()) bound = std::max(bound, places.bound);
+    Json json = words_json(all[m]);
+    // the truth stands beside them at once where there is room for it, and it goes all the way
+    json["first"] = all[m].answer || (all.size() <= 4 && all[m].t.back() > 0.98 * scene.duration);
+    json["frames"] = all[m].x.size();
+    json["low"] = vector_json(places.low), json["unit"] = vector_json(places.unit);
+    json["places"] = packed_json(packed(places.numbers, 3 * particles, 2));
+    json["stretch"] = values_json(stretch, m, particles), json["distance"] = values_json(distance, m, particles);
+    json["plotted"] = Json::array();
+    for (const auto& value : plotted_values(scene, all[m], known))
+      json["plotted"].push_back(value ? Json(five_digits(*value)) : Json());
+    methods.push_back(std::move(json));
+  }
+  return methods;
+}
+
+/// The words of distances: they are no errors where the truth is but the in-house contact rule's.
+Json distance_json(const Scene& scene, const Truth& truth, double top, double until) {
+  if (!(top > 0)) return nullptr;
+  const std::string name =
+      truth.of_contact_rule ? "difference from the converged contact rule" : "distance to the truth";
+  const bool whole = until >= scene.duration * (1 - 1e-9);
+  return {{"top", top}, {"name", name}, {"label", whole ? "mm" : fmt::format("mm, up to {:.3g} s", until)}};
+}
+
+Json plot_json(const Scene& scene) {
+  if (scene.model.first_order())
+    return {{"label", "distance / mm"}, {"unit", "mm"}, {"title", scene.name + ": distance to the truth over time"}};
+  return {{"label", "energy / J"}, {"unit", "J"}, {"title", scene.name + ": total energy over time"}};
+}
+
+}  // namespace
+
+std::string player_json(const Scene& scene, const std::vector<const Answer*>& answers,
+                        const std::optional<Truth>& truth) {
+  const std::vector<Shown> all = shown_of(scene, answers, truth);
+  if (all.empty()) return "";
+  const Shown* known = all.back().answer ? nullptr : &all.back();
+  const double until = known ? std::min({scene.window, truth->until, known->t.back()}) : 0;
+  const ColourValues stretch = stretch_values(scene, all);
+  const ColourValues distance = known ? distance_values(all, *known, until, truth->bar) : ColourValues();
+  std::vector<double> times;
+  for (int i = 0; i <= scene.samples; i += frame_stride(scene))
+    times.push_back(five_digits(scene.duration * i / scene.samples));
+
+  double bound = 0;
+  Json methods = methods_json(scene, all, known, stretch, distance, bound);
+  std::vector<Points> seen;
+  for (const bool failed : {false, true})
+    for (const Shown& s : all)
+      if (s.ok() != failed && (!failed || seen.empty())) seen.insert(seen.end(), s.x.begin(), s.x.end());
+  const Vantage vantage = vantage_of(scene, seen, times);
+
+  Json json{{"scene", scene.name}, {"particles", scene.model.particles.size()}, {"times", times}};
+  json["from"] = vector_json(vantage.from);
+  json["floor"] = vantage.floor ? Json(*vantage.floor) : Json();
+  json["triangles"] = triangles_json(scene);
+  json["springs"] = springs_json(scene);
+  json["pins"] = scene.model.particles.pins;
+  json["spheres"] = spheres_json(scene, times);
+  json["stretch"] = stretch.top > 0 ? Json{{"top", stretch.top}, {"label", "%"}} : Json();
+  json["distance"] = known ? distance_json(scene, *truth, distance.top, until) : Json();
+  json["plot"] = plot_json(scene);
+  json["methods"] = std::move(methods);
+  json["hint"] = fmt::format(
+      "Drag to turn. With the picture in focus (click it, or Tab) the wheel zooms, arrow keys turn, + and − zoom, 0 "
+      "resets. Places are drawn to within {}.",
+      nice_length(bound));
+  // an outside program may have said anything
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,20 @@
+// What the page's player needs of a scene, as JSON that it reads (player.js): motions, springs, obstacles, colours,
+// plot.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/experiment.h"
+#include "reference/truth.h"
+
+namespace crosscheck {
+
+/// The answers in lock-step, and the truth behind them where there is one. Distances from the truth are there up to the
+/// scene's window and the truth's end. Empty when there is nothing to play: no answer has frames, or the scene has too
+/// many particles for a page (see shown.h).
+std::string player_json(const Scene& scene, const std::vector<const Answer*>& answers,
+                        const std::optional<Truth>& truth);
+
+}  // namespace crosscheck
