@@ -22,6 +22,7 @@ BenchPlan tiny_plan() {
           {"pendulum", "cloth-hang"},
           {{20, {{"odeint/rk4", {1.2, 0.6}}, {"bullet/deformable-explicit", {0.9}}, {"bullet/pbd", {1}, true}}}},
           {20, 0.02, turns},
+          {{24}, {60}, micro},
           micro,
           micro,
           turns,
@@ -57,8 +58,8 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
   std::vector<std::string> lines{"odeint/rk4", "other model", "two stiffnesses: Bullet's force", "SSE2 alone"};
   // where the suite was built without Google Benchmark it says so
   if (json["notes"].dump().find("libbenchmark-dev") == std::string::npos) {
-    names.insert({"bench-kernels-cost", "bench-scenes-cost"});
-    lines.insert(lines.end(), {"sweep, fastest, double", "beside the naive loop"});
+    names.insert({"bench-kernels-cost", "bench-scenes-cost", "bench-implicit-step-cost"});
+    lines.insert(lines.end(), {"sweep, fastest, double", "beside the naive loop", "24 × 24, 60 steps a second"});
   }
   // nor is there a second core everywhere
   if (json["notes"].dump().find("may use one core") == std::string::npos) {

@@ -5,6 +5,8 @@
 
 #include "experiments/bench/equal_error.h"
 #include "experiments/bench/equal_error_tables.h"
+#include "experiments/bench/factorised_step.h"
+#include "experiments/bench/implicit_step.h"
 #include "experiments/bench/instructions.h"
 #include "experiments/bench/kernels.h"
 #include "experiments/bench/on_scenes.h"
@@ -16,6 +18,7 @@
 #include "experiments/metrics.h"
 #include "experiments/scenes.h"
 #include "mysim/frequency.h"
+#include "mysim/implicit/newton.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {
@@ -281,6 +284,44 @@ TEST(BenchSameStep, BothEnginesComeToTheSamePlaces) {
               *number_at(table, i, "high of Bullet") / *number_at(table, i, "low of mysim") * (1 + 1e-9));
     EXPECT_GE(*number_at(table, i, "ratio"),
               *number_at(table, i, "low of Bullet") / *number_at(table, i, "high of mysim") * (1 - 1e-9));
+  }
+}
+
+using BenchImplicit = BenchMicro;
+
+TEST_F(BenchImplicit, BothWaysEndWhereTheOtherDoes) {
+  Rows rows;
+  Progress progress(2);
+  implicit_step({{24}, {60, 240}, hasty}, rows, progress);
+  const Table& table = *rows.table("bench-implicit-step-cost");
+  expect_finite(table);
+  ASSERT_EQ(table.rows.size(), 2 * paths().size());
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    // solved to 1e-12 of the forces by one, to round-off by the other; what gives way most is as soft as inertia alone
+    EXPECT_LE(*number_at(table, i, "farthest particle"), 1e-10 * *number_at(table, i, "largest move"));
+    EXPECT_GT(*number_at(table, i, "largest move"), 1e-3);
+    EXPECT_GT(*number_at(table, i, "iterations"), 1);
+    EXPECT_LE(*number_at(table, i, "ratio low"), *number_at(table, i, "ratio"));
+    EXPECT_LE(*number_at(table, i, "ratio"), *number_at(table, i, "ratio high"));
+  }
+}
+
+TEST(FactorisedStep, IsTheLinearImplicitStepOfAnyScene) {
+  // masses, pins and starts at random, on a net that is no sheet
+  Scene scene = sheet(9);
+  Random random(3);
+  scene.model.find<Springs>()->list.resize(150);
+  for (int i = 0; i < 81; ++i) {
+    scene.model.particles.mass[i] *= random.between(0.5, 2);
+    scene.start.x.col(i) += 0.02 * random.vector();
+    scene.start.v.col(i) = scene.model.particles.pinned[i] ? Vec3(Vec3::Zero()) : Vec3(random.vector());
+  }
+  for (const double h : {0.001, 0.02}) {
+    System f(scene.model);
+    ImplicitStep own(f, true);
+    const Points mine = own.solve_linear(scene.start, h).x;
+    const Points& theirs = FactorisedStep(scene, h).step(scene.start.x, scene.start.v);
+    EXPECT_LE(largest_column(mine - theirs), 1e-10 * largest_column(mine - scene.start.x));
   }
 }
 
