@@ -320,7 +320,7 @@ TEST(FactorisedStep, IsTheLinearImplicitStepOfAnyScene) {
     System f(scene.model);
     ImplicitStep own(f, true);
     const Points mine = own.solve_linear(scene.start, h).x;
-    const Points& theirs = FactorisedStep(scene, h).step(scene.start.x, scene.start.v);
+    const Points theirs = FactorisedStep(scene, h).step(scene.start.x, scene.start.v);
     EXPECT_LE(largest_column(mine - theirs), 1e-10 * largest_column(mine - scene.start.x));
   }
 }
