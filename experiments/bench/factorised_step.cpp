@@ -1,19 +1,29 @@
 #include "experiments/bench/factorised_step.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "mysim/errors.h"
 #include "mysim/frequency.h"
 
 namespace crosscheck {
+namespace {
+
+double rate_of(const Model& model) {
+  const auto rate = uniform_drag_rate(model);
+  if (!rate) throw std::invalid_argument("a factorised step takes drag as one rate of all particles");
+  return *rate;
+}
+
+}  // namespace
 
 FactorisedStep::FactorisedStep(const Scene& scene, double h)
     : springs_(scene.model.find<Springs>()->list),
       mass_(scene.model.particles.mass.array()),
       gravity_(scene.model.find<Gravity>()->acceleration),
       h_(h),
-      gamma_(uniform_drag_rate(scene.model).value_or(0)) {
+      gamma_(rate_of(scene.model)) {
   int rows = 0;
   for (const char pinned : scene.model.particles.pinned) first_.push_back(pinned ? -1 : std::exchange(rows, rows + 3));
   std::vector<Eigen::Triplet<double>> pattern;

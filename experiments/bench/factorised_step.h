@@ -14,6 +14,7 @@ namespace crosscheck {
 /// degree).
 class FactorisedStep {
  public:
+  /// Throws std::invalid_argument where the drag of particles is no rate that all have.
   FactorisedStep(const Scene& scene, double h);
   /// Positions after a step from x, v (3 x n), m.
   const Points& step(const Points& x, const Points& v);
