@@ -108,6 +108,7 @@ int run(int argc, char** argv) {
   report->add_option("--methods", report_options.methods, "A,B,...");
   report->add_option("--out", report_options.out, "folder (out/report)");
   quick_or_full(report, report_options.full);
+  report->add_option("--against", report_options.against, "an earlier report: the page says what changed since");
   std::filesystem::path verified;
   report->add_option("--verify", verified, "DIR: recomputes every finding of the report in it from its data, no more");
   report->callback([&] {

@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json evidence_json(const Evidence& e) { return {{"table", e.table}, {"rows", e.rows}, {"fingerprint", e.fingerprint}}; }
+Json grounds_json(const Grounds& e) { return {{"table", e.table}, {"rows", e.rows}, {"fingerprint", e.fingerprint}}; }
 
 Json finding_json(const Finding& f, const Rows& result) {
   Json json = {{"scene", f.scene},
@@ -20,7 +20,7 @@ Json finding_json(const Finding& f, const Rows& result) {
                {"rule", f.rule},
                {"formula", finding_rule(f.rule).formula}};
   json["evidence"] = Json::array();
-  for (const Evidence& e : evidence_of(f, result)) json["evidence"].push_back(evidence_json(e));
+  for (const Grounds& e : grounds_of(f, result)) json["evidence"].push_back(grounds_json(e));
   return json;
 }
 
@@ -41,7 +41,7 @@ std::string report_json(const PageContent& page, const AllFindings& findings, co
         {"hash", part.scene->hash}, {"truth", part.facts->tier}, {"truth_bar", part.facts->bar}};
   json["tables"] = Json::array();
   for (const Table& table : result.tables) {
-    const Evidence whole = evidence_of(table);
+    const Grounds whole = grounds_of(table);
     json["tables"].push_back({{"name", whole.table}, {"rows", whole.rows.size()}, {"fingerprint", whole.fingerprint}});
   }
   json["figures"] = Json::array();

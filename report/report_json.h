@@ -2,7 +2,7 @@
 #pragma once
 
 #include "report/charts/charts.h"
-#include "report/evidence.h"
+#include "report/grounds.h"
 #include "report/page/page.h"
 
 namespace crosscheck {

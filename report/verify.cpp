@@ -8,7 +8,7 @@
 #include "experiments/table_file.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
-#include "report/evidence.h"
+#include "report/grounds.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -33,7 +33,7 @@ Rows read_tables(const Json& report, const fs::path& data, Verification& found) 
   for (const Json& told : report["tables"]) {
     const std::string name = told.at("name");
     rows.tables.push_back(read_csv(data / (name + ".csv")));
-    const Evidence now = evidence_of(rows.tables.back());
+    const Grounds now = grounds_of(rows.tables.back());
     found.rows += static_cast<int>(now.rows.size());
     if (now.rows.size() != told.at("rows").get<size_t>())
       found.mismatches.push_back(
@@ -61,13 +61,13 @@ void compare(const Json& told, const Finding& now, const Rows& rows, Verificatio
   };
   if (sentence != now.sentence) return differs(fmt::format("the data say \"{}\"", now.sentence));
   if (told.at("tier") != now.tier) return differs(fmt::format("it rests on \"{}\"", now.tier));
-  const std::vector<Evidence> evidence = evidence_of(now, rows);
+  const std::vector<Grounds> grounds = grounds_of(now, rows);
   const Json& rests_on = told.at("evidence");
-  if (rests_on.size() != evidence.size()) return differs("it rests on other tables");
-  for (size_t i = 0; i < evidence.size(); ++i)
-    if (rests_on[i].at("table") != evidence[i].table || rests_on[i].at("rows") != evidence[i].rows ||
-        rests_on[i].at("fingerprint") != evidence[i].fingerprint)
-      differs(fmt::format("rows of table {} are not those that were reported", evidence[i].table));
+  if (rests_on.size() != grounds.size()) return differs("it rests on other tables");
+  for (size_t i = 0; i < grounds.size(); ++i)
+    if (rests_on[i].at("table") != grounds[i].table || rests_on[i].at("rows") != grounds[i].rows ||
+        rests_on[i].at("fingerprint") != grounds[i].fingerprint)
+      differs(fmt::format("rows of table {} are not those that were reported", grounds[i].table));
 }
 
 }  // namespace

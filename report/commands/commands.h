@@ -63,6 +63,7 @@ struct ReportOptions {
   std::string methods;
   bool full = false;
   std::vector<std::string> experiments = {};  // whose chapters there are; empty: all
+  std::filesystem::path against = {};         // an earlier report, or empty
   std::filesystem::path out = "out/report";
   std::string command_line;
 };

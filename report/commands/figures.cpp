@@ -7,7 +7,7 @@
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "report/commands/commands.h"
-#include "report/evidence.h"
+#include "report/grounds.h"
 #include "report/figure_set.h"
 #include "report/provenance.h"
 

@@ -92,6 +92,10 @@ class Builder {
     page_.notes = rows_.notes;
     if (!options_.full) page_.notes.insert(page_.notes.begin(), left_out());
     page_.findings = findings_.overall;
+    if (!options_.against.empty()) {
+      page_.against = options_.against.string();
+      page_.changes = changes_since(options_.against, findings_);
+    }
     for (size_t i = 0; i < request_.scenes.size(); ++i) add_part(i);
     charts_ = all_charts({request_.scenes, findings_.facts, rows_, value_of(page_.provenance, "commit")});
     draw_charts();
@@ -282,6 +286,11 @@ int report_command(const ReportOptions& options) {
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
   request.scenes = scenes_for({}, options.scenes, options.full);
   request.scenes_only = !options.scenes.empty() && !options.full;
+  if (!options.against.empty()) {
+    changes_since(options.against, {});  // is it a report? Asked before the work
+    if (fs::weakly_canonical(options.against) == fs::weakly_canonical(options.out))
+      throw InputError("--against: expected another folder than that of --out, which is written anew");
+  }
   require_writable(options.out);
   clear_former_report(options.out);
   return Builder(options, std::move(request)).build();

@@ -61,6 +61,32 @@ const std::vector<Question>& questions() {
   return all;
 }
 
+/// What an earlier report said otherwise.
+std::string changes_html(const PageContent& c) {
+  if (c.against.empty()) return "";
+  std::string out = fmt::format("<section id=\"changes\"><h2>What changed since {}</h2>\n", escaped(c.against));
+  int timed = 0;
+  std::string rows;
+  for (const Change& change : c.changes) {
+    timed += change.timed;
+    if (change.timed) continue;
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>\n",
+                        change.scene.empty() ? "all" : escaped(change.scene),
+                        change.before.empty() ? "(nothing)" : escaped(change.before),
+                        change.now.empty() ? "(nothing any more)" : escaped(change.now));
+  }
+  out += rows.empty()
+             ? "<p>Nothing that does not rest on timings.</p>\n"
+             : "<table class=\"changes\"><thead><tr><th>scene</th><th>before</th><th>now</th></tr></thead><tbody>\n" +
+                   rows + "</tbody></table>\n";
+  if (timed > 0)
+    out += fmt::format(
+        "<p class=\"note\">{} finding{} that rest{} on timings read otherwise, as in every run; "
+        "<code>regress</code> tells changes of speed from noise.</p>\n",
+        timed, timed == 1 ? "" : "s", timed == 1 ? "s" : "");
+  return out + "</section>\n";
+}
+
 std::string first_screen(const PageContent& c) {
   std::string out =
       "<header><h1>Crosscheck: mysim beside Bullet</h1></header>\n<main>\n<section class=\"answer\"><div "
@@ -81,7 +107,7 @@ std::string first_screen(const PageContent& c) {
     out += fmt::format("<p class=\"problem\">Missing: {}</p>\n", escaped(problem));
   out += "<div class=\"heroes\">\n";
   for (size_t i = 1; i < c.hero.size(); ++i) out += image_html(c.hero[i], "hero");
-  return out + "</div></section>\n";
+  return out + "</div></section>\n" + changes_html(c);
 }
 
 std::string scene_section(const ScenePart& part) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "report/changes.h"
 #include "report/charts/charts.h"
 #include "report/findings.h"
 #include "report/page/inline_svg.h"
@@ -47,6 +48,8 @@ struct PageContent {
   std::vector<Chapter> chapters;
   std::vector<std::string> notes;     // what was left out, and why
   std::vector<std::string> problems;  // what failed to be made
+  std::string against;                // an earlier report, or empty
+  std::vector<Change> changes;        // since then
   Provenance provenance;
 };
 

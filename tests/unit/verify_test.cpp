@@ -8,6 +8,7 @@
 #include "experiments/table_file.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "report/changes.h"
 #include "report/finding_rules.h"
 #include "report/report_json.h"
 #include "tests/unit/helpers.h"
@@ -163,6 +164,37 @@ TEST_F(Verify, MissingPartsAreErrors) {
   } catch (const InputError& error) {
     EXPECT_TRUE(contains(error.what(), "expected a finished report"));
   }
+}
+
+using Changes = Verify;
+
+TEST_F(Changes, AreTheSentencesThatDiffer) {
+  const std::vector<Scene> scenes = load_scenes({"projectile", "chain"});
+  const AllFindings now = all_findings(scenes, rows_);
+  EXPECT_TRUE(changes_since(folder_, now).empty());
+  replace("report.json", "At a step of 0.", "At a step of 9.");
+  const std::vector<Change> changes = changes_since(folder_, now);
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes[0].scene, "chain");
+  EXPECT_TRUE(contains(changes[0].before, "At a step of 9."));
+  EXPECT_TRUE(contains(changes[0].now, "At a step of 0."));
+  EXPECT_FALSE(changes[0].timed);
+}
+
+TEST_F(Changes, NewAndGoneFindingsHaveOneSideOnly) {
+  AllFindings now = all_findings(load_scenes({"projectile", "chain"}), rows_);
+  const Finding gone = now.overall.front();
+  now.overall.erase(now.overall.begin());
+  now.overall.push_back({"", "cost", "A step costs more.", "measured", "size-cost"});
+  const std::vector<Change> changes = changes_since(folder_, now);
+  ASSERT_EQ(changes.size(), 2u);
+  EXPECT_EQ(changes[0].before, "");
+  EXPECT_EQ(changes[0].now, "A step costs more.");
+  EXPECT_TRUE(changes[0].timed);
+  EXPECT_EQ(changes[1].before, gone.sentence);
+  EXPECT_EQ(changes[1].now, "");
+  write_file(folder_ / "report.json", "{}");
+  EXPECT_THROW(changes_since(folder_, now), InputError);
 }
 
 }  // namespace

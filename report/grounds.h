@@ -5,16 +5,16 @@
 
 namespace crosscheck {
 
-struct Evidence {
+struct Grounds {
   std::string table;
   std::vector<long> rows;   // counted from 1 below the header
   std::string fingerprint;  // 16 hexadecimal digits (FNV-1a), of these rows as the CSV file has them
 };
 
 /// Rows of the tables of the finding's rule: those of its scene, or all where it speaks of all scenes.
-std::vector<Evidence> evidence_of(const Finding& finding, const Rows& result);
+std::vector<Grounds> grounds_of(const Finding& finding, const Rows& result);
 /// Of a whole table.
-Evidence evidence_of(const Table& table);
+Grounds grounds_of(const Table& table);
 
 /// All findings of a report: those on all scenes together, then those of each scene.
 struct AllFindings {

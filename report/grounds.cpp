@@ -1,4 +1,4 @@
-#include "report/evidence.h"
+#include "report/grounds.h"
 
 #include <fmt/format.h>
 
@@ -16,23 +16,23 @@ bool has_column(const Table& table, const char* name) {
 }
 
 template <class Keep>
-Evidence rows_of(const Table& table, Keep keep) {
-  Evidence evidence{table.name, {}, {}};
+Grounds rows_of(const Table& table, Keep keep) {
+  Grounds grounds{table.name, {}, {}};
   std::string text;
   for (size_t i = 0; i < table.rows.size(); ++i)
-    if (keep(i)) evidence.rows.push_back(static_cast<long>(i) + 1), text += csv_row(table.rows[i]) + "\n";
-  evidence.fingerprint = fmt::format("{:016x}", Fnv1a::of(text));
-  return evidence;
+    if (keep(i)) grounds.rows.push_back(static_cast<long>(i) + 1), text += csv_row(table.rows[i]) + "\n";
+  grounds.fingerprint = fmt::format("{:016x}", Fnv1a::of(text));
+  return grounds;
 }
 
 }  // namespace
 
-Evidence evidence_of(const Table& table) {
+Grounds grounds_of(const Table& table) {
   return rows_of(table, [](size_t) { return true; });
 }
 
-std::vector<Evidence> evidence_of(const Finding& finding, const Rows& result) {
-  std::vector<Evidence> all;
+std::vector<Grounds> grounds_of(const Finding& finding, const Rows& result) {
+  std::vector<Grounds> all;
   for (const std::string_view name : finding_rule(finding.rule).tables)
     if (const Table* table = result.table(std::string(name))) {
       const bool by_scene = !finding.scene.empty() && has_column(*table, "scene");
