@@ -13,7 +13,10 @@
     return found ? parseFloat(found[1]) * (units[found[2]] ?? 1) : null;
   };
 
-  const textOf = (row, column) => row.cells[column]?.innerText.trim() ?? '';
+  /// Of what is folded away a browser knows the text, but not how it would stand there.
+  const wordsIn = (element) => (element.innerText || element.textContent).trim().replace(/\s+/g, ' ');
+
+  const textOf = (row, column) => (row.cells[column] ? wordsIn(row.cells[column]) : '');
 
   const sortBy = (table, column, head) => {
     const down = head.getAttribute('aria-sort') === 'ascending';
@@ -38,7 +41,7 @@
   const csvOf = (table) =>
     [...table.rows]
       .filter((row) => !row.hidden)
-      .map((row) => [...row.cells].map((cell) => `"${cell.innerText.trim().replace(/\s+/g, ' ').replaceAll('"', '""')}"`).join(','))
+      .map((row) => [...row.cells].map((cell) => `"${wordsIn(cell).replaceAll('"', '""')}"`).join(','))
       .join('\n') + '\n';
 
   const nameOf = (table) => {
@@ -56,7 +59,7 @@
   };
 
   const keep = (table, word) => {
-    for (const row of table.tBodies[0].rows) row.hidden = !row.innerText.toLowerCase().includes(word.toLowerCase());
+    for (const row of table.tBodies[0].rows) row.hidden = !wordsIn(row).toLowerCase().includes(word.toLowerCase());
   };
 
   const equip = (table) => {

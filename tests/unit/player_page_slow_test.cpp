@@ -1,21 +1,18 @@
 // The player in a browser: a page opened from a file, used by player_selftest.js, and read back. Chromium is optional.
-#include <nlohmann/json.hpp>
-
 #include "experiments/scenes.h"
 #include "report/base64.h"
 #include "report/pictures.h"
 #include "report/player/player_data.h"
 #include "report/player/player_html.h"
-#include "report/run_program.h"
+#include "tests/unit/in_browser.h"
 #include "tests/unit/resized.h"
-#include "tests/unit/temporary.h"
 
 namespace crosscheck {
 namespace {
 
 using nlohmann::json;
 
-class PlayerPage : public testing_tools::InFolder {
+class PlayerPage : public testing_tools::InBrowser {
  protected:
   /// Data of a scene, and the page that plays it: with the poster that a report has, and the self-test.
   std::filesystem::path page(const Scene& scene, const std::vector<std::string>& methods) {
@@ -32,38 +29,7 @@ class PlayerPage : public testing_tools::InFolder {
                                   player_html({folder_ / "poster.png", "the poster", "a caption"}, motions) +
                                   "</body></html>");
   }
-
-  /// What the self-test saw.
-  json seen(const std::filesystem::path& page, const std::vector<std::string>& flags) const {
-    std::vector<std::string> call{"chromium",
-                                  "--headless=new",
-                                  "--no-sandbox",  // in a container as root there is none
-                                  "--use-angle=swiftshader",
-                                  "--enable-unsafe-swiftshader",
-                                  "--disable-background-networking",
-                                  "--disable-component-update",
-                                  "--disable-sync",
-                                  "--no-first-run",
-                                  "--force-prefers-reduced-motion",  // nothing moves unless it is told to
-                                  "--user-data-dir=" + (folder_ / "profile").string(),
-                                  "--window-size=900,800",
-                                  "--virtual-time-budget=60000"};
-    call.insert(call.end(), flags.begin(), flags.end());
-    call.insert(call.end(), {"--dump-dom", "file://" + page.string()});
-    const ProgramResult result = run_program(call, folder_);
-    const std::string begin = "<script type=\"application/json\" id=\"seen\">";
-    const size_t at = result.out.find(begin);
-    if (at == std::string::npos) {
-      ADD_FAILURE() << "the page did not come to its end: " << last_lines(result.err, 20);
-      return json::object();
-    }
-    const size_t from = at + begin.size();
-    return json::parse(result.out.substr(from, result.out.find("</script>", from) - from));
-  }
 };
-
-#define NEEDS_CHROMIUM \
-  if (!on_path("chromium")) GTEST_SKIP() << "chromium is not installed: the page's player is not tried in a browser"
 
 TEST_F(PlayerPage, PlaysFromAFileAndObeysItsControls) {
   NEEDS_CHROMIUM;
