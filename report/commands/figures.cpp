@@ -7,8 +7,8 @@
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "report/commands/commands.h"
-#include "report/grounds.h"
 #include "report/figure_set.h"
+#include "report/grounds.h"
 #include "report/provenance.h"
 
 namespace crosscheck {
