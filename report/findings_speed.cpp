@@ -1,6 +1,7 @@
 // Sentences on speed against accuracy and on the cost of a step.
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "experiments/cells.h"
 #include "report/findings.h"
@@ -16,6 +17,19 @@ bool tried_bullet(const Rows& result, const std::string& scene) {
         text_at(*runs, i, "verdict") != "unsupported")
       return true;
   return false;
+}
+
+/// What the same comparison gives in force evaluations: whether it is the method that is dearer, or its engine.
+std::optional<std::string> factors_of_evaluations(const Rows& result) {
+  const Table* t = result.table("speed-accuracy-cheapest");
+  double low = 1e300, high = 0;
+  for (size_t i = 0; t && i < t->rows.size(); ++i) {
+    const auto factor = number_at(*t, i, "Bullet / best");
+    if (number_at(*t, i, "part of motion") != 0.01 || text_at(*t, i, "measure") != "error" || !factor) continue;
+    low = std::min(low, *factor), high = std::max(high, *factor);
+  }
+  if (!(high > 0)) return std::nullopt;
+  return range(times_text(low), times_text(high));
 }
 
 /// Who meets 1 % of the motion at the least CPU time, on how many scenes.
@@ -45,9 +59,13 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   for (const auto& [method, where] : scenes_of) who.push_back(fmt::format("{} on {}", method, joined(where)));
   std::string sentence = fmt::format(
       "For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, are of {}", joined(who));
-  if (high > 0)
+  if (high > 0) {
     sentence +=
         fmt::format("; the best of Bullet's worlds takes {} times as much", range(times_text(low), times_text(high)));
+    if (const auto evaluations = factors_of_evaluations(result))
+      sentence += *evaluations == "1" ? ", in as many force evaluations"
+                                      : fmt::format(", in {} times as many force evaluations", *evaluations);
+  }
   if (!without.empty()) sentence += "; no run of Bullet that was tried meets it on " + joined(without);
   out.push_back({"", "cost", sentence + ".", "measured", "cheapest"});
 }

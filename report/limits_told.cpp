@@ -46,7 +46,8 @@ std::optional<LimitsTold> told(const Table& t, bool at_rest) {
       widest = std::max(widest, *number_at(t, i, "failed") / *number_at(t, i, "held") - 1);
     } else if (row->off) {
       ++near_by;
-      worst = std::max(worst, std::abs(*row->off));
+      // what lies between the last step that held and the first that failed is not known
+      worst = std::max({worst, std::abs(*row->off), *number_at(t, i, "failed") / *number_at(t, i, "held") - 1});
       scenes.insert(text_at(t, i, "scene"));
     }
   }

@@ -7,8 +7,9 @@ namespace crosscheck {
 
 /// `size-cost`: time per step of every method on a cloth of n x n particles.
 void cost_of_size(const Request& request, int n, Rows& rows);
-/// `phases-cost`: of mysim's leapfrog on a cloth above a sphere, what springs, other forces, contact and the rest of
-/// the step take; of Bullet's worlds the whole step, since what they do inside cannot be told from outside.
+/// `phases-cost`: of mysim's leapfrog on a cloth above a sphere, in the general engine, what springs, other forces,
+/// contact and the rest of the step take, and the whole step in the sweep, which does all of it in one pass; of
+/// Bullet's worlds the whole step, since what they do inside cannot be told from outside.
 void cost_of_phases(const Request& request, int n, Rows& rows);
 /// `roofline-cost`: the machine's peaks and the spring kernel at several sizes.
 void cost_against_roofline(bool full, Rows& rows);

@@ -12,9 +12,8 @@ struct Kernel {
   std::function<double()> run;
 };
 
-/// Multiplications and additions on 24 doubles that stay in registers, each a chain of its own: no operation waits for
-/// another's result, and as many go side by side as the compiler's instruction set allows. No fused ones: the suite is
-/// built without them, so that its numbers are the same everywhere.
+/// Multiplications and additions in registers that wait for nobody, with the instructions that mysim's kernels use
+/// (fused ones where these have them).
 Kernel multiply_add_kernel();
 
 /// a = b + s c over three arrays of `bytes` in all: what memory of that size delivers. 24 bytes an element.

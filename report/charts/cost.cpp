@@ -117,9 +117,9 @@ Chart roofline_chart(const Table& t, const std::string& commit) {
       "peak of {:.2g} billion.",
       best, at, 100 * best / peak, peak);
   f.caption = fmt::format(
-      "Lines: what measured bandwidth and peak allow, for data of that size. The build is for any x86-64 (SSE2, two "
-      "numbers at a time, no fused operations), and so is the peak, of multiplications and additions that wait for "
-      "nothing: the processor itself can do more. Springs are counted as {:g} operations and {:g} bytes, particles as "
+      "Lines: what measured bandwidth and peak allow, for data of that size. The peak is that of multiplications and "
+      "additions that wait for nothing, with the instructions that the kernel uses on this machine. Springs are "
+      "counted as {:g} operations and {:g} bytes, particles as "
       "{:g} bytes; commit {}.",
       flop_per_spring, bytes_per_spring, bytes_per_particle, commit);
   return {"", std::move(f), "cost"};

@@ -43,6 +43,13 @@ struct FileInWaiting {
   }
 };
 
+/// Whether anything stands before the ground: the picture is darker somewhere by more than an eye tells apart.
+bool shows_something(const Image& image) {
+  constexpr int visible = 24;  // of 255; the ground of an empty picture is one colour
+  const auto [darkest, brightest] = std::minmax_element(image.rgb.begin(), image.rgb.end());
+  return darkest != image.rgb.end() && *brightest - *darkest > visible;
+}
+
 /// The colours of the bar, straight from the map that also colours the bodies.
 void paint_bar(const Scale& scale, const Layout& layout, Image& image) {
   const int left = int(layout.bar_left), right = int(layout.bar_left + layout.bar_width);
@@ -75,6 +82,8 @@ void write_png(const Picture& picture, const fs::path& file, Studio& studio) {
   FileInWaiting waiting(file);
   const Layout layout = layout_of(picture);
   Image image = studio.draw(picture);
+  if (!shows_something(image))
+    throw std::runtime_error(file.stem().string() + ": nothing is to be seen in the picture");
   if (picture.scale) paint_bar(*picture.scale, layout, image);
 
   const TemporaryFolder folder("render");

@@ -95,6 +95,18 @@ TEST(Render, BallIsSeen) {
   EXPECT_GT(changed(studio.draw(small_picture()), studio.draw(without)), 0.03);
 }
 
+TEST(Render, APictureOfNothingIsAnError) {
+  Picture picture = small_picture();
+  picture.rows[0][0].balls.clear();
+  picture.rows[0][0].bodies.clear();
+  try {
+    write_png(picture, std::filesystem::temp_directory_path() / "crosscheck-nothing.png");
+    FAIL() << "a blank picture was written";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("crosscheck-nothing: nothing is to be seen"), std::string::npos);
+  }
+}
+
 TEST(Render, PenetrationIsSeen) {
   Studio studio;
   // a cloth lying on the ball hides its top; the same cloth 2 cm inside the ball must not
