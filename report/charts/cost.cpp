@@ -66,7 +66,8 @@ Chart phases_chart(const Table& t) {
   Chart chart{"", std::monostate{}, "cost"};
   chart.heading = "Where the time of a step goes";
   chart.text =
-      "mysim's leapfrog on a cloth that touches a sphere. Springs are timed alone; the other phases are differences of "
+      "mysim's leapfrog on a cloth that touches a sphere, in the general engine: the sweep does all in one pass. "
+      "Springs are timed alone; the other phases are differences of "
       "two timings, with the widest interval that follows: one that reaches below zero cannot be told from nothing. "
       "Bullet's worlds show the whole step only.";
   PageTable page{"CPU time of the phases of a step",
