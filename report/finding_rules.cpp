@@ -52,6 +52,7 @@ const std::vector<FindingRule>& finding_rules() {
        "max of particles and of triangles on drop-centred, in parts of the radius",
        {"sphere-penetration"}},
       {"step-limits", "largest stable step / predicted", {"stability"}},
+      {"known-disagreements", "rows, by world", {"disagreements"}},
       {"no-stable-step",
        "runs at rest whose prediction and measurement are no stable step; max of |deviation| of the growth in a step",
        {"stability", "stability-growth"}},

@@ -35,6 +35,9 @@ std::vector<Finding> sphere_findings(const Rows& result);
 /// How little model is enough.
 std::vector<Finding> adequacy_findings(const Rows& result);
 
+/// How many known disagreements this run measured.
+std::vector<Finding> disagreement_findings(const Rows& result);
+
 /// What experiment `stability` showed.
 std::vector<Finding> stability_findings(const Rows& rows);
 

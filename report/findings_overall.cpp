@@ -209,6 +209,20 @@ void cost_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>
 
 }  // namespace
 
+std::vector<Finding> disagreement_findings(const Rows& result) {
+  const Table* t = result.table("disagreements");
+  if (!t || t->rows.empty()) return {};
+  std::map<std::string, int> by_world;
+  for (size_t i = 0; i < t->rows.size(); ++i) ++by_world[text_at(*t, i, "world")];
+  std::vector<std::string> worlds;
+  for (const auto& [world, count] : by_world) worlds.push_back(fmt::format("{} in {}", world, count));
+  return {{"", "failure",
+           fmt::format("Bullet's worlds answer otherwise than a scene asks in {} known ways, each measured in the "
+                       "smallest scene that shows it: {}.",
+                       t->rows.size(), joined(worlds)),
+           "measured", "known-disagreements"}};
+}
+
 std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
                                       const Rows& result) {
   std::vector<Finding> out;
@@ -219,8 +233,13 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
   orders(result, out);
   cost_of_all(scenes, facts, result, out);
   const std::pair<const char*, std::vector<Finding> (*)(const Rows&)> table[] = {
-      {"speed-accuracy", speed_findings}, {"stability", stability_findings}, {"energy", energy_findings},
-      {"sphere", sphere_findings},        {"adequacy", adequacy_findings},   {"cost", cost_findings}};
+      {"speed-accuracy", speed_findings},
+      {"stability", stability_findings},
+      {"energy", energy_findings},
+      {"sphere", sphere_findings},
+      {"adequacy", adequacy_findings},
+      {"cost", cost_findings},
+      {"disagreements", disagreement_findings}};
   for (const auto& [chapter, of_experiment] : table)
     for (Finding& finding : of_experiment(result)) {
       finding.chapter = chapter;

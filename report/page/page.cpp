@@ -55,7 +55,7 @@ const std::vector<Question>& questions() {
   static const std::vector<Question> all = {{"Do they agree?", {"agreement", "contact"}, {"sphere"}},
                                             {"Who is more accurate?", {"accuracy", "order"}, {}},
                                             {"Who is faster?", {"cost"}, {"speed-accuracy", "cost"}},
-                                            {"Where does each fail?", {"failure"}, {"stability"}},
+                                            {"Where does each fail?", {"failure"}, {"stability", "disagreements"}},
                                             {"Who keeps the energy?", {"energy"}, {"energy"}},
                                             {"How little model is enough?", {"adequacy"}, {"adequacy"}}};
   return all;
