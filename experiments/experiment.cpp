@@ -2,6 +2,7 @@
 #include "experiments/experiment.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "experiments/scenes.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
@@ -47,6 +48,12 @@ std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<st
   if (!names.empty() || full) return load_scenes(names);
   if (experiment.quick_scenes.empty()) return load_scenes(quick_scenes());
   return load_scenes({experiment.quick_scenes.begin(), experiment.quick_scenes.end()});
+}
+
+void unite(std::vector<Scene>& all, const std::vector<Scene>& more) {
+  for (const Scene& scene : more)
+    if (std::none_of(all.begin(), all.end(), [&](const Scene& s) { return s.name == scene.name; }))
+      all.push_back(scene);
 }
 
 std::vector<Method> methods_of(const Request& request, const Scene& scene) {

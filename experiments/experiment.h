@@ -61,6 +61,9 @@ const Experiment& find_experiment(const std::string& name);
 /// its quick ones.
 std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full);
 
+/// Appends those scenes of which none of the same name is there.
+void unite(std::vector<Scene>& all, const std::vector<Scene>& more);
+
 /// The methods that a request runs on a scene: the ones it names, or all of mysim and Bullet; on a scene with a sphere
 /// also the assignment's sticky sphere, to be seen failing beside them.
 std::vector<Method> methods_of(const Request& request, const Scene& scene);

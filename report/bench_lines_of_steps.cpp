@@ -3,13 +3,16 @@
 
 namespace crosscheck {
 
+/// A row of the other path of mysim belongs to the last line.
+static bool is_second_path(const Table& table, size_t row, std::vector<BenchLine>& lines) {
+  if (text_at(table, row, "path of mysim") == "best") return false;
+  lines.back().plain = ratio_at(table, row, "ratio");
+  return true;
+}
+
 void add_same_step(const Table& table, std::vector<BenchLine>& lines) {
   for (size_t i = 0; i < table.rows.size(); ++i) {
-    const BenchRatio ratio = ratio_at(table, i, "ratio");
-    if (text_at(table, i, "path of mysim") != "best") {
-      lines.back().plain = ratio;
-      continue;
-    }
+    if (is_second_path(table, i, lines)) continue;
     const bool own = text_at(table, i, "force of Bullet").starts_with("force class");
     BenchLine& line = lines.emplace_back();
     line.group =
@@ -21,17 +24,13 @@ void add_same_step(const Table& table, std::vector<BenchLine>& lines) {
     line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Bullet")),
                               nice_seconds(*number_at(table, i, "cpu per step of mysim")),
                               *number_at(table, i, "farthest particle"));
-    line.best = ratio;
+    line.best = ratio_at(table, i, "ratio");
   }
 }
 
 void add_implicit_steps(const Table& table, std::vector<BenchLine>& lines) {
   for (size_t i = 0; i < table.rows.size(); ++i) {
-    const BenchRatio ratio = ratio_at(table, i, "ratio");
-    if (text_at(table, i, "path of mysim") != "best") {
-      lines.back().plain = ratio;
-      continue;
-    }
+    if (is_second_path(table, i, lines)) continue;
     BenchLine& line = lines.emplace_back();
     const std::string size = size_text(text_at(table, i, "scene"));
     line.group = "a linear implicit Euler step: Eigen's SimplicialLDLT and implicit-euler+linear";
@@ -40,7 +39,7 @@ void add_implicit_steps(const Table& table, std::vector<BenchLine>& lines) {
     line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Eigen")),
                               nice_seconds(*number_at(table, i, "cpu per step of mysim")),
                               *number_at(table, i, "farthest particle"));
-    line.best = ratio;
+    line.best = ratio_at(table, i, "ratio");
   }
 }
 

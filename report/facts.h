@@ -28,6 +28,10 @@ struct MethodFacts {
   std::optional<double> limit;              // s, largest stable step by theory, for the scene's fastest vibration
   bool supported() const { return verdict != "unsupported"; }
   bool ok() const { return verdict == "ok"; }
+  /// Whether it came to its end and is no truth itself, and how far it is from the truth is known.
+  bool judged() const { return ok() && error && !method.starts_with("truth/"); }
+  /// Whether it takes one force evaluation a step.
+  bool thrifty(const Scene& scene) const { return static_cast<double>(evaluations) * step / scene.duration < 1.5; }
   /// "blew up", "solver gave up" and so on, of a run that failed.
   std::string failure() const { return failure_word(verdict); }
 };

@@ -75,10 +75,9 @@ void other_law(const Scene& scene, const SceneFacts& facts, std::vector<Finding>
 void accuracy(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {
   const MethodFacts *best = nullptr, *thrifty = nullptr;
   for (const MethodFacts& m : facts.methods) {
-    if (!m.ok() || !m.error || m.method.starts_with("truth/")) continue;
+    if (!m.judged()) continue;
     if (!best || *m.error < *best->error) best = &m;
-    const double per_step = static_cast<double>(m.evaluations) * m.step / scene.duration;
-    if (per_step < 1.5 && (!thrifty || *m.error < *thrifty->error)) thrifty = &m;
+    if (m.thrifty(scene) && (!thrifty || *m.error < *thrifty->error)) thrifty = &m;
   }
   if (!best || !(facts.motion > 0)) return;
   const double shown = std::max(*best->error, facts.bar);

@@ -62,36 +62,31 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneF
     add("failure", "Bullet's explicit world cannot model " + joined(alone) + ": their tables of runs say why.");
 }
 
+/// One more for the run nearest to the truth among those that take part; who errs by up to 5 % more, or below the
+/// truth's error bar as well, shares the place.
+template <class TakesPart>
+void count_nearest(const SceneFacts& scene, TakesPart takes_part, std::map<std::string, int>& counts) {
+  double least = INFINITY;
+  for (const MethodFacts& m : scene.methods)
+    if (m.judged() && takes_part(m)) least = std::min(least, *m.error);
+  for (const MethodFacts& m : scene.methods)
+    if (m.judged() && takes_part(m) && *m.error <= std::max(1.05 * least, scene.bar)) ++counts[m.method];
+}
+
 /// Who is nearest to the truth at the scenes' own steps, and who of those that take one evaluation for a step.
 void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts, std::vector<Finding>& out) {
   std::map<std::string, int> first, first_of_thrifty;
   int asked = 0;
-  const auto nearest = [](const SceneFacts& scene, auto takes_part) {
-    const MethodFacts* best = nullptr;
-    for (const MethodFacts& m : scene.methods)
-      if (m.ok() && m.error && !m.method.starts_with("truth/") && takes_part(m) && (!best || *m.error < *best->error))
-        best = &m;
-    return best;
-  };
-  // who errs by up to 5 % more, or below the truth's error bar as well, shares the place
-  const auto count_best = [](const SceneFacts& scene, auto takes_part, const MethodFacts* best,
-                             std::map<std::string, int>& counts) {
-    if (!best) return;
-    for (const MethodFacts& m : scene.methods)
-      if (m.ok() && m.error && !m.method.starts_with("truth/") && takes_part(m) &&
-          *m.error <= std::max(1.05 * *best->error, scene.bar))
-        ++counts[m.method];
-  };
   for (size_t i = 0; i < scenes.size(); ++i) {
-    if (!(facts[i].motion > 0)) continue;
-    const auto any = [](const MethodFacts&) { return true; };
-    const auto thrifty = [&](const MethodFacts& m) {
-      return static_cast<double>(m.evaluations) * m.step / scenes[i].duration < 1.5;
-    };
-    if (!nearest(facts[i], any)) continue;
+    const std::vector<MethodFacts>& methods = facts[i].methods;
+    if (!(facts[i].motion > 0) ||
+        std::none_of(methods.begin(), methods.end(), [](const MethodFacts& m) { return m.judged(); }))
+      continue;
     ++asked;
-    count_best(facts[i], any, nearest(facts[i], any), first);
-    count_best(facts[i], thrifty, nearest(facts[i], thrifty), first_of_thrifty);
+    count_nearest(
+        facts[i], [](const MethodFacts&) { return true; }, first);
+    count_nearest(
+        facts[i], [&](const MethodFacts& m) { return m.thrifty(scenes[i]); }, first_of_thrifty);
   }
   const auto told = [](const std::map<std::string, int>& counts) {
     std::vector<std::pair<int, std::string>> order;

@@ -25,7 +25,7 @@ CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
     result = sheet_->solve(potential_.inertia(), potential_.end(u_).x, curvature, minus_g_, tolerance, p_);
     potential_.count(result.iterations * sheet_->products());
   }
-  // a sheet on which the V-cycle does not help is solved like any other network; none is known
+  // other networks, and a sheet on which the V-cycle does not help; none such is known
   if (!result.converged && !result.negative_curvature) result = by_pairs(curvature, tolerance);
   iterations_ = result.iterations;
   return result;

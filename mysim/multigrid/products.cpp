@@ -113,7 +113,7 @@ void relax_first(const Matrix<float>& m, float take, const float* b, float* x, f
           F::store(x + at + c * lanes, all), F::store(change + at + c * lanes, all);
         }
       }
-    copy_ends(x + begin, m.blocks);
+    copy_ends<line<3>>(x + begin, m.blocks);
   }
 }
 
@@ -132,7 +132,7 @@ void relax(const Matrix<float>& m, bool first, float keep, float take, const flo
           F::store(change + i, step), F::store(x + i, F::load(x + i) + step);
         }
       },
-      [&](long begin) __attribute__((always_inline)) { copy_ends(x + begin, m.blocks); });
+      [&](long begin) __attribute__((always_inline)) { copy_ends<line<3>>(x + begin, m.blocks); });
 }
 
 void residual(const Matrix<float>& m, const float* b, const float* x, float* r) {
@@ -143,7 +143,7 @@ void residual(const Matrix<float>& m, const float* b, const float* x, float* r) 
         const V<float> free = F::load(m.free + block * lanes + lane);
         for (int c = 0; c < 3; ++c) F::store(r + at + c * lanes, free * (F::load(b + at + c * lanes) - product[c]));
       },
-      [&](long begin) __attribute__((always_inline)) { copy_ends(r + begin, m.blocks); });
+      [&](long begin) __attribute__((always_inline)) { copy_ends<line<3>>(r + begin, m.blocks); });
 }
 
 }  // namespace

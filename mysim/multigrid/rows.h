@@ -3,10 +3,14 @@
 #pragma once
 
 #include "mysim/multigrid/kernel.h"
-#include "mysim/strip/lanes.h"
+#include "mysim/strip/rows.h"
 
 namespace crosscheck::multigrid {
 namespace {
+
+using strip::clear;
+using strip::copy_ends;
+using strip::fold;
 
 template <class T>
 using L = strip::Lanes<T>;
@@ -25,33 +29,6 @@ ALWAYS T* row_of(T* field, int blocks, int row) {
   return field + row * row_length(blocks, 3) + before * line<3>;
 }
 
-template <class T>
-ALWAYS void clear(T* from, long count) {
-  for (long i = 0; i < count; i += L<T>::width) L<T>::store(from + i, L<T>::all(0));
-}
-
-/// The copies beside a row. The lanes that have no original are given some number nearby; no spring reaches them.
-template <class T>
-ALWAYS void copy_ends(T* row, int blocks) {
-  const auto copy = [](T * to, const T* from) __attribute__((always_inline)) {
-    for (int i = 0; i < line<3>; i += L<T>::width) L<T>::store(to + i, L<T>::load(from + i));
-  };
-  // in this order: where there is one block, the second copy is the first one's
-  for (int b = 0; b < after; ++b) copy(row + (blocks + b) * line<3>, row + b * line<3> + 1);
-  copy(row - line<3>, row + (blocks - 1) * line<3> - 1);
-}
-
-/// What the copies were given goes to the blocks that they are copies of, a lane to the side. Lanes of a copy that have
-/// no original hold 0.
-template <class T, int numbers>
-ALWAYS void fold(T* row, int blocks) {
-  const auto give = [](T * to, const T* from) __attribute__((always_inline)) {
-    for (int i = 0; i < line<numbers>; i += L<T>::width) L<T>::store(to + i, L<T>::load(to + i) + L<T>::load(from + i));
-  };
-  for (int b = after - 1; b >= 0; --b) give(row + b * line<numbers> + 1, row + (blocks + b) * line<numbers>);
-  give(row + (blocks - 1) * line<numbers> - 1, row - line<numbers>);
-}
-
 /// Goes over the rows from the first: begin(row, sums) adds to sums[0] (the row itself) and to sums[1], sums[2] (the
 /// next ones), finish(row, sums) is told when all that reach a row have been added. `memory`: three rows.
 template <int numbers, class T, class Begin, class Finish>
@@ -61,7 +38,7 @@ ALWAYS void over_rows(int rows, int blocks, T* memory, Begin begin, Finish finis
   for (T* row : sums) clear(row - first, length);
   for (int r = 0; r < rows; ++r) {
     begin(r, sums);
-    fold<T, numbers>(sums[0], blocks);
+    fold<line<numbers>>(sums[0], blocks);
     finish(r, sums[0]);
     T* done = sums[0];
     clear(done - first, length);

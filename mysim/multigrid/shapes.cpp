@@ -38,7 +38,7 @@ ALWAYS void add_blocks(double* to, const Vd* blocks) {
 
 void linearise(const Shape& s, double* const* springs, double* blocks) {
   const long length = row_length(s.blocks, 3);
-  for (int row = 0; row < s.rows; ++row) copy_ends(row_of(s.x, s.blocks, row), s.blocks);
+  for (int row = 0; row < s.rows; ++row) copy_ends<line<3>>(row_of(s.x, s.blocks, row), s.blocks);
   over_rows<6>(
       s.rows, s.blocks, s.sums,
       [&](int row, double* const* sums) __attribute__((always_inline)) {

@@ -56,7 +56,7 @@ ALWAYS void spread(const Transfer& t, const float* coarse, float one, float two,
         add(to + line<3>, open_next, F::fma(own, here, other * there));
       }
     }
-  copy_ends(fine, 2 * t.coarse_blocks);
+  copy_ends<line<3>>(fine, 2 * t.coarse_blocks);
 }
 
 void to_fine(const Transfer& t, const float* coarse, const float* free, float* x) {

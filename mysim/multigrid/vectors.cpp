@@ -60,7 +60,7 @@ void turn(const Matrix<double>& m, const float* z, double keep, double* p) {
       m.rows, m.blocks,
       [&](long i, int)
           __attribute__((always_inline)) { D::store(p + i, D::fma(D::all(keep), D::load(p + i), widened(z + i))); },
-      [&](long begin) __attribute__((always_inline)) { copy_ends(p + begin, m.blocks); });
+      [&](long begin) __attribute__((always_inline)) { copy_ends<line<3>>(p + begin, m.blocks); });
 }
 
 }  // namespace

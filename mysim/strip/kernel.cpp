@@ -1,7 +1,7 @@
 // See kernel.h. Compiled once for each instruction set, CROSSCHECK_ISA naming it.
 #include "mysim/strip/kernel.h"
 
-#include "mysim/strip/lanes.h"
+#include "mysim/strip/rows.h"
 
 namespace crosscheck::strip {
 namespace {
@@ -66,11 +66,6 @@ struct Rows {
   T* f[3];
 };
 
-template <class T>
-ALWAYS void clear(T* row, long numbers) {
-  for (long i = 0; i < numbers; i += Lanes<T>::width) Lanes<T>::store(row + i, Lanes<T>::all(0));
-}
-
 /// All springs that begin in a row. Six times the same, written as a fold so that each direction is known when this is
 /// compiled.
 template <class T, bool fast>
@@ -92,30 +87,6 @@ ALWAYS void springs_of_row(const Sheet<T>& s, const Rows<T>& rows, int rows_belo
       take(Number<0>{}), take(Number<1>{}), take(Number<2>{}), take(Number<3>{}), take(Number<4>{}), take(Number<5>{});
       store(rows.f[0] + at, force);
     }
-}
-
-/// What the copies beside a row of forces were given goes to the blocks that they are copies of, a lane to the side.
-/// The one lane of a copy that has no original holds 0, so that what it is added to, which lies beyond, stays as it is.
-template <class T>
-ALWAYS void fold(T* row, int blocks) {
-  using L = Lanes<T>;
-  const auto give = [](T * to, const T* from) __attribute__((always_inline)) {
-    for (int i = 0; i < line<T>; i += L::width) L::store(to + i, L::load(to + i) + L::load(from + i));
-  };
-  for (int b = 0; b < after; ++b) give(row + b * line<T> + 1, row + (blocks + b) * line<T>);
-  give(row + (blocks - 1) * line<T> - 1, row - line<T>);
-}
-
-/// The copies beside a row of positions. The one lane that has no original is given some number nearby; no spring
-/// reaches it.
-template <class T>
-ALWAYS void copy_ends(T* row, int blocks) {
-  using L = Lanes<T>;
-  const auto copy = [](T * to, const T* from) __attribute__((always_inline)) {
-    for (int i = 0; i < line<T>; i += L::width) L::store(to + i, L::load(from + i));
-  };
-  for (int b = 0; b < after; ++b) copy(row + (blocks + b) * line<T>, row + b * line<T> + 1);
-  copy(row - line<T>, row + (blocks - 1) * line<T> - 1);
 }
 
 template <class T>
@@ -160,7 +131,7 @@ ALWAYS void move_row(const Sheet<T>& s, const Stride<T>& step, int row, T* x, co
       store(x_b + lane, Three<T>{L::fma(on, v.x, e.x), L::fma(on, v.y, e.y), L::fma(on, v.z, e.z)});
     }
   }
-  copy_ends(x, s.blocks);
+  copy_ends<line<T>>(x, s.blocks);
 }
 
 /// Springs that begin in a row and whose ends met, one by one; asked only where a length was 0.
@@ -196,7 +167,7 @@ ALWAYS long over_rows(const Sheet<T>& s, Finished finished) {
     springs_of_row<T, fast>(s, rows, s.rows - 1 - r, least);
     if (r >= s.lead) {
       if (L::any_below(least, L::all(smallest<T>))) met += count_met(s, rows, s.rows - 1 - r);
-      fold(f[0], s.blocks);
+      fold<line<T>>(f[0], s.blocks);
       finished(r, x, f[0]);
     }
     T* done = f[0];

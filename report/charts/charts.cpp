@@ -25,6 +25,14 @@ const FigureWords* words_of(const Chart& chart) {
       chart.figure);
 }
 
+void draw_figure(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder) {
+  std::visit(
+      [&]<class F>(const F& figure) {
+        if constexpr (std::derived_from<F, FigureWords>) draw(drawing_of(figure), provenance, folder);
+      },
+      chart.figure);
+}
+
 std::vector<std::pair<double, double>> points_of(const Table& table, const std::string& method,
                                                  const std::string& column, bool positive) {
   std::vector<std::pair<double, double>> points;

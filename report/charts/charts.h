@@ -53,6 +53,8 @@ struct Chart {
 };
 /// The words of its figure, or null.
 const FigureWords* words_of(const Chart& chart);
+/// Writes and draws its figure, if it has one, as draw() does.
+void draw_figure(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder);
 
 std::vector<Chart> scoreboard_charts(const ChartInput& input);  // error of every method on every scene
 std::vector<Chart> error_charts(const ChartInput& input);       // error over time, per scene with a truth

@@ -48,9 +48,7 @@ int experiment_command(const ExperimentOptions& options) {
   std::vector<Scene> looked_at;
   for (const Experiment* experiment : chosen) {
     request.scenes = scenes_for(*experiment, scenes, options.full);
-    for (const Scene& scene : request.scenes)
-      if (std::none_of(looked_at.begin(), looked_at.end(), [&](const Scene& s) { return s.name == scene.name; }))
-        looked_at.push_back(scene);
+    unite(looked_at, request.scenes);
     for (Point& point : experiment->points(request)) points.push_back(std::move(point));
   }
   require_writable(options.out);

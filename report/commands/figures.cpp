@@ -37,9 +37,7 @@ Asked asked_by(const FiguresOptions& options) {
   for (const Experiment* experiment : experiments_named(options.names)) {
     asked.experiments.emplace_back(experiment->name);
     request.scenes = scenes_for(*experiment, options.scenes, options.full);
-    for (const Scene& scene : request.scenes)
-      if (std::none_of(asked.scenes.begin(), asked.scenes.end(), [&](const Scene& s) { return s.name == scene.name; }))
-        asked.scenes.push_back(scene);
+    unite(asked.scenes, request.scenes);
     for (Point& point : experiment->points(request)) asked.points.push_back(std::move(point));
   }
   return asked;
@@ -81,14 +79,8 @@ int figures_command(const FiguresOptions& options) {
   std::erase_if(charts, [&](Chart& chart) { return !resize(chart, size); });
   std::vector<Point> drawings;
   for (const Chart& chart : charts)
-    drawings.push_back({"figure: " + words_of(chart)->name, words_of(chart)->name, [&](Rows&) {
-                          std::visit(
-                              [&]<class F>(const F& figure) {
-                                if constexpr (std::derived_from<F, FigureWords>)
-                                  draw(drawing_of(figure), lines, options.out);
-                              },
-                              chart.figure);
-                        }});
+    drawings.push_back({"figure: " + words_of(chart)->name, words_of(chart)->name,
+                        [&](Rows&) { draw_figure(chart, lines, options.out); }});
   problems.compute(drawings, store);
   store.clear();
   std::vector<const Chart*> drawn;

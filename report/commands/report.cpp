@@ -131,10 +131,7 @@ class Builder {
   /// Every scene that some experiment looks at.
   std::vector<Scene> scenes_of_all() const {
     std::vector<Scene> all = request_.scenes;
-    for (const Request& request : requests_)
-      for (const Scene& scene : request.scenes)
-        if (std::none_of(all.begin(), all.end(), [&](const Scene& s) { return s.name == scene.name; }))
-          all.push_back(scene);
+    for (const Request& request : requests_) unite(all, request.scenes);
     return all;
   }
 
@@ -210,9 +207,8 @@ class Builder {
     std::vector<Point> points;
     for (const Chart& chart : charts_) {
       if (const FigureWords* words = words_of(chart))
-        points.push_back({"figure: " + words->name, words->name, [this, &chart](Rows&) {
-                            std::visit([this](const auto& figure) { draw_if_any(figure); }, chart.figure);
-                          }});
+        points.push_back({"figure: " + words->name, words->name,
+                          [this, &chart](Rows&) { draw_figure(chart, page_.provenance, figures_); }});
       for (const Snapshot& s : chart.snapshots)
         points.push_back(
             {"picture: " + s.name, content_of(request_, s.scene), [this, &s](Rows&) {
@@ -250,11 +246,6 @@ class Builder {
     for (ScenePart& part : page_.scenes)
       if (part.scene->name == chart.scene)
         part.figures.insert(part.figures.end(), entry.images.begin(), entry.images.end());
-  }
-
-  template <class F>
-  void draw_if_any(const F& figure) {
-    if constexpr (std::derived_from<F, FigureWords>) draw(drawing_of(figure), page_.provenance, figures_);
   }
 
   const ReportOptions& options_;

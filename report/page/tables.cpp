@@ -100,7 +100,7 @@ std::string scene_table_html(const std::vector<ScenePart>& scenes) {
     int failed = 0;
     for (const MethodFacts& m : part.facts->methods) {
       failed += m.supported() && !m.ok();
-      if (m.ok() && m.error && !m.method.starts_with("truth/") && (!best || *m.error < *best->error)) best = &m;
+      if (m.judged() && (!best || *m.error < *best->error)) best = &m;
     }
     out += best ? fmt::format("<td>{}<br>{}{}</td>", best->method, *best->error < part.facts->bar ? "&lt; " : "",
                               nice_length(std::max(*best->error, part.facts->bar)))

@@ -5,8 +5,6 @@
 
 #include "experiments/bench/equal_error.h"
 #include "experiments/bench/equal_error_tables.h"
-#include "experiments/bench/factorised_step.h"
-#include "experiments/bench/implicit_step.h"
 #include "experiments/bench/instructions.h"
 #include "experiments/bench/kernels.h"
 #include "experiments/bench/on_scenes.h"
@@ -18,25 +16,14 @@
 #include "experiments/metrics.h"
 #include "experiments/scenes.h"
 #include "mysim/frequency.h"
-#include "mysim/implicit/newton.h"
-#include "tests/unit/helpers.h"
+#include "tests/unit/bench_pieces.h"
 
 namespace crosscheck {
 namespace {
 
 using namespace testing_tools;
 
-const MicroPlan hasty{3, 1e-4};
 const TurnPlan hasty_turns{3, 1e-4};
-
-/// Every number of the table that is there is finite.
-void expect_finite(const Table& table) {
-  for (const auto& row : table.rows)
-    for (size_t i = 0; i < row.size(); ++i)
-      if (const auto* number = std::get_if<double>(&row[i])) {
-        EXPECT_TRUE(std::isfinite(*number)) << table.name << ": " << table.columns[i].name;
-      }
-}
 
 TEST(BenchSheet, IsTheOneThatPeersWereMeasuredOn) {
   for (const auto& [n, springs] : {std::pair{32, 5826u}, {64, 23938u}, {128, 97026u}}) {
@@ -82,17 +69,6 @@ TEST(BenchInstructions, AreAsBeforeAfterwards) {
   EXPECT_EQ(value(), "none");
 }
 
-/// Left out where the suite was built without Google Benchmark.
-class BenchMicro : public testing::Test {
- protected:
-  void SetUp() override {
-    try {
-      measured({{"nothing", [] {}}}, {1, 1e-6});
-    } catch (const Unsupported& why) {
-      GTEST_SKIP() << why.what();
-    }
-  }
-};
 using BenchKernels = BenchMicro;
 using BenchScenes = BenchMicro;
 
@@ -284,50 +260,6 @@ TEST(BenchSameStep, BothEnginesComeToTheSamePlaces) {
               *number_at(table, i, "high of Bullet") / *number_at(table, i, "low of mysim") * (1 + 1e-9));
     EXPECT_GE(*number_at(table, i, "ratio"),
               *number_at(table, i, "low of Bullet") / *number_at(table, i, "high of mysim") * (1 - 1e-9));
-  }
-}
-
-using BenchImplicit = BenchMicro;
-
-TEST_F(BenchImplicit, BothWaysEndWhereTheOtherDoes) {
-  Rows rows;
-  Progress progress(2);
-  implicit_step({{24}, {60, 240}, hasty}, rows, progress);
-  const Table& table = *rows.table("bench-implicit-step-cost");
-  expect_finite(table);
-  ASSERT_EQ(table.rows.size(), 2 * paths().size());
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    // solved to 1e-12 of the forces by one, to round-off by the other; what gives way most is as soft as inertia alone
-    EXPECT_LE(*number_at(table, i, "farthest particle"), 1e-10 * *number_at(table, i, "largest move"));
-    EXPECT_GT(*number_at(table, i, "largest move"), 1e-3);
-    EXPECT_GT(*number_at(table, i, "iterations"), 1);
-    EXPECT_LE(*number_at(table, i, "ratio low"), *number_at(table, i, "ratio"));
-    EXPECT_LE(*number_at(table, i, "ratio"), *number_at(table, i, "ratio high"));
-  }
-}
-
-TEST(FactorisedStep, RefusesDragThatIsNoRate) {
-  Scene scene = sheet(9);
-  scene.model.particles.mass[3] *= 2;
-  EXPECT_THROW(FactorisedStep(scene, 0.01), std::invalid_argument);
-}
-
-TEST(FactorisedStep, IsTheLinearImplicitStepOfAnyScene) {
-  // starts at random, on a net that is no sheet
-  Scene scene = sheet(9);
-  Random random(3);
-  scene.model.find<Springs>()->list.resize(150);
-  for (int i = 0; i < 81; ++i) {
-    if (scene.model.particles.pinned[i]) continue;
-    scene.start.x.col(i) += 0.02 * random.vector();
-    scene.start.v.col(i) = random.vector();
-  }
-  for (const double h : {0.001, 0.02}) {
-    System f(scene.model);
-    ImplicitStep own(f, true);
-    const Points mine = own.solve_linear(scene.start, h).x;
-    const Points theirs = FactorisedStep(scene, h).step(scene.start.x, scene.start.v);
-    EXPECT_LE(largest_column(mine - theirs), 1e-10 * largest_column(mine - scene.start.x));
   }
 }
 
