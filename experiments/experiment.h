@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,12 +15,28 @@
 
 namespace crosscheck {
 
+/// A run as it went, for who wants to see it move.
+struct WatchedRun {
+  Outcome outcome;
+  Trajectory path;   // without velocities where none are needed; no frames: refused
+  Points rest = {};  // of a cell of a map: N (3 x n), m, from where it was kicked
+};
+/// Runs of one method, in the order of the rows that the driver writes of them.
+struct WatchedRuns {
+  std::string of;  // "speed-accuracy", or the map: "stiffness-map", "drag-map"
+  const Scene& scene;
+  std::string method;
+  std::vector<WatchedRun> runs;
+};
+using Watch = std::function<void(const WatchedRuns&)>;
+
 struct Request {
   std::vector<Scene> scenes;
   std::vector<Method> methods;  // empty: the default ones of each scene
   bool full = false;            // more points, for the same questions
   double step = 0;              // s, of all fixed-step methods; 0: each scene's own
   bool scenes_only = false;     // only what is asked of these scenes, not what experiments ask of scenes of their own
+  Watch watch = {};             // is shown the runs of speed-accuracy and of the maps; rows do not depend on it
 };
 
 /// One method's answer to one scene at the request's step, kept: experiments and pictures look at the same run.

@@ -233,8 +233,8 @@ MethodStyle style_of(const std::string& method) {
   return others[sum % std::size(others)];
 }
 
-std::vector<std::vector<std::string>> told_of(const Figure& figure) {
-  std::vector<std::vector<std::string>> all;
+std::vector<std::vector<Tip>> told_of(const Figure& figure) {
+  std::vector<std::vector<Tip>> all;
   if (!figure.pareto.empty()) all.emplace_back();
   for (const Curve& c : figure.curves)
     if (!c.points.empty()) all.push_back(c.told);
@@ -243,7 +243,7 @@ std::vector<std::vector<std::string>> told_of(const Figure& figure) {
   for (const FailureMark& m : figure.failures) {
     const auto [at, first] = place.emplace(m.title, all.size());
     if (first) all.emplace_back();
-    if (!m.told.empty()) all[at->second].push_back(m.told);
+    if (!m.told.words.empty()) all[at->second].push_back(m.told);
   }
   return all;
 }

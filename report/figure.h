@@ -18,13 +18,19 @@ struct MethodStyle {
 };
 MethodStyle style_of(const std::string& method);
 
+/// What a marker or a cell is to hands on the page.
+struct Tip {
+  std::string words;     // to a pointer above it
+  std::string run = {};  // what a click plays (FigureWords::runs): the method, a blank, the place among its runs
+};
+
 struct Curve {
   std::string title;  // shown in the key
   MethodStyle style;
   std::vector<std::pair<double, double>> points;
-  bool line = true;                    // joined by a line
-  bool markers = false;                // a marker on every point; otherwise on a few
-  std::vector<std::string> told = {};  // of each marker: what it says in the page to a pointer above it; or empty
+  bool line = true;            // joined by a line
+  bool markers = false;        // a marker on every point; otherwise on a few
+  std::vector<Tip> told = {};  // of each marker, or empty
 };
 
 /// A run that failed, drawn as a cross with its verdict.
@@ -34,7 +40,7 @@ struct FailureMark {
   double x, y;
   std::string kind = "failed";  // in the key, where the colour tells the method
   int cross = 2;                // gnuplot point type, one for each kind
-  std::string told = {};        // what it says in the page to a pointer above it
+  Tip told = {};
 };
 
 struct Axis {
@@ -60,6 +66,7 @@ struct FigureWords {
   std::string finding;      // what one sees in it, in a sentence: the alternative text
   bool from_costs = false;  // drawn from timings: not the same in each run
   FigureSize size = {};
+  std::string runs = {};  // the set of runs that its markers or cells play; empty: none
 };
 
 /// Curves, points and crosses over two axes.
@@ -82,7 +89,7 @@ struct Drawing {
 /// Throws std::runtime_error that names the figure when there is nothing to draw or a number is not finite.
 Drawing drawing_of(const Figure& figure);
 /// What the markers of each element of its plot say, in the order of the script.
-std::vector<std::vector<std::string>> told_of(const Figure& figure);
+std::vector<std::vector<Tip>> told_of(const Figure& figure);
 
 /// Writes and draws it into the folder (style.gp is put beside it). Throws std::runtime_error that names the figure
 /// when gnuplot complains.

@@ -123,8 +123,8 @@ std::string key_plot(const HeatMap& map) {
 
 }  // namespace
 
-std::vector<std::string> told_of(const HeatMap& map) {
-  std::vector<std::string> all;
+std::vector<Tip> told_of(const HeatMap& map) {
+  std::vector<Tip> all;
   for (const HeatMap::Panel& p : map.panels)
     for (size_t k = 0; k < map.kinds.size(); ++k)
       for (const HeatMap::HeatCell& c : p.cells)

@@ -13,9 +13,9 @@ struct CellKind {
 
 struct HeatMap : FigureWords {
   struct HeatCell {
-    double x, y;            // the middle, in the logarithm
-    int kind;               // of `kinds`
-    std::string told = {};  // what it says in the page to a pointer above it
+    double x, y;  // the middle, in the logarithm
+    int kind;     // of `kinds`
+    Tip told = {};
   };
   struct Panel {
     std::string title;
@@ -31,6 +31,6 @@ struct HeatMap : FigureWords {
 /// Throws std::runtime_error that names the figure when there is nothing to draw or a value is not above zero.
 Drawing drawing_of(const HeatMap& map);
 /// What its cells say, in the order of the script.
-std::vector<std::string> told_of(const HeatMap& map);
+std::vector<Tip> told_of(const HeatMap& map);
 
 }  // namespace crosscheck

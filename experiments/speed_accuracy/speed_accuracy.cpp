@@ -105,6 +105,11 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
     const auto settings = ladder(method, scene, base, request.full, &dropped);
     const std::vector<Try> tries = tries_of(method, scene, base, settings, rows.notes);
     if (!tries.empty() && dropped > 0) shortened.push_back(fmt::format("{} ({})", method.name, dropped));
+    if (request.watch && !tries.empty()) {
+      WatchedRuns watched{"speed-accuracy", scene, method.name, {}};
+      for (const Try& run : tries) watched.runs.push_back({run.outcome, run.trajectory});
+      request.watch(watched);
+    }
     for (const Try& run : tries) {
       const Outcome& out = run.outcome;
       std::optional<double> largest, over_time, own;

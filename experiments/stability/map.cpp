@@ -7,6 +7,7 @@
 
 #include "experiments/adequacy/grids.h"
 #include "experiments/estimate.h"
+#include "experiments/stability/last_pictures.h"
 #include "experiments/stability/tables.h"
 #include "mysim/errors.h"
 
@@ -46,7 +47,8 @@ std::span<const MapKind> map_kinds() {
   return table;
 }
 
-void map_on(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows) {
+void map_on(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows,
+            const Watch& watch) {
   Table cells = map_table(), limits = map_limit_table(), check = map_check_table();
   const std::string map(kind.name);
   const Subject as_it_is = subject_of(scene);
@@ -61,6 +63,7 @@ void map_on(const MapKind& kind, const Scene& scene, const Method& method, const
     return no_map(first.reason);
   long changed = 0, answered = 0;
   std::string refusal;
+  WatchedRuns watched{map + "-map", scene, method.name, {}};
   for (int r = 0; r < size.rows; ++r) {
     const double value = kind.value(static_cast<double>(r) / (size.rows - 1), omega);
     const Subject subject = subject_of(kind.with(scene, value));
@@ -69,8 +72,12 @@ void map_on(const MapKind& kind, const Scene& scene, const Method& method, const
     double held = 0, failed = 0;  // the last cell that held before the first that failed
     for (int c = 0; c < size.columns; ++c) {
       const double h = step_at(static_cast<double>(c) / (size.columns - 1), omega);
-      const StepTrial trial = try_step(method, subject, h, size.steps, kick);
+      LastPictures pictures(subject.spectrum.omega, h);
+      const StepTrial trial = try_step(method, subject, h, size.steps, kick,
+                                       watch ? std::vector<Observer*>{&pictures} : std::vector<Observer*>{});
       const bool refused = trial.unsupported();
+      if (watch)
+        watched.runs.push_back({{.verdict = trial.verdict, .end = trial.end}, pictures.path(), subject.scene.start.x});
       cells.add({scene.name, method.name, map, value, h, std::string(name_of(trial.fate())),
                  refused ? Cell() : Cell(trial.end),
                  refused || !std::isfinite(trial.growth) ? Cell() : Cell(trial.growth)});
@@ -93,6 +100,7 @@ void map_on(const MapKind& kind, const Scene& scene, const Method& method, const
                 held > 0 ? Cell(held) : Cell(), failed > 0 ? Cell(failed) : Cell()});
   }
   if (answered == 0) return no_map(refusal);
+  if (watch) watch(watched);
   rows.add(cells);
   rows.add(limits);
   if (size.check) {

@@ -157,8 +157,9 @@ std::vector<Point> stability_points(const Request& request) {
       }
       const std::string content = content_of(alone, *small);
       for (const MapKind& kind : map_kinds())
-        points.push_back({fmt::format("stability: map of step and {}, {}", kind.name, name), content,
-                          [=, &kind](Rows& rows) { map_on(kind, *small, method, *size, rows); }});
+        points.push_back(
+            {fmt::format("stability: map of step and {}, {}", kind.name, name), content,
+             [=, &kind, watch = request.watch](Rows& rows) { map_on(kind, *small, method, *size, rows, watch); }});
     }
     if (!small && scene.model.find<Springs>())
       points.push_back({"stability: maps of " + scene.name, "", [name = scene.name](Rows& rows) {

@@ -133,13 +133,13 @@ Scene kicked(const Subject& subject, const Kick& kick) {
   return scene;
 }
 
-StepTrial try_step(const Method& method, const Subject& subject, double h, long steps, const Kick& kick) {
+StepTrial try_step(const Method& method, const Subject& subject, double h, long steps, const Kick& kick,
+                   std::vector<Observer*> observers) {
   const Run run = run_of_trial(h, steps);
   const Stepper* rule = rule_of(method);
   const bool rotation = subject.scene.model.first_order(), one_factor = rotation || (rule && is_runge_kutta(*rule));
   const bool multiplies = subject.at_rest && subject.spectrum.commuting && one_factor;
   Departure departure(subject, multiplies, kick.mode, run.duration);
-  std::vector<Observer*> observers;
   if (subject.at_rest) observers.push_back(&departure);
   const Outcome out = run_method(method, kicked(subject, kick), run, observers);
   StepTrial trial{out.verdict, out.reason, out.end};

@@ -43,7 +43,9 @@ struct StepTrial {
 };
 
 /// Runs the method from the subject's state, kicked (or from the start, unkicked, where the scene has no rest).
-StepTrial try_step(const Method& method, const Subject& subject, double h, long steps, const Kick& kick);
+/// Further observers see the run too.
+StepTrial try_step(const Method& method, const Subject& subject, double h, long steps, const Kick& kick,
+                   std::vector<Observer*> observers = {});
 /// The run of such a trial.
 Run run_of_trial(double h, long steps);
 /// The subject's scene with the kick in its start.

@@ -76,17 +76,25 @@ SceneRows rows_of(const ChartInput& input, const Table& runs, const std::string&
   return s;
 }
 
+/// "mysim/rk4 3": the fourth row of its method in this scene.
+std::string run_of(const SceneRows& s, size_t row) {
+  size_t place = 0;
+  for (const size_t i : s.rows) place += i < row && s.runs.at(i, "method") == s.runs.at(row, "method");
+  return fmt::format("{} {}", text_or_none(s.runs, row, "method"), place);
+}
+
 /// A run in three lines, for a pointer above it.
-std::string told(const SceneRows& s, size_t row, const std::string& outcome) {
+Tip told(const SceneRows& s, size_t row, const std::string& outcome) {
   std::string cost;
   for (const Cost kind : {Cost{false}, Cost{true}})
     if (const auto value = s.cost_of(row, kind); value && *value > 0)
       cost +=
           fmt::format("{}{} {}", cost.empty() ? "" : ", ", kind.text_of(*value), kind.time ? "of CPU" : "evaluations");
   const std::string setting = text_or_none(s.runs, row, "setting");
-  return fmt::format("{}, {}{}\n{}\n{}", text_or_none(s.runs, row, "method"),
-                     setting.starts_with("step") ? "step " : "",
-                     setting_text(setting, *number_at(s.runs, row, "asked")), outcome, cost);
+  return {
+      fmt::format("{}, {}{}\n{}\n{}", text_or_none(s.runs, row, "method"), setting.starts_with("step") ? "step " : "",
+                  setting_text(setting, *number_at(s.runs, row, "asked")), outcome, cost),
+      run_of(s, row)};
 }
 
 int cross_of(const std::string& word) { return word == "blew up" ? 2 : word == "solver gave up" ? 1 : 3; }
@@ -95,6 +103,7 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
   Figure f;
   f.name = s.scene + "-speed-accuracy" + kind.suffix();
   f.from_costs = kind.time;
+  f.runs = s.scene + "-speed-accuracy";
   f.title = fmt::format("{}: {} against {}", s.scene, s.measure(), kind.time ? "CPU time" : "force evaluations");
   f.x = {kind.time ? "CPU time of the run / s" : "force evaluations of the run", true, std::nullopt, std::nullopt};
   const double top = 10 * s.motion, highest = 3 * s.motion;

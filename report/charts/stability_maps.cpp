@@ -113,6 +113,7 @@ HeatMap map_of(const Table& cells, const Table& limits, const std::string& scene
       if (p.title == method) return p;
     return map.panels.emplace_back(HeatMap::Panel{method, {}, {}, {}});
   };
+  map.runs = fmt::format("{}-{}-map", scene, kind);
   std::set<long> steps;
   for (size_t i = 0; i < cells.rows.size(); ++i) {
     if (text_at(cells, i, "scene") != scene || text_at(cells, i, "map") != kind) continue;
@@ -124,12 +125,15 @@ HeatMap map_of(const Table& cells, const Table& limits, const std::string& scene
                                 : verdict == "unsupported"
                                     ? "refused"
                                     : fmt::format("{} at {:.3g} s", failure_word(verdict), *number_at(cells, i, "end"));
-    panel(method).cells.push_back(
-        {step, value, kind_of(verdict),
-         fmt::format("{}, step {}, {}\n{}", method, step_text(step),
-                     kind == "drag" ? fmt::format("drag {} 1/s", nice(value))
-                                    : fmt::format("{} times the scene's stiffness", nice(value)),
-                     outcome)});
+    HeatMap::Panel& own = panel(method);
+    own.cells.push_back({step,
+                         value,
+                         kind_of(verdict),
+                         {fmt::format("{}, step {}, {}\n{}", method, step_text(step),
+                                      kind == "drag" ? fmt::format("drag {} 1/s", nice(value))
+                                                     : fmt::format("{} times the scene's stiffness", nice(value)),
+                                      outcome),
+                          fmt::format("{} {}", method, own.cells.size())}});
     if (verdict == "ok") steps.insert(std::lround(*number_at(cells, i, "end") / step));
   }
   RowsAgainstTheory rows(kind);

@@ -10,6 +10,7 @@
 
 #include "mysim/fnv.h"
 #include "report/page/page.h"
+#include "report/page/svg_cells.h"
 
 namespace crosscheck {
 namespace {
@@ -159,14 +160,15 @@ void remove_empty_groups(std::string& text) {
 }
 
 /// Gives the shapes from a place on their words. Where there are more, the last is the key's sample.
-void tell(std::string& body, size_t at, const std::string& shape, const std::vector<std::string>& words) {
+void tell(std::string& body, size_t at, const std::string& shape, const std::vector<Tip>& tips) {
   const std::string open = "<" + shape + " ";
-  for (const std::string& word : words) {
+  for (const Tip& tip : tips) {
     at = at == std::string::npos ? at : body.find(open, at);
     if (at == std::string::npos) throw std::runtime_error("a drawing with fewer shapes than runs");
     const size_t close = body.find("/>", at);
-    body.replace(close, 2, fmt::format("><title>{}</title></{}>", escaped(word), shape));
-    body.insert(at + open.size(), "class=\"told\" ");
+    body.replace(close, 2, fmt::format("><title>{}</title></{}>", escaped(tip.words), shape));
+    body.insert(at + open.size(),
+                tip.run.empty() ? "class=\"told\" " : fmt::format("class=\"told\" data-run=\"{}\" ", escaped(tip.run)));
     at = close;
   }
 }
@@ -223,6 +225,7 @@ std::string inline_svg(const std::string& svg, const std::string& alt, const Tol
   // of another drawing with patterns of its own
   replace_all(body, "gpPat", fmt::format("gpPat{:x}-", Fnv1a::of(body)));
   remove_empty_groups(body);
+  if (!told.boxes.empty()) join_boxes_and_borders(body);
   for (size_t i = 0; i < told.markers.size(); ++i)
     if (!told.markers[i].empty()) tell(body, body.find(fmt::format("_plot_{}\"", i + 1)), "use", told.markers[i]);
   tell(body, 0, "polygon", told.boxes);

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "report/figure.h"
+
 namespace crosscheck {
 
 /// The drawing as an <svg> element that says `alt` to screen readers. Coordinates of lines are rounded to a tenth of a
@@ -12,8 +14,8 @@ namespace crosscheck {
 ///
 /// What parts of a drawing say to a pointer above them, in the order in which they are drawn.
 struct Told {
-  std::vector<std::vector<std::string>> markers;  // of each element of the plot; an element may have none
-  std::vector<std::string> boxes;                 // of all the drawing
+  std::vector<std::vector<Tip>> markers;  // of each element of the plot; an element may have none
+  std::vector<Tip> boxes;                 // of all the drawing
 };
 /// Throws std::runtime_error where there are fewer markers or boxes than words.
 std::string inline_svg(const std::string& svg, const std::string& alt, const Told& told = {});

@@ -171,8 +171,8 @@ std::string provenance_html(const Provenance& lines) {
 }
 
 std::string page_html(const PageContent& c) {
-  const bool plays =
-      std::any_of(c.scenes.begin(), c.scenes.end(), [](const ScenePart& part) { return !part.motions.empty(); });
+  const bool plays = !c.runs.empty() || std::any_of(c.scenes.begin(), c.scenes.end(),
+                                                    [](const ScenePart& part) { return !part.motions.empty(); });
   std::string out = page_head("Crosscheck: mysim beside Bullet", plays ? player_head() : "") + first_screen(c);
   out += "<section id=\"scenes\">\n<h2>Scene by scene</h2>\n" + scene_table_html(c.scenes);
   out += "</section>\n";
@@ -195,8 +195,9 @@ std::string page_html(const PageContent& c) {
       "<p>The second route is {} on a right-hand side written apart from mysim's.</p>\n",
       sundials_version() ? "SUNDIALS ARKODE" : "odeint; SUNDIALS is not there (Debian's package libsundials-dev)");
   for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", escaped(note));
-  return sharing_markers(out + provenance_html(c.provenance) + "</section>\n</main>\n<script>\n" +
-                         asset("page/page.js") + "</script>\n</body></html>\n");
+  out += provenance_html(c.provenance) + "</section>\n</main>\n";
+  for (const PlayedRuns& runs : c.runs) out += runs_html(runs);
+  return sharing_markers(out + "<script>\n" + asset("page/page.js") + "</script>\n</body></html>\n");
 }
 
 }  // namespace crosscheck

@@ -16,7 +16,16 @@ namespace crosscheck {
 struct PageImage {
   std::filesystem::path file;  // .png or .svg
   std::string alt, caption;
-  Told told = {};  // of .svg
+  Told told = {};         // of .svg
+  std::string runs = {};  // which runs its markers or cells play: the key of PlayedRuns; empty: none
+};
+
+/// The runs of a figure, as the player has them: one file of JSON for each method (run_motions.h, cell_motions.h).
+struct PlayedRuns {
+  std::string key;
+  std::string scene;  // whose player's data they are added to
+  std::string stage;  // or JSON of a stage of their own (player_data.h)
+  std::vector<std::filesystem::path> methods;
 };
 
 struct ScenePart {
@@ -46,6 +55,7 @@ struct PageContent {
   std::vector<PageImage> hero;    // beside the answer: a picture, and the figures of the whole report
   std::vector<ScenePart> scenes;
   std::vector<Chapter> chapters;
+  std::vector<PlayedRuns> runs;       // that figures play
   std::vector<std::string> notes;     // what was left out, and why
   std::vector<std::string> problems;  // what failed to be made
   std::string against;                // an earlier report, or empty

@@ -48,9 +48,8 @@ class Desk {
       'aria-label': `time in ${scene.scene}`
     });
     this.clock = make('span', {class: 'clock'});
-    const speeds =
-        [[0.1, '0.1 ×'], [0.25, '0.25 ×'], [0.5, '0.5 ×'], [1, '1 ×'], [2, '2 ×']].map(([v, t]) => [String(v), t]);
-    const [speedLabel, speed] = choice('Speed', speeds, '1');
+    const usual = scene.speed ?? 1, speeds = [0.1, 0.25, 0.5, 1, 2].map(part => part * usual);
+    const [speedLabel, speed] = choice('Speed', speeds.map(v => [String(v), `${Number(v.toPrecision(2))} ×`]), String(usual));
     const colours = [['plain', 'method']];
     if (scene.stretch) colours.push(['stretch', 'stretch']);
     if (scene.distance) colours.push(['distance', scene.distance.name]);
@@ -78,6 +77,7 @@ class Desk {
         plot, {
           label: scene.plot.label,
           title: scene.plot.title,
+          powers: scene.plot.powers,
           times: scene.times,
           series: methods.map(
               m => ({values: m.plotted, colour: m.colour, dash: m.dash, well: !m.failure, failure: m.failed}))
@@ -133,8 +133,9 @@ class Desk {
     this.clock.textContent = `${seconds(time, end)} / ${seconds(end, end)} s`;
     this.plot.moveHead(time);
     scene.methods.forEach((method, i) => {
-      const value = method.plotted[nearest];
-      this.values[i].textContent = value === undefined || value === null ? '–' : `${short(value)} ${scene.plot.unit}`;
+      const value = method.plotted[nearest], {unit, powers} = scene.plot;
+      this.values[i].textContent =
+          value === undefined || value === null ? '–' : `${short(powers ? 10 ** value : value)} ${unit}`;
     });
   }
 }

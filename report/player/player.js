@@ -20,13 +20,14 @@ document.documentElement.classList.toggle('plays', plays);
 class MotionPlayer extends HTMLElement {
   connectedCallback() {
     if (!plays || this.scene) return;
-    const root = this.parentElement, scene = this.scene = JSON.parse(root.querySelector('script.motion').textContent);
+    const root = this.parentElement;
+    const scene = this.scene = this.given?.scene ?? JSON.parse(root.querySelector('script.motion').textContent);
     this.box = root.querySelector('.stage');
-    Object.assign(this, {time: 0, speed: 1, playing: false, seen: false, orbit: new Orbit(scene.from)});
+    Object.assign(this, {time: 0, speed: scene.speed ?? 1, playing: false, seen: false, orbit: new Orbit(scene.from)});
     const narrow = this.box.clientWidth < 700;
     const first = scene.methods.flatMap((m, i) => (m.first ? [i] : []));
     this.look = {
-      colour: scene.triangles ? 'stretch' : 'plain',
+      colour: !scene.triangles ? 'plain' : scene.stretch ? 'stretch' : 'distance',
       springs: !scene.triangles,
       shown: narrow ? first.slice(0, 2) : first
     };
@@ -62,7 +63,7 @@ class MotionPlayer extends HTMLElement {
 
   /** Unpacks the data (once) and opens a stage; one that is out of sight gives way. */
   async wake() {
-    this.data ??= unpackScene(this.scene);
+    this.data ??= unpackScene(this.scene, this.given?.motions);
     const data = await this.data;
     if (this.stage) return;
     while (alive.length >= mostStages) (alive.find(player => !player.seen) ?? alive[0]).sleep();

@@ -29,35 +29,6 @@ std::string dashes_of(const MethodStyle& style) {
   return dash;
 }
 
-/// Why a run failed, without saying again that it did, and when.
-std::string why_failed(const Outcome& out) {
-  const std::string words(in_words(out.verdict));
-  const size_t open = words.find('(');
-  std::string why = open == std::string::npos ? "" : words.substr(open + 1, words.size() - open - 2);
-  std::string told = out.reason;
-  if (told.starts_with("the run failed at"))
-    told = told.find(": ") == std::string::npos ? "" : told.substr(told.find(": ") + 2);
-  if (!told.empty()) why += (why.empty() ? "" : "; ") + told;
-  return why.empty() ? words : why;
-}
-
-/// Name, looks and what became of it.
-Json words_json(const Shown& s) {
-  Json json{{"name", s.name},    {"colour", "#555555"}, {"dash", "1 4"}, {"stops", s.t.back()},
-            {"failed", nullptr}, {"failure", ""},       {"reason", ""},  {"note", ""}};
-  json["end"] = s.answer ? "last good frame" : fmt::format("known up to {:.3g} s", s.t.back());
-  if (!s.answer) return json;
-  const Outcome& out = s.answer->outcome;
-  json["colour"] = style_of(s.answer->method).colour;
-  json["dash"] = dashes_of(style_of(s.answer->method));
-  if (!out.different_law.empty()) json["note"] = fmt::format("{}", fmt::join(out.different_law, "; "));
-  if (s.ok()) return json;
-  json["failed"] = out.end;
-  json["failure"] = fmt::format("{} at {:.3g} s", failure_word(std::string(name_of(out.verdict))), out.end);
-  json["reason"] = why_failed(out);
-  return json;
-}
-
 Json values_json(const ColourValues& values, size_t motion, size_t particles) {
   if (!(values.top > 0) || values.of[motion].empty()) return nullptr;
   return packed_json(packed(quantised(values.of[motion], values.top), particles, 1));
@@ -101,7 +72,50 @@ Json plot_json(const Scene& scene) {
   return {{"label", "energy / J"}, {"unit", "J"}, {"title", scene.name + ": total energy over time"}};
 }
 
+/// What of it all methods share.
+Json shared_json(const Scene& scene, const Vantage& vantage, const std::vector<double>& times) {
+  Json json{{"scene", scene.name}, {"particles", scene.model.particles.size()}, {"times", times}};
+  json["from"] = vector_json(vantage.from);
+  json["floor"] = vantage.floor ? Json(*vantage.floor) : Json();
+  json["triangles"] = triangles_json(scene);
+  json["springs"] = springs_json(scene);
+  json["pins"] = scene.model.particles.pins;
+  json["spheres"] = spheres_json(scene, times);
+  return json;
+}
+
+constexpr auto hands =
+    "Drag to turn. With the picture in focus (click it, or Tab) the wheel zooms, arrow keys turn, + and − zoom, 0 "
+    "resets.";
+
 }  // namespace
+
+std::string why_failed(const Outcome& out) {
+  const std::string words(in_words(out.verdict));
+  const size_t open = words.find('(');
+  std::string why = open == std::string::npos ? "" : words.substr(open + 1, words.size() - open - 2);
+  std::string told = out.reason;
+  if (told.starts_with("the run failed at"))
+    told = told.find(": ") == std::string::npos ? "" : told.substr(told.find(": ") + 2);
+  if (!told.empty()) why += (why.empty() ? "" : "; ") + told;
+  return why.empty() ? words : why;
+}
+
+Json words_json(const Shown& s) {
+  Json json{{"name", s.name}, {"colour", "#555555"}, {"dash", "1 4"}, {"stops", s.t.back()}, {"failed", nullptr},
+            {"failure", ""},  {"reason", ""},        {"note", ""},    {"known", !s.answer}};
+  json["end"] = s.answer ? "last good frame" : fmt::format("known up to {:.3g} s", s.t.back());
+  if (!s.answer) return json;
+  const Outcome& out = s.answer->outcome;
+  json["colour"] = style_of(s.answer->method).colour;
+  json["dash"] = dashes_of(style_of(s.answer->method));
+  if (!out.different_law.empty()) json["note"] = fmt::format("{}", fmt::join(out.different_law, "; "));
+  if (s.ok()) return json;
+  json["failed"] = out.end;
+  json["failure"] = fmt::format("{} at {:.3g} s", failure_word(std::string(name_of(out.verdict))), out.end);
+  json["reason"] = why_failed(out);
+  return json;
+}
 
 std::string player_json(const Scene& scene, const std::vector<const Answer*>& answers,
                         const std::optional<Truth>& truth) {
@@ -123,23 +137,24 @@ std::string player_json(const Scene& scene, const std::vector<const Answer*>& an
       if (s.ok() != failed && (!failed || seen.empty())) seen.insert(seen.end(), s.x.begin(), s.x.end());
   const Vantage vantage = vantage_of(scene, seen, times);
 
-  Json json{{"scene", scene.name}, {"particles", scene.model.particles.size()}, {"times", times}};
-  json["from"] = vector_json(vantage.from);
-  json["floor"] = vantage.floor ? Json(*vantage.floor) : Json();
-  json["triangles"] = triangles_json(scene);
-  json["springs"] = springs_json(scene);
-  json["pins"] = scene.model.particles.pins;
-  json["spheres"] = spheres_json(scene, times);
+  Json json = shared_json(scene, vantage, times);
   json["stretch"] = stretch.top > 0 ? Json{{"top", stretch.top}, {"label", "%"}} : Json();
   json["distance"] = known ? distance_json(scene, *truth, distance.top, until) : Json();
   json["plot"] = plot_json(scene);
   json["methods"] = std::move(methods);
-  json["hint"] = fmt::format(
-      "Drag to turn. With the picture in focus (click it, or Tab) the wheel zooms, arrow keys turn, + and − zoom, 0 "
-      "resets. Places are drawn to within {}.",
-      nice_length(bound));
+  json["hint"] = fmt::format("{} Places are drawn to within {}.", hands, nice_length(bound));
   // an outside program may have said anything
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string stage_json(const Scene& scene) {
+  Vantage vantage = vantage_of(scene, {scene.start.x}, {0});
+  vantage.floor.reset();
+  Json json = shared_json(scene, vantage, {0});
+  json["stretch"] = json["distance"] = nullptr;
+  json["methods"] = Json::array();
+  json["hint"] = hands;
+  return json.dump();
 }
 
 }  // namespace crosscheck

@@ -2,12 +2,14 @@
 // plot.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/experiment.h"
 #include "reference/truth.h"
+#include "report/player/shown.h"
 
 namespace crosscheck {
 
@@ -16,5 +18,14 @@ namespace crosscheck {
 /// many particles for a page (see shown.h).
 std::string player_json(const Scene& scene, const std::vector<const Answer*>& answers,
                         const std::optional<Truth>& truth);
+
+/// The same of a scene in which nothing has moved yet, without methods: where cells of its maps are played.
+std::string stage_json(const Scene& scene);
+
+/// Why a run failed, without saying again that it did, and when.
+std::string why_failed(const Outcome& out);
+/// Name, looks and what became of a motion: "name", "colour", "dash", "stops" (s), "failed" (s or null), "failure",
+/// "reason", "note", "end", and "known" for the truth.
+nlohmann::ordered_json words_json(const Shown& shown);
 
 }  // namespace crosscheck

@@ -3,14 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "report/assets.h"
 
 namespace crosscheck {
 namespace {
 
 /// In the order in which they know each other: pages from a folder cannot load modules.
-constexpr const char* scripts[] = {"unpack", "vectors", "colours", "orbit", "shaders", "gl",   "shapes",
-                                   "motion", "extent",  "stage",   "hands", "plot",    "desk", "player"};
+constexpr const char* scripts[] = {"unpack", "vectors", "colours", "orbit", "shaders", "gl",     "shapes", "motion",
+                                   "extent", "stage",   "hands",   "plot",  "desk",    "player", "runs"};
 
 /// JSON inside a script element: the one sign that could end it is written otherwise.
 std::string without_brackets(const std::string& json) {
@@ -34,6 +36,15 @@ std::string player_html(const PageImage& poster, const std::filesystem::path& mo
       "</figure>\n<script type=\"application/json\" class=\"motion\">{}</script>\n<motion-player></motion-player>\n"
       "</div>\n",
       image_tag(poster), escaped(poster.caption), without_brackets(content_of_file(motions)));
+}
+
+std::string runs_html(const PlayedRuns& runs) {
+  const std::string base =
+      runs.stage.empty() ? fmt::format("\"scene\":{}", nlohmann::json(runs.scene).dump()) : "\"stage\":" + runs.stage;
+  std::string methods;
+  for (const auto& file : runs.methods) methods += (methods.empty() ? "" : ",") + content_of_file(file);
+  return fmt::format("<script type=\"application/json\" class=\"runs\" data-runs=\"{}\">{}</script>\n",
+                     escaped(runs.key), without_brackets(fmt::format("{{{},\"methods\":[{}]}}", base, methods)));
 }
 
 }  // namespace crosscheck

@@ -29,10 +29,23 @@ function ticks(low, high, count) {
                   }));
 }
 
+/** Whole powers of ten between two exponents, at most about `count` of them. */
+function powerTicks(low, high, count) {
+  const step = Math.max(1, Math.ceil((high - low) / count)), list = [];
+  for (let n = Math.ceil(low / step) * step; n <= high; n += step) {
+    const digits = String(Math.abs(n)).split('').map(d => '⁰¹²³⁴⁵⁶⁷⁸⁹'[d]).join('');
+    list.push({value: n, text: `10${n < 0 ? '⁻' : ''}${digits}`});
+  }
+  return list;
+}
+
 class Plot {
-  /** `series`: {values, colour, dash, well, failure} of each method; `seek` is called with a time in s. */
-  constructor(box, {label, times, series, title}, seek) {
-    Object.assign(this, {box, label, times, series, title, high: 168});
+  /**
+   * `series`: {values, colour, dash, well, failure} of each method; with `powers` the values are exponents of ten.
+   * `seek` is called with a time in s.
+   */
+  constructor(box, {label, times, series, title, powers}, seek) {
+    Object.assign(this, {box, label, times, series, title, powers, high: 168});
     this.range();
     const at = event => {
       const {left} = box.getBoundingClientRect();
@@ -49,13 +62,16 @@ class Plot {
     const all = (well.length ? well : this.series).flatMap(s => s.values).filter(v => v !== null);
     const low = Math.min(...all), high = Math.max(...all), room = 0.06 * (high - low) || 0.05 * Math.abs(high) || 1;
     Object.assign(this, {low: low - room, most: high + room});
+    if (!all.length) Object.assign(this, {low: 0, most: 1});
+    // at least one whole power is in sight
+    else if (this.powers) Object.assign(this, {low: Math.min(this.low, Math.floor(low)), most: Math.max(this.most, Math.ceil(high))});
   }
 
   draw(shown = this.shown) {
     this.shown = shown;
     this.wide = this.box.clientWidth;
     if (!this.wide) return;
-    const end = this.times[this.times.length - 1], yTicks = ticks(this.low, this.most, 4);
+    const end = this.times[this.times.length - 1], yTicks = (this.powers ? powerTicks : ticks)(this.low, this.most, 4);
     this.left = 14 + 7.2 * Math.max(...yTicks.map(t => t.text.length)) + 16;
     this.right = 10;
     const top = 8, foot = this.high - 36;

@@ -52,19 +52,22 @@ int frame_stride(const Scene& scene) {
   return least;
 }
 
+Shown shown_of(const Truth& truth, int stride) {
+  return thinned(nullptr,
+                 truth.of_contact_rule ? "converged contact rule" : fmt::format("truth ({})", name_of(truth.tier)),
+                 truth.trajectory, stride);
+}
+
 std::vector<Shown> shown_of(const Scene& scene, const std::vector<const Answer*>& answers,
                             const std::optional<Truth>& truth) {
   const int stride = frame_stride(scene);
   std::vector<Shown> all;
   if (stride == 0) return all;
-  const auto add = [&](const Answer* answer, const std::string& name, const Trajectory& path) {
-    // the first sample may fail already
-    if (Shown shown = thinned(answer, name, path, stride); !shown.x.empty()) all.push_back(std::move(shown));
+  const auto add = [&](Shown shown) {
+    if (!shown.x.empty()) all.push_back(std::move(shown));  // the first sample may fail already
   };
-  for (const Answer* a : answers) add(a, a->method, a->trajectory);
-  if (truth && !all.empty())
-    add(nullptr, truth->of_contact_rule ? "converged contact rule" : fmt::format("truth ({})", name_of(truth->tier)),
-        truth->trajectory);
+  for (const Answer* a : answers) add(thinned(a, a->method, a->trajectory, stride));
+  if (truth && !all.empty()) add(shown_of(*truth, stride));
   cut_failed(scene.size(), all);
   return all;
 }

@@ -23,6 +23,8 @@ struct Shown {
 /// others; the last sample is one, where that is near. 0 where fewer than 25 frames would fit into the page.
 int frame_stride(const Scene& scene);
 
+/// The truth at every stride-th of its samples.
+Shown shown_of(const Truth& truth, int stride);
 /// The answers that have frames, then the truth, if there is one. A run that failed ends with its last frame near the
 /// others.
 std::vector<Shown> shown_of(const Scene& scene, const std::vector<const Answer*>& answers,

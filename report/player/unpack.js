@@ -22,12 +22,15 @@ async function unpack({count, lag, order, data}) {
   return values;
 }
 
-/** All packed arrays of a scene: what is drawn, and for each method its places, stretch and distances. */
-async function unpackScene(scene) {
+/**
+ * All packed arrays of a scene: what is drawn, and for each method its places, stretch and distances, unless these are
+ * given.
+ */
+async function unpackScene(scene, given) {
   const none = new Uint16Array(0);
   const open = packed => (packed ? unpack(packed) : none);
   const [triangles, springs] = await Promise.all([open(scene.triangles), open(scene.springs.ends)]);
-  const motions = await Promise.all(scene.methods.map(async method => {
+  const motions = given ?? await Promise.all(scene.methods.map(async method => {
     const [places, stretch, distance] =
         await Promise.all([open(method.places), open(method.stretch), open(method.distance)]);
     return {places, stretch, distance};
