@@ -18,7 +18,7 @@ namespace crosscheck {
 /// A run as it went, for who wants to see it move.
 struct WatchedRun {
   Outcome outcome;
-  Trajectory path;   // without velocities where none are needed; no frames: refused
+  Trajectory path;   // its samples; of one that failed, and of a map's cell, its last pictures; no frames: refused
   Points rest = {};  // of a cell of a map: N (3 x n), m, from where it was kicked
 };
 /// Runs of one method, in the order of the rows that the driver writes of them.

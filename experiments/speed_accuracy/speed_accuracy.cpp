@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/last_pictures.h"
 #include "experiments/metrics.h"
 #include "experiments/speed_accuracy/ladder.h"
 #include "experiments/speed_accuracy/tables.h"
 #include "experiments/timing.h"
+#include "mysim/frequency.h"
 
 namespace crosscheck {
 
@@ -31,20 +33,24 @@ namespace {
 struct Try {
   Setting setting;
   Outcome outcome;
-  Trajectory trajectory;
+  Trajectory trajectory, end;  // and its last pictures, where it is watched and failed
   bool ok() const { return outcome.verdict == Verdict::ok; }
 };
 
 /// The runs of one method; empty where it does not take the scene, or built another one. A note says where it took some
 /// settings and refused others.
 std::vector<Try> tries_of(const Method& method, const Scene& scene, const Run& base, const std::vector<Setting>& ladder,
-                          std::vector<std::string>& notes) {
+                          bool watched, std::vector<std::string>& notes) {
+  const double omega = watched && !scene.model.first_order() ? fastest_frequency(scene.model, scene.start) : 0;
   std::vector<Try> tries;
   std::string refusal;
   size_t refused = 0;
   for (const Setting& setting : ladder) {
     Recorder recorder;
-    Outcome out = run_method(method, scene, setting.applied_to(base), {&recorder});
+    LastPictures last(omega, setting.tolerance ? 0 : setting.value);
+    std::vector<Observer*> observers{&recorder};
+    if (watched) observers.push_back(&last);
+    Outcome out = run_method(method, scene, setting.applied_to(base), observers);
     if (out.verdict == Verdict::unsupported) {  // at this step, perhaps not at others
       refusal = out.reason, ++refused;
       continue;
@@ -54,7 +60,8 @@ std::vector<Try> tries_of(const Method& method, const Scene& scene, const Run& b
                                   method.name, scene.name));
       return {};
     }
-    tries.push_back({setting, std::move(out), std::move(recorder.trajectory)});
+    const bool failed = watched && out.verdict != Verdict::ok;
+    tries.push_back({setting, std::move(out), std::move(recorder.trajectory), failed ? last.path() : Trajectory{}});
   }
   if (refused > 0 && !tries.empty())
     notes.push_back(fmt::format("speed-accuracy leaves out {} of {} runs of {} on {}, which it refuses: {}", refused,
@@ -103,11 +110,11 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
   for (const Method& method : methods_for(request, scene)) {
     int dropped = 0;
     const auto settings = ladder(method, scene, base, request.full, &dropped);
-    const std::vector<Try> tries = tries_of(method, scene, base, settings, rows.notes);
+    const std::vector<Try> tries = tries_of(method, scene, base, settings, bool(request.watch), rows.notes);
     if (!tries.empty() && dropped > 0) shortened.push_back(fmt::format("{} ({})", method.name, dropped));
     if (request.watch && !tries.empty()) {
       WatchedRuns watched{"speed-accuracy", scene, method.name, {}};
-      for (const Try& run : tries) watched.runs.push_back({run.outcome, run.trajectory});
+      for (const Try& run : tries) watched.runs.push_back({run.outcome, run.ok() ? run.trajectory : run.end});
       request.watch(watched);
     }
     for (const Try& run : tries) {

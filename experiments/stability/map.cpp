@@ -7,7 +7,7 @@
 
 #include "experiments/adequacy/grids.h"
 #include "experiments/estimate.h"
-#include "experiments/stability/last_pictures.h"
+#include "experiments/last_pictures.h"
 #include "experiments/stability/tables.h"
 #include "mysim/errors.h"
 

@@ -35,10 +35,25 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+namespace {
+
+/// A number of a PNG's head: at byte 16 its width, at byte 20 its height. Throws std::runtime_error where there is
+/// none.
+unsigned png_number(const std::string& bytes, size_t at) {
+  if (bytes.size() < at + 4) throw std::runtime_error("a picture that is no PNG");
+  unsigned number = 0;
+  for (size_t i = at; i < at + 4; ++i) number = number << 8 | static_cast<unsigned char>(bytes[i]);
+  return number;
+}
+
+}  // namespace
+
 std::string image_tag(const PageImage& image) {
   const std::string bytes = content_of_file(image.file);
   if (image.file.extension() == ".svg") return inline_svg(bytes, image.alt, image.told);
-  return fmt::format("<img src=\"data:image/png;base64,{}\" alt=\"{}\">", base64(bytes), escaped(image.alt));
+  // so that a page does not move while it loads
+  return fmt::format("<img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">", base64(bytes),
+                     png_number(bytes, 16), png_number(bytes, 20), escaped(image.alt));
 }
 
 std::string image_html(const PageImage& image, const std::string& css_class) {

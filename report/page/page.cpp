@@ -1,5 +1,6 @@
 // The page from top to bottom: answer, overview, scenes, how it was made.
 #include "report/page/page.h"
+#include "report/page/same_pictures.h"
 
 #include <fmt/format.h>
 
@@ -197,7 +198,7 @@ std::string page_html(const PageContent& c) {
   for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", escaped(note));
   out += provenance_html(c.provenance) + "</section>\n</main>\n";
   for (const PlayedRuns& runs : c.runs) out += runs_html(runs);
-  return sharing_markers(out + "<script>\n" + asset("page/page.js") + "</script>\n</body></html>\n");
+  return sharing_pictures(sharing_markers(out + "<script>\n" + asset("page/page.js") + "</script>\n</body></html>\n"));
 }
 
 }  // namespace crosscheck

@@ -34,20 +34,48 @@ Json values_json(const ColourValues& values, size_t motion, size_t particles) {
   return packed_json(packed(quantised(values.of[motion], values.top), particles, 1));
 }
 
+/// Lattice and numbers of a motion: on the lattice of all, less those of the first one where that takes less room; on
+/// one of its own where it leaves that of all.
+Json places_json(const Shown& shown, const Lattice& lattice, const std::vector<std::uint16_t>& first, double& bound) {
+  const auto per_frame = static_cast<size_t>(shown.x[0].size());
+  const auto numbers = lattice.numbers_of(shown.x);
+  if (!numbers) {
+    const QuantisedPlaces own = quantised(shown.x);
+    bound = own.bound;
+    return {{"low", vector_json(own.low)},
+            {"unit", vector_json(own.unit)},
+            {"places", packed_json(packed(own.numbers, per_frame, 2))}};
+  }
+  bound = lattice.bound();
+  Json json{{"low", vector_json(lattice.low)}, {"unit", vector_json(Vec3::Constant(lattice.unit))}};
+  const Packed whole = packed(*numbers, per_frame, 2);
+  if (!first.empty()) {
+    const Packed apart = packed(less(*numbers, first, per_frame), per_frame, 2);
+    if (apart.data.size() < whole.data.size()) {
+      json["over"] = 0;
+      json["places"] = packed_json(apart);
+      return json;
+    }
+  }
+  json["places"] = packed_json(whole);
+  return json;
+}
+
 /// The motions, and the largest distance of a place of a run that went well from what the page draws, m.
 Json methods_json(const Scene& scene, const std::vector<Shown>& all, const Shown* known, const ColourValues& stretch,
                   const ColourValues& distance, double& bound) {
   const auto particles = static_cast<size_t>(scene.model.particles.size());
+  const Lattice lattice = lattice_of(all);
+  const auto first = lattice.numbers_of(all[0].x);
   Json methods = Json::array();
   for (size_t m = 0; m < all.size(); ++m) {
-    const QuantisedPlaces places = quantised(all[m].x);
-    if (all[m].ok()) bound = std::max(bound, places.bound);
     Json json = words_json(all[m]);
+    double own = 0;
+    json.update(places_json(all[m], lattice, m > 0 && first ? *first : std::vector<std::uint16_t>(), own));
+    if (all[m].ok()) bound = std::max(bound, own);
     // the truth stands beside them at once where there is room for it, and it goes all the way
     json["first"] = all[m].answer || (all.size() <= 4 && all[m].t.back() > 0.98 * scene.duration);
     json["frames"] = all[m].x.size();
-    json["low"] = vector_json(places.low), json["unit"] = vector_json(places.unit);
-    json["places"] = packed_json(packed(places.numbers, 3 * particles, 2));
     json["stretch"] = values_json(stretch, m, particles), json["distance"] = values_json(distance, m, particles);
     json["plotted"] = Json::array();
     for (const auto& value : plotted_values(scene, all[m], known))

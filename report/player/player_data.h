@@ -22,8 +22,6 @@ std::string player_json(const Scene& scene, const std::vector<const Answer*>& an
 /// The same of a scene in which nothing has moved yet, without methods: where cells of its maps are played.
 std::string stage_json(const Scene& scene);
 
-/// Why a run failed, without saying again that it did, and when.
-std::string why_failed(const Outcome& out);
 /// Name, looks and what became of a motion: "name", "colour", "dash", "stops" (s), "failed" (s or null), "failure",
 /// "reason", "note", "end", and "known" for the truth.
 nlohmann::ordered_json words_json(const Shown& shown);

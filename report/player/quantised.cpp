@@ -30,6 +30,33 @@ QuantisedPlaces quantised(std::span<const Points> frames) {
   return out;
 }
 
+Lattice lattice_around(std::span<const Points> frames) {
+  const QuantisedPlaces box = quantised(frames);
+  const double unit = box.unit.maxCoeff();
+  return {box.low, unit > 0 ? unit : 1 / places_along_axis};  // a single place: a metre
+}
+
+std::optional<std::vector<std::uint16_t>> Lattice::numbers_of(std::span<const Points> frames) const {
+  constexpr long lowest = -24576, highest = lowest + 65535;
+  std::vector<std::uint16_t> out;
+  for (const Points& x : frames)
+    for (Eigen::Index i = 0; i < x.cols(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double number = std::round((x(k, i) - low[k]) / unit);
+        if (!(number >= lowest && number <= highest)) return std::nullopt;
+        out.push_back(static_cast<std::uint16_t>(static_cast<long>(number)));
+      }
+  return out;
+}
+
+std::vector<std::uint16_t> less(std::vector<std::uint16_t> numbers, std::span<const std::uint16_t> other,
+                                size_t per_frame) {
+  const size_t last = other.size() - per_frame;
+  for (size_t i = 0; i < numbers.size(); ++i)
+    numbers[i] = static_cast<std::uint16_t>(numbers[i] - other[std::min(i - i % per_frame, last) + i % per_frame]);
+  return numbers;
+}
+
 std::vector<std::uint16_t> quantised(std::span<const double> values, double top) {
   std::vector<std::uint16_t> out;
   for (const double value : values)

@@ -1,79 +1,109 @@
 #include "report/player/run_motions.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
 #include "experiments/metrics.h"
+#include "report/figure.h"
 #include "report/player/packed_numbers.h"
 #include "report/player/player_data.h"
 #include "report/player/quantised.h"
 #include "report/player/shown.h"
 #include "report/player/still_parts.h"
+#include "report/player/values.h"
 
 namespace crosscheck {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr long lowest = -24576, highest = lowest + 65535;  // the truth's own numbers lie from 0 to 16383
-
-/// The truth as the scene's player packs it, and every how many of its frames a run has one.
-struct Lattice {
-  Shown truth;
-  QuantisedPlaces places;
-  Vec3 unit;  // m; where the truth lies in a plane a run may leave it
-  size_t every = 1;
-  double reach = 0;  // m, as far as anything is from its start
-  double until = 0;  // s, as far as single places can be compared
+/// What a scene's runs are packed against.
+struct Against {
+  const Scene& scene;
+  Shown truth;  // at the frames of the scene's player
+  Lattice lattice;
+  std::vector<std::uint16_t> numbers;  // of the truth
+  double until;                        // s, as far as single places can be compared
+  int stride;                          // samples from frame to frame of the player
+  size_t every;                        // frames of the player from one to the next of a run
+  long grain;                          // a difference counts so many units of the lattice
 };
 
-Lattice lattice_of(const Shown& truth, double size, double until) {
-  Lattice lattice{truth, quantised(truth.x), {}, 1, size, until};
-  const Vec3& unit = lattice.places.unit;
-  lattice.unit = (unit.array() > 0).select(unit, std::max(unit.maxCoeff(), 1e-4 * size));
-  const size_t frames = truth.x.size(), most = truth.x[0].cols() > 100 ? 50 : 100;
-  lattice.every = (frames - 1 + most - 1) / most;
-  for (const Points& x : truth.x) lattice.reach = std::max(lattice.reach, (x - truth.x[0]).cwiseAbs().maxCoeff());
-  return lattice;
+/// Every how many of some frames there are at most so many: a divisor, so that the last one is among them, unless that
+/// is far.
+size_t thinned(size_t frames, size_t most) {
+  const size_t least = std::max<size_t>(1, (frames + most - 1) / most);
+  for (size_t every = least; every < 2 * least; ++every)
+    if (frames % every == 0) return every;
+  return least;
 }
 
-/// Places of a frame less those of the truth at its own, appended.
-void add_difference(const Lattice& lattice, const Points& x, size_t frame, std::vector<std::uint16_t>& numbers) {
-  const auto per_frame = static_cast<size_t>(3 * x.cols());
-  const size_t truth = std::min(frame, lattice.truth.x.size() - 1) * per_frame;
+Against against(const Scene& scene, const Truth& truth, int stride) {
+  const bool many = scene.model.particles.size() > 100;  // then fewer frames, less finely, are as much as is seen
+  const Shown shown = shown_of(truth, stride);
+  const Lattice lattice = lattice_of({shown});
+  return {scene,
+          shown,
+          lattice,
+          lattice.numbers_of(shown.x).value(),
+          std::min(scene.window, truth.until),
+          stride,
+          thinned(shown.x.size() - 1, many ? 30 : 100),
+          many ? 8 : 1};
+}
+
+/// Places of a frame less those of the truth at its own, appended; within 32767 grains of it.
+void add_difference(const Against& a, const Points& x, size_t frame, std::vector<std::uint16_t>& numbers) {
+  const size_t known = std::min(frame, a.truth.x.size() - 1) * static_cast<size_t>(x.size());
   for (Eigen::Index i = 0; i < x.cols(); ++i)
     for (int k = 0; k < 3; ++k) {
-      const long place = std::lround((x(k, i) - lattice.places.low[k]) / lattice.unit[k]);
-      const long known = lattice.places.numbers[truth + static_cast<size_t>(3 * i + k)];
-      numbers.push_back(static_cast<std::uint16_t>(std::clamp(place, lowest, highest) - known));
+      const double place = (x(k, i) - a.lattice.low[k]) / a.lattice.unit;
+      const double apart = (place - a.numbers[known + static_cast<size_t>(3 * i + k)]) / static_cast<double>(a.grain);
+      numbers.push_back(static_cast<std::uint16_t>(std::lround(std::clamp(apart, -32767., 32767.))));
     }
 }
 
-Json run_json(const Lattice& lattice, const WatchedRuns& watched, const WatchedRun& run, int stride) {
-  const Answer answer{watched.scene.name, watched.method, run.outcome, {}, {}, false};
-  Shown shown{&answer, watched.method, {}, {}, {}};
+/// A run that came to its end.
+Json whole_run(const Against& a, const WatchedRun& run) {
   std::vector<std::uint16_t> numbers;
   Json errors = Json::array();
-  for (size_t f = 0;; f += lattice.every) {
-    const size_t sample = f * static_cast<size_t>(stride);
-    if (sample >= run.path.x.size() || !run.path.x[sample].allFinite()) break;
+  size_t f = 0;
+  for (size_t sample = 0; sample < run.path.x.size(); f += a.every, sample = f * static_cast<size_t>(a.stride)) {
     const Points& x = run.path.x[sample];
-    if ((x - run.path.x[0]).cwiseAbs().maxCoeff() > 3 * lattice.reach) break;
-    shown.t.push_back(run.path.t[sample]);
-    add_difference(lattice, x, f, numbers);
-    if (run.path.t[sample] > lattice.until * (1 + 1e-9)) continue;
-    const double error = f < lattice.truth.x.size() ? rms_distance(x, lattice.truth.x[f]) : 0;
+    add_difference(a, x, f, numbers);
+    if (run.path.t[sample] > a.until * (1 + 1e-9) || f >= a.truth.x.size()) continue;
+    const double error = rms_distance(x, a.truth.x[f]);
     errors.push_back(error > 0 ? Json(std::round(100 * std::log10(error)) / 100) : Json());
   }
-  if (shown.t.empty()) return nullptr;
+  return {{"frames", f / a.every},
+          {"places", packed_json(packed(std::move(numbers), static_cast<size_t>(run.path.x[0].size()), 2))},
+          {"plotted", std::move(errors)}};
+}
+
+/// The last pictures of one that failed, as far as they are near the others; null where there are none.
+Json last_pictures(const Against& a, const WatchedRuns& watched, const WatchedRun& run) {
+  const Answer answer{a.scene.name, watched.method, run.outcome, {}, {}, false};
+  double reach = a.scene.size();
+  for (const Points& x : a.truth.x) reach = std::max(reach, (x - a.truth.x[0]).cwiseAbs().maxCoeff());
+  Shown shown{&answer, watched.method, {}, {}, {}};
+  for (size_t f = 0; f < run.path.x.size(); ++f) {
+    if ((run.path.x[f] - a.truth.x[0]).cwiseAbs().maxCoeff() > 3 * reach) break;
+    shown.t.push_back(run.path.t[f]), shown.x.push_back(run.path.x[f]), shown.v.push_back(run.path.v[f]);
+  }
+  if (shown.t.size() < 2) return nullptr;
+  QuantisedPlaces places = quantised(shown.x);
+  for (auto& number : places.numbers) number = static_cast<std::uint16_t>(number / a.grain);
+  const Vec3 unit = places.unit * static_cast<double>(a.grain);
   Json json = words_json(shown);
   for (const char* each : {"name", "colour", "dash", "known", "note"}) json.erase(each);  // said once for all runs
   json["frames"] = shown.t.size();
-  const Outcome& out = run.outcome;
-  json["call"] = out.tolerance > 0 ? fmt::format("--tol {}", out.tolerance) : fmt::format("--step {}", out.step);
-  json["places"] = packed_json(packed(std::move(numbers), static_cast<size_t>(3 * run.path.x[0].cols()), 2));
-  json["plotted"] = std::move(errors);
+  json["times"] = shown.t;
+  json["low"] = vector_json(places.low), json["unit"] = vector_json(unit);
+  json["places"] = packed_json(packed(places.numbers, static_cast<size_t>(shown.x[0].size()), 1));
+  json["plotted"] = Json::array();
+  for (const auto& energy : plotted_values(a.scene, shown, nullptr))
+    json["plotted"].push_back(energy ? Json(std::stod(fmt::format("{:.4g}", *energy))) : Json());
   return json;
 }
 
@@ -82,15 +112,22 @@ Json run_json(const Lattice& lattice, const WatchedRuns& watched, const WatchedR
 std::string run_motions_json(const WatchedRuns& watched, const std::optional<Truth>& truth) {
   const int stride = frame_stride(watched.scene);
   if (stride == 0 || !truth) return "";
-  const Lattice lattice =
-      lattice_of(shown_of(*truth, stride), watched.scene.size(), std::min(watched.scene.window, truth->until));
-  Answer first{watched.scene.name, watched.method, watched.runs.front().outcome, {}, {}, false};
-  first.outcome.verdict = Verdict::ok;
-  Json json = words_json({&first, watched.method, {0}, {}, {}});
-  json["every"] = lattice.every, json["low"] = vector_json(lattice.places.low),
-  json["unit"] = vector_json(lattice.unit);
+  const Against a = against(watched.scene, *truth, stride);
+  const MethodStyle style = style_of(watched.method);
+  const auto& laws = watched.runs.front().outcome.different_law;
+  Json json{{"name", watched.method},
+            {"colour", style.colour},
+            {"dash", ""},
+            {"note", fmt::format("{}", fmt::join(laws, "; "))}};
+  json["every"] = a.every, json["grain"] = a.grain;
   json["runs"] = Json::array();
-  for (const WatchedRun& run : watched.runs) json["runs"].push_back(run_json(lattice, watched, run, stride));
+  for (const WatchedRun& run : watched.runs) {
+    const Outcome& out = run.outcome;
+    Json own = out.verdict == Verdict::ok ? whole_run(a, run) : last_pictures(a, watched, run);
+    if (!own.is_null())
+      own["call"] = out.tolerance > 0 ? fmt::format("--tol {}", out.tolerance) : fmt::format("--step {}", out.step);
+    json["runs"].push_back(std::move(own));
+  }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

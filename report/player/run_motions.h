@@ -9,10 +9,12 @@
 
 namespace crosscheck {
 
-/// JSON of one method's runs, in their order; null for a run without frames. Numbers are those of QuantisedPlaces on
-/// the truth's lattice, less the truth's own of that frame, with sums that wrap at 2^16; lattice numbers run from
-/// -24576 to 40959. Every `every`-th frame of the scene's player is there, until a run leaves the picture.
-/// Empty when the scene has no player (shown.h) or no truth.
+/// JSON of one method's runs, in their order. Of a run that came to its end there is every `every`-th frame of the
+/// scene's player: numbers on the truth's lattice (quantised.h) less the truth's own, counted in grains of so many
+/// units; plotted are exponents of ten of the RMS distance from the truth (m), while single places can be compared. Of
+/// one that failed there are the last pictures, with times and a lattice of their own; plotted is the energy (J). Null
+/// where there is nothing to show. `call` has the options of `run` for the same run. Empty when the scene has no player
+/// (shown.h) or no truth.
 std::string run_motions_json(const WatchedRuns& watched, const std::optional<Truth>& truth);
 
 }  // namespace crosscheck

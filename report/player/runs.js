@@ -18,43 +18,64 @@ const runsOf = (() => {
 /** What a marker says; page.js may have taken its title already. */
 const tipOf = marker => marker.dataset.words ?? marker.querySelector('title').textContent;
 
-/** A place of a lattice from the number that wrapped at 2^16 (run_motions.h). */
-const wrapped = number => ((number + 24576) & 0xffff) - 24576;
-
 /** Smallest 1, 2 or 5 times a power of ten that is not below a value. */
 function roundUp(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   return [1, 2, 5, 10].find(s => s * power >= value * (1 - 1e-9)) * power;
 }
 
-/** The scene of a speed-accuracy chart with one of its runs beside the truth, as Stage and Desk take it. */
-async function runBesideTruth(set, method, run) {
-  const whole = JSON.parse(document.getElementById(set.scene).querySelector('script.motion').textContent);
-  const truth = whole.methods.find(m => m.known), {every, low, unit} = method, wide = 3 * whole.particles;
-  const [known, apart] = await Promise.all([unpack(truth.places), unpack(run.places)]);
-  const kept = Math.ceil(truth.frames / every);
-  const places = Float32Array.from(
-      apart, (d, i) => wrapped(d + known[Math.min(Math.floor(i / wide) * every, truth.frames - 1) * wide + i % wide]));
-  const truthPlaces = new Uint16Array(kept * wide);
-  for (let f = 0; f < kept; ++f) truthPlaces.set(known.subarray(f * every * wide, (f * every + 1) * wide), f * wide);
+/** Signed numbers of 16 bits. */
+const signed = numbers => new Int16Array(numbers.buffer);
+
+/** Obstacles at some of a scene's frames. */
+const spheresAt = (scene, frames) => scene.spheres.map(
+    sphere => ({...sphere, centres: sphere.centres.length > 1 ? frames.map(f => sphere.centres[f]) : sphere.centres}));
+
+/** The scene of a speed-accuracy chart with a run that came to its end beside the truth, as Stage and Desk take it. */
+async function runBesideTruth(whole, method, run) {
+  const at = whole.methods.findIndex(m => m.known), truth = whole.methods[at], {every, grain} = method;
+  const [{motions}, apart] = await Promise.all([unpackScene(whole), unpack(run.places)]);
+  const wide = 3 * whole.particles, known = motions[at].places, kept = Math.ceil(truth.frames / every);
+  const ofTruth = i => known[Math.min(Math.floor(i / wide) * every, truth.frames - 1) * wide + i % wide];
+  const places = Float32Array.from(signed(apart), (d, i) => ofTruth(i) + grain * d);
+  const truthPlaces = Float32Array.from({length: kept * wide}, (_, i) => ofTruth(i));
   // distances from the truth, while single positions can be compared
-  const compared = Math.min(run.plotted.length, run.frames), metres = new Float32Array(compared * whole.particles);
+  const metres = new Float32Array(Math.min(run.plotted.length, run.frames) * whole.particles);
   for (let p = 0; p < metres.length; ++p)
-    metres[p] = Math.hypot(...[0, 1, 2].map(k => unit[k] * (places[3 * p + k] - truthPlaces[3 * p + k])));
-  const top = roundUp(1e3 * Math.max(1e-6, metres.reduce((a, b) => Math.max(a, b), 0)));
+    metres[p] = Math.hypot(...[0, 1, 2].map(k => truth.unit[k] * (places[3 * p + k] - truthPlaces[3 * p + k])));
+  const top = roundUp(1e3 * metres.reduce((a, b) => Math.max(a, b), 1e-6));
+  const finer = top < 2e3 * truth.unit[0] * grain;  // than what is drawn
+  const frames = whole.times.map((_, f) => f).filter(f => f % every === 0);
   const scene = {
     ...whole,
-    times: whole.times.filter((_, i) => i % every === 0),
+    times: frames.map(f => whole.times[f]),
+    spheres: spheresAt(whole, frames),
     stretch: null,
-    distance: {top, name: 'distance to the truth', label: 'mm'},
+    distance: finer ? null : {top, name: 'distance to the truth', label: 'mm'},
     plot: {label: 'distance to the truth / m', unit: 'm', powers: true, title: 'Distance to the truth over time'},
     methods: [
-      {...method, ...run, low, unit, first: true},
+      {...method, ...run, low: truth.low, unit: truth.unit, first: true, failed: null, failure: '', reason: '', end: '', stops: Infinity},
       {...truth, frames: kept, plotted: [], first: true},
     ]
   };
-  const motions = [{places, distance: metres.map(m => levels * 1e3 * m / top)}, {places: truthPlaces}];
-  return {scene, motions, call: `./crosscheck run ${set.scene} --method ${method.name} ${run.call}`};
+  return {scene, motions: [{places, distance: metres.map(m => levels * 1e3 * m / top)}, {places: truthPlaces}]};
+}
+
+/** The same with the last pictures of a run that failed. */
+async function lastPictures(whole, method, run) {
+  const times = run.times.map(t => t - run.times[0]), end = times[times.length - 1];
+  const scene = {
+    ...whole,
+    times,
+    stretch: null,
+    distance: null,
+    speed: end / 6,
+    spheres: spheresAt(
+        whole, run.times.map(t => Math.max(0, whole.times.findLastIndex(frame => frame <= t)))),
+    methods: [{...method, ...run, stops: end, failed: null, first: true}],
+    hint: `The last ${run.frames} pictures of the run, from ${short(run.times[0])} s on. ${whole.hint}`
+  };
+  return {scene, motions: [{places: await unpack(run.places)}]};
 }
 
 /** The scene of a map with the last moments of a cell's run. */
@@ -65,7 +86,6 @@ async function lastMoments(set, method, place, outcome) {
   let shape = 0, path = 0;
   for (const before of cells.slice(0, place))
     if (before) shape += before[5].length * wide, path += before[5].length * before[1];
-  const signed = numbers => new Int16Array(numbers.buffer);
   const departures = new Float32Array(frames * wide);
   metres.forEach((metre, k) => {
     const of = signed(shapes).subarray(shape + k * wide, shape + (k + 1) * wide);
@@ -99,7 +119,7 @@ async function lastMoments(set, method, place, outcome) {
                       'Departures are drawn in true size. ') +
         set.stage.hint
   };
-  return {scene, motions: [{places}], call: ''};
+  return {scene, motions: [{places}]};
 }
 
 /** Opens the window with a run: which, is said by its marker. */
@@ -114,17 +134,22 @@ async function playRun(key, marker) {
       'dialog', {class: 'run', 'aria-label': `Run: ${head}`}, close,
       make('h3', {}, `${set.scene ?? set.stage.scene}: ${head}`), make('p', {}, lines.join('; ')), box);
   document.body.append(dialog);
-  const played = !run ? null :
-      method.runs     ? await runBesideTruth(set, method, run) :
-                        await lastMoments(set, method, place, lines[0]);
+  const whole = () => JSON.parse(document.getElementById(set.scene).querySelector('script.motion').textContent);
+  const given = !run ? null :
+      method.cells   ? await lastMoments(set, method, place, lines[0]) :
+      run.times      ? await lastPictures(whole(), method, run) :
+                       await runBesideTruth(whole(), method, run);
   const player = make('motion-player');
-  if (played) {
-    player.given = {scene: played.scene, motions: played.motions};
+  if (given) {
+    player.given = given;
     box.append(make('figure', {class: 'render'}, make('div', {class: 'stage'})), player);
-    if (played.call) box.append(make('p', {class: 'hint'}, 'The same run: ', make('code', {}, played.call)));
   } else {
     box.append(make('p', {}, 'It ended before there was a second picture of it to show.'));
   }
+  if (run?.call)
+    box.append(make(
+        'p', {class: 'hint'}, 'The same run: ',
+        make('code', {}, `./crosscheck run ${set.scene} --method ${method.name} ${run.call}`)));
   close.addEventListener('click', () => dialog.close());
   dialog.addEventListener('click', event => event.target === dialog && dialog.close());
   dialog.addEventListener('close', () => {

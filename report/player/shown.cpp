@@ -72,4 +72,13 @@ std::vector<Shown> shown_of(const Scene& scene, const std::vector<const Answer*>
   return all;
 }
 
+Lattice lattice_of(const std::vector<Shown>& all) {
+  if (!all.back().answer) return lattice_around(all.back().x);
+  std::vector<Points> seen;
+  for (const bool failed : {false, true})
+    for (const Shown& s : all)
+      if (s.ok() != failed && (!failed || seen.empty())) seen.insert(seen.end(), s.x.begin(), s.x.end());
+  return lattice_around(seen);
+}
+
 }  // namespace crosscheck

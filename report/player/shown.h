@@ -7,6 +7,7 @@
 
 #include "experiments/experiment.h"
 #include "reference/truth.h"
+#include "report/player/quantised.h"
 
 namespace crosscheck {
 
@@ -29,5 +30,8 @@ Shown shown_of(const Truth& truth, int stride);
 /// others.
 std::vector<Shown> shown_of(const Scene& scene, const std::vector<const Answer*>& answers,
                             const std::optional<Truth>& truth);
+
+/// The lattice of a scene's motions: around the truth, where there is one, else around those that went well.
+Lattice lattice_of(const std::vector<Shown>& all);
 
 }  // namespace crosscheck

@@ -22,6 +22,15 @@ async function unpack({count, lag, order, data}) {
   return values;
 }
 
+/** A place of a lattice from the number that wrapped at 2^16 (quantised.h). */
+const wrapped = number => ((number + 24576) & 0xffff) - 24576;
+
+/** Numbers that were packed less those of another motion; it stays at its last frame. */
+function over(other, numbers, perFrame) {
+  const last = other.length - perFrame;
+  return numbers.map((d, i) => d + other[Math.min(i - i % perFrame, last) + i % perFrame]);
+}
+
 /**
  * All packed arrays of a scene: what is drawn, and for each method its places, stretch and distances, unless these are
  * given.
@@ -30,10 +39,16 @@ async function unpackScene(scene, given) {
   const none = new Uint16Array(0);
   const open = packed => (packed ? unpack(packed) : none);
   const [triangles, springs] = await Promise.all([open(scene.triangles), open(scene.springs.ends)]);
-  const motions = given ?? await Promise.all(scene.methods.map(async method => {
-    const [places, stretch, distance] =
+  if (given) return {triangles, springs, motions: given};
+  const motions = await Promise.all(scene.methods.map(async method => {
+    const [numbers, stretch, distance] =
         await Promise.all([open(method.places), open(method.stretch), open(method.distance)]);
-    return {places, stretch, distance};
+    return {numbers, stretch, distance};
   }));
+  motions.forEach((motion, m) => {
+    const {over: other} = scene.methods[m];
+    motion.places = other === undefined ? motion.numbers : over(motions[other].numbers, motion.numbers, 3 * scene.particles);
+  });
+  for (const motion of motions) motion.places = Int32Array.from(motion.places, wrapped);
   return {triangles, springs, motions};
 }
