@@ -131,7 +131,7 @@ HeatMap map_of(const Table& cells, const Table& limits, const std::string& scene
                          kind_of(verdict),
                          {fmt::format("{}, step {}, {}\n{}", method, step_text(step),
                                       kind == "drag" ? fmt::format("drag {} 1/s", nice(value))
-                                                     : fmt::format("{} times the scene's stiffness", nice(value)),
+                                                     : fmt::format("stiffness × {}", nice(value)),
                                       outcome),
                           fmt::format("{} {}", method, own.cells.size())}});
     if (verdict == "ok") steps.insert(std::lround(*number_at(cells, i, "end") / step));

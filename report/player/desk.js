@@ -33,6 +33,16 @@ const short = value => {
   return (value < 0 ? '−' : '') + text;
 };
 
+/** A length in the unit that suits it. */
+const length = metres => {
+  for (const [unit, size] of [['m', 1], ['mm', 1e-3], ['µm', 1e-6], ['nm', 1e-9]])
+    if (metres >= size) return `${Number((metres / size).toPrecision(2))} ${unit}`;
+  return `${short(metres)} m`;
+};
+
+const hands = 'Drag to turn. With the picture in focus (click it, or Tab) the wheel zooms, arrow keys turn, + and − ' +
+    'zoom, 0 resets.';
+
 class Desk {
   /** `act` has what the controls call: toggle, seek (s), speed, look, reset. */
   constructor(box, scene, look, act) {
@@ -65,7 +75,10 @@ class Desk {
         make(
             'div', {class: 'choices'}, speedLabel, colourLabel, ...(scene.springs.families.length ? [springLabel] : []),
             reset, this.bar),
-        this.list, plot, make('p', {class: 'hint'}, scene.hint));
+        this.list, plot, 
+        make('p', {class: 'hint'}, [
+          scene.story, hands, scene.finest && `Places are drawn to within ${length(scene.finest)}.`
+        ].filter(Boolean).join(' ')));
     this.play.addEventListener('click', act.toggle);
     this.slider.addEventListener('input', () => act.seek(scene.times[this.slider.value]));
     Object.assign(this, {colour, springs});
@@ -135,7 +148,7 @@ class Desk {
     scene.methods.forEach((method, i) => {
       const value = method.plotted[nearest], {unit, powers} = scene.plot;
       this.values[i].textContent =
-          value === undefined || value === null ? '–' : `${short(powers ? 10 ** value : value)} ${unit}`;
+          value === undefined || value === null ? '–' : powers ? length(10 ** value) : `${short(value)} ${unit}`;
     });
   }
 }

@@ -12,6 +12,7 @@
 #include "report/player/shown.h"
 #include "report/player/still_parts.h"
 #include "report/player/values.h"
+#include "report/player/words.h"
 
 namespace crosscheck {
 namespace {
@@ -20,14 +21,6 @@ using Json = nlohmann::ordered_json;
 
 /// As many digits as a reader of a plot needs.
 double five_digits(double value) { return std::stod(fmt::format("{:.5g}", value)); }
-
-/// gnuplot's "(14,4)" as SVG's "14 4".
-std::string dashes_of(const MethodStyle& style) {
-  if (style.dash == "1") return "";
-  std::string dash = style.dash.substr(1, style.dash.size() - 2);
-  std::replace(dash.begin(), dash.end(), ',', ' ');
-  return dash;
-}
 
 Json values_json(const ColourValues& values, size_t motion, size_t particles) {
   if (!(values.top > 0) || values.of[motion].empty()) return nullptr;
@@ -112,38 +105,7 @@ Json shared_json(const Scene& scene, const Vantage& vantage, const std::vector<d
   return json;
 }
 
-constexpr auto hands =
-    "Drag to turn. With the picture in focus (click it, or Tab) the wheel zooms, arrow keys turn, + and − zoom, 0 "
-    "resets.";
-
 }  // namespace
-
-std::string why_failed(const Outcome& out) {
-  const std::string words(in_words(out.verdict));
-  const size_t open = words.find('(');
-  std::string why = open == std::string::npos ? "" : words.substr(open + 1, words.size() - open - 2);
-  std::string told = out.reason;
-  if (told.starts_with("the run failed at"))
-    told = told.find(": ") == std::string::npos ? "" : told.substr(told.find(": ") + 2);
-  if (!told.empty()) why += (why.empty() ? "" : "; ") + told;
-  return why.empty() ? words : why;
-}
-
-Json words_json(const Shown& s) {
-  Json json{{"name", s.name}, {"colour", "#555555"}, {"dash", "1 4"}, {"stops", s.t.back()}, {"failed", nullptr},
-            {"failure", ""},  {"reason", ""},        {"note", ""},    {"known", !s.answer}};
-  json["end"] = s.answer ? "last good frame" : fmt::format("known up to {:.3g} s", s.t.back());
-  if (!s.answer) return json;
-  const Outcome& out = s.answer->outcome;
-  json["colour"] = style_of(s.answer->method).colour;
-  json["dash"] = dashes_of(style_of(s.answer->method));
-  if (!out.different_law.empty()) json["note"] = fmt::format("{}", fmt::join(out.different_law, "; "));
-  if (s.ok()) return json;
-  json["failed"] = out.end;
-  json["failure"] = fmt::format("{} at {:.3g} s", failure_word(std::string(name_of(out.verdict))), out.end);
-  json["reason"] = why_failed(out);
-  return json;
-}
 
 std::string player_json(const Scene& scene, const std::vector<const Answer*>& answers,
                         const std::optional<Truth>& truth) {
@@ -170,7 +132,7 @@ std::string player_json(const Scene& scene, const std::vector<const Answer*>& an
   json["distance"] = known ? distance_json(scene, *truth, distance.top, until) : Json();
   json["plot"] = plot_json(scene);
   json["methods"] = std::move(methods);
-  json["hint"] = fmt::format("{} Places are drawn to within {}.", hands, nice_length(bound));
+  json["finest"] = bound;
   // an outside program may have said anything
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -181,7 +143,6 @@ std::string stage_json(const Scene& scene) {
   Json json = shared_json(scene, vantage, {0});
   json["stretch"] = json["distance"] = nullptr;
   json["methods"] = Json::array();
-  json["hint"] = hands;
   return json.dump();
 }
 

@@ -2,14 +2,12 @@
 // plot.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/experiment.h"
 #include "reference/truth.h"
-#include "report/player/shown.h"
 
 namespace crosscheck {
 
@@ -21,9 +19,5 @@ std::string player_json(const Scene& scene, const std::vector<const Answer*>& an
 
 /// The same of a scene in which nothing has moved yet, without methods: where cells of its maps are played.
 std::string stage_json(const Scene& scene);
-
-/// Name, looks and what became of a motion: "name", "colour", "dash", "stops" (s), "failed" (s or null), "failure",
-/// "reason", "note", "end", and "known" for the truth.
-nlohmann::ordered_json words_json(const Shown& shown);
 
 }  // namespace crosscheck

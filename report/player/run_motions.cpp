@@ -7,11 +7,11 @@
 #include "experiments/metrics.h"
 #include "report/figure.h"
 #include "report/player/packed_numbers.h"
-#include "report/player/player_data.h"
 #include "report/player/quantised.h"
 #include "report/player/shown.h"
 #include "report/player/still_parts.h"
 #include "report/player/values.h"
+#include "report/player/words.h"
 
 namespace crosscheck {
 namespace {
@@ -113,12 +113,9 @@ std::string run_motions_json(const WatchedRuns& watched, const std::optional<Tru
   const int stride = frame_stride(watched.scene);
   if (stride == 0 || !truth) return "";
   const Against a = against(watched.scene, *truth, stride);
-  const MethodStyle style = style_of(watched.method);
-  const auto& laws = watched.runs.front().outcome.different_law;
-  Json json{{"name", watched.method},
-            {"colour", style.colour},
-            {"dash", ""},
-            {"note", fmt::format("{}", fmt::join(laws, "; "))}};
+  Answer any{watched.scene.name, watched.method, watched.runs.front().outcome, {}, {}, false};
+  any.outcome.verdict = Verdict::ok;  // what they all are
+  Json json = words_json({&any, watched.method, {0}, {}, {}});
   json["every"] = a.every, json["grain"] = a.grain;
   json["runs"] = Json::array();
   for (const WatchedRun& run : watched.runs) {

@@ -52,6 +52,7 @@ async function runBesideTruth(whole, method, run) {
     spheres: spheresAt(whole, frames),
     stretch: null,
     distance: finer ? null : {top, name: 'distance to the truth', label: 'mm'},
+    finest: Math.hypot(1, 1, 1) / 2 * grain * truth.unit[0],
     plot: {label: 'distance to the truth / m', unit: 'm', powers: true, title: 'Distance to the truth over time'},
     methods: [
       {...method, ...run, low: truth.low, unit: truth.unit, first: true, failed: null, failure: '', reason: '', end: '', stops: Infinity},
@@ -73,7 +74,8 @@ async function lastPictures(whole, method, run) {
     spheres: spheresAt(
         whole, run.times.map(t => Math.max(0, whole.times.findLastIndex(frame => frame <= t)))),
     methods: [{...method, ...run, stops: end, failed: null, first: true}],
-    hint: `The last ${run.frames} pictures of the run, from ${short(run.times[0])} s on. ${whole.hint}`
+    finest: run.unit[0],
+    story: `The last ${run.frames} pictures of the run, from ${short(run.times[0])} s on.`
   };
   return {scene, motions: [{places: await unpack(run.places)}]};
 }
@@ -114,10 +116,9 @@ async function lastMoments(set, method, place, outcome) {
       first: true,
       plotted: times.map((_, f) => (largest(f) > 0 ? Math.log10(largest(f)) : null))
     }],
-    hint: `The last ${frames} pictures of the run, up to ${short(end)} s. ` +
-        (larger > 1 ? `Departures from rest are drawn ${short(larger)} times as large as they are. ` :
-                      'Departures are drawn in true size. ') +
-        set.stage.hint
+    story: `The last ${frames} pictures of the run, up to ${short(end)} s. ` +
+        (larger > 1 ? `Departures from rest are drawn ${short(larger)} times as large as they are.` :
+                      'Departures are drawn in true size.')
   };
   return {scene, motions: [{places}]};
 }
@@ -150,13 +151,15 @@ async function playRun(key, marker) {
     box.append(make(
         'p', {class: 'hint'}, 'The same run: ',
         make('code', {}, `./crosscheck run ${set.scene} --method ${method.name} ${run.call}`)));
-  close.addEventListener('click', () => dialog.close());
-  dialog.addEventListener('click', event => event.target === dialog && dialog.close());
-  dialog.addEventListener('close', () => {
+  const shut = () => {
+    if (!dialog.isConnected) return;
     if (player.stage) player.sleep();
+    dialog.close();
     dialog.remove();
-    marker.focus?.();
-  });
+  };
+  close.addEventListener('click', shut);
+  dialog.addEventListener('click', event => event.target === dialog && shut());
+  dialog.addEventListener('close', shut);  // by Escape
   dialog.showModal();
 }
 

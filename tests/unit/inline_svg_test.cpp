@@ -3,8 +3,11 @@
 
 #include <cmath>
 #include <regex>
+#include <set>
 
 #include "report/figure.h"
+#include "report/heat_map.h"
+#include "report/page/same_pictures.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/temporary.h"
 
@@ -21,10 +24,10 @@ class InlineSvg : public InFolder {
     f.x = {"t / s"}, f.y = {"x / m"};
     Curve a{"mysim/leapfrog", style_of("mysim/leapfrog"), {}, true, true}, b{"bullet/pbd", style_of("bullet/pbd"), {}};
     for (int i = 0; i < 40; ++i)
-      a.points.emplace_back(i, std::sin(0.3 * i)), a.told.push_back(fmt::format("run {}", i));
+      a.points.emplace_back(i, std::sin(0.3 * i)), a.told.push_back({fmt::format("run {}", i)});
     for (int i = 0; i < 400; ++i) b.points.emplace_back(0.1 * i, std::cos(0.03 * i));
     f.curves = {a, b};
-    f.failures = {{"mysim/rk4: blew up", style_of("mysim/rk4"), 5, 0.5, "blew up", 2, "lost < \"here\""}};
+    f.failures = {{"mysim/rk4: blew up", style_of("mysim/rk4"), 5, 0.5, "blew up", 2, {"lost < \"here\""}}};
     return f;
   }
   std::string drawn(const Figure& f) const {
@@ -102,7 +105,7 @@ TEST_F(InlineSvg, MarkersSayWhatTheirRunsAre) {
 }
 
 TEST_F(InlineSvg, FewerMarkersThanWordsAreAnError) {
-  Told told{{std::vector<std::string>(1000, "run")}, {}};
+  Told told{{std::vector<Tip>(1000, {"run"})}, {}};
   EXPECT_THROW(inline_svg(drawn(figure()), "alt", told), std::runtime_error);
   EXPECT_THROW(inline_svg("<html>", "alt"), std::runtime_error);
 }
@@ -118,6 +121,50 @@ TEST_F(InlineSvg, APageHoldsTheShapesOfMarkersOnce) {
   EXPECT_EQ(count("id='gpDot'"), 1);
   EXPECT_EQ(count("<svg"), 3);
   EXPECT_LT(page.find("id='gpDot'"), page.find("role=\"img\""));
+}
+
+TEST_F(InlineSvg, CellsOfAMapAreABoxEachAndSayWhatTheirRunsAre) {
+  HeatMap map;
+  map.name = "map", map.title = "a map", map.caption = "c", map.finding = "f";
+  map.x_label = "x", map.y_label = "y";
+  map.kinds = {{"holds", "#D8E8F0"}, {"fails", "#D55E00"}};
+  HeatMap::Panel panel{"mysim/rk4", {}, {{1, 1}, {2, 4}}, {}};
+  for (int i = 0; i < 12; ++i)
+    panel.cells.push_back(
+        {std::pow(2, i % 4), std::pow(2, i / 4), i % 2, {fmt::format("cell {}", i), std::to_string(i)}});
+  map.panels = {panel};
+  draw(drawing_of(map), {}, folder_);
+  const std::string svg = read(folder_ / "map.svg"), out = inline_svg(svg, "alt", {{}, told_of(map)});
+  const std::regex cell(
+      "<polygon class=\"told\" data-run=\"([0-9]+)\" fill=\"(#[0-9a-f]+)\" points=\"([0-9.]+),([0-9.]+) "
+      "[^\"]*\"><title>cell ([0-9]+)</title></polygon>");
+  std::set<std::pair<double, double>> corners;
+  int count = 0;
+  for (std::sregex_iterator m(out.begin(), out.end(), cell), none; m != none; ++m, ++count) {
+    EXPECT_EQ((*m)[1], (*m)[5]);
+    EXPECT_EQ((*m)[2], std::stoi((*m)[1]) % 2 ? "#d55e00" : "#d8e8f0");
+    corners.emplace(std::stod((*m)[3]), std::stod((*m)[4]));
+  }
+  EXPECT_EQ(count, 12);
+  EXPECT_EQ(corners.size(), 12u) << "each in its own place";
+  // what is no cell stays: the key's samples, lines of limits
+  EXPECT_TRUE(contains(out, "limit by theory"));
+  const std::string shape = "fill=\"#d8e8f0\"";
+  EXPECT_TRUE(contains(out, shape));
+}
+
+TEST(SamePictures, AreInThePageOnce) {
+  const std::string bytes(3000, 'A');
+  const auto picture = [&](const std::string& data, const std::string& alt) {
+    return fmt::format("<img src=\"data:image/png;base64,{}\" width=\"40\" height=\"20\" alt=\"{}\">", data, alt);
+  };
+  const std::string page = "<p>" + picture(bytes, "one") + picture("BBBB", "other") + picture(bytes, "two") + "</p>";
+  const std::string out = sharing_pictures(page);
+  EXPECT_EQ(out.find(bytes), out.rfind(bytes));
+  EXPECT_TRUE(contains(out, picture("BBBB", "other"))) << "what is there once stays as it is";
+  EXPECT_TRUE(contains(out, "aria-label=\"one\"><image id=\"picture-1\" width=\"40\" height=\"20\""));
+  EXPECT_TRUE(contains(out, "viewBox=\"0 0 40 20\" role=\"img\" aria-label=\"two\"><use href=\"#picture-1\"/>"));
+  EXPECT_EQ(sharing_pictures("<p>no picture</p>"), "<p>no picture</p>");
 }
 
 }  // namespace

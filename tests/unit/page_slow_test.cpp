@@ -19,7 +19,7 @@ class Page : public InBrowser {
     f.name = "chart", f.title = "a chart", f.caption = "c", f.finding = "It falls.";
     f.x = {"t / s"}, f.y = {"x / m"};
     f.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {{0, 3}, {1, 2}, {2, 1}}, true, true}};
-    f.curves[0].told = {"first run", "second run", "third run"};
+    f.curves[0].told = {{"first run"}, {"second run"}, {"third run"}};
     draw(drawing_of(f), {}, folder_);
     PageTable table{"sizes", {"method", "error"}, {}};
     const char* sizes[] = {"1.2 mm", "0.5 µm", "< 3.0e-13 m", "2 m", "20 mm", "", "900 µm", "blew up at 2 s"};

@@ -1,9 +1,14 @@
 // The player in a browser: a page opened from a file, used by player_selftest.js, and read back. Chromium is optional.
 #include "experiments/scenes.h"
+#include "experiments/speed_accuracy/speed_accuracy.h"
+#include "experiments/stability/map.h"
+#include "mysim/files.h"
 #include "report/base64.h"
 #include "report/pictures.h"
+#include "report/player/cell_motions.h"
 #include "report/player/player_data.h"
 #include "report/player/player_html.h"
+#include "report/player/run_motions.h"
 #include "tests/unit/in_browser.h"
 #include "tests/unit/resized.h"
 
@@ -56,6 +61,84 @@ TEST_F(PlayerPage, AClothIsDrawnWithItsSphere) {
   EXPECT_GT(saw.value("drawn", 0.), 0.1);
   for (const char* what : {"moves", "returns", "slider", "colours", "springs", "turns", "plays"})
     EXPECT_TRUE(saw.value(what, false)) << what;
+}
+
+/// A page with a chart whose first marker came to its end, whose second blew up; and a map with a cell.
+class RunsPage : public PlayerPage {
+ protected:
+  std::filesystem::path charts() {
+    Request request;
+    request.scenes = {load_scene("chain")};
+    request.methods = find_methods("mysim/leapfrog,mysim/explicit-euler");
+    const Scene& scene = request.scenes[0];
+    const auto truth = truth_of(scene, run_of(request, scene));
+    PageContent content;
+    content.runs = {{"chart", "chain", "", {}}, {"map", "", stage_json(scene), {}}};
+    request.watch = [&](const WatchedRuns& w) {
+      content.runs[0].methods.push_back(write(file_name_of(w.method) + ".json", run_motions_json(w, truth)));
+    };
+    Rows rows;
+    speed_accuracy_on(request, scene, rows);
+    map_on(map_kinds()[0], scene, find_method("mysim/leapfrog"), {2, 4, 300, false}, rows,
+           [&](const WatchedRuns& w) { content.runs[1].methods.push_back(write("cells.json", cell_motions_json(w))); });
+    Answers answers;
+    const Answer& answer = answer_of(request, scene, request.methods[0], answers);
+    render::write_png(picture_of(scene, {&answer}, {.quality = render::Quality::fast, .width = 720, .height = 280}),
+                      folder_ / "poster.png");
+    const SceneFacts facts{};
+    ScenePart part{&scene, &facts, {}, {{folder_ / "poster.png", "the poster", "a caption"}}};
+    part.motions = write("motions.json", player_json(scene, {&answer}, truth));
+    content.scenes.push_back(part);
+    content.chapters = {{"chapter", "A chapter", "What it asks.", {{"heading", "text", {}, {}}}}};
+    for (const auto& [name, runs] :
+         {std::pair{"chart", std::vector<std::string>{"mysim/leapfrog 5", "mysim/explicit-euler 0"}},
+          {"map", std::vector<std::string>{"mysim/leapfrog 1"}}}) {
+      Figure f;
+      f.name = name, f.title = "a chart", f.caption = "c", f.finding = "It falls.";
+      f.x = {"t / s"}, f.y = {"x / m"};
+      f.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {}, true, true}};
+      for (size_t i = 0; i < runs.size(); ++i) {
+        f.curves[0].points.emplace_back(i, 1 + i);
+        f.curves[0].told.push_back({runs[i] + "\nholds", runs[i]});
+      }
+      draw(drawing_of(f), {}, folder_);
+      content.chapters[0].entries[0].images.push_back(
+          {folder_ / (f.name + ".svg"), "It falls.", "a caption", {told_of(f), {}}, name});
+    }
+    std::string html = page_html(content);
+    const std::string test = read(std::filesystem::path(CROSSCHECK_SOURCE) / "tests/unit/runs_selftest.js");
+    html.insert(html.find("</head>"), "<script>" + test + "</script>");
+    return write("runs.html", html);
+  }
+};
+
+TEST_F(RunsPage, AClickOnAMarkerOrAChoiceInTheListPlaysItsRun) {
+  NEEDS_CHROMIUM;
+  const json saw = seen(charts(), {});
+  EXPECT_EQ(saw["complaints"], json::array());
+  ASSERT_EQ(saw["windows"].size(), 4u) << saw;
+  for (const json& w : saw["windows"]) {
+    EXPECT_GT(w.value("drawn", 0.), 0.001) << w;
+    EXPECT_TRUE(w.value("moves", false)) << w;
+    EXPECT_TRUE(w.value("closed", false)) << w;
+  }
+  EXPECT_EQ(saw["windows"][0]["panels"], 2) << "the run beside the truth";
+  EXPECT_NE(saw["windows"][0].value("says", "").find("./crosscheck run chain --method mysim/leapfrog --step"),
+            std::string::npos)
+      << saw["windows"][0]["says"];
+  EXPECT_LT(saw["windows"][0].value("apart", 1.), 1e-3) << "m: as near to the truth as the run is, with its lattice";
+  EXPECT_EQ(saw["windows"][1]["panels"], 1);
+  EXPECT_NE(saw["windows"][1].value("says", "").find("last"), std::string::npos) << saw["windows"][1]["says"];
+  EXPECT_NE(saw["windows"][2].value("says", "").find("Departures"), std::string::npos) << saw["windows"][2]["says"];
+  EXPECT_EQ(saw["windows"][3]["says"], saw["windows"][1]["says"]) << "the list has the same runs";
+}
+
+TEST_F(RunsPage, WithoutWebGlNothingPretendsToPlay) {
+  NEEDS_CHROMIUM;
+  const json saw = seen(charts(), {"--disable-3d-apis"});
+  EXPECT_EQ(saw["windows"], json::array());
+  EXPECT_EQ(saw["lists"], 0);
+  EXPECT_EQ(saw["complaints"], json::array());
 }
 
 TEST_F(PlayerPage, WithoutWebGlThePosterStays) {

@@ -70,7 +70,7 @@ async function use(player, seen) {
 
 addEventListener('load', async () => {
   const seen = {able: document.documentElement.classList.contains('plays')};
-  const player = document.querySelector('motion-player'), poster = document.querySelector(".stage > :is(img, svg)");
+  const player = document.querySelector('motion-player'), poster = document.querySelector('.stage img');
   const {width, height} = poster.getBoundingClientRect();
   seen.poster =
       poster.naturalWidth > 0 && width > 200 && height > 50 && getComputedStyle(poster).visibility === 'visible';
