@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "experiments/scenes.h"
-#include "experiments/stability/map.h"
 #include "experiments/sweep/sweep.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
@@ -13,9 +12,8 @@
 #include "report/findings_text.h"
 #include "report/page/page.h"
 #include "report/pictures.h"
-#include "report/player/cell_motions.h"
+#include "report/played_runs.h"
 #include "report/player/player_data.h"
-#include "report/player/run_motions.h"
 #include "report/provenance.h"
 #include "report/report_json.h"
 #include "report/verify.h"
@@ -58,8 +56,11 @@ Shot shot_of(const Scene& scene, bool full) {
 class Builder {
  public:
   Builder(const ReportOptions& options, Request request)
-      : options_(options), request_(std::move(request)), figures_(options.out / "figures") {
-    request_.watch = [this](const WatchedRuns& watched) { keep(watched); };
+      : options_(options),
+        request_(std::move(request)),
+        figures_(options.out / "figures"),
+        runs_(options.out / "data" / "runs") {
+    request_.watch = [this](const WatchedRuns& watched) { runs_.keep(watched, run_of(request_, watched.scene)); };
     for (const Experiment& e : experiments()) {
       const auto& asked = options.experiments;
       if (!asked.empty() && std::find(asked.begin(), asked.end(), e.name) == asked.end()) continue;
@@ -187,33 +188,17 @@ class Builder {
     return points;
   }
 
-  fs::path runs_of(const std::string& key) const { return options_.out / "data" / "runs" / file_name_of(key); }
-
-  /// What a click in a chart is to play, as the runs pass.
-  void keep(const WatchedRuns& watched) const {
-    const Scene& scene = watched.scene;
-    const std::string json = watched.of == "speed-accuracy"
-                                 ? run_motions_json(watched, truth_of(scene, run_of(request_, scene)))
-                                 : cell_motions_json(watched);
-    if (!json.empty())
-      write_file(runs_of(scene.name + "-" + watched.of) / (file_name_of(watched.method) + ".json"), json);
-  }
-
-  /// Runs of a figure, once for all figures that show them.
-  void add_runs(const Chart& chart, const std::string& key) {
-    if (std::any_of(page_.runs.begin(), page_.runs.end(), [&](const PlayedRuns& r) { return r.key == key; })) return;
-    PlayedRuns runs{key, "", "", {}};
-    for (const auto& file : fs::directory_iterator(runs_of(key))) runs.methods.push_back(file.path());
-    std::sort(runs.methods.begin(), runs.methods.end());
-    for (const Scene& scene : scenes_of_all())
-      if (std::holds_alternative<HeatMap>(chart.figure)) {
-        const auto small = map_scene(scene, options_.full);
-        for (const MapKind& kind : map_kinds())
-          if (small && key == fmt::format("{}-{}-map", small->name, kind.name)) runs.stage = stage_json(*small);
-      } else if (key == scene.name + "-speed-accuracy" && fs::exists(motions_of_scene(scene))) {
-        runs.scene = scene.name;
-      }
-    if (!runs.stage.empty() || !runs.scene.empty()) page_.runs.push_back(std::move(runs));
+  /// The runs that a figure plays, once for all figures that play them; false where there are none.
+  bool add_runs(const std::string& key) {
+    if (std::ranges::find(page_.runs, key, &PlayedRuns::key) != page_.runs.end()) return true;
+    auto runs = runs_.of(key, page_.notes);
+    if (!runs) return false;
+    runs->stage = stage_of_map(key, scenes_of_all(), options_.full);
+    for (const Scene& scene : request_.scenes)
+      if (key == scene.name + "-speed-accuracy" && fs::exists(motions_of_scene(scene))) runs->scene = scene.name;
+    if (runs->stage.empty() && runs->scene.empty()) return false;
+    page_.runs.push_back(std::move(*runs));
+    return true;
   }
 
   void add_part(size_t i) {
@@ -268,10 +253,7 @@ class Builder {
         Told& told = entry.images.back().told;
         if (const auto* figure = std::get_if<Figure>(&chart.figure)) told.markers = told_of(*figure);
         if (const auto* map = std::get_if<HeatMap>(&chart.figure)) told.boxes = told_of(*map);
-        if (!words->runs.empty() && fs::exists(runs_of(words->runs))) {
-          entry.images.back().runs = words->runs;
-          add_runs(chart, words->runs);
-        }
+        if (add_runs(words->runs)) entry.images.back().runs = words->runs;
       }
     }
     for (const Snapshot& s : chart.snapshots)
@@ -290,6 +272,7 @@ class Builder {
   std::vector<const Experiment*> experiments_;
   std::vector<Request> requests_;  // one per experiment, with the scenes that it looks at
   fs::path figures_;
+  RunsFolder runs_;
   Store store_{store_in(options_.out)};
   Rows rows_;
   AllFindings findings_;

@@ -75,7 +75,7 @@ async function lastPictures(whole, method, run) {
         whole, run.times.map(t => Math.max(0, whole.times.findLastIndex(frame => frame <= t)))),
     methods: [{...method, ...run, stops: end, failed: null, first: true}],
     finest: run.unit[0],
-    story: `The last ${run.frames} pictures of the run, from ${short(run.times[0])} s on.`
+    story: `The last ${run.frames} pictures of the run, from ${Number(run.times[0].toPrecision(3))} s on.`
   };
   return {scene, motions: [{places: await unpack(run.places)}]};
 }
@@ -116,7 +116,7 @@ async function lastMoments(set, method, place, outcome) {
       first: true,
       plotted: times.map((_, f) => (largest(f) > 0 ? Math.log10(largest(f)) : null))
     }],
-    story: `The last ${frames} pictures of the run, up to ${short(end)} s. ` +
+    story: `The last ${frames} pictures of the run, up to ${Number(end.toPrecision(3))} s. ` +
         (larger > 1 ? `Departures from rest are drawn ${short(larger)} times as large as they are.` :
                       'Departures are drawn in true size.')
   };
@@ -145,7 +145,10 @@ async function playRun(key, marker) {
     player.given = given;
     box.append(make('figure', {class: 'render'}, make('div', {class: 'stage'})), player);
   } else {
-    box.append(make('p', {}, 'It ended before there was a second picture of it to show.'));
+    box.append(make(
+        'p', {},
+        method ? 'It ended before there was a second picture of it to show.' :
+                 'The runs of this method are too large for the page; the command run plays them.'));
   }
   if (run?.call)
     box.append(make(
