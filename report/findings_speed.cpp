@@ -32,6 +32,29 @@ std::optional<std::string> factors_of_evaluations(const Rows& result) {
   return range(times_text(low), times_text(high));
 }
 
+/// Who was hardly tried where others were: with less than two runs on a scene.
+std::string hardly_tried(const Rows& result) {
+  const Table* t = result.table("speed-accuracy");
+  if (!t) return "";
+  std::string said;
+  for (const std::string& scene : distinct(*t, "scene")) {
+    std::vector<std::string> once, never;
+    for (const std::string& method : distinct(*t, "method")) {
+      int runs = 0;
+      bool cannot = false;
+      for (size_t i = 0; i < t->rows.size(); ++i) {
+        if (text_at(*t, i, "scene") != scene || text_at(*t, i, "method") != method) continue;
+        cannot |= text_at(*t, i, "verdict") == "unsupported";
+        ++runs;
+      }
+      if (!cannot && runs < 2) (runs == 0 ? never : once).push_back(method);
+    }
+    if (!once.empty()) said += fmt::format(" On {} only one run was tried of {}.", scene, joined(once));
+    if (!never.empty()) said += fmt::format(" On {} none was tried of {}.", scene, joined(never));
+  }
+  return said;
+}
+
 /// Who meets 1 % of the motion at the least CPU time, on how many scenes.
 void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   const Table* t = result.table("speed-accuracy-cheapest-cost");
@@ -67,7 +90,7 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
                                       : fmt::format(", in {} times as many force evaluations", *evaluations);
   }
   if (!without.empty()) sentence += "; no run of Bullet that was tried meets it on " + joined(without);
-  out.push_back({"", "cost", sentence + ".", "measured", "cheapest"});
+  out.push_back({"", "cost", sentence + "." + hardly_tried(result), "measured", "cheapest"});
 }
 
 /// The same rule in both engines, over the sizes.

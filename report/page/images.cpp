@@ -43,7 +43,7 @@ std::string image_tag(const PageImage& image) {
 
 std::string image_html(const PageImage& image, const std::string& css_class) {
   return fmt::format("<figure class=\"{}\">{}<figcaption>{}</figcaption></figure>\n", css_class, image_tag(image),
-                     escaped(image.caption));
+                     prose(image.caption));
 }
 
 }  // namespace crosscheck

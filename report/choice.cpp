@@ -1,0 +1,141 @@
+#include "report/choice.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "experiments/cells.h"
+#include "report/findings_text.h"
+#include "report/least_model.h"
+#include "report/scene_kind.h"
+
+namespace crosscheck {
+namespace {
+
+/// Above this part of the motion an answer is of no use.
+constexpr double useless = 0.1;
+
+/// The column says whose it is.
+std::string short_name(const std::string& method) { return method.substr(method.find('/') + 1); }
+
+std::string share_text(double error, const SceneFacts& facts) {
+  const double part = std::max(error, facts.bar) / facts.motion;
+  if (part < 1e-5) return "< 0.001 %";
+  return (error < facts.bar ? "< " : "") + percent(part, 1);
+}
+
+/// The nearest of those that take part, in bold where nobody is nearer.
+ChoiceCell nearest_cell(const SceneFacts& facts, const MethodFacts* m) {
+  if (facts.tier.empty()) return {"–", "none"};
+  if (!m || !(facts.motion > 0)) return {"none", "none"};
+  const MethodFacts* best = nearest(facts, "");
+  return {fmt::format("{} {}", short_name(m->method), share_text(*m->error, facts)),
+          shares_place(*m, *best, facts) ? "best" : ""};
+}
+
+ChoiceCell kind_cell(const Scene& scene, const SceneFacts&, const Rows&) { return {kind_of(scene)}; }
+
+ChoiceCell truth_cell(const Scene&, const SceneFacts& facts, const Rows&) {
+  return facts.tier.empty() ? ChoiceCell{"none: contact", "none"} : ChoiceCell{facts.tier};
+}
+
+ChoiceCell ours_cell(const Scene&, const SceneFacts& facts, const Rows&) {
+  return nearest_cell(facts, nearest(facts, "mysim/"));
+}
+
+ChoiceCell thrifty_cell(const Scene& scene, const SceneFacts& facts, const Rows&) {
+  SceneFacts few = facts;
+  std::erase_if(few.methods, [&](const MethodFacts& m) { return !m.thrifty(scene); });
+  const MethodFacts* m = nearest(few, "mysim/");
+  return nearest_cell(facts, m);
+}
+
+ChoiceCell bullet_cell(const Scene& scene, const SceneFacts& facts, const Rows&) {
+  const bool any = std::any_of(facts.methods.begin(), facts.methods.end(),
+                               [](const MethodFacts& m) { return m.method.starts_with("bullet") && m.supported(); });
+  if (!any) return {"cannot", "none"};
+  // no truth: how far the same rule is from mysim's
+  if (const MethodFacts* b = facts.find(theirs); facts.tier.empty() && b && b->ok() && b->difference)
+    return {fmt::format("{} from mysim until {:.2g} s", nice_length(*b->difference), scene.window), "none"};
+  return nearest_cell(facts, nearest(facts, "bullet"));
+}
+
+/// Who is cheapest for 1 % of the motion, and how many times as much Bullet's best takes.
+ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts&, const Rows& result) {
+  const Table* t = result.table("speed-accuracy-cheapest-cost");
+  for (size_t i = 0; t && i < t->rows.size(); ++i) {
+    const std::string method = text_or_none(*t, i, "method"), same = text_or_none(*t, i, "as cheap within noise");
+    if (text_at(*t, i, "scene") != scene.name || number_at(*t, i, "part of motion") != 0.01 || method.empty() ||
+        text_at(*t, i, "measure") != "error")
+      continue;
+    const auto factor = number_at(*t, i, "Bullet / best");
+    return {fmt::format("{}{}; Bullet {}", short_name(method), same.empty() ? "" : ", " + short_name(same),
+                        factor ? times_text(*factor) + " times" : "never")};
+  }
+  return {"not tried", "none"};
+}
+
+ChoiceCell fails_cell(const Scene&, const SceneFacts& facts, const Rows&) {
+  std::vector<std::string> failed;
+  const MethodFacts* worst = nullptr;
+  int ran = 0, off = 0;
+  for (const MethodFacts& m : facts.methods) {
+    if (!m.supported() || m.method == sticky_sphere) continue;
+    ++ran;
+    if (!m.ok()) failed.push_back(short_name(m.method));
+    if (!m.judged() || !(*m.error > useless * facts.motion)) continue;
+    ++off;
+    if (!worst || *m.error > *worst->error) worst = &m;
+  }
+  std::vector<std::string> parts;
+  if (!failed.empty()) parts.push_back(fmt::format("{}", fmt::join(failed, ", ")));
+  if (worst && off == 1)
+    parts.push_back(fmt::format("{} is {} off", short_name(worst->method), percent(*worst->error, facts.motion)));
+  if (worst && off > 1)
+    parts.push_back(fmt::format("{} are over 10 % off, {} by {}", off, short_name(worst->method),
+                                percent(*worst->error, facts.motion)));
+  if (parts.empty()) return {fmt::format("none of {}", ran)};
+  return {fmt::format("{} (of {})", fmt::join(parts, "; "), ran), "failed"};
+}
+
+ChoiceCell least_cell(const Scene& scene, const SceneFacts&, const Rows& result) {
+  std::vector<std::string> out;
+  for (const LeastModel& least : least_models_of(result, scene.name))
+    if (least.of_motion(1) || least.of_motion(10))
+      out.push_back(least.holds && !least.left_out.empty() ? least.left_out : "nothing");
+  if (out.empty()) return {"not tried", "none"};
+  if (std::all_of(out.begin(), out.end(), [&](const std::string& each) { return each == out[0]; })) return {out[0]};
+  return {fmt::format("{}", fmt::join(out, " / "))};
+}
+
+}  // namespace
+
+const std::vector<ChoiceColumn>& choice_columns() {
+  static const std::vector<ChoiceColumn> columns = {
+      {"kind", "", kind_cell},
+      {"truth", "truth", truth_cell},
+      {"mysim's nearest to it", "error", ours_cell},
+      {"of those with one evaluation a step", "evaluation", thrifty_cell},
+      {"Bullet's nearest", "motion", bullet_cell},
+      {"cheapest for 1 % error, CPU time", "cheapest", cheapest_cell, true},
+      {"failed, or over 10 % off", "failed", fails_cell},
+      {"may be left out at 1 % / 10 % error", "least", least_cell},
+  };
+  return columns;
+}
+
+std::vector<ChoiceCell> choice_of(const Scene& scene, const SceneFacts& facts, const Rows& result) {
+  std::vector<ChoiceCell> cells;
+  for (const ChoiceColumn& column : choice_columns()) cells.push_back(column.cell(scene, facts, result));
+  return cells;
+}
+
+Finding choice_finding(const Scene& scene, const SceneFacts& facts, const Rows& result) {
+  std::vector<std::string> parts;
+  for (const ChoiceColumn& column : choice_columns())
+    if (!column.timed) parts.push_back(fmt::format("{}: {}", column.head, column.cell(scene, facts, result).text));
+  return {scene.name, choice_topic, fmt::format("{}.", fmt::join(parts, "; ")),
+          facts.tier.empty() ? "another engine" : facts.tier, "which-method"};
+}
+
+}  // namespace crosscheck
