@@ -7,7 +7,6 @@
 #include "experiments/cells.h"
 #include "report/findings_text.h"
 #include "report/least_model.h"
-#include "report/scene_kind.h"
 
 namespace crosscheck {
 namespace {
@@ -26,17 +25,14 @@ std::string share_text(double error, const SceneFacts& facts) {
 
 /// The nearest of those that take part, in bold where nobody is nearer.
 ChoiceCell nearest_cell(const SceneFacts& facts, const MethodFacts* m) {
-  if (facts.tier.empty()) return {"–", "none"};
-  if (!m || !(facts.motion > 0)) return {"none", "none"};
+  if (facts.tier.empty() || !m || !(facts.motion > 0)) return {"–", "none"};
   const MethodFacts* best = nearest(facts, "");
   return {fmt::format("{} {}", short_name(m->method), share_text(*m->error, facts)),
           shares_place(*m, *best, facts) ? "best" : ""};
 }
 
-ChoiceCell kind_cell(const Scene& scene, const SceneFacts&, const Rows&) { return {kind_of(scene)}; }
-
 ChoiceCell truth_cell(const Scene&, const SceneFacts& facts, const Rows&) {
-  return facts.tier.empty() ? ChoiceCell{"none: contact", "none"} : ChoiceCell{facts.tier};
+  return facts.tier.empty() ? ChoiceCell{"none", "none"} : ChoiceCell{facts.tier};
 }
 
 ChoiceCell ours_cell(const Scene&, const SceneFacts& facts, const Rows&) {
@@ -70,9 +66,9 @@ ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts&, const Rows& resu
       continue;
     const auto factor = number_at(*t, i, "Bullet / best");
     return {fmt::format("{}{}; Bullet {}", short_name(method), same.empty() ? "" : ", " + short_name(same),
-                        factor ? times_text(*factor) + " times" : "never")};
+                        factor ? "takes " + times_text(*factor) + " times" : "does not meet it")};
   }
-  return {"not tried", "none"};
+  return {"–", "none"};
 }
 
 ChoiceCell fails_cell(const Scene&, const SceneFacts& facts, const Rows&) {
@@ -87,15 +83,12 @@ ChoiceCell fails_cell(const Scene&, const SceneFacts& facts, const Rows&) {
     ++off;
     if (!worst || *m.error > *worst->error) worst = &m;
   }
-  std::vector<std::string> parts;
-  if (!failed.empty()) parts.push_back(fmt::format("{}", fmt::join(failed, ", ")));
-  if (worst && off == 1)
-    parts.push_back(fmt::format("{} is {} off", short_name(worst->method), percent(*worst->error, facts.motion)));
-  if (worst && off > 1)
-    parts.push_back(fmt::format("{} are over 10 % off, {} by {}", off, short_name(worst->method),
-                                percent(*worst->error, facts.motion)));
-  if (parts.empty()) return {fmt::format("none of {}", ran)};
-  return {fmt::format("{} (of {})", fmt::join(parts, "; "), ran), "failed"};
+  if (failed.empty() && !worst) return {fmt::format("none of {}", ran)};
+  std::string text = fmt::format("{}", fmt::join(failed, ", "));
+  if (worst)
+    text += fmt::format("{}{} {} off{}", failed.empty() ? "" : "; ", short_name(worst->method),
+                        percent(*worst->error, facts.motion), off > 1 ? fmt::format(", {} more", off - 1) : "");
+  return {fmt::format("{} (of {})", text, ran), "failed"};
 }
 
 ChoiceCell least_cell(const Scene& scene, const SceneFacts&, const Rows& result) {
@@ -103,7 +96,7 @@ ChoiceCell least_cell(const Scene& scene, const SceneFacts&, const Rows& result)
   for (const LeastModel& least : least_models_of(result, scene.name))
     if (least.of_motion(1) || least.of_motion(10))
       out.push_back(least.holds && !least.left_out.empty() ? least.left_out : "nothing");
-  if (out.empty()) return {"not tried", "none"};
+  if (out.empty()) return {"–", "none"};
   if (std::all_of(out.begin(), out.end(), [&](const std::string& each) { return each == out[0]; })) return {out[0]};
   return {fmt::format("{}", fmt::join(out, " / "))};
 }
@@ -112,14 +105,13 @@ ChoiceCell least_cell(const Scene& scene, const SceneFacts&, const Rows& result)
 
 const std::vector<ChoiceColumn>& choice_columns() {
   static const std::vector<ChoiceColumn> columns = {
-      {"kind", "", kind_cell},
       {"truth", "truth", truth_cell},
-      {"mysim's nearest to it", "error", ours_cell},
-      {"of those with one evaluation a step", "evaluation", thrifty_cell},
+      {"mysim's nearest", "error", ours_cell},
+      {"with one evaluation a step", "evaluation", thrifty_cell},
       {"Bullet's nearest", "motion", bullet_cell},
-      {"cheapest for 1 % error, CPU time", "cheapest", cheapest_cell, true},
+      {"cheapest for 1 %, CPU time", "cheapest", cheapest_cell, true},
       {"failed, or over 10 % off", "failed", fails_cell},
-      {"may be left out at 1 % / 10 % error", "least", least_cell},
+      {"not needed for 1 % / 10 %", "least", least_cell},
   };
   return columns;
 }

@@ -100,6 +100,7 @@ bool shares_place(const MethodFacts& run, const MethodFacts& other, const SceneF
 std::string nice(double value) {
   if (value == 0) return "0";
   const double size = std::abs(value);
+  if (size >= 999.5 && size < 1e4) return fmt::format("{:.0f}", value);  // 3518, not 3.52e+03
   if (size >= 1e-3 && size < 1e4) return fmt::format("{:.3g}", value);
   std::string text = fmt::format("{:.1e}", value);
   // 1.2e-05 -> 1.2e-5

@@ -80,18 +80,16 @@ void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFac
       bullet.push_back(fmt::format("{} ({})", scenes[i].name, b->method));
   }
   if (asked == 0) return;
-  std::vector<std::string> parts;
-  if (!bullet.empty()) parts.push_back(fmt::format("one of Bullet's on {}", joined(bullet)));
-  if (!shared.empty()) parts.push_back(fmt::format("one of either engine on {}, within 5 %", joined(shared)));
-  const int rest = asked - static_cast<int>(bullet.size() + shared.size());
-  if (rest > 0)
-    parts.push_back(
-        fmt::format("one of mysim's on {} of {} scenes with a truth{}", rest, asked,
-                    alone.empty() ? "" : fmt::format(" (on {} no world of Bullet answers)", joined(alone))));
-  out.push_back(
-      {"", "accuracy",
-       fmt::format("Nearest to the truth at the scene's own step is {}; the table names them.", joined(parts)),
-       "see each scene", "nearest-of-all"});
+  const int ours_alone = asked - static_cast<int>(bullet.size() + shared.size());
+  std::vector<std::string> parts{
+      fmt::format("mysim on {}{}", ours_alone,
+                  alone.empty() ? "" : fmt::format(" (on {} no world of Bullet answers)", joined(alone)))};
+  if (!bullet.empty()) parts.push_back(fmt::format("Bullet on {}", joined(bullet)));
+  if (!shared.empty()) parts.push_back(fmt::format("both, within 5 %, on {}", joined(shared)));
+  out.push_back({"", "accuracy",
+                 fmt::format("Of {} scenes with a truth the method nearest to it at the scene's own step is of {}.",
+                             asked, joined(parts)),
+                 "see each scene", "nearest-of-all"});
 }
 
 /// How far the position-based world is off, by kind of scene.

@@ -36,9 +36,9 @@ std::optional<std::string> factors_of_evaluations(const Rows& result) {
 std::string hardly_tried(const Rows& result) {
   const Table* t = result.table("speed-accuracy");
   if (!t) return "";
-  std::string said;
+  std::vector<std::string> scenes;
   for (const std::string& scene : distinct(*t, "scene")) {
-    std::vector<std::string> once, never;
+    std::vector<std::string> seldom;
     for (const std::string& method : distinct(*t, "method")) {
       int runs = 0;
       bool cannot = false;
@@ -47,12 +47,11 @@ std::string hardly_tried(const Rows& result) {
         cannot |= text_at(*t, i, "verdict") == "unsupported";
         ++runs;
       }
-      if (!cannot && runs < 2) (runs == 0 ? never : once).push_back(method);
+      if (!cannot && runs < 2) seldom.push_back(fmt::format("{} ({})", method, runs == 0 ? "no run" : "one run"));
     }
-    if (!once.empty()) said += fmt::format(" On {} only one run was tried of {}.", scene, joined(once));
-    if (!never.empty()) said += fmt::format(" On {} none was tried of {}.", scene, joined(never));
+    if (!seldom.empty()) scenes.push_back(fmt::format("{} on {}", joined(seldom), scene));
   }
-  return said;
+  return scenes.empty() ? "" : fmt::format(" Hardly tried: {}.", joined(scenes));
 }
 
 /// Who meets 1 % of the motion at the least CPU time, on how many scenes.

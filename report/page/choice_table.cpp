@@ -23,7 +23,7 @@ std::string choice_table_html(const std::vector<ScenePart>& scenes) {
   }
   out +=
       "</tbody></table></div>\n<p class=\"note\">Errors at the scene's own step, in % of its motion; in bold who is "
-      "nearest, or within 5 % of the nearest. What is meant by";
+      "nearest, or within 5 % of the nearest; – where nothing was asked, or cannot be said. What is meant by";
   const char* mark = " ";
   for (const ChoiceColumn& column : choice_columns())
     if (column.term != std::string_view()) out += std::exchange(mark, ", ") + term_link(column.term);

@@ -26,6 +26,23 @@ bool holds_what_follows(std::string_view before) {
   return before.ends_with(" x") || before.ends_with("±") || before.ends_with("<");
 }
 
+/// "e-4" in one piece, where a browser would break behind the hyphen. Of escaped text.
+std::string with_whole_exponents(const std::string& text) {
+  std::string out;
+  for (size_t i = 0; i < text.size();) {
+    size_t end = i + 2;
+    if (i > 0 && is_digit(text[i - 1]) && text.compare(i, 2, "e-") == 0)
+      while (end < text.size() && is_digit(text[end])) ++end;
+    if (end == i + 2) {
+      out += text[i++];
+      continue;
+    }
+    out += "<span class=\"n\">" + text.substr(i, end - i) + "</span>";
+    i = end;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string prose(const std::string& text) {
@@ -40,7 +57,7 @@ std::string prose(const std::string& text) {
     else
       out += text[i];
   }
-  return escaped(out);
+  return with_whole_exponents(escaped(out));
 }
 
 }  // namespace crosscheck

@@ -36,12 +36,19 @@ std::string with_digits_of(double mean, double spread) {
   return fmt::format("{:.{}f}", mean, decimals);
 }
 
+/// "1.0e-7 m": whatever else breaks, this does not.
+bool is_number(const std::string& cell) {
+  return cell.size() <= 12 && cell.find_first_of("0123456789") <= 2 && !cell.starts_with("1/");
+}
+
 /// Names of methods may break behind the slash: in half a page's width eight columns have to stand.
 std::string narrow(const std::string& cell) {
   std::string out;
+  bool in_tag = false;
   for (const char c : prose(cell)) {
+    in_tag = c == '<' || (in_tag && c != '>');
     out += c;
-    if (c == '/') out += "<wbr>";
+    if (c == '/' && !in_tag) out += "<wbr>";
   }
   return out;
 }
@@ -61,7 +68,10 @@ std::string page_table_html(const PageTable& table, bool open) {
     out += "<tr>";
     for (size_t i = 0; i < row.size(); ++i)
       out += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", narrow(row[i]))
-                    : fmt::format("<td{}>{}</td>", row[i].empty() ? " class=\"none\"" : "",
+                    : fmt::format("<td{}>{}</td>",
+                                  row[i].empty()      ? " class=\"none\""
+                                  : is_number(row[i]) ? " class=\"number\""
+                                                      : "",
                                   row[i].empty() ? "–" : narrow(row[i]));
     out += "</tr>\n";
   }
