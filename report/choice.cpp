@@ -66,7 +66,7 @@ ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts&, const Rows& resu
       continue;
     const auto factor = number_at(*t, i, "Bullet / best");
     return {fmt::format("{}{}; Bullet {}", short_name(method), same.empty() ? "" : ", " + short_name(same),
-                        factor ? "takes " + times_text(*factor) + " times" : "does not meet it")};
+                        factor ? times_text(*factor) + " times" : "does not meet it")};
   }
   return {"–", "none"};
 }

@@ -158,7 +158,11 @@ std::string chapter_section(const Chapter& chapter, const std::vector<Finding>& 
   if (const auto own = of_chapter(findings, chapter.id); !own.empty()) out += finding_list(own, "findings");
   out += "<div class=\"figures\">\n";
   for (const Chapter::Entry& entry : chapter.entries) {
-    out += fmt::format("<article><h3>{}</h3><p>{}</p>\n", prose(entry.heading), prose(entry.text));
+    // a long table with nothing above it is open, and has the whole width
+    const bool wide = entry.images.empty() && std::any_of(entry.tables.begin(), entry.tables.end(),
+                                                          [](const PageTable& t) { return t.rows.size() > 6; });
+    out += fmt::format("<article{}><h3>{}</h3><p>{}</p>\n", wide ? " class=\"wide\"" : "", prose(entry.heading),
+                       prose(entry.text));
     for (const PageImage& image : entry.images)
       out += image_html(image, image.file.extension() == ".png" ? "render" : "chart");
     for (const PageTable& table : entry.tables) out += page_table_html(table, entry.images.empty());

@@ -23,7 +23,7 @@ bool holds_on(std::string_view rest) {
 
 /// What stands in front holds on, too: "8 x 8", "0.32 ± 0.01".
 bool holds_what_follows(std::string_view before) {
-  return before.ends_with(" x") || before.ends_with("±") || before.ends_with("<");
+  return before.ends_with(" x") || before.ends_with("(of") || before.ends_with("±") || before.ends_with("<");
 }
 
 /// "e-4" in one piece, where a browser would break behind the hyphen. Of escaped text.

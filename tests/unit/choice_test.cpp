@@ -101,7 +101,7 @@ TEST_F(Choice, WhatMayBeLeftOutAndWhoIsCheapest) {
   rows.add(cheap);
   const SceneFacts f = facts({run("mysim/rk4", 1e-4)});
   EXPECT_EQ(cell("not needed for 1 % / 10 %", f, rows).text, "nothing / bend springs");
-  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text, "leapfrog, rk4; Bullet takes 27 times");
+  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text, "leapfrog, rk4; Bullet 27 times");
   EXPECT_EQ(cell("cheapest for 1 %, CPU time", f).text, "–");
   const auto models = least_models_of(rows, "cloth-hang");
   ASSERT_EQ(models.size(), 3u);
