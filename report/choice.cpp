@@ -14,8 +14,12 @@ namespace {
 /// Above this part of the motion an answer is of no use.
 constexpr double useless = 0.1;
 
-/// The column says whose it is.
-std::string short_name(const std::string& method) { return method.substr(method.find('/') + 1); }
+/// Where the column, or the name, says whose it is.
+std::string short_name(const std::string& method) {
+  for (const std::string_view engine : {"mysim/", "bullet/"})
+    if (method.starts_with(engine)) return method.substr(engine.size());
+  return method;
+}
 
 std::string share_text(double error, const SceneFacts& facts) {
   const double part = std::max(error, facts.bar) / facts.motion;
@@ -25,14 +29,14 @@ std::string share_text(double error, const SceneFacts& facts) {
 
 /// The nearest of those that take part, in bold where nobody is nearer.
 ChoiceCell nearest_cell(const SceneFacts& facts, const MethodFacts* m) {
-  if (facts.tier.empty() || !m || !(facts.motion > 0)) return {"–", "none"};
+  if (facts.tier.empty() || !m || !(facts.motion > 0)) return {};
   const MethodFacts* best = nearest(facts, "");
   return {fmt::format("{} {}", short_name(m->method), share_text(*m->error, facts)),
           shares_place(*m, *best, facts) ? "best" : ""};
 }
 
 ChoiceCell truth_cell(const Scene&, const SceneFacts& facts, const Rows&) {
-  return facts.tier.empty() ? ChoiceCell{"none", "none"} : ChoiceCell{facts.tier};
+  return facts.tier.empty() ? ChoiceCell{"none", "none"} : ChoiceCell{facts.tier, ""};
 }
 
 ChoiceCell ours_cell(const Scene&, const SceneFacts& facts, const Rows&) {
@@ -48,12 +52,26 @@ ChoiceCell thrifty_cell(const Scene& scene, const SceneFacts& facts, const Rows&
 
 ChoiceCell bullet_cell(const Scene& scene, const SceneFacts& facts, const Rows&) {
   const bool any = std::any_of(facts.methods.begin(), facts.methods.end(),
-                               [](const MethodFacts& m) { return m.method.starts_with("bullet") && m.supported(); });
+                               [](const MethodFacts& m) { return m.method.starts_with("bullet/") && m.supported(); });
   if (!any) return {"cannot", "none"};
   // no truth: how far the same rule is from mysim's
   if (const MethodFacts* b = facts.find(theirs); facts.tier.empty() && b && b->ok() && b->difference)
     return {fmt::format("{} from mysim until {:.2g} s", nice_length(*b->difference), scene.window), "none"};
-  return nearest_cell(facts, nearest(facts, "bullet"));
+  return nearest_cell(facts, nearest(facts, "bullet/"));
+}
+
+/// Programs of the reader's own, single precision, independent integrators: where they were asked.
+ChoiceCell others_cell(const Scene&, const SceneFacts& facts, const Rows&) {
+  SceneFacts others = facts;
+  std::erase_if(others.methods, [](const MethodFacts& m) { return short_name(m.method) != m.method; });
+  const MethodFacts* m = nearest(others, "");
+  return nearest_cell(facts, m);
+}
+
+/// Of several too: whose it is stands there, but for mysim's.
+std::string own_name(std::string methods) {
+  for (size_t at = methods.find("mysim/"); at != std::string::npos; at = methods.find("mysim/")) methods.erase(at, 6);
+  return methods;
 }
 
 /// Who is cheapest for 1 % of the motion, and how many times as much Bullet's best takes.
@@ -65,10 +83,11 @@ ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts&, const Rows& resu
         text_at(*t, i, "measure") != "error")
       continue;
     const auto factor = number_at(*t, i, "Bullet / best");
-    return {fmt::format("{}{}; Bullet {}", short_name(method), same.empty() ? "" : ", " + short_name(same),
-                        factor ? times_text(*factor) + " times" : "does not meet it")};
+    return {fmt::format("{}{}; Bullet {}", own_name(method), same.empty() ? "" : ", " + own_name(same),
+                        factor ? times_text(*factor) + " times" : "does not meet it"),
+            ""};
   }
-  return {"–", "none"};
+  return {};
 }
 
 ChoiceCell fails_cell(const Scene&, const SceneFacts& facts, const Rows&) {
@@ -83,7 +102,7 @@ ChoiceCell fails_cell(const Scene&, const SceneFacts& facts, const Rows&) {
     ++off;
     if (!worst || *m.error > *worst->error) worst = &m;
   }
-  if (failed.empty() && !worst) return {fmt::format("none of {}", ran)};
+  if (failed.empty() && !worst) return {fmt::format("none of {}", ran), ""};
   std::string text = fmt::format("{}", fmt::join(failed, ", "));
   if (worst)
     text += fmt::format("{}{} {} off{}", failed.empty() ? "" : "; ", short_name(worst->method),
@@ -96,9 +115,9 @@ ChoiceCell least_cell(const Scene& scene, const SceneFacts&, const Rows& result)
   for (const LeastModel& least : least_models_of(result, scene.name))
     if (least.of_motion(1) || least.of_motion(10))
       out.push_back(least.holds && !least.left_out.empty() ? least.left_out : "nothing");
-  if (out.empty()) return {"–", "none"};
-  if (std::all_of(out.begin(), out.end(), [&](const std::string& each) { return each == out[0]; })) return {out[0]};
-  return {fmt::format("{}", fmt::join(out, " / "))};
+  if (out.empty()) return {};
+  if (std::all_of(out.begin(), out.end(), [&](const std::string& each) { return each == out[0]; })) return {out[0], ""};
+  return {fmt::format("{}", fmt::join(out, " / ")), ""};
 }
 
 }  // namespace
@@ -107,8 +126,9 @@ const std::vector<ChoiceColumn>& choice_columns() {
   static const std::vector<ChoiceColumn> columns = {
       {"truth", "truth", truth_cell},
       {"mysim's nearest", "error", ours_cell},
-      {"with one evaluation a step", "evaluation", thrifty_cell},
+      {"mysim's, one evaluation a step", "evaluation", thrifty_cell},
       {"Bullet's nearest", "motion", bullet_cell},
+      {"nearest of others", "method", others_cell},
       {"cheapest for 1 %, CPU time", "cheapest", cheapest_cell, true},
       {"failed, or over 10 % off", "failed", fails_cell},
       {"not needed for 1 % / 10 %", "least", least_cell},
@@ -125,7 +145,8 @@ std::vector<ChoiceCell> choice_of(const Scene& scene, const SceneFacts& facts, c
 Finding choice_finding(const Scene& scene, const SceneFacts& facts, const Rows& result) {
   std::vector<std::string> parts;
   for (const ChoiceColumn& column : choice_columns())
-    if (!column.timed) parts.push_back(fmt::format("{}: {}", column.head, column.cell(scene, facts, result).text));
+    if (const ChoiceCell cell = column.cell(scene, facts, result); !column.timed && !cell.empty())
+      parts.push_back(fmt::format("{}: {}", column.head, cell.text));
   return {scene.name, choice_topic, fmt::format("{}.", fmt::join(parts, "; ")),
           facts.tier.empty() ? "another engine" : facts.tier, "which-method"};
 }

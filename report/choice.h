@@ -6,13 +6,14 @@
 namespace crosscheck {
 
 struct ChoiceCell {
-  std::string text;
-  const char* look = "";  // class of the page: "best", "failed", "none"
+  std::string text = "–";     // as it is: nothing was asked, or can be said
+  const char* look = "none";  // class of the page: "best", "failed", "none" or ""
+  bool empty() const { return text == "–"; }
 };
 
 /// A column of the table; a new one is a row in choice.cpp.
 struct ChoiceColumn {
-  const char *head, *term;  // the term of the glossary (page/glossary.cpp) that explains it, or empty
+  const char *head, *term;  // the term of the glossary (page/glossary.cpp) that explains it
   ChoiceCell (*cell)(const Scene& scene, const SceneFacts& facts, const Rows& result);
   bool timed = false;  // rests on timings, which another finding tells
 };

@@ -201,7 +201,12 @@ std::vector<Finding> disagreement_findings(const Rows& result) {
   std::map<std::string, int> by_world;
   for (size_t i = 0; i < t->rows.size(); ++i) ++by_world[text_at(*t, i, "world")];
   std::vector<std::string> worlds;
-  for (const auto& [world, count] : by_world) worlds.push_back(fmt::format("{} in {}", world, count));
+  for (const auto& [world, count] : by_world)
+    worlds.push_back(fmt::format("{} in {}",
+                                 world == "bullet"     ? "all worlds"
+                                 : world == "bullet32" ? "single precision"
+                                                       : world,
+                                 count));
   return {{"", "failure",
            fmt::format("Bullet's worlds answer otherwise than a scene asks in {} known ways, each measured in the "
                        "smallest scene that shows it: {}.",

@@ -58,17 +58,16 @@ std::string hardly_tried(const Rows& result) {
 void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   const Table* t = result.table("speed-accuracy-cheapest-cost");
   if (!t) return;
-  std::map<std::string, std::vector<std::string>> scenes_of;  // by the cheapest
+  std::map<std::string, std::vector<std::string>> scenes_of, as_cheap;  // by the cheapest; by who shares its place
   double low = 1e300, high = 0;
   std::vector<std::string> without;  // scenes on which no run of Bullet that was tried meets it
   for (size_t i = 0; i < t->rows.size(); ++i) {
     const std::string method = text_or_none(*t, i, "method");
     if (number_at(*t, i, "part of motion") != 0.01 || method.empty() || text_at(*t, i, "measure") != "error") continue;
-    std::string where = text_at(*t, i, "scene");
+    scenes_of[method].push_back(text_at(*t, i, "scene"));
     // what the clock cannot tell apart shares the place
     if (const std::string same = text_or_none(*t, i, "as cheap within noise"); !same.empty())
-      where += fmt::format(" (there {} no dearer within the noise)", same);
-    scenes_of[method].push_back(where);
+      as_cheap[same].push_back(text_at(*t, i, "scene"));
     if (const auto factor = number_at(*t, i, "Bullet / best")) {
       low = std::min(low, *factor);
       high = std::max(high, *factor);
@@ -81,6 +80,8 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   for (const auto& [method, where] : scenes_of) who.push_back(fmt::format("{} on {}", method, joined(where)));
   std::string sentence = fmt::format(
       "For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, are of {}", joined(who));
+  for (const auto& [method, where] : as_cheap)
+    sentence += fmt::format("; no dearer within the noise: {} on {}", method, joined(where));
   if (high > 0) {
     sentence +=
         fmt::format("; the best of Bullet's worlds takes {} times as much", range(times_text(low), times_text(high)));

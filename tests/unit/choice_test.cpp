@@ -46,10 +46,19 @@ TEST_F(Choice, TheNearestOfEachEngineAndWhoIsNearest) {
                               run("bullet/deformable-explicit", 6e-4), run("bullet/pbd", 5e-3)});
   EXPECT_EQ(cell("mysim's nearest", f).text, "suzuki4 < 0.001 %");
   EXPECT_EQ(cell("mysim's nearest", f).look, std::string("best"));
-  EXPECT_EQ(cell("with one evaluation a step", f).text, "leapfrog 0.002 %");
-  EXPECT_EQ(cell("with one evaluation a step", f).look, std::string());
+  EXPECT_EQ(cell("mysim's, one evaluation a step", f).text, "leapfrog 0.002 %");
+  EXPECT_EQ(cell("mysim's, one evaluation a step", f).look, std::string());
   EXPECT_EQ(cell("Bullet's nearest", f).text, "deformable-explicit 0.06 %");
   EXPECT_EQ(cell("failed, or over 10 % off", f).text, "none of 4");
+}
+
+TEST_F(Choice, EnginesOfOthersKeepTheirNames) {
+  const SceneFacts f = facts({run("mysim/rk4", 1e-4), run("bullet/pbd", 2e-4), run("bullet32/pbd", 3e-4),
+                              run("exec:./my/engine", 5e-5), run("truth/converged", 0.)});
+  EXPECT_EQ(cell("nearest of others", f).text, "exec:./my/engine 0.005 %");
+  EXPECT_EQ(cell("nearest of others", f).look, std::string("best"));
+  EXPECT_EQ(cell("Bullet's nearest", f).text, "pbd 0.02 %");
+  EXPECT_TRUE(cell("nearest of others", facts({run("mysim/rk4", 1e-4)})).empty());
 }
 
 TEST_F(Choice, WithinFivePercentBothAreNearest) {
@@ -97,11 +106,11 @@ TEST_F(Choice, WhatMayBeLeftOutAndWhoIsCheapest) {
   Table cheap{"speed-accuracy-cheapest-cost", {}, {}};
   for (const char* column : {"scene", "part of motion", "measure", "method", "as cheap within noise", "Bullet / best"})
     cheap.columns.push_back({column, "1"});
-  cheap.add({"cloth-hang", 0.01, "error", "mysim/leapfrog", "mysim/rk4", 26.6});
+  cheap.add({"cloth-hang", 0.01, "error", "mysim/leapfrog", "mysim/rk4, odeint/rk4", 26.6});
   rows.add(cheap);
   const SceneFacts f = facts({run("mysim/rk4", 1e-4)});
   EXPECT_EQ(cell("not needed for 1 % / 10 %", f, rows).text, "nothing / bend springs");
-  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text, "leapfrog, rk4; Bullet 27 times");
+  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text, "leapfrog, rk4, odeint/rk4; Bullet 27 times");
   EXPECT_EQ(cell("cheapest for 1 %, CPU time", f).text, "–");
   const auto models = least_models_of(rows, "cloth-hang");
   ASSERT_EQ(models.size(), 3u);
