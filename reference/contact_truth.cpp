@@ -79,9 +79,9 @@ std::optional<Truth> contact_truth(const Scene& scene, const Run& run) {
   truth.trajectory.x.resize(truth.bars.size());
   truth.trajectory.v.resize(truth.bars.size());
   truth.how = fmt::format(
-      "mysim/leapfrog at {:.2g} s, converged in the step (to order {:.2g} at least) under the in-house contact rule; "
+      "mysim/leapfrog at {:.3g} ms, converged in the step (to order {:.2g} at least) under the in-house contact rule; "
       "other rules differ",
-      h, std::log2(least));
+      1e3 * h, std::log2(least));
   return truth;
 }
 

@@ -68,9 +68,9 @@ std::optional<Route> by_mysim(const Scene& scene, const Run& run) {
     const double before = std::exchange(change, largest_rms_distance(*coarse, *fine));
     // where halving no longer helps, round-off or chaos is what is left
     if (change < enough || change > before / 2)
-      return Route{
-          fmt::format("mysim/rk4 at {:.2g} s{}", h, hard ? ", with Lagrange multipliers for the hard distances" : ""),
-          h, std::move(*coarse), std::move(*fine)};
+      return Route{fmt::format("mysim/rk4 at {:.3g} ms{}", 1e3 * h,
+                               hard ? ", with Lagrange multipliers for the hard distances" : ""),
+                   h, std::move(*coarse), std::move(*fine)};
     coarse = std::move(fine);
   }
   return std::nullopt;

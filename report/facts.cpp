@@ -86,9 +86,21 @@ SceneFacts facts_of(const std::string& scene, const Rows& result) {
   return facts;
 }
 
+const MethodFacts* nearest(const SceneFacts& scene, std::string_view engine) {
+  const MethodFacts* best = nullptr;
+  for (const MethodFacts& m : scene.methods)
+    if (m.judged() && m.method.starts_with(engine) && (!best || *m.error < *best->error)) best = &m;
+  return best;
+}
+
+bool shares_place(const MethodFacts& run, const MethodFacts& other, const SceneFacts& scene) {
+  return *run.error <= std::max(1.05 * *other.error, scene.bar);
+}
+
 std::string nice(double value) {
   if (value == 0) return "0";
   const double size = std::abs(value);
+  if (size >= 999.5 && size < 1e4) return fmt::format("{:.0f}", value);  // 3518, not 3.52e+03
   if (size >= 1e-3 && size < 1e4) return fmt::format("{:.3g}", value);
   std::string text = fmt::format("{:.1e}", value);
   // 1.2e-05 -> 1.2e-5
@@ -110,6 +122,13 @@ std::string nice_length(double metres) {
   if (size >= 1e-4) return two_digits(metres * 1e3) + " mm";
   if (size >= 1e-6) return two_digits(metres * 1e6) + " µm";
   return nice(metres) + " m";
+}
+
+std::string step_text(double seconds) {
+  if (seconds == 0) return "0 s";
+  if (seconds >= 1) return nice(seconds) + " s";
+  if (seconds >= 1e-3) return nice(1e3 * seconds) + " ms";
+  return nice(1e6 * seconds) + " µs";
 }
 
 bool costs_compare(const Scene& scene) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/experiment.h"
@@ -52,6 +53,11 @@ struct SceneFacts {
   bool touched() const;
 };
 
+/// The run nearest to the truth of the methods whose names begin so, or null.
+const MethodFacts* nearest(const SceneFacts& scene, std::string_view engine);
+/// Whether a run is as near to the truth as another: errs by at most 5 % more, or below the truth's error bar.
+bool shares_place(const MethodFacts& run, const MethodFacts& other, const SceneFacts& scene);
+
 /// Facts of a scene from the tables `engines`, `engines-cost` and `engines-energy`.
 SceneFacts facts_of(const std::string& scene, const Rows& result);
 
@@ -59,6 +65,8 @@ SceneFacts facts_of(const std::string& scene, const Rows& result);
 std::string nice(double value);
 /// A length in the unit that suits it: "1.2 mm", "3.4e-14 m".
 std::string nice_length(double metres);
+/// A step or a time in the unit that suits it: "500 µs", "1.12 ms", "3 s".
+std::string step_text(double seconds);
 
 /// Whether costs of a step may be compared on the scene: below 50 particles a step takes less than the clock can tell,
 /// and air on triangles reaches Bullet through a class of ours, whose time would count as Bullet's.

@@ -24,29 +24,38 @@ const std::vector<FindingRule>& finding_rules() {
       {"step-cost", "cpu per step / cpu per step of mysim/symplectic-euler", {"engines-cost", "engines"}},
       {"agreement-of-all", "over scenes: max of largest difference, and of largest difference of centres", {"engines"}},
       {"nearest-of-all",
-       "over scenes: methods whose largest error is at most 1.05 times the least, or the truth bar, of runs that are "
-       "ok",
+       "over scenes: which engine's least largest error is the lesser, of runs that are ok; shared where both are "
+       "within "
+       "1.05 times the least, or within the truth bar",
        {"engines"}},
-      {"other-law-of-all", "over scenes: min and max of largest error / motion of bullet/pbd", {"engines"}},
+      {"other-law-of-all", "over scenes of one kind: min and max of largest error / motion of bullet/pbd", {"engines"}},
+      {"which-method",
+       "of runs that are ok the least of largest error / motion, by engine, and who is above 0.1; verdicts that are "
+       "not "
+       "ok; left out where it holds at 1 % and 10 % of the motion",
+       {"engines", "adequacy-least"}},
       {"failed-of-all", "runs whose verdict is not ok, where another method's is ok", {"engines"}},
-      {"orders", "max of |measured order - declared order|", {"order-slopes"}},
+      {"orders", "max of |measured order - declared order|; how many methods and scenes", {"order-slopes"}},
       {"step-cost-of-all",
        "over scenes: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
        {"engines-cost", "engines"}},
       {"cheapest",
        "at part of motion = 0.01 and measure = error: method, and min and max of Bullet / best, in CPU time and in "
-       "force "
-       "evaluations",
+       "force evaluations; methods of speed-accuracy with less than two runs on a scene",
        {"speed-accuracy-cheapest-cost", "speed-accuracy-cheapest", "speed-accuracy"}},
       {"size-cost",
        "over sides: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
        {"size-cost"}},
       {"symplectic-energy",
-       "over runs of symplectic rules on undamped scenes whose balance closes: max of largest residual / energy turned "
-       "over",
+       "over runs of symplectic rules whose balance closes, on undamped scenes and on the others: max of largest "
+       "residual / energy turned over",
        {"energy"}},
       {"numerical-damping", "max of |equivalent drag / by theory - 1|", {"energy-damping"}},
       {"cone", "cases whose answer is the answer by theory, of those whose verdict is ok", {"sphere-cone"}},
+      {"leaving",
+       "angle - angle by theory at the shortest step: max of its absolute value over mysim's rules, and of every other "
+       "method, there and at its longest step",
+       {"sphere-leaving"}},
       {"slide-off", "creep, and centre height less mysim's, of drop-aside at mysim's finest step", {"sphere-drape"}},
       {"penetration",
        "max of particles and of triangles on drop-centred, in parts of the radius",
@@ -57,8 +66,9 @@ const std::vector<FindingRule>& finding_rules() {
        "runs at rest whose prediction and measurement are no stable step; max of |deviation| of the growth in a step",
        {"stability", "stability-growth"}},
       {"least-model",
-       "left out, where it holds, at the scene's tolerance and at 10 % of the motion",
-       {"adequacy-least"}},
+       "left out at the scene's tolerance, at 1 % and at 10 % of the motion; 1 - cost of full; unseen errors above the "
+       "tolerance where it does not hold; kept = ingredients less those left out",
+       {"adequacy-least", "adequacy"}},
       {"families", "error / motion without one family of springs", {"adequacy"}},
       {"grid-powers", "slope of log stiffness over log cells at the same sag", {"adequacy-scaling"}},
   };

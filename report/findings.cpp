@@ -113,7 +113,7 @@ void failures(const Scene& scene, const SceneFacts& facts, std::vector<Finding>&
     if (m.ok()) continue;
     std::string text = fmt::format("{} at {:.3g} s", m.method, m.end);
     if (m.limit && *m.limit < m.step) {
-      const std::string limit = *m.limit > 0 ? fmt::format("up to a step of {} s", nice(*m.limit)) : "at no step";
+      const std::string limit = *m.limit > 0 ? "up to a step of " + step_text(*m.limit) : "at no step";
       text += fmt::format(" (stable {} by theory)", limit);
       limits.push_back(fmt::format("{} {}", m.method, limit));
     }
@@ -123,8 +123,8 @@ void failures(const Scene& scene, const SceneFacts& facts, std::vector<Finding>&
   // a long list of names tells less than who is left
   const std::string sentence =
       failed.size() <= 3 || held.empty()
-          ? fmt::format("At a step of {:.3g} s these failed: {}.", scene.step, joined(failed))
-          : fmt::format("At a step of {:.3g} s {} of {} methods failed; {} came to the end.{}", scene.step,
+          ? fmt::format("At a step of {} these failed: {}.", step_text(scene.step), joined(failed))
+          : fmt::format("At a step of {} {} of {} methods failed; {} came to the end.{}", step_text(scene.step),
                         failed.size(), failed.size() + held.size(), joined(held),
                         limits.empty() ? "" : " By theory the others are stable: " + joined(limits) + ".");
   out.push_back({scene.name, "failure", sentence, "measured", "failed"});

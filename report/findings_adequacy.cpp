@@ -1,46 +1,55 @@
 // Sentences on how little model is enough.
+#include <fmt/ranges.h>
+
 #include <map>
 
 #include "experiments/cells.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
 #include "report/grid_powers.h"
+#include "report/least_model.h"
 
 namespace crosscheck {
 namespace {
 
-void least_models(const Table& t, std::vector<Finding>& out) {
-  std::vector<std::string> whole, less, unsure;
-  std::map<std::string, std::vector<std::string>> at_tenth;  // what can go -> scenes
-  for (size_t i = 0; i < t.rows.size(); ++i) {
-    const std::string scene = text_at(t, i, "scene"), gone = text_at(t, i, "left out"),
-                      is = text_at(t, i, "tolerance is");
-    const bool holds = flag_at(t, i, "holds");
-    if (is == "the scene's own") {
-      if (!holds)
-        unsure.push_back(scene);
-      else if (gone.empty())
-        whole.push_back(scene);
-      else
-        less.push_back(fmt::format("{} ({})", scene, gone));
-    } else if (is.starts_with("10 %") && holds && !gone.empty()) {
-      at_tenth[gone].push_back(scene);
+/// "it can do without bend springs, which saves 33 % of the cost (kept: gravity, structural springs and pins)"
+std::string told(const LeastModel& least, const Rows& rows, const std::string& scene) {
+  if (!least.holds && least.left_out.empty()) return "from other starts less may be enough";
+  if (!least.holds)
+    return fmt::format("without {} it fails from {} of {} other starts", least.left_out, least.failing, least.starts);
+  if (least.left_out.empty()) return "all is needed";
+  const std::vector<std::string> kept = kept_without(rows, scene, least.left_out);
+  return fmt::format("it can do without {}, which saves {:.0f} % of the cost{}", least.left_out, 100 * (1 - least.cost),
+                     kept.empty() ? "" : fmt::format(" (kept: {})", joined(kept)));
+}
+
+std::string at_text(const LeastModel& least) {
+  return least.tolerance == "the scene's own" ? "within its tolerance" : "at " + least.tolerance;
+}
+
+void least_models(const Rows& rows, const Table& t, std::vector<Finding>& out) {
+  std::vector<std::string> whole, parts;
+  for (const std::string& scene : distinct(t, "scene")) {
+    std::vector<std::pair<std::vector<std::string>, std::string>> lines;  // tolerances, and what is said at them
+    for (const LeastModel& least : least_models_of(rows, scene)) {
+      const std::string text = told(least, rows, scene);
+      if (lines.empty() || lines.back().second != text) lines.push_back({{}, text});
+      lines.back().first.push_back(at_text(least));
     }
+    if (lines.size() == 1 && lines[0].second == "all is needed") {
+      whole.push_back(scene);
+      continue;
+    }
+    std::vector<std::string> said;
+    for (const auto& [tolerances, text] : lines) said.push_back(joined(tolerances) + " " + text);
+    parts.push_back(fmt::format("On {} {}.", scene, fmt::join(said, "; ")));
   }
   std::string sentence;
+  if (!parts.empty()) sentence = fmt::format("{}", fmt::join(parts, " "));
   if (!whole.empty())
-    sentence += fmt::format("Nothing can be left out of {} within their tolerances, also from three other starts. ",
-                            joined(whole));
-  if (!less.empty()) sentence += fmt::format("Within their tolerances these can do with less: {}. ", joined(less));
-  if (!unsure.empty())
-    sentence +=
-        fmt::format("What can be left out of {} within {} depends on the start: of three others not all bear it out. ",
-                    joined(unsure), unsure.size() == 1 ? "its tolerance" : "their tolerances");
-  for (const auto& [gone, scenes] : at_tenth)
-    sentence += fmt::format("At 10 % of the motion {} can do without {}. ", joined(scenes), gone);
-  if (sentence.empty()) return;
-  sentence.pop_back();
-  out.push_back({"", "adequacy", sentence, "see each scene", "least-model"});
+    sentence += fmt::format("{}Nothing can be left out of {}, not even at 10 % of the motion.",
+                            sentence.empty() ? "" : " ", joined(whole));
+  if (!sentence.empty()) out.push_back({"", "adequacy", sentence, "see each scene", "least-model"});
 }
 
 void families(const Table& t, std::vector<Finding>& out) {
@@ -85,7 +94,7 @@ void grids(const Rows& rows, const Table& t, std::vector<Finding>& out) {
 
 std::vector<Finding> adequacy_findings(const Rows& result) {
   std::vector<Finding> out;
-  if (const Table* t = result.table("adequacy-least")) least_models(*t, out);
+  if (const Table* t = result.table("adequacy-least")) least_models(result, *t, out);
   if (const Table* t = result.table("adequacy")) families(*t, out);
   if (const Table* t = result.table("adequacy-scaling")) grids(result, *t, out);
   return out;

@@ -6,6 +6,7 @@
 #include "experiments/cells.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
+#include "report/scene_kind.h"
 
 namespace crosscheck {
 namespace {
@@ -62,71 +63,57 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneF
     add("failure", "Bullet's explicit world cannot model " + joined(alone) + ": their tables of runs say why.");
 }
 
-/// One more for the run nearest to the truth among those that take part; who errs by up to 5 % more, or below the
-/// truth's error bar as well, shares the place.
-template <class TakesPart>
-void count_nearest(const SceneFacts& scene, TakesPart takes_part, std::map<std::string, int>& counts) {
-  double least = INFINITY;
-  for (const MethodFacts& m : scene.methods)
-    if (m.judged() && takes_part(m)) least = std::min(least, *m.error);
-  for (const MethodFacts& m : scene.methods)
-    if (m.judged() && takes_part(m) && *m.error <= std::max(1.05 * least, scene.bar)) ++counts[m.method];
-}
-
-/// Who is nearest to the truth at the scenes' own steps, and who of those that take one evaluation for a step.
+/// Which engine is nearest to the truth at the scenes' own steps; within 5 %, or within the truth's error bar, they
+/// share the place.
 void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts, std::vector<Finding>& out) {
-  std::map<std::string, int> first, first_of_thrifty;
+  std::vector<std::string> bullet, shared, alone;
   int asked = 0;
   for (size_t i = 0; i < scenes.size(); ++i) {
-    const std::vector<MethodFacts>& methods = facts[i].methods;
-    if (!(facts[i].motion > 0) ||
-        std::none_of(methods.begin(), methods.end(), [](const MethodFacts& m) { return m.judged(); }))
-      continue;
+    const MethodFacts *a = nearest(facts[i], "mysim/"), *b = nearest(facts[i], "bullet/");
+    if (!(facts[i].motion > 0) || (!a && !b)) continue;
     ++asked;
-    count_nearest(
-        facts[i], [](const MethodFacts&) { return true; }, first);
-    count_nearest(
-        facts[i], [&](const MethodFacts& m) { return m.thrifty(scenes[i]); }, first_of_thrifty);
+    if (!b)
+      alone.push_back(scenes[i].name);
+    else if (a && shares_place(*a, *b, facts[i]) && shares_place(*b, *a, facts[i]))
+      shared.push_back(scenes[i].name);
+    else if (!a || *b->error < *a->error)
+      bullet.push_back(fmt::format("{} ({})", scenes[i].name, b->method));
   }
-  const auto told = [](const std::map<std::string, int>& counts) {
-    std::vector<std::pair<int, std::string>> order;
-    for (const auto& [method, count] : counts) order.emplace_back(-count, method);
-    std::sort(order.begin(), order.end());
-    std::vector<std::string> parts;
-    constexpr size_t most = 3;
-    for (const auto& [count, method] : order)
-      if (parts.size() < most) parts.push_back(fmt::format("{} on {}", method, -count));
-    return joined(parts);
-  };
-  if (asked > 0)
-    out.push_back(
-        {"", "accuracy",
-         fmt::format("Nearest to the truth at the scenes' own steps, or within 5 % of the nearest, on {} scenes: "
-                     "{}; of the methods with one force evaluation a step: {}.",
-                     asked, told(first), told(first_of_thrifty)),
-         "see each scene", "nearest-of-all"});
+  if (asked == 0) return;
+  const int ours_alone = asked - static_cast<int>(bullet.size() + shared.size());
+  std::vector<std::string> parts{
+      fmt::format("mysim on {}{}", ours_alone,
+                  alone.empty() ? "" : fmt::format(" (on {} no world of Bullet answers)", joined(alone)))};
+  if (!bullet.empty()) parts.push_back(fmt::format("Bullet on {}", joined(bullet)));
+  if (!shared.empty()) parts.push_back(fmt::format("both, within 5 %, on {}", joined(shared)));
+  out.push_back({"", "accuracy",
+                 fmt::format("Of {} scenes with a truth the method nearest to it at the scene's own step is of {}.",
+                             asked, joined(parts)),
+                 "see each scene", "nearest-of-all"});
 }
 
-/// True where the scene's springs follow Hooke's law, which position-based links do not.
-bool hookean(const Scene& scene) {
-  const auto* springs = scene.model.find<Springs>();
-  return springs && springs->law == SpringLaw::hooke;
-}
-
+/// How far the position-based world is off, by kind of scene.
 void other_law_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
                       std::vector<Finding>& out) {
-  double best = 1e300, worst = 0;
-  for (size_t i = 0; i < scenes.size(); ++i)
-    if (const MethodFacts* p = facts[i].find(position_based);
-        p && p->ok() && p->error && facts[i].motion > 0 && hookean(scenes[i])) {
-      best = std::min(best, *p->error / facts[i].motion);
-      worst = std::max(worst, *p->error / facts[i].motion);
-    }
-  if (worst > 0)
+  std::vector<std::pair<std::string, std::map<double, std::string>>> kinds;  // of each: share of the motion, scene
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    const MethodFacts* p = facts[i].find(position_based);
+    if (!p || !p->ok() || !p->error || !(facts[i].motion > 0)) continue;
+    const std::string kind = kind_of(scenes[i]);
+    auto at = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
+    if (at == kinds.end()) at = kinds.insert(kinds.end(), {kind, {}});
+    at->second[*p->error / facts[i].motion] = scenes[i].name;
+  }
+  const auto told = [](const auto& each) { return fmt::format("{} ({})", percent(each.first, 1), each.second); };
+  std::vector<std::string> parts;
+  for (const auto& [kind, errors] : kinds)
+    parts.push_back(fmt::format("{} {}", kind, range(told(*errors.begin()), told(*errors.rbegin()))));
+  if (!parts.empty())
     out.push_back(
         {"", "accuracy",
-         fmt::format("Bullet's position-based world follows another spring law: its error is {} of the motion.",
-                     range(percent(best, 1), percent(worst, 1))),
+         fmt::format("Bullet's position-based world has laws of springs and friction of its own. Its error in "
+                     "parts of the motion: {}.",
+                     joined(parts)),
          "see each scene", "other-law-of-all"});
 }
 
@@ -175,8 +162,12 @@ void orders(const Rows& result, std::vector<Finding>& out) {
   }
   // 0.1: what the finest three steps of a smooth scene still carry of the next order
   if (off <= 0.1)
-    out.push_back({"", "order", fmt::format("Measured orders of accuracy lie within {:.2f} of the declared ones.", off),
-                   "see each scene", "orders"});
+    out.push_back(
+        {"", "order",
+         fmt::format("Measured orders of accuracy lie within {:.2f} of the declared ones, for {} methods on {} "
+                     "smooth scenes.",
+                     off, distinct(*slopes, "method").size(), distinct(*slopes, "scene").size()),
+         "see each scene", "orders"});
   else
     out.push_back({"", "failure", fmt::format("Not all measured orders of accuracy are the declared ones ({}).", which),
                    "see each scene", "orders"});
@@ -210,7 +201,12 @@ std::vector<Finding> disagreement_findings(const Rows& result) {
   std::map<std::string, int> by_world;
   for (size_t i = 0; i < t->rows.size(); ++i) ++by_world[text_at(*t, i, "world")];
   std::vector<std::string> worlds;
-  for (const auto& [world, count] : by_world) worlds.push_back(fmt::format("{} in {}", world, count));
+  for (const auto& [world, count] : by_world)
+    worlds.push_back(fmt::format("{} in {}",
+                                 world == "bullet"     ? "all worlds"
+                                 : world == "bullet32" ? "single precision"
+                                                       : world,
+                                 count));
   return {{"", "failure",
            fmt::format("Bullet's worlds answer otherwise than a scene asks in {} known ways, each measured in the "
                        "smallest scene that shows it: {}.",

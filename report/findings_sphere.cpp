@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "experiments/cells.h"
+#include "report/drape_told.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
+#include "report/leaving_told.h"
 
 namespace crosscheck {
 namespace {
@@ -29,31 +31,24 @@ void cone(const Table& table, std::vector<Finding>& out) {
                    "exact", "cone"});
 }
 
+void leaving(const Table& table, std::vector<Finding>& out) {
+  if (const std::string sentence = leaving_sentence(table); !sentence.empty())
+    out.push_back({"", "contact", sentence, "exact", "leaving"});
+}
+
 /// The cloth that should slide off, at the finest step.
 void slide_off(const Table& table, std::vector<Finding>& out) {
-  double reference = NAN, step = INFINITY;
-  for (size_t i = 0; i < table.rows.size(); ++i)
-    if (text_at(table, i, "scene") == "drop-aside" && text_at(table, i, "verdict") == "ok" &&
-        text_at(table, i, "method") == ours && number_at(table, i, "step", NAN) < step)
-      step = number_at(table, i, "step", NAN), reference = number_at(table, i, "centre height", NAN);
+  const std::vector<DrapeEnd> ends = drape_ends(table);
+  if (ends.size() < 2 || ends[0].method != ours || !(ends[0].height < 0)) return;
   std::vector<std::string> parts;
-  for (const char* method : {theirs, position_based, sticky_sphere})
-    for (size_t i = 0; i < table.rows.size(); ++i) {
-      if (text_at(table, i, "scene") != "drop-aside" || text_at(table, i, "method") != method ||
-          text_at(table, i, "verdict") != "ok" || std::abs(number_at(table, i, "step", NAN) / step - 1) > 1e-6)
-        continue;
-      const double height = number_at(table, i, "centre height", NAN), creep = number_at(table, i, "creep", NAN);
-      parts.push_back(std::isfinite(creep)
-                          ? fmt::format("with {} it still touches, {}", method,
-                                        creep < 1e-6 ? "frozen" : fmt::format("sliding at {} mm/s", nice(1e3 * creep)))
-                          : fmt::format("with {} it is off the ball as well (centres {} apart)", method,
-                                        nice_length(std::abs(height - reference))));
-    }
-  if (!parts.empty() && std::isfinite(reference) && reference < 0)
-    out.push_back({"", "contact",
-                   fmt::format("A cloth dropped aside with too little friction slides off the ball in {}; {}.", ours,
-                               joined(parts)),
-                   "another engine", "slide-off"});
+  for (size_t i = 1; i < ends.size(); ++i)
+    parts.push_back(ends[i].creep ? fmt::format("with {} it {}", ends[i].method, ends[i].touch_text())
+                                  : fmt::format("with {} it is off the ball as well (centres {} apart)", ends[i].method,
+                                                nice_length(std::abs(ends[i].height - ends[0].height))));
+  out.push_back({"", "contact",
+                 fmt::format("A cloth dropped aside with too little friction slides off the ball in {}; {}.", ours,
+                             joined(parts)),
+                 "another engine", "slide-off"});
 }
 
 void depth(const Table& table, std::vector<Finding>& out) {
@@ -86,6 +81,7 @@ void depth(const Table& table, std::vector<Finding>& out) {
 std::vector<Finding> sphere_findings(const Rows& result) {
   std::vector<Finding> out;
   if (const Table* table = result.table("sphere-cone")) cone(*table, out);
+  if (const Table* table = result.table("sphere-leaving")) leaving(*table, out);
   if (const Table* table = result.table("sphere-drape")) slide_off(*table, out);
   if (const Table* table = result.table("sphere-penetration")) depth(*table, out);
   return out;

@@ -16,7 +16,15 @@ inline constexpr auto ours = "mysim/symplectic-euler", theirs = "bullet/deformab
 
 inline std::string percent(double part, double whole) {
   const double value = 100 * part / whole;
+  if (value < 1e-3) return nice(value) + " %";
   return value < 99.5 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
+}
+
+/// "100 000"
+inline std::string count_text(long count) {
+  std::string text = std::to_string(count);
+  for (size_t at = text.size(); at > 3 && text.size() > 4; at -= 3) text.insert(at - 3, " ");
+  return text;
 }
 
 /// How many times as much: two digits, written plainly ("160", "2.4").

@@ -6,6 +6,7 @@
 
 #include "experiments/cells.h"
 #include "mysim/fnv.h"
+#include "report/choice.h"
 #include "report/finding_rules.h"
 
 namespace crosscheck {
@@ -46,7 +47,10 @@ AllFindings all_findings(const std::vector<Scene>& scenes, const Rows& result) {
   AllFindings all;
   for (const Scene& scene : scenes) all.facts.push_back(facts_of(scene.name, result));
   all.overall = overall_findings(scenes, all.facts, result);
-  for (size_t i = 0; i < scenes.size(); ++i) all.of_scenes.push_back(findings_of(scenes[i], all.facts[i]));
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    all.of_scenes.push_back(findings_of(scenes[i], all.facts[i]));
+    all.of_scenes.back().push_back(choice_finding(scenes[i], all.facts[i], result));
+  }
   return all;
 }
 

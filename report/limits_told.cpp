@@ -73,12 +73,6 @@ std::optional<LimitsTold> told(const Table& t, bool at_rest) {
 
 }  // namespace
 
-std::string step_text(double seconds) {
-  return seconds >= 1      ? nice(seconds) + " s"
-         : seconds >= 1e-4 ? nice(1e3 * seconds) + " ms"
-                           : nice(1e6 * seconds) + " µs";
-}
-
 std::string apart_text(double off) {
   return off >= 1 ? fmt::format("{} times as long", nice(1 + off)) : fmt::format("{:+.2g} %", 100 * off);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/table.h"
+#include "report/facts.h"
 
 namespace crosscheck {
 
@@ -29,8 +30,6 @@ struct LimitsTold {
 };
 std::vector<LimitsTold> limits_told(const Table& stability);
 
-/// "0.655 ms"
-std::string step_text(double seconds);
 /// "-0.12 %", "47 times as long": of measured over predicted, less 1.
 std::string apart_text(double off);
 

@@ -35,17 +35,19 @@ Curve column_of(const Table& t, const std::string& scene, const char* column, co
 /// How the distance from the finest grid goes with the grid, scene by scene.
 std::string motion_sentence(const Rows& rows, const std::vector<Curve>& curves) {
   std::vector<std::string> falls, others;
+  size_t fewest = 4;  // below which a power is a hint
+  for (const Curve& c : curves) fewest = std::min(fewest, c.points.size());
   for (const Curve& c : curves)
     if (const auto power = power_of(rows, c.title, motion_against_cells))
       (power->exponent + 2 * power->deviation < 0 ? falls : others)
-          .push_back(fmt::format("{} on {}", power_text(*power), c.title));
+          .push_back(fmt::format("{} on {} ({} grids)", power_text(*power), c.title, c.points.size()));
   std::string text;
   if (!falls.empty())
     text = fmt::format(
-        "With the stiffnesses left as they are the motion nears that of the finest grid: its distance goes as the "
-        "number "
-        "of cells to the power {}.",
-        joined(falls));
+        "With the stiffnesses left as they are the motion {} that of the finest grid: its distance goes as the number "
+        "of cells to the power {}.{}",
+        fewest < 4 ? "seems to near" : "nears", joined(falls),
+        fewest < 4 ? " So few grids hint at a power and prove none." : "");
   if (!others.empty())
     text += fmt::format("{}It is not seen to near it where the power is {}.", text.empty() ? "" : " ", joined(others));
   return text.empty() ? "Distances of the motion from that of the finest grid." : text;

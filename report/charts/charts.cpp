@@ -48,7 +48,7 @@ std::string caption_of(const Scene& scene, const SceneFacts& facts, const std::s
   std::string text = "Scene " + scene.name;
   if (with_truth)
     text += fmt::format("; truth: {}, error bar {} ({})", facts.tier, nice_length(facts.bar), facts.truth);
-  return text + fmt::format("; step {} s; commit {}.", nice(scene.step), commit);
+  return text + fmt::format("; step {}; commit {}.", step_text(scene.step), commit);
 }
 
 }  // namespace crosscheck

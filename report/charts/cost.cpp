@@ -7,6 +7,7 @@
 #include "experiments/cells.h"
 #include "experiments/cost/cost.h"
 #include "report/charts/charts.h"
+#include "report/findings_text.h"
 
 namespace crosscheck {
 namespace {
@@ -40,12 +41,12 @@ Chart size_chart(const Table& t, const std::string& commit) {
     if (number_at(t, i, "side", 0) == largest) cheapest = std::min(cheapest, number_at(t, i, "cpu per step", 0));
   for (size_t i = 0; i < t.rows.size(); ++i)
     if (number_at(t, i, "side", 0) == largest)
-      page.rows.push_back(
-          {text_at(t, i, "method"), fmt::format("{:.3g}", 1e3 * number_at(t, i, "cpu per step", 0)),
-           fmt::format("{:.3g} to {:.3g}", 1e3 * number_at(t, i, "cpu low", 0), 1e3 * number_at(t, i, "cpu high", 0)),
-           fmt::format("{:.3g}", number_at(t, i, "evaluations per step", 0)),
-           fmt::format("{:.3g}", 1e9 * number_at(t, i, "cpu per step and particle", 0)),
-           fmt::format("{:.2g}", number_at(t, i, "cpu per step", 0) / cheapest), text_at(t, i, "build")});
+      page.rows.push_back({text_at(t, i, "method"), nice(1e3 * number_at(t, i, "cpu per step", 0)),
+                           fmt::format("{} to {}", nice(1e3 * number_at(t, i, "cpu low", 0)),
+                                       nice(1e3 * number_at(t, i, "cpu high", 0))),
+                           nice(number_at(t, i, "evaluations per step", 0)),
+                           nice(1e9 * number_at(t, i, "cpu per step and particle", 0)),
+                           times_text(number_at(t, i, "cpu per step", 0) / cheapest), text_at(t, i, "build")});
   f.finding = "A flat line is a cost in proportion to the number of particles.";
   f.caption = fmt::format(
       "The cloth of cloth-hang at other resolutions, without contact, each at 0.45 of the explicit limit of its size; "
@@ -76,8 +77,8 @@ Chart phases_chart(const Table& t) {
   for (size_t i = 0; i < t.rows.size(); ++i)
     page.rows.push_back(
         {text_at(t, i, "method"), fmt::format("{0:.0f} x {0:.0f}", number_at(t, i, "side", 0)), text_at(t, i, "phase"),
-         fmt::format("{:.3g}", 1e6 * number_at(t, i, "cpu per step", 0)),
-         fmt::format("{:.3g} to {:.3g}", 1e6 * number_at(t, i, "cpu low", 0), 1e6 * number_at(t, i, "cpu high", 0)),
+         nice(1e6 * number_at(t, i, "cpu per step", 0)),
+         fmt::format("{} to {}", nice(1e6 * number_at(t, i, "cpu low", 0)), nice(1e6 * number_at(t, i, "cpu high", 0))),
          fmt::format("{:.0f} %", 100 * number_at(t, i, "share", 0)), text_at(t, i, "how")});
   chart.tables.push_back(std::move(page));
   return chart;
@@ -114,9 +115,9 @@ Chart roofline_chart(const Table& t, const std::string& commit) {
   springs.title += " " + last;
   f.curves.push_back(std::move(springs));
   f.finding = fmt::format(
-      "The spring kernel does {:.2g} billion operations a second at {:.2g} per byte moved, {:.0f} % of the measured "
-      "peak of {:.2g} billion.",
-      best, at, 100 * best / peak, peak);
+      "The spring kernel does {} billion operations a second at {:.2g} per byte moved, {:.0f} % of the measured peak "
+      "of {} billion.",
+      times_text(best), at, 100 * best / peak, times_text(peak));
   f.caption = fmt::format(
       "Lines: what measured bandwidth and peak allow, for data of that size. The peak is that of multiplications and "
       "additions that wait for nothing, with the instructions that the kernel uses on this machine. Springs are "

@@ -14,7 +14,7 @@ std::string length_text(const Table& table, const std::string& scene) {
     if (text_at(table, i, "scene") == scene && number_at(table, i, "end", 0) >= end)
       if (const long n = std::get<long>(table.at(i, "steps")); n >= steps)
         steps = n, step = number_at(table, i, "step", 0), end = number_at(table, i, "end", 0);
-  return fmt::format("{:.4g} s, up to {} steps of {} s", end, steps, nice(step));
+  return fmt::format("{:.4g} s, up to {} steps of {}", end, steps, step_text(step));
 }
 
 std::vector<Chart> energy_charts(const ChartInput& input) {

@@ -26,7 +26,7 @@ Chart drift_chart(const Table& table, const Table& rows, const std::string& scen
   f.x = {"t / s", true, std::nullopt, std::nullopt};
   f.y = {"largest |residual| so far / energy turned over", true, std::nullopt, 3.0};
   PageTable page{fmt::format("{}: what becomes of the energy in {}", scene, length_text(table, scene)),
-                 {"method", "step / s", "residual", "largest / energy turned over",
+                 {"method", "step", "residual", "largest / energy turned over",
                   "largest / that of the first tenth (10: grows like time)", "equivalent drag / (1/s)"},
                  {}};
   double lowest = 1;
@@ -39,11 +39,11 @@ Chart drift_chart(const Table& table, const Table& rows, const std::string& scen
       continue;
     }
     if (!flag_at(table, i, "closure claimed") || !number_at(table, i, "energy turned over")) {
-      page.rows.push_back({method, nice(number_at(table, i, "step", 0)), "no closure claimed", "", "", ""});
+      page.rows.push_back({method, step_text(number_at(table, i, "step", 0)), "no closure claimed", "", "", ""});
       continue;
     }
     if (!(number_at(table, i, "energy turned over", 0) > 0)) {
-      page.rows.push_back({method, nice(number_at(table, i, "step", 0)), "nothing moves", "", "", ""});
+      page.rows.push_back({method, step_text(number_at(table, i, "step", 0)), "nothing moves", "", "", ""});
       continue;
     }
     const bool symplectic = flag_at(table, i, "symplectic");
@@ -56,7 +56,7 @@ Chart drift_chart(const Table& table, const Table& rows, const std::string& scen
     const bool ok = text_at(table, i, "verdict") == "ok";
     const double share = number_at(table, i, "largest residual", 0) / turned;
     page.rows.push_back(
-        {method, nice(number_at(table, i, "step", 0)), ok ? what : fmt::format("{} at {:.3g} s", what, end),
+        {method, step_text(number_at(table, i, "step", 0)), ok ? what : fmt::format("{} at {:.3g} s", what, end),
          std::isfinite(share) ? nice(share) : "",
          ok ? fmt::format("{:.3g}", std::pow(10, number_at(table, i, "growth of the residual", 0))) : "",
          ok ? nice(number_at(table, i, "equivalent drag", 0)) : ""});

@@ -38,9 +38,8 @@ std::optional<Chart> course(const Table& table, const std::string& scene, const 
   }
   if (f.curves.empty()) return std::nullopt;
   f.finding = finding;
-  f.caption =
-      fmt::format("Scene {}, step {} s; contact rules differ, so these are differences and no errors; commit {}.",
-                  scene, nice(step), commit);
+  f.caption = fmt::format("Scene {}, step {}; contact rules differ, so these are differences and no errors; commit {}.",
+                          scene, step_text(step), commit);
   return Chart{"", std::move(f), "sphere"};
 }
 

@@ -28,7 +28,7 @@ Chart cone_law(const Table& table, const std::string& commit) {
   const double step = usual_step(table);
   Curve exact{"Coulomb, exact", {"#555555", "1", -1}, {{0, 1}, {1, 0}, {2.5, 0}}};
   f.curves.push_back(std::move(exact));
-  PageTable page{fmt::format("Stick or slide, at a step of {} s", nice(step)),
+  PageTable page{fmt::format("Stick or slide, at a step of {}", step_text(step)),
                  {"method", "sticks or slides as it should", "of", "wrong answers"},
                  {}};
   std::vector<std::string> differing;
@@ -67,9 +67,9 @@ Chart cone_law(const Table& table, const std::string& commit) {
       (differing.empty() ? "Those of all methods do."
                          : fmt::format("Those that answer otherwise, and in how many cases: {}.", joined(differing)));
   f.caption = fmt::format(
-      "A particle on a slope for 0.5 s, step {} s; truth: exact (Coulomb's law); methods that "
+      "A particle on a slope for 0.5 s, step {}; truth: exact (Coulomb's law); methods that "
       "answer like mysim/symplectic-euler are in the table only; commit {}.",
-      nice(step), commit);
+      step_text(step), commit);
   Chart chart{"", std::move(f), "sphere",
               "A particle at rest on a slope must stay where friction exceeds the slope's tangent, and otherwise slide "
               "by g (sin - mu cos) t^2 / 2."};
@@ -108,8 +108,8 @@ std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
   f.finding =
       "Above the line it must stick (filled), below it slide (open); a triangle does neither: it moves at a "
       "steady creep.";
-  f.caption = fmt::format("The same runs as above, methods side by side at each slope; step {} s; commit {}.",
-                          nice(step), commit);
+  f.caption = fmt::format("The same runs as above, methods side by side at each slope; step {}; commit {}.",
+                          step_text(step), commit);
   return Chart{"", std::move(f), "sphere"};
 }
 

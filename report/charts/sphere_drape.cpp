@@ -7,6 +7,7 @@
 #include "experiments/cells.h"
 #include "experiments/sphere_probes.h"
 #include "report/charts/sphere_parts.h"
+#include "report/drape_told.h"
 #include "report/findings_text.h"
 
 namespace crosscheck {
@@ -24,7 +25,7 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
   f.x = {"", false, std::nullopt, std::nullopt};
   f.y = {"depth / % of the radius", true, 1e-3, 10};
   PageTable page{scene + ": depth inside the contact surface in % of its radius",
-                 {"method", "step / s", "particles", "triangles", "particles at end", "triangles at end"},
+                 {"method", "step", "particles", "triangles", "particles at end", "triangles at end"},
                  {}};
   double place = 0;
   std::pair<double, double> deepest[2] = {};  // of mysim, of Bullet: particles and triangles, %
@@ -45,11 +46,12 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
         return value ? depth_text(*value) : std::string("");
       };
       if (text_at(table, i, "verdict") != "ok") {
-        page.rows.push_back({method, nice(h.value_or(0)), failure_or_cannot(text_at(table, i, "verdict")), "", "", ""});
+        page.rows.push_back(
+            {method, step_text(h.value_or(0)), failure_or_cannot(text_at(table, i, "verdict")), "", "", ""});
         continue;
       }
-      page.rows.push_back(
-          {method, nice(*h), said("particles"), said("triangles"), said("particles at end"), said("triangles at end")});
+      page.rows.push_back({method, step_text(*h), said("particles"), said("triangles"), said("particles at end"),
+                           said("triangles at end")});
       if (method != sticky_sphere && (method.starts_with("mysim/") || method.starts_with("bullet/"))) {
         auto& [particles, flat] = deepest[method.starts_with("bullet/")];
         particles = std::max(particles, nodes.value_or(0)), flat = std::max(flat, triangles.value_or(0));
@@ -57,8 +59,8 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
       if (method.find("dopri5") != std::string::npos) continue;  // its steps are its own
       if (!by_step.contains(*h)) {
         const std::string colour = colours[by_step.size() % std::size(colours)];
-        by_step[*h] = {{fmt::format("particles, step {} s", nice(*h)), {colour, "1", 6}, {}, false, true},
-                       {fmt::format("triangles, step {} s", nice(*h)), {colour, "1", 9}, {}, false, true}};
+        by_step[*h] = {{fmt::format("particles, step {}", step_text(*h)), {colour, "1", 6}, {}, false, true},
+                       {fmt::format("triangles, step {}", step_text(*h)), {colour, "1", 9}, {}, false, true}};
       }
       if (nodes && *nodes > 1e-3) by_step[*h].first.points.emplace_back(place - 0.12, *nodes);
       if (triangles && *triangles > 1e-3) by_step[*h].second.points.emplace_back(place + 0.12, *triangles);
@@ -85,7 +87,7 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
 
 PageTable drape_table(const Table& table, const std::string& scene) {
   PageTable page{scene + ": how it ends",
-                 {"method", "step / s", "settled after / s", "centre height / m", "moved aside / mm", "creep / (mm/s)",
+                 {"method", "step", "settled after / s", "centre height / m", "moved aside / mm", "creep / (mm/s)",
                   "contact took / J", "asymmetry / m"},
                  {}};
   for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -96,7 +98,7 @@ PageTable drape_table(const Table& table, const std::string& scene) {
                                   ? "cannot: " + text_at(table, i, "reason")
                                   : fmt::format("{} at {:.3g} s", failure_word(text_at(table, i, "verdict")),
                                                 number_at(table, i, "end").value_or(0));
-      page.rows.push_back({method, nice(number_at(table, i, "step").value_or(0)), why, "", "", "", "", ""});
+      page.rows.push_back({method, step_text(number_at(table, i, "step").value_or(0)), why, "", "", "", "", ""});
       continue;
     }
     auto said = [&](const char* column, double factor, const char* otherwise) {
@@ -104,7 +106,7 @@ PageTable drape_table(const Table& table, const std::string& scene) {
       return value ? nice(factor * *value) : std::string(otherwise);
     };
     const bool inferred = flag_at(table, i, "contact inferred");
-    page.rows.push_back({method, nice(*number_at(table, i, "step")), said("settled after", 1, "not at rest"),
+    page.rows.push_back({method, step_text(*number_at(table, i, "step")), said("settled after", 1, "not at rest"),
                          said("centre height", 1, ""), said("centre moved aside", 1e3, ""),
                          said("creep", 1e3, "off the ball"),
                          said("contact took", 1, "") + (inferred ? " (inferred)" : ""), said("asymmetry", 1, "")});
@@ -125,7 +127,8 @@ Chart drape_snapshot(const Table& table) {
   s.shot.mode = Mode::stretch;
   s.shot.width = 1440, s.shot.height = 480;
   s.caption =
-      "The cloth that is dropped 0.12 m aside with a friction of 0.25, after 1.16 s: by Coulomb's law it slides off.";
+      "The cloth that is dropped 0.12 m aside with a friction of 0.25, after 1.16 s: by Coulomb's law it slides off. " +
+      drape_end_sentence(drape_ends(table));
   Chart chart{"", std::monostate{}, "sphere", "Dropped aside of the middle, with a friction that cannot hold it.",
               "A cloth that should slide off"};
   if (!s.panels.empty()) chart.snapshots.push_back(std::move(s));

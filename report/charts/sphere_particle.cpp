@@ -7,6 +7,7 @@
 #include "experiments/cells.h"
 #include "report/charts/sphere_parts.h"
 #include "report/findings_text.h"
+#include "report/leaving_told.h"
 
 namespace crosscheck {
 
@@ -66,8 +67,9 @@ Chart leaving_chart(const Table& table, const std::string& commit) {
   f.title = "Where a particle without friction leaves the ball";
   f.x = {"step / s", true, std::nullopt, std::nullopt};
   f.y = {"angle less the exact one / degrees", false, std::nullopt, std::nullopt};
-  PageTable page{
-      "Angle and speed where the gap passes 1 mm", {"method", "step / s", "angle / degrees", "speed / (m/s)"}, {}};
+  PageTable page{"Angle and speed where the gap passes 1 mm",
+                 {"method", "step", "angle / degrees", "less the exact one / degrees", "speed / (m/s)"},
+                 {}};
   double exact = 0, speed = 0;
   for (const std::string& method : distinct(table, "method")) {
     Curve curve{method, style_of(method), {}, true, true};
@@ -76,22 +78,22 @@ Chart leaving_chart(const Table& table, const std::string& commit) {
       exact = *number_at(table, i, "angle by theory"), speed = *number_at(table, i, "speed by theory");
       const auto angle = number_at(table, i, "angle");
       const double h = *number_at(table, i, "step");
-      page.rows.push_back({method, nice(h),
+      page.rows.push_back({method, step_text(h),
                            angle                                  ? fmt::format("{:.2f}", *angle)
                            : text_at(table, i, "verdict") == "ok" ? "does not leave"
                                                                   : failure_or_cannot(text_at(table, i, "verdict")),
+                           angle ? fmt::format("{:+.2f}", *angle - exact) : "",
                            angle ? fmt::format("{:.3f}", *number_at(table, i, "speed")) : ""});
       if (angle) curve.points.emplace_back(h, *angle - exact);
     }
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
-  page.rows.insert(page.rows.begin(), {"exact", "", fmt::format("{:.2f}", exact), fmt::format("{:.3f}", speed)});
+  page.rows.insert(page.rows.begin(), {"exact", "", fmt::format("{:.2f}", exact), "0", fmt::format("{:.3f}", speed)});
   f.floor = {"exact", 0};
   f.finding = fmt::format(
-      "Contact ends at 48.2 degrees, where cos = 2/3; the gap must pass 1 mm at {:.2f} degrees and {:.3f} m/s. A "
-      "particle "
-      "that never comes off, as on the sticky sphere, has no point here.",
-      exact, speed);
+      "Contact ends at 48.2 degrees, where cos = 2/3; the gap must pass 1 mm at {:.2f} degrees and {:.3f} m/s. {} A "
+      "particle that never comes off, as on the sticky sphere, has no point here.",
+      exact, speed, leaving_sentence(table));
   f.caption = fmt::format(
       "A ball of 1.02 m, no friction, started 1 degree off its top; truth: exact (energy on the ball, then free "
       "flight). "

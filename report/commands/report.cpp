@@ -206,6 +206,7 @@ class Builder {
     page_.scenes.push_back({&scene, &findings_.facts[i], findings_.of_scenes[i], {}, {}, {}});
     ScenePart& part = page_.scenes.back();
     part.statistics = rows_.table(scene.name + "-statistics");
+    part.choice = choice_of(scene, findings_.facts[i], rows_);
     for (const Certificate& c : rows_.certificates)
       if (c.scene == scene.name) part.certificates.push_back(&c);
     if (!fs::exists(picture_of_scene(scene))) return;  // why not, is among the problems

@@ -59,7 +59,7 @@ std::string image_tag(const PageImage& image) {
 std::string image_html(const PageImage& image, const std::string& css_class) {
   const std::string runs = image.runs.empty() ? "" : fmt::format(" data-runs=\"{}\"", escaped(image.runs));
   return fmt::format("<figure class=\"{}\"{}>{}<figcaption>{}</figcaption></figure>\n", css_class, runs,
-                     image_tag(image), escaped(image.caption));
+                     image_tag(image), prose(image.caption));
 }
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// The page from top to bottom: answer, overview, scenes, how it was made.
+// The page from top to bottom: which method for which scene, answers, chapters, scenes, words, how it was made.
 #include "report/page/page.h"
 #include "report/page/same_pictures.h"
 
@@ -18,7 +18,7 @@ namespace {
 std::string finding_list(const std::vector<Finding>& findings, const std::string& css_class, bool links = false) {
   std::string out = fmt::format("<ul class=\"{}\">\n", css_class);
   for (const Finding& f : findings)
-    out += fmt::format("<li class=\"{}\">{} <span class=\"tier\">{}{}</span></li>\n", f.topic, escaped(f.sentence),
+    out += fmt::format("<li class=\"{}\">{} <span class=\"tier\">{}{}</span></li>\n", f.topic, prose(f.sentence),
                        f.tier == "measured" || f.tier == "see each scene" ? f.tier : "against: " + escaped(f.tier),
                        !links              ? ""
                        : f.chapter.empty() ? "; <a href=\"#scenes\">scenes</a>"
@@ -73,11 +73,11 @@ std::string changes_html(const PageContent& c) {
     if (change.timed) continue;
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>\n",
                         change.scene.empty() ? "all" : escaped(change.scene),
-                        change.before.empty() ? "(nothing)" : escaped(change.before),
-                        change.now.empty() ? "(nothing any more)" : escaped(change.now));
+                        change.before.empty() ? "(nothing)" : prose(change.before),
+                        change.now.empty() ? "(nothing any more)" : prose(change.now));
   }
   out += rows.empty()
-             ? "<p>Nothing that does not rest on timings.</p>\n"
+             ? fmt::format("<p>Every finding{} reads as it did.</p>\n", timed > 0 ? " that rests on no timing" : "")
              : "<table class=\"changes\"><thead><tr><th>scene</th><th>before</th><th>now</th></tr></thead><tbody>\n" +
                    rows + "</tbody></table>\n";
   if (timed > 0)
@@ -88,10 +88,22 @@ std::string changes_html(const PageContent& c) {
   return out + "</section>\n";
 }
 
+/// Contact is where engines differ most: the picture of its chapter, where there is one.
+const PageImage* front_picture(const PageContent& c) {
+  for (const Chapter& chapter : c.chapters)
+    for (const Chapter::Entry& entry : chapter.entries)
+      for (const PageImage& image : entry.images)
+        if (chapter.id == "sphere" && image.file.extension() == ".png") return &image;
+  return c.hero.empty() ? nullptr : &c.hero[0];
+}
+
 std::string first_screen(const PageContent& c) {
   std::string out =
-      "<header><h1>Crosscheck: mysim beside Bullet</h1></header>\n<main>\n<section class=\"answer\"><div "
-      "class=\"questions\">\n";
+      "<header><h1>Crosscheck: mysim beside Bullet</h1>\n<p class=\"lead\">An in-house mass-spring and cloth engine "
+      "beside Bullet's soft bodies, each built from the same particles and springs.</p></header>\n" +
+      contents_html(c) + "<main>\n";
+  if (!c.scenes.empty()) out += choice_table_html(c.scenes);
+  out += "<section class=\"answer\"><div class=\"questions\">\n";
   const std::vector<Finding> front = front_of(c.findings);
   // the picture ends the left column
   size_t before_picture = 2;
@@ -101,7 +113,8 @@ std::string first_screen(const PageContent& c) {
       if (question.answered_by(f)) answers.push_back(f);
     if (!answers.empty())
       out += fmt::format("<div><h2>{}</h2>\n{}</div>\n", question.text, finding_list(answers, "findings", true));
-    if (--before_picture == 0 && !c.hero.empty()) out += image_html(c.hero[0], "hero");
+    if (--before_picture == 0)
+      if (const PageImage* picture = front_picture(c)) out += image_html(*picture, "hero");
   }
   out += "</div>\n";
   for (const std::string& problem : c.problems)
@@ -114,8 +127,10 @@ std::string first_screen(const PageContent& c) {
 std::string scene_section(const ScenePart& part) {
   const Scene& scene = *part.scene;
   std::string out = fmt::format("<section class=\"scene\" id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"question\">{1}</p>\n",
-                                escaped(scene.name), escaped(scene.question));
-  out += finding_list(part.findings, "findings");
+                                escaped(scene.name), prose(scene.question));
+  std::vector<Finding> told = part.findings;
+  std::erase_if(told, [](const Finding& f) { return f.topic == choice_topic; });  // its table has it
+  out += finding_list(told, "findings");
   for (const PageImage& image : part.pictures)
     out += &image == part.pictures.data() && !part.motions.empty() ? player_html(image, part.motions)
                                                                    : image_html(image, "render");
@@ -131,23 +146,27 @@ std::string scene_section(const ScenePart& part) {
                         facts.measured_window)
           : "it stays below a thousandfold over the whole run";
   out += fmt::format(
-      "<p class=\"parameters\"><b>Parameters.</b> {} Step {} s, {:.3g} s of motion; pointwise comparison up to {:.3g} "
+      "<p class=\"parameters\"><b>Parameters.</b> {} Step {}, {:.3g} s of motion; pointwise comparison up to {:.3g} "
       "s, where a perturbation of 1e-10 m has grown {}-fold; {}. Scene hash {}.</p>\n</section>\n",
-      escaped(scene.parameters), nice(scene.step), scene.duration, scene.window, nice(facts.growth), predictable,
+      prose(scene.parameters), step_text(scene.step), scene.duration, scene.window, nice(facts.growth), predictable,
       scene.hash);
   return out;
 }
 
 std::string chapter_section(const Chapter& chapter, const std::vector<Finding>& findings) {
   std::string out = fmt::format("<section class=\"chapter\" id=\"{}\">\n<h2>{}</h2>\n<p class=\"question\">{}</p>\n",
-                                chapter.id, escaped(chapter.title), escaped(chapter.intro));
+                                chapter.id, prose(chapter.title), prose(chapter.intro));
   if (const auto own = of_chapter(findings, chapter.id); !own.empty()) out += finding_list(own, "findings");
   out += "<div class=\"figures\">\n";
   for (const Chapter::Entry& entry : chapter.entries) {
-    out += fmt::format("<article><h3>{}</h3><p>{}</p>\n", escaped(entry.heading), escaped(entry.text));
+    // a long table with nothing above it is open, and has the whole width
+    const bool wide = entry.images.empty() && std::any_of(entry.tables.begin(), entry.tables.end(),
+                                                          [](const PageTable& t) { return t.rows.size() > 6; });
+    out += fmt::format("<article{}><h3>{}</h3><p>{}</p>\n", wide ? " class=\"wide\"" : "", prose(entry.heading),
+                       prose(entry.text));
     for (const PageImage& image : entry.images)
       out += image_html(image, image.file.extension() == ".png" ? "render" : "chart");
-    for (const PageTable& table : entry.tables) out += page_table_html(table);
+    for (const PageTable& table : entry.tables) out += page_table_html(table, entry.images.empty());
     out += "</article>\n";
   }
   return out + "</div>\n</section>\n";
@@ -175,27 +194,21 @@ std::string page_html(const PageContent& c) {
   const bool plays = !c.runs.empty() || std::any_of(c.scenes.begin(), c.scenes.end(),
                                                     [](const ScenePart& part) { return !part.motions.empty(); });
   std::string out = page_head("Crosscheck: mysim beside Bullet", plays ? player_head() : "") + first_screen(c);
-  out += "<section id=\"scenes\">\n<h2>Scene by scene</h2>\n" + scene_table_html(c.scenes);
-  out += "</section>\n";
   for (const Chapter& chapter : c.chapters)
     if (!chapter.entries.empty()) out += chapter_section(chapter, c.findings);
   for (const ScenePart& part : c.scenes) out += scene_section(part);
 
   out +=
-      "<section class=\"made\"><h2>How this was made</h2>\n<p>An error is the distance from the truth: the closed form "
-      "where the scene has one, "
-      "otherwise a solution converged on two independent routes, whose error bar is the largest of their difference "
-      "and "
-      "of what refining each still changes. A difference is the distance between two engines, or from what the "
-      "in-house contact rule converges to. Lengths are "
-      "RMS over all "
-      "particles, the largest over time. A run has blown up when it shows more energy than all it had to work with. "
-      "Data, figures and scripts lie "
-      "beside this page in <code>data/</code> and <code>figures/</code>.</p>\n";
+      glossary_html() +
+      "<section class=\"made\" id=\"made\"><h2>How this was made</h2>\n<p>The error bar of a converged truth is the "
+      "largest of the difference of its two routes and of what refining each still changes. A difference is the "
+      "distance between two engines, or from what the in-house contact rule converges to. Data, figures and scripts "
+      "lie beside this page in <code>data/</code> and <code>figures/</code>; <code>report --verify</code> recomputes "
+      "every sentence from them.</p>\n";
   out += fmt::format(
       "<p>The second route is {} on a right-hand side written apart from mysim's.</p>\n",
       sundials_version() ? "SUNDIALS ARKODE" : "odeint; SUNDIALS is not there (Debian's package libsundials-dev)");
-  for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", escaped(note));
+  for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", prose(note));
   out += provenance_html(c.provenance) + "</section>\n</main>\n";
   for (const PlayedRuns& runs : c.runs) out += runs_html(runs);
   return sharing_pictures(sharing_markers(out + "<script>\n" + asset("page/page.js") + "</script>\n</body></html>\n"));

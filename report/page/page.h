@@ -7,6 +7,7 @@
 
 #include "report/changes.h"
 #include "report/charts/charts.h"
+#include "report/choice.h"
 #include "report/findings.h"
 #include "report/page/inline_svg.h"
 
@@ -36,7 +37,8 @@ struct ScenePart {
   std::filesystem::path motions;    // what plays over the first picture (player_data.h); empty: it stays a picture
   std::vector<PageImage> figures;   // charts
   std::vector<const Certificate*> certificates;
-  const Table* statistics = nullptr;  // of perturbed runs, where there is contact
+  const Table* statistics = nullptr;    // of perturbed runs, where there is contact
+  std::vector<ChoiceCell> choice = {};  // which method for it
 };
 
 /// A part of the report that belongs to no scene of its own.
@@ -48,6 +50,7 @@ struct Chapter {
   };
   std::string id, title, intro;
   std::vector<Entry> entries;
+  std::string label = {};  // in the line of contents; empty: the title
 };
 
 struct PageContent {
@@ -75,6 +78,8 @@ std::string provenance_html(const Provenance& lines);
 std::string content_of_file(const std::filesystem::path& file);
 /// Text made safe for HTML.
 std::string escaped(const std::string& text);
+/// The same for reading: numbers and their units stay on one line.
+std::string prose(const std::string& text);
 
 /// The chapters of the report, in order, without entries. A new one is a row.
 std::vector<Chapter> chapters();
@@ -92,6 +97,12 @@ std::string run_table_html(const ScenePart& part);
 std::string statistics_html(const Table& statistics);
 std::string certificate_html(const Certificate& certificate);
 /// The table on the first screen: one row per scene.
-std::string scene_table_html(const std::vector<ScenePart>& scenes);
+std::string choice_table_html(const std::vector<ScenePart>& scenes);
+
+/// The way through the page.
+std::string contents_html(const PageContent& content);
+/// The words that the page uses; and a link to one of them, by its id. Throws std::logic_error where none has that id.
+std::string glossary_html();
+std::string term_link(const std::string& id);
 
 }  // namespace crosscheck

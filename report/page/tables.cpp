@@ -1,4 +1,4 @@
-// Tables of the page: scenes at a glance, runs of a scene, certificates.
+// Tables of the page: those of chapters, runs of a scene, certificates.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,12 +28,6 @@ std::string verdict_cell(const MethodFacts& m) {
   return fmt::format("<td class=\"failed\" title=\"{}\">{} at {:.3g} s</td>", what, m.failure(), m.end);
 }
 
-/// For the overview, where the reason is not said.
-std::string verdict_or_none(const MethodFacts* m) {
-  if (!m) return "<td class=\"none\">not asked</td>";
-  return m->supported() ? verdict_cell(*m) : "<td class=\"none\">not modelled</td>";
-}
-
 /// The mean to the digits that its spread leaves it.
 std::string with_digits_of(double mean, double spread) {
   if (std::abs(mean) < 1e-12) return "0";
@@ -42,12 +36,19 @@ std::string with_digits_of(double mean, double spread) {
   return fmt::format("{:.{}f}", mean, decimals);
 }
 
+/// "1.0e-7 m": whatever else breaks, this does not.
+bool is_number(const std::string& cell) {
+  return cell.size() <= 12 && cell.find_first_of("0123456789") <= 2 && !cell.starts_with("1/");
+}
+
 /// Names of methods may break behind the slash: in half a page's width eight columns have to stand.
 std::string narrow(const std::string& cell) {
   std::string out;
-  for (const char c : escaped(cell)) {
+  bool in_tag = false;
+  for (const char c : prose(cell)) {
+    in_tag = c == '<' || (in_tag && c != '>');
     out += c;
-    if (c == '/') out += "<wbr>";
+    if (c == '/' && !in_tag) out += "<wbr>";
   }
   return out;
 }
@@ -57,66 +58,24 @@ std::string narrow(const std::string& cell) {
 std::string page_table_html(const PageTable& table, bool open) {
   // long ones open when asked: the figure above has said most of it
   const bool shut = !open && table.rows.size() > 6;
-  std::string out = shut ? fmt::format("<details><summary>{}</summary>\n", escaped(table.caption)) : "";
+  std::string out = shut ? fmt::format("<details><summary>{}</summary>\n", prose(table.caption)) : "";
   out += "<div class=\"scroll\"><table>";
-  if (!shut) out += fmt::format("<caption>{}</caption>", escaped(table.caption));
+  if (!shut) out += fmt::format("<caption>{}</caption>", prose(table.caption));
   out += "<thead><tr>";
-  for (const std::string& head : table.header) out += fmt::format("<th>{}</th>", escaped(head));
+  for (const std::string& head : table.header) out += fmt::format("<th>{}</th>", prose(head));
   out += "</tr></thead><tbody>\n";
   for (const auto& row : table.rows) {
     out += "<tr>";
     for (size_t i = 0; i < row.size(); ++i)
       out += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", narrow(row[i]))
-                    : fmt::format("<td{}>{}</td>", row[i].empty() ? " class=\"none\"" : "",
+                    : fmt::format("<td{}>{}</td>",
+                                  row[i].empty()      ? " class=\"none\""
+                                  : is_number(row[i]) ? " class=\"number\""
+                                                      : "",
                                   row[i].empty() ? "–" : narrow(row[i]));
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n" + (shut ? "</details>\n" : "");
-}
-
-std::string scene_table_html(const std::vector<ScenePart>& scenes) {
-  std::string out =
-      "<div class=\"scroll\"><table class=\"scenes\"><thead><tr><th>scene</th><th>what was asked</th><th>Bullet's "
-      "explicit world and mysim, "
-      "same rule</th><th>Bullet's position-based world</th><th>nearest to the truth</th><th>failed</th><th>CPU per "
-      "step, Bullet / "
-      "mysim</th></tr></thead><tbody>\n";
-  for (const ScenePart& part : scenes) {
-    const MethodFacts *a = part.facts->find(ours), *b = part.facts->find(theirs), *p = part.facts->find(position_based);
-    out += fmt::format("<tr><th scope=\"row\"><a href=\"#{0}\">{0}</a></th><td class=\"text\">{1}</td>",
-                       escaped(part.scene->name), escaped(part.scene->question));
-    const bool sphere = part.scene->model.find<Spheres>();
-    if (b && b->ok() && b->difference)
-      out += fmt::format("<td>differ by {}{}</td>", nice_length(*b->difference),
-                         sphere ? fmt::format(" until {:.2g} s", part.scene->window) : "");
-    else
-      out += verdict_or_none(b);
-    if (p && p->ok() && (p->error || p->difference))
-      out += fmt::format("<td>{} by {}</td>", p->error ? "off" : "differs",
-                         nice_length(p->error ? *p->error : *p->difference));
-    else
-      out += verdict_or_none(p);
-    const MethodFacts* best = nullptr;
-    int failed = 0;
-    for (const MethodFacts& m : part.facts->methods) {
-      failed += m.supported() && !m.ok();
-      if (m.judged() && (!best || *m.error < *best->error)) best = &m;
-    }
-    out += best ? fmt::format("<td>{}<br>{}{}</td>", best->method, *best->error < part.facts->bar ? "&lt; " : "",
-                              nice_length(std::max(*best->error, part.facts->bar)))
-                : fmt::format("<td class=\"none\">{}</td>",
-                              part.facts->tier.empty() ? "no truth: contact" : "no run came to the end");
-    std::string names;
-    for (const MethodFacts& m : part.facts->methods)
-      if (m.supported() && !m.ok()) names += (names.empty() ? "" : "<br>") + escaped(m.method);
-    out += failed ? fmt::format("<td class=\"failed\">{}</td>", names) : "<td class=\"ok\">none</td>";
-    if (a && b && a->ok() && b->ok() && a->cpu_per_step && b->cpu_per_step && costs_compare(*part.scene))
-      out += fmt::format("<td>{:.1f}</td>", *b->cpu_per_step / *a->cpu_per_step);
-    else
-      out += "<td class=\"none\">–</td>";
-    out += "</tr>\n";
-  }
-  return out + "</tbody></table></div>\n";
 }
 
 std::string run_table_html(const ScenePart& part) {

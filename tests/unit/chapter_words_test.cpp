@@ -101,12 +101,25 @@ TEST(ChapterWords, DriftIsComputedAndFailedRunsAreSaid) {
   auto findings = energy_findings(rows_of({energy({kept})}));
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].sentence,
-            "In runs of 20000 steps symplectic rules keep the energy to 0.1 % of what is turned over, without drift.");
+            "In runs of 20 000 steps on spring (no drag, no contact) symplectic rules keep the energy to 0.1 % of what "
+            "is turned over, without drift.");
   findings = energy_findings(rows_of({energy({kept, drifts, fails})}));
   ASSERT_EQ(findings.size(), 2u);
   EXPECT_EQ(findings[0].topic, "failure");
   EXPECT_TRUE(contains(findings[0].sentence, "mysim/suzuki4 on spring (overstretched at 3 s)"));
   EXPECT_TRUE(contains(findings[1].sentence, "not all without drift: mysim/symplectic-euler on spring (drifts down)"));
+}
+
+TEST(ChapterWords, WhatContactLeavesOpenIsSaidByScene) {
+  const Row kept{"spring", "mysim/leapfrog", "ok", 100., 20000l, 1l, 1l, 1l, 4., 4e-3, -4e-3, 0.01},
+      little{"ball", "mysim/leapfrog", "ok", 100., 20000l, 0l, 1l, 1l, 4., 0.4, 0.4, 1.},
+      much{"ball", "mysim/symplectic-euler", "ok", 100., 20000l, 0l, 1l, 1l, 4., 8., -8., 1.};
+  const auto findings = energy_findings(rows_of({energy({kept, little, much})}));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_TRUE(contains(findings[0].sentence,
+                       "on spring (no drag, no contact) symplectic rules keep the energy to 0.1 % of what is turned "
+                       "over, without drift. On ball, where drag or contact act, what does not add up is 10 % "
+                       "(mysim/leapfrog) to 200 % (mysim/symplectic-euler) of it."));
 }
 
 TEST(ChapterWords, DampingNamesWhoWasAsked) {

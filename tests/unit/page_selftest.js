@@ -5,7 +5,7 @@
   const consoleError = console.error;
   console.error = (...words) => (complaints.push(words.join(' ')), consoleError(...words));
 
-  const column = (table, i) => [...table.tBodies[0].rows].filter(row => !row.hidden).map(row => row.cells[i].innerText.trim());
+  const column = (table, i) => [...table.tBodies[0].rows].filter(row => !row.hidden).map(row => row.cells[i].innerText.trim().replace(/\s+/g, ' '));
   const press = (element, key) => element.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));
 
   /** Sorting by pointer and keys, cutting down to rows with a word, and what would be saved. */
@@ -31,6 +31,7 @@
   function useChart(seen) {
     const charts = [...document.querySelectorAll('figure > svg[role="img"]')];
     seen.charts = charts.length;
+    seen.filter = getComputedStyle(charts[0]).filter;
     seen.named = charts.every(chart => chart.getAttribute('aria-label'));
     seen.drawn = charts.every(chart => chart.getBoundingClientRect().height > 100 && chart.querySelectorAll('path').length > 5);
     const marker = document.querySelector('use.told'), tip = document.querySelector('.tip');

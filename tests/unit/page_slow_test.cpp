@@ -1,6 +1,7 @@
 // The page in a browser: drawings, markers that speak, tables that sort, dark mode, paper.
 #include "report/page/page.h"
 
+#include "report/assets.h"
 #include "report/figure.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/in_browser.h"
@@ -64,6 +65,10 @@ TEST_F(Page, IsDarkWhereTheReaderWantsIt) {
              dark = seen(file, {"--blink-settings=preferredColorScheme=0"});
   EXPECT_EQ(light["background"], "rgb(255, 255, 255)");
   EXPECT_EQ(dark["background"], "rgb(21, 24, 27)");
+  // drawings too; what is printed never is
+  EXPECT_EQ(light["filter"], "none");
+  EXPECT_TRUE(contains(dark.value("filter", ""), "invert"));
+  EXPECT_TRUE(contains(asset("page/style.css"), "@media screen and (prefers-color-scheme: dark)"));
 }
 
 TEST_F(Page, GoesOnPaper) {

@@ -144,8 +144,8 @@ TEST_F(Verify, EveryChangedRowIsNoticed) {
 
 TEST_F(Verify, WhatDiffersIsNamed) {
   const std::string report = read(folder_ / "report.json");
-  replace("report.json", "At a step of 0.", "At a step of 9.");
-  EXPECT_TRUE(contains(mismatches(), "the data say \"At a step of 0."));
+  replace("report.json", "At a step of 1 ms", "At a step of 9 ms");
+  EXPECT_TRUE(contains(mismatches(), "the data say \"At a step of 1 ms"));
   write_file(folder_ / "report.json", report);
   replace("report.json", "\"tier\": \"measured\"", "\"tier\": \"exact\"");
   EXPECT_TRUE(contains(mismatches(), "it rests on \"measured\""));
@@ -172,12 +172,12 @@ TEST_F(Changes, AreTheSentencesThatDiffer) {
   const std::vector<Scene> scenes = load_scenes({"projectile", "chain"});
   const AllFindings now = all_findings(scenes, rows_);
   EXPECT_TRUE(changes_since(folder_, now).empty());
-  replace("report.json", "At a step of 0.", "At a step of 9.");
+  replace("report.json", "At a step of 1 ms", "At a step of 9 ms");
   const std::vector<Change> changes = changes_since(folder_, now);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].scene, "chain");
-  EXPECT_TRUE(contains(changes[0].before, "At a step of 9."));
-  EXPECT_TRUE(contains(changes[0].now, "At a step of 0."));
+  EXPECT_TRUE(contains(changes[0].before, "At a step of 9 ms"));
+  EXPECT_TRUE(contains(changes[0].now, "At a step of 1 ms"));
   EXPECT_FALSE(changes[0].timed);
 }
 

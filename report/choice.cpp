@@ -1,0 +1,154 @@
+#include "report/choice.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "experiments/cells.h"
+#include "report/findings_text.h"
+#include "report/least_model.h"
+
+namespace crosscheck {
+namespace {
+
+/// Above this part of the motion an answer is of no use.
+constexpr double useless = 0.1;
+
+/// Where the column, or the name, says whose it is.
+std::string short_name(const std::string& method) {
+  for (const std::string_view engine : {"mysim/", "bullet/"})
+    if (method.starts_with(engine)) return method.substr(engine.size());
+  return method;
+}
+
+std::string share_text(double error, const SceneFacts& facts) {
+  const double part = std::max(error, facts.bar) / facts.motion;
+  if (part < 1e-5) return "< 0.001 %";
+  return (error < facts.bar ? "< " : "") + percent(part, 1);
+}
+
+/// The nearest of those that take part, in bold where nobody is nearer.
+ChoiceCell nearest_cell(const SceneFacts& facts, const MethodFacts* m) {
+  if (facts.tier.empty() || !m || !(facts.motion > 0)) return {};
+  const MethodFacts* best = nearest(facts, "");
+  return {fmt::format("{} {}", short_name(m->method), share_text(*m->error, facts)),
+          shares_place(*m, *best, facts) ? "best" : ""};
+}
+
+ChoiceCell truth_cell(const Scene&, const SceneFacts& facts, const Rows&) {
+  return facts.tier.empty() ? ChoiceCell{"none", "none"} : ChoiceCell{facts.tier, ""};
+}
+
+ChoiceCell ours_cell(const Scene&, const SceneFacts& facts, const Rows&) {
+  return nearest_cell(facts, nearest(facts, "mysim/"));
+}
+
+ChoiceCell thrifty_cell(const Scene& scene, const SceneFacts& facts, const Rows&) {
+  SceneFacts few = facts;
+  std::erase_if(few.methods, [&](const MethodFacts& m) { return !m.thrifty(scene); });
+  const MethodFacts* m = nearest(few, "mysim/");
+  return nearest_cell(facts, m);
+}
+
+ChoiceCell bullet_cell(const Scene& scene, const SceneFacts& facts, const Rows&) {
+  const bool any = std::any_of(facts.methods.begin(), facts.methods.end(),
+                               [](const MethodFacts& m) { return m.method.starts_with("bullet/") && m.supported(); });
+  if (!any) return {"cannot", "none"};
+  // no truth: how far the same rule is from mysim's
+  if (const MethodFacts* b = facts.find(theirs); facts.tier.empty() && b && b->ok() && b->difference)
+    return {fmt::format("{} from mysim until {:.2g} s", nice_length(*b->difference), scene.window), "none"};
+  return nearest_cell(facts, nearest(facts, "bullet/"));
+}
+
+/// Programs of the reader's own, single precision, independent integrators: where they were asked.
+ChoiceCell others_cell(const Scene&, const SceneFacts& facts, const Rows&) {
+  SceneFacts others = facts;
+  std::erase_if(others.methods, [](const MethodFacts& m) { return short_name(m.method) != m.method; });
+  const MethodFacts* m = nearest(others, "");
+  return nearest_cell(facts, m);
+}
+
+/// Of several too: whose it is stands there, but for mysim's.
+std::string own_name(std::string methods) {
+  for (size_t at = methods.find("mysim/"); at != std::string::npos; at = methods.find("mysim/")) methods.erase(at, 6);
+  return methods;
+}
+
+/// Who is cheapest for 1 % of the motion, and how many times as much Bullet's best takes.
+ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts&, const Rows& result) {
+  const Table* t = result.table("speed-accuracy-cheapest-cost");
+  for (size_t i = 0; t && i < t->rows.size(); ++i) {
+    const std::string method = text_or_none(*t, i, "method"), same = text_or_none(*t, i, "as cheap within noise");
+    if (text_at(*t, i, "scene") != scene.name || number_at(*t, i, "part of motion") != 0.01 || method.empty() ||
+        text_at(*t, i, "measure") != "error")
+      continue;
+    const auto factor = number_at(*t, i, "Bullet / best");
+    return {fmt::format("{}{}; Bullet {}", own_name(method), same.empty() ? "" : ", " + own_name(same),
+                        factor ? times_text(*factor) + " times" : "does not meet it"),
+            ""};
+  }
+  return {};
+}
+
+ChoiceCell fails_cell(const Scene&, const SceneFacts& facts, const Rows&) {
+  std::vector<std::string> failed;
+  const MethodFacts* worst = nullptr;
+  int ran = 0, off = 0;
+  for (const MethodFacts& m : facts.methods) {
+    if (!m.supported() || m.method == sticky_sphere) continue;
+    ++ran;
+    if (!m.ok()) failed.push_back(short_name(m.method));
+    if (!m.judged() || !(*m.error > useless * facts.motion)) continue;
+    ++off;
+    if (!worst || *m.error > *worst->error) worst = &m;
+  }
+  if (failed.empty() && !worst) return {fmt::format("none of {}", ran), ""};
+  std::string text = fmt::format("{}", fmt::join(failed, ", "));
+  if (worst)
+    text += fmt::format("{}{} {} off{}", failed.empty() ? "" : "; ", short_name(worst->method),
+                        percent(*worst->error, facts.motion), off > 1 ? fmt::format(", {} more", off - 1) : "");
+  return {fmt::format("{} (of {})", text, ran), "failed"};
+}
+
+ChoiceCell least_cell(const Scene& scene, const SceneFacts&, const Rows& result) {
+  std::vector<std::string> out;
+  for (const LeastModel& least : least_models_of(result, scene.name))
+    if (least.of_motion(1) || least.of_motion(10))
+      out.push_back(least.holds && !least.left_out.empty() ? least.left_out : "nothing");
+  if (out.empty()) return {};
+  if (std::all_of(out.begin(), out.end(), [&](const std::string& each) { return each == out[0]; })) return {out[0], ""};
+  return {fmt::format("{}", fmt::join(out, " / ")), ""};
+}
+
+}  // namespace
+
+const std::vector<ChoiceColumn>& choice_columns() {
+  static const std::vector<ChoiceColumn> columns = {
+      {"truth", "truth", truth_cell},
+      {"mysim's nearest", "error", ours_cell},
+      {"mysim's, one evaluation a step", "evaluation", thrifty_cell},
+      {"Bullet's nearest", "motion", bullet_cell},
+      {"nearest of others", "method", others_cell},
+      {"cheapest for 1 %, CPU time", "cheapest", cheapest_cell, true},
+      {"failed, or over 10 % off", "failed", fails_cell},
+      {"not needed for 1 % / 10 %", "least", least_cell},
+  };
+  return columns;
+}
+
+std::vector<ChoiceCell> choice_of(const Scene& scene, const SceneFacts& facts, const Rows& result) {
+  std::vector<ChoiceCell> cells;
+  for (const ChoiceColumn& column : choice_columns()) cells.push_back(column.cell(scene, facts, result));
+  return cells;
+}
+
+Finding choice_finding(const Scene& scene, const SceneFacts& facts, const Rows& result) {
+  std::vector<std::string> parts;
+  for (const ChoiceColumn& column : choice_columns())
+    if (const ChoiceCell cell = column.cell(scene, facts, result); !column.timed && !cell.empty())
+      parts.push_back(fmt::format("{}: {}", column.head, cell.text));
+  return {scene.name, choice_topic, fmt::format("{}.", fmt::join(parts, "; ")),
+          facts.tier.empty() ? "another engine" : facts.tier, "which-method"};
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,89 @@
+// The words that the report uses, one sentence each.
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "report/page/page.h"
+
+namespace crosscheck {
+namespace {
+
+struct Word {
+  const char *id, *term, *sentence;
+};
+
+constexpr Word words[] = {
+    {"scene", "scene",
+     "Particles, springs, pins and a start, with a question; written once and built alike in every engine."},
+    {"method", "method",
+     "An engine with a rule: mysim/leapfrog is mysim's leapfrog, bullet/pbd Bullet's position-based world."},
+    {"step", "step",
+     "The time from one computed state to the next; each scene has one of its own, the same for all methods "
+     "unless a chapter varies it."},
+    {"evaluation", "force evaluation",
+     "One computation of all forces; explicit Euler, symplectic Euler and leapfrog take one "
+     "in a step, rk4 four, suzuki4 five, implicit rules many. Bullet's steps count as one."},
+    {"truth", "truth",
+     "What an error is measured from. Exact: a closed form. Converged: two independent routes refined "
+     "until they agree, with an error bar. Another engine: no truth at all, only a difference."},
+    {"error", "error",
+     "How far a run is from the truth: RMS over the particles, the largest over time; in % it is a part of "
+     "the motion. No error is said to be less than the truth's error bar."},
+    {"rms", "RMS", "The root of the mean of the squares: of the distances of all particles."},
+    {"motion", "motion",
+     "The largest RMS distance of the particles from where they started: the scale that errors are "
+     "parts of."},
+    {"window", "window",
+     "The time up to which single positions are compared: later a push of 1e-10 m has grown so much that "
+     "two correct engines part."},
+    {"round-off", "round-off",
+     "What the 16 digits of a number leave over; where two engines differ by no more they do the "
+     "same."},
+    {"cheapest", "cheapest for 1 %",
+     "Of all steps and tolerances tried, the run of least CPU time whose error is at most 1 % "
+     "of the motion; in the chapter on speed, on the scenes that it looks at."},
+    {"failed", "failed",
+     "Blew up: shows more energy than it had to work with. Overstretched, froze, solver gave up: what "
+     "they say. A run that came to its end can still be far off."},
+    {"least", "least model",
+     "What is left of a scene when all is left out that is not needed for an error of 1 %, or 10 %, of "
+     "the motion; tried again from three other starts."},
+    {"stable", "largest stable step", "Beyond it vibrations grow until the run blows up."},
+    {"symplectic", "symplectic", "Rules that keep the energy of an undamped motion for ever, up to a wobble."},
+    {"residual", "energy residual",
+     "Energy now, plus all that was taken, less all that was given, less energy at the start: "
+     "what does not add up."},
+    {"turned-over", "energy turned over",
+     "All that flowed between motion, springs and gravity: the scale of residuals."},
+    {"implicit", "implicit",
+     "Rules that solve an equation for the next state: stable at long steps, at a price in work, and "
+     "often in energy."},
+    {"position-based", "position-based",
+     "Moves particles until distances fit, link by link, and takes speeds from the moves: "
+     "fast and robust, but stiffness depends on step and iterations."},
+    {"different-law", "different law",
+     "The method has the ingredient, but under another formula; compared all the same, and "
+     "marked."},
+    {"certificate", "parity certificate",
+     "Masses, springs and the rest as read back from the other engine's memory: whether it "
+     "built the same scene."},
+};
+
+}  // namespace
+
+std::string term_link(const std::string& id) {
+  for (const Word& word : words)
+    if (word.id == id)
+      return fmt::format("<a href=\"#word-{}\" title=\"{}\">{}</a>", id, escaped(word.sentence), prose(word.term));
+  throw std::logic_error("no word of the glossary named " + id);
+}
+
+std::string glossary_html() {
+  std::string out = "<section id=\"words\"><h2>Words</h2>\n<dl>\n";
+  for (const Word& word : words)
+    out += fmt::format("<div id=\"word-{}\"><dt>{}</dt><dd>{}</dd></div>\n", word.id, prose(word.term),
+                       prose(word.sentence));
+  return out + "</dl></section>\n";
+}
+
+}  // namespace crosscheck
