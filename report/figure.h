@@ -62,7 +62,8 @@ struct FigureSize {
 struct FigureWords {
   std::string name;         // file name without ending
   std::string title;        // what it shows
-  std::string caption;      // scene, truth tier, error bar, step, commit
+  std::string caption;      // scene, step, commit; all_charts() adds the tier
+  std::string tier;         // against what it is held, and how well that is known: "exact (Coulomb's law)"
   std::string finding;      // what one sees in it, in a sentence: the alternative text
   bool from_costs = false;  // drawn from timings: not the same in each run
   FigureSize size = {};

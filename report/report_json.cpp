@@ -48,7 +48,7 @@ std::string report_json(const PageContent& page, const AllFindings& findings, co
   for (const Chart& c : charts)
     if (const FigureWords* f = words_of(c))
       json["figures"].push_back(
-          {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"finding", f->finding}});
+          {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"tier", f->tier}, {"finding", f->finding}});
   json["notes"] = page.notes;
   json["problems"] = page.problems;
   return json.dump(1) + "\n";

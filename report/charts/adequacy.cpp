@@ -83,8 +83,8 @@ Chart ladder(const Table& t, const Table* least, const std::string& scene, const
           ? fmt::format("Nothing can be left out within {}: the least that any removal costs is {} ({}).",
                         nice_length(tolerance), nice_length(of_smallest), smallest)
           : fmt::format("Nothing can be left out within {}: no smaller model gives an answer.", nice_length(tolerance));
-  f.caption = fmt::format("Scene {}; truth of the full scene: {}, error bar {}; commit {}.", scene, truth,
-                          nice_length(bar), commit);
+  f.caption = fmt::format("Scene {}; commit {}.", scene, commit);
+  f.tier = fmt::format("the truth of the full scene: {}, error bar {}", truth, nice_length(bar));
   Chart chart{"", std::monostate{}, "adequacy"};
   // where nothing moves no removal has an error, and there is nothing to draw
   if (!f.curves.empty())

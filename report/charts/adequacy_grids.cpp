@@ -97,6 +97,7 @@ Chart grids(const Table& t, const Rows& rows, const std::string& commit) {
     f.failures.push_back({scene + ": " + failure_word(verdict), style.at(scene), n, 3 * furthest});
   }
   f.finding = motion_sentence(rows, f.curves);
+  f.tier = "the finest grid of each scene, which is itself not converged";
   f.caption = fmt::format("Leapfrog, compared at 17 x 17 points of the material; commit {}.", commit);
   Chart chart{
       "",
@@ -147,6 +148,8 @@ std::optional<Chart> scaling(const Table& t, const Rows& rows, const std::string
   if (f.curves.empty()) return std::nullopt;
   f.finding += bend_sentence(rows);
   if (f.finding.empty()) f.finding = "Too few grids to tell a power.";
+  f.tier =
+      "for bend springs the power that is derived for many cells (dashed); measured powers have their standard errors";
   f.caption = fmt::format("Rest found by dynamic relaxation; exponents with their standard errors; commit {}.", commit);
   return Chart{
       "", std::move(f), "adequacy",

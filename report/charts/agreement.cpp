@@ -16,7 +16,8 @@ std::vector<Chart> agreement_charts(const ChartInput& input) {
     Figure f;
     f.name = scene.name + "-agreement";
     f.title = scene.name + ": distance from mysim/symplectic-euler";
-    f.caption = caption_of(scene, facts, input.commit, false);
+    f.caption = caption_of(scene, input.commit);
+    f.tier = another_engine(facts);
     f.x = {"t / s", false, 0.0, scene.duration};
     f.y = {"RMS difference / m", true, 1e-17, std::nullopt};  // below round-off nothing is told
     for (const MethodFacts& m : facts.methods) {

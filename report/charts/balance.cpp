@@ -43,6 +43,7 @@ Figure balance_figure(const Scene& scene, const SceneFacts& facts, const Table& 
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
+  f.tier = "exact (what is gained, lost and turned over adds up to zero), to the rounding of the sums";
   f.finding =
       "Kinetic, elastic and gravitational energy plus what drag and dashpots took, less what wind and moved pins gave: "
       "its change should be zero.";
@@ -55,6 +56,9 @@ Figure contact_figure(const Scene& scene, const SceneFacts& facts, const Table& 
   f.name = scene.name + "-energy";
   f.title = scene.name + ": energy lost in contact";
   f.x = {"t / s", false, 0.0, scene.duration};
+  f.tier =
+      "another engine: how much a contact takes is not known otherwise, but that friction and inelastic contact of a "
+      "still ball take and never give";
   f.y = {"energy lost in contact / J", false, std::nullopt, std::nullopt};
   std::vector<std::string> guessed, left_out;
   for (const MethodFacts& m : facts.methods) {
@@ -97,7 +101,7 @@ std::vector<Chart> balance_charts(const ChartInput& input) {
     Figure f = input.facts[i].touched() ? contact_figure(scene, input.facts[i], *table)
                                         : balance_figure(scene, input.facts[i], *table, scale);
     // after it: what is not drawn
-    f.caption = caption_of(scene, input.facts[i], input.commit, false) + f.caption;
+    f.caption = caption_of(scene, input.commit) + f.caption;
     if (!f.curves.empty() || !f.failures.empty()) charts.push_back({scene.name, std::move(f)});
   }
   return charts;

@@ -4,15 +4,32 @@
 #include <fmt/format.h>
 
 #include <concepts>
+#include <stdexcept>
 
 namespace crosscheck {
+
+namespace {
+
+/// A figure that does not say what it rests on is not shown.
+void tell_tier(Chart& chart) {
+  std::visit(
+      []<class F>(F& figure) {
+        if constexpr (std::derived_from<F, FigureWords>) {
+          if (figure.tier.empty()) throw std::logic_error("figure " + figure.name + " does not say what it rests on");
+          figure.caption += (figure.tier.starts_with("measured") ? " It is " : " Against: ") + figure.tier + ".";
+        }
+      },
+      chart.figure);
+}
+
+}  // namespace
 
 std::vector<Chart> all_charts(const ChartInput& input) {
   std::vector<Chart> all;
   for (const auto make : {scoreboard_charts, order_charts, error_charts, agreement_charts, contact_charts,
                           balance_charts, speed_accuracy_charts, stability_charts, energy_charts, sphere_charts,
                           adequacy_charts, cost_charts, stiffness_charts, disagreement_charts})
-    for (Chart& chart : make(input)) all.push_back(std::move(chart));
+    for (Chart& chart : make(input)) tell_tier(chart), all.push_back(std::move(chart));
   return all;
 }
 
@@ -44,11 +61,17 @@ std::vector<std::pair<double, double>> points_of(const Table& table, const std::
   return points;
 }
 
-std::string caption_of(const Scene& scene, const SceneFacts& facts, const std::string& commit, bool with_truth) {
-  std::string text = "Scene " + scene.name;
-  if (with_truth)
-    text += fmt::format("; truth: {}, error bar {} ({})", facts.tier, nice_length(facts.bar), facts.truth);
-  return text + fmt::format("; step {}; commit {}.", step_text(scene.step), commit);
+std::string caption_of(const Scene& scene, const std::string& commit) {
+  return fmt::format("Scene {}; step {}; commit {}.", scene.name, step_text(scene.step), commit);
+}
+
+std::string tier_of(const SceneFacts& facts) {
+  return fmt::format("the {} truth, error bar {} ({})", facts.tier, nice_length(facts.bar), facts.truth);
+}
+
+std::string another_engine(const SceneFacts& facts) {
+  return "another engine, so that these are differences and no errors" +
+         (facts.round_off ? fmt::format("; round-off alone may make {}", nice_length(*facts.round_off)) : "");
 }
 
 }  // namespace crosscheck

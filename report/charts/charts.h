@@ -79,7 +79,10 @@ std::vector<Chart> all_charts(const ChartInput& input);
 std::vector<std::pair<double, double>> points_of(const Table& table, const std::string& method,
                                                  const std::string& column, bool positive);
 
-/// "scene cloth-hang; truth: converged, error bar 2e-9 m; step 0.5 ms; commit abc"
-std::string caption_of(const Scene& scene, const SceneFacts& facts, const std::string& commit, bool with_truth);
+/// "Scene cloth-hang; step 500 µs; commit abc."
+std::string caption_of(const Scene& scene, const std::string& commit);
+/// Tiers of figures: the scene's truth with its error bar; differences from another engine.
+std::string tier_of(const SceneFacts& facts);
+std::string another_engine(const SceneFacts& facts);
 
 }  // namespace crosscheck

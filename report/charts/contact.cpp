@@ -14,19 +14,23 @@ struct Quantity {
   double factor;  // from SI to the label's unit
   bool logarithmic;
   const char* finding;
+  const char* tier;  // null: another engine
 };
 
 constexpr Quantity quantities[] = {
     {"difference from converged contact", "converged", "distance from the converged in-house contact rule",
      "RMS difference / mm", 1e3, true,
      "How far each method is from what the in-house contact rule converges to in the step. Other rules converge to "
-     "something else: these are differences, no errors."},
+     "something else: these are differences, no errors.",
+     "what the in-house contact rule converges to in the step"},
     {"difference of centres", "centres", "distance of the centre of mass from mysim/symplectic-euler",
-     "distance of centres / mm", 1e3, true, "How far the centres of mass of the engines are apart over time."},
+     "distance of centres / mm", 1e3, true, "How far the centres of mass of the engines are apart over time.", nullptr},
     {"clearance", "clearance", "smallest distance from the contact surface", "clearance / mm (negative: inside)", 1e3,
-     false, "How far the lowest particle stays off the contact surface, or sinks into it."},
+     false, "How far the lowest particle stays off the contact surface, or sinks into it.",
+     "exact (zero where it touches), from each method's own positions"},
     {"creep", "creep", "mean sliding speed of the touching particles", "sliding speed / (mm/s)", 1e3, true,
-     "How fast the touching particles slide, and whether they come to rest."},
+     "How fast the touching particles slide, and whether they come to rest.",
+     "another engine; exact where all must rest: zero"},
 };
 
 }  // namespace
@@ -41,7 +45,8 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
       Figure f;
       f.name = scene.name + "-" + q.name;
       f.title = scene.name + ": " + q.title;
-      f.caption = caption_of(scene, input.facts[i], input.commit, false);
+      f.caption = caption_of(scene, input.commit);
+      f.tier = q.tier ? q.tier : "another engine, so that these are differences and no errors";
       f.finding = q.finding;
       f.x = {"t / s", false, 0.0, scene.duration};
       f.y = {q.label, q.logarithmic, std::nullopt, std::nullopt};
@@ -58,7 +63,8 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
         const SceneFacts& facts = input.facts[i];
         f.x.high = *facts.contact_until;
         f.floor = {"what is left to converge", facts.bar * q.factor};
-        f.caption += fmt::format(" Until {:.3g} s; {}.", *facts.contact_until, facts.truth);
+        f.tier +=
+            fmt::format(", known until {:.3g} s to {} ({})", *facts.contact_until, nice_length(facts.bar), facts.truth);
       }
       if (!f.curves.empty()) charts.push_back({scene.name, std::move(f)});
     }

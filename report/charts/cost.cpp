@@ -53,6 +53,7 @@ Chart size_chart(const Table& t, const std::string& commit) {
       "{}; "
       "commit {}.",
       builds, commit);
+  f.tier = "measured: medians with intervals of one run on this machine";
   Chart chart{"", std::move(f), "cost"};
   chart.text =
       "All methods take the same step here, about half of what an explicit rule can take; an implicit one may take a "
@@ -124,6 +125,7 @@ Chart roofline_chart(const Table& t, const std::string& commit) {
       "counted as {:g} operations and {:g} bytes, particles as "
       "{:g} bytes; commit {}.",
       flop_per_spring, bytes_per_spring, bytes_per_particle, commit);
+  f.tier = "measured: bandwidth and peak of this machine in the same run";
   return {"", std::move(f), "cost"};
 }
 

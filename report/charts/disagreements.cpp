@@ -43,6 +43,7 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
     f.title = text_at(*summary, row, "what");
     f.finding = text_at(*summary, row, "effect");
     f.caption = fmt::format("Scene {}, hash {}; commit {}.", name, text_at(*summary, row, "scene hash"), input.commit);
+    f.tier = "the curve of mysim or of the closed form in the same scene; the effect is measured in this run";
     f.x = {"t / s", false, 0.0, std::nullopt};
     f.y = {fmt::format("{} / {}", quantity.name, quantity.unit), false, std::nullopt, std::nullopt};
     const auto found = std::find_if(known.begin(), known.end(), [&](const Disagreement& d) { return d.name == name; });

@@ -81,6 +81,7 @@ std::optional<Chart> budget_chart(const Table& table, const std::string& scene, 
         "sink "
         "in every step and contact lifts it again: what the rule loses so contact gives, and both fall with the step.",
         joined(gives));
+  bars.tier = "exact (the sum is zero), to the rounding of the sums";
   bars.caption = fmt::format("Scene {}; {}; commit {}.", scene, length_text(table, scene), commit);
   const std::string about =
       scene == "all-at-once"

@@ -72,6 +72,7 @@ Chart drift_chart(const Table& table, const Table& rows, const std::string& scen
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   f.finding = "What becomes of the energy that does not add up.";
   for (const auto& [what, methods] : fates) f.finding += fmt::format(" {}: {}.", capital(what), joined(methods));
+  f.tier = "exact (it is zero), to the rounding of the sums";
   f.caption = fmt::format(
       "Scene {}, nothing damps it; {}; rules that solve the whole step at ten times the step; "
       "commit {}.",

@@ -18,7 +18,8 @@ std::vector<Chart> error_charts(const ChartInput& input) {
     Figure f;
     f.name = scene.name + "-error";
     f.title = scene.name + ": distance from the truth";
-    f.caption = caption_of(scene, facts, input.commit, true);
+    f.caption = caption_of(scene, input.commit);
+    f.tier = tier_of(facts);
     f.x = {"t / s", false, 0.0, scene.duration};
     const double top = 10 * facts.motion;
     f.y = {"RMS error / m", true, std::max(facts.bar, 1e-16) / 3, top};

@@ -109,7 +109,8 @@ std::vector<Chart> order_charts(const ChartInput& input) {
     }
     if (f.curves.empty() && f.failures.empty()) continue;
     f.floor = {"error bar of the truth", input.facts[i].bar};
-    f.caption = caption_of(scene, input.facts[i], input.commit, true);
+    f.caption = caption_of(scene, input.commit);
+    f.tier = tier_of(input.facts[i]);
     f.finding = slopes_sentence(*slopes, scene.name);
     if (!elsewhere.empty())
       f.finding +=

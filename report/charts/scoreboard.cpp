@@ -50,6 +50,7 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
   f.caption = "All scenes with a known truth; errors below a truth's error bar are drawn at the bar; commit " +
               input.commit + ".";
   if (!cut.empty()) f.caption += fmt::format(" Drawn at {} times the motion, though larger: {}.", top, joined(cut));
+  f.tier = "the truth of each scene, exact or converged, as its part says";
   f.finding = fmt::format("Error of {} methods on {} scenes in parts of the motion; runs that failed: {}.",
                           methods.size(), f.categories.size(), f.failures.size());
   return {{"", std::move(f)}};

@@ -155,15 +155,14 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     drawn = fmt::format("{} above three times the motion ({}), drawn there; ", beyond, nice_length(highest));
   if (uncounted > 0) drawn += fmt::format("{} of unknown cost, not drawn; ", uncounted);
   f.caption = fmt::format(
-      "Scene {}; {}; {}{}commit {}.", s.scene,
-      s.bar ? fmt::format("{}: {}, error bar {}", s.difference() ? "compared with" : "truth", s.truth,
-                          nice_length(*s.bar))
-            : "no truth is known, so that only the way to each method's own finest run is shown",
+      "Scene {}; {}{}commit {}.", s.scene,
       kind.time
           ? "thread CPU time, medians of runs taken in turns on one pinned core; mysim and odeint are compiled in "
             "this build, Bullet and SUNDIALS are Debian's generic x86-64 builds; "
           : "",
       drawn, input.commit);
+  f.tier = s.bar ? fmt::format("{}{}, error bar {}", s.difference() ? "" : "the truth: ", s.truth, nice_length(*s.bar))
+                 : "each method's own finest run, since no truth is known";
   return f;
 }
 

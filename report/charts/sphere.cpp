@@ -15,6 +15,7 @@ struct Course {
   const char *column, *name, *title, *label;
   double factor;
   bool logarithmic;
+  const char* tier;
 };
 
 /// A quantity over time, at the usual step.
@@ -38,8 +39,8 @@ std::optional<Chart> course(const Table& table, const std::string& scene, const 
   }
   if (f.curves.empty()) return std::nullopt;
   f.finding = finding;
-  f.caption = fmt::format("Scene {}, step {}; contact rules differ, so these are differences and no errors; commit {}.",
-                          scene, step_text(step), commit);
+  f.caption = fmt::format("Scene {}, step {}; commit {}.", scene, step_text(step), commit);
+  f.tier = what.tier;
   return Chart{"", std::move(f), "sphere"};
 }
 
@@ -116,11 +117,14 @@ std::vector<Chart> sphere_charts(const ChartInput& input) {
       symmetric |= number_at(*over_time, i, "asymmetry").has_value();
     }
     if (!cloth) continue;  // single particles have their scenes' own parts of the page
-    add(course(*over_time, scene, {"creep", "sliding", "sliding speed of what touches", "speed / (mm/s)", 1e3, true},
+    add(course(*over_time, scene,
+               {"creep", "sliding", "sliding speed of what touches", "speed / (mm/s)", 1e3, true,
+                "another engine: contact rules differ, so that these are differences and no errors"},
                "How fast the touching particles slide. " + still_sliding(*over_time), input.commit));
     if (symmetric) {
       add(course(*over_time, scene,
-                 {"asymmetry", "asymmetry", "how far it is from its own mirror image", "asymmetry / m", 1, true},
+                 {"asymmetry", "asymmetry", "how far it is from its own mirror image", "asymmetry / m", 1, true,
+                  "exact (zero)"},
                  "The scene is symmetric in two planes: a rule that looks at all particles alike parts from it by "
                  "rounding only, which grows. " +
                      broken_symmetry(*over_time),

@@ -67,9 +67,10 @@ Chart cone_law(const Table& table, const std::string& commit) {
       (differing.empty() ? "Those of all methods do."
                          : fmt::format("Those that answer otherwise, and in how many cases: {}.", joined(differing)));
   f.caption = fmt::format(
-      "A particle on a slope for 0.5 s, step {}; truth: exact (Coulomb's law); methods that "
+      "A particle on a slope for 0.5 s, step {}; methods that "
       "answer like mysim/symplectic-euler are in the table only; commit {}.",
       step_text(step), commit);
+  f.tier = "exact (Coulomb's law)";
   Chart chart{"", std::move(f), "sphere",
               "A particle at rest on a slope must stay where friction exceeds the slope's tangent, and otherwise slide "
               "by g (sin - mu cos) t^2 / 2."};
@@ -110,6 +111,7 @@ std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
       "steady creep.";
   f.caption = fmt::format("The same runs as above, methods side by side at each slope; step {}; commit {}.",
                           step_text(step), commit);
+  f.tier = "exact (Coulomb's law)";
   return Chart{"", std::move(f), "sphere"};
 }
 

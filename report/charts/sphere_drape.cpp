@@ -80,6 +80,7 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
       depth_text(deepest[1].second));
   f.caption =
       fmt::format("Scene {}, largest at any sample, in per cent of the contact radius; commit {}.", scene, commit);
+  f.tier = "exact (a ball's surface), from each method's own positions";
   Chart chart{"", std::move(f), "sphere"};
   chart.tables.push_back(std::move(page));
   return chart;

@@ -50,10 +50,8 @@ Chart rebound_chart(const Table& table, const std::string& commit) {
       "within "
       "0.01 mm is not drawn. Bullet's soft bodies have no restitution against an obstacle: drawn is how high they come "
       "back where none is asked.";
-  f.caption = fmt::format(
-      "Dropped by 0.3 m on a ball, e = 0.5 where nothing is said; truth: exact (parabolas); commit "
-      "{}.",
-      commit);
+  f.caption = fmt::format("Dropped by 0.3 m on a ball, e = 0.5 where nothing is said; commit {}.", commit);
+  f.tier = "exact (parabolas)";
   Chart chart{"", std::monostate{}, "sphere",
               "A ball that returns the part e of the speed throws back to e² of the height.", f.title};
   if (!f.curves.empty()) chart.figure = std::move(f);  // none where all are within 0.01 mm, or fail
@@ -95,10 +93,10 @@ Chart leaving_chart(const Table& table, const std::string& commit) {
       "particle that never comes off, as on the sticky sphere, has no point here.",
       exact, speed, leaving_sentence(table));
   f.caption = fmt::format(
-      "A ball of 1.02 m, no friction, started 1 degree off its top; truth: exact (energy on the ball, then free "
-      "flight). "
-      "The gap of 1 mm is compared, as some engines let the particle hop before it leaves; commit {}.",
+      "A ball of 1.02 m, no friction, started 1 degree off its top; the gap of 1 mm is compared, as some engines let "
+      "the particle hop before it leaves; commit {}.",
       commit);
+  f.tier = "exact (energy on the ball, then free flight)";
   Chart chart{"", std::monostate{}, "sphere", "", f.title};
   if (!f.curves.empty()) chart.figure = std::move(f);  // none where no particle leaves
   chart.tables.push_back(std::move(page));

@@ -65,6 +65,7 @@ Chart single_links(const Table& table, const std::string& commit) {
       "is off by {:.2g} % at most.",
       joined(steps), 100 * worst);
   f.caption = fmt::format("One mass on one link at rest, strain at most 1e-4; commit {}.", commit);
+  f.tier = "exact for the discrete rule (the formula above), to strains of second order";
   return {
       "", std::move(f), "stiffness",
       "Bullet's position-based links have no stiffness in N/m. Relaxed n times in a step of h, a link between masses "
@@ -101,6 +102,7 @@ Chart networks(const Table& table, const std::string& commit) {
                   : "In a chain the map holds to 1 % at none of these steps.";
   if (!most.empty()) f.finding += fmt::format(" The chain sags too far by up to {}.", joined(most));
   f.caption = fmt::format("Three masses on links of 1000 N/m, at rest; commit {}.", commit);
+  f.tier = "exact (Hooke's springs at rest)";
   return {"", std::move(f), "stiffness",
           "In a network each link is solved in its turn and spoilt by its neighbours, so that the map of single links "
           "holds for short steps only."};

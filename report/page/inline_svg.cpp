@@ -168,7 +168,7 @@ void tell(std::string& body, size_t at, const std::string& shape, const std::vec
     const size_t close = body.find("/>", at);
     body.replace(close, 2, fmt::format("><title>{}</title></{}>", escaped(tip.words), shape));
     body.insert(at + open.size(),
-                tip.run.empty() ? "class=\"told\" " : fmt::format("class=\"told\" data-run=\"{}\" ", escaped(tip.run)));
+                tip.run.empty() ? "class=\"told\" " : fmt::format("data-run=\"{}\" ", escaped(tip.run)));
     at = close;
   }
 }

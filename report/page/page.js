@@ -125,7 +125,7 @@
   };
 
   document.addEventListener('pointerover', (event) => {
-    const marker = event.target.closest?.('.told');
+    const marker = event.target.closest?.('.told, [data-run]');
     if (marker) show(marker);
     else tip.hidden = true;
   });

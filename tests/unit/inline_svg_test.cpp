@@ -136,7 +136,7 @@ TEST_F(InlineSvg, CellsOfAMapAreABoxEachAndSayWhatTheirRunsAre) {
   draw(drawing_of(map), {}, folder_);
   const std::string svg = read(folder_ / "map.svg"), out = inline_svg(svg, "alt", {{}, told_of(map)});
   const std::regex cell(
-      "<polygon class=\"told\" data-run=\"([0-9]+)\" fill=\"(#[0-9a-f]+)\" points=\"([0-9.]+),([0-9.]+) "
+      "<polygon data-run=\"([0-9]+)\" fill=\"(#[0-9a-f]+)\" points=\"([0-9.]+),([0-9.]+) "
       "[^\"]*\"><title>cell ([0-9]+)</title></polygon>");
   std::set<std::pair<double, double>> corners;
   int count = 0;
