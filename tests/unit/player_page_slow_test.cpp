@@ -87,6 +87,7 @@ class RunsPage : public PlayerPage {
                       folder_ / "poster.png");
     const SceneFacts facts{};
     ScenePart part{&scene, &facts, {}, {{folder_ / "poster.png", "the poster", "a caption"}}};
+    part.choice.resize(choice_columns().size());
     part.motions = write("motions.json", player_json(scene, {&answer}, truth));
     content.scenes.push_back(part);
     content.chapters = {{"chapter", "A chapter", "What it asks.", {{"heading", "text", {}, {}}}}};
