@@ -168,7 +168,7 @@ async function playRun(key, marker) {
 
 /** Below a figure: its runs as a list, made when it is asked for. */
 function listRuns(figure) {
-  const list = make('details', {class: 'list'}, make('summary', {}, 'Play a run: click on it in the figure, or choose'));
+  const list = make('details', {class: 'run-list'}, make('summary', {}, 'Play a run: click on it in the figure, or choose'));
   list.addEventListener('toggle', () => {
     if (list.querySelector('select')) return;
     const markers = [...figure.querySelectorAll('[data-run]')], groups = new Map();

@@ -54,7 +54,7 @@ async function look() {
 
 addEventListener('load', async () => {
   const [chart, map] = document.querySelectorAll('figure[data-runs]');
-  const seen = {windows: [], lists: document.querySelectorAll('.list').length};
+  const seen = {windows: [], lists: document.querySelectorAll('.run-list').length};
   const click = element => element.dispatchEvent(new MouseEvent('click', {bubbles: true}));
   try {
     if (seen.lists) {
@@ -62,7 +62,7 @@ addEventListener('load', async () => {
         click(marker);
         seen.windows.push(await look());
       }
-      const list = chart.querySelector('.list');
+      const list = chart.querySelector('.run-list');
       list.open = true;
       await until(() => list.querySelector('select'));
       list.querySelector('select').value = '1';
