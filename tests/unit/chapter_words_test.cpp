@@ -143,6 +143,33 @@ TEST(ChapterWords, DampingNamesWhoWasAsked) {
   EXPECT_TRUE(begins(words_of(charts_of(energy_charts, rows_of({none})).at(0))->finding, "By theory none of"));
 }
 
+TEST(ChapterWords, WhoWasHardlyTriedIsSaidWhereItTakesTheScene) {
+  const Table cheap =
+                  table_of("speed-accuracy-cheapest-cost",
+                           {"scene", "part of motion", "measure", "method", "as cheap within noise", "Bullet / best"},
+                           {{"cloth", 0.01, "error", "mysim/leapfrog", "mysim/rk4", 26.6}}),
+              runs = table_of("speed-accuracy", {"scene", "method", "verdict"},
+                              {{"cloth", "mysim/leapfrog", "ok"},
+                               {"cloth", "mysim/leapfrog", "ok"},
+                               {"cloth", "mysim/implicit-euler", "ok"},
+                               {"rod", "mysim/xpbd", "ok"},
+                               {"rod", "mysim/xpbd", "ok"},
+                               {"rod", "bullet/pbd", "ok"},
+                               {"rod", "bullet/pbd", "ok"}}),
+              engines = table_of("engines", {"scene", "method", "verdict"},
+                                 {{"cloth", "mysim/leapfrog", "ok"},
+                                  {"cloth", "mysim/implicit-euler", "ok"},
+                                  {"cloth", "bullet/pbd", "ok"},
+                                  {"rod", "mysim/leapfrog", "unsupported"}});
+  const auto findings = speed_findings(rows_of({cheap, runs, engines}));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(
+      findings[0].sentence,
+      "For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, are of mysim/leapfrog on "
+      "cloth; no dearer within the noise: mysim/rk4 on cloth; the best of Bullet's worlds takes 27 times as much. "
+      "Hardly tried: mysim/implicit-euler (one run) and bullet/pbd (no run) on cloth.");
+}
+
 Table resolution(std::vector<Row> rows) {
   return table_of("adequacy-resolution",
                   {"scene", "particles along a side", "cells", "error against the finest", "sag",
