@@ -81,9 +81,11 @@ void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFac
   }
   if (asked == 0) return;
   const int ours_alone = asked - static_cast<int>(bullet.size() + shared.size());
-  std::vector<std::string> parts{
-      fmt::format("mysim on {}{}", ours_alone,
-                  alone.empty() ? "" : fmt::format(" (on {} no world of Bullet answers)", joined(alone)))};
+  std::vector<std::string> parts;
+  if (ours_alone > 0)
+    parts.push_back(
+        fmt::format("mysim on {} scene{}{}", ours_alone, ours_alone == 1 ? "" : "s",
+                    alone.empty() ? "" : fmt::format(" (on {} no world of Bullet answers)", joined(alone))));
   if (!bullet.empty()) parts.push_back(fmt::format("Bullet on {}", joined(bullet)));
   if (!shared.empty()) parts.push_back(fmt::format("both, within 5 %, on {}", joined(shared)));
   out.push_back(
