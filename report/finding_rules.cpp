@@ -42,13 +42,13 @@ const std::vector<FindingRule>& finding_rules() {
       {"cheapest",
        "at part of motion = 0.01 and measure = error: method, and min and max of Bullet / best, in CPU time and in "
        "force evaluations; methods of speed-accuracy with less than two runs on a scene",
-       {"speed-accuracy-cheapest-cost", "speed-accuracy-cheapest", "speed-accuracy"}},
+       {"speed-accuracy-cheapest-cost", "speed-accuracy-cheapest", "speed-accuracy", "engines"}},
       {"size-cost",
        "over sides: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
        {"size-cost"}},
       {"symplectic-energy",
-       "over runs of symplectic rules whose balance closes, on undamped scenes and on the others: max of largest "
-       "residual / energy turned over",
+       "over runs of symplectic rules whose balance closes: on undamped scenes max of largest residual / energy turned "
+       "over; on the others min and max of largest residual / (|drag took| + |dashpots took| + |contact took|)",
        {"energy"}},
       {"numerical-damping", "max of |equivalent drag / by theory - 1|", {"energy-damping"}},
       {"cone", "cases whose answer is the answer by theory, of those whose verdict is ok", {"sphere-cone"}},

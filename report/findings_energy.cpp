@@ -19,17 +19,20 @@ std::string steps_text(long fewest, long most) { return range(count_text(fewest)
 std::string where_energy_leaves(const Table& table) {
   std::string said;
   for (const std::string& scene : distinct(table, "scene")) {
-    std::map<double, std::string> open;  // residual over energy turned over
+    std::map<double, std::string> open;  // residual, in parts of what was taken
     for (size_t i = 0; i < table.rows.size(); ++i) {
-      const double turned = number_at(table, i, "energy turned over", 0);
-      if (text_at(table, i, "scene") == scene && !flag_at(table, i, "undamped") && flag_at(table, i, "symplectic") &&
-          flag_at(table, i, "closure claimed") && text_at(table, i, "verdict") == "ok" && turned > 0 &&
-          text_at(table, i, "method") != sticky_sphere)
-        open[number_at(table, i, "largest residual", 0) / turned] = text_at(table, i, "method");
+      if (text_at(table, i, "scene") != scene || flag_at(table, i, "undamped") || !flag_at(table, i, "symplectic") ||
+          !flag_at(table, i, "closure claimed") || text_at(table, i, "verdict") != "ok" ||
+          text_at(table, i, "method") == sticky_sphere)
+        continue;
+      double took = 0;
+      for (const char* part : {"drag took", "dashpots took", "contact took"})
+        took += std::abs(number_at(table, i, part, 0));
+      if (took > 0) open[number_at(table, i, "largest residual", 0) / took] = text_at(table, i, "method");
     }
     if (open.empty()) continue;
     const auto told = [](const auto& each) { return fmt::format("{} ({})", percent(each.first, 1), each.second); };
-    said += fmt::format(" On {}, where drag or contact act, what does not add up is {} of it.", scene,
+    said += fmt::format(" On {}, where drag or contact act, what does not add up is {} of what they took.", scene,
                         range(told(*open.begin()), told(*open.rbegin())));
   }
   return said;

@@ -81,15 +81,19 @@ void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFac
   }
   if (asked == 0) return;
   const int ours_alone = asked - static_cast<int>(bullet.size() + shared.size());
-  std::vector<std::string> parts{
-      fmt::format("mysim on {}{}", ours_alone,
-                  alone.empty() ? "" : fmt::format(" (on {} no world of Bullet answers)", joined(alone)))};
+  std::vector<std::string> parts;
+  if (ours_alone > 0)
+    parts.push_back(
+        fmt::format("mysim on {} scene{}{}", ours_alone, ours_alone == 1 ? "" : "s",
+                    alone.empty() ? "" : fmt::format(" (on {} no world of Bullet answers)", joined(alone))));
   if (!bullet.empty()) parts.push_back(fmt::format("Bullet on {}", joined(bullet)));
   if (!shared.empty()) parts.push_back(fmt::format("both, within 5 %, on {}", joined(shared)));
-  out.push_back({"", "accuracy",
-                 fmt::format("Of {} scenes with a truth the method nearest to it at the scene's own step is of {}.",
-                             asked, joined(parts)),
-                 "see each scene", "nearest-of-all"});
+  out.push_back(
+      {"", "accuracy",
+       fmt::format("Of mysim and Bullet the one with the method nearest to the truth, at the scene's own step, is "
+                   "{}; {} scenes have a truth.",
+                   joined(parts), asked),
+       "see each scene", "nearest-of-all"});
 }
 
 /// How far the position-based world is off, by kind of scene.
@@ -164,9 +168,9 @@ void orders(const Rows& result, std::vector<Finding>& out) {
   if (off <= 0.1)
     out.push_back(
         {"", "order",
-         fmt::format("Measured orders of accuracy lie within {:.2f} of the declared ones, for {} methods on {} "
-                     "smooth scenes.",
-                     off, distinct(*slopes, "method").size(), distinct(*slopes, "scene").size()),
+         fmt::format(
+             "Measured orders of accuracy lie within {:.2f} of the declared ones; smooth scenes: {}, methods: {}.", off,
+             distinct(*slopes, "scene").size(), distinct(*slopes, "method").size()),
          "see each scene", "orders"});
   else
     out.push_back({"", "failure", fmt::format("Not all measured orders of accuracy are the declared ones ({}).", which),

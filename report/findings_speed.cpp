@@ -32,7 +32,16 @@ std::optional<std::string> factors_of_evaluations(const Rows& result) {
   return range(times_text(low), times_text(high));
 }
 
-/// Who was hardly tried where others were: with less than two runs on a scene.
+/// Whether the method takes the scene, as far as experiment `engines` asked.
+bool takes(const Rows& result, const std::string& scene, const std::string& method) {
+  const Table* t = result.table("engines");
+  for (size_t i = 0; t && i < t->rows.size(); ++i)
+    if (text_at(*t, i, "scene") == scene && text_at(*t, i, "method") == method)
+      return text_at(*t, i, "verdict") != "unsupported";
+  return false;
+}
+
+/// Who was hardly tried where others were: with less than two runs on a scene that they take.
 std::string hardly_tried(const Rows& result) {
   const Table* t = result.table("speed-accuracy");
   if (!t) return "";
@@ -40,14 +49,11 @@ std::string hardly_tried(const Rows& result) {
   for (const std::string& scene : distinct(*t, "scene")) {
     std::vector<std::string> seldom;
     for (const std::string& method : distinct(*t, "method")) {
+      if (!takes(result, scene, method)) continue;
       int runs = 0;
-      bool cannot = false;
-      for (size_t i = 0; i < t->rows.size(); ++i) {
-        if (text_at(*t, i, "scene") != scene || text_at(*t, i, "method") != method) continue;
-        cannot |= text_at(*t, i, "verdict") == "unsupported";
-        ++runs;
-      }
-      if (!cannot && runs < 2) seldom.push_back(fmt::format("{} ({})", method, runs == 0 ? "no run" : "one run"));
+      for (size_t i = 0; i < t->rows.size(); ++i)
+        runs += text_at(*t, i, "scene") == scene && text_at(*t, i, "method") == method;
+      if (runs < 2) seldom.push_back(fmt::format("{} ({})", method, runs == 0 ? "no run" : "one run"));
     }
     if (!seldom.empty()) scenes.push_back(fmt::format("{} on {}", joined(seldom), scene));
   }
@@ -80,8 +86,9 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   for (const auto& [method, where] : scenes_of) who.push_back(fmt::format("{} on {}", method, joined(where)));
   std::string sentence = fmt::format(
       "For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, are of {}", joined(who));
-  for (const auto& [method, where] : as_cheap)
-    sentence += fmt::format("; no dearer within the noise: {} on {}", method, joined(where));
+  who.clear();
+  for (const auto& [method, where] : as_cheap) who.push_back(fmt::format("{} on {}", method, joined(where)));
+  if (!who.empty()) sentence += "; no dearer within the noise: " + joined(who);
   if (high > 0) {
     sentence +=
         fmt::format("; the best of Bullet's worlds takes {} times as much", range(times_text(low), times_text(high)));

@@ -16,7 +16,7 @@ inline constexpr auto ours = "mysim/symplectic-euler", theirs = "bullet/deformab
 
 inline std::string percent(double part, double whole) {
   const double value = 100 * part / whole;
-  if (value < 1e-3) return nice(value) + " %";
+  if (value < 1e-4) return nice(value) + " %";
   return value < 99.5 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
 }
 

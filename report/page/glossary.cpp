@@ -54,7 +54,7 @@ constexpr Word words[] = {
      "Energy now, plus all that was taken, less all that was given, less energy at the start: "
      "what does not add up."},
     {"turned-over", "energy turned over",
-     "All that flowed between motion, springs and gravity: the scale of residuals."},
+     "The largest energy of motion, or change of that of springs or of height, in a run: the scale of residuals."},
     {"implicit", "implicit",
      "Rules that solve an equation for the next state: stable at long steps, at a price in work, and "
      "often in energy."},

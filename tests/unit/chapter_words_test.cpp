@@ -111,15 +111,21 @@ TEST(ChapterWords, DriftIsComputedAndFailedRunsAreSaid) {
 }
 
 TEST(ChapterWords, WhatContactLeavesOpenIsSaidByScene) {
-  const Row kept{"spring", "mysim/leapfrog", "ok", 100., 20000l, 1l, 1l, 1l, 4., 4e-3, -4e-3, 0.01},
-      little{"ball", "mysim/leapfrog", "ok", 100., 20000l, 0l, 1l, 1l, 4., 0.4, 0.4, 1.},
-      much{"ball", "mysim/symplectic-euler", "ok", 100., 20000l, 0l, 1l, 1l, 4., 8., -8., 1.};
-  const auto findings = energy_findings(rows_of({energy({kept, little, much})}));
+  Table t = energy({{"spring", "mysim/leapfrog", "ok", 100., 20000l, 1l, 1l, 1l, 4., 4e-3, -4e-3, 0.01},
+                    {"ball", "mysim/leapfrog", "ok", 100., 20000l, 0l, 1l, 1l, 1., 0.4, 0.4, 1.},
+                    {"ball", "mysim/symplectic-euler", "ok", 100., 20000l, 0l, 1l, 1l, 1., 8., -8., 1.}});
+  for (const char* column : {"drag took", "dashpots took", "contact took"}) {
+    t.columns.push_back({column, "J"});
+    t.rows[0].emplace_back(0.);
+    t.rows[1].emplace_back(column == std::string_view("contact took") ? -2. : 1.);
+    t.rows[2].emplace_back(5.);
+  }
+  const auto findings = energy_findings(rows_of({t}));
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_TRUE(contains(findings[0].sentence,
                        "on spring (no drag, no contact) symplectic rules keep the energy to 0.1 % of what is turned "
                        "over, without drift. On ball, where drag or contact act, what does not add up is 10 % "
-                       "(mysim/leapfrog) to 200 % (mysim/symplectic-euler) of it."));
+                       "(mysim/leapfrog) to 53 % (mysim/symplectic-euler) of what they took."));
 }
 
 TEST(ChapterWords, DampingNamesWhoWasAsked) {
@@ -135,6 +141,33 @@ TEST(ChapterWords, DampingNamesWhoWasAsked) {
                               {{"bullet/deformable-explicit", 0.1, 1e-9, 0.}});
   EXPECT_TRUE(energy_findings(rows_of({none})).empty());
   EXPECT_TRUE(begins(words_of(charts_of(energy_charts, rows_of({none})).at(0))->finding, "By theory none of"));
+}
+
+TEST(ChapterWords, WhoWasHardlyTriedIsSaidWhereItTakesTheScene) {
+  const Table cheap =
+                  table_of("speed-accuracy-cheapest-cost",
+                           {"scene", "part of motion", "measure", "method", "as cheap within noise", "Bullet / best"},
+                           {{"cloth", 0.01, "error", "mysim/leapfrog", "mysim/rk4", 26.6}}),
+              runs = table_of("speed-accuracy", {"scene", "method", "verdict"},
+                              {{"cloth", "mysim/leapfrog", "ok"},
+                               {"cloth", "mysim/leapfrog", "ok"},
+                               {"cloth", "mysim/implicit-euler", "ok"},
+                               {"rod", "mysim/xpbd", "ok"},
+                               {"rod", "mysim/xpbd", "ok"},
+                               {"rod", "bullet/pbd", "ok"},
+                               {"rod", "bullet/pbd", "ok"}}),
+              engines = table_of("engines", {"scene", "method", "verdict"},
+                                 {{"cloth", "mysim/leapfrog", "ok"},
+                                  {"cloth", "mysim/implicit-euler", "ok"},
+                                  {"cloth", "bullet/pbd", "ok"},
+                                  {"rod", "mysim/leapfrog", "unsupported"}});
+  const auto findings = speed_findings(rows_of({cheap, runs, engines}));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(
+      findings[0].sentence,
+      "For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, are of mysim/leapfrog on "
+      "cloth; no dearer within the noise: mysim/rk4 on cloth; the best of Bullet's worlds takes 27 times as much. "
+      "Hardly tried: mysim/implicit-euler (one run) and bullet/pbd (no run) on cloth.");
 }
 
 Table resolution(std::vector<Row> rows) {

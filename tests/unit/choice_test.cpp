@@ -178,7 +178,8 @@ TEST(SharedWords, NumbersHaveOneStyle) {
   EXPECT_EQ(nice(3518.2), "3518");
   EXPECT_EQ(count_text(100000), "100 000");
   EXPECT_EQ(count_text(4000), "4000");
-  EXPECT_EQ(percent(6.5e-6, 1), "6.5e-4 %");
+  EXPECT_EQ(percent(6.5e-6, 1), "0.00065 %");
+  EXPECT_EQ(percent(1e-7, 1), "1.0e-5 %");
   EXPECT_EQ(percent(0.66, 1), "66 %");
 }
 
