@@ -9,68 +9,94 @@ const std::vector<FindingRule>& finding_rules() {
       {"same-rule",
        "largest difference = max over samples up to the window of the RMS distance from mysim/symplectic-euler; agrees "
        "where it is at most the round-off bound",
-       {"engines"}},
+       {"engines"},
+       "{}-agreement"},
       {"nearest",
        "least of largest error = max over samples up to the window of the RMS distance from the truth, over runs that "
        "are ok; never said to be less than the truth bar",
-       {"engines"}},
-      {"other-law", "largest error, and largest error / motion, of bullet/pbd", {"engines"}},
+       {"engines"},
+       "{}-error"},
+      {"other-law", "largest error, and largest error / motion, of bullet/pbd", {"engines"}, "{}-error"},
       {"failed",
        "runs whose verdict is not ok, at their end; predicted step limit where it is below the step",
-       {"engines"}},
-      {"clearance", "smallest clearance and creep at end of runs that are ok", {"engines"}},
-      {"converged-contact", "largest difference from converged contact, up to truth until", {"engines"}},
-      {"sticky", "largest difference of centres of mysim/symplectic-euler+sticky", {"engines"}},
+       {"engines"},
+       "{}-error"},
+      {"clearance", "smallest clearance and creep at end of runs that are ok", {"engines"}, "{}-clearance"},
+      {"converged-contact",
+       "largest difference from converged contact, up to truth until",
+       {"engines"},
+       "{}-converged"},
+      {"sticky", "largest difference of centres of mysim/symplectic-euler+sticky", {"engines"}, "{}-centres"},
       {"step-cost", "cpu per step / cpu per step of mysim/symplectic-euler", {"engines-cost", "engines"}},
       {"agreement-of-all", "over scenes: max of largest difference, and of largest difference of centres", {"engines"}},
       {"nearest-of-all",
        "over scenes: which engine's least largest error is the lesser, of runs that are ok; shared where both are "
        "within "
        "1.05 times the least, or within the truth bar",
-       {"engines"}},
-      {"other-law-of-all", "over scenes of one kind: min and max of largest error / motion of bullet/pbd", {"engines"}},
+       {"engines"},
+       "scoreboard"},
+      {"other-law-of-all",
+       "over scenes of one kind: min and max of largest error / motion of bullet/pbd",
+       {"engines"},
+       "scoreboard"},
       {"which-method",
        "of runs that are ok the least of largest error / motion, by engine, and who is above 0.1; verdicts that are "
        "not "
        "ok; left out where it holds at 1 % and 10 % of the motion",
        {"engines", "adequacy-least"}},
-      {"failed-of-all", "runs whose verdict is not ok, where another method's is ok", {"engines"}},
-      {"orders", "max of |measured order - declared order|; how many methods and scenes", {"order-slopes"}},
+      {"failed-of-all", "runs whose verdict is not ok, where another method's is ok", {"engines"}, "scoreboard"},
+      {"orders", "max of |measured order - declared order|; how many methods and scenes", {"order-slopes"}, "*-order"},
       {"step-cost-of-all",
        "over scenes: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
        {"engines-cost", "engines"}},
       {"cheapest",
        "at part of motion = 0.01 and measure = error: method, and min and max of Bullet / best, in CPU time and in "
        "force evaluations; methods of speed-accuracy with less than two runs on a scene",
-       {"speed-accuracy-cheapest-cost", "speed-accuracy-cheapest", "speed-accuracy", "engines"}},
+       {"speed-accuracy-cheapest-cost", "speed-accuracy-cheapest", "speed-accuracy", "engines"},
+       "*-speed-accuracy-cost"},
       {"size-cost",
        "over sides: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
-       {"size-cost"}},
+       {"size-cost"},
+       "size-cost"},
       {"symplectic-energy",
        "over runs of symplectic rules whose balance closes: on undamped scenes max of largest residual / energy turned "
        "over; on the others min and max of largest residual / (|drag took| + |dashpots took| + |contact took|)",
-       {"energy"}},
-      {"numerical-damping", "max of |equivalent drag / by theory - 1|", {"energy-damping"}},
-      {"cone", "cases whose answer is the answer by theory, of those whose verdict is ok", {"sphere-cone"}},
+       {"energy"},
+       "*-energy-drift"},
+      {"numerical-damping", "max of |equivalent drag / by theory - 1|", {"energy-damping"}, "energy-damping"},
+      {"cone",
+       "cases whose answer is the answer by theory, of those whose verdict is ok",
+       {"sphere-cone"},
+       "sphere-cone"},
       {"leaving",
        "angle - angle by theory at the shortest step: max of its absolute value over mysim's rules, and of every other "
        "method, there and at its longest step",
-       {"sphere-leaving"}},
-      {"slide-off", "creep, and centre height less mysim's, of drop-aside at mysim's finest step", {"sphere-drape"}},
+       {"sphere-leaving"},
+       "sphere-leaving"},
+      {"slide-off",
+       "creep, and centre height less mysim's, of drop-aside at mysim's finest step",
+       {"sphere-drape"},
+       "drop-aside-sliding"},
       {"penetration",
        "max of particles and of triangles on drop-centred, in parts of the radius",
-       {"sphere-penetration"}},
-      {"step-limits", "largest stable step / predicted", {"stability"}},
+       {"sphere-penetration"},
+       "drop-centred-penetration"},
+      {"step-limits", "largest stable step / predicted", {"stability"}, "stability-limits"},
       {"known-disagreements", "rows, by world", {"disagreements"}},
       {"no-stable-step",
        "runs at rest whose prediction and measurement are no stable step; max of |deviation| of the growth in a step",
-       {"stability", "stability-growth"}},
+       {"stability", "stability-growth"},
+       "stability-limits"},
       {"least-model",
        "left out at the scene's tolerance, at 1 % and at 10 % of the motion; 1 - cost of full; unseen errors above the "
        "tolerance where it does not hold; kept = ingredients less those left out",
-       {"adequacy-least", "adequacy"}},
-      {"families", "error / motion without one family of springs", {"adequacy"}},
-      {"grid-powers", "slope of log stiffness over log cells at the same sag", {"adequacy-scaling"}},
+       {"adequacy-least", "adequacy"},
+       "*-adequacy"},
+      {"families", "error / motion without one family of springs", {"adequacy"}, "*-adequacy"},
+      {"grid-powers",
+       "slope of log stiffness over log cells at the same sag",
+       {"adequacy-scaling"},
+       "adequacy-scaling"},
   };
   return rules;
 }
@@ -79,6 +105,17 @@ const FindingRule& finding_rule(std::string_view name) {
   for (const FindingRule& rule : finding_rules())
     if (rule.name == name) return rule;
   throw std::logic_error("no rule for findings named " + std::string(name));
+}
+
+std::string figure_of(std::string_view name, const std::string& scene, const std::vector<std::string>& figures) {
+  std::string wanted(finding_rule(name).figure);
+  if (wanted.empty()) return "";
+  if (const size_t at = wanted.find("{}"); at != std::string::npos) wanted.replace(at, 2, scene);
+  const bool any = wanted.starts_with('*');
+  std::string found;
+  for (const std::string& figure : figures)
+    if (any ? figure.ends_with(wanted.substr(1)) : figure == wanted) found = figure;
+  return found;
 }
 
 }  // namespace crosscheck

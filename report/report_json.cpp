@@ -11,12 +11,13 @@ using Json = nlohmann::ordered_json;
 
 Json grounds_json(const Grounds& e) { return {{"table", e.table}, {"rows", e.rows}, {"fingerprint", e.fingerprint}}; }
 
-Json finding_json(const Finding& f, const Rows& result) {
+Json finding_json(const Finding& f, const Rows& result, const std::vector<std::string>& figures) {
   Json json = {{"scene", f.scene},
                {"topic", f.topic},
                {"sentence", f.sentence},
                {"tier", f.tier},
                {"chapter", f.chapter},
+               {"figure", figure_of(f.rule, f.scene, figures)},
                {"rule", f.rule},
                {"formula", finding_rule(f.rule).formula}};
   json["evidence"] = Json::array();
@@ -31,10 +32,11 @@ std::string report_json(const PageContent& page, const AllFindings& findings, co
   Json json;
   for (const auto& [key, value] : page.provenance)
     if (key != "scene") json["provenance"][key] = value;
+  const std::vector<std::string> figures = figures_of(page);
   json["findings"] = Json::array();
-  for (const Finding& f : findings.overall) json["findings"].push_back(finding_json(f, result));
+  for (const Finding& f : findings.overall) json["findings"].push_back(finding_json(f, result, figures));
   for (const auto& of_scene : findings.of_scenes)
-    for (const Finding& f : of_scene) json["findings"].push_back(finding_json(f, result));
+    for (const Finding& f : of_scene) json["findings"].push_back(finding_json(f, result, figures));
   json["scenes"] = Json::object();
   for (const ScenePart& part : page.scenes)
     json["scenes"][part.scene->name] = {

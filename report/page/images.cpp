@@ -58,7 +58,9 @@ std::string image_tag(const PageImage& image) {
 
 std::string image_html(const PageImage& image, const std::string& css_class) {
   const std::string runs = image.runs.empty() ? "" : fmt::format(" data-runs=\"{}\"", escaped(image.runs));
-  return fmt::format("<figure class=\"{}\"{}>{}<figcaption>{}</figcaption></figure>\n", css_class, runs,
+  const std::string id =
+      image.file.extension() == ".svg" ? fmt::format(" id=\"figure-{}\"", escaped(image.file.stem().string())) : "";
+  return fmt::format("<figure class=\"{}\"{}{}>{}<figcaption>{}</figcaption></figure>\n", css_class, id, runs,
                      image_tag(image), prose(image.caption));
 }
 

@@ -8,6 +8,7 @@
 
 #include "reference/independent/integrators.h"
 #include "report/assets.h"
+#include "report/finding_rules.h"
 #include "report/page/inline_svg.h"
 #include "report/player/player_html.h"
 #include "report/provenance.h"
@@ -15,14 +16,20 @@
 namespace crosscheck {
 namespace {
 
-std::string finding_list(const std::vector<Finding>& findings, const std::string& css_class, bool links = false) {
+/// Sentences with their tiers, each with a way to what shows it.
+std::string finding_list(const std::vector<Finding>& findings, const std::vector<std::string>& figures,
+                         const std::string& css_class) {
   std::string out = fmt::format("<ul class=\"{}\">\n", css_class);
-  for (const Finding& f : findings)
-    out += fmt::format("<li class=\"{}\">{} <span class=\"tier\">{}{}</span></li>\n", f.topic, prose(f.sentence),
-                       f.tier == "measured" || f.tier == "see each scene" ? f.tier : "against: " + escaped(f.tier),
-                       !links              ? ""
-                       : f.chapter.empty() ? "; <a href=\"#scenes\">scenes</a>"
-                                           : fmt::format("; <a href=\"#{}\">figures</a>", f.chapter));
+  for (const Finding& f : findings) {
+    const std::string figure = figure_of(f.rule, f.scene, figures);
+    const std::string link = !figure.empty()     ? fmt::format("; <a href=\"#figure-{}\">figure</a>", escaped(figure))
+                             : !f.scene.empty()  ? ""
+                             : f.chapter.empty() ? "; <a href=\"#scenes\">scenes</a>"
+                                                 : fmt::format("; <a href=\"#{}\">figures</a>", f.chapter);
+    out +=
+        fmt::format("<li class=\"{}\">{} <span class=\"tier\">{}{}</span></li>\n", f.topic, prose(f.sentence),
+                    f.tier == "measured" || f.tier == "see each scene" ? f.tier : "against: " + escaped(f.tier), link);
+  }
   return out + "</ul>\n";
 }
 
@@ -112,7 +119,8 @@ std::string first_screen(const PageContent& c) {
     for (const Finding& f : front)
       if (question.answered_by(f)) answers.push_back(f);
     if (!answers.empty())
-      out += fmt::format("<div><h2>{}</h2>\n{}</div>\n", question.text, finding_list(answers, "findings", true));
+      out +=
+          fmt::format("<div><h2>{}</h2>\n{}</div>\n", question.text, finding_list(answers, figures_of(c), "findings"));
     if (--before_picture == 0)
       if (const PageImage* picture = front_picture(c)) out += image_html(*picture, "hero");
   }
@@ -124,13 +132,13 @@ std::string first_screen(const PageContent& c) {
   return out + "</div></section>\n" + changes_html(c);
 }
 
-std::string scene_section(const ScenePart& part) {
+std::string scene_section(const ScenePart& part, const std::vector<std::string>& figures) {
   const Scene& scene = *part.scene;
   std::string out = fmt::format("<section class=\"scene\" id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"question\">{1}</p>\n",
                                 escaped(scene.name), prose(scene.question));
   std::vector<Finding> told = part.findings;
   std::erase_if(told, [](const Finding& f) { return f.topic == choice_topic; });  // its table has it
-  out += finding_list(told, "findings");
+  out += finding_list(told, figures, "findings");
   for (const PageImage& image : part.pictures)
     out += &image == part.pictures.data() && !part.motions.empty() ? player_html(image, part.motions)
                                                                    : image_html(image, "render");
@@ -153,10 +161,11 @@ std::string scene_section(const ScenePart& part) {
   return out;
 }
 
-std::string chapter_section(const Chapter& chapter, const std::vector<Finding>& findings) {
+std::string chapter_section(const Chapter& chapter, const std::vector<Finding>& findings,
+                            const std::vector<std::string>& figures) {
   std::string out = fmt::format("<section class=\"chapter\" id=\"{}\">\n<h2>{}</h2>\n<p class=\"question\">{}</p>\n",
                                 chapter.id, prose(chapter.title), prose(chapter.intro));
-  if (const auto own = of_chapter(findings, chapter.id); !own.empty()) out += finding_list(own, "findings");
+  if (const auto own = of_chapter(findings, chapter.id); !own.empty()) out += finding_list(own, figures, "findings");
   out += "<div class=\"figures\">\n";
   for (const Chapter::Entry& entry : chapter.entries) {
     // a long table with nothing above it is open, and has the whole width
@@ -190,13 +199,27 @@ std::string provenance_html(const Provenance& lines) {
   return out + "</table>";
 }
 
+std::vector<std::string> figures_of(const PageContent& c) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::vector<PageImage>& images) {
+    for (const PageImage& image : images)
+      if (image.file.extension() == ".svg") names.push_back(image.file.stem().string());
+  };
+  add(c.hero);
+  for (const ScenePart& part : c.scenes) add(part.figures);
+  for (const Chapter& chapter : c.chapters)
+    for (const Chapter::Entry& entry : chapter.entries) add(entry.images);
+  return names;
+}
+
 std::string page_html(const PageContent& c) {
+  const std::vector<std::string> figures = figures_of(c);
   const bool plays = !c.runs.empty() || std::any_of(c.scenes.begin(), c.scenes.end(),
                                                     [](const ScenePart& part) { return !part.motions.empty(); });
   std::string out = page_head("Crosscheck: mysim beside Bullet", plays ? player_head() : "") + first_screen(c);
   for (const Chapter& chapter : c.chapters)
-    if (!chapter.entries.empty()) out += chapter_section(chapter, c.findings);
-  for (const ScenePart& part : c.scenes) out += scene_section(part);
+    if (!chapter.entries.empty()) out += chapter_section(chapter, c.findings, figures);
+  for (const ScenePart& part : c.scenes) out += scene_section(part, figures);
 
   out +=
       glossary_html() +

@@ -66,6 +66,9 @@ struct PageContent {
   Provenance provenance;
 };
 
+/// Names of the figures that are drawings, in order: each is at #figure-NAME.
+std::vector<std::string> figures_of(const PageContent& content);
+
 /// The whole page. Throws std::runtime_error when an image or motions cannot be read.
 std::string page_html(const PageContent& content);
 
