@@ -7,14 +7,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "mysim/files.h"
 #include "report/assets.h"
+#include "report/pdf_date.h"
 #include "report/run_program.h"
 
 namespace crosscheck {
@@ -175,20 +174,6 @@ std::string script_of(const Figure& f) {
         single_quoted(f.window->second), f.window->first);
   }
   return out + terminals(f, 1 + key_room(f), plot_command(f));
-}
-
-/// Sets the one date in a PDF that Debian's cairo writes (it knows no SOURCE_DATE_EPOCH) to 1970, so that two runs
-/// write the same bytes; its length stays, and with it all offsets.
-void undate(const std::filesystem::path& pdf) {
-  std::ifstream in(pdf, std::ios::binary);
-  std::stringstream bytes;
-  bytes << in.rdbuf();
-  std::string text = bytes.str();
-  const std::string key = "/CreationDate (D:", date = "19700101000000";
-  const size_t at = text.find(key);
-  if (at == std::string::npos) return;
-  text.replace(at + key.size(), date.size(), date);
-  write_file(pdf, text);
 }
 
 }  // namespace

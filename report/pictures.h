@@ -19,12 +19,23 @@ struct Shot {
   bool at_first_failure = false;  // all at the time at which the first of the runs failed, colours up to its stretch
   render::Quality quality = render::Quality::still;
   int width = 1280, height = 720;
+  bool in_clip = false;  // times with two decimals always, and no word of a failure before it comes
 };
 
 /// Answers of one scene side by side, in one view. Answers without frames are left out; a failed run is shown at its
 /// last finite frame and says so. In mode difference the first answer is the one that the others are set against.
 /// Throws InputError when nothing can be shown.
 render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>& answers, const Shot& shot);
+
+/// What pictures have in common that are to be compared, like those of a clip.
+struct Look {
+  render::View view;
+  double top;  // of the scale, in its unit
+};
+/// The one that suits all of these shots, which are of one mode and size, in the order of their times.
+Look look_of(const Scene& scene, const std::vector<const Answer*>& answers, const std::vector<Shot>& shots);
+render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>& answers, const Shot& shot,
+                           const Look& look);
 
 /// From where a scene is seen, and the ground below all that it does.
 struct Vantage {
