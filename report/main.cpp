@@ -117,8 +117,10 @@ int run(int argc, char** argv) {
   });
 
   FiguresOptions figures_options;
-  auto* figures = app.add_subcommand("figures", "figures fit to print, with captions, for a paper or a lecture");
-  figures->add_option("NAME", figures_options.names, "experiments whose figures are asked for; default: all");
+  auto* figures =
+      app.add_subcommand("figures", "charts and pictures fit to print, with captions, for a paper or a lecture");
+  figures->add_option("NAME", figures_options.names,
+                      "experiments whose charts are asked for, or SCENE-picture; default: all");
   figures->add_option("--scene", figures_options.scenes, "a shipped scene or a TOML file; again for more");
   figures->add_option("--set", figures_options.set, "paper (8.5 cm, 8 pt) or lecture (24 cm, 20 pt)");
   figures->add_option("--width", figures_options.width, "8.5cm, 85mm, 3.3in");

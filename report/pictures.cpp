@@ -15,6 +15,7 @@ namespace crosscheck {
 namespace {
 
 constexpr int strip_columns = 5;
+constexpr double panel_in_print = 1.2;  // width over height
 
 /// Index of the sample nearest to t, or the last one for negative t.
 int frame_at(const Trajectory& path, double t) {
@@ -117,6 +118,7 @@ render::Picture panels_of(const Scene& scene, const std::vector<const Answer*>& 
   picture.width = shot.width;
   picture.height = shot.height;
   picture.quality = shot.quality;
+  picture.text = shot.text;
   const bool strip = shot.mode == Mode::strip;
   // without springs there is no stretch to colour by
   const bool no_stretch =
@@ -147,6 +149,7 @@ render::Picture panels_of(const Scene& scene, const std::vector<const Answer*>& 
   if (mode == Mode::difference) picture.scale = render::Scale{"distance from " + usable[0]->method + " / mm", 0, 1};
   if (mode == Mode::springs && !scene.triangles.empty())
     for (const Family family : families_of(scene)) picture.legend.emplace_back(name_of(family));
+  if (shot.text > 0 && !strip) render::arrange(picture, panel_in_print);
   return picture;
 }
 
@@ -157,6 +160,10 @@ Vantage vantage_of(const Scene& scene, const std::vector<Points>& shown, const s
   for (const double t : times)
     for (const render::Ball& ball : balls_of(scene, t)) balls.push_back(ball);
   return {towards_eye(scene, is_flat(scene, shown)), view_of(scene, shown, balls, 1).floor};
+}
+
+int frame_shown(const Scene& scene, const Answer& answer, const Shot& shot) {
+  return drawable(scene, answer.trajectory, frame_at(answer.trajectory, shot.at));
 }
 
 Mode mode_named(const std::string& name) {
@@ -181,6 +188,17 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
   return names;
 }
 
+Shot usual_shot(const Scene& scene, bool full) {
+  Shot shot;
+  shot.at = scene.camera && scene.camera->at ? *scene.camera->at : -1;
+  // soft light is worth its seconds on cloth; a few beads look the same without
+  shot.quality = full || !scene.triangles.empty() ? render::Quality::still : render::Quality::fast;
+  shot.mode = scene.triangles.empty() ? Mode::shaded : Mode::stretch;
+  shot.width = 1440;
+  shot.height = 560;
+  return shot;
+}
+
 Look look_of(const Scene& scene, const std::vector<const Answer*>& answers, const std::vector<Shot>& shots) {
   Seen seen;
   render::Picture last;
@@ -201,8 +219,9 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Answer*>&
   picture.view = look.view;
   if (picture.scale) picture.scale->high = look.top;
   if (!picture.legend.empty())
-    for (render::Panel& panel : picture.rows[0])
-      panel.bodies = tubes_of(scene, panel.bodies[0].x, (look.view.eye - look.view.target).normalized());
+    for (auto& row : picture.rows)
+      for (render::Panel& panel : row)
+        panel.bodies = tubes_of(scene, panel.bodies[0].x, (look.view.eye - look.view.target).normalized());
   return picture;
 }
 

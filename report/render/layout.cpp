@@ -124,8 +124,7 @@ Layout layout_of(const Picture& picture) {
     const auto& row = picture.rows[r];
     const double subtitle_top =
         top + band[r] - height_of(lines_in(row, &Panel::subtitle), subtitle_line(layout), layout.text);
-    layout.title_y.push_back(
-        subtitle_top - height_of(std::max(lines_in(row, &Panel::title), 1), 0.5 * title_line(layout), layout.title));
+    layout.title_y.push_back(subtitle_top - 0.5 * title_line(layout));
     layout.subtitle_y.push_back(subtitle_top + 0.4 * subtitle_line(layout));
     top += band[r];
     layout.panel_top.push_back(int(top));

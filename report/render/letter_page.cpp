@@ -25,9 +25,10 @@ LetterPage::LetterPage(int width, int height, const Paper& paper, const std::str
     : width_(width), height_(height), points_(72 / paper.pixels_per_inch) {
   line("set encoding utf8");
   const std::string look = fmt::format("font 'DejaVu Sans,10' background rgb '#{:06X}'", background_hex);
+  // a scale of 0.75 makes its points of letters points of the page
   if (paper.pdf)
-    line(fmt::format("set terminal pdfcairo size {:.6f}in,{:.6f}in {} linewidth {:.4f}", width / paper.pixels_per_inch,
-                     height / paper.pixels_per_inch, look, points_ / 0.75));
+    line(fmt::format("set terminal pdfcairo size {:.6f}in,{:.6f}in {} fontscale 0.75 linewidth {:.4f}",
+                     width / paper.pixels_per_inch, height / paper.pixels_per_inch, look, points_ / 0.75));
   else
     line(fmt::format("set terminal pngcairo size {},{} {}", width, height, look));
   line(fmt::format("set output '{}'", output));

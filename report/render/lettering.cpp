@@ -23,10 +23,12 @@ void add_titles(LetterPage& page, const Picture& picture, const Layout& layout) 
     const auto& row = picture.rows[r];
     for (std::size_t c = 0; c < row.size(); ++c) {
       const double middle = middle_of_column(layout, c), left = middle - 0.5 * layout.panel_width;
+      const double above = line_height * layout.title * double(lines_of(row[c].title).size() - 1);
+      const double y = layout.title_y[r] - above;
       if (is_strip(row) && c == 0) {
-        page.label(left + 0.8 * layout.text, layout.title_y[r], "left", row[c].title, layout.title, true, title_ink);
+        page.label(left + 0.8 * layout.text, y, "left", row[c].title, layout.title, true, title_ink);
       } else {
-        page.label(middle, layout.title_y[r], "center", row[c].title, layout.title, true, title_ink);
+        page.label(middle, y, "center", row[c].title, layout.title, true, title_ink);
       }
       page.label(middle, layout.subtitle_y[r], "center", row[c].subtitle, layout.subtitle, false, subtitle_ink);
       const double foot = layout.panel_top[r] + layout.panel_height - 1.1 * layout.text;

@@ -116,6 +116,10 @@ double panel_aspect(const Picture& picture);
 /// The height at which panels are so much wider than high, pixels; for pictures that say how large their letters are.
 int height_for(const Picture& picture, double aspect);
 
+/// Puts the panels of a picture of one row, that says how large its letters are, into as many rows as their titles need
+/// to keep that size, wraps titles and subtitles, and chooses the height.
+void arrange(Picture& picture, double aspect);
+
 /// A view that holds all the points (and balls) given and their shadow, seen from the direction (from the target to the
 /// eye, need not be of unit length). Points that are not finite are left out; the floor is put below the lowest point.
 View view_that_holds(const std::vector<Points>& points, const std::vector<Ball>& balls, const Vec3& direction,

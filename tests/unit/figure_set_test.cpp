@@ -2,11 +2,11 @@
 #include "report/figure_set.h"
 
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "mysim/errors.h"
 #include "report/run_program.h"
 #include "tests/unit/helpers.h"
+#include "tests/unit/in_pdf.h"
 #include "tests/unit/temporary.h"
 
 namespace crosscheck {
@@ -72,12 +72,7 @@ class FigureSet : public InFolder {
     }
   }
   /// Of a PDF's page, points.
-  double width_of(const std::string& name) const {
-    const std::string pdf = read(folder_ / (name + ".pdf"));
-    std::smatch found;
-    EXPECT_TRUE(std::regex_search(pdf, found, std::regex("/MediaBox \\[ ?[0-9.]+ [0-9.]+ ([0-9.]+)")));
-    return std::stod(found[1]);
-  }
+  double width_of(const std::string& name) const { return page_of(read(folder_ / (name + ".pdf"))).first; }
   std::vector<Chart> all;
 };
 
@@ -116,8 +111,11 @@ TEST_F(FigureSet, GnuplotAloneDrawsTheSameAgain) {
 
 TEST_F(FigureSet, WordsSayWhatEachShows) {
   make(figure_size("paper", ""));
-  std::vector<const Chart*> drawn;
-  for (const Chart& chart : all) drawn.push_back(&chart), write_words(*words_of(chart), folder_);
+  std::vector<FigureInSet> drawn;
+  for (const Chart& chart : all) {
+    drawn.push_back({*words_of(chart), chart.scene, chart_endings});
+    write_words(*words_of(chart), folder_);
+  }
   write_catalogue(drawn, {{"commit", "abc"}, {"date", "2026-11-22T10:00:00Z"}}, folder_);
   EXPECT_EQ(read(folder_ / "lines.txt"), "two lines\nThey cross. Scene a_b.\n");
   const std::string tex = read(folder_ / "lines.tex");
