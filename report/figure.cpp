@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 
@@ -101,6 +102,23 @@ double key_room(const Figure& f) {
   return 0.036 * std::max(0, rows - 3);
 }
 
+/// Degrees by which tick texts are turned so that they find room beside each other; 0: not at all.
+int turned(const Figure& f) {
+  const bool short_ones = std::all_of(f.categories.begin(), f.categories.end(),
+                                      [](const auto& category) { return category.second.size() <= 4; });
+  if (short_ones) return 0;
+  const double apart = 0.8 * f.size.units() / static_cast<double>(f.categories.size());
+  return apart < 35 ? 65 : f.categories.size() > 10 ? 35 : 20;
+}
+
+/// Room that turned tick texts need below the plot beyond that of a few words, in parts of the figure's height.
+double category_room(const Figure& f) {
+  size_t longest = 0;
+  for (const auto& category : f.categories) longest = std::max(longest, category.second.size());
+  const double drop = 7 * static_cast<double>(longest) * std::sin(turned(f) * std::numbers::pi / 180);
+  return std::max(0.0, drop - 90) / 500;
+}
+
 std::string plot_command(const Figure& f) {
   std::vector<std::string> parts;
   if (!f.pareto.empty()) parts.push_back(element(f, pareto_title, "steps lw 7 lc rgb \"#DDDDDD\"", pareto_title));
@@ -156,10 +174,8 @@ std::string script_of(const Figure& f) {
   out += title_command(f);
   out += axis_commands(closed(f, true), "x") + axis_commands(closed(f, false), "y");
   if (!f.categories.empty()) {
-    const bool short_ones = std::all_of(f.categories.begin(), f.categories.end(),
-                                        [](const auto& category) { return category.second.size() <= 4; });
-    out += short_ones ? "set xtics noenhanced ("
-                      : fmt::format("set xtics rotate by {} right noenhanced (", f.categories.size() > 10 ? 35 : 20);
+    const int angle = turned(f);
+    out += angle == 0 ? "set xtics noenhanced (" : fmt::format("set xtics rotate by {} right noenhanced (", angle);
     for (size_t i = 0; i < f.categories.size(); ++i)
       out += fmt::format("{}{} {:g}", i ? ", " : "", single_quoted(f.categories[i].second), f.categories[i].first);
     out += ")\n";
@@ -173,7 +189,7 @@ std::string script_of(const Figure& f) {
         "\"#777777\" front\n",
         single_quoted(f.window->second), f.window->first);
   }
-  return out + terminals(f, 1 + key_room(f), plot_command(f));
+  return out + terminals(f, 1 + key_room(f) + category_room(f), plot_command(f));
 }
 
 }  // namespace
@@ -253,9 +269,12 @@ void draw(const Drawing& figure, const Provenance& provenance, const std::filesy
   write_csv(figure.data, provenance, work);
   write_file(work / (figure.name + ".gp"), figure.script);
   const ProgramResult drawn = run_program({"gnuplot", figure.name + ".gp"}, work);
-  if (drawn.status != 0 || !drawn.err.empty())
-    throw std::runtime_error(
-        fmt::format("figure {}: gnuplot: {}", figure.name, drawn.err.empty() ? "failed" : drawn.err));
+  if (drawn.status != 0 || !drawn.err.empty()) {
+    const std::string why =
+        fmt::format("figure {}: gnuplot: {}", figure.name, drawn.err.empty() ? "failed" : drawn.err);
+    if (drawn.status == 0 && drawn.err.find("difficulty") != std::string::npos) throw Crowded(why);
+    throw std::runtime_error(why);
+  }
   undate(work / (figure.name + ".pdf"));
   for (const auto& file : std::filesystem::directory_iterator(work))
     std::filesystem::rename(file.path(), folder / file.path().filename());

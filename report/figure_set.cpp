@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mysim/errors.h"
@@ -76,6 +77,19 @@ bool resize(Chart& chart, const FigureSize& size) {
         return std::derived_from<F, FigureWords>;
       },
       chart.figure);
+}
+
+void draw_in_size(Chart& chart, FigureSize size, const Provenance& provenance, const std::filesystem::path& folder) {
+  constexpr double least = 5;  // pt
+  for (;;) {
+    resize(chart, size);
+    try {
+      return draw_figure(chart, provenance, folder);
+    } catch (const Crowded&) {
+      size.font = std::round(9.2 * size.font) / 10;
+      if (size.font < least) throw;
+    }
+  }
 }
 
 std::string shell_quoted(const std::string& word) {

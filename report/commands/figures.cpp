@@ -123,18 +123,30 @@ int figures_command(const FiguresOptions& options) {
     std::erase_if(charts, [&](Chart& chart) { return !resize(chart, size); });
   }
   std::vector<Point> drawings;
-  for (const Chart& chart : charts)
-    drawings.push_back({"figure: " + words_of(chart)->name, words_of(chart)->name,
-                        [&](Rows&) { draw_figure(chart, lines, options.out); }});
+  for (Chart& chart : charts)
+    drawings.push_back({"figure: " + words_of(chart)->name, words_of(chart)->name, [&](Rows& rows) {
+                          draw_in_size(chart, size, lines, options.out);
+                          Table table{"letters", {{"font", "pt"}}, {}};
+                          table.add({words_of(chart)->size.font});
+                          rows.add(table);
+                        }});
   problems.compute(drawings, store);
+  int smaller = 0;  // letters, where there was no room
   for (size_t i = 0; i < charts.size(); ++i)
-    if (store.has(drawings[i].hash())) drawn.push_back({*words_of(charts[i]), charts[i].scene, chart_endings});
+    if (const auto found = store.find(drawings[i].hash())) {
+      FigureSize its = size;
+      its.font = std::get<double>(found->table("letters")->at(0, "font"));
+      smaller += its.font < size.font;
+      resize(charts[i], its);
+      drawn.push_back({*words_of(charts[i]), charts[i].scene, chart_endings});
+    }
   store.clear();
   for (const FigureInSet& figure : drawn) write_words(figure.words, options.out);
   write_catalogue(drawn, lines, options.out);
   if (drawn.empty()) problems.tell("there is nothing to draw");
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
-  fmt::print("{} figures, {:g} cm wide, letters of {:g} pt\n{}\n", drawn.size(), size.width, size.font,
+  fmt::print("{} figures, {:g} cm wide, letters of {:g} pt{}\n{}\n", drawn.size(), size.width, size.font,
+             smaller ? fmt::format(" (smaller in {} that have no room for them)", smaller) : "",
              (options.out / "figures.json").string());
   return problems.any() ? 1 : 0;
 }
