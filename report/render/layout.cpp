@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mysim/errors.h"
 #include "report/render/text_width.h"
 
 namespace crosscheck::render {
@@ -115,8 +116,8 @@ Layout layout_of(const Picture& picture) {
   for (const double height : band) left -= height;
   layout.panel_height = int(left / double(picture.rows.size()));
   if (layout.panel_width < 16 || layout.panel_height < 16) {
-    throw std::runtime_error(fmt::format("render: {} x {} pixels leave no room for {} x {} panels", picture.width,
-                                         picture.height, columns_of(picture), picture.rows.size()));
+    throw InputError(fmt::format("{} x {} pixels leave no room for {} x {} panels; expected a larger --size",
+                                 picture.width, picture.height, columns_of(picture), picture.rows.size()));
   }
 
   double top = 0;

@@ -26,7 +26,7 @@ bool is_strip(const std::vector<Panel>& row);
 /// Width of a legend entry with its swatch and the gap after it, in pixels.
 double legend_entry_width(const std::string& name, double font);
 
-/// Throws std::runtime_error if the picture has no panels or no room for them.
+/// Throws std::runtime_error if the picture has no panels, InputError where its size has no room for them.
 Layout layout_of(const Picture& picture);
 
 }  // namespace crosscheck::render

@@ -63,6 +63,7 @@ TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
       {{"render", "chain", "-o", "c.mp4", "--quality", "best"}, {"--quality best", "fast or still"}},
       {{"render", "chain", "-o", "p.png", "--mode", "x-ray"}, {"x-ray", "stretch"}},
       {{"render", "chain", "-o", "p.png", "--size", "12"}, {"--size 12"}},
+      {{"render", "chain", "-o", "p.png", "--size", "64x64"}, {"64 x 64 pixels", "3 x 1 panels", "larger --size"}},
       {{"render", "chain", "-o", "p.png", "--at", "99"}, {"--at 99"}},
       {{"render", "chain", "-o", "a-file/p.png"}, {"a-file"}},
       {{"figures", "no-such-figure"}, {"no-such-figure", "SCENE-picture", "order"}},
