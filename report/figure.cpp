@@ -108,7 +108,8 @@ int turned(const Figure& f) {
                                       [](const auto& category) { return category.second.size() <= 4; });
   if (short_ones) return 0;
   const double apart = 0.8 * f.size.units() / static_cast<double>(f.categories.size());
-  return apart < 35 ? 65 : f.categories.size() > 10 ? 35 : 20;
+  const bool narrow = f.size.units() < 600;
+  return narrow && apart < 45 ? 65 : f.categories.size() > 10 ? 35 : 20;
 }
 
 /// Room that turned tick texts need below the plot beyond that of a few words, in parts of the figure's height.
