@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <numbers>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "mysim/files.h"
 #include "report/assets.h"
+#include "report/pdf_date.h"
 #include "report/run_program.h"
 
 namespace crosscheck {
@@ -102,6 +102,24 @@ double key_room(const Figure& f) {
   return 0.036 * std::max(0, rows - 3);
 }
 
+/// Degrees by which tick texts are turned so that they find room beside each other; 0: not at all.
+int turned(const Figure& f) {
+  const bool short_ones = std::all_of(f.categories.begin(), f.categories.end(),
+                                      [](const auto& category) { return category.second.size() <= 4; });
+  if (short_ones) return 0;
+  const double apart = 0.8 * f.size.units() / static_cast<double>(f.categories.size());
+  const bool narrow = f.size.units() < 600;
+  return narrow && apart < 45 ? 65 : f.categories.size() > 10 ? 35 : 20;
+}
+
+/// Room that turned tick texts need below the plot beyond that of a few words, in parts of the figure's height.
+double category_room(const Figure& f) {
+  size_t longest = 0;
+  for (const auto& category : f.categories) longest = std::max(longest, category.second.size());
+  const double drop = 7 * static_cast<double>(longest) * std::sin(turned(f) * std::numbers::pi / 180);
+  return std::max(0.0, drop - 90) / 500;
+}
+
 std::string plot_command(const Figure& f) {
   std::vector<std::string> parts;
   if (!f.pareto.empty()) parts.push_back(element(f, pareto_title, "steps lw 7 lc rgb \"#DDDDDD\"", pareto_title));
@@ -157,10 +175,8 @@ std::string script_of(const Figure& f) {
   out += title_command(f);
   out += axis_commands(closed(f, true), "x") + axis_commands(closed(f, false), "y");
   if (!f.categories.empty()) {
-    const bool short_ones = std::all_of(f.categories.begin(), f.categories.end(),
-                                        [](const auto& category) { return category.second.size() <= 4; });
-    out += short_ones ? "set xtics noenhanced ("
-                      : fmt::format("set xtics rotate by {} right noenhanced (", f.categories.size() > 10 ? 35 : 20);
+    const int angle = turned(f);
+    out += angle == 0 ? "set xtics noenhanced (" : fmt::format("set xtics rotate by {} right noenhanced (", angle);
     for (size_t i = 0; i < f.categories.size(); ++i)
       out += fmt::format("{}{} {:g}", i ? ", " : "", single_quoted(f.categories[i].second), f.categories[i].first);
     out += ")\n";
@@ -174,21 +190,7 @@ std::string script_of(const Figure& f) {
         "\"#777777\" front\n",
         single_quoted(f.window->second), f.window->first);
   }
-  return out + terminals(f, 1 + key_room(f), plot_command(f));
-}
-
-/// Sets the one date in a PDF that Debian's cairo writes (it knows no SOURCE_DATE_EPOCH) to 1970, so that two runs
-/// write the same bytes; its length stays, and with it all offsets.
-void undate(const std::filesystem::path& pdf) {
-  std::ifstream in(pdf, std::ios::binary);
-  std::stringstream bytes;
-  bytes << in.rdbuf();
-  std::string text = bytes.str();
-  const std::string key = "/CreationDate (D:", date = "19700101000000";
-  const size_t at = text.find(key);
-  if (at == std::string::npos) return;
-  text.replace(at + key.size(), date.size(), date);
-  write_file(pdf, text);
+  return out + terminals(f, 1 + key_room(f) + category_room(f), plot_command(f));
 }
 
 }  // namespace
@@ -268,9 +270,12 @@ void draw(const Drawing& figure, const Provenance& provenance, const std::filesy
   write_csv(figure.data, provenance, work);
   write_file(work / (figure.name + ".gp"), figure.script);
   const ProgramResult drawn = run_program({"gnuplot", figure.name + ".gp"}, work);
-  if (drawn.status != 0 || !drawn.err.empty())
-    throw std::runtime_error(
-        fmt::format("figure {}: gnuplot: {}", figure.name, drawn.err.empty() ? "failed" : drawn.err));
+  if (drawn.status != 0 || !drawn.err.empty()) {
+    const std::string why =
+        fmt::format("figure {}: gnuplot: {}", figure.name, drawn.err.empty() ? "failed" : drawn.err);
+    if (drawn.status == 0 && drawn.err.find("difficulty") != std::string::npos) throw Crowded(why);
+    throw std::runtime_error(why);
+  }
   undate(work / (figure.name + ".pdf"));
   for (const auto& file : std::filesystem::directory_iterator(work))
     std::filesystem::rename(file.path(), folder / file.path().filename());

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -52,10 +53,10 @@ struct Axis {
 /// How large a figure is on paper. What is in it is laid out for its width over its font.
 struct FigureSize {
   double width = 17;   // cm
-  double font = 11;    // pt
+  double font = 8.5;   // pt, on paper
   bool titled = true;  // false: the caption beside it says what it shows
   /// Its width where a font is 12 high.
-  double units() const { return 680 * (width / 17) * (11 / font); }
+  double units() const { return width / 2.54 * 72 * 12 / font; }
 };
 
 /// What every figure has, whatever it draws.
@@ -92,8 +93,13 @@ Drawing drawing_of(const Figure& figure);
 /// What the markers of each element of its plot say, in the order of the script.
 std::vector<std::vector<Tip>> told_of(const Figure& figure);
 
+/// gnuplot found no room for the letters of a figure.
+struct Crowded : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Writes and draws it into the folder (style.gp is put beside it). Throws std::runtime_error that names the figure
-/// when gnuplot complains.
+/// when gnuplot complains, Crowded where it complains of too little room.
 void draw(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
 
 /// The end of a script: the terminals for a figure so much taller than the usual one, each with the plot command.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "mysim/errors.h"
@@ -78,6 +79,25 @@ bool resize(Chart& chart, const FigureSize& size) {
       chart.figure);
 }
 
+void draw_in_size(Chart& chart, FigureSize size, const Provenance& provenance, const std::filesystem::path& folder) {
+  constexpr double least = 5;  // pt
+  for (;;) {
+    resize(chart, size);
+    try {
+      return draw_figure(chart, provenance, folder);
+    } catch (const Crowded&) {
+      size.font = std::round(9.2 * size.font) / 10;
+      if (size.font < least) throw;
+    }
+  }
+}
+
+std::string shell_quoted(const std::string& word) {
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
+
 void write_words(const FigureWords& figure, const std::filesystem::path& folder) {
   write_file(folder / (figure.name + ".txt"), fmt::format("{}\n{} {}\n", figure.title, figure.finding, figure.caption));
   write_file(folder / (figure.name + ".tex"),
@@ -87,19 +107,18 @@ void write_words(const FigureWords& figure, const std::filesystem::path& folder)
                          latex(figure.caption), figure.name));
 }
 
-void write_catalogue(const std::vector<const Chart*>& charts, const Provenance& provenance,
+void write_catalogue(const std::vector<FigureInSet>& figures, const Provenance& provenance,
                      const std::filesystem::path& folder) {
   nlohmann::ordered_json json;
   for (const auto& [key, value] : provenance)
     if (key != "scene") json["provenance"][key] = value;
   json["figures"] = nlohmann::ordered_json::array();
-  for (const Chart* chart : charts) {
-    const FigureWords& f = *words_of(*chart);
+  for (const auto& [f, scene, endings] : figures) {
     nlohmann::ordered_json files;
-    for (const char* ending : {"pdf", "svg", "png", "csv", "gp", "txt", "tex"}) files[ending] = f.name + "." + ending;
+    for (const char* ending : endings) files[ending] = f.name + "." + ending;
     json["figures"].push_back({{"name", f.name},
                                {"title", f.title},
-                               {"scene", chart->scene},
+                               {"scene", scene},
                                {"finding", f.finding},
                                {"caption", f.caption},
                                {"width_cm", f.size.width},

@@ -1,7 +1,9 @@
 // A set of figures fit to print: sizes in centimetres, and beside each figure the words that belong to it.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <span>
 
 #include "report/charts/charts.h"
 
@@ -17,11 +19,27 @@ std::string latex(const std::string& text);
 /// Gives the chart's figure a size; false where it has none.
 bool resize(Chart& chart, const FigureSize& size);
 
+/// Draws the chart's figure in this size, where its letters find no room with smaller ones (but no smaller than 5 pt),
+/// and leaves it with the size that it has. Throws as draw() does.
+void draw_in_size(Chart& chart, FigureSize size, const Provenance& provenance, const std::filesystem::path& folder);
+
+/// A word that a shell takes as it is.
+std::string shell_quoted(const std::string& word);
+
 /// NAME.txt and NAME.tex beside the files of a figure: caption as text, and a figure environment.
 void write_words(const FigureWords& figure, const std::filesystem::path& folder);
 
+inline constexpr std::array chart_endings = {"pdf", "svg", "png", "csv", "gp", "txt", "tex"};
+inline constexpr std::array picture_endings = {"pdf", "png", "csv", "sh", "txt", "tex"};
+
+struct FigureInSet {
+  FigureWords words;
+  std::string scene;                   // that it is of, or empty
+  std::span<const char* const> files;  // the endings of its files
+};
+
 /// figures.json: what each figure shows, on what it rests and how large it is; CITATION.cff: how to cite who made them.
-void write_catalogue(const std::vector<const Chart*>& charts, const Provenance& provenance,
+void write_catalogue(const std::vector<FigureInSet>& figures, const Provenance& provenance,
                      const std::filesystem::path& folder);
 
 }  // namespace crosscheck

@@ -117,8 +117,10 @@ int run(int argc, char** argv) {
   });
 
   FiguresOptions figures_options;
-  auto* figures = app.add_subcommand("figures", "figures fit to print, with captions, for a paper or a lecture");
-  figures->add_option("NAME", figures_options.names, "experiments whose figures are asked for; default: all");
+  auto* figures =
+      app.add_subcommand("figures", "charts and pictures fit to print, with captions, for a paper or a lecture");
+  figures->add_option("NAME", figures_options.names,
+                      "experiments whose charts are asked for, or SCENE-picture; default: all");
   figures->add_option("--scene", figures_options.scenes, "a shipped scene or a TOML file; again for more");
   figures->add_option("--set", figures_options.set, "paper (8.5 cm, 8 pt) or lecture (24 cm, 20 pt)");
   figures->add_option("--width", figures_options.width, "8.5cm, 85mm, 3.3in");
@@ -127,14 +129,15 @@ int run(int argc, char** argv) {
   figures->callback([&] { figures_options.command_line = line, status = figures_command(figures_options); });
 
   RenderOptions render_options;
-  auto* render = app.add_subcommand("render", "a picture of a scene, methods side by side");
+  auto* render = app.add_subcommand("render", "a picture of a scene, or a clip of its run, methods side by side");
   render->add_option("SCENE", render_options.scene, "a shipped scene or a TOML file")->required();
   render->add_option("--methods", render_options.methods, "A,B,...");
-  render->add_option("--mode", render_options.mode, "shaded, stretch, springs, difference or strip");
+  render->add_option("--mode", render_options.mode, "shaded (default), stretch, springs, difference or strip");
   render->add_option("--at", render_options.at, "s (default: the end)")->check(not_below_zero);
-  render->add_option("--quality", render_options.quality, "fast or still");
-  render->add_option("--size", render_options.size, "WxH, pixels");
-  render->add_option("-o", render_options.file, "FILE.png")->required();
+  render->add_option("--quality", render_options.quality, "fast or still (default: still; of clips fast)");
+  render->add_option("--size", render_options.size, "WxH, pixels (1280x720)");
+  render->add_option("-o", render_options.file, "FILE.png, or FILE.mp4: 30 frames for each second of the scene")
+      ->required();
   render->callback([&] { status = render_command(render_options); });
 
   AdviseOptions advise_options;

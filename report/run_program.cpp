@@ -3,8 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -14,36 +12,21 @@
 #include <stdexcept>
 
 #include "reference/protocol/pipe.h"
+#include "report/spawn.h"
 
 namespace crosscheck {
 namespace {
 
-struct FileActions {
-  posix_spawn_file_actions_t list;
-  FileActions() { posix_spawn_file_actions_init(&list); }
-  ~FileActions() { posix_spawn_file_actions_destroy(&list); }
-  FileActions(const FileActions&) = delete;
-  FileActions& operator=(const FileActions&) = delete;
-};
-
 /// The inherited environment with the extra entries in place of those of the same name.
 std::vector<std::string> merged_environment(const std::vector<std::string>& extra) {
   std::vector<std::string> all = extra;
-  for (char** entry = environ; *entry; ++entry) {
-    const std::string inherited = *entry;
+  for (const std::string& inherited : inherited_environment()) {
     const std::string name = inherited.substr(0, inherited.find('=') + 1);
     bool replaced = false;
     for (const std::string& own : extra) replaced = replaced || own.compare(0, name.size(), name) == 0;
     if (!replaced) all.push_back(inherited);
   }
   return all;
-}
-
-std::vector<char*> pointers(const std::vector<std::string>& strings) {
-  std::vector<char*> list;
-  for (const std::string& s : strings) list.push_back(const_cast<char*>(s.c_str()));
-  list.push_back(nullptr);
-  return list;
 }
 
 /// Reads both pipes until both are at their end: reading one after the other could block the program for ever.
@@ -77,21 +60,12 @@ ProgramResult run_program(const std::vector<std::string>& argv, const std::files
   posix_spawn_file_actions_adddup2(&actions.list, err.write_end, 2);
   posix_spawn_file_actions_addchdir_np(&actions.list, cwd.c_str());
 
-  const std::vector<std::string> environment = merged_environment(extra_env);
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, argv[0].c_str(), &actions.list, nullptr, pointers(argv).data(),
-                                  pointers(environment).data());
-  if (failed) {
-    throw std::runtime_error("cannot start " + argv[0] + " in " + cwd.string() + ": " + std::strerror(failed));
-  }
+  const pid_t child = spawn(argv, actions, merged_environment(extra_env));
   Pipe::close_end(out.write_end), Pipe::close_end(err.write_end);
 
   ProgramResult result;
   read_all(out, result.out, err, result.err);
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.status = end_of(child);
   return result;
 }
 

@@ -20,9 +20,11 @@ std::vector<Terminal> terminals_of(const FigureWords& figure, double height) {
   return {{fmt::format("svg size {:.0f},{:.0f} dynamic font \"DejaVu Sans,12\" background \"#FFFFFF\" name {}", wide,
                        height, single_quoted(svg_name)),
            ".svg"},
-          {fmt::format("pdfcairo size {:.4g}cm,{:.4g}cm font \"DejaVu Sans,{:g}\" linewidth {:.3g} pointscale {:.3g}",
-                       figure.size.width, figure.size.width * height / wide, figure.size.font, figure.size.font / 11,
-                       figure.size.font / 11),
+          // a font of 12 is as high as the figure's; 0.75 makes gnuplot's points those of the page
+          {fmt::format("pdfcairo size {:.4g}cm,{:.4g}cm font \"DejaVu Sans,12\" fontscale {:.4g} linewidth {:.3g} "
+                       "pointscale {:.3g}",
+                       figure.size.width, figure.size.width * height / wide, 0.75 * figure.size.font / 12,
+                       figure.size.font / 8.5, figure.size.font / 8.5),
            ".pdf"},
           {fmt::format("pngcairo size {:.0f},{:.0f} font \"DejaVu Sans,12\" fontscale 1.6 linewidth 1.7 pointscale 1.6",
                        2 * wide, 2 * height),

@@ -125,8 +125,9 @@ int bench_command(const BenchOptions& options);
 int bench_command(const BenchOptions& options, const BenchPlan& plan);
 
 struct RenderOptions {
-  std::string scene, methods, mode = "shaded", quality = "still", size = "1280x720";
-  double at = -1;  // s; negative: the end
+  std::string scene, methods, mode = "shaded", size = "1280x720";
+  std::string quality;  // empty: still, of clips fast
+  double at = -1;       // s; negative: the end
   std::filesystem::path file;
 };
 int render_command(const RenderOptions& options);

@@ -39,6 +39,7 @@ int doctor_command() {
       {"git", "git", "names the commit in tables and captions", false},
       {"ctest", "cmake", "runs the tests", true},
       {"python3", "python3-numpy", "runs the example of an outside engine, with NumPy; the tests need it", false},
+      {"ffmpeg", "ffmpeg", "writes clips: `render -o FILE.mp4`", false},
       {"clang++", "clang", "another compiler, in which `regress --prove-builds` builds too", false},
       {"chromium", "chromium", "a browser: the tests try the page's player in it; prints the page as PDF", false},
   };

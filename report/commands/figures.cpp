@@ -1,46 +1,71 @@
 // figures: a set of figures fit to print, made from the experiments that they need and no others.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "experiments/sweep/sweep.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "report/commands/commands.h"
 #include "report/figure_set.h"
+#include "report/figures_asked.h"
 #include "report/grounds.h"
+#include "report/printed_picture.h"
 #include "report/provenance.h"
 
 namespace crosscheck {
 namespace {
 
-/// The experiments of these names, or all.
-std::vector<const Experiment*> experiments_named(const std::vector<std::string>& names) {
-  std::vector<const Experiment*> all;
-  if (names.empty())
-    for (const Experiment& e : experiments()) all.push_back(&e);
-  for (const std::string& name : names) all.push_back(&find_experiment(name));
-  return all;
-}
-
-struct Asked {
+/// Everything that there is to compute, and what it is of.
+struct Work {
   std::vector<std::string> experiments;
-  std::vector<Scene> scenes;
-  std::vector<Point> points;
+  std::vector<Scene> scenes;  // of the experiments
+  std::vector<Point> points;  // of the experiments
 };
 
-Asked asked_by(const FiguresOptions& options) {
-  Asked asked;
+Work work_of(const AskedFigures& asked, const FiguresOptions& options) {
+  Work work;
   Request request;
   request.full = options.full;
   request.scenes_only = !options.scenes.empty();
-  for (const Experiment* experiment : experiments_named(options.names)) {
-    asked.experiments.emplace_back(experiment->name);
+  for (const Experiment* experiment : asked.experiments) {
+    work.experiments.emplace_back(experiment->name);
     request.scenes = scenes_for(*experiment, options.scenes, options.full);
-    unite(asked.scenes, request.scenes);
-    for (Point& point : experiment->points(request)) asked.points.push_back(std::move(point));
+    unite(work.scenes, request.scenes);
+    for (Point& point : experiment->points(request)) work.points.push_back(std::move(point));
   }
-  return asked;
+  return work;
+}
+
+/// The command that draws a picture again, into a folder of its own.
+std::string script_of(const AskedPicture& picture, const FiguresOptions& options, const FigureSize& size) {
+  const std::string name = picture_name(picture.scene);
+  return fmt::format(
+      "#!/bin/sh\n# Draws {0} again; to be started where crosscheck is. $1: the folder\n"
+      "./crosscheck figures {0} --scene {1} --set {2} --width {3:g}cm{4} --out \"${{1:-{0}}}\"\n",
+      name, shell_quoted(picture.given), options.set, size.width, options.full ? " --full" : "");
+}
+
+/// Draws the picture of a scene into the folder, and hands its words to those who write the catalogue.
+Point picture_point(const AskedPicture& picture, const FiguresOptions& options, const FigureSize& size,
+                    const Provenance& lines) {
+  return {"picture: " + picture_name(picture.scene), content_of(picture.scene), [&, size](Rows& rows) {
+            const Scene& scene = picture.scene;
+            Answers answers;
+            std::vector<const Answer*> shown;
+            for (const std::string& name : pictured_methods(scene)) {
+              const Answer& a = answer_of({}, scene, find_method(name), answers);
+              if (a.trajectory.frames() > 0) shown.push_back(&a);
+            }
+            const FigureWords words = words_of_picture(scene, shown, size, value_of(lines, "commit"));
+            write_printed(scene, shown, shot_for_print(scene, size, options.full), words, with_scene(lines, scene),
+                          options.out);
+            const auto script = options.out / (words.name + ".sh");
+            write_file(script, script_of(picture, options, size));
+            std::filesystem::permissions(script, std::filesystem::perms::owner_exec,
+                                         std::filesystem::perm_options::add);
+            Table table{"words", {{"title", "1"}, {"finding", "1"}, {"caption", "1"}}, {}};
+            table.add({words.title, words.finding, words.caption});
+            rows.add(table);
+          }};
 }
 
 class Problems {
@@ -64,33 +89,64 @@ class Problems {
 
 int figures_command(const FiguresOptions& options) {
   const FigureSize size = figure_size(options.set, options.width);
-  const Asked asked = asked_by(options);
+  const AskedFigures asked = figures_asked(options);
+  const Work work = work_of(asked, options);
   require_writable(options.out);
-  const Provenance lines = with_scenes(provenance(options.command_line), asked.scenes);
+  std::vector<Scene> scenes = work.scenes;
+  for (const AskedPicture& picture : asked.pictures) unite(scenes, {picture.scene});
+  const Provenance plain = provenance(options.command_line), lines = with_scenes(plain, scenes);
   const Store store(store_in(options.out));
   store.clear();
   Problems problems;
-  problems.compute(asked.points, store);
+  std::vector<Point> points;  // the pictures first, which take longest
+  for (const AskedPicture& picture : asked.pictures) points.push_back(picture_point(picture, options, size, plain));
+  const size_t pictures = points.size();
+  points.insert(points.end(), work.points.begin(), work.points.end());
+  problems.compute(points, store);
   std::vector<std::string> missing;  // told already
-  const Rows rows = joined(plan_of(asked.experiments, asked.points, lines), {&store, 1}, missing);
+  const Rows rows = joined(plan_of(work.experiments, work.points, lines), {&store, 1}, missing);
 
-  const AllFindings findings = all_findings(asked.scenes, rows);
-  std::vector<Chart> charts = all_charts({asked.scenes, findings.facts, rows, value_of(lines, "commit")});
-  std::erase_if(charts, [&](Chart& chart) { return !resize(chart, size); });
+  std::vector<FigureInSet> drawn;
+  for (size_t i = 0; i < pictures; ++i)
+    if (const auto found = store.find(points[i].hash())) {
+      const Table& words = *found->table("words");
+      const auto text = [&](const char* column) { return std::get<std::string>(words.at(0, column)); };
+      const Scene& scene = asked.pictures[i].scene;
+      drawn.push_back({{picture_name(scene), text("title"), text("caption"), "", text("finding"), false, size},
+                       scene.name,
+                       picture_endings});
+    }
+  std::vector<Chart> charts;
+  if (!asked.experiments.empty()) {
+    const AllFindings findings = all_findings(work.scenes, rows);
+    charts = all_charts({work.scenes, findings.facts, rows, value_of(lines, "commit")});
+    std::erase_if(charts, [&](Chart& chart) { return !resize(chart, size); });
+  }
   std::vector<Point> drawings;
-  for (const Chart& chart : charts)
-    drawings.push_back({"figure: " + words_of(chart)->name, words_of(chart)->name,
-                        [&](Rows&) { draw_figure(chart, lines, options.out); }});
+  for (Chart& chart : charts)
+    drawings.push_back({"figure: " + words_of(chart)->name, words_of(chart)->name, [&](Rows& rows) {
+                          draw_in_size(chart, size, lines, options.out);
+                          Table table{"letters", {{"font", "pt"}}, {}};
+                          table.add({words_of(chart)->size.font});
+                          rows.add(table);
+                        }});
   problems.compute(drawings, store);
+  int smaller = 0;  // letters, where there was no room
+  for (size_t i = 0; i < charts.size(); ++i)
+    if (const auto found = store.find(drawings[i].hash())) {
+      FigureSize its = size;
+      its.font = std::get<double>(found->table("letters")->at(0, "font"));
+      smaller += its.font < size.font;
+      resize(charts[i], its);
+      drawn.push_back({*words_of(charts[i]), charts[i].scene, chart_endings});
+    }
   store.clear();
-  std::vector<const Chart*> drawn;
-  for (const Chart& chart : charts)
-    if (std::filesystem::exists(options.out / (words_of(chart)->name + ".pdf"))) drawn.push_back(&chart);
-  for (const Chart* chart : drawn) write_words(*words_of(*chart), options.out);
+  for (const FigureInSet& figure : drawn) write_words(figure.words, options.out);
   write_catalogue(drawn, lines, options.out);
   if (drawn.empty()) problems.tell("there is nothing to draw");
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
-  fmt::print("{} figures, {:g} cm wide, letters of {:g} pt\n{}\n", drawn.size(), size.width, size.font,
+  fmt::print("{} figures, {:g} cm wide, letters of {:g} pt{}\n{}\n", drawn.size(), size.width, size.font,
+             smaller ? fmt::format(" (smaller in {} that have no room for them)", smaller) : "",
              (options.out / "figures.json").string());
   return problems.any() ? 1 : 0;
 }

@@ -1,4 +1,4 @@
-// render: a picture of a scene, methods side by side.
+// render: a picture of a scene, or a clip of its run, methods side by side.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -6,6 +6,7 @@
 #include "experiments/scenes.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "report/clip.h"
 #include "report/commands/commands.h"
 #include "report/pictures.h"
 
@@ -21,21 +22,48 @@ void read_size(const std::string& text, Shot& shot) {
     throw InputError(fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each from 64 to 8192", text));
 }
 
+/// What is asked for, checked before any work.
+Shot shot_of(const RenderOptions& options, const Scene& scene, bool clip) {
+  Shot shot;
+  shot.mode = mode_named(options.mode);
+  shot.at = options.at;
+  if (clip && options.at >= 0)
+    throw InputError(fmt::format("--at {}: expected none for a clip, which shows all times", options.at));
+  if (options.at > scene.duration)
+    throw InputError(fmt::format("--at {}: expected a time from 0 to {} s", options.at, scene.duration));
+  if (!options.quality.empty() && options.quality != "fast" && options.quality != "still")
+    throw InputError(fmt::format("--quality {}: expected fast or still", options.quality));
+  const bool fast = options.quality.empty() ? clip : options.quality == "fast";
+  shot.quality = fast ? render::Quality::fast : render::Quality::still;
+  read_size(options.size, shot);
+  if (clip) require_clip(shot);
+  return shot;
+}
+
+/// The methods' answers; those that give none are told.
+std::vector<Answer> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run) {
+  std::vector<Answer> answers;
+  for (const Method& method : methods) {
+    Recorder recorder;
+    Outcome out = run_method(method, scene, run, {&recorder});
+    if (out.verdict == Verdict::unsupported)
+      fmt::print(stderr, "crosscheck: {} cannot run {}: {}\n", method.name, scene.name, out.reason);
+    else if (recorder.trajectory.frames() == 0)
+      fmt::print(stderr, "crosscheck: {} on {}: {}\n", method.name, scene.name, out.reason);
+    else
+      answers.push_back({scene.name, method.name, std::move(out), std::move(recorder.trajectory)});
+  }
+  return answers;
+}
+
 }  // namespace
 
 int render_command(const RenderOptions& options) {
   const Scene scene = load_scene(options.scene);
-  Shot shot;
-  shot.mode = mode_named(options.mode);
-  shot.at = options.at;
-  if (options.at > scene.duration)
-    throw InputError(fmt::format("--at {}: expected a time from 0 to {} s", options.at, scene.duration));
-  if (options.quality != "fast" && options.quality != "still")
-    throw InputError(fmt::format("--quality {}: expected fast or still", options.quality));
-  shot.quality = options.quality == "fast" ? render::Quality::fast : render::Quality::still;
-  read_size(options.size, shot);
-  if (options.file.extension() != ".png")
-    throw InputError(fmt::format("-o {}: expected a file name that ends in .png", options.file.string()));
+  const bool clip = options.file.extension() == ".mp4";
+  if (!clip && options.file.extension() != ".png")
+    throw InputError(fmt::format("-o {}: expected a file name that ends in .png or .mp4", options.file.string()));
+  const Shot shot = shot_of(options, scene, clip);
   require_writable(options.file.has_parent_path() ? options.file.parent_path() : ".");
 
   std::vector<Method> methods;
@@ -43,27 +71,14 @@ int render_command(const RenderOptions& options) {
     for (const std::string& name : pictured_methods(scene)) methods.push_back(find_method(name));
   else
     methods = find_methods(options.methods);
-  std::vector<Answer> answers;
-  bool refused = false;
-  for (const Method& method : methods) {
-    Recorder recorder;
-    Outcome out = run_method(method, scene, default_run(scene), {&recorder});
-    if (out.verdict == Verdict::unsupported) {
-      fmt::print(stderr, "crosscheck: {} cannot run {}: {}\n", method.name, scene.name, out.reason);
-      refused = true;
-      continue;
-    }
-    if (recorder.trajectory.frames() == 0) {
-      fmt::print(stderr, "crosscheck: {} on {}: {}\n", method.name, scene.name, out.reason);
-      refused = true;
-      continue;
-    }
-    answers.push_back({scene.name, method.name, std::move(out), std::move(recorder.trajectory)});
-  }
-  if (answers.empty() && refused) return 1;
+  const std::vector<Answer> answers = answers_of(scene, methods, clip ? clip_run(scene) : default_run(scene));
+  if (answers.empty()) return 1;
   std::vector<const Answer*> shown;
   for (const Answer& a : answers) shown.push_back(&a);
-  render::write_png(picture_of(scene, shown, shot), options.file);
+  if (clip)
+    write_clip(scene, shown, shot, options.file);
+  else
+    render::write_png(picture_of(scene, shown, shot), options.file);
   fmt::print("{}\n", options.file.string());
   return 0;
 }

@@ -41,18 +41,6 @@ void write_picture(const Scene& scene, const std::vector<const Answer*>& shown, 
   render::write_png(picture_of(scene, shown, shot), file, studio);
 }
 
-/// The picture at the head of a scene's part.
-Shot shot_of(const Scene& scene, bool full) {
-  Shot shot;
-  shot.at = scene.camera && scene.camera->at ? *scene.camera->at : -1;
-  // soft light is worth its seconds on cloth; a few beads look the same without
-  shot.quality = full || !scene.triangles.empty() ? render::Quality::still : render::Quality::fast;
-  shot.mode = scene.triangles.empty() ? Mode::shaded : Mode::stretch;
-  shot.width = 1440;
-  shot.height = 560;
-  return shot;
-}
-
 class Builder {
  public:
   Builder(const ReportOptions& options, Request request)
@@ -181,7 +169,7 @@ class Builder {
                             const Answer& a = answer_of(request_, scene, find_method(name), answers);
                             if (a.trajectory.frames() > 0) shown.push_back(&a);
                           }
-                          write_picture(scene, shown, shot_of(scene, options_.full), picture_of_scene(scene));
+                          write_picture(scene, shown, usual_shot(scene, options_.full), picture_of_scene(scene));
                           const auto motions = player_json(scene, shown, truth_of(scene, run_of(request_, scene)));
                           if (!motions.empty()) write_file(motions_of_scene(scene), motions);
                         }});

@@ -24,6 +24,15 @@ void put(const std::vector<float>& pixels, const Layout& layout, int left, int t
 
 }  // namespace
 
+Image blank(int width, int height) {
+  Image image{width, height, {}};
+  image.rgb.reserve(3 * std::size_t(width) * std::size_t(height));
+  for (int i = 0; i < width * height; ++i) {
+    for (const unsigned shift : {16u, 8u, 0u}) image.rgb.push_back(static_cast<unsigned char>(background_hex >> shift));
+  }
+  return image;
+}
+
 struct Studio::Parts {
   std::unique_ptr<Context> context;
   std::unique_ptr<Painter> painter;  // dies before the context
@@ -52,10 +61,7 @@ Image Studio::draw(const Picture& picture) {
   const Layout layout = layout_of(picture);
   const Frame frame = frame_of(picture.view, double(layout.panel_width) / layout.panel_height);
 
-  Image image{picture.width, picture.height, {}};
-  for (int i = 0; i < picture.width * picture.height; ++i) {
-    for (const unsigned shift : {16u, 8u, 0u}) image.rgb.push_back(static_cast<unsigned char>(background_hex >> shift));
-  }
+  Image image = blank(picture.width, picture.height);
 
   Painter& painter = parts_->painter_of(picture, layout);
   for (std::size_t row = 0; row < picture.rows.size(); ++row) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mysim/errors.h"
 #include "report/render/text_width.h"
 
 namespace crosscheck::render {
@@ -20,14 +21,22 @@ std::size_t columns_of(const Picture& picture) {
   return columns;
 }
 
-bool any(const std::vector<Panel>& row, std::string Panel::*text) {
-  return std::any_of(row.begin(), row.end(), [&](const Panel& p) { return !(p.*text).empty(); });
+/// Lines that the row needs for such a text, 0 where no panel has one.
+int lines_in(const std::vector<Panel>& row, std::string Panel::*text) {
+  std::size_t most = 0;
+  for (const Panel& p : row)
+    if (!(p.*text).empty()) most = std::max(most, lines_of(p.*text).size());
+  return int(most);
 }
+
+/// Height of so many lines, the first of this height.
+double height_of(int lines, double first, double font) { return lines ? first + (lines - 1) * line_height * font : 0; }
 
 /// The font size not above `wanted` with which the text fits.
 double fitting(double wanted, const std::string& text, bool bold, double room) {
-  const double width = text_width(text, bold);
-  return width * wanted > room ? room / width : wanted;
+  for (const std::string& line : lines_of(text))
+    wanted = std::min(wanted, room / std::max(text_width(line, bold), 1e-3));
+  return wanted;
 }
 
 std::vector<std::vector<int>> legend_lines(const Legend& legend, double font, double room) {
@@ -51,47 +60,73 @@ bool is_strip(const std::vector<Panel>& row) {
 
 double legend_entry_width(const std::string& name, double font) { return (text_width(name, false) + 3.4) * font; }
 
-Layout layout_of(const Picture& picture) {
+namespace {
+
+double title_line(const Layout& layout) { return 1.75 * layout.title; }
+double subtitle_line(const Layout& layout) { return 1.5 * layout.text; }
+
+/// Height of what stands below the panels: legend, then bar with its ticks and label.
+double footer_of(const Picture& picture, const Layout& layout) {
+  double footer = 0;
+  if (!picture.legend.empty()) footer += (1.7 * double(layout.legend.size()) + 0.6) * layout.text;
+  if (picture.scale) footer += 4.6 * layout.text;
+  return footer;
+}
+
+/// Height of the titles above each row of panels.
+std::vector<double> bands_of(const Picture& picture, const Layout& layout) {
+  std::vector<double> bands;
+  for (const auto& row : picture.rows) {
+    const double above = bands.empty() ? 0.5 * layout.title : 0;
+    bands.push_back(above + height_of(lines_in(row, &Panel::title), title_line(layout), layout.title) +
+                    height_of(lines_in(row, &Panel::subtitle), subtitle_line(layout), layout.text));
+  }
+  return bands;
+}
+
+/// Fonts, columns and legend, which do not depend on the height where the picture says how large its letters are.
+Layout columns_and_fonts(const Picture& picture) {
   const std::size_t columns = columns_of(picture);
   if (columns == 0) throw std::runtime_error("render: the picture has no panels");
   if (picture.width > 16384 || picture.height > 16384) throw std::runtime_error("render: the picture is too large");
   const double unit = std::sqrt(double(picture.width) * picture.height) / 960;  // 1 at 1280 x 720
-
   Layout layout;
-  layout.title = std::max(22 * unit, 8.0);
-  layout.text = std::max(16 * unit, 7.0);
-  const double title_line = 1.75 * layout.title, subtitle_line = 1.5 * layout.text;
+  layout.title = picture.text > 0 ? picture.text : std::max(22 * unit, 8.0);
+  layout.text = picture.text > 0 ? picture.text : std::max(16 * unit, 7.0);
   layout.panel_width = picture.width / int(columns);
   layout.left = (picture.width - layout.panel_width * int(columns)) / 2;
-
-  // below the panels: legend, then bar with its ticks and label
   layout.legend = legend_lines(picture.legend, layout.text, fill * picture.width);
-  double footer = 0;
-  if (!picture.legend.empty()) footer += (1.7 * double(layout.legend.size()) + 0.6) * layout.text;
-  if (picture.scale) footer += 4.6 * layout.text;
+  return layout;
+}
 
+}  // namespace
+
+int height_for(const Picture& picture, double aspect) {
+  const Layout layout = columns_and_fonts(picture);
+  double height = footer_of(picture, layout) + double(picture.rows.size()) * layout.panel_width / aspect;
+  for (const double band : bands_of(picture, layout)) height += band;
+  return int(std::ceil(height));
+}
+
+Layout layout_of(const Picture& picture) {
+  Layout layout = columns_and_fonts(picture);
   // the rows share what titles and footer leave
-  std::vector<double> band;
-  double bands = 0;
-  for (const auto& row : picture.rows) {
-    double height = band.empty() ? 0.5 * layout.title : 0;
-    height += any(row, &Panel::title) ? title_line : 0;
-    height += any(row, &Panel::subtitle) ? subtitle_line : 0;
-    band.push_back(height);
-    bands += height;
-  }
-  layout.panel_height = int((picture.height - footer - bands) / double(picture.rows.size()));
+  const std::vector<double> band = bands_of(picture, layout);
+  double left = picture.height - footer_of(picture, layout);
+  for (const double height : band) left -= height;
+  layout.panel_height = int(left / double(picture.rows.size()));
   if (layout.panel_width < 16 || layout.panel_height < 16) {
-    throw std::runtime_error(fmt::format("render: {} x {} pixels leave no room for {} x {} panels", picture.width,
-                                         picture.height, columns, picture.rows.size()));
+    throw InputError(fmt::format("{} x {} pixels leave no room for {} x {} panels; expected a larger --size",
+                                 picture.width, picture.height, columns_of(picture), picture.rows.size()));
   }
 
   double top = 0;
   for (std::size_t r = 0; r < picture.rows.size(); ++r) {
     const auto& row = picture.rows[r];
-    const double subtitle_top = top + band[r] - (any(row, &Panel::subtitle) ? subtitle_line : 0);
-    layout.title_y.push_back(subtitle_top - 0.5 * title_line);
-    layout.subtitle_y.push_back(subtitle_top + 0.4 * subtitle_line);
+    const double subtitle_top =
+        top + band[r] - height_of(lines_in(row, &Panel::subtitle), subtitle_line(layout), layout.text);
+    layout.title_y.push_back(subtitle_top - 0.5 * title_line(layout));
+    layout.subtitle_y.push_back(subtitle_top + 0.4 * subtitle_line(layout));
     top += band[r];
     layout.panel_top.push_back(int(top));
     top += layout.panel_height;

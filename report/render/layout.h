@@ -13,8 +13,8 @@ struct Layout {
   int panel_width = 0, panel_height = 0;
   int left = 0;                          // of the first column
   std::vector<int> panel_top;            // one per row
-  std::vector<double> title_y;           // middle of the title line, one per row
-  std::vector<double> subtitle_y;        // middle of the subtitle line, one per row
+  std::vector<double> title_y;           // middle of the title's last line, one per row
+  std::vector<double> subtitle_y;        // middle of the subtitle's first line, one per row
   std::vector<std::vector<int>> legend;  // entries of each line of the legend
   double legend_y = 0;                   // middle of its first line
   double bar_top = 0, bar_height = 0, bar_left = 0, bar_width = 0;
@@ -26,7 +26,7 @@ bool is_strip(const std::vector<Panel>& row);
 /// Width of a legend entry with its swatch and the gap after it, in pixels.
 double legend_entry_width(const std::string& name, double font);
 
-/// Throws std::runtime_error if the picture has no panels or no room for them.
+/// Throws std::runtime_error if the picture has no panels, InputError where its size has no room for them.
 Layout layout_of(const Picture& picture);
 
 }  // namespace crosscheck::render

@@ -37,8 +37,8 @@ struct Body {
 };
 
 struct Panel {
-  std::string title;     // e.g. "mysim/leapfrog"
-  std::string subtitle;  // e.g. "t = 2.5 s"; may be empty
+  std::string title;     // e.g. "mysim/leapfrog"; like the subtitle of several lines, with line feeds, or empty
+  std::string subtitle;  // e.g. "t = 2.5 s"
   std::string note;      // e.g. "not finite from t = 0.4 s", written inside the panel at its foot; may be empty
   std::vector<Body> bodies;
   std::vector<Ball> balls;
@@ -70,6 +70,7 @@ struct Picture {
   std::optional<Scale> scale;
   Legend legend;
   int width = 1280, height = 720;  // pixels, of the whole picture
+  double text = 0;                 // height of all letters, pixels; 0: as the size needs them, titles larger
   Quality quality = Quality::still;
 };
 
@@ -78,6 +79,9 @@ struct Image {
   int width = 0, height = 0;
   std::vector<unsigned char> rgb;  // 3 * width * height
 };
+
+/// Background alone.
+Image blank(int width, int height);
 
 /// Draws the panels (no letters) with OSMesa. Same input, same bytes. Throws std::runtime_error with the cause.
 Image draw(const Picture& picture);
@@ -101,9 +105,20 @@ class Studio {
 void write_png(const Picture& picture, const std::filesystem::path& file);
 void write_png(const Picture& picture, const std::filesystem::path& file, Studio& studio);
 
+/// The same as PNG and as PDF for a page on which so many pixels make an inch; on that page letters are letters.
+void write_print(const Picture& picture, double pixels_per_inch, const std::filesystem::path& png,
+                 const std::filesystem::path& pdf);
+
 /// Width / height of one panel after room for the letters is taken away: the aspect to give to view_that_holds. Depends
 /// on the size, the rows, whether there are titles, subtitles, a scale and a legend, and not on bodies or view.
 double panel_aspect(const Picture& picture);
+
+/// The height at which panels are so much wider than high, pixels; for pictures that say how large their letters are.
+int height_for(const Picture& picture, double aspect);
+
+/// Puts the panels of a picture of one row, that says how large its letters are, into as many rows as their titles need
+/// to keep that size, wraps titles and subtitles, and chooses the height.
+void arrange(Picture& picture, double aspect);
 
 /// A view that holds all the points (and balls) given and their shadow, seen from the direction (from the target to the
 /// eye, need not be of unit length). Points that are not finite are left out; the floor is put below the lowest point.

@@ -34,4 +34,32 @@ double text_width(const std::string& text, bool bold) {
   return sum / 100.0;
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines(1);
+  for (const char letter : text)
+    if (letter == '\n')
+      lines.emplace_back();
+    else
+      lines.back() += letter;
+  return lines;
+}
+
+std::string wrapped(const std::string& text, bool bold, double room) {
+  std::vector<std::string> pieces(1);
+  for (const char letter : text) {
+    const std::string& last = pieces.back();
+    if (last.ends_with('/') || last.ends_with(", ") || (letter == '+' && !last.empty())) pieces.emplace_back();
+    pieces.back() += letter;
+  }
+  std::string line, all;
+  for (const std::string& piece : pieces) {
+    if (!line.empty() && text_width(line + piece, bold) > room) {
+      while (line.ends_with(' ')) line.pop_back();
+      all += line + "\n", line.clear();
+    }
+    line += piece;
+  }
+  return all + line;
+}
+
 }  // namespace crosscheck::render

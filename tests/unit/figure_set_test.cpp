@@ -2,11 +2,11 @@
 #include "report/figure_set.h"
 
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "mysim/errors.h"
 #include "report/run_program.h"
 #include "tests/unit/helpers.h"
+#include "tests/unit/in_pdf.h"
 #include "tests/unit/temporary.h"
 
 namespace crosscheck {
@@ -28,7 +28,7 @@ TEST(FigureSize, IsThatOfTheSetOrAsAsked) {
   EXPECT_EQ(figure_size("paper", "85mm").width, 8.5);
   EXPECT_NEAR(figure_size("paper", "3.3in").width, 8.382, 1e-12);
   EXPECT_EQ(figure_size("lecture", "").font, 20);
-  EXPECT_EQ(FigureSize{}.units(), 680);
+  EXPECT_NEAR(FigureSize{}.units(), 680, 0.5);
   for (const char* bad : {"8.5", "cm", "8.5 cm", "-8cm", "1cm", "200cm", "8.5pt", "nancm"})
     EXPECT_TRUE(contains(message_of("paper", bad), "expected 4cm to 100cm, in cm, mm or in")) << bad;
   EXPECT_TRUE(contains(message_of("poster", ""), "--set poster: expected paper or lecture"));
@@ -72,12 +72,7 @@ class FigureSet : public InFolder {
     }
   }
   /// Of a PDF's page, points.
-  double width_of(const std::string& name) const {
-    const std::string pdf = read(folder_ / (name + ".pdf"));
-    std::smatch found;
-    EXPECT_TRUE(std::regex_search(pdf, found, std::regex("/MediaBox \\[ ?[0-9.]+ [0-9.]+ ([0-9.]+)")));
-    return std::stod(found[1]);
-  }
+  double width_of(const std::string& name) const { return page_of(read(folder_ / (name + ".pdf"))).first; }
   std::vector<Chart> all;
 };
 
@@ -87,6 +82,38 @@ TEST_F(FigureSet, EveryKindHasTheWidthThatWasAsked) {
     // a point is 1/72 inch, and gnuplot's pages are whole ones
     for (const char* name : {"lines", "bars", "map"}) EXPECT_NEAR(width_of(name), width / 2.54 * 72, 1.01) << name;
   }
+}
+
+TEST_F(FigureSet, LettersOnThePageHaveTheSizeThatWasAsked) {
+  for (const double font : {8.0, 11.0}) {
+    make({12, font, false});
+    for (const char* name : {"lines", "map"}) {
+      const std::set<double> letters = letters_of(read(folder_ / (std::string(name) + ".pdf")));
+      // exponents are smaller, titles larger
+      const auto nearest = std::min_element(
+          letters.begin(), letters.end(), [&](double a, double b) { return std::abs(a - font) < std::abs(b - font); });
+      ASSERT_NE(nearest, letters.end()) << name;
+      EXPECT_NEAR(*nearest, font, 0.01) << name;
+      EXPECT_LT(*letters.rbegin(), 1.1 * font) << name;
+    }
+  }
+}
+
+TEST_F(FigureSet, LettersWithoutRoomAreSmallerAndSaySo) {
+  all = charts();
+  Figure& lines = std::get<Figure>(all[0].figure);
+  draw_in_size(all[0], {8.5, 8, false}, {}, folder_);
+  EXPECT_EQ(lines.size.font, 8);
+  // too long for a line of the key in letters of 8 pt
+  lines.curves[0].title = "mysim/symplectic-euler at a tenth of its step";
+  draw_in_size(all[0], {8.5, 8, false}, {}, folder_);
+  EXPECT_LT(lines.size.font, 8);
+  EXPECT_GE(lines.size.font, 5);
+  const std::set<double> letters = letters_of(read(folder_ / "lines.pdf"));
+  EXPECT_NEAR(*letters.rbegin(), lines.size.font, 0.01);
+  EXPECT_NEAR(width_of("lines"), 8.5 / 2.54 * 72, 1.01);
+  lines.curves[0].title = std::string(300, 'x');
+  EXPECT_THROW(draw_in_size(all[0], {8.5, 8, false}, {}, folder_), Crowded);
 }
 
 TEST_F(FigureSet, TitlesStandInLecturesOnly) {
@@ -116,8 +143,11 @@ TEST_F(FigureSet, GnuplotAloneDrawsTheSameAgain) {
 
 TEST_F(FigureSet, WordsSayWhatEachShows) {
   make(figure_size("paper", ""));
-  std::vector<const Chart*> drawn;
-  for (const Chart& chart : all) drawn.push_back(&chart), write_words(*words_of(chart), folder_);
+  std::vector<FigureInSet> drawn;
+  for (const Chart& chart : all) {
+    drawn.push_back({*words_of(chart), chart.scene, chart_endings});
+    write_words(*words_of(chart), folder_);
+  }
   write_catalogue(drawn, {{"commit", "abc"}, {"date", "2026-11-22T10:00:00Z"}}, folder_);
   EXPECT_EQ(read(folder_ / "lines.txt"), "two lines\nThey cross. Scene a_b.\n");
   const std::string tex = read(folder_ / "lines.tex");

@@ -1,0 +1,16 @@
+// PNG files as gnuplot writes them: read back, and told how large they are in print.
+#pragma once
+
+#include <filesystem>
+
+#include "report/render/picture.h"
+
+namespace crosscheck::render {
+
+/// Throws std::runtime_error that names the file.
+Image read_png(const std::filesystem::path& file);
+
+/// Says in the file how many of its pixels make an inch (chunk pHYs). Throws std::runtime_error that names the file.
+void set_resolution(const std::filesystem::path& file, double pixels_per_inch);
+
+}  // namespace crosscheck::render
