@@ -121,6 +121,7 @@ void write_catalogue(const std::vector<FigureInSet>& figures, const Provenance& 
                                {"scene", scene},
                                {"finding", f.finding},
                                {"caption", f.caption},
+                               {"tier", f.tier},
                                {"width_cm", f.size.width},
                                {"font_pt", f.size.font},
                                {"from_timings", f.from_costs},

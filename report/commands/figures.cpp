@@ -124,11 +124,11 @@ int figures_command(const FiguresOptions& options) {
   }
   std::vector<Point> drawings;
   for (Chart& chart : charts)
-    drawings.push_back({"figure: " + words_of(chart)->name, words_of(chart)->name, [&](Rows& rows) {
+    drawings.push_back({"figure: " + words_of(chart)->name, words_of(chart)->name, [&](Rows& letters) {
                           draw_in_size(chart, size, lines, options.out);
                           Table table{"letters", {{"font", "pt"}}, {}};
                           table.add({words_of(chart)->size.font});
-                          rows.add(table);
+                          letters.add(table);
                         }});
   problems.compute(drawings, store);
   int smaller = 0;  // letters, where there was no room

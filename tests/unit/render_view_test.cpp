@@ -49,7 +49,7 @@ TEST(Render, ViewHoldsEverythingTightly) {
 }
 
 TEST(Render, ViewOfHardCasesIsUsable) {
-  Points line(3, 2), bad(3, 2);
+  Points line = Points::Zero(3, 2), bad = line;
   line << 0, 0, 0, -1, 0, 0;
   bad << 0, std::nan(""), 0, 1, 0, 1;
   for (const View& view : {view_that_holds({line}, {}, {0, 0, 1}, 1), view_that_holds({bad}, {}, {0, 0, 1}, 1),
