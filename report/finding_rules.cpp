@@ -45,7 +45,7 @@ const std::vector<FindingRule>& finding_rules() {
        "ok; left out where it holds at 1 % and 10 % of the motion",
        {"engines", "adequacy-least"}},
       {"failed-of-all", "runs whose verdict is not ok, where another method's is ok", {"engines"}, "scoreboard"},
-      {"orders", "max of |measured order - declared order|; how many methods and scenes", {"order-slopes"}, "*-order"},
+      {"orders", "max of |measured order - declared order|; how many methods and scenes", {"order-slopes"}, "spring-order"},
       {"step-cost-of-all",
        "over scenes: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
        {"engines-cost", "engines"}},

@@ -159,6 +159,16 @@ void remove_empty_groups(std::string& text) {
   }
 }
 
+/// Titles that only say a group's id, where gnuplot has no better one.
+void remove_names(std::string& text) {
+  const std::string begin = " id=\"", title = "\" ><title>";
+  for (size_t at = text.find(begin); at != std::string::npos; at = text.find(begin, at + 1)) {
+    const size_t from = at + begin.size(), end = text.find('"', from);
+    const std::string said = title + text.substr(from, end - from) + "</title>";
+    if (text.compare(end, said.size(), said) == 0) text.replace(end, said.size(), "\">");
+  }
+}
+
 /// Gives the shapes from a place on their words. Where there are more, the last is the key's sample.
 void tell(std::string& body, size_t at, const std::string& shape, const std::vector<Tip>& tips) {
   const std::string open = "<" + shape + " ";
@@ -222,6 +232,8 @@ std::string inline_svg(const std::string& svg, const std::string& alt, const Tol
   replace_all(body, "font-family=\"DejaVu Sans:Bold\"", "font-weight=\"bold\"");
   replace_all(body, "fill=\"#ffffff\"/>", "fill=\"#ffffff\" stroke=\"none\"/>");  // the paper
   replace_all(body, "<title>gnuplot_canvas</title>", "");
+  replace_all(body, " id=\"gnuplot_canvas\"", "");  // one for each drawing, which a page must not have twice
+  remove_names(body);
   // of another drawing with patterns of its own
   replace_all(body, "gpPat", fmt::format("gpPat{:x}-", Fnv1a::of(body)));
   remove_empty_groups(body);
