@@ -164,8 +164,10 @@ Drawing drawing_of(const HeatMap& map) {
                          single_quoted(map.panels[i].title));
     block += lowest ? fmt::format("set format x \"10^{{%L}}\"\nset xlabel {}\n", single_quoted(map.x_label))
                     : "set format x \"\"\nunset xlabel\n";
-    block += c == 0 ? fmt::format("set format y \"10^{{%L}}\"\nset ylabel {}\n", single_quoted(map.y_label))
-                    : "set format y \"\"\nunset ylabel\n";
+    block += c == 0 ? "set format y \"10^{%L}\"\n" : "set format y \"\"\n";
+    // of three rows and more the middle one says it for all: below each other the words would meet
+    const bool named = c == 0 && (down < 3 || r == down / 2);
+    block += named ? fmt::format("set ylabel {}\n", single_quoted(map.y_label)) : "unset ylabel\n";
     block += panel_plot(map, map.panels[i]);
   }
   block += fmt::format(

@@ -40,7 +40,7 @@ size_t thinned(size_t frames, size_t most) {
 }
 
 Against against(const Scene& scene, const Truth& truth, int stride) {
-  const bool many = scene.model.particles.size() > 100;  // then fewer frames, less finely, are as much as is seen
+  const bool many = scene.model.particles.size() > 40;  // then fewer frames, less finely, are as much as is seen
   const Shown shown = shown_of(truth, stride);
   const Lattice lattice = lattice_of({shown});
   return {scene,
