@@ -11,9 +11,6 @@
 namespace crosscheck {
 namespace {
 
-/// Above this part of the motion an answer is of no use.
-constexpr double useless = 0.1;
-
 /// Where the column, or the name, says whose it is.
 std::string short_name(const std::string& method) {
   for (const std::string_view engine : {"mysim/", "bullet/"})
@@ -27,10 +24,16 @@ std::string share_text(double error, const SceneFacts& facts) {
   return (error < facts.bar ? "< " : "") + percent(part, 1);
 }
 
-/// The nearest of those that take part, in bold where nobody is nearer.
+/// The nearest of those that take part, in bold where nobody is nearer. Of several that are as near the cheapest, in
+/// force evaluations, which stands for them.
 ChoiceCell nearest_cell(const SceneFacts& facts, const MethodFacts* m) {
   if (facts.tier.empty() || !m || !(facts.motion > 0)) return {};
   const MethodFacts* best = nearest(facts, "");
+  const std::string engine = m->method.substr(0, m->method.find('/') + 1);
+  for (const MethodFacts& each : facts.methods)
+    if (each.judged() && each.method.starts_with(engine) && shares_place(each, *m, facts) &&
+        each.evaluations < m->evaluations)
+      m = &each;
   return {fmt::format("{} {}", short_name(m->method), share_text(*m->error, facts)),
           shares_place(*m, *best, facts) ? "best" : ""};
 }
@@ -83,8 +86,8 @@ ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts&, const Rows& resu
         text_at(*t, i, "measure") != "error")
       continue;
     const auto factor = number_at(*t, i, "Bullet / best");
-    return {fmt::format("{}{}; Bullet {}", own_name(method), same.empty() ? "" : ", " + own_name(same),
-                        factor ? times_text(*factor) + " times" : "does not meet it"),
+    return {fmt::format("{}{}; Bullet's best {}", own_name(method), same.empty() ? "" : ", " + own_name(same),
+                        factor ? fmt::format("takes {} times as long", times_text(*factor)) : "does not meet it"),
             ""};
   }
   return {};
@@ -92,21 +95,23 @@ ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts&, const Rows& resu
 
 ChoiceCell fails_cell(const Scene&, const SceneFacts& facts, const Rows&) {
   std::vector<std::string> failed;
-  const MethodFacts* worst = nullptr;
-  int ran = 0, off = 0;
+  std::vector<const MethodFacts*> off;
+  int ran = 0;
   for (const MethodFacts& m : facts.methods) {
     if (!m.supported() || m.method == sticky_sphere) continue;
     ++ran;
     if (!m.ok()) failed.push_back(short_name(m.method));
-    if (!m.judged() || !(*m.error > useless * facts.motion)) continue;
-    ++off;
-    if (!worst || *m.error > *worst->error) worst = &m;
+    if (useless_at(m, facts)) off.push_back(&m);
   }
-  if (failed.empty() && !worst) return {fmt::format("none of {}", ran), ""};
-  std::string text = fmt::format("{}", fmt::join(failed, ", "));
-  if (worst)
-    text += fmt::format("{}{} {} off{}", failed.empty() ? "" : "; ", short_name(worst->method),
-                        percent(*worst->error, facts.motion), off > 1 ? fmt::format(", {} more", off - 1) : "");
+  if (failed.empty() && off.empty()) return {fmt::format("none of {}", ran), ""};
+  std::ranges::stable_sort(off, std::greater(), [](const MethodFacts* m) { return *m->error; });
+  std::string text = failed.empty() ? "" : fmt::format("{} failed", fmt::join(failed, ", "));
+  for (size_t i = 0; i < off.size(); ++i)
+    text += fmt::format("{}{} {}",
+                        i > 0          ? ", "
+                        : text.empty() ? "off: "
+                                       : "; off: ",
+                        short_name(off[i]->method), percent(*off[i]->error, facts.motion));
   return {fmt::format("{} (of {})", text, ran), "failed"};
 }
 

@@ -36,6 +36,10 @@ bool SceneFacts::touched() const {
   return false;
 }
 
+bool useless_at(const MethodFacts& run, const SceneFacts& scene) {
+  return run.judged() && *run.error > 0.1 * scene.motion;
+}
+
 SceneFacts facts_of(const std::string& scene, const Rows& result) {
   SceneFacts facts;
   facts.scene = scene;

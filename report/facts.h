@@ -58,6 +58,9 @@ const MethodFacts* nearest(const SceneFacts& scene, std::string_view engine);
 /// Whether a run is as near to the truth as another: errs by at most 5 % more, or below the truth's error bar.
 bool shares_place(const MethodFacts& run, const MethodFacts& other, const SceneFacts& scene);
 
+/// Whether a run came to its end so far from the truth, more than a tenth of the motion, that it is of no use.
+bool useless_at(const MethodFacts& run, const SceneFacts& scene);
+
 /// Facts of a scene from the tables `engines`, `engines-cost` and `engines-energy`.
 SceneFacts facts_of(const std::string& scene, const Rows& result);
 

@@ -26,7 +26,9 @@ std::string single_quoted(const std::string& text) {
 }
 
 std::string axis_commands(const Axis& axis, const std::string& letter) {
-  std::string out = fmt::format("set {}label {}\n", letter, single_quoted(axis.label));
+  // exponents make numbers below an axis taller
+  const char* lower = letter == "x" && axis.logarithmic ? " offset 0,0.2" : "";
+  std::string out = fmt::format("set {}label {}{}\n", letter, single_quoted(axis.label), lower);
   if (axis.logarithmic) out += fmt::format("set logscale {0} 10\nset format {0} \"10^{{%L}}\"\n", letter);
   if (axis.low || axis.high)
     out += fmt::format("set {}range [{}:{}]\n", letter, axis.low ? fmt::format("{:.6g}", *axis.low) : "",
@@ -206,9 +208,9 @@ MethodStyle style_of(const std::string& method) {
       {"mysim/rk4", {"#009E73", "(6,3)", 13}},
       {"mysim/trapezoidal", {"#E69F00", "(2,2)", 11}},
       {"mysim/explicit-euler", {"#CC79A7", "(10,3,2,3)", 15}},
-      {"bullet/deformable-explicit", {"#D55E00", "(14,4)", 5}},
+      {"bullet/deformable-explicit", {"#D55E00", "(14,4)", 4}},
       {"bullet/deformable-implicit", {"#AA4499", "(20,3,4,3)", 10}},
-      {"bullet/pbd", {"#7A3B00", "(4,2)", 4}},
+      {"bullet/pbd", {"#7A3B00", "(4,2)", 3}},
       {"bullet32/deformable-explicit", {"#F0A070", "(14,2,2,2)", 4}},
       {"bullet32/pbd", {"#B08050", "(4,2,1,2)", 6}},
       {"mysim/suzuki4", {"#332288", "(12,3,3,3)", 12}},

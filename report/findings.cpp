@@ -56,7 +56,9 @@ void other_law(const Scene& scene, const SceneFacts& facts, std::vector<Finding>
   const MethodFacts* p = facts.find(position_based);
   const auto* springs = scene.model.find<Springs>();
   if (!p || !p->ok() || !springs || !(facts.motion > 0)) return;
-  const char* why = springs->law == SpringLaw::bullet_link
+  const char* why = scene.model.find<Constraints>()
+                        ? "hard lengths it solves one after the other, and springs by another law"
+                    : springs->law == SpringLaw::bullet_link
                         ? "here its springs follow the scene's law, but are solved one after the other in long steps"
                         : "its springs follow another law and are solved one after the other";
   if (p->error)
@@ -168,7 +170,10 @@ void cost(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out
                                      nice(1e6 * *a->cpu_per_step), theirs, *b->cpu_per_step / *a->cpu_per_step);
   if (p && p->ok() && p->cpu_per_step)
     sentence += fmt::format(", {} {:.1f} times", position_based, *p->cpu_per_step / *a->cpu_per_step);
-  out.push_back({scene.name, "cost", sentence + " (one run each, one thread).", "measured", "step-cost"});
+  out.push_back(
+      {scene.name, "cost",
+       sentence + " (one run each, one thread, watched at every step; the chapter on cost times steps alone).",
+       "measured", "step-cost"});
 }
 
 }  // namespace

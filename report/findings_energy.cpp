@@ -15,25 +15,34 @@ namespace {
 /// "10000 to 100000"
 std::string steps_text(long fewest, long most) { return range(count_text(fewest), count_text(most)); }
 
-/// How far the balance of symplectic rules stays open where drag or contact act: the least and the most, by scene.
+/// What does not add up on a scene where drag or contact act, in parts of what these took, with the method.
+std::map<double, std::string> open_balances(const Table& table, const std::string& scene, bool symplectic) {
+  std::map<double, std::string> open;
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    if (text_at(table, i, "scene") != scene || flag_at(table, i, "undamped") ||
+        flag_at(table, i, "symplectic") != symplectic || !flag_at(table, i, "closure claimed") ||
+        text_at(table, i, "verdict") != "ok" || text_at(table, i, "method") == sticky_sphere)
+      continue;
+    double took = 0;
+    for (const char* part : {"drag took", "dashpots took", "contact took"})
+      took += std::abs(number_at(table, i, part, 0));
+    if (took > 0) open[number_at(table, i, "largest residual", 0) / took] = text_at(table, i, "method");
+  }
+  return open;
+}
+
+/// How far the balance stays open where drag or contact act: the least and the most, by scene.
 std::string where_energy_leaves(const Table& table) {
   std::string said;
   for (const std::string& scene : distinct(table, "scene")) {
-    std::map<double, std::string> open;  // residual, in parts of what was taken
-    for (size_t i = 0; i < table.rows.size(); ++i) {
-      if (text_at(table, i, "scene") != scene || flag_at(table, i, "undamped") || !flag_at(table, i, "symplectic") ||
-          !flag_at(table, i, "closure claimed") || text_at(table, i, "verdict") != "ok" ||
-          text_at(table, i, "method") == sticky_sphere)
-        continue;
-      double took = 0;
-      for (const char* part : {"drag took", "dashpots took", "contact took"})
-        took += std::abs(number_at(table, i, part, 0));
-      if (took > 0) open[number_at(table, i, "largest residual", 0) / took] = text_at(table, i, "method");
-    }
+    const auto open = open_balances(table, scene, true), others = open_balances(table, scene, false);
     if (open.empty()) continue;
     const auto told = [](const auto& each) { return fmt::format("{} ({})", percent(each.first, 1), each.second); };
-    said += fmt::format(" On {}, where drag or contact act, what does not add up is {} of what they took.", scene,
-                        range(told(*open.begin()), told(*open.rbegin())));
+    said += fmt::format(
+        " On {}, where drag or contact act, what does not add up with symplectic rules is {} of what drag and contact "
+        "took{}.",
+        scene, range(told(*open.begin()), told(*open.rbegin())),
+        others.empty() ? "" : fmt::format("; with others up to {}", told(*others.rbegin())));
   }
   return said;
 }
@@ -50,8 +59,9 @@ std::vector<std::string> beside(const Table& table, const std::string& scene) {
         all.push_back(
             fmt::format("{} {} after {:.3g} s", shown, failure_word(verdict), number_at(table, i, "end", NAN)));
       else if (std::isfinite(share))
-        all.push_back(fmt::format("{} {} {} of it", shown, number_at(table, i, "residual", 0) < 0 ? "takes" : "adds",
-                                  percent(share, 1)));
+        all.push_back(fmt::format("{} {} {} of it at steps of {}", shown,
+                                  number_at(table, i, "residual", 0) < 0 ? "takes" : "adds", percent(share, 1),
+                                  step_text(number_at(table, i, "step", NAN))));
     }
   return all;
 }

@@ -90,11 +90,15 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   for (const auto& [method, where] : as_cheap) who.push_back(fmt::format("{} on {}", method, joined(where)));
   if (!who.empty()) sentence += "; no dearer within the noise: " + joined(who);
   if (high > 0) {
-    sentence +=
-        fmt::format("; the best of Bullet's worlds takes {} times as much", range(times_text(low), times_text(high)));
+    sentence += fmt::format("; the best run of Bullet's worlds takes {} times the CPU time",
+                            range(times_text(low), times_text(high)));
     if (const auto evaluations = factors_of_evaluations(result))
-      sentence += *evaluations == "1" ? ", in as many force evaluations"
-                                      : fmt::format(", in {} times as many force evaluations", *evaluations);
+      sentence += *evaluations == "1"
+                      ? "; where runs are chosen by force evaluations instead, it takes as many as mysim"
+                      : fmt::format(
+                            "; where runs are chosen by force evaluations instead, it takes {} "
+                            "times as many as the best",
+                            *evaluations);
   }
   if (!without.empty()) sentence += "; no run of Bullet that was tried meets it on " + joined(without);
   out.push_back({"", "cost", sentence + "." + hardly_tried(result), "measured", "cheapest"});

@@ -1,6 +1,7 @@
 // Sentences on experiment `sphere`.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "experiments/cells.h"
 #include "report/drape_told.h"
@@ -52,28 +53,29 @@ void slide_off(const Table& table, std::vector<Finding>& out) {
 }
 
 void depth(const Table& table, std::vector<Finding>& out) {
-  double particles = 0, of_pbd = 0, triangles = 0;
+  double particles = 0, triangles = 0;
+  std::map<std::string, double> of_bullet;
   bool any = false;
   for (size_t i = 0; i < table.rows.size(); ++i) {
-    if (text_at(table, i, "scene") != "drop-centred" || text_at(table, i, "verdict") != "ok") continue;
+    if (text_at(table, i, "verdict") != "ok") continue;
     const std::string& method = text_at(table, i, "method");
     const double nodes = number_at(table, i, "particles", NAN);
-    if (method == position_based) of_pbd = std::max(of_pbd, nodes);
+    if (method.starts_with("bullet/") && nodes > 1e-9) of_bullet[method] = std::max(of_bullet[method], nodes);
     if (!method.starts_with("mysim/") || method == sticky_sphere) continue;
     any = true;
     particles = std::max(particles, nodes);
-    triangles = std::max(triangles, number_at(table, i, "triangles", NAN));
+    triangles = std::max(triangles, number_at(table, i, "triangles", 0));
   }
-  if (any && of_pbd > 0)
-    out.push_back(
-        {"", "contact",
-         fmt::format(
-             "On a ball {}, the triangles between them by {:.2g} % of the radius; Bullet's position-based world "
-             "lets particles in by up to {:.2g} %.",
-             particles < 1e-9 ? "no particle of mysim sinks in but for rounding"
-                              : fmt::format("particles of mysim sink in by up to {:.2g} %", particles),
-             triangles, of_pbd),
-         "measured", "penetration"});
+  if (!any || of_bullet.empty()) return;
+  std::vector<std::string> theirs_told;
+  for (const auto& [method, most] : of_bullet) theirs_told.push_back(fmt::format("{} {:.2g} %", method, most));
+  out.push_back({"", "contact",
+                 fmt::format("On a ball {}, the triangles between them by up to {:.2g} % of the radius; particles of "
+                             "Bullet's worlds sink in by up to: {}.",
+                             particles < 1e-9 ? "no particle of mysim sinks in but for rounding"
+                                              : fmt::format("particles of mysim sink in by up to {:.2g} %", particles),
+                             triangles, joined(theirs_told)),
+                 "measured", "penetration"});
 }
 
 }  // namespace

@@ -12,14 +12,10 @@ using Json = nlohmann::ordered_json;
 Json grounds_json(const Grounds& e) { return {{"table", e.table}, {"rows", e.rows}, {"fingerprint", e.fingerprint}}; }
 
 Json finding_json(const Finding& f, const Rows& result, const std::vector<std::string>& figures) {
-  Json json = {{"scene", f.scene},
-               {"topic", f.topic},
-               {"sentence", f.sentence},
-               {"tier", f.tier},
-               {"chapter", f.chapter},
-               {"figure", figure_of(f.rule, f.scene, figures)},
-               {"rule", f.rule},
-               {"formula", finding_rule(f.rule).formula}};
+  Json json = {{"scene", f.scene},       {"topic", f.topic},
+               {"sentence", f.sentence}, {"tier", f.tier},
+               {"chapter", f.chapter},   {"figure", figure_of(f.rule, f.scene, figures)},
+               {"rule", f.rule},         {"formula", finding_rule(f.rule).formula}};
   json["evidence"] = Json::array();
   for (const Grounds& e : grounds_of(f, result)) json["evidence"].push_back(grounds_json(e));
   return json;

@@ -5,7 +5,7 @@ set tics nomirror out scale 0.6 textcolor rgb "#333333"
 set grid xtics ytics lc rgb "#DDDDDD" lw 0.9 dt 1 back
 set key bmargin center horizontal Left reverse noenhanced samplen 3 spacing 1.15 height 0.6 nobox textcolor rgb "#222222" width 1
 set title font "DejaVu Sans:Bold,13" textcolor rgb "#111111" offset 0,-0.3 noenhanced
-set xlabel textcolor rgb "#333333" noenhanced offset 0,0.2
+set xlabel textcolor rgb "#333333" noenhanced offset 0,0.8
 set ylabel textcolor rgb "#333333" noenhanced
 set datafile separator ","
 set datafile commentschars "#"

@@ -32,6 +32,11 @@ Curve column_of(const Table& t, const std::string& scene, const char* column, co
   return curve;
 }
 
+/// Whether the last refinement brought a curve down too, by a tenth at least.
+bool still_falls(const Curve& c) {
+  return c.points.size() > 1 && c.points.back().second < 0.9 * c.points[c.points.size() - 2].second;
+}
+
 /// How the distance from the finest grid goes with the grid, scene by scene.
 std::string motion_sentence(const Rows& rows, const std::vector<Curve>& curves) {
   std::vector<std::string> falls, others;
@@ -39,7 +44,7 @@ std::string motion_sentence(const Rows& rows, const std::vector<Curve>& curves) 
   for (const Curve& c : curves) fewest = std::min(fewest, c.points.size());
   for (const Curve& c : curves)
     if (const auto power = power_of(rows, c.title, motion_against_cells))
-      (power->exponent + 2 * power->deviation < 0 ? falls : others)
+      (power->exponent + 2 * power->deviation < 0 && still_falls(c) ? falls : others)
           .push_back(fmt::format("{} on {} ({} grids)", power_text(*power), c.title, c.points.size()));
   std::string text;
   if (!falls.empty())
@@ -49,7 +54,8 @@ std::string motion_sentence(const Rows& rows, const std::vector<Curve>& curves) 
         fewest < 4 ? "seems to near" : "nears", joined(falls),
         fewest < 4 ? " So few grids hint at a power and prove none." : "");
   if (!others.empty())
-    text += fmt::format("{}It is not seen to near it where the power is {}.", text.empty() ? "" : " ", joined(others));
+    text += fmt::format("{}It is not seen to near it, the last refinement included, where the power is {}.",
+                        text.empty() ? "" : " ", joined(others));
   return text.empty() ? "Distances of the motion from that of the finest grid." : text;
 }
 

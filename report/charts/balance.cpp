@@ -51,6 +51,13 @@ Figure balance_figure(const Scene& scene, const SceneFacts& facts, const Table& 
   return f;
 }
 
+/// How far a curve falls below what it had reached.
+double largest_fall(const std::vector<std::pair<double, double>>& points) {
+  double top = -INFINITY, fall = 0;
+  for (const auto& [t, y] : points) top = std::max(top, y), fall = std::max(fall, top - y);
+  return fall;
+}
+
 Figure contact_figure(const Scene& scene, const SceneFacts& facts, const Table& table) {
   Figure f;
   f.name = scene.name + "-energy";
@@ -60,7 +67,7 @@ Figure contact_figure(const Scene& scene, const SceneFacts& facts, const Table& 
       "another engine: how much a contact takes is not known otherwise, but that friction and inelastic contact of a "
       "still ball take and never give";
   f.y = {"energy lost in contact / J", false, std::nullopt, std::nullopt};
-  std::vector<std::string> guessed, left_out;
+  std::vector<std::string> guessed, left_out, gave;
   for (const MethodFacts& m : facts.methods) {
     if (!m.supported()) continue;
     // the sticky sphere holds the cloth by a force from nowhere: its work would dwarf the others' losses
@@ -74,6 +81,8 @@ Figure contact_figure(const Scene& scene, const SceneFacts& facts, const Table& 
                 points_of(table, m.method, "contact loss", false)};
     if (curve.points.empty()) continue;
     if (inferred) guessed.push_back(m.method);
+    if (const double given = largest_fall(curve.points); given > 0.01 * curve.points.back().second)
+      gave.push_back(fmt::format("{} ({} J)", m.method, nice(given)));
     f.curves.push_back(std::move(curve));
   }
   f.finding = "What contact took, less what moving balls gave.";
@@ -81,6 +90,8 @@ Figure contact_figure(const Scene& scene, const SceneFacts& facts, const Table& 
     f.finding +=
         fmt::format(" {} {} not tell it: it is inferred as what is missing from the balance, so no closure is claimed.",
                     joined(guessed), guessed.size() == 1 ? "does" : "do");
+  if (!gave.empty())
+    f.finding += fmt::format(" A curve that falls is contact that gives, which a still ball cannot: {}.", joined(gave));
   f.finding +=
       " Where a particle rests, rules of first order put it too deep or too high in each step and contact corrects it: "
       "that part of their curves falls with the step.";

@@ -45,7 +45,8 @@ std::string sharing_pictures(const std::string& page) {
     if (uses[tag.bytes] < 2) continue;
     const auto [name, first] = names.emplace(tag.bytes, static_cast<int>(names.size()) + 1);
     out.append(page, done, tag.from - done);
-    out += fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", tag.width, tag.height, tag.alt);
+    out += fmt::format("<svg class=\"picture\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", tag.width,
+                       tag.height, tag.alt);
     out += first ? fmt::format("<image id=\"picture-{}\" width=\"{}\" height=\"{}\" href=\"{}\"/></svg>", name->second,
                                tag.width, tag.height, tag.bytes)
                  : fmt::format("<use href=\"#picture-{}\"/></svg>", name->second);

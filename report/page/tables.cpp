@@ -19,7 +19,10 @@ std::string length_cell(const std::optional<double>& value, double floor = 0) {
 /// A clearance: negative inside; round-off is neither.
 std::string signed_length(double metres) { return std::abs(metres) < 1e-12 ? "0 m" : nice_length(metres); }
 
-std::string verdict_cell(const MethodFacts& m) {
+std::string verdict_cell(const MethodFacts& m, const SceneFacts& facts) {
+  if (useless_at(m, facts))
+    return fmt::format("<td class=\"failed\">ok, but {} of the motion off</td>",
+                       prose(percent(*m.error, facts.motion)));
   if (m.ok()) return "<td class=\"ok\">ok</td>";
   if (!m.supported()) return fmt::format("<td class=\"unsupported\">unsupported: {}</td>", escaped(m.reason));
   const std::string what = m.verdict == "energy" ? "energy from nothing"
@@ -83,14 +86,15 @@ std::string run_table_html(const ScenePart& part) {
   std::string out = fmt::format(
       "<div class=\"scroll\"><table><thead><tr><th>method</th><th>verdict</th><th>error from truth</th><th>away from "
       "symplectic "
-      "Euler</th>{}<th>energy off</th><th>evaluations</th><th>CPU / s</th></tr></thead><tbody>\n",
+      "Euler</th>{}<th>energy off</th><th>evaluations</th><th title=\"of the run as it is watched at every step; the "
+      "chapter on cost times steps alone\">CPU, watched / s</th></tr></thead><tbody>\n",
       contact ? "<th>centres apart</th><th>clearance</th><th>creep at end</th>" : "");
   for (const MethodFacts& m : part.facts->methods) {
     out += fmt::format("<tr><th scope=\"row\">{}{}</th>{}{}{}", escaped(m.method),
                        m.different_law.empty() ? ""
                                                : fmt::format("<span class=\"law\" title=\"{}\">different law</span>",
                                                              escaped(m.different_law)),
-                       verdict_cell(m), length_cell(m.error, part.facts->bar), length_cell(m.difference));
+                       verdict_cell(m, *part.facts), length_cell(m.error, part.facts->bar), length_cell(m.difference));
     if (contact) {
       out += length_cell(m.centres);
       out += m.clearance ? fmt::format("<td>{}</td>", signed_length(*m.clearance)) : "<td class=\"none\">–</td>";

@@ -46,7 +46,11 @@ const hands = 'Drag to turn. With the picture in focus (click it, or Tab) the wh
 class Desk {
   /** `act` has what the controls call: toggle, seek (s), speed, look, reset. */
   constructor(box, scene, look, act) {
-    Object.assign(this, {scene, end: scene.times[scene.times.length - 1]});
+    Object.assign(this, {
+      scene,
+      end: scene.times[scene.times.length - 1],
+      largest: Math.max(...scene.methods.flatMap(method => method.plotted.map(Math.abs)))
+    });
     const {methods} = scene;
     this.play = make('button', {type: 'button', class: 'play'});
     this.slider = make('input', {
@@ -146,9 +150,11 @@ class Desk {
     this.clock.textContent = `${seconds(time, end)} / ${seconds(end, end)} s`;
     this.plot.moveHead(time);
     scene.methods.forEach((method, i) => {
-      const value = method.plotted[nearest], {unit, powers} = scene.plot;
+      const {unit, powers} = scene.plot, exact = method.plotted[nearest];
+      const value = exact && !powers && Math.abs(exact) < 1e-9 * this.largest ? 0 : exact;  // to rounding
       this.values[i].textContent =
-          value === undefined || value === null ? '–' : powers ? length(10 ** value) : `${short(value)} ${unit}`;
+          value === undefined || value === null ? '–' : unit === 'm' ? length(powers ? 10 ** value : value) :
+                                                    powers ? `${short(10 ** value)} ${unit}` : `${short(value)} ${unit}`;
     });
   }
 }

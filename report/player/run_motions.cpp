@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "experiments/metrics.h"
+#include "mysim/energy.h"
 #include "report/figure.h"
 #include "report/player/packed_numbers.h"
 #include "report/player/quantised.h"
 #include "report/player/shown.h"
 #include "report/player/still_parts.h"
-#include "report/player/values.h"
 #include "report/player/words.h"
 
 namespace crosscheck {
@@ -102,8 +102,11 @@ Json last_pictures(const Against& a, const WatchedRuns& watched, const WatchedRu
   json["low"] = vector_json(places.low), json["unit"] = vector_json(unit);
   json["places"] = packed_json(packed(places.numbers, static_cast<size_t>(shown.x[0].size()), 1));
   json["plotted"] = Json::array();
-  for (const auto& energy : plotted_values(a.scene, shown, nullptr))
-    json["plotted"].push_back(energy ? Json(std::stod(fmt::format("{:.4g}", *energy))) : Json());
+  for (size_t k = 0; k < shown.t.size(); ++k) {
+    const double kinetic =
+        shown.v[k].size() > 0 ? energy_of(a.scene.model, {shown.t[k], shown.x[k], shown.v[k]}).kinetic : 0;
+    json["plotted"].push_back(kinetic > 0 ? Json(std::round(100 * std::log10(kinetic)) / 100) : Json());
+  }
   return json;
 }
 

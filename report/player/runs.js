@@ -74,6 +74,7 @@ async function lastPictures(whole, method, run) {
     spheres: spheresAt(
         whole, run.times.map(t => Math.max(0, whole.times.findLastIndex(frame => frame <= t)))),
     methods: [{...method, ...run, stops: end, failed: null, first: true}],
+    plot: {label: 'kinetic energy / J', unit: 'J', powers: true, title: 'Kinetic energy over the last pictures'},
     finest: run.unit[0],
     story: `The last ${run.frames} pictures of the run, from ${Number(run.times[0].toPrecision(3))} s on.`
   };
@@ -97,12 +98,13 @@ async function lastMoments(set, method, place, outcome) {
   });
   const places = departures.map((d, i) => low[i % 3] + unit[i % 3] * rests[row * wide + i % wide] + larger * d);
   const largest = f => departures.subarray(f * wide, (f + 1) * wide).reduce((a, b) => Math.max(a, Math.abs(b)), 0);
-  const times = Array.from({length: frames}, (_, f) => f * apart);
+  const times = Array.from({length: frames}, (_, f) => f * apart), sizes = times.map((_, f) => largest(f));
+  const powers = Math.max(...sizes) > 100 * Math.max(...sizes.slice(0, Math.ceil(frames / 3)));  // it grows
   const scene = {
     ...set.stage,
     times,
     speed: times[frames - 1] / 6,
-    plot: {label: 'departure from rest / m', unit: 'm', powers: true, title: 'Largest departure from rest'},
+    plot: {label: 'departure from rest / m', unit: 'm', powers, title: 'Largest departure from rest'},
     methods: [{
       ...method,
       low: [0, 0, 0],
@@ -114,7 +116,7 @@ async function lastMoments(set, method, place, outcome) {
       failure: outcome === 'holds' ? '' : outcome,
       reason: 'the last moments before',
       first: true,
-      plotted: times.map((_, f) => (largest(f) > 0 ? Math.log10(largest(f)) : null))
+      plotted: powers ? sizes.map(size => (size > 0 ? Math.log10(size) : null)) : sizes
     }],
     story: `The last ${frames} pictures of the run, up to ${Number(end.toPrecision(3))} s. ` +
         (larger > 1 ? `Departures from rest are drawn ${short(larger)} times as large as they are.` :

@@ -124,8 +124,9 @@ TEST(ChapterWords, WhatContactLeavesOpenIsSaidByScene) {
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_TRUE(contains(findings[0].sentence,
                        "on spring (no drag, no contact) symplectic rules keep the energy to 0.1 % of what is turned "
-                       "over, without drift. On ball, where drag or contact act, what does not add up is 10 % "
-                       "(mysim/leapfrog) to 53 % (mysim/symplectic-euler) of what they took."));
+                       "over, without drift. On ball, where drag or contact act, what does not add up with "
+                       "symplectic rules is 10 % (mysim/leapfrog) to 53 % (mysim/symplectic-euler) of what drag and "
+                       "contact took."));
 }
 
 TEST(ChapterWords, DampingNamesWhoWasAsked) {
@@ -166,7 +167,8 @@ TEST(ChapterWords, WhoWasHardlyTriedIsSaidWhereItTakesTheScene) {
   EXPECT_EQ(
       findings[0].sentence,
       "For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, are of mysim/leapfrog on "
-      "cloth; no dearer within the noise: mysim/rk4 on cloth; the best of Bullet's worlds takes 27 times as much. "
+      "cloth; no dearer within the noise: mysim/rk4 on cloth; the best run of Bullet's worlds takes 27 times the "
+      "CPU time. "
       "Hardly tried: mysim/implicit-euler (one run) and bullet/pbd (no run) on cloth.");
 }
 

@@ -77,7 +77,7 @@ TEST_F(Choice, FailuresAndUselessAnswersAreNamed) {
   const SceneFacts f =
       facts({run("mysim/rk4", 1e-4), run("mysim/explicit-euler", {}, "energy"), run("mysim/xpbd", 0.2),
              run("bullet/pbd", 0.3), run("bullet/deformable-explicit", {}, "unsupported"), run(sticky_sphere, 0.9)});
-  EXPECT_EQ(cell("failed, or over 10 % off", f).text, "explicit-euler; pbd 30 % off, 1 more (of 4)");
+  EXPECT_EQ(cell("failed, or over 10 % off", f).text, "explicit-euler failed; off: pbd 30 %, xpbd 20 % (of 4)");
   EXPECT_EQ(cell("Bullet's nearest", facts({run("bullet/pbd", {}, "unsupported")})).text, "cannot");
 }
 
@@ -110,7 +110,7 @@ TEST_F(Choice, WhatMayBeLeftOutAndWhoIsCheapest) {
   rows.add(cheap);
   const SceneFacts f = facts({run("mysim/rk4", 1e-4)});
   EXPECT_EQ(cell("not needed for 1 % / 10 %", f, rows).text, "nothing / bend springs");
-  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text, "leapfrog, rk4, odeint/rk4; Bullet 27 times");
+  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text, "leapfrog, rk4, odeint/rk4; Bullet's best takes 27 times as long");
   EXPECT_EQ(cell("cheapest for 1 %, CPU time", f).text, "–");
   const auto models = least_models_of(rows, "cloth-hang");
   ASSERT_EQ(models.size(), 3u);
