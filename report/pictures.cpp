@@ -54,6 +54,12 @@ render::View view_of(const Scene& scene, const std::vector<Points>& shown, const
   return view;
 }
 
+/// The method, and its step where another picture is of the same method.
+std::string title_of(const Answer& answer, const std::vector<const Answer*>& all) {
+  const auto same = std::ranges::count(all, answer.method, &Answer::method);
+  return same > 1 ? fmt::format("{}, step {}", answer.method, step_text(answer.outcome.step)) : answer.method;
+}
+
 /// In a clip of steady width, and without word of a failure that is still to come.
 std::string time_text(const Answer& answer, int frame, const Shot& shot) {
   const double time = answer.trajectory.t[frame];
@@ -137,7 +143,7 @@ render::Picture panels_of(const Scene& scene, const std::vector<const Answer*>& 
     for (size_t c = 0; c < frames.size(); ++c) {
       const Points& base = usable[0]->trajectory.x[base_frames[c]];
       render::Panel panel;
-      panel.title = !strip || c == 0 ? a->method : "";
+      panel.title = !strip || c == 0 ? title_of(*a, answers) : "";
       panel.subtitle = time_text(*a, frames[c], when);
       panel.balls = balls_of(scene, a->trajectory.t[frames[c]]);
       panel.bodies.push_back(body_of(scene, *a, frames[c], mode, &base));

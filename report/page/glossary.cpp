@@ -58,6 +58,15 @@ constexpr Word words[] = {
     {"implicit", "implicit",
      "Rules that solve an equation for the next state: stable at long steps, at a price in work, and "
      "often in energy."},
+    {"trapezoidal", "trapezoidal",
+     "Here the explicit rule of the assignment, also called Heun's or the improved Euler rule: not the implicit one "
+     "that holds at every step."},
+    {"creep", "creep", "How fast particles slide that touch a ball, when all should rest."},
+    {"resized", "cloth-hang-6",
+     "A scene with a number behind its name is the same cloth with so many particles along its longer side."},
+    {"sweep", "sweep and general engine",
+     "mysim steps regular cloths in one vectorised pass over the grid, the sweep, and everything else spring by "
+     "spring; +plain asks for the latter."},
     {"position-based", "position-based",
      "Moves particles until distances fit, link by link, and takes speeds from the moves: "
      "fast and robust, but stiffness depends on step and iterations."},

@@ -23,7 +23,7 @@ class MotionPlayer extends HTMLElement {
     const root = this.parentElement;
     const scene = this.scene = this.given?.scene ?? JSON.parse(root.querySelector('script.motion').textContent);
     this.box = root.querySelector('.stage');
-    Object.assign(this, {time: 0, speed: scene.speed ?? 1, playing: false, seen: false, orbit: new Orbit(scene.from)});
+    Object.assign(this, {time: this.given ? 0 : scene.at ?? 0, untouched: true, speed: scene.speed ?? 1, playing: false, seen: false, orbit: new Orbit(scene.from)});
     const narrow = this.box.clientWidth < 700;
     const first = scene.methods.flatMap((m, i) => (m.first ? [i] : []));
     this.look = {
@@ -41,7 +41,7 @@ class MotionPlayer extends HTMLElement {
     });
     this.desk.setLook(this.look);
     this.desk.setPlaying(false);
-    this.desk.setTime(0, 0);
+    this.desk.setTime(this.time, this.frame);
     new IntersectionObserver(([entry]) => this.setSeen(entry.isIntersecting), {threshold: 0.4}).observe(this.box);
     new ResizeObserver(() => this.draw()).observe(this.box);
     dark.addEventListener('change', () => this.draw());
@@ -108,7 +108,7 @@ class MotionPlayer extends HTMLElement {
     await this.wake();
     if (this.playing || !this.wanted) return;
     const {times} = this.scene, end = times[times.length - 1];
-    if (this.time >= end) this.seek(0);
+    if (this.untouched || this.time >= end) this.seek(0);  // at first it shows the poster's moment
     this.playing = true;
     this.desk.setPlaying(true);
     let last = null;
@@ -134,6 +134,7 @@ class MotionPlayer extends HTMLElement {
   /** Shows a time, s. */
   seek(time) {
     const {times} = this.scene;
+    this.untouched = false;
     this.time = Math.max(0, Math.min(times[times.length - 1], time));
     this.desk.setTime(this.time, this.frame);
     this.draw();

@@ -133,6 +133,7 @@ std::string player_json(const Scene& scene, const std::vector<const Answer*>& an
   json["plot"] = plot_json(scene);
   json["methods"] = std::move(methods);
   json["finest"] = bound;
+  json["at"] = scene.camera && scene.camera->at ? *scene.camera->at : scene.duration;  // the poster's time, s
   // an outside program may have said anything
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
