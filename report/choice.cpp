@@ -26,13 +26,13 @@ std::string share_text(double error, const SceneFacts& facts) {
 
 /// The nearest of those that take part, in bold where nobody is nearer. Of several that are as near the cheapest, in
 /// force evaluations, which stands for them.
-ChoiceCell nearest_cell(const SceneFacts& facts, const MethodFacts* m) {
+ChoiceCell nearest_cell(const SceneFacts& facts, const std::vector<MethodFacts>& among, const MethodFacts* m) {
   if (facts.tier.empty() || !m || !(facts.motion > 0)) return {};
   const MethodFacts* best = nearest(facts, "");
   const std::string engine = m->method.substr(0, m->method.find('/') + 1);
-  for (const MethodFacts& each : facts.methods)
+  for (const MethodFacts& each : among)
     if (each.judged() && each.method.starts_with(engine) && shares_place(each, *m, facts) &&
-        each.evaluations < m->evaluations)
+        shares_place(*m, each, facts) && each.evaluations < m->evaluations)
       m = &each;
   return {fmt::format("{} {}", short_name(m->method), share_text(*m->error, facts)),
           shares_place(*m, *best, facts) ? "best" : ""};
@@ -43,14 +43,13 @@ ChoiceCell truth_cell(const Scene&, const SceneFacts& facts, const Rows&) {
 }
 
 ChoiceCell ours_cell(const Scene&, const SceneFacts& facts, const Rows&) {
-  return nearest_cell(facts, nearest(facts, "mysim/"));
+  return nearest_cell(facts, facts.methods, nearest(facts, "mysim/"));
 }
 
 ChoiceCell thrifty_cell(const Scene& scene, const SceneFacts& facts, const Rows&) {
   SceneFacts few = facts;
   std::erase_if(few.methods, [&](const MethodFacts& m) { return !m.thrifty(scene); });
-  const MethodFacts* m = nearest(few, "mysim/");
-  return nearest_cell(facts, m);
+  return nearest_cell(facts, few.methods, nearest(few, "mysim/"));
 }
 
 ChoiceCell bullet_cell(const Scene& scene, const SceneFacts& facts, const Rows&) {
@@ -60,15 +59,14 @@ ChoiceCell bullet_cell(const Scene& scene, const SceneFacts& facts, const Rows&)
   // no truth: how far the same rule is from mysim's
   if (const MethodFacts* b = facts.find(theirs); facts.tier.empty() && b && b->ok() && b->difference)
     return {fmt::format("{} from mysim until {:.2g} s", nice_length(*b->difference), scene.window), "none"};
-  return nearest_cell(facts, nearest(facts, "bullet/"));
+  return nearest_cell(facts, facts.methods, nearest(facts, "bullet/"));
 }
 
 /// Programs of the reader's own, single precision, independent integrators: where they were asked.
 ChoiceCell others_cell(const Scene&, const SceneFacts& facts, const Rows&) {
   SceneFacts others = facts;
   std::erase_if(others.methods, [](const MethodFacts& m) { return short_name(m.method) != m.method; });
-  const MethodFacts* m = nearest(others, "");
-  return nearest_cell(facts, m);
+  return nearest_cell(facts, others.methods, nearest(others, ""));
 }
 
 /// Of several too: whose it is stands there, but for mysim's.

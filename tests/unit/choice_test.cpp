@@ -52,6 +52,15 @@ TEST_F(Choice, TheNearestOfEachEngineAndWhoIsNearest) {
   EXPECT_EQ(cell("failed, or over 10 % off", f).text, "none of 4");
 }
 
+TEST_F(Choice, OfSeveralThatAreAsNearTheCheapestIsNamed) {
+  // 2.5e-16 m apart at three times the work; one with fewer evaluations is nearer by far than those of one a step
+  const SceneFacts f = facts({run("mysim/implicit-euler", 1e-2, "ok", 18000), run("mysim/symplectic-euler", 1.0001e-2),
+                              run("mysim/explicit-euler", 2e-2)});
+  EXPECT_EQ(cell("mysim's nearest", f).text, "symplectic-euler 1 %");
+  const SceneFacts few = facts({run("mysim/dopri5", 1e-8, "ok", 100), run("mysim/explicit-euler", 2e-2)});
+  EXPECT_EQ(cell("mysim's nearest", few).text, "dopri5 < 0.001 %");
+}
+
 TEST_F(Choice, EnginesOfOthersKeepTheirNames) {
   const SceneFacts f = facts({run("mysim/rk4", 1e-4), run("bullet/pbd", 2e-4), run("bullet32/pbd", 3e-4),
                               run("exec:./my/engine", 5e-5), run("truth/converged", 0.)});
