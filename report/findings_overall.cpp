@@ -91,7 +91,7 @@ void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFac
   out.push_back(
       {"", "accuracy",
        fmt::format("Of mysim and Bullet the one with the method nearest to the truth, at the scene's own step, is "
-                   "{}; {} scenes have a truth.",
+                   "{}; {} scenes have a truth. Rules of higher order, of which Bullet has none, decide most of that.",
                    joined(parts), asked),
        "see each scene", "nearest-of-all"});
 }
