@@ -71,8 +71,9 @@ TEST(QuantisedPlaces, NoneIsFurtherFromItsNumberThanTheBound) {
 }
 
 TEST(SharedLattice, TellsPlacesAroundItsBoxApartAndRefusesThoseBeyond) {
-  const std::vector<Points> around{(Points(3, 2) << 0, 2, 0, 1, 0, 0).finished()};  // m: the longest side is 2
-  const Lattice lattice = lattice_around(around);
+  Points around = Points::Zero(3, 2);
+  around.col(1) << 2, 1, 0;  // m: the longest side is 2
+  const Lattice lattice = lattice_around(std::span(&around, 1));
   EXPECT_DOUBLE_EQ(lattice.unit, 2. / 16383);
   for (const double x : {-2.99, -1., 0., 1.7, 4.99}) {
     const auto numbers = lattice.numbers_of(std::vector<Points>{Points::Constant(3, 1, x)});
