@@ -119,7 +119,8 @@ TEST_F(Choice, WhatMayBeLeftOutAndWhoIsCheapest) {
   rows.add(cheap);
   const SceneFacts f = facts({run("mysim/rk4", 1e-4)});
   EXPECT_EQ(cell("not needed for 1 % / 10 %", f, rows).text, "nothing / bend springs");
-  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text, "leapfrog, rk4, odeint/rk4; Bullet's best takes 27 times as long");
+  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text,
+            "leapfrog, rk4, odeint/rk4; Bullet's best takes 27 times as long");
   EXPECT_EQ(cell("cheapest for 1 %, CPU time", f).text, "–");
   const auto models = least_models_of(rows, "cloth-hang");
   ASSERT_EQ(models.size(), 3u);

@@ -163,7 +163,8 @@ TEST(SamePictures, AreInThePageOnce) {
   EXPECT_EQ(out.find(bytes), out.rfind(bytes));
   EXPECT_TRUE(contains(out, picture("BBBB", "other"))) << "what is there once stays as it is";
   EXPECT_TRUE(contains(out, "aria-label=\"one\"><image id=\"picture-1\" width=\"40\" height=\"20\""));
-  EXPECT_TRUE(contains(out, "<svg class=\"picture\" viewBox=\"0 0 40 20\" role=\"img\" aria-label=\"two\"><use href=\"#picture-1\"/>"));
+  EXPECT_TRUE(contains(
+      out, "<svg class=\"picture\" viewBox=\"0 0 40 20\" role=\"img\" aria-label=\"two\"><use href=\"#picture-1\"/>"));
   EXPECT_EQ(sharing_pictures("<p>no picture</p>"), "<p>no picture</p>");
 }
 
