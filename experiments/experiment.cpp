@@ -14,16 +14,39 @@ std::span<const Experiment> experiments() {
   static constexpr std::string_view long_runs[] = {"spring", "pendulum"};
   // particles on balls: the cloths that show more are the experiment's own probes
   static constexpr std::string_view on_balls[] = {"slide", "bounce"};
-  // moving scenes from small to large; the last is the one that the other questions are asked of too
-  static constexpr std::string_view speed_scenes[] = {"pendulum", "chain", "cloth-hang"};
-  static constexpr std::string_view simple_and_cloth[] = {"circle", "pendulum", "chain", "cloth-hang", "cloth-swing"};
+  // all but those that take longest: a cloth of hard lengths, and one on a ball, whose truth is a rule's own
+  static constexpr std::string_view timed_scenes[] = {"circle",   "projectile", "spring",        "normal-modes",
+                                                      "pendulum", "chain",      "chain-link",    "rod",
+                                                      "slide",    "bounce",     "cloth-student", "cloth-hang"};
+  // of moving scenes from small to large; the last is the one that the other questions are asked of too
+  static constexpr std::string_view speed_charts[] = {"pendulum", "chain", "cloth-hang"};
+  // the hanging cloth, at rest on a coarse grid, tells how stiffness follows the grid once more
+  static constexpr std::string_view all_and_swing[] = {"circle",
+                                                       "projectile",
+                                                       "spring",
+                                                       "normal-modes",
+                                                       "pendulum",
+                                                       "chain",
+                                                       "chain-link",
+                                                       "rod",
+                                                       "slide",
+                                                       "bounce",
+                                                       "cloth-student",
+                                                       "cloth-hang",
+                                                       "cloth-inextensible",
+                                                       "cloth-swing",
+                                                       "cloth-sphere"};
+  // of which something can be left out, or several families of springs are worth seeing
+  static constexpr std::string_view cloths[] = {"cloth-student", "cloth-hang", "cloth-inextensible", "cloth-swing",
+                                                "cloth-sphere"};
   static constexpr std::string_view stability_scenes[] = {"spring", "normal-modes", "cloth-hang"};
   static constexpr Experiment table[] = {
       {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_points},
       {"speed-accuracy", "What accuracy does each method give for its cost, and where does it fail?",
-       speed_accuracy_points, speed_scenes, conclude_speed_accuracy},
+       speed_accuracy_points, timed_scenes, conclude_speed_accuracy, speed_charts},
       // its longest points are longer than those of all others, and begin early in a report
-      {"adequacy", "How little model is enough for a scene?", adequacy_points, simple_and_cloth, conclude_adequacy},
+      {"adequacy", "How little model is enough for a scene?", adequacy_points, all_and_swing, conclude_adequacy,
+       cloths},
       {"order", "How fast does the error fall when the step is made smaller?", order_points},
       {"stability", "Where does each method break?", stability_points, stability_scenes},
       {"energy", "Where does the energy go, and what does not add up?", energy_points, long_runs},
@@ -48,6 +71,11 @@ std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<st
   if (!names.empty() || full) return load_scenes(names);
   if (experiment.quick_scenes.empty()) return load_scenes(quick_scenes());
   return load_scenes({experiment.quick_scenes.begin(), experiment.quick_scenes.end()});
+}
+
+bool has_own_charts(const std::string& experiment, const std::string& scene, bool all) {
+  const auto few = find_experiment(experiment).quick_charts;
+  return all || few.empty() || std::find(few.begin(), few.end(), scene) != few.end();
 }
 
 void unite(std::vector<Scene>& all, const std::vector<Scene>& more) {

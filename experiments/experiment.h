@@ -56,6 +56,9 @@ struct Experiment {
   std::span<const std::string_view> quick_scenes = {};
   /// Adds the tables that are made of the rows of all points.
   void (*conclude)(Rows&) = nullptr;
+  /// Those of its scenes that have charts and played runs of their own in a quick run where nobody names any; the
+  /// others are in its tables and in the charts of all scenes. Empty: all have.
+  std::span<const std::string_view> quick_charts = {};
 };
 
 std::vector<Point> order_points(const Request& request);
@@ -77,6 +80,10 @@ const Experiment& find_experiment(const std::string& name);
 /// The scenes that an experiment looks at: the named ones; where none is named, all shipped ones or, in a quick run,
 /// its quick ones.
 std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full);
+
+/// Whether the scene has charts of its own; `all`: scenes were named, or the run is a full one. Throws as
+/// find_experiment().
+bool has_own_charts(const std::string& experiment, const std::string& scene, bool all);
 
 /// Appends those scenes of which none of the same name is there.
 void unite(std::vector<Scene>& all, const std::vector<Scene>& more);

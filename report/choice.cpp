@@ -52,10 +52,13 @@ ChoiceCell thrifty_cell(const Scene& scene, const SceneFacts& facts, const Rows&
   return nearest_cell(facts, few.methods, nearest(few, "mysim/"));
 }
 
+bool bullet_can(const SceneFacts& facts) {
+  return std::any_of(facts.methods.begin(), facts.methods.end(),
+                     [](const MethodFacts& m) { return m.method.starts_with("bullet/") && m.supported(); });
+}
+
 ChoiceCell bullet_cell(const Scene& scene, const SceneFacts& facts, const Rows&) {
-  const bool any = std::any_of(facts.methods.begin(), facts.methods.end(),
-                               [](const MethodFacts& m) { return m.method.starts_with("bullet/") && m.supported(); });
-  if (!any) return {"cannot", "none"};
+  if (!bullet_can(facts)) return {"cannot", "none"};
   // no truth: how far the same rule is from mysim's
   if (const MethodFacts* b = facts.find(theirs); facts.tier.empty() && b && b->ok() && b->difference)
     return {fmt::format("{} from mysim until {:.2g} s", nice_length(*b->difference), scene.window), "none"};
@@ -75,8 +78,8 @@ std::string own_name(std::string methods) {
   return methods;
 }
 
-/// Who is cheapest for 1 % of the motion, and how many times as much Bullet's best takes.
-ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts&, const Rows& result) {
+/// Who is cheapest for 1 % of the motion, and how many times as long Bullet's best takes.
+ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts& facts, const Rows& result) {
   const Table* t = result.table("speed-accuracy-cheapest-cost");
   for (size_t i = 0; t && i < t->rows.size(); ++i) {
     const std::string method = text_or_none(*t, i, "method"), same = text_or_none(*t, i, "as cheap within noise");
@@ -84,8 +87,10 @@ ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts&, const Rows& resu
         text_at(*t, i, "measure") != "error")
       continue;
     const auto factor = number_at(*t, i, "Bullet / best");
-    return {fmt::format("{}{}; Bullet's best {}", own_name(method), same.empty() ? "" : ", " + own_name(same),
-                        factor ? fmt::format("takes {} times as long", times_text(*factor)) : "does not meet it"),
+    return {fmt::format("{}{}{}", own_name(method), same.empty() ? "" : ", " + own_name(same),
+                        factor              ? "; Bullet\u00a0×\u00a0" + times_text(*factor)
+                        : bullet_can(facts) ? "; Bullet:\u00a0none"
+                                            : ""),
             ""};
   }
   return {};
@@ -115,9 +120,13 @@ ChoiceCell fails_cell(const Scene&, const SceneFacts& facts, const Rows&) {
 
 ChoiceCell least_cell(const Scene& scene, const SceneFacts&, const Rows& result) {
   std::vector<std::string> out;
-  for (const LeastModel& least : least_models_of(result, scene.name))
-    if (least.of_motion(1) || least.of_motion(10))
-      out.push_back(least.holds && !least.left_out.empty() ? least.left_out : "nothing");
+  std::string held = "nothing";  // at a stricter tolerance: it then is within a wider one
+  for (const LeastModel& least : least_models_of(result, scene.name)) {
+    if (least.holds && !least.left_out.empty())
+      held = least.left_out +
+             (scene.window < scene.duration ? fmt::format(" (until\u00a0{:.2g}\u00a0s)", scene.window) : "");
+    if (least.of_motion(1) || least.of_motion(10)) out.push_back(held);
+  }
   if (out.empty()) return {};
   if (std::all_of(out.begin(), out.end(), [&](const std::string& each) { return each == out[0]; })) return {out[0], ""};
   return {fmt::format("{}", fmt::join(out, " / ")), ""};

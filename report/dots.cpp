@@ -32,6 +32,15 @@ Table data_of(const Dots& dots) {
   return table;
 }
 
+/// What the longest name, or heading, takes of the width.
+double room_for_names(const Dots& dots) {
+  size_t longest = 0;
+  for (const std::string& name : dots.names) longest = std::max(longest, name.size());
+  for (const auto& [line, heading] : dots.headings) longest = std::max(longest, heading.size());
+  constexpr double letter = 7.3;  // mean width of a letter of 12 units, in units
+  return std::min(0.5, 0.04 + letter * static_cast<double>(longest) / dots.size.units());
+}
+
 /// The series lie a little above and below the middle of their line, so that they do not hide each other.
 double offset_of(size_t series, size_t count) {
   return count < 2 ? 0 : 0.3 * (static_cast<double>(series) / static_cast<double>(count - 1) - 0.5);
@@ -64,9 +73,9 @@ Drawing drawing_of(const Dots& dots) {
   out += fmt::format(
       "set title ' '\nset label {} at screen 0.5, screen 1 offset 0,-1.2 center noenhanced font \"DejaVu "
       "Sans:Bold,13\"\n"
-      "set key at screen 0.5, screen 0 center bottom horizontal\nset lmargin at screen 0.44\nset bmargin 5.5\n"
+      "set key at screen 0.5, screen 0 center bottom horizontal\nset lmargin at screen {:.3f}\nset bmargin 5.5\n"
       "set xlabel {} offset 0,0.2\n",
-      single_quoted(dots.title), single_quoted(dots.label));
+      single_quoted(dots.title), room_for_names(dots), single_quoted(dots.label));
   out += axis_of(dots);
   const double lines = static_cast<double>(dots.names.size() + dots.headings.size());
   out += fmt::format("set yrange [{:.1f}:0.4]\nset ytics noenhanced (", lines + 0.6);

@@ -135,6 +135,10 @@ std::string step_text(double seconds) {
   return nice(1e6 * seconds) + " µs";
 }
 
+std::string setting_text(const std::string& setting, double asked) {
+  return setting.starts_with("tolerance") ? "tolerance " + nice(asked) : step_text(asked);
+}
+
 bool costs_compare(const Scene& scene) {
   return scene.model.particles.size() >= 50 && !scene.model.find<Aerodynamics>();
 }

@@ -70,6 +70,8 @@ std::string nice(double value);
 std::string nice_length(double metres);
 /// A step or a time in the unit that suits it: "500 µs", "1.12 ms", "3 s".
 std::string step_text(double seconds);
+/// "2 ms", or "tolerance 1.0e-6": what a run was asked for, its setting "step [s]" or "tolerance [1]".
+std::string setting_text(const std::string& setting, double asked);
 
 /// Whether costs of a step may be compared on the scene: below 50 particles a step takes less than the clock can tell,
 /// and air on triangles reaches Bullet through a class of ours, whose time would count as Bullet's.

@@ -1,4 +1,6 @@
 // Sentences on speed against accuracy and on the cost of a step.
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -60,20 +62,42 @@ std::string hardly_tried(const Rows& result) {
   return scenes.empty() ? "" : fmt::format(" Hardly tried: {}.", joined(scenes));
 }
 
+/// "mysim on 11 scenes (leapfrog on spring and chain, xpbd on projectile) and odeint/dopri5 on rod"
+std::string told_by_engine(const std::map<std::string, std::vector<std::string>>& scenes_of) {
+  std::map<std::string, std::vector<std::string>> lines;  // by engine
+  std::map<std::string, size_t> wins;
+  for (const auto& [method, where] : scenes_of) {
+    const size_t slash = method.find('/');
+    const std::string engine = method.substr(0, slash);
+    wins[engine] += where.size();
+    lines[engine].push_back(
+        fmt::format("{} on {}", slash == std::string::npos ? method : method.substr(slash + 1), joined(where)));
+  }
+  std::vector<std::pair<size_t, std::string>> engines;
+  for (const auto& [engine, scenes] : wins) engines.emplace_back(scenes, engine);
+  std::ranges::stable_sort(engines, std::greater(), &std::pair<size_t, std::string>::first);
+  std::vector<std::string> out;
+  for (const auto& [scenes, engine] : engines)
+    out.push_back(lines[engine].size() == 1
+                      ? fmt::format("of {}/{}", engine, lines[engine][0])
+                      : fmt::format("of {} on {} scenes ({})", engine, scenes, fmt::join(lines[engine], "; ")));
+  return joined(out);
+}
+
 /// Who meets 1 % of the motion at the least CPU time, on how many scenes.
 void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   const Table* t = result.table("speed-accuracy-cheapest-cost");
   if (!t) return;
-  std::map<std::string, std::vector<std::string>> scenes_of, as_cheap;  // by the cheapest; by who shares its place
+  std::map<std::string, std::vector<std::string>> scenes_of;  // by the cheapest
+  size_t shared = 0, scenes = 0;                              // where the clock cannot tell another from it
   double low = 1e300, high = 0;
   std::vector<std::string> without;  // scenes on which no run of Bullet that was tried meets it
   for (size_t i = 0; i < t->rows.size(); ++i) {
     const std::string method = text_or_none(*t, i, "method");
     if (number_at(*t, i, "part of motion") != 0.01 || method.empty() || text_at(*t, i, "measure") != "error") continue;
     scenes_of[method].push_back(text_at(*t, i, "scene"));
-    // what the clock cannot tell apart shares the place
-    if (const std::string same = text_or_none(*t, i, "as cheap within noise"); !same.empty())
-      as_cheap[same].push_back(text_at(*t, i, "scene"));
+    ++scenes;
+    shared += !text_or_none(*t, i, "as cheap within noise").empty();
     if (const auto factor = number_at(*t, i, "Bullet / best")) {
       low = std::min(low, *factor);
       high = std::max(high, *factor);
@@ -82,15 +106,16 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
     }
   }
   if (scenes_of.empty()) return;
-  std::vector<std::string> who;
-  for (const auto& [method, where] : scenes_of) who.push_back(fmt::format("{} on {}", method, joined(where)));
-  std::string sentence = fmt::format(
-      "For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, are of {}", joined(who));
-  who.clear();
-  for (const auto& [method, where] : as_cheap) who.push_back(fmt::format("{} on {}", method, joined(where)));
-  if (!who.empty()) sentence += "; no dearer within the noise: " + joined(who);
+  std::string sentence =
+      fmt::format("For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, is {}",
+                  told_by_engine(scenes_of));
+  if (shared > 0)
+    sentence +=
+        shared == scenes && scenes == 1
+            ? "; another method is no dearer within the noise"
+            : fmt::format("; on {} of these {} scenes another method is no dearer within the noise", shared, scenes);
   if (high > 0) {
-    sentence += fmt::format("; the best run of Bullet's worlds takes {} times the CPU time",
+    sentence += fmt::format("; the best run of Bullet's worlds takes {} times as long as the cheapest",
                             range(times_text(low), times_text(high)));
     if (const auto evaluations = factors_of_evaluations(result))
       sentence += *evaluations == "1"

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "experiments/cells.h"
+#include "experiments/speed_accuracy/by_engine.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
 
 namespace crosscheck {
@@ -101,9 +102,11 @@ void add_pareto(const SceneRuns& s, const std::vector<WorkPoint>& points, Table&
     table.add({s.scene, p.cost, *p.error, p.method, p.setting, p.asked});
 }
 
+constexpr double parts_of_motion[] = {0.1, 0.01, 0.001};
+
 void add_cheapest(const SceneRuns& s, const std::vector<WorkPoint>& points, double noise, Table& table) {
   if (!s.bar) return;
-  for (const double part : {0.1, 0.01, 0.001}) {
+  for (const double part : parts_of_motion) {
     // the truth may err as well: what is met is met whatever the truth is within its bar
     const double bound = part * s.motion, left = bound - *s.bar;
     std::vector<Cell> row{s.scene, part, bound, std::string(s.difference ? "difference" : "error")};
@@ -174,7 +177,8 @@ void conclude_speed_accuracy(Rows& rows) {
               {"part timed", "1"},
               {"noise", "1"},
               {"build", "1"}},
-             {}};
+             {}},
+        engines = engines_cost_table();
   for (const SceneRuns& s : runs_of(*results)) {
     // an outside program need not count its evaluations, and of Bullet's implicit world the steps alone are known: what
     // its solver takes for each would pass for nothing
@@ -189,8 +193,11 @@ void conclude_speed_accuracy(Rows& rows) {
     const std::vector<WorkPoint> points = timed_points(s, *timing, noise, cost);
     add_pareto(s, points, pareto_time);
     add_cheapest(s, points, noise, best_time);
+    for (const double part : parts_of_motion)
+      if (s.bar)
+        add_by_engine(s.scene, part, s.difference ? "difference" : "error", part * s.motion - *s.bar, points, engines);
   }
-  for (const Table& table : {pareto, best, cost, pareto_time, best_time}) rows.add(table);
+  for (const Table& table : {pareto, best, cost, pareto_time, best_time, engines}) rows.add(table);
 }
 
 }  // namespace crosscheck

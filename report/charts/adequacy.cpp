@@ -6,6 +6,7 @@
 
 #include "experiments/cells.h"
 #include "report/charts/adequacy_parts.h"
+#include "report/findings_text.h"
 
 namespace crosscheck {
 namespace {
@@ -98,13 +99,43 @@ Chart ladder(const Table& t, const Table* least, const std::string& scene, const
   return chart;
 }
 
+/// Scenes without a chart of their own: what each of their ingredients is worth, a line each.
+PageTable removals_of(const Table& t, const std::vector<std::string>& scenes) {
+  PageTable page{"What leaving out one ingredient costs, in parts of the scene's motion",
+                 {"scene", "left out", "error", "in parts of the motion"},
+                 {}};
+  for (const std::string& scene : scenes)
+    for (size_t i = 0; i < t.rows.size(); ++i) {
+      if (text_at(t, i, "scene") != scene || text_at(t, i, "kind") != "single") continue;
+      const auto error = number_at(t, i, "error");
+      const double motion = *number_at(t, i, "motion");
+      page.rows.push_back({scene, text_at(t, i, "left out"), error_text(error),
+                           !error || !(motion > 0) ? failure_word(text_at(t, i, "verdict"))
+                           : *error > 10 * motion  ? "over 1000 %"
+                                                   : percent(*error, motion)});
+    }
+  return page;
+}
+
 }  // namespace
 
 std::vector<Chart> adequacy_charts(const ChartInput& input) {
   std::vector<Chart> charts;
-  if (const Table* t = input.result.table("adequacy"))
+  std::vector<std::string> others;
+  if (const Table* t = input.result.table("adequacy")) {
     for (const std::string& scene : distinct(*t, "scene"))
-      charts.push_back(ladder(*t, input.result.table("adequacy-least"), scene, input.commit));
+      if (has_own_charts("adequacy", scene, input.all))
+        charts.push_back(ladder(*t, input.result.table("adequacy-least"), scene, input.commit));
+      else
+        others.push_back(scene);
+    if (!others.empty())
+      charts.push_back({"",
+                        std::monostate{},
+                        "adequacy",
+                        "Figures of these: --full, or a report of them alone.",
+                        "The other scenes",
+                        {removals_of(*t, others)}});
+  }
   for (Chart& chart : grid_charts(input.result, input.commit)) charts.push_back(std::move(chart));
   return charts;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "report/bars.h"
+#include "report/dots.h"
 #include "report/facts.h"
 #include "report/figure.h"
 #include "report/heat_map.h"
@@ -19,6 +20,7 @@ struct ChartInput {
   const std::vector<SceneFacts>& facts;  // one per scene
   const Rows& result;
   std::string commit;
+  bool all = true;  // scenes were named, or the run is a full one: each has charts of its own
 };
 
 /// A small table on the page, in words and numbers as people read them.
@@ -44,10 +46,11 @@ struct Snapshot {
 /// A piece of a scene's part, of a chapter, or of the front: a figure, a small table, renders, or several of these.
 struct Chart {
   std::string scene;  // where it belongs; empty: the front of the report, or a chapter
-  std::variant<Figure, Bars, HeatMap, std::monostate> figure;  // a new kind of figure is a struct and its drawing_of()
-  std::string chapter = {};                                    // of the report, by its id (chapters.cpp); empty: none
-  std::string text = {};                                       // in a chapter: what it is about, before it
-  std::string heading = {};                                    // in a chapter; empty: the figure's title
+  std::variant<Figure, Bars, Dots, HeatMap, std::monostate>
+      figure;                // a new kind of figure is a struct and its drawing_of()
+  std::string chapter = {};  // of the report, by its id (chapters.cpp); empty: none
+  std::string text = {};     // in a chapter: what it is about, before it
+  std::string heading = {};  // in a chapter; empty: the figure's title
   std::vector<PageTable> tables = {};
   std::vector<Snapshot> snapshots = {};
 };
@@ -67,6 +70,7 @@ std::vector<Chart> energy_charts(const ChartInput& input);          // where it 
 std::vector<Chart> sphere_charts(const ChartInput& input);          // contact: friction, rebound, depth, drapes
 std::vector<Chart> stiffness_charts(const ChartInput& input);       // of position-based links
 std::vector<Chart> disagreement_charts(const ChartInput& input);    // where Bullet answers otherwise than it is asked
+std::vector<Chart> cheapest_charts(const ChartInput& input);        // who is fastest at an accuracy, over all scenes
 std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // error against cost, chapter of its own
 std::vector<Chart> cost_charts(const ChartInput& input);            // of a step
 std::vector<Chart> adequacy_charts(const ChartInput& input);        // what each ingredient and the grid are worth

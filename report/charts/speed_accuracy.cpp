@@ -18,23 +18,13 @@ bool same_run(const Table& a, size_t i, const Table& b, size_t j) {
   return true;
 }
 
-/// "1.2 ms": a time in the unit that suits it.
-std::string nice_time(double seconds) {
-  if (seconds >= 1) return fmt::format("{:.3g} s", seconds);
-  if (seconds >= 1e-3) return fmt::format("{:.3g} ms", 1e3 * seconds);
-  return fmt::format("{:.3g} µs", 1e6 * seconds);
-}
-std::string setting_text(const std::string& setting, double asked) {
-  return setting.starts_with("tolerance") ? "tolerance " + nice(asked) : nice_time(asked);
-}
-
 /// Both costs of a chart, told apart by these.
 struct Cost {
   bool time;
   std::string suffix() const { return time ? "-cost" : ""; }
   std::string column() const { return time ? "cpu" : "evaluations"; }
   std::string text_of(double value) const {
-    return time ? nice_time(value) : value < 1e6 ? fmt::format("{:.0f}", value) : nice(value);
+    return time ? step_text(value) : value < 1e6 ? fmt::format("{:.0f}", value) : nice(value);
   }
 };
 
@@ -239,6 +229,7 @@ std::vector<Chart> speed_accuracy_charts(const ChartInput& input) {
   std::vector<Chart> charts;
   const Table* runs = input.result.table("speed-accuracy");
   for (size_t i = 0; runs && i < input.scenes.size(); ++i) {
+    if (!has_own_charts("speed-accuracy", input.scenes[i].name, input.all)) continue;
     const SceneRows s = rows_of(input, *runs, input.scenes[i].name);
     if (s.rows.empty()) continue;
     for (const Cost kind : {Cost{true}, Cost{false}}) {

@@ -119,7 +119,8 @@ int figures_command(const FiguresOptions& options) {
   std::vector<Chart> charts;
   if (!asked.experiments.empty()) {
     const AllFindings findings = all_findings(work.scenes, rows);
-    charts = all_charts({work.scenes, findings.facts, rows, value_of(lines, "commit")});
+    charts = all_charts(
+        {work.scenes, findings.facts, rows, value_of(lines, "commit"), options.full || !options.scenes.empty()});
     std::erase_if(charts, [&](Chart& chart) { return !resize(chart, size); });
   }
   std::vector<Point> drawings;

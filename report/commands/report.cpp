@@ -48,7 +48,10 @@ class Builder {
         request_(std::move(request)),
         figures_(options.out / "figures"),
         runs_(options.out / "data" / "runs") {
-    request_.watch = [this](const WatchedRuns& watched) { runs_.keep(watched, run_of(request_, watched.scene)); };
+    request_.watch = [this](const WatchedRuns& watched) {
+      if (watched.of != "speed-accuracy" || has_own_charts(watched.of, watched.scene.name, all()))
+        runs_.keep(watched, run_of(request_, watched.scene));
+    };
     for (const Experiment& e : experiments()) {
       const auto& asked = options.experiments;
       if (!asked.empty() && std::find(asked.begin(), asked.end(), e.name) == asked.end()) continue;
@@ -90,7 +93,7 @@ class Builder {
       page_.changes = changes_since(options_.against, findings_);
     }
     for (size_t i = 0; i < request_.scenes.size(); ++i) add_part(i);
-    charts_ = all_charts({request_.scenes, findings_.facts, rows_, value_of(page_.provenance, "commit")});
+    charts_ = all_charts({request_.scenes, findings_.facts, rows_, value_of(page_.provenance, "commit"), all()});
     draw_charts();
     for (const Chart& chart : charts_) add(chart);
     // beside the answer stands the last scene that Bullet answers too
@@ -120,6 +123,9 @@ class Builder {
       page_.problems.push_back(fmt::format("{}: {}", f.name, f.why));
     progress.done();
   }
+
+  /// Whether each scene has charts of its own.
+  bool all() const { return options_.full || !options_.scenes.empty(); }
 
   /// Every scene that some experiment looks at.
   std::vector<Scene> scenes_of_all() const {

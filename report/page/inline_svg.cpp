@@ -169,6 +169,12 @@ void remove_names(std::string& text) {
   }
 }
 
+/// What stands in its title: whose run it is stands in what it plays already (page.js puts it in front again).
+std::string title_of(const Tip& tip) {
+  const std::string method = tip.run.substr(0, tip.run.rfind(' ')) + ", ";
+  return escaped(!tip.run.empty() && tip.words.starts_with(method) ? tip.words.substr(method.size()) : tip.words);
+}
+
 /// Gives the shapes from a place on their words. Where there are more, the last is the key's sample.
 void tell(std::string& body, size_t at, const std::string& shape, const std::vector<Tip>& tips) {
   const std::string open = "<" + shape + " ";
@@ -176,7 +182,7 @@ void tell(std::string& body, size_t at, const std::string& shape, const std::vec
     at = at == std::string::npos ? at : body.find(open, at);
     if (at == std::string::npos) throw std::runtime_error("a drawing with fewer shapes than runs");
     const size_t close = body.find("/>", at);
-    body.replace(close, 2, fmt::format("><title>{}</title></{}>", escaped(tip.words), shape));
+    body.replace(close, 2, fmt::format("><title>{}</title></{}>", title_of(tip), shape));
     body.insert(at + open.size(),
                 tip.run.empty() ? "class=\"told\" " : fmt::format("data-run=\"{}\" ", escaped(tip.run)));
     at = close;

@@ -103,12 +103,13 @@
   tip.hidden = true;
   document.body.append(tip);
 
-  /// The words of a marker, taken from its title, which the browser would show late and small.
+  /// The words of a marker: whose run it is, and its title, which the browser would show late and small.
   const wordsOf = (marker) => {
     const title = marker.querySelector('title');
     if (title) {
-      marker.dataset.words = title.textContent;
-      marker.setAttribute('aria-label', title.textContent);
+      const method = marker.dataset.run?.replace(/ \d+$/, '');
+      marker.dataset.words = (method ? `${method}, ` : '') + title.textContent;
+      marker.setAttribute('aria-label', marker.dataset.words);
       title.remove();
     }
     return marker.dataset.words;

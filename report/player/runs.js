@@ -15,8 +15,11 @@ const runsOf = (() => {
   };
 })();
 
+/** Whose run a marker plays. */
+const methodOf = marker => marker.dataset.run.replace(/ \d+$/, '');
+
 /** What a marker says; page.js may have taken its title already. */
-const tipOf = marker => marker.dataset.words ?? marker.querySelector('title').textContent;
+const tipOf = marker => marker.dataset.words ?? `${methodOf(marker)}, ${marker.querySelector('title').textContent}`;
 
 /** Smallest 1, 2 or 5 times a power of ten that is not below a value. */
 function roundUp(value) {
@@ -175,7 +178,7 @@ function listRuns(figure) {
     if (list.querySelector('select')) return;
     const markers = [...figure.querySelectorAll('[data-run]')], groups = new Map();
     markers.forEach((marker, i) => {
-      const name = marker.dataset.run.replace(/ \d+$/, ''), words = tipOf(marker).split('\n');
+      const name = methodOf(marker), words = tipOf(marker).split('\n');
       if (!groups.has(name)) groups.set(name, make('optgroup', {label: name}));
       groups.get(name).append(
           make('option', {value: i}, `${words[0].replace(`${name}, `, '')}: ${words.slice(1).join('; ')}`));

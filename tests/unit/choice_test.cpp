@@ -119,9 +119,22 @@ TEST_F(Choice, WhatMayBeLeftOutAndWhoIsCheapest) {
   rows.add(cheap);
   const SceneFacts f = facts({run("mysim/rk4", 1e-4)});
   EXPECT_EQ(cell("not needed for 1 % / 10 %", f, rows).text, "nothing / bend springs");
-  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text,
-            "leapfrog, rk4, odeint/rk4; Bullet's best takes 27 times as long");
+  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text, "leapfrog, rk4, odeint/rk4; Bullet\u00a0×\u00a027");
   EXPECT_EQ(cell("cheapest for 1 %, CPU time", f).text, "–");
+
+  // what holds within 1 % is within 10 % too, also where the search goes further there and fails
+  Rows further;
+  further.add(least({{"cloth-hang", 0.01, "1 % of its motion", "shear springs", 5e-3, 5e-3, 5e-3, 1l, 0.67},
+                     {"cloth-hang", 0.1, "10 % of its motion", "shear springs, drag", 0.2, 0.02, 0.03, 0l, 0.67}}));
+  EXPECT_EQ(cell("not needed for 1 % / 10 %", f, further).text, "shear springs");
+
+  // nobody of Bullet is as near, though its worlds take the scene
+  Table none = cheap;
+  none.rows[0].back() = Cell();
+  Rows without;
+  without.add(none);
+  EXPECT_EQ(cell("cheapest for 1 %, CPU time", facts({run("bullet/pbd", 0.1)}), without).text,
+            "leapfrog, rk4, odeint/rk4; Bullet:\u00a0none");
   const auto models = least_models_of(rows, "cloth-hang");
   ASSERT_EQ(models.size(), 3u);
   EXPECT_EQ(models[1].failing, 2);
@@ -134,7 +147,8 @@ TEST_F(Choice, WhatMayBeLeftOutAndWhoIsCheapest) {
   EXPECT_EQ(
       findings[0].sentence,
       "On cloth-hang within its tolerance all is needed; at 1 % of its motion without shear springs it fails from "
-      "2 of 3 other starts; at 10 % of its motion it can do without bend springs, which saves 33 % of the cost.");
+      "2 of 3 other starts; at 10 % of its motion it can do without bend springs, which saves 33 % of the cost. All "
+      "this while single positions can be compared.");
 }
 
 TEST_F(Choice, TheFindingSaysTheRowWithoutTimings) {

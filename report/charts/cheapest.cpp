@@ -1,0 +1,142 @@
+// Who is fastest at an accuracy: on every scene the cheapest run of each engine within 1 % of the motion, beside
+// mysim's.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "experiments/cells.h"
+#include "report/charts/charts.h"
+#include "report/findings_text.h"
+
+namespace crosscheck {
+namespace {
+
+/// How an engine is called, and whose look it has.
+struct EngineLook {
+  std::string name;
+  MethodStyle style;
+};
+EngineLook look_of(const std::string& engine) {
+  static const std::map<std::string, std::pair<std::string, std::string>> known = {
+      {"mysim", {"mysim", "mysim/symplectic-euler"}},
+      {"bullet", {"Bullet", "bullet/deformable-explicit"}},
+      {"bullet32", {"Bullet in single precision", "bullet32/deformable-explicit"}},
+      {"odeint", {"Boost odeint", "odeint/dopri5"}},
+      {"sundials", {"SUNDIALS", "sundials/arkode"}}};
+  const auto found = known.find(engine);
+  return found == known.end() ? EngineLook{engine, style_of(engine)}
+                              : EngineLook{found->second.first, style_of(found->second.second)};
+}
+
+std::optional<size_t> row_of(const Table& t, const std::string& scene, double part, const std::string& engine) {
+  for (size_t i = 0; i < t.rows.size(); ++i)
+    if (text_at(t, i, "scene") == scene && number_at(t, i, "part of motion") == part &&
+        text_at(t, i, "engine") == engine)
+      return i;
+  return std::nullopt;
+}
+
+/// Every scene and accuracy: the run of each engine, and how many times as long as mysim's it takes.
+PageTable table_of(const Table& t, const std::vector<std::string>& engines) {
+  PageTable page{
+      "The cheapest run of each engine with an error of at most a part of the motion, with its step or "
+      "tolerance; behind it how many times the CPU time of mysim's it takes",
+      {"scene", "at most", "mysim", "CPU time"},
+      {}};
+  for (const std::string& engine : engines) {
+    page.header.push_back(look_of(engine).name);
+    page.header.emplace_back("times mysim's");
+  }
+  const auto run = [&](const std::optional<size_t>& row) {
+    return row ? fmt::format("{}, {}", text_at(t, *row, "method"),
+                             setting_text(text_at(t, *row, "setting"), *number_at(t, *row, "asked")))
+               : "";
+  };
+  for (const std::string& scene : distinct(t, "scene"))
+    for (const double part : {0.1, 0.01, 0.001}) {
+      const auto ours = row_of(t, scene, part, "mysim");
+      std::vector<std::string> cells{scene, fmt::format("{:g} %", 100 * part), ours ? run(ours) : "none tried",
+                                     ours ? step_text(*number_at(t, *ours, "cpu")) : ""};
+      for (const std::string& engine : engines) {
+        const auto row = row_of(t, scene, part, engine);
+        const auto times = row ? number_at(t, *row, "times mysim") : std::nullopt;
+        cells.push_back(run(row));
+        cells.push_back(times ? times_text(*times) : "");
+      }
+      page.rows.push_back(std::move(cells));
+    }
+  return page;
+}
+
+/// "Within 1 % of the motion mysim is the fastest on 10 of 11 scenes; Bullet takes 6.5 (rod) to 78 (spring) times its
+/// CPU time, Boost odeint 0.78 (rod) to 20 (cloth-hang)."
+std::string told(const Dots& f) {
+  size_t first = 0;
+  for (size_t i = 0; i < f.names.size(); ++i)
+    first += std::none_of(f.series.begin(), f.series.end(),
+                          [i](const Dots::Series& s) { return s.dots[i] && s.dots[i]->low < 1; });
+  std::string others;
+  for (const Dots::Series& series : f.series) {
+    std::optional<size_t> least, most;
+    for (size_t i = 0; i < series.dots.size(); ++i) {
+      if (!series.dots[i]) continue;
+      if (!least || series.dots[i]->value < series.dots[*least]->value) least = i;
+      if (!most || series.dots[i]->value > series.dots[*most]->value) most = i;
+    }
+    const auto at = [&](size_t i) { return fmt::format("{} ({})", times_text(series.dots[i]->value), f.names[i]); };
+    others +=
+        fmt::format("{} {} takes {}{}{}", others.empty() ? ";" : ",", series.title,
+                    least == most ? "" : at(*least) + " to ", at(*most), others.empty() ? " times its CPU time" : "");
+  }
+  return fmt::format("Within 1 % of the motion mysim is the fastest, beyond the intervals, on {} of {} scenes{}.",
+                     first, f.names.size(), others);
+}
+
+}  // namespace
+
+std::vector<Chart> cheapest_charts(const ChartInput& input) {
+  const Table* t = input.result.table("speed-accuracy-engines-cost");
+  if (!t) return {};
+  std::vector<std::string> engines = distinct(*t, "engine");
+  std::erase(engines, "mysim");
+  std::ranges::stable_partition(engines, [](const std::string& engine) { return engine.starts_with("bullet"); });
+  Dots f;
+  f.name = "cheapest-1-percent";
+  f.title = "CPU time for an error of 1 % of the motion, over mysim's";
+  f.label = "CPU time of the cheapest run within 1 %, in times of mysim's cheapest";
+  f.from_costs = true;
+  for (const std::string& engine : engines) f.series.push_back({look_of(engine).name, look_of(engine).style, {}});
+  bool any = false;
+  for (const std::string& scene : distinct(*t, "scene")) {
+    std::vector<std::optional<Dots::Dot>> dots;
+    for (const std::string& engine : engines) {
+      const auto row = row_of(*t, scene, 0.01, engine);
+      const auto times =
+          row && text_at(*t, *row, "measure") == "error" ? number_at(*t, *row, "times mysim") : std::nullopt;
+      dots.push_back(times ? std::optional(Dots::Dot{*times, *number_at(*t, *row, "times mysim low"),
+                                                     *number_at(*t, *row, "times mysim high")})
+                           : std::nullopt);
+    }
+    if (std::none_of(dots.begin(), dots.end(), [](const auto& dot) { return dot.has_value(); })) continue;
+    any = true;
+    f.names.push_back(scene);
+    for (size_t i = 0; i < engines.size(); ++i) f.series[i].dots.push_back(dots[i]);
+  }
+  if (!any) return {};
+  std::erase_if(f.series, [](const Dots::Series& s) {
+    return std::none_of(s.dots.begin(), s.dots.end(), [](const auto& dot) { return dot.has_value(); });
+  });
+  f.finding = told(f);
+  f.caption = fmt::format(
+      "To the right of the line mysim is faster, to the left the other. Of each engine the cheapest of all runs tried, "
+      "whatever its method, step or tolerance; thread CPU time on one core, medians, and the widest that both 90 % "
+      "intervals allow; a scene without a marker has no such run of that engine; mysim and odeint are compiled in this "
+      "build, Bullet and SUNDIALS are Debian's generic x86-64 builds; commit {}.",
+      input.commit);
+  f.tier = "each scene's truth, its error bar taken off the 1 %";
+  return {{"", f, "speed-accuracy", "", "Who is fastest at 1 %?", {table_of(*t, engines)}}};
+}
+
+}  // namespace crosscheck
