@@ -80,7 +80,6 @@ SceneFacts facts_of(const std::string& scene, const Rows& result) {
       for (size_t i = 0; i < cost->rows.size(); ++i)
         if (text_or_none(*cost, i, "scene") == scene && text_or_none(*cost, i, "method") == m.method) {
           m.cpu = number_at(*cost, i, "cpu");
-          m.cpu_per_step = number_at(*cost, i, "cpu per step");
         }
     if (const Table* energy = result.table("engines-energy"))
       for (size_t i = 0; i < energy->rows.size(); ++i)
@@ -125,6 +124,7 @@ std::string nice_length(double metres) {
   if (size >= 1) return fmt::format("{:.3g} m", metres);
   if (size >= 1e-4) return two_digits(metres * 1e3) + " mm";
   if (size >= 1e-6) return two_digits(metres * 1e6) + " µm";
+  if (size >= 1e-9) return two_digits(metres * 1e9) + " nm";
   return nice(metres) + " m";
 }
 
@@ -137,10 +137,6 @@ std::string step_text(double seconds) {
 
 std::string setting_text(const std::string& setting, double asked) {
   return setting.starts_with("tolerance") ? "tolerance " + nice(asked) : step_text(asked);
-}
-
-bool costs_compare(const Scene& scene) {
-  return scene.model.particles.size() >= 50 && !scene.model.find<Aerodynamics>();
 }
 
 }  // namespace crosscheck

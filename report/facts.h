@@ -19,14 +19,14 @@ struct MethodFacts {
   std::string method, verdict, reason, different_law;
   double end = 0, step = 0;  // s
   long evaluations = 0, coincident = 0;
-  std::optional<double> error;              // m, largest RMS error from the truth in the window
-  std::optional<double> from_contact;       // m, the same from what the in-house contact rule converges to: no error
-  std::optional<double> difference;         // m, largest RMS difference from mysim/symplectic-euler in the window
-  std::optional<double> centres;            // m, largest difference of the centres of mass over the run
-  std::optional<double> clearance, creep;   // m, m/s
-  std::optional<double> cpu, cpu_per_step;  // s
-  std::optional<double> energy_error;       // relative
-  std::optional<double> limit;              // s, largest stable step by theory, for the scene's fastest vibration
+  std::optional<double> error;             // m, largest RMS error from the truth in the window
+  std::optional<double> from_contact;      // m, the same from what the in-house contact rule converges to: no error
+  std::optional<double> difference;        // m, largest RMS difference from mysim/symplectic-euler in the window
+  std::optional<double> centres;           // m, largest difference of the centres of mass over the run
+  std::optional<double> clearance, creep;  // m, m/s
+  std::optional<double> cpu;               // s
+  std::optional<double> energy_error;      // relative
+  std::optional<double> limit;             // s, largest stable step by theory, for the scene's fastest vibration
   bool supported() const { return verdict != "unsupported"; }
   bool ok() const { return verdict == "ok"; }
   /// Whether it came to its end and is no truth itself, and how far it is from the truth is known.
@@ -72,9 +72,5 @@ std::string nice_length(double metres);
 std::string step_text(double seconds);
 /// "2 ms", or "tolerance 1.0e-6": what a run was asked for, its setting "step [s]" or "tolerance [1]".
 std::string setting_text(const std::string& setting, double asked);
-
-/// Whether costs of a step may be compared on the scene: below 50 particles a step takes less than the clock can tell,
-/// and air on triangles reaches Bullet through a class of ours, whose time would count as Bullet's.
-bool costs_compare(const Scene& scene);
 
 }  // namespace crosscheck

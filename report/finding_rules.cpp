@@ -27,7 +27,6 @@ const std::vector<FindingRule>& finding_rules() {
        {"engines"},
        "{}-converged"},
       {"sticky", "largest difference of centres of mysim/symplectic-euler+sticky", {"engines"}, "{}-centres"},
-      {"step-cost", "cpu per step / cpu per step of mysim/symplectic-euler", {"engines-cost", "engines"}},
       {"agreement-of-all", "over scenes: max of largest difference, and of largest difference of centres", {"engines"}},
       {"nearest-of-all",
        "over scenes: which engine's least largest error is the lesser, of runs that are ok; shared where both are "
@@ -49,9 +48,6 @@ const std::vector<FindingRule>& finding_rules() {
        "max of |measured order - declared order|; how many methods and scenes",
        {"order-slopes"},
        "spring-order"},
-      {"step-cost-of-all",
-       "over scenes: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
-       {"engines-cost", "engines"}},
       {"cheapest",
        "at part of motion = 0.01 and measure = error: method, and min and max of Bullet / best, in CPU time and in "
        "force evaluations; methods of speed-accuracy with less than two runs on a scene",

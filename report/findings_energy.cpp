@@ -15,7 +15,7 @@ namespace {
 /// "10000 to 100000"
 std::string steps_text(long fewest, long most) { return range(count_text(fewest), count_text(most)); }
 
-/// What does not add up on a scene where drag or contact act, in parts of what these took, with the method.
+/// What does not add up on a scene where drag or contact act, in parts of what these took or gave, with the method.
 std::map<double, std::string> open_balances(const Table& table, const std::string& scene, bool symplectic) {
   std::map<double, std::string> open;
   for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -39,8 +39,8 @@ std::string where_energy_leaves(const Table& table) {
     if (open.empty()) continue;
     const auto told = [](const auto& each) { return fmt::format("{} ({})", percent(each.first, 1), each.second); };
     said += fmt::format(
-        " On {}, where drag or contact act, what does not add up with symplectic rules is {} of what drag and contact "
-        "took{}.",
+        " On {}, where drag or contact act, what does not add up with symplectic rules is {} of what passes through "
+        "drag and contact, gains and losses counted alike{}.",
         scene, range(told(*open.begin()), told(*open.rbegin())),
         others.empty() ? "" : fmt::format("; with others up to {}", told(*others.rbegin())));
   }
@@ -58,9 +58,12 @@ std::vector<std::string> beside(const Table& table, const std::string& scene) {
       if (const std::string& verdict = text_at(table, i, "verdict"); verdict != "ok")
         all.push_back(
             fmt::format("{} {} after {:.3g} s", shown, failure_word(verdict), number_at(table, i, "end", NAN)));
+      else if (const double rate = number_at(table, i, "equivalent drag", NAN);
+               number_at(table, i, "residual", 0) < 0 && rate > 0)
+        all.push_back(fmt::format("{} damps as a drag of {:.2g} per second would, at steps of {}", shown, rate,
+                                  step_text(number_at(table, i, "step", NAN))));
       else if (std::isfinite(share))
-        all.push_back(fmt::format("{} {} {} of it at steps of {}", shown,
-                                  number_at(table, i, "residual", 0) < 0 ? "takes" : "adds", percent(share, 1),
+        all.push_back(fmt::format("{} adds {} of it at steps of {}", shown, percent(share, 1),
                                   step_text(number_at(table, i, "step", NAN))));
     }
   return all;

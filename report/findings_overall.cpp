@@ -14,7 +14,7 @@ namespace {
 void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts,
                       std::vector<Finding>& out) {
   std::vector<std::string> same, differing, unknown, contact, alone;
-  double worst = 0, rms = 0, centres = 0;
+  double worst = 0;
   for (size_t i = 0; i < scenes.size(); ++i) {
     const MethodFacts* b = facts[i].find(theirs);
     if (!b) {
@@ -24,9 +24,9 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneF
     } else if (!b->ok() || !b->difference) {
       continue;
     } else if (facts[i].touched()) {
-      contact.push_back(scenes[i].name);
-      rms = std::max(rms, *b->difference);
-      centres = std::max(centres, b->centres.value_or(0));
+      contact.push_back(fmt::format("{} on {} (until {:.2g} s; centres of mass {} over the whole run)",
+                                    nice_length(*b->difference), scenes[i].name, scenes[i].window,
+                                    nice_length(b->centres.value_or(0))));
     } else if (!b->different_law.empty()) {
       continue;  // its own part says why
     } else if (!facts[i].round_off) {
@@ -53,10 +53,7 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneF
                     worst == 0 ? "not at all" : fmt::format("by at most {} (round-off)", nice_length(worst)),
                     joined(same)));
   if (!contact.empty())
-    add("contact", fmt::format("With contact they differ by at most {} (RMS) while single positions can be compared, "
-                               "and their centres of mass by {} "
-                               "over the whole run of {}.",
-                               nice_length(rms), nice_length(centres), joined(contact)));
+    add("contact", fmt::format("With contact the same rule in both differs by at most {}.", joined(contact)));
   if (!unknown.empty())
     add("failure", "Nothing can be said of agreement on " + joined(unknown) + ": the motion is chaotic.");
   if (!alone.empty())
@@ -177,26 +174,6 @@ void orders(const Rows& result, std::vector<Finding>& out) {
                    "see each scene", "orders"});
 }
 
-/// Where sizes were timed one by one, single runs have nothing to add.
-void cost_of_all(const std::vector<Scene>& scenes, const std::vector<SceneFacts>& facts, const Rows& result,
-                 std::vector<Finding>& out) {
-  if (const Table* timed = result.table("size-cost"); timed && !timed->rows.empty()) return;
-  double cheapest = 1e300, dearest = 0;
-  for (size_t i = 0; i < scenes.size(); ++i) {
-    const MethodFacts *a = facts[i].find(ours), *b = facts[i].find(theirs);
-    if (!a || !b || !a->ok() || !b->ok() || !a->cpu_per_step || !b->cpu_per_step || !costs_compare(scenes[i])) continue;
-    cheapest = std::min(cheapest, *b->cpu_per_step / *a->cpu_per_step);
-    dearest = std::max(dearest, *b->cpu_per_step / *a->cpu_per_step);
-  }
-  if (dearest > 0)
-    out.push_back({"", "cost",
-                   fmt::format("In scenes of 50 particles and more one step of the same rule costs Bullet {} times the "
-                               "CPU time of mysim (Debian's "
-                               "build of Bullet; one run each).",
-                               range(fmt::format("{:.1f}", cheapest), fmt::format("{:.1f}", dearest))),
-                   "measured", "step-cost-of-all"});
-}
-
 }  // namespace
 
 std::vector<Finding> disagreement_findings(const Rows& result) {
@@ -226,7 +203,6 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
   other_law_of_all(scenes, facts, out);
   failures_of_all(facts, out);
   orders(result, out);
-  cost_of_all(scenes, facts, result, out);
   const std::pair<const char*, std::vector<Finding> (*)(const Rows&)> table[] = {
       {"speed-accuracy", speed_findings},
       {"stability", stability_findings},

@@ -47,8 +47,8 @@ std::string bend_sentence(const Rows& rows) {
   const double left = of_springs ? std::abs(of_springs->exponent - derived) : INFINITY;
   if (!(left < off)) return text + " The difference is not explained.";
   return text + fmt::format(
-                    " Counted in bend springs along a line, half a one fewer since none reaches over the free end, the "
-                    "power is {}: {} of the difference is that of the end.",
+                    " Counted in bend springs along a line instead of cells (half a spring fewer, as none reaches over "
+                    "the free end) the power is {}: {} of the difference comes from that end.",
                     power_text(*of_springs), left <= close ? "nearly all" : "only a part");
 }
 

@@ -73,7 +73,8 @@ std::optional<LimitsTold> told(const Table& t, bool at_rest) {
 
 }  // namespace
 
-std::string apart_text(double off) {
+std::string apart_text(double off, double finest) {
+  if (std::abs(off) < finest) return fmt::format("within ±{:.2g} %", 100 * finest);
   return off >= 1 ? fmt::format("{} times as long", nice(1 + off)) : fmt::format("{:+.2g} %", 100 * off);
 }
 

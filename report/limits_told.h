@@ -30,7 +30,8 @@ struct LimitsTold {
 };
 std::vector<LimitsTold> limits_told(const Table& stability);
 
-/// "-0.12 %", "47 times as long": of measured over predicted, less 1.
-std::string apart_text(double off);
+/// "-0.12 %", "47 times as long": of measured over predicted, less 1; "within ±0.07 %" where it is less than what the
+/// search can tell, `finest`.
+std::string apart_text(double off, double finest = 0);
 
 }  // namespace crosscheck

@@ -1,8 +1,10 @@
 // The table of known disagreements.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 #include "experiments/disagreements/disagreements.h"
 #include "experiments/metrics.h"
@@ -59,8 +61,8 @@ std::string stiffness_effect(const std::vector<Series>& all) {
 
 std::string law_effect(const std::vector<Series>& all) {
   return fmt::format(
-      "The period is {:.3f} s by Hooke's law and {:.3f} s in the position-based world; by the law k L (L^2 - r^2) / "
-      "(L^2 + r^2) in mysim it is {:.3f} s.",
+      "The period is {:.3f} s by Hooke's law and {:.3f} s in the position-based world; by the law k L (L² - r²) / "
+      "(L² + r²) in mysim it is {:.3f} s.",
       period(all[0]), period(all[1]), period(all[2]));
 }
 
@@ -73,15 +75,18 @@ std::string hessian_effect(const std::vector<Series>& all) {
   const Series& shipped = all[2];
   return fmt::format(
       "From {:.0f} J at the start Bullet's own force makes {:.2g} J and is stopped at {:.2g} s ({}); with the negative "
-      "part of the second derivatives left out the energy ends at {:.2g} J.",
-      shipped.points[0].second, shipped.last(), shipped.outcome.end, in_words(shipped.outcome.verdict), all[1].last());
+      "part of the second derivatives left out {}.",
+      shipped.points[0].second, shipped.last(), shipped.outcome.end, in_words(shipped.outcome.verdict),
+      all[1].last() < 1e-12 * shipped.points[0].second ? "the motion dies out"
+                                                       : fmt::format("the energy ends at {:.2g} J", all[1].last()));
 }
 
 std::string rest_effect(const std::vector<Series>& all) {
+  // between the turning points: a mean over time would depend on how many periods the run has
   auto middle = [](const Series& s) {
-    double sum = 0;
-    for (const auto& point : s.points) sum += point.second;
-    return sum / static_cast<double>(s.points.size());
+    const auto [low, high] =
+        std::ranges::minmax(s.points | std::views::transform([](const auto& point) { return point.second; }));
+    return (low + high) / 2;
   };
   return fmt::format(
       "Asked: swings about {:.3f} m. Left to itself Bullet swings about {:.3f} m (explicit) and {:.3f} m "
@@ -145,7 +150,7 @@ std::vector<Disagreement> disagreements() {
        "The position-based world sticks where Coulomb's law slides",
        "A touching node loses a fixed share f of its tangential motion in every step, whatever presses it on: it "
        "creeps "
-       "at g sin(theta) h (1 - f) / f.",
+       "at g sin θ h (1 - f) / f.",
        "distance slid",
        "m",
        {{"Coulomb's law, mysim", "mysim/leapfrog"},
@@ -158,7 +163,7 @@ std::vector<Disagreement> disagreements() {
        "The stiffness of position-based links depends on step and iterations",
        "Each link is solved by itself and in turn; in a network the neighbours spoil it again, so that the map from "
        "N/m "
-       "to kLST holds only where k h^2 / mu is below about 0.01, and more iterations do not help.",
+       "to kLST holds only where k h² / μ is below about 0.01, and more iterations do not help.",
        "sag",
        "mm",
        {{"what is asked", "mysim/leapfrog"},

@@ -54,7 +54,7 @@ std::string motion_sentence(const Rows& rows, const std::vector<Curve>& curves) 
         fewest < 4 ? "seems to near" : "nears", joined(falls),
         fewest < 4 ? " So few grids hint at a power and prove none." : "");
   if (!others.empty())
-    text += fmt::format("{}It is not seen to near it, the last refinement included, where the power is {}.",
+    text += fmt::format("{}Up to the last refinement no nearing is seen where the power is {}.",
                         text.empty() ? "" : " ", joined(others));
   return text.empty() ? "Distances of the motion from that of the finest grid." : text;
 }
@@ -70,7 +70,7 @@ PageTable sags_of(const Table& t) {
       for (size_t i = 0; i < t.rows.size(); ++i)
         if (text_at(t, i, "scene") == scene && number_at(t, i, "particles along a side") == n) {
           const auto sag = number_at(t, i, "sag");
-          row.back() = sag ? fmt::format("{:.4f} m", *sag) : "no rest";
+          row.back() = sag ? fmt::format("{:.5f} m", *sag) : "no rest";
         }
     }
     page.rows.push_back(std::move(row));

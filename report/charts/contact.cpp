@@ -1,6 +1,9 @@
 // What can be compared after contact has made single positions unpredictable: centre of mass, clearance, creep.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "report/charts/charts.h"
 
 namespace crosscheck {
@@ -66,7 +69,11 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
         f.tier +=
             fmt::format(", known until {:.3g} s to {} ({})", *facts.contact_until, nice_length(facts.bar), facts.truth);
       }
-      if (!f.curves.empty()) charts.push_back({scene.name, std::move(f)});
+      // lines on zero are words, not a figure: what is nearest to the surface is said beside it
+      const bool flat = std::ranges::all_of(f.curves, [](const Curve& c) {
+        return std::ranges::all_of(c.points, [](const auto& p) { return std::abs(p.second) < 1e-9; });
+      });
+      if (!flat) charts.push_back({scene.name, std::move(f)});
     }
   }
   return charts;

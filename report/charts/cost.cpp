@@ -56,10 +56,8 @@ Chart size_chart(const Table& t, const std::string& commit) {
   f.tier = "measured: medians with intervals of one run on this machine";
   Chart chart{"", std::move(f), "cost"};
   chart.text =
-      "All methods take the same step here, about half of what an explicit rule can take; an implicit one may take a "
-      "longer "
-      "one "
-      "for its money. What that buys is the matter of the chapter on speed against accuracy.";
+      "All methods take the same step here, about half of what an explicit rule can take. An implicit rule may take "
+      "longer ones: the chapter on speed against accuracy shows what that buys.";
   chart.tables.push_back(std::move(page));
   return chart;
 }
@@ -90,7 +88,7 @@ Chart roofline_chart(const Table& t, const std::string& commit) {
   f.name = "roofline-cost";
   f.from_costs = true;
   f.title = "The spring kernel beside what the machine can do";
-  f.x = {"floating-point operations per byte moved", true, 0.03, 10.};
+  f.x = {"floating-point operations per byte, as counted", true, 0.03, 10.};
   f.y = {"billions of floating-point operations a second", true, 0.3, std::nullopt};
   static const MethodStyle roofs[] = {{"#56B4E9", "1", -1}, {"#0072B2", "(6,3)", -1}, {"#332288", "(2,2)", -1}};
   double peak = 0, best = 0, at = 0;
@@ -116,14 +114,16 @@ Chart roofline_chart(const Table& t, const std::string& commit) {
   springs.title += " " + last;
   f.curves.push_back(std::move(springs));
   f.finding = fmt::format(
-      "The spring kernel does {} billion operations a second at {:.2g} per byte moved, {:.0f} % of the measured peak "
+      "The spring kernel does {} billion operations a second at {:.2g} per byte, {:.0f} % of the measured peak "
       "of {} billion.",
       times_text(best), at, 100 * best / peak, times_text(peak));
   f.caption = fmt::format(
       "Lines: what measured bandwidth and peak allow, for data of that size. The peak is that of multiplications and "
       "additions that wait for nothing, with the instructions that the kernel uses on this machine. Springs are "
       "counted as {:g} operations and {:g} bytes, particles as "
-      "{:g} bytes; commit {}.",
+      "{:g} bytes, as if each were read anew: what stays in a cache between two springs lifts a point above the line "
+      "of "
+      "a larger memory; commit {}.",
       flop_per_spring, bytes_per_spring, bytes_per_particle, commit);
   f.tier = "measured: bandwidth and peak of this machine in the same run";
   return {"", std::move(f), "cost"};

@@ -59,8 +59,8 @@ std::string slopes_sentence(const Table& slopes, const std::string& scene) {
   if (seen == 0) return "No order is read off here: no error of a method that promises one falls as a steady power.";
   std::string text;
   if (seen > static_cast<int>(other.size()))
-    text = fmt::format("With the step the error of {} method{} falls by the power that the order promises, to {:.2f}.",
-                       seen - other.size(), seen - other.size() == 1 ? "" : "s", off);
+    text = fmt::format("The measured order of {} method{} is the declared one, within {:.2g}.", seen - other.size(),
+                       seen - other.size() == 1 ? "" : "s", off);
   if (!other.empty())
     text += fmt::format("{}By another power falls that of {}.", text.empty() ? "" : " ", joined(other));
   return text;

@@ -73,7 +73,7 @@ Chart cone_law(const Table& table, const std::string& commit) {
   f.tier = "exact (Coulomb's law)";
   Chart chart{"", std::move(f), "sphere",
               "A particle at rest on a slope must stay where friction exceeds the slope's tangent, and otherwise slide "
-              "by g (sin - mu cos) t^2 / 2."};
+              "by g (sin θ - μ cos θ) t² / 2."};
   chart.tables.push_back(std::move(page));
   return chart;
 }

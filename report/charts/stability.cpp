@@ -14,6 +14,8 @@ namespace {
 
 constexpr auto chapter = "stability";
 
+std::string signed_text(double value) { return (value > 0 ? "+" : "") + nice(value); }
+
 /// Growth where no step is stable, or just beside a limit.
 PageTable growth_table(const Table& table, bool without_limit) {
   PageTable page{without_limit ? "Growth of the fastest vibration in each step, where no step is stable."
@@ -24,9 +26,9 @@ PageTable growth_table(const Table& table, bool without_limit) {
     const auto share = number_at(table, i, "share of limit");
     if (share.has_value() != without_limit)
       page.rows.push_back({text_at(table, i, "scene"), text_at(table, i, "method"),
-                           fmt::format("{:.2g}", without_limit ? *number_at(table, i, "h omega") : *share),
-                           fmt::format("{:+.4g}", *number_at(table, i, "predicted growth")),
-                           fmt::format("{:+.4g}", *number_at(table, i, "measured growth"))});
+                           nice(without_limit ? *number_at(table, i, "h omega") : *share),
+                           signed_text(*number_at(table, i, "predicted growth")),
+                           signed_text(*number_at(table, i, "measured growth"))});
   }
   return page;
 }

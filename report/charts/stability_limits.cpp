@@ -20,6 +20,12 @@ std::string fate_text(const std::string& verdict) {
   return verdict == "ok" ? "holds" : failure_or_cannot(verdict);
 }
 
+/// How finely the search ended, in parts of the limit: half of what lies between what held and what failed.
+double half_bracket(const Table& table, size_t row) {
+  const auto held = number_at(table, row, "held"), failed = number_at(table, row, "failed");
+  return held && failed ? (*failed / *held - 1) / 2 : 0;
+}
+
 /// Rows of one scene as people read them.
 PageTable limits_table(const Table& table, const std::string& scene) {
   PageTable page{fmt::format("The largest stable step on {}.", scene),
@@ -41,8 +47,8 @@ PageTable limits_table(const Table& table, const std::string& scene) {
                          measured                          ? step_text(*measured)
                          : found == "held up to a refusal" ? "at least " + step_text(number_at(table, i, "held", 0))
                                                            : found,
-                         off ? apart_text(*off) : "", fate_text(text_or_none(table, i, "verdict above")),
-                         text_or_none(table, i, "reason")});
+                         off ? apart_text(*off, half_bracket(table, i)) : "",
+                         fate_text(text_or_none(table, i, "verdict above")), text_or_none(table, i, "reason")});
   }
   return page;
 }
@@ -88,7 +94,8 @@ Figure deviations(const Table& table, const std::string& commit) {
       f.curves.push_back({method, style_of(method), {}, false, true});
       curve = f.curves.end() - 1;
     }
-    curve->points.emplace_back(scene_at[scene], std::max(lowest_drawn, 100 * std::abs(*off)));
+    curve->points.emplace_back(scene_at[scene],
+                               100 * std::max({lowest_drawn / 100, half_bracket(table, i), std::abs(*off)}));
   }
   // side by side, so that no marker hides another
   for (size_t c = 0; c < f.curves.size(); ++c)
@@ -98,7 +105,8 @@ Figure deviations(const Table& table, const std::string& commit) {
   f.floor = {"1 %", 1};
   for (const LimitsTold& told : limits_told(table)) f.finding += (f.finding.empty() ? "" : " ") + told.sentence;
   f.caption = fmt::format(
-      "Differences below {} % are drawn there; rows in which only one of the two is a step stand in the tables. Theory "
+      "Differences below {} %, or below what the search could tell, are drawn there; rows in which only one of the two "
+      "is a step stand in the tables. Theory "
       "looks at small motion about rest, or about the start where a scene has no rest; commit {}.",
       lowest_drawn, commit);
   f.tier =
@@ -119,8 +127,7 @@ std::vector<Chart> limit_charts(const Table& stability, const std::string& commi
       "kicked by some hundred-millionths of the shortest spring, or from the start where the scene has no rest, "
       "and halves the way between a step that holds and one that fails. It shares with theory the shape of the "
       "vibration that binds: that one is kicked most, and where the rule multiplies it by one factor in every "
-      "step its growth is judged, beside that of all motion. The step at which it begins to grow it is not "
-      "told." +
+      "step its growth is judged, beside that of all motion. Where growth begins by theory it is not told." +
           effort_text(stability),
       f.title};
   for (const std::string& scene : distinct(stability, "scene")) chart.tables.push_back(limits_table(stability, scene));

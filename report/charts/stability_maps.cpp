@@ -180,7 +180,8 @@ std::vector<Chart> map_charts(const Table& cells, const Table& limits, const std
              ? "By theory drag decides which steps of explicit Euler hold at all, and shortens the step of "
                "symplectic Euler, by much once its rate passes that of the springs."
              : "By theory, while drag is weak, four times the stiffness halves the step of symplectic Euler, "
-               "leapfrog and rk4, and quarters that of explicit Euler, which holds by drag alone."});
+               "leapfrog and rk4, and quarters that of explicit Euler where drag gives it one: without drag it has "
+               "none."});
   return charts;
 }
 

@@ -164,6 +164,16 @@ class Builder {
     return names;
   }
 
+  /// Those of them that the scene's picture shows: of what a method refused there is nothing to see.
+  std::vector<std::string> pictured(const ScenePart& part) const {
+    std::vector<std::string> names = methods_pictured(*part.scene);
+    std::erase_if(names, [&](const std::string& name) {
+      const MethodFacts* m = part.facts->find(name);
+      return m && !m->supported();
+    });
+    return names;
+  }
+
   /// Pictures are work like any other: drawn by the same processes, kept as files.
   std::vector<Point> picture_points() const {
     std::vector<Point> points;
@@ -206,7 +216,7 @@ class Builder {
     if (!fs::exists(picture_of_scene(scene))) return;  // why not, is among the problems
     part.pictures.push_back(
         {picture_of_scene(scene),
-         fmt::format("{} by {} side by side, seen by one camera", scene.name, fmt::join(methods_pictured(scene), ", ")),
+         fmt::format("{} by {} side by side, seen by one camera", scene.name, fmt::join(pictured(part), ", ")),
          fmt::format("{}, one camera, true sizes; {}", scene.name,
                      scene.triangles.empty() ? "the line is the path of the last particle"
                                              : "coloured by the stretch of the structural springs")});

@@ -11,7 +11,8 @@ std::vector<Chapter> chapters() {
        "further left is better; the grey stairs join the runs that no cheaper run beats. Runs that failed are crosses "
        "at the top, at the cost they had already spent. Costs are counted twice: as force evaluations, which are the "
        "same on every machine, and as CPU time, which is what is paid. Bullet does not tell what its solvers do inside "
-       "a step: there a step counts as one evaluation, and the implicit world does not compete by them.",
+       "a step: there a step counts as one evaluation, and the implicit world does not compete by them. No step is "
+       "longer than the time between two samples.",
        {},
        "Speed"},
       {"stability",
@@ -38,16 +39,16 @@ std::vector<Chapter> chapters() {
        "Ball"},
       {"adequacy",
        "How little model is enough?",
-       "Each scene is run again without each of its ingredients, then with one after the other left out, and held "
+       "Each scene is run again without each of its ingredients, then with one after the other left out, the one that "
+       "costs least first, and held "
        "against the truth of the full scene while single positions can be compared. Cost is counted in force "
        "evaluations times springs.",
        {},
        "Least model"},
       {"cost",
        "What does a step cost?",
-       "The same cloth at more and more particles, in every engine; where the time goes, and how much of it the "
-       "machine "
-       "itself asks for.",
+       "The same cloth at more and more particles, in every engine: mysim's pass over a regular grid beside general "
+       "solvers; where the time goes, and how near that is to what the machine can do.",
        {},
        "Cost of a step"},
       {"disagreements",

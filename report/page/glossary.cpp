@@ -94,7 +94,7 @@ std::string glossary_html() {
   for (const Word& word : words)
     out += fmt::format("<div id=\"word-{}\"><dt>{}</dt><dd>{}</dd></div>\n", word.id, prose(word.term),
                        prose(word.sentence));
-  return out + "</dl></section>\n";
+  return out + "</dl>\n" + methods_html() + "</section>\n";
 }
 
 }  // namespace crosscheck

@@ -106,6 +106,8 @@ std::string choice_table_html(const std::vector<ScenePart>& scenes);
 std::string contents_html(const PageContent& content);
 /// The words that the page uses; and a link to one of them, by its id. Throws std::logic_error where none has that id.
 std::string glossary_html();
+/// All methods, a line each.
+std::string methods_html();
 std::string term_link(const std::string& id);
 
 }  // namespace crosscheck

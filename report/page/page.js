@@ -5,7 +5,7 @@
 
   // Tables: sorted by a click on a head, cut down to rows with a word, saved as CSV.
 
-  const units = { m: 1, mm: 1e-3, 'µm': 1e-6, s: 1, ms: 1e-3, 'µs': 1e-6, 'mm/s': 1e-3 };
+  const units = { m: 1, mm: 1e-3, 'µm': 1e-6, nm: 1e-9, s: 1, ms: 1e-3, 'µs': 1e-6, 'mm/s': 1e-3 };
 
   /// A cell as a number, in its base unit; null where it is text.
   const number = (text) => {

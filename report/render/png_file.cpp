@@ -4,6 +4,7 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -19,7 +20,38 @@ std::string big_endian(unsigned long value) {
 }
 
 /// Signature and the first chunk, IHDR, of every PNG file.
-constexpr std::size_t header = 8 + 25;
+constexpr std::size_t signature = 8, header = signature + 25;
+
+std::string chunk(const std::string& type_and_data) {
+  const auto sum =
+      crc32(0, reinterpret_cast<const Bytef*>(type_and_data.data()), static_cast<uInt>(type_and_data.size()));
+  return big_endian(type_and_data.size() - 4) + type_and_data + big_endian(sum);
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (bytes.size() < header) throw std::runtime_error("cannot read " + file.string());
+  return bytes;
+}
+
+void write_bytes(const std::string& bytes, const std::filesystem::path& file) {
+  std::ofstream out(file, std::ios::binary);
+  out << bytes;
+  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
+}
+
+std::string inflated(const std::string& packed, const std::filesystem::path& file) {
+  std::string out(std::max<std::size_t>(8 * packed.size(), 1 << 16), '\0');
+  for (;; out.resize(4 * out.size())) {
+    auto size = static_cast<uLongf>(out.size());
+    const int done = uncompress(reinterpret_cast<Bytef*>(out.data()), &size,
+                                reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+    if (done == Z_OK) return out.substr(0, size);
+    if (done != Z_BUF_ERROR || out.size() > (std::size_t{1} << 31)) break;
+  }
+  throw std::runtime_error("cannot read " + file.string());
+}
 
 }  // namespace
 
@@ -37,16 +69,30 @@ Image read_png(const std::filesystem::path& file) {
 }
 
 void set_resolution(const std::filesystem::path& file, double pixels_per_inch) {
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (bytes.size() < header) throw std::runtime_error("cannot read " + file.string());
+  std::string bytes = bytes_of(file);
   const std::string per_metre = big_endian(std::lround(pixels_per_inch / 0.0254));
-  const std::string chunk = "pHYs" + per_metre + per_metre + '\1';
-  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size()));
-  bytes.insert(header, big_endian(chunk.size() - 4) + chunk + big_endian(sum));
-  std::ofstream out(file, std::ios::binary);
-  out << bytes;
-  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
+  bytes.insert(header, chunk("pHYs" + per_metre + per_metre + '\1'));
+  write_bytes(bytes, file);
+}
+
+void pack_tightly(const std::filesystem::path& file) {
+  const std::string bytes = bytes_of(file);
+  std::string before = bytes.substr(0, signature), packed, after;
+  for (std::size_t at = signature; at + 12 <= bytes.size();) {
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i) size = size << 8 | static_cast<unsigned char>(bytes[at + i]);
+    if (bytes.compare(at + 4, 4, "IDAT") == 0)
+      packed += bytes.substr(at + 8, size);
+    else
+      (packed.empty() ? before : after) += bytes.substr(at, size + 12);
+    at += size + 12;
+  }
+  const std::string pixels = inflated(packed, file);
+  std::string tight(compressBound(pixels.size()), '\0');
+  auto size = static_cast<uLongf>(tight.size());
+  compress2(reinterpret_cast<Bytef*>(tight.data()), &size, reinterpret_cast<const Bytef*>(pixels.data()), pixels.size(),
+            Z_BEST_COMPRESSION);
+  if (size < packed.size()) write_bytes(before + chunk("IDAT" + tight.substr(0, size)) + after, file);
 }
 
 }  // namespace crosscheck::render

@@ -36,6 +36,7 @@ void write_png(const Picture& picture, const fs::path& file, Studio& studio) {
   FileInWaiting waiting(file);
   const Layout layout = layout_of(picture);
   write_lettered(picture, layout, drawn(picture, layout, file, studio), {}, file.string(), waiting.temporary());
+  pack_tightly(waiting.temporary());
   waiting.finish();
 }
 

@@ -125,8 +125,8 @@ TEST(ChapterWords, WhatContactLeavesOpenIsSaidByScene) {
   EXPECT_TRUE(contains(findings[0].sentence,
                        "on spring (no drag, no contact) symplectic rules keep the energy to 0.1 % of what is turned "
                        "over, without drift. On ball, where drag or contact act, what does not add up with "
-                       "symplectic rules is 10 % (mysim/leapfrog) to 53 % (mysim/symplectic-euler) of what drag and "
-                       "contact took."));
+                       "symplectic rules is 10 % (mysim/leapfrog) to 53 % (mysim/symplectic-euler) of what passes "
+                       "through drag and contact, gains and losses counted alike."));
 }
 
 TEST(ChapterWords, DampingNamesWhoWasAsked) {

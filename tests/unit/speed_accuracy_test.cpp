@@ -7,6 +7,7 @@
 #include "experiments/speed_accuracy/ladder.h"
 #include "experiments/speed_accuracy/tables.h"
 #include "experiments/sweep/sweep.h"
+#include "mysim/frequency.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {
@@ -128,8 +129,13 @@ TEST(SpeedAccuracy, LaddersHalveTheStep) {
   const auto limited = ladder(find_method("leapfrog"), scene, run, true),
              unlimited = ladder(find_method("implicit-euler"), scene, run, true),
              adaptive = ladder(find_method("dopri5"), scene, run, false);
-  ASSERT_EQ(limited.size(), 8u);
-  EXPECT_NEAR(limited.front().value, 8e-3, 1e-4);  // steps divide the sampling interval
+  // steps divide the sampling interval; at the limit of 2 / omega leapfrog fails, and one or two such runs are enough
+  const double limit = 2 / fastest_frequency(scene.model, scene.start);
+  const auto beyond = std::count_if(limited.begin(), limited.end(), [&](const Setting& s) { return s.value > limit; });
+  EXPECT_GE(limited.front().value, std::min(limit, 64e-3 * 0.9));
+  EXPECT_LE(beyond, 2);
+  const auto stiff = ladder(find_method("explicit-euler"), scene, run, true);
+  EXPECT_NEAR(stiff.front().value, 8e-3, 1e-4) << "no step holds without drag: those of old are enough to see it";
   EXPECT_NEAR(limited.back().value, 1e-3 / 16, 1e-6);
   EXPECT_NEAR(unlimited.front().value, 64e-3, 5e-3);
   ASSERT_EQ(adaptive.size(), 4u);
@@ -182,11 +188,14 @@ TEST(SpeedAccuracy, AMethodThatRefusesTheLongestStepIsTimedAtTheOthers) {
   speed_accuracy_on(request, scene, rows);
   time_speed_accuracy(request, scene, rows);
   const Table &errors = *rows.table("speed-accuracy"), &times = *rows.table("speed-accuracy-timing-cost");
-  const size_t all = ladder(request.methods[0], scene, default_run(scene), false).size();
-  EXPECT_EQ(errors.rows.size(), all - 1);
-  EXPECT_EQ(times.rows.size(), all - 1);
+  const auto settings = ladder(request.methods[0], scene, default_run(scene), false);
+  const auto all = std::ssize(settings),
+             longer = std::ranges::count_if(settings, [](const Setting&s) { return s.value > 5e-3; });
+  ASSERT_GT(longer, 0);
+  EXPECT_EQ(std::ssize(errors.rows), all - longer);
+  EXPECT_EQ(std::ssize(times.rows), all - longer);
   ASSERT_EQ(rows.notes.size(), 1u);
-  EXPECT_TRUE(contains(rows.notes[0], fmt::format("leaves out 1 of {} runs of mysim/leapfrog", all)));
+  EXPECT_TRUE(contains(rows.notes[0], fmt::format("leaves out {} of {} runs of mysim/leapfrog", longer, all)));
   EXPECT_TRUE(contains(rows.notes[0], "which it refuses: too long"));
 }
 
