@@ -28,6 +28,7 @@ struct PageTable {
   std::string caption;
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
+  bool open = false;  // also where it is long
 };
 
 /// A render that belongs to a chapter: runs of a scene side by side.

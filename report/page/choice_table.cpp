@@ -28,7 +28,9 @@ std::string choice_table_html(const std::vector<ScenePart>& scenes) {
   }
   out +=
       "</tbody></table></div>\n<p class=\"note\">Errors at the scene's own step, in % of its motion; in bold who is "
-      "nearest, or within 5 % of the nearest; – where nothing was asked, or cannot be said. What is meant by";
+      "nearest, or within 5 % of the nearest; – where nothing was asked, or cannot be said. What each <a "
+      "href=\"#methods\">method</a> is; what "
+      "is meant by";
   const char* mark = " ";
   for (const size_t i : shown) out += std::exchange(mark, ", ") + term_link(choice_columns()[i].term);
   return out + ".</p>\n</section>\n";

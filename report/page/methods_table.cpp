@@ -27,12 +27,12 @@ std::string row_of(const Method& method) {
 
 std::string methods_html() {
   std::string out =
-      "<details class=\"table\"><summary>All methods: what each is</summary>\n<div class=\"scroll\"><table "
+      "<h3 id=\"methods\">Methods</h3>\n<div class=\"scroll\"><table "
       "class=\"methods\"><thead><tr><th>method</th><th>what it is</th><th>order</th><th>force evaluations a step</th>"
       "<th>stable while (ω: fastest vibration, γ: drag, h: step)</th></tr></thead><tbody>\n";
   for (const Method& method : all_methods())
     if (!method.name.starts_with("truth/")) out += row_of(method);
-  return out + "</tbody></table></div></details>\n";
+  return out + "</tbody></table></div>\n";
 }
 
 }  // namespace crosscheck

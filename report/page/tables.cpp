@@ -60,7 +60,7 @@ std::string narrow(const std::string& cell) {
 
 std::string page_table_html(const PageTable& table, bool open) {
   // long ones open when asked: the figure above has said most of it
-  const bool shut = !open && table.rows.size() > 6;
+  const bool shut = !open && !table.open && table.rows.size() > 6;
   std::string out = shut ? fmt::format("<details><summary>{}</summary>\n", prose(table.caption)) : "";
   out += "<div class=\"scroll\"><table>";
   if (!shut) out += fmt::format("<caption>{}</caption>", prose(table.caption));
