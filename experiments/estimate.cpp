@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "experiments/adequacy/grids.h"
+
 namespace crosscheck {
 namespace {
 
@@ -20,10 +22,13 @@ double seconds_of_evaluation(const Method& method, const Scene& scene) {
 
 double estimated_seconds(const Method& method, const Scene& scene, const Run& run) {
   double evaluations = 1;  // per step
-  // conjugate gradients, measured on cloth-hang at steps of 0.5 to 17 ms: mysim's, with its multigrid, and Bullet's
+  // conjugate gradients, measured on cloth-hang at steps of 0.5 to 17 ms: mysim's, with the multigrid that sheets have,
+  // and Bullet's; mysim's without it on jelly at 1 to 7 ms
   const double longer = plan(run).h / scene.step;
   if (const Stepper* rule = rule_of(method))
-    evaluations = rule->evaluations > 0 ? rule->evaluations : 20 * std::pow(longer, 0.3);
+    evaluations = rule->evaluations > 0 ? rule->evaluations
+                  : sheet_of(scene)     ? 20 * std::pow(longer, 0.3)
+                                        : 60 * std::sqrt(longer);
   if (method.name.starts_with("bullet/deformable-implicit")) evaluations = 2.5 * std::pow(longer, 0.8);
   if (method.adaptive) evaluations = 7;
   return evaluations * run.duration / plan(run).h * seconds_of_evaluation(method, scene);

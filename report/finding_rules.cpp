@@ -52,7 +52,7 @@ const std::vector<FindingRule>& finding_rules() {
        "at part of motion = 0.01 and measure = error: method, and min and max of Bullet / best, in CPU time and in "
        "force evaluations; methods of speed-accuracy with less than two runs on a scene",
        {"speed-accuracy-cheapest-cost", "speed-accuracy-cheapest", "speed-accuracy", "engines"},
-       "cheapest-1-percent"},
+       "cheapest-1-percent-cost"},
       {"size-cost",
        "over sides: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
        {"size-cost"},

@@ -105,7 +105,7 @@ std::vector<Chart> cheapest_charts(const ChartInput& input) {
   std::erase(engines, "mysim");
   std::ranges::stable_partition(engines, [](const std::string& engine) { return engine.starts_with("bullet"); });
   Dots f;
-  f.name = "cheapest-1-percent";
+  f.name = "cheapest-1-percent-cost";
   f.title = "CPU time for an error of 1 % of the motion, over mysim's";
   f.label = "CPU time of the cheapest run within 1 %, in times of mysim's cheapest";
   f.from_costs = true;
