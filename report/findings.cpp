@@ -180,8 +180,9 @@ void contact(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& 
                                                : fmt::format(", touching particles slide at {} mm/s in the end",
                                                              nice(1000 * *m->creep)));
   if (!parts.empty())
-    out.push_back({scene.name, "contact", "Deepest, or nearest, at the contact surface at any sample: " + parts + ".",
-                   "measured", "clearance"});
+    out.push_back({scene.name, "contact",
+                   "Closest to the contact surface, or deepest inside, over all samples: " + parts + ".", "measured",
+                   "clearance"});
 }
 
 void sticky(const Scene& scene, const SceneFacts& facts, std::vector<Finding>& out) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "experiments/cells.h"
+#include "experiments/scenes.h"
 #include "report/charts/adequacy_parts.h"
 #include "report/findings_text.h"
 
@@ -99,6 +100,14 @@ Chart ladder(const Table& t, const Table* least, const std::string& scene, const
   return chart;
 }
 
+/// A scene that has no part of its own in the report says here what it asks.
+void told_what(Chart& chart, const std::vector<Scene>& told, const std::string& scene) {
+  const auto shipped = shipped_scenes();
+  if (std::ranges::none_of(told, [&](const Scene& s) { return s.name == scene; }) &&
+      std::ranges::find(shipped, scene) != shipped.end())
+    chart.text = load_scene(scene).question + (chart.text.empty() ? "" : " ") + chart.text;
+}
+
 /// Scenes without a chart of their own: what each of their ingredients is worth, a line each.
 PageTable removals_of(const Table& t, const std::vector<std::string>& scenes) {
   PageTable page{"What leaving out one ingredient costs, in parts of the scene's motion",
@@ -125,7 +134,8 @@ std::vector<Chart> adequacy_charts(const ChartInput& input) {
   if (const Table* t = input.result.table("adequacy")) {
     for (const std::string& scene : distinct(*t, "scene"))
       if (has_own_charts("adequacy", scene, input.all))
-        charts.push_back(ladder(*t, input.result.table("adequacy-least"), scene, input.commit));
+        charts.push_back(ladder(*t, input.result.table("adequacy-least"), scene, input.commit)),
+            told_what(charts.back(), input.scenes, scene);
       else
         others.push_back(scene);
     if (!others.empty())

@@ -63,6 +63,9 @@ constexpr Word words[] = {
     {"trapezoidal", "trapezoidal",
      "Here the explicit rule of the assignment, also called Heun's or the improved Euler rule: not the implicit one "
      "that holds at every step."},
+    {"assignment", "assignment",
+     "The coursework that these scenes and rules began with: its explicit rules and its sphere, to which particles "
+     "stick, are kept to be compared."},
     {"creep", "creep", "How fast particles slide that touch a ball, when all should rest."},
     {"resized", "cloth-hang-6",
      "A scene with a number behind its name is the same cloth with so many particles along its longer side."},

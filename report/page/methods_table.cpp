@@ -1,26 +1,37 @@
 // The methods that a report may name: what each is, for who has never seen the code.
 #include <fmt/format.h>
 
+#include <string_view>
+#include <utility>
+
 #include "report/page/page.h"
 
 namespace crosscheck {
 namespace {
 
-/// What it is, without how to ask for it on a command line.
-std::string about(std::string what) {
-  const std::string asking = ": give --tol, not --step";
-  if (const size_t at = what.find(asking); at != std::string::npos) what.erase(at, asking.size());
-  return what;
+/// As a page writes what a terminal spells out, and without how to ask for it on a command line.
+std::string readable(std::string text) {
+  constexpr std::pair<std::string_view, std::string_view> table[] = {{": give --tol, not --step", ""},
+                                                                     {"--step", "the scene's step"},
+                                                                     {"omega", "ω"},
+                                                                     {"gamma", "γ"},
+                                                                     {"lambda", "λ"},
+                                                                     {"^2", "²"}};
+  for (const auto& [spelt, written] : table)
+    for (size_t at = text.find(spelt); at != std::string::npos; at = text.find(spelt, at + written.size()))
+      text.replace(at, spelt.size(), written);
+  return text;
 }
 
 std::string row_of(const Method& method) {
   const Stepper* own = method.stepper;
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                     escaped(method.name), prose(about(method.what)), own ? std::to_string(own->order) : "–",
+                     escaped(method.name), prose(readable(own ? std::string(own->what) : method.what)),
+                     own ? std::to_string(own->order) : "–",
                      !own                   ? "–"
                      : own->evaluations > 0 ? std::to_string(own->evaluations)
                                             : "its solver's",
-                     own ? prose(std::string(own->limit_formula)) : "–");
+                     own ? prose(readable(std::string(own->limit_formula))) : "–");
 }
 
 }  // namespace
