@@ -32,13 +32,35 @@ Table data_of(const Dots& dots) {
   return table;
 }
 
+constexpr double letter = 7.3;  // mean width of a letter of 12 units, in units
+
 /// What the longest name, or heading, takes of the width.
 double room_for_names(const Dots& dots) {
   size_t longest = 0;
   for (const std::string& name : dots.names) longest = std::max(longest, name.size());
   for (const auto& [line, heading] : dots.headings) longest = std::max(longest, heading.size());
-  constexpr double letter = 7.3;  // mean width of a letter of 12 units, in units
   return std::min(0.5, 0.04 + letter * static_cast<double>(longest) / dots.size.units());
+}
+
+bool drawn(const Dots::Series& series) {
+  return std::any_of(series.dots.begin(), series.dots.end(), [](const auto& dot) { return dot.has_value(); });
+}
+
+/// Lines of the key below the plot, where gnuplot sets as many entries side by side as there is room for.
+double rows_of_key(const Dots& dots) {
+  size_t entries = 0, longest = 0;
+  for (const Dots::Series& series : dots.series)
+    if (drawn(series)) ++entries, longest = std::max(longest, series.title.size());
+  const double side_by_side = std::floor(dots.size.units() / (60 + letter * static_cast<double>(longest)));
+  return std::ceil(static_cast<double>(entries) / std::max(1., side_by_side));
+}
+
+/// What terminals() asks for: lines of 17 units and more, and what title, numbers, label and key take.
+double tall(const Dots& dots) {
+  const double wide = dots.size.units() / 680, line = 17 + 9 * std::min(1., wide),
+               height = (dots.size.titled ? 30 : 10) + 62 + 21 * rows_of_key(dots) +
+                        line * static_cast<double>(dots.names.size() + dots.headings.size());
+  return 1 + (height - 140 - 360 * wide) / 500;
 }
 
 /// The series lie a little above and below the middle of their line, so that they do not hide each other.
@@ -70,12 +92,15 @@ Drawing drawing_of(const Dots& dots) {
   Drawing drawing{dots.name, data_of(dots), ""};
   std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", dots.title, dots.name);
   // beside the names title and key stand in the middle of the figure, not of the plot
+  if (dots.size.titled)
+    out += fmt::format(
+        "set title ' '\nset label {} at screen 0.5, screen 1 offset 0,-1.2 center noenhanced font \"DejaVu "
+        "Sans:Bold,13\"\n",
+        single_quoted(dots.title));
   out += fmt::format(
-      "set title ' '\nset label {} at screen 0.5, screen 1 offset 0,-1.2 center noenhanced font \"DejaVu "
-      "Sans:Bold,13\"\n"
-      "set key at screen 0.5, screen 0 center bottom horizontal\nset lmargin at screen {:.3f}\nset bmargin 5.5\n"
+      "set key at screen 0.5, screen 0 center bottom horizontal\nset lmargin at screen {:.3f}\nset bmargin {:.2f}\n"
       "set xlabel {} offset 0,0.2\n",
-      single_quoted(dots.title), room_for_names(dots), single_quoted(dots.label));
+      room_for_names(dots), 4.2 + 1.4 * rows_of_key(dots), single_quoted(dots.label));
   out += axis_of(dots);
   const double lines = static_cast<double>(dots.names.size() + dots.headings.size());
   out += fmt::format("set yrange [{:.1f}:0.4]\nset ytics noenhanced (", lines + 0.6);
@@ -88,14 +113,14 @@ Drawing drawing_of(const Dots& dots) {
   std::string plot;
   for (size_t i = 0; i < dots.series.size(); ++i) {
     const Dots::Series& series = dots.series[i];
-    if (std::none_of(series.dots.begin(), series.dots.end(), [](const auto& dot) { return dot.has_value(); })) continue;
+    if (!drawn(series)) continue;
     plot += fmt::format(
         "{}{} using (strcol(1) eq {} ? $4 : NaN):($3 + {:.3g}):5:6 with xerrorbars lc rgb \"{}\" pt {} ps 1 lw 2 title "
         "{}",
         plot.empty() ? "plot " : ", \\\n     ", single_quoted(dots.name + ".csv"), single_quoted(series.title),
         offset_of(i, dots.series.size()), series.style.colour, series.style.marker, single_quoted(series.title));
   }
-  drawing.script = out + terminals(dots, 0.3 + 0.045 * lines, plot + "\n");
+  drawing.script = out + terminals(dots, tall(dots), plot + "\n");
   return drawing;
 }
 

@@ -47,10 +47,7 @@ std::vector<Try> tries_of(const Method& method, const Scene& scene, const Run& b
   size_t refused = 0;
   for (const Setting& setting : ladder) {
     Recorder recorder;
-    LastPictures last(omega, setting.tolerance ? 0 : setting.value);
-    std::vector<Observer*> observers{&recorder};
-    if (watched) observers.push_back(&last);
-    Outcome out = run_method(method, scene, setting.applied_to(base), observers);
+    Outcome out = run_method(method, scene, setting.applied_to(base), {&recorder});
     if (out.verdict == Verdict::unsupported) {  // at this step, perhaps not at others
       refusal = out.reason, ++refused;
       continue;
@@ -60,8 +57,10 @@ std::vector<Try> tries_of(const Method& method, const Scene& scene, const Run& b
                                   method.name, scene.name));
       return {};
     }
-    const bool failed = watched && out.verdict != Verdict::ok;
-    tries.push_back({setting, std::move(out), std::move(recorder.trajectory), failed ? last.path() : Trajectory{}});
+    // its end is seen in a run of its own: who looks at every step makes adaptive methods take others
+    LastPictures last(omega, setting.tolerance ? 0 : setting.value);
+    if (watched && out.verdict != Verdict::ok) run_method(method, scene, setting.applied_to(base), {&last});
+    tries.push_back({setting, std::move(out), std::move(recorder.trajectory), last.path()});
   }
   if (refused > 0 && !tries.empty())
     notes.push_back(fmt::format("speed-accuracy leaves out {} of {} runs of {} on {}, which it refuses: {}", refused,

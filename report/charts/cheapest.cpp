@@ -106,8 +106,8 @@ std::vector<Chart> cheapest_charts(const ChartInput& input) {
   std::ranges::stable_partition(engines, [](const std::string& engine) { return engine.starts_with("bullet"); });
   Dots f;
   f.name = "cheapest-1-percent-cost";
-  f.title = "CPU time for an error of 1 % of the motion, over mysim's";
-  f.label = "CPU time of the cheapest run within 1 %, in times of mysim's cheapest";
+  f.title = "CPU time for 1 % error, over mysim's";
+  f.label = "times mysim's CPU time";
   f.from_costs = true;
   for (const std::string& engine : engines) f.series.push_back({look_of(engine).name, look_of(engine).style, {}});
   bool any = false;

@@ -64,6 +64,36 @@ TEST(LastPictures, OfAShortRunAreAllOfItAsFarAsItIsFinite) {
   EXPECT_EQ(last.path().frames(), 5);
 }
 
+TEST(WatchedRuns, ChangeNoRow) {
+  Request request;
+  request.methods = find_methods("leapfrog,explicit-euler,dopri5,implicit-euler,odeint/dopri5,bullet/pbd");
+  for (Method& method : all_methods())  // an optional package
+    if (method.name == "sundials/arkode") request.methods.push_back(std::move(method));
+  const Scene scene = load_scene("pendulum");
+  std::vector<Kept> kept;
+  Rows rows, unwatched;
+  speed_accuracy_on(request, scene, unwatched);
+  request.watch = keeping(kept);
+  speed_accuracy_on(request, scene, rows);
+  EXPECT_EQ(all_rows(rows), all_rows(unwatched));
+  EXPECT_EQ(kept.size(), request.methods.size());
+  int failed = 0;
+  for (const Kept& k : kept)
+    for (const WatchedRun& run : k.runs) {
+      failed += run.outcome.verdict != Verdict::ok;
+      EXPECT_GT(run.path.frames(), 0) << k.method << ": also of what failed there is something to be seen";
+    }
+  EXPECT_GT(failed, 0);
+
+  for (const char* method : {"explicit-euler", "bullet/pbd", "bullet/deformable-explicit"}) {
+    SCOPED_TRACE(method);
+    Rows map, unwatched_map;
+    map_on(map_kinds()[0], load_scene("spring"), find_method(method), {3, 6, 300, false}, map, keeping(kept));
+    map_on(map_kinds()[0], load_scene("spring"), find_method(method), {3, 6, 300, false}, unwatched_map);
+    EXPECT_EQ(all_rows(map), all_rows(unwatched_map));
+  }
+}
+
 /// Some of which hold and some of which fail.
 void expect_departures(const Scene& scene) {
   for (const MapKind& kind : map_kinds()) {
