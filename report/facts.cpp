@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/cells.h"
@@ -100,6 +101,11 @@ bool shares_place(const MethodFacts& run, const MethodFacts& other, const SceneF
   return *run.error <= std::max(1.05 * *other.error, scene.bar);
 }
 
+bool is_adaptive(const std::string& method) {
+  const auto all = all_methods();
+  return std::ranges::any_of(all, [&](const Method& m) { return m.name == method && m.adaptive; });
+}
+
 std::string nice(double value) {
   if (value == 0) return "0";
   const double size = std::abs(value);
@@ -122,9 +128,9 @@ std::string nice_length(double metres) {
     return fmt::format("{:g}", std::round(value / unit) * unit);
   };
   if (size >= 1) return fmt::format("{:.3g} m", metres);
-  if (size >= 1e-4) return two_digits(metres * 1e3) + " mm";
-  if (size >= 1e-6) return two_digits(metres * 1e6) + " µm";
-  if (size >= 1e-9) return two_digits(metres * 1e9) + " nm";
+  if (size >= 0.995e-4) return two_digits(metres * 1e3) + " mm";
+  if (size >= 0.995e-6) return two_digits(metres * 1e6) + " µm";
+  if (size >= 0.995e-9) return two_digits(metres * 1e9) + " nm";
   return nice(metres) + " m";
 }
 
@@ -133,6 +139,12 @@ std::string step_text(double seconds) {
   if (seconds >= 1) return nice(seconds) + " s";
   if (seconds >= 1e-3) return nice(1e3 * seconds) + " ms";
   return nice(1e6 * seconds) + " µs";
+}
+
+std::string own_step_text(const Scene& scene) {
+  const double taken = plan(default_run(scene)).h;
+  const std::string asked = step_text(scene.step), text = step_text(taken);
+  return text == asked ? asked : fmt::format("{} (of the {} asked for)", text, asked);
 }
 
 std::string setting_text(const std::string& setting, double asked) {

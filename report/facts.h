@@ -64,12 +64,18 @@ bool useless_at(const MethodFacts& run, const SceneFacts& scene);
 /// Facts of a scene from the tables `engines`, `engines-cost` and `engines-energy`.
 SceneFacts facts_of(const std::string& scene, const Rows& result);
 
+/// Whether a method of that name chooses its steps by itself: the scene's own step is none of its.
+bool is_adaptive(const std::string& method);
+
 /// "3.2e-05" as "3.2e-5", small and large numbers plain where that is short: for sentences.
 std::string nice(double value);
 /// A length in the unit that suits it: "1.2 mm", "3.4e-14 m".
 std::string nice_length(double metres);
 /// A step or a time in the unit that suits it: "500 µs", "1.12 ms", "3 s".
 std::string step_text(double seconds);
+/// The scene's own step as it is taken, so that it divides the time between samples: "31.4 ms (of the 50 ms asked
+/// for)".
+std::string own_step_text(const Scene& scene);
 /// "2 ms", or "tolerance 1.0e-6": what a run was asked for, its setting "step [s]" or "tolerance [1]".
 std::string setting_text(const std::string& setting, double asked);
 

@@ -58,7 +58,7 @@ std::string why_off(const Scene& scene, const SceneFacts& facts, const MethodFac
   const MethodFacts* implicit = facts.find("mysim/implicit-euler");
   // 1.3: far below the factors of 3 and more between the scenes where laws differ and where they do not
   if (p.error && implicit && implicit->ok() && implicit->error && *p.error < 1.3 * *implicit->error)
-    return fmt::format("hardly further than implicit Euler at the same step ({})", nice_length(*implicit->error));
+    return fmt::format("about as far as implicit Euler at the same step ({})", nice_length(*implicit->error));
   if (scene.model.find<Constraints>())
     return "it solves hard lengths one after the other, and has a law of springs of its own";
   const bool several = springs->list.size() > 1;
@@ -93,7 +93,7 @@ std::string as_near(const SceneFacts& facts, const MethodFacts& best, const std:
     if (shares_place(*m, best, facts)) near.push_back(m);
   std::ranges::stable_sort(near, std::less(), [](const MethodFacts* m) { return m->evaluations; });
   std::vector<std::string> names;
-  for (const MethodFacts* m : near) names.push_back(m->method);
+  for (const MethodFacts* m : near) names.push_back(m->method + (is_adaptive(m->method) ? " by steps of its own" : ""));
   if (names.size() > 3) {
     const size_t left = names.size() - 2;
     names.resize(2);
@@ -156,8 +156,8 @@ void failures(const Scene& scene, const SceneFacts& facts, std::vector<Finding>&
   // a long list of names tells less than who is left
   const std::string sentence =
       failed.size() <= 3 || held.empty()
-          ? fmt::format("At a step of {} these failed: {}.", step_text(scene.step), joined(failed))
-          : fmt::format("At a step of {} {} of {} methods failed; {} came to the end.{}", step_text(scene.step),
+          ? fmt::format("At a step of {} these failed: {}.", own_step_text(scene), joined(failed))
+          : fmt::format("At a step of {} {} of {} methods failed; {} came to the end.{}", own_step_text(scene),
                         failed.size(), failed.size() + held.size(), joined(held),
                         limits.empty() ? "" : " By theory the others are stable: " + joined(limits) + ".");
   out.push_back({scene.name, "failure", sentence, "measured", "failed"});

@@ -51,7 +51,7 @@ void least_models(const Rows& rows, const Table& t, std::vector<Finding>& out) {
   if (!whole.empty())
     sentence += fmt::format("{}Nothing can be left out of {}, not even at 10 % of the motion.",
                             sentence.empty() ? "" : " ", joined(whole));
-  if (!parts.empty()) sentence += " All this while single positions can be compared.";
+  if (!parts.empty()) sentence += " All this holds while single positions can be compared.";
   if (!sentence.empty()) out.push_back({"", "adequacy", sentence, "see each scene", "least-model"});
 }
 

@@ -42,7 +42,8 @@ std::string where_energy_leaves(const Table& table) {
         " On {}, where drag or contact act, what does not add up with symplectic rules is {} of what passes through "
         "drag and contact, gains and losses counted alike{}.",
         scene, range(told(*open.begin()), told(*open.rbegin())),
-        others.empty() ? "" : fmt::format("; with others up to {}", told(*others.rbegin())));
+        others.empty() ? ""
+                       : fmt::format("; with others, some at ten times the step, up to {}", told(*others.rbegin())));
   }
   return said;
 }

@@ -53,13 +53,15 @@ void slide_off(const Table& table, std::vector<Finding>& out) {
 }
 
 void depth(const Table& table, std::vector<Finding>& out) {
-  double particles = 0, triangles = 0;
+  double particles = 0, triangles = 0, their_triangles = 0, longest = 0;
   std::map<std::string, double> of_bullet;
   bool any = false;
   for (size_t i = 0; i < table.rows.size(); ++i) {
     if (text_at(table, i, "verdict") != "ok") continue;
     const std::string& method = text_at(table, i, "method");
     const double nodes = number_at(table, i, "particles", NAN);
+    longest = std::max(longest, number_at(table, i, "step", 0));
+    if (method.starts_with("bullet/")) their_triangles = std::max(their_triangles, number_at(table, i, "triangles", 0));
     if (method.starts_with("bullet/") && nodes > 1e-9) of_bullet[method] = std::max(of_bullet[method], nodes);
     if (!method.starts_with("mysim/") || method == sticky_sphere) continue;
     any = true;
@@ -71,10 +73,11 @@ void depth(const Table& table, std::vector<Finding>& out) {
   for (const auto& [method, most] : of_bullet) theirs_told.push_back(fmt::format("{} {:.2g} %", method, most));
   out.push_back({"", "contact",
                  fmt::format("On a ball {}, the triangles between them by up to {:.2g} % of the radius; particles of "
-                             "Bullet's worlds sink in by up to: {}.",
+                             "Bullet's worlds sink in by up to: {}, triangles by {:.2g} %{}.",
                              particles < 1e-9 ? "no particle of mysim sinks in but for rounding"
                                               : fmt::format("particles of mysim sink in by up to {:.2g} %", particles),
-                             triangles, joined(theirs_told)),
+                             triangles, joined(theirs_told), their_triangles,
+                             longest > 0 ? fmt::format(" (at steps of up to {})", step_text(longest)) : ""),
                  "measured", "penetration"});
 }
 

@@ -180,11 +180,12 @@ void conclude_speed_accuracy(Rows& rows) {
              {}},
         engines = engines_cost_table();
   for (const SceneRuns& s : runs_of(*results)) {
-    // an outside program need not count its evaluations, and of Bullet's implicit world the steps alone are known: what
-    // its solver takes for each would pass for nothing
+    // an outside program need not count its evaluations, and of Bullet's implicit and position-based worlds the steps
+    // alone are known: what their solvers take for each would pass for nothing
     std::vector<WorkPoint> counted = s.points;
     std::erase_if(counted, [](const WorkPoint& p) {
-      return !(p.cost > 0) || p.method.find("/deformable-implicit") != std::string::npos;
+      return !(p.cost > 0) || p.method.find("/deformable-implicit") != std::string::npos ||
+             p.method.find("/pbd") != std::string::npos;
     });
     add_pareto(s, counted, pareto);
     add_cheapest(s, counted, 0, best);

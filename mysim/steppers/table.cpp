@@ -14,7 +14,7 @@ std::span<const Stepper> steppers() {
        .symplectic = false,
        .limit = limits::explicit_euler,
        .limit_formula = "h < gamma / omega^2 (2 / lambda_max when overdamped): none without drag",
-       .what = "forward Euler, shown as the warning it is"},
+       .what = "forward Euler, kept as a warning"},
       {.name = "trapezoidal",
        .step = trapezoidal,
        .order = 2,

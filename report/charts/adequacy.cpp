@@ -28,7 +28,11 @@ PageTable least_of(const Table& least, const std::string& scene) {
     if (text_at(least, i, "scene") != scene) continue;
     std::vector<std::string> unseen;
     for (const char* column : {"unseen error 1", "unseen error 2", "unseen error 3"})
-      unseen.push_back(error_text(number_at(least, i, column)));
+      unseen.push_back(error_text(number_at(least, i, column)) +
+                       (number_at(least, i, column, INFINITY) > *number_at(least, i, "tolerance") &&
+                                !text_at(least, i, "left out").empty()
+                            ? " (beyond)"
+                            : ""));
     const bool all = text_at(least, i, "left out").empty();
     page.rows.push_back(
         {fmt::format("{} ({})", nice_length(*number_at(least, i, "tolerance")), text_at(least, i, "tolerance is")),

@@ -37,13 +37,30 @@ bool still_falls(const Curve& c) {
   return c.points.size() > 1 && c.points.back().second < 0.9 * c.points[c.points.size() - 2].second;
 }
 
+/// Whether the sag at rest grows with the logarithm of the number of cells without slowing down. Where it settled like
+/// 1 / cells its growth would halve from the first two of four grids from 8 to 24 particles to the last two.
+bool sag_runs_on(const Table& t, const std::string& scene) {
+  std::vector<double> growth;
+  std::optional<std::pair<double, double>> before;  // logarithm of cells, sag
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    const auto sag = number_at(t, i, "sag");
+    if (text_at(t, i, "scene") != scene || !sag) continue;
+    const std::pair now{std::log(*number_at(t, i, "cells")), *sag};
+    if (before) growth.push_back((now.second - before->second) / (now.first - before->first) / *sag);
+    before = now;
+  }
+  return growth.size() > 1 && growth.front() > 1e-4 && growth.back() > 0.7 * growth.front();
+}
+
 /// How the distance from the finest grid goes with the grid, scene by scene.
-std::string motion_sentence(const Rows& rows, const std::vector<Curve>& curves) {
-  std::vector<std::string> falls, others;
+std::string motion_sentence(const Table& grids, const Rows& rows, const std::vector<Curve>& curves) {
+  std::vector<std::string> falls, others, endless;
   size_t fewest = 4;  // below which a power is a hint
   for (const Curve& c : curves) fewest = std::min(fewest, c.points.size());
   for (const Curve& c : curves)
-    if (const auto power = power_of(rows, c.title, motion_against_cells))
+    if (sag_runs_on(grids, c.title))
+      endless.push_back(c.title);
+    else if (const auto power = power_of(rows, c.title, motion_against_cells))
       (power->exponent + 2 * power->deviation < 0 && still_falls(c) ? falls : others)
           .push_back(fmt::format("{} on {} ({} grids)", power_text(*power), c.title, c.points.size()));
   std::string text;
@@ -56,6 +73,11 @@ std::string motion_sentence(const Rows& rows, const std::vector<Curve>& curves) 
   if (!others.empty())
     text += fmt::format("{}Up to the last refinement no nearing is seen where the power is {}.",
                         text.empty() ? "" : " ", joined(others));
+  if (!endless.empty())
+    text += fmt::format(
+        "{}On {} the sag at rest grows with the logarithm of the number of cells and does not slow down: no grid is "
+        "near a limit there, and the distance falls only since the finest of these grids is what it is measured from.",
+        text.empty() ? "" : " ", joined(endless));
   return text.empty() ? "Distances of the motion from that of the finest grid." : text;
 }
 
@@ -102,7 +124,7 @@ Chart grids(const Table& t, const Rows& rows, const std::string& commit) {
     failed.push_back(fmt::format("{} with {:g} particles along a side ({})", scene, n, failure_word(verdict)));
     f.failures.push_back({scene + ": " + failure_word(verdict), style.at(scene), n, 3 * furthest});
   }
-  f.finding = motion_sentence(rows, f.curves);
+  f.finding = motion_sentence(t, rows, f.curves);
   f.tier = "the finest grid of each scene, which is itself not converged";
   f.caption = fmt::format("Leapfrog, compared at 17 x 17 points of the material; commit {}.", commit);
   Chart chart{

@@ -62,7 +62,7 @@ std::vector<std::pair<double, double>> points_of(const Table& table, const std::
 }
 
 std::string caption_of(const Scene& scene, const std::string& commit) {
-  return fmt::format("Scene {}; step {}; commit {}.", scene.name, step_text(scene.step), commit);
+  return fmt::format("Scene {}; step {}; commit {}.", scene.name, own_step_text(scene), commit);
 }
 
 std::string tier_of(const SceneFacts& facts) {

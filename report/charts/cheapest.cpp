@@ -133,7 +133,9 @@ std::vector<Chart> cheapest_charts(const ChartInput& input) {
   f.finding = told(f);
   f.caption = fmt::format(
       "To the right of the line mysim is faster, to the left the other. Of each engine the cheapest of all runs tried, "
-      "whatever its method, step or tolerance; thread CPU time on one core, medians, and the widest that both 90 % "
+      "whatever its method, step or tolerance: as none steps over a sampling interval, some are far nearer than asked "
+      "for; "
+      "thread CPU time on one core, medians, and the widest that both 90 % "
       "intervals allow; a scene without a marker has no such run of that engine; mysim and odeint are compiled in this "
       "build, Bullet and SUNDIALS are Debian's generic x86-64 builds; commit {}.",
       input.commit);

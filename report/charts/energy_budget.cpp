@@ -77,12 +77,13 @@ std::optional<Chart> budget_chart(const Table& table, const std::string& scene, 
         "claimed.";
   if (!gives.empty())
     bars.finding += fmt::format(
-        " Contact of {} gave energy. Balls that move do so; and where a particle rests, rules of first order let it "
+        " Contact of {} gave energy: where a particle rests, rules of first order let it "
         "sink "
         "in every step and contact lifts it again: what the rule loses so contact gives, and both fall with the step.",
         joined(gives));
   bars.tier = "exact (the sum is zero), to the rounding of the sums";
-  bars.caption = fmt::format("Scene {}; {}; commit {}.", scene, length_text(table, scene), commit);
+  bars.caption = fmt::format("Scene {}; {}, rules that solve a whole step at ten times that; commit {}.", scene,
+                             length_text(table, scene), commit);
   const std::string about =
       scene == "all-at-once"
           ? "One small scene with everything that takes or gives energy: a cloth of 5 x 5 particles, held by two moved "

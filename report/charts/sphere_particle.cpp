@@ -10,6 +10,15 @@
 #include "report/leaving_told.h"
 
 namespace crosscheck {
+namespace {
+
+/// Degrees off; what rounds to nothing has no sign.
+std::string off_text(double degrees) {
+  const std::string text = fmt::format("{:+.2f}", degrees);
+  return text.substr(1) == "0.00" ? "0.00" : text;
+}
+
+}  // namespace
 
 Chart rebound_chart(const Table& table, const std::string& commit) {
   Figure f;
@@ -80,7 +89,7 @@ Chart leaving_chart(const Table& table, const std::string& commit) {
                            angle                                  ? fmt::format("{:.2f}", *angle)
                            : text_at(table, i, "verdict") == "ok" ? "does not leave"
                                                                   : failure_or_cannot(text_at(table, i, "verdict")),
-                           angle ? fmt::format("{:+.2f}", *angle - exact) : "",
+                           angle ? off_text(*angle - exact) : "",
                            angle ? fmt::format("{:.3f}", *number_at(table, i, "speed")) : ""});
       if (angle) curve.points.emplace_back(h, *angle - exact);
     }

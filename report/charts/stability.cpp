@@ -14,7 +14,12 @@ namespace {
 
 constexpr auto chapter = "stability";
 
-std::string signed_text(double value) { return (value > 0 ? "+" : "") + nice(value); }
+/// "+1.25e-5": four digits, so that what agrees to five reads the same.
+std::string signed_text(double value) {
+  std::string text = fmt::format("{:+.4g}", value);
+  if (const size_t e = text.find("e-0"); e != std::string::npos) text.erase(e + 2, 1);
+  return text;
+}
 
 /// Growth where no step is stable, or just beside a limit.
 PageTable growth_table(const Table& table, bool without_limit) {

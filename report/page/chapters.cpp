@@ -11,7 +11,8 @@ std::vector<Chapter> chapters() {
        "further left is better; the grey stairs join the runs that no cheaper run beats. Runs that failed are crosses "
        "at the top, at the cost they had already spent. Costs are counted twice: as force evaluations, which are the "
        "same on every machine, and as CPU time, which is what is paid. Bullet does not tell what its solvers do inside "
-       "a step: there a step counts as one evaluation, and the implicit world does not compete by them. No step is "
+       "a step: there a step counts as one evaluation, and worlds that solve for a whole step do not compete by them. "
+       "No step is "
        "longer than the time between two samples.",
        {},
        "Speed"},

@@ -24,9 +24,10 @@ std::string readable(std::string text) {
 }
 
 std::string row_of(const Method& method) {
-  const Stepper* own = method.stepper;
+  const Stepper* own = rule_of(method);
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                     escaped(method.name), prose(readable(own ? std::string(own->what) : method.what)),
+                     escaped(method.name),
+                     prose(readable(method.stepper ? std::string(method.stepper->what) : method.what)),
                      own ? std::to_string(own->order) : "–",
                      !own                   ? "–"
                      : own->evaluations > 0 ? std::to_string(own->evaluations)

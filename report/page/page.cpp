@@ -156,7 +156,7 @@ std::string scene_section(const ScenePart& part, const std::vector<std::string>&
   out += fmt::format(
       "<p class=\"parameters\"><b>Parameters.</b> {} Step {}, {:.3g} s of motion; pointwise comparison up to {:.3g} "
       "s, where a perturbation of 1e-10 m has grown {}-fold; {}. Scene hash {}.</p>\n</section>\n",
-      prose(scene.parameters), step_text(scene.step), scene.duration, scene.window, nice(facts.growth), predictable,
+      prose(scene.parameters), own_step_text(scene), scene.duration, scene.window, nice(facts.growth), predictable,
       scene.hash);
   return out;
 }

@@ -179,6 +179,23 @@ Table resolution(std::vector<Row> rows) {
                   std::move(rows));
 }
 
+TEST(ChapterWords, ASagThatRunsOnWithTheGridIsNoLimitThatIsNeared) {
+  std::vector<Row> rows;
+  for (const auto& [scene, sag] :
+       {std::pair<const char*, double (*)(double)>{"endless", [](double cells) { return 1 + 0.1 * std::log(cells); }},
+        {"settles", [](double cells) { return 1.4 - 1 / cells; }},
+        {"still", [](double cells) { return 1 + 1e-7 * cells; }}})
+    for (const long n : {8l, 12l, 16l, 24l}) {
+      const auto cells = static_cast<double>(n - 1);
+      rows.push_back({scene, n, cells, n < 24 ? Cell(1 / cells) : Cell(), sag(cells), 1., "ok"});
+    }
+  const auto charts = charts_of(adequacy_charts, rows_of({resolution(rows)}));
+  const std::string said = words_of(charts.at(0))->finding;
+  EXPECT_TRUE(contains(said, "On endless the sag at rest grows with the logarithm of the number of cells"));
+  EXPECT_FALSE(contains(said, "settles"));
+  EXPECT_FALSE(contains(said, "still"));
+}
+
 TEST(ChapterWords, GridsWhoseFinestRunFailsKeepTheirTable) {
   const auto charts =
       charts_of(adequacy_charts, rows_of({resolution({{"flag", 8l, 7., Cell(), Cell(), Cell(), "ok"},

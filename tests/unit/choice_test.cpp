@@ -58,7 +58,7 @@ TEST_F(Choice, OfSeveralThatAreAsNearTheCheapestIsNamed) {
                               run("mysim/explicit-euler", 2e-2)});
   EXPECT_EQ(cell("mysim's nearest", f).text, "symplectic-euler 1 %");
   const SceneFacts few = facts({run("mysim/dopri5", 1e-8, "ok", 100), run("mysim/explicit-euler", 2e-2)});
-  EXPECT_EQ(cell("mysim's nearest", few).text, "dopri5 < 0.001 %");
+  EXPECT_EQ(cell("mysim's nearest", few).text, "dopri5 (own steps) < 0.001 %");
 }
 
 TEST_F(Choice, EnginesOfOthersKeepTheirNames) {
@@ -148,7 +148,7 @@ TEST_F(Choice, WhatMayBeLeftOutAndWhoIsCheapest) {
       findings[0].sentence,
       "On cloth-hang within its tolerance all is needed; at 1 % of its motion without shear springs it fails from "
       "2 of 3 other starts; at 10 % of its motion it can do without bend springs, which saves 33 % of the cost. All "
-      "this while single positions can be compared.");
+      "this holds while single positions can be compared.");
 }
 
 TEST_F(Choice, TheFindingSaysTheRowWithoutTimings) {
@@ -173,9 +173,10 @@ TEST(SharedWords, LeavingAnglesByEngineAndWhoGetsWorse) {
     t.add({method, 1e-4, fine, 55.});
   }
   t.add({sticky_sphere, 1e-4, Cell(), 55.});
-  EXPECT_EQ(leaving_sentence(t),
-            "At a step of 100 µs particles leave the ball off the exact angle: mysim's rules by at most 0.01 degrees "
-            "and bullet/pbd by -1.6 (-0.2 at 1 ms). Shorter steps make bullet/pbd worse.");
+  EXPECT_EQ(
+      leaving_sentence(t),
+      "At a step of 100 µs particles leave the ball off the exact angle: mysim's rules by at most 0.01 degrees (-0.1 "
+      "at 1 ms) and bullet/pbd by -1.6 (-0.2 at 1 ms). Shorter steps make bullet/pbd worse.");
   t.rows.clear();
   EXPECT_EQ(leaving_sentence(t), "");
 }
