@@ -34,9 +34,9 @@ ChoiceCell nearest_cell(const SceneFacts& facts, const std::vector<MethodFacts>&
     if (each.judged() && each.method.starts_with(engine) && shares_place(each, *m, facts) &&
         shares_place(*m, each, facts) && each.evaluations < m->evaluations)
       m = &each;
-  return {fmt::format("{}{} {}", short_name(m->method), is_adaptive(m->method) ? " (own steps)" : "",
-                      share_text(*m->error, facts)),
-          shares_place(*m, *best, facts) ? "best" : ""};
+  return {
+      fmt::format("{}{} {}", short_name(m->method), is_adaptive(m->method) ? "*" : "", share_text(*m->error, facts)),
+      shares_place(*m, *best, facts) ? "best" : ""};
 }
 
 ChoiceCell truth_cell(const Scene&, const SceneFacts& facts, const Rows&) {

@@ -27,7 +27,8 @@ std::string choice_table_html(const std::vector<ScenePart>& scenes) {
     out += "</tr>\n";
   }
   out +=
-      "</tbody></table></div>\n<p class=\"note\">Errors at the scene's own step, in % of its motion; in bold who is "
+      "</tbody></table></div>\n<p class=\"note\">Errors at the scene's own step, in % of its motion (*: by steps of "
+      "the method's own); in bold who is "
       "nearest, or within 5 % of the nearest; – where nothing was asked, or cannot be said. What each <a "
       "href=\"#methods\">method</a> is; what "
       "is meant by";

@@ -19,7 +19,7 @@ constexpr Word words[] = {
      "An engine with a rule: mysim/leapfrog is mysim's leapfrog, bullet/pbd Bullet's position-based world."},
     {"step", "step",
      "The time from one computed state to the next; each scene has one of its own, the same for all methods "
-     "unless a chapter varies it."},
+     "that do not choose theirs, unless a chapter varies it."},
     {"evaluation", "force evaluation",
      "One computation of all forces; explicit Euler, symplectic Euler and leapfrog take one "
      "in a step, rk4 four, suzuki4 five, implicit rules many. Bullet's steps count as one."},

@@ -58,7 +58,7 @@ TEST_F(Choice, OfSeveralThatAreAsNearTheCheapestIsNamed) {
                               run("mysim/explicit-euler", 2e-2)});
   EXPECT_EQ(cell("mysim's nearest", f).text, "symplectic-euler 1 %");
   const SceneFacts few = facts({run("mysim/dopri5", 1e-8, "ok", 100), run("mysim/explicit-euler", 2e-2)});
-  EXPECT_EQ(cell("mysim's nearest", few).text, "dopri5 (own steps) < 0.001 %");
+  EXPECT_EQ(cell("mysim's nearest", few).text, "dopri5* < 0.001 %");
 }
 
 TEST_F(Choice, EnginesOfOthersKeepTheirNames) {
