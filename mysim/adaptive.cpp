@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact)
+AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact, bool told)
     : scene_(scene),
       f_(scene.model),
       contacts_(scene.model, contact),
@@ -21,7 +21,8 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       fastest_(largest_column(scene.start.v)),
       before_(scene.start),
       s_(scene.start),
-      seen_(scene.start) {}
+      seen_(scene.start),
+      told_(told) {}
 
 /// Root mean square over the particles of estimated over allowed error.
 double AdaptiveWorld::error_ratio() {
@@ -73,14 +74,21 @@ void AdaptiveWorld::advance(double limit) {
 void AdaptiveWorld::step(double, double t_next) {
   const Particles& particles = scene_.model.particles;
   constexpr double far = 1e300;
+  touches_.clear();
   while (s_.t < t_next) {
     if (accepted_ > 0) pair_.accept();
     advance(contacts_.any() ? t_next : far);
     if (contacts_.any()) {
       particles.place_pins(s_);
-      if (contacts_.resolve(s_)) pair_.forget();
+      if (!contacts_.resolve(s_)) continue;
+      pair_.forget();
+      if (told_) touches_.emplace_back(contacts_.proposed(), s_);
     }
   }
+}
+
+void AdaptiveWorld::tell_contact(Observer& observer) {
+  for (const auto& [proposed, resolved] : touches_) observer.contact(proposed, resolved);
 }
 
 const State& AdaptiveWorld::state(double t) {

@@ -1,6 +1,9 @@
 // A scene stepped by the pair of Dormand and Prince under error control.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "mysim/contacts.h"
 #include "mysim/march.h"
 #include "mysim/steppers/dopri5.h"
@@ -10,14 +13,15 @@ namespace crosscheck {
 /// Steps are chosen so that the root mean square of (estimated error of a step) / (R (scene size + |x|)), and likewise
 /// of velocities with the largest speed so far for the scene's size, stays at or below 1, with R = run.tolerance. The
 /// states that are asked for lie on the interpolant. Beside a sphere no step goes beyond the next state asked for,
-/// since contact acts on whole steps.
+/// since contact acts on whole steps; it may take several to get there, and each may touch.
 class AdaptiveWorld : public World {
  public:
-  AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact);
+  /// `told`: somebody looks at every contact, who is handed those of all steps on the way to a state.
+  AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact, bool told);
   void step(double t, double t_next) override;
   /// On the interpolant; looked at outside the clock, so that only the steps cost.
   const State& state(double t) override;
-  void tell_contact(Observer& observer) override { contacts_.tell(observer, s_); }
+  void tell_contact(Observer& observer) override;
 
   const System& right_hand_side() const { return f_; }
   long accepted() const { return accepted_; }
@@ -35,6 +39,8 @@ class AdaptiveWorld : public World {
   double last_ratio_ = 1e-4;  // of the step before, for the controller
   State before_, s_, seen_;   // start and end of the last accepted step; what was asked for
   long accepted_ = 0;
+  bool told_;
+  std::vector<std::pair<State, State>> touches_;  // on the way to the last state asked for: before contact, and after
 };
 
 }  // namespace crosscheck

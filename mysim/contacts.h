@@ -27,6 +27,8 @@ class Contacts {
   bool resolve(State& s);
   /// Hands the states before and after the last resolve() to the observer, if something touched.
   void tell(Observer& observer, const State& resolved) const;
+  /// The state before the last resolve(), where something touched.
+  const State& proposed() const { return proposed_; }
 
  private:
   const Particles& particles_;

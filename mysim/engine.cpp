@@ -50,7 +50,7 @@ void require_supported(const Stepper& stepper, const Model& model) {
 }
 
 Outcome simulate_adaptively(ContactRule contact, const Scene& scene, const Run& run, Observer& observer) {
-  AdaptiveWorld world(scene, run, contact);
+  AdaptiveWorld world(scene, run, contact, observer.every_step());
   return march_adaptively(world, run, observer, scene.model.find<Spheres>() != nullptr);
 }
 

@@ -135,5 +135,28 @@ TEST(Adaptive, BesideASphereNoStepIsLongerThanTheRunsStep) {
     }
 }
 
+TEST(Adaptive, EveryContactOnTheWayToAStateIsInTheLedger) {
+  // two particles on a stiff spring slide down a ball; many steps of theirs fit one of the run's, and each touches
+  const Scene scene = small_scene(
+      "[[particle]]\nposition = [0.1, 1.05, 0]\nmass = 1\n[[particle]]\nposition = [0.3, 1.05, 0]\nmass = 1\n"
+      "[[spring]]\nends = [0, 1]\nstiffness = 4000\nrest = 0.2\n" +
+      std::string(gravity_text) + "[sphere]\ncentre = [0, 0, 0]\nradius = 1\nfriction = 0.3\n");
+  for (const Stepper& s : adaptive_steppers())
+    for (const double tolerance : {1e-6, 1e-8}) {
+      Ledger ledger(scene.model, ContactLoss::reported);
+      crosscheck::Run run{0.02, 1, 50};
+      run.tolerance = tolerance;
+      const Outcome out = simulate(s, ContactRule::coulomb, scene, run, ledger);
+      ASSERT_EQ(out.verdict, Verdict::ok);
+      ASSERT_GT(out.steps, 3 * 50) << "several to a step of the run";
+      const auto& rows = ledger.rows();
+      ASSERT_GT(rows.back().contact, 0.1) << "friction took something";
+      // nothing else is lost: what does not add up is the error of some hundred steps, each below the tolerance of the
+      // 20 J that the fall turns over
+      for (const LedgerRow& row : rows)
+        EXPECT_NEAR(row.balance(), rows.front().balance(), 20 * static_cast<double>(out.steps) * tolerance) << row.t;
+    }
+}
+
 }  // namespace
 }  // namespace crosscheck
