@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "experiments/cells.h"
+#include "experiments/speed_accuracy/by_engine.h"
 #include "report/findings_text.h"
 #include "report/least_model.h"
 
@@ -29,9 +30,9 @@ std::string share_text(double error, const SceneFacts& facts) {
 ChoiceCell nearest_cell(const SceneFacts& facts, const std::vector<MethodFacts>& among, const MethodFacts* m) {
   if (facts.tier.empty() || !m || !(facts.motion > 0)) return {};
   const MethodFacts* best = nearest(facts, "");
-  const std::string engine = m->method.substr(0, m->method.find('/') + 1);
+  const std::string engine = engine_of(m->method);
   for (const MethodFacts& each : among)
-    if (each.judged() && each.method.starts_with(engine) && shares_place(each, *m, facts) &&
+    if (each.judged() && engine_of(each.method) == engine && shares_place(each, *m, facts) &&
         shares_place(*m, each, facts) && each.evaluations < m->evaluations)
       m = &each;
   return {

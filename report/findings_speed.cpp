@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "experiments/cells.h"
+#include "experiments/speed_accuracy/by_engine.h"
 #include "report/findings.h"
 #include "report/findings_text.h"
 
@@ -67,11 +68,9 @@ std::string told_by_engine(const std::map<std::string, std::vector<std::string>>
   std::map<std::string, std::vector<std::string>> lines;  // by engine
   std::map<std::string, size_t> wins;
   for (const auto& [method, where] : scenes_of) {
-    const size_t slash = method.find('/');
-    const std::string engine = method.substr(0, slash);
+    const std::string engine = engine_of(method);
     wins[engine] += where.size();
-    lines[engine].push_back(
-        fmt::format("{} on {}", slash == std::string::npos ? method : method.substr(slash + 1), joined(where)));
+    lines[engine].push_back(fmt::format("{} on {}", method.substr(method.find('/') + 1), joined(where)));
   }
   std::vector<std::pair<size_t, std::string>> engines;
   for (const auto& [engine, scenes] : wins) engines.emplace_back(scenes, engine);

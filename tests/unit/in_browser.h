@@ -33,6 +33,14 @@ class InBrowser : public InFolder {
     return run_program(call, folder_);
   }
 
+  /// These files of tests/unit as scripts, for the head of a page.
+  static std::string scripts(const std::vector<std::string>& names) {
+    std::string all;
+    for (const std::string& name : names)
+      all += "<script>" + read(std::filesystem::path(CROSSCHECK_SOURCE) / "tests/unit" / name) + "</script>";
+    return all;
+  }
+
   /// What the page's self-test wrote into <script id="seen">.
   nlohmann::json seen(const std::filesystem::path& page, std::vector<std::string> flags) const {
     flags.emplace_back("--dump-dom");

@@ -31,8 +31,7 @@ class Page : public InBrowser {
     content.chapters = {{"chapter", "A chapter", "What it asks.", {{"heading", "text", {}, {table}}}}};
     content.chapters[0].entries[0].images = {{folder_ / "chart.svg", "It falls.", "a caption", {told_of(f), {}}}};
     std::string html = page_html(content);
-    const std::string test = read(std::filesystem::path(CROSSCHECK_SOURCE) / "tests/unit/page_selftest.js");
-    html.insert(html.find("</head>"), "<script>" + test + "</script>");
+    html.insert(html.find("</head>"), scripts({"page_selftest.js"}));
     return write("page.html", html);
   }
 };

@@ -29,8 +29,8 @@ class PlayerPage : public testing_tools::InBrowser {
     Shot shot{.quality = render::Quality::fast, .width = 720, .height = 280};
     render::write_png(picture_of(scene, shown, shot), folder_ / "poster.png");
     const auto motions = write("motions.json", player_json(scene, shown, truth_of(scene, run_of(request, scene))));
-    const std::string test = read(std::filesystem::path(CROSSCHECK_SOURCE) / "tests/unit/player_selftest.js");
-    return write("page.html", page_head(scene.name, "<script>" + test + "</script>" + player_head()) +
+    const std::string test = scripts({"stage_selftest.js", "player_selftest.js"});
+    return write("page.html", page_head(scene.name, test + player_head()) +
                                   player_html({folder_ / "poster.png", "the poster", "a caption"}, motions) +
                                   "</body></html>");
   }
@@ -107,8 +107,7 @@ class RunsPage : public PlayerPage {
           {folder_ / (f.name + ".svg"), "It falls.", "a caption", {told_of(f), {}}, name});
     }
     std::string html = page_html(content);
-    const std::string test = read(std::filesystem::path(CROSSCHECK_SOURCE) / "tests/unit/runs_selftest.js");
-    html.insert(html.find("</head>"), "<script>" + test + "</script>");
+    html.insert(html.find("</head>"), scripts({"stage_selftest.js", "runs_selftest.js"}));
     return write("runs.html", html);
   }
 };

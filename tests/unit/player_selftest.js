@@ -1,34 +1,4 @@
 // Uses the player as a reader would and writes what it saw into the page, for the test that reads the page back.
-const complaints = [];
-addEventListener('error', event => complaints.push(event.message));
-addEventListener('unhandledrejection', event => complaints.push(String(event.reason)));
-const consoleError = console.error;
-console.error = (...words) => (complaints.push(words.join(' ')), consoleError(...words));
-
-// while its clock is virtual a browser without a window shows no frames, and asks for none
-window.requestAnimationFrame = callback => setTimeout(() => callback(performance.now()), 16);
-
-/** Waits until the condition holds, for ten seconds of the page's own clock at most. */
-async function until(condition) {
-  const begun = performance.now();
-  while (!condition() && performance.now() - begun < 1e4) await new Promise(done => setTimeout(done, 20));
-  return Boolean(condition());
-}
-
-/** The stage as it is now: its pixels, as text, and the part of them that is not background. */
-function lookAt(player) {
-  player.draw();
-  const {canvas} = player.stage, copy = document.createElement('canvas');
-  Object.assign(copy, {width: canvas.width, height: canvas.height});
-  const paper = copy.getContext('2d');
-  paper.drawImage(canvas, 0, 0);
-  const {data} = paper.getImageData(0, 0, copy.width, copy.height);
-  let drawn = 0;
-  for (let i = 0; i < data.length; i += 4)
-    drawn += Math.abs(data[i] - data[0]) + Math.abs(data[i + 1] - data[1]) + Math.abs(data[i + 2] - data[2]) > 30;
-  return {picture: copy.toDataURL(), drawn: drawn / (copy.width * copy.height)};
-}
-
 async function use(player, seen) {
   const {scene} = player, end = scene.times[scene.times.length - 1], height = document.body.scrollHeight;
   await player.wake();
@@ -81,10 +51,5 @@ addEventListener('load', async () => {
     complaints.push(String(problem.stack));
   }
   seen.canvases = document.querySelectorAll('.stage canvas').length;
-  seen.complaints = complaints;
-  const out = document.createElement('script');
-  out.type = 'application/json';
-  out.id = 'seen';
-  out.textContent = JSON.stringify(seen);
-  document.body.append(out);
+  tell(seen);
 });
