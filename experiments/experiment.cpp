@@ -1,12 +1,13 @@
 // The table of experiments.
 #include "experiments/experiment.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 
 #include "experiments/scenes.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "mysim/errors.h"
+#include "mysim/nearest.h"
 
 namespace crosscheck {
 std::span<const Experiment> experiments() {
@@ -59,12 +60,13 @@ std::span<const Experiment> experiments() {
 }
 
 const Experiment& find_experiment(const std::string& name) {
-  std::string known;
+  std::vector<std::string> known;
   for (const Experiment& e : experiments()) {
     if (e.name == name) return e;
-    known += (known.empty() ? "" : ", ") + std::string(e.name);
+    known.emplace_back(e.name);
   }
-  throw InputError(fmt::format("unknown experiment '{}'; expected one of: {}", name, known));
+  throw InputError(fmt::format("unknown experiment '{}'; expected one of: {}{}", name, fmt::join(known, ", "),
+                               did_you_mean(name, known)));
 }
 
 std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<std::string>& names, bool full) {

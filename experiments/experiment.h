@@ -28,7 +28,7 @@ struct WatchedRuns {
   std::string method;
   std::vector<WatchedRun> runs;
 };
-using Watch = std::function<void(const WatchedRuns&)>;
+using RunCallback = std::function<void(const WatchedRuns&)>;
 
 struct Request {
   std::vector<Scene> scenes;
@@ -36,7 +36,7 @@ struct Request {
   bool full = false;            // more points, for the same questions
   double step = 0;              // s, of all fixed-step methods; 0: each scene's own
   bool scenes_only = false;     // only what is asked of these scenes, not what experiments ask of scenes of their own
-  Watch watch = {};             // is shown the runs of speed-accuracy and of the maps; rows do not depend on it
+  RunCallback watch = {};       // is shown the runs of speed-accuracy and of the maps; rows do not depend on it
 };
 
 /// One method's answer to one scene at the request's step, kept: experiments and pictures look at the same run.

@@ -12,7 +12,7 @@ class LongLedger : public Observer {
   LongLedger(const Model& model, ContactLoss contact, long stride) : ledger_(model, contact), stride_(stride) {}
   bool every_step() const override { return true; }
   Verdict observe(const State& state, bool sample) override;
-  void contact(const State& proposed, const State& resolved) override { ledger_.contact(proposed, resolved); }
+  void contact(double lost) override { ledger_.contact(lost); }
 
   const std::vector<LedgerRow>& rows() const { return ledger_.rows(); }
   bool contact_inferred() const { return ledger_.contact_inferred(); }

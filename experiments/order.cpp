@@ -43,8 +43,7 @@ std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
 /// Why a scene is left out, or nothing.
 std::string why_not(const Scene& scene) {
   if (scene.model.find<Spheres>()) return "contact makes every rule first order, erratically after impacts";
-  if (scene.start.x.cols() > 50)
-    return "its stiffest modes sit at the stability limit of the steps in use, where no order shows";
+  if (scene.start.x.cols() > 50) return "its runs would cost much; speed-accuracy has its error over the step";
   return "";
 }
 
@@ -55,6 +54,8 @@ void order_on(const Request& request, const Scene& scene, Rows& rows) {
                 {"step", "s"},
                 {"error", "m"},
                 {"distance to own finest", "m"},
+                {"truth", "1"},
+                {"truth tier", "1"},
                 {"truth bar", "m"},
                 {"evaluations", "1"},
                 {"verdict", "1"}},
@@ -107,7 +108,8 @@ void order_on(const Request& request, const Scene& scene, Rows& rows) {
                   r.ok() && runs.back().ok() && !finest
                       ? Cell(largest_rms_distance(r.trajectory, runs.back().trajectory, scene.window))
                       : Cell(),
-                  truth->bar, out.evaluations, std::string(name_of(out.verdict))});
+                  truth->how, std::string(name_of(truth->tier)), truth->bar, out.evaluations,
+                  std::string(name_of(out.verdict))});
       // below 30 truth bars the bar, and below round-off the round-off, bends the slope by more than 0.05
       if (r.ok() && error > 30 * truth->bar && error < 0.1 * motion) good.push_back({out.step, error});
     }

@@ -8,6 +8,8 @@
 
 #include "experiments/disagreements/disagreements.h"
 #include "mysim/errors.h"
+#include "mysim/nearest.h"
+#include "mysim/section.h"
 #include "reference/method.h"
 
 namespace crosscheck {
@@ -61,7 +63,8 @@ Scene checked(const std::filesystem::path& file) {
   try {
     find_method(scene.method);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: time.method: {}", file.string(), error.what()));
+    // the file again, for the line
+    Section::parse_file(file).section("time").fail("method", fmt::format("a method that there is: {}", error.what()));
   }
   return scene;
 }
@@ -75,9 +78,14 @@ Scene load_scene(const std::string& name) {
   const auto known = disagreements();
   if (std::any_of(known.begin(), known.end(), [&](const Disagreement& d) { return d.name == name; }))
     return checked(file_of_disagreement(name));
-  if (name.ends_with(".toml") || std::filesystem::exists(name)) return checked(name);
-  throw InputError(fmt::format("unknown scene '{}'; expected one of {}, or the path of a .toml file", name,
-                               fmt::join(shipped, ", ")));
+  std::error_code unreadable;  // then the path of a file is what was meant, and it is named when it is read
+  if (name.ends_with(".toml") || name.find('/') != std::string::npos || std::filesystem::exists(name, unreadable) ||
+      unreadable)
+    return checked(name);
+  std::vector<std::string> names(shipped.begin(), shipped.end());
+  for (const Disagreement& d : known) names.emplace_back(d.name);
+  throw InputError(fmt::format("unknown scene '{}'; expected one of {}, or the path of a .toml file{}", name,
+                               fmt::join(shipped, ", "), did_you_mean(name, names)));
 }
 
 std::vector<Scene> load_scenes(const std::vector<std::string>& names) {

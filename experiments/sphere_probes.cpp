@@ -12,7 +12,7 @@
 namespace crosscheck {
 namespace {
 
-constexpr double g = 9.81, drop = 0.3, ball = 1.02, gap = 1e-3;
+constexpr double gravity = 9.81, drop = 0.3, ball = 1.02, gap = 1e-3;
 
 Scene probe(const std::string& name, double duration, const std::string& more) {
   return parse_scene(fmt::format("question = \"q\"\nparameters = \"p\"\n[time]\nduration = {}\nsamples = 1\n"
@@ -50,7 +50,7 @@ Scene drop_on_ball(double restitution) {
 std::optional<double> rebound(const Method& method, const Scene& scene, double step, Outcome& out) {
   const Trajectory path = each_step(method, scene, step, out);
   if (out.verdict != Verdict::ok) return std::nullopt;
-  const double fall = std::sqrt(2 * drop / g);  // s
+  const double fall = std::sqrt(2 * drop / gravity);  // s
   // the highest point after the lowest of the two steps before and after the impact: what is above the surface earlier
   // is the fall itself
   int landed = 0;
@@ -63,7 +63,7 @@ std::optional<double> rebound(const Method& method, const Scene& scene, double s
 }
 
 Scene frictionless_slide() {
-  const double angle = std::numbers::pi / 180, speed = std::sqrt(2 * g * ball * (1 - std::cos(angle)));
+  const double angle = std::numbers::pi / 180, speed = std::sqrt(2 * gravity * ball * (1 - std::cos(angle)));
   return probe(
       "frictionless-slide", 2.2,
       fmt::format("[[particle]]\nposition = [{:.17g}, {:.17g}, 0]\nmass = 1\nvelocity = [{:.17g}, {:.17g}, 0]\n"
@@ -97,7 +97,7 @@ Scene on_slope(double degrees, double friction) {
                fmt::format("[[particle]]\nposition = [0, 1000.02, 0]\nmass = 1\n[gravity]\nacceleration = [{:.17g}, "
                            "{:.17g}, 0]\n[sphere]\ncentre = [0, 0, 0]\nradius = 1000\nmargin = 0.02\nfriction = "
                            "{:.17g}\n",
-                           g * std::sin(angle), -g * std::cos(angle), friction));
+                           gravity * std::sin(angle), -gravity * std::cos(angle), friction));
 }
 
 std::string_view name_of(Hold hold) {
@@ -112,7 +112,7 @@ std::optional<ConeAnswer> cone(const Method& method, double degrees, double fric
   const Trajectory& path = recorder.trajectory;
   const double angle = degrees * std::numbers::pi / 180, t = scene.duration;
   ConeAnswer answer{(path.x.back() - path.x.front()).norm(),
-                    std::max(0.0, g * (std::sin(angle) - friction * std::cos(angle))) * t * t / 2, Hold::neither};
+                    std::max(0.0, gravity * (std::sin(angle) - friction * std::cos(angle))) * t * t / 2, Hold::neither};
   if (answer.way < 1e-3)
     answer.hold = Hold::sticks;
   else if (std::abs(answer.way - answer.coulomb) < 0.1 * answer.coulomb + 1e-3)

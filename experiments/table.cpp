@@ -17,6 +17,13 @@ std::string text_of(const Cell& cell) {
   return "";
 }
 
+/// Line feeds would end the comment, and make a row of what follows.
+std::string in_one_line(const std::string& value) {
+  std::string out;
+  for (const char c : value) out += c == '\n' ? "\\n" : c == '\r' ? "\\r" : std::string(1, c);
+  return out;
+}
+
 }  // namespace
 
 std::string csv_field(const std::string& text) {
@@ -52,7 +59,7 @@ std::string csv_row(const std::vector<Cell>& row) {
 
 std::string csv(const Table& table, const Provenance& provenance) {
   std::string out;
-  for (const auto& [key, value] : provenance) out += fmt::format("# {}: {}\n", key, value);
+  for (const auto& [key, value] : provenance) out += fmt::format("# {}: {}\n", key, in_one_line(value));
   for (size_t i = 0; i < table.columns.size(); ++i)
     out += (i ? "," : "") + csv_field(fmt::format("{} [{}]", table.columns[i].name, table.columns[i].unit));
   out += "\n";

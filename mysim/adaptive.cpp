@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact, bool told)
+AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact)
     : scene_(scene),
       f_(scene.model),
       contacts_(scene.model, contact),
@@ -21,8 +21,7 @@ AdaptiveWorld::AdaptiveWorld(const Scene& scene, const Run& run, ContactRule con
       fastest_(largest_column(scene.start.v)),
       before_(scene.start),
       s_(scene.start),
-      seen_(scene.start),
-      told_(told) {}
+      seen_(scene.start) {}
 
 /// Root mean square over the particles of estimated over allowed error.
 double AdaptiveWorld::error_ratio() {
@@ -74,7 +73,7 @@ void AdaptiveWorld::advance(double limit) {
 void AdaptiveWorld::step(double, double t_next) {
   const Particles& particles = scene_.model.particles;
   constexpr double far = 1e300;
-  touches_.clear();
+  lost_.reset();
   while (s_.t < t_next) {
     if (accepted_ > 0) pair_.accept();
     advance(contacts_.any() ? t_next : far);
@@ -82,13 +81,9 @@ void AdaptiveWorld::step(double, double t_next) {
       particles.place_pins(s_);
       if (!contacts_.resolve(s_)) continue;
       pair_.forget();
-      if (told_) touches_.emplace_back(contacts_.proposed(), s_);
+      lost_ = lost_.value_or(0) + *contacts_.lost();
     }
   }
-}
-
-void AdaptiveWorld::tell_contact(Observer& observer) {
-  for (const auto& [proposed, resolved] : touches_) observer.contact(proposed, resolved);
 }
 
 const State& AdaptiveWorld::state(double t) {

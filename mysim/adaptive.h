@@ -1,9 +1,6 @@
 // A scene stepped by the pair of Dormand and Prince under error control.
 #pragma once
 
-#include <utility>
-#include <vector>
-
 #include "mysim/contacts.h"
 #include "mysim/march.h"
 #include "mysim/steppers/dopri5.h"
@@ -16,12 +13,13 @@ namespace crosscheck {
 /// since contact acts on whole steps; it may take several to get there, and each may touch.
 class AdaptiveWorld : public World {
  public:
-  /// `told`: somebody looks at every contact, who is handed those of all steps on the way to a state.
-  AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact, bool told);
+  AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact);
   void step(double t, double t_next) override;
   /// On the interpolant; looked at outside the clock, so that only the steps cost.
   const State& state(double t) override;
-  void tell_contact(Observer& observer) override;
+  void tell_contact(Observer& observer) override {
+    if (lost_) observer.contact(*lost_);
+  }
 
   const System& right_hand_side() const { return f_; }
   long accepted() const { return accepted_; }
@@ -39,8 +37,7 @@ class AdaptiveWorld : public World {
   double last_ratio_ = 1e-4;  // of the step before, for the controller
   State before_, s_, seen_;   // start and end of the last accepted step; what was asked for
   long accepted_ = 0;
-  bool told_;
-  std::vector<std::pair<State, State>> touches_;  // on the way to the last state asked for: before contact, and after
+  std::optional<double> lost_;  // J, in contacts on the way to the last state asked for
 };
 
 }  // namespace crosscheck

@@ -3,42 +3,53 @@
 
 namespace crosscheck {
 
-bool touch(const Spheres& spheres, ContactFunction act, double t_n, double t, const Vec3& x_n, Eigen::Ref<Vec3> x,
-           Eigen::Ref<Vec3> v) {
+std::optional<double> touch(const Spheres& spheres, ContactFunction act, double t_n, double t, const Vec3& x_n,
+                            const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) {
   bool touched = false;
+  const Vec3 change = v - v_n;    // by all other forces, m/s
+  Vec3 friction = Vec3::Zero();   // of contacts that last, m/s
+  double impacts = 0, given = 0;  // m^2/s^2; by moving spheres, times the step
   for (const Sphere& sphere : spheres.list) {
-    const Vec3 centre = sphere.centre_at(t), shift = centre - sphere.centre_at(t_n);
+    const Vec3 centre = sphere.centre_at(t), way = centre - sphere.centre_at(t_n);
     const Vec3 velocity = sphere.motion ? velocity_at(*sphere.motion, t) : Vec3::Zero();
+    const Vec3 x_before = x, v_before = v;
     Vec3 relative = v - velocity;
-    if (act(sphere, centre, x_n + shift, x, relative) > 0) {
-      v = relative + velocity;
-      touched = true;
+    if (!(act(sphere, centre, x_n + way, x, relative) > 0)) continue;
+    touched = true;
+    v = relative + velocity;
+
+    const Vec3 impulse = v - v_before;
+    const Vec3 seen = sphere.motion ? Vec3(change - velocity + velocity_at(*sphere.motion, t_n)) : change;
+    if (impulse.norm() > 3 * (1 + sphere.restitution) * seen.norm()) {
+      impacts += change.dot(x - x_before) / (t - t_n) - impulse.dot(v_before + v) / 2;
+      continue;
     }
+    const Vec3 normal = (x - centre).normalized();
+    const Vec3 along = impulse.dot(normal) * normal;
+    friction += impulse - along;
+    given += along.dot(way);
   }
-  return touched;
+  if (!touched) return std::nullopt;
+  return impacts - (friction.dot(x - x_n) + given) / (t - t_n);
 }
 
 Contacts::Contacts(const Model& model, ContactRule rule)
     : particles_(model.particles), spheres_(model.find<Spheres>()), rule_(rule) {}
 
 void Contacts::begin(const State& s) {
-  if (!spheres_) return;
-  t_n_ = s.t;
-  x_n_ = s.x;
+  if (spheres_) before_ = s;
 }
 
 bool Contacts::resolve(State& s) {
+  lost_.reset();
   if (!spheres_) return false;
-  proposed_ = s;
-  touched_ = false;
   const ContactFunction act = rule_ == ContactRule::sticky ? resolve_contact_sticky : resolve_contact;
-  for (int i = 0; i < particles_.size(); ++i)
-    if (!particles_.pinned[i]) touched_ |= touch(*spheres_, act, t_n_, s.t, x_n_.col(i), s.x.col(i), s.v.col(i));
-  return touched_;
-}
-
-void Contacts::tell(Observer& observer, const State& resolved) const {
-  if (touched_) observer.contact(proposed_, resolved);
+  for (int i = 0; i < particles_.size(); ++i) {
+    if (particles_.pinned[i]) continue;
+    const auto lost = touch(*spheres_, act, before_.t, s.t, before_.x.col(i), before_.v.col(i), s.x.col(i), s.v.col(i));
+    if (lost) lost_ = lost_.value_or(0) + particles_.mass[i] * *lost;
+  }
+  return lost_.has_value();
 }
 
 }  // namespace crosscheck

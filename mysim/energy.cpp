@@ -15,11 +15,18 @@ double free_power(const Particles& particles, const Points& f, const Points& v) 
 }  // namespace
 
 Energy energy_of(const Model& model, const State& state) {
+  const Particles& particles = model.particles;
   Energy e;
   for (int i = 0; i < state.v.cols(); ++i)
-    if (!model.particles.pinned[i]) e.kinetic += 0.5 * model.particles.mass[i] * state.v.col(i).squaredNorm();
-  if (const auto* springs = model.find<Springs>()) e.elastic = potential_energy(*springs, model.particles, state);
-  if (const auto* gravity = model.find<Gravity>()) e.gravitational = potential_energy(*gravity, model.particles, state);
+    if (!particles.pinned[i]) e.kinetic += 0.5 * particles.mass[i] * state.v.col(i).squaredNorm();
+  const Overloaded add{
+      [&](const Springs& t) { e.elastic += potential_energy(t, particles, state); },
+      [&](const Gravity& t) { e.gravitational += potential_energy(t, particles, state); },
+      []<OneOf<Rotation, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres> T>(const T&) {
+        static_assert(!HasPotential<T>);
+      },
+  };
+  for (const Term& term : model.terms) std::visit(add, term);
   return e;
 }
 
@@ -31,22 +38,28 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
     add_force(term, particles, state, scratch);
     return scratch.f;
   };
-  if (const auto* drag = model.find<Drag>()) p.drag = -free_power(particles, force_of(*drag), state.v);
-  if (const auto* wind = model.find<Wind>()) p.wind = free_power(particles, force_of(*wind), state.v);
-  if (const auto* air = model.find<Aerodynamics>()) p.wind += free_power(particles, force_of(*air), state.v);
   auto on_pins = [&](const Points& f) {
     double power = 0;
     for (int pin : particles.pins) power += f.col(pin).dot(state.v.col(pin));
     return power;
   };
-  if (const auto* springs = model.find<Springs>(); springs && particles.move) p.pins -= on_pins(force_of(*springs));
-  if (const auto* dashpots = model.find<Dashpots>()) {
-    const Points& f = force_of(*dashpots);
-    const double given = particles.move ? -on_pins(f) : 0;
-    // pairs lose what free ends lose and what moved pins put in
-    p.dashpots = given - free_power(particles, f, state.v);
-    p.pins += given;
-  }
+  const Overloaded add{
+      [&](const Drag& t) { p.drag -= free_power(particles, force_of(t), state.v); },
+      [&](const OneOf<Wind, Aerodynamics> auto& t) { p.wind += free_power(particles, force_of(t), state.v); },
+      [&](const Springs& t) {
+        if (particles.move) p.pins -= on_pins(force_of(t));
+      },
+      [&](const Dashpots& t) {
+        const Points& f = force_of(t);
+        const double given = particles.move ? -on_pins(f) : 0;
+        // pairs lose what free ends lose and what moved pins put in
+        p.dashpots += given - free_power(particles, f, state.v);
+        p.pins += given;
+      },
+      [](const Gravity&) {},                                     // its work is the change of its energy
+      [](const OneOf<Rotation, Constraints, Spheres> auto&) {},  // no forces
+  };
+  for (const Term& term : model.terms) std::visit(add, term);
   return p;
 }
 

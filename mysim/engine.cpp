@@ -29,7 +29,9 @@ class FixedStepWorld : public World {
   }
 
   const State& state(double) override { return s_; }
-  void tell_contact(Observer& observer) override { contacts_.tell(observer, s_); }
+  void tell_contact(Observer& observer) override {
+    if (contacts_.lost()) observer.contact(*contacts_.lost());
+  }
   const System& right_hand_side() const { return f_; }
 
  private:
@@ -50,7 +52,7 @@ void require_supported(const Stepper& stepper, const Model& model) {
 }
 
 Outcome simulate_adaptively(ContactRule contact, const Scene& scene, const Run& run, Observer& observer) {
-  AdaptiveWorld world(scene, run, contact, observer.every_step());
+  AdaptiveWorld world(scene, run, contact);
   return march_adaptively(world, run, observer, scene.model.find<Spheres>() != nullptr);
 }
 

@@ -5,6 +5,10 @@
 #include <unistd.h>
 
 #include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
 
 #include "mysim/errors.h"
 #include "mysim/growing_file.h"
@@ -16,6 +20,21 @@ void write_file(const fs::path& file, std::string_view content) {
   GrowingFile growing(file);
   growing.append(content);
   growing.finish();
+}
+
+std::string read_file(const fs::path& file, std::string_view expected) {
+  std::error_code unknown;
+  const bool folder = fs::is_directory(file, unknown);
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  if (!folder && in && in.peek() == std::ifstream::traits_type::eof()) return "";  // << takes nothing for a failure
+  if (folder || !in || !(text << in.rdbuf()))
+    throw InputError(fmt::format("{}: cannot be read; expected {}{}", file.string(), expected,
+                                 folder       ? ", got a folder"
+                                 : errno != 0 ? fmt::format(" ({})", std::strerror(errno))
+                                              : ""));
+  return text.str();
 }
 
 void require_writable(const fs::path& folder) {

@@ -11,6 +11,9 @@ namespace crosscheck {
 /// Throws InputError that names the file when it cannot be written.
 void write_file(const std::filesystem::path& file, std::string_view content);
 
+/// The whole content of a file. Throws InputError that names it and what was expected there ("a scene file (TOML)").
+std::string read_file(const std::filesystem::path& file, std::string_view expected);
+
 /// Makes sure that files can be written into the folder, making it where it is missing. Throws InputError that names
 /// it.
 void require_writable(const std::filesystem::path& folder);

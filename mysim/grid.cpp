@@ -1,9 +1,39 @@
 // Expands a grid into particles, pairs and triangles.
 #include "mysim/grid.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <limits>
 
+#include "mysim/free_room.h"
+
 namespace crosscheck {
+namespace {
+
+/// As many as grid_springs() makes, those of an inextensible grid included.
+double springs_of_grid(const Grid& g) {
+  const double a = g.nu, b = g.nv, c = g.nw;
+  double count = (a - 1) * b * c + a * (b - 1) * c + a * b * (c - 1);
+  if (g.stiffness.shear > 0) count += 2 * ((a - 1) * (b - 1) * c + (a - 1) * b * (c - 1) + a * (b - 1) * (c - 1));
+  if (g.stiffness.bend > 0)
+    count += std::max(a - 2, 0.) * b * c + a * std::max(b - 2, 0.) * c + a * b * std::max(c - 2, 0.);
+  return count;
+}
+
+/// Refuses, with the numbers, what would not fit into memory even as a scene that nobody runs: a spring, its copy while
+/// the list is handed on and sorted; places, velocity and mass.
+void require_memory_of_grid(const Section& s, const Grid& g) {
+  const double springs = springs_of_grid(g);
+  const double bytes = springs * 2 * sizeof(Spring) + g.size() * 16. * sizeof(double);
+  const double free = free_memory();
+  if (bytes > free)
+    s.fail("size", fmt::format("a grid that fits into the {} of memory that are free, got {} particles with {:.0f} "
+                               "springs, which take {} at least",
+                               in_bytes(free), g.size(), springs, in_bytes(bytes)));
+}
+
+}  // namespace
 
 Grid read_grid(const Section& s) {
   Grid g{};
@@ -12,9 +42,9 @@ Grid read_grid(const Section& s) {
   bool good = size.size() == 2 || size.size() == 3;
   for (int n : size) good = good && n >= 2 && (particles *= n) <= 10000000;
   if (!good)
-    s.fail("size",
-           "two whole numbers from 2 (cloth) or three (a block), particles along u, v and w, ten million in all "
-           "at most");
+    s.fail("size", fmt::format("two whole numbers from 2 (cloth) or three (a block), particles along u, v and w, ten "
+                               "million in all at most, got [{}]",
+                               fmt::join(size, ", ")));
   g.nu = size[0];
   g.nv = size[1];
   g.nw = size.size() == 3 ? size[2] : 1;
@@ -23,6 +53,8 @@ Grid read_grid(const Section& s) {
   g.v = s.vec3("v");
   if (g.u.cross(g.v).norm() <= 1e-12 * g.u.norm() * g.v.norm()) s.fail("v", "a side that is not parallel to u");
   g.w = Vec3::Zero();
+  if (g.nw == 1 && s.has("w"))
+    s.fail("w", "none with a size of two numbers, which is a cloth; a block's size has three");
   if (g.nw > 1) {
     g.w = s.vec3("w");
     if (!(g.u.cross(g.v).dot(g.w) > 1e-12 * g.u.norm() * g.v.norm() * g.w.norm()))
@@ -31,16 +63,21 @@ Grid read_grid(const Section& s) {
   g.mass = s.positive("mass");
   const bool inextensible = s.has("inextensible");
   if (inextensible) {
-    if (s.text("inextensible") != "structural") s.fail("inextensible", "\"structural\"");
+    if (const std::string family = s.text("inextensible"); family != "structural")
+      s.fail("inextensible",
+             fmt::format("\"structural\", the one family that can keep its lengths, got \"{}\"", family));
     g.stiffness.structural = std::numeric_limits<double>::infinity();
   }
   if (!inextensible || s.has("stiffness")) {
     const Section k = s.section("stiffness");
+    if (inextensible && k.has("structural"))
+      k.fail("structural", "none beside inextensible = \"structural\", which keeps these springs' lengths");
     if (!inextensible) g.stiffness.structural = k.positive("structural");
     if (k.has("shear")) g.stiffness.shear = k.positive("shear");
     if (k.has("bend")) g.stiffness.bend = k.positive("bend");
   }
   if (s.has("dashpot")) g.dashpot = s.positive("dashpot");
+  require_memory_of_grid(s, g);
   return g;
 }
 

@@ -13,7 +13,7 @@ class World {
   virtual void step(double t, double t_next) = 0;
   /// Positions and velocities now, in the scene's numbering; t is what the caller knows.
   virtual const State& state(double t) = 0;
-  /// Hands the states before and after the contacts of the last step to the observer, where the engine knows both.
+  /// Tells the observer what the contacts of the last step took, where the engine knows it.
   virtual void tell_contact(Observer& /*observer*/) {}
   /// What the engine says of the scene it built, asked once after the first step.
   virtual std::optional<Readback> read_back() { return std::nullopt; }

@@ -8,8 +8,12 @@
 //   add_velocity(term, state, rate)                   a first-order velocity field
 // Forces on moving particles (dashpots, air) also say `uses_velocity`: leapfrog then treats them by themselves, so that
 // its order survives. Spheres and constraints are no forces: contact acts on whole steps, constraints on methods.
+//
+// What must know every term (energies, hash, JSON, certificate, each engine) visits the variant with a function for
+// each and none for "the rest": a new term does not compile there until it is answered (tests/unit/new_term_test.cpp).
 #pragma once
 
+#include <concepts>
 #include <variant>
 #include <vector>
 
@@ -27,6 +31,15 @@
 namespace crosscheck {
 
 using Term = std::variant<Rotation, Gravity, Springs, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres>;
+
+/// Several functions as one, to visit a term with: each alternative of Term must find its own.
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+/// For the terms that a visitor passes over, by name: [](const OneOf<Drag, Wind> auto&) {}.
+template <class T, class... Terms>
+concept OneOf = (std::same_as<T, Terms> || ...);
 
 template <class T>
 concept HasForce = requires(const T& term, const Particles& p, const State& s, Forces& f) {

@@ -84,8 +84,8 @@ Verdict Observers::observe(const State& state, bool sample) {
   return first;
 }
 
-void Observers::contact(const State& proposed, const State& resolved) {
-  for (Observer* o : list_) o->contact(proposed, resolved);
+void Observers::contact(double lost) {
+  for (Observer* o : list_) o->contact(lost);
 }
 
 }  // namespace crosscheck

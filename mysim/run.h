@@ -54,8 +54,9 @@ class Observer {
   virtual bool every_step() const { return false; }
   /// Anything but Verdict::ok ends the run.
   virtual Verdict observe(const State& state, bool sample) = 0;
-  /// The state as proposed by the stepper and as left by the contacts; only engines that know both call it.
-  virtual void contact(const State& /*proposed*/, const State& /*resolved*/) {}
+  /// Something touched in the last step, and this is what it took, J (contacts.h says how it is counted): called before
+  /// the state after the step is observed, by engines that know their contacts.
+  virtual void contact(double /*lost*/) {}
 };
 
 /// Several observers as one; the first verdict that is not ok counts.
@@ -64,7 +65,7 @@ class Observers : public Observer {
   explicit Observers(std::vector<Observer*> list) : list_(std::move(list)) {}
   bool every_step() const override;
   Verdict observe(const State& state, bool sample) override;
-  void contact(const State& proposed, const State& resolved) override;
+  void contact(double lost) override;
 
  private:
   std::vector<Observer*> list_;
@@ -79,7 +80,8 @@ struct ForceProbe {
   Points wind;      // of both winds, at x and t, the free particles at rest
 };
 
-/// What an engine says of the scene it built, read from its own data structures after the first step.
+/// What an engine says of the scene it built, read from its own data structures after the first step. What is empty it
+/// does not tell.
 struct Readback {
   struct Link {
     int a, b;                         // ends, in the scene's numbering
@@ -108,9 +110,9 @@ struct Readback {
   std::optional<Places> later;                  // what a prescribed motion leads, at a later time
   std::optional<double> margin;                 // m, half the thickness of the cloth
   std::optional<State> start;                   // positions and velocities that the first step began from
-  double step = 0;                              // s
+  std::optional<double> step;                   // s
   std::string precision;                        // "double" or "single"
-  bool may_sleep = false;                       // the engine may freeze slow bodies
+  std::optional<bool> may_sleep;                // the engine may freeze slow bodies
   std::map<std::string, std::string> settings;  // of the engine, beyond these, that its answers hang on: name -> value
   std::map<std::string, std::string> mapped;    // quantity -> how it was handed over, for the certificate
 };

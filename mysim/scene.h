@@ -51,6 +51,14 @@ struct Scene {
   std::string source;  // the TOML that it was read from; a scene changed in memory keeps it
   std::string hash;    // 16 hexadecimal digits, of everything that engines see
 
+  // Compiled once, in scene_file.cpp: they instantiate the copies of every term.
+  Scene() = default;
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+
   /// Length of the diagonal of the box around the start, m; 1 for a single particle. The scale of round-off.
   double size() const;
 };

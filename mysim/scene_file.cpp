@@ -7,10 +7,15 @@
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "mysim/grid.h"
+#include "mysim/nearest.h"
 #include "mysim/scene.h"
+#include "mysim/scene_keys.h"
 
 namespace crosscheck {
 namespace {
+
+constexpr int most_samples = 1000000;
+constexpr auto without_mass = "which makes the scene first-order: without mass and without forces";
 
 // the table of terms that have a section of their own; springs, dashpots and constraints come from [grid], [[spring]]
 // and [[constraint]]
@@ -33,8 +38,7 @@ void read_particles(const Section& file, const std::optional<Grid>& grid, bool f
   const int on_grid = grid ? grid->size() : 0;
   const int n = on_grid + static_cast<int>(single.size());
   if (n == 0) file.fail("particle", "at least one [[particle]] or a [grid]");
-  if (grid && first_order)
-    file.fail("grid", "single particles, as [rotation] makes the scene first-order, without mass");
+  if (grid && first_order) file.fail("grid", fmt::format("single particles beside [rotation], {}", without_mass));
   scene.start.x.resize(3, n);
   scene.start.v = Points::Zero(3, first_order ? 0 : n);
   scene.model.particles.mass = Eigen::VectorXd::Ones(n);
@@ -47,7 +51,7 @@ void read_particles(const Section& file, const std::optional<Grid>& grid, bool f
   for (int i = on_grid; i < n; ++i) {
     const Section& p = single[i - on_grid];
     scene.start.x.col(i) = p.vec3("position");
-    if (first_order) continue;  // a mass or a velocity is then an unknown key
+    if (first_order) continue;  // a mass or a velocity is then refused
     scene.model.particles.mass[i] = p.positive("mass");
     if (p.has("velocity")) scene.start.v.col(i) = p.vec3("velocity");
   }
@@ -61,9 +65,12 @@ struct Ends {
 Ends read_ends(const Section& s, const Scene& scene) {
   const std::vector<int> ends = s.integers("ends");
   const int n = scene.model.particles.size();
-  if (ends.size() != 2 || ends[0] == ends[1]) s.fail("ends", "two different particles");
-  for (int end : ends)
-    if (end >= n) s.fail("ends", fmt::format("particles from 0 to {}, got {}", n - 1, end));
+  if (ends.size() != 2) s.fail("ends", fmt::format("two different particles, got {} numbers", ends.size()));
+  if (ends[0] == ends[1]) s.fail("ends", fmt::format("two different particles, got {} twice", ends[0]));
+  for (int i = 0; i < 2; ++i)
+    if (ends[i] >= n)
+      s.fail(fmt::format("ends[{}]", i),
+             fmt::format("a particle from 0 to {} (there are {}), got {}", n - 1, n, ends[i]));
   return {ends[0], ends[1], (scene.start.x.col(ends[0]) - scene.start.x.col(ends[1])).norm()};
 }
 
@@ -87,7 +94,10 @@ void read_pairs(const Section& file, const std::optional<Grid>& grid, Scene& sce
     const auto [a, b, distance] = read_ends(s, scene);
     const double rest = s.has("rest") ? s.not_negative("rest") : distance;
     if (distance == 0 && rest > 0)
-      s.fail("ends", "ends that do not coincide at the start, as the rest length is above zero");
+      s.fail("ends",
+             fmt::format("ends that do not coincide at the start, as the rest length is above zero, got particles "
+                         "{} and {} at the same place",
+                         a, b));
     springs.list.push_back({a, b, s.positive("stiffness"), rest, Family::single});
     if (s.has("dashpot")) dashpots.list.push_back({a, b, s.positive("dashpot")});
   }
@@ -105,8 +115,11 @@ void read_pairs(const Section& file, const std::optional<Grid>& grid, Scene& sce
     const std::string law = s.text("law");
     if (law == name_of(SpringLaw::bullet_link))
       springs.law = SpringLaw::bullet_link;
-    else if (law != name_of(SpringLaw::hooke))
-      s.fail("law", fmt::format("\"{}\" or \"{}\"", name_of(SpringLaw::hooke), name_of(SpringLaw::bullet_link)));
+    else if (law != name_of(SpringLaw::hooke)) {
+      const std::vector<std::string> laws{std::string(name_of(SpringLaw::hooke)),
+                                          std::string(name_of(SpringLaw::bullet_link))};
+      s.fail("law", fmt::format("\"{}\" or \"{}\", got \"{}\"{}", laws[0], laws[1], law, did_you_mean(law, laws)));
+    }
     if (springs.list.empty()) s.fail("law", "springs that follow it");
   }
   if (!springs.list.empty()) scene.model.terms.emplace_back(std::move(springs));
@@ -120,10 +133,15 @@ void read_spheres(const Section& file, Scene& scene) {
   const Particles& particles = scene.model.particles;
   for (const Section& s : file.one_or_more(Spheres::name)) {
     const Sphere sphere = read_sphere(s);
-    for (int i = 0; i < particles.size(); ++i)
+    for (int i = 0; i < particles.size(); ++i) {
+      const double distance = (scene.start.x.col(i) - sphere.centre).norm();
       // 1e-9 of the radius: on the surface but for the rounding of a decimal number is not inside
-      if (!particles.pinned[i] && (scene.start.x.col(i) - sphere.centre).norm() < (1 - 1e-9) * sphere.contact_radius())
-        s.fail("radius", fmt::format("no particle inside radius + margin at the start, got particle {}", i));
+      if (!particles.pinned[i] && distance < (1 - 1e-9) * sphere.contact_radius())
+        s.fail("radius",
+               fmt::format("no particle inside radius + margin at the start, got particle {} at {:.6g} m of the "
+                           "centre, inside {:.6g} m",
+                           i, distance, sphere.contact_radius()));
+    }
     spheres.list.push_back(sphere);
   }
   if (spheres.list.empty()) file.fail(Spheres::name, "a table [sphere] or tables [[sphere]]");
@@ -136,23 +154,24 @@ void read_pins(const Section& file, Scene& scene) {
   Particles& particles = scene.model.particles;
   particles.pins = s.integers("particles");
   if (particles.pins.empty()) s.fail("particles", "at least one particle");
+  for (size_t i = 0; i < particles.pins.size(); ++i) {
+    const std::string entry = fmt::format("particles[{}]", i);
+    const int pin = particles.pins[i], n = particles.size();
+    if (pin >= n) s.fail(entry, fmt::format("a particle from 0 to {} (there are {}), got {}", n - 1, n, pin));
+    if (particles.pinned[pin]) s.fail(entry, fmt::format("each particle once, got {} twice", pin));
+    particles.pinned[pin] = 1;
+    if (!scene.start.v.col(pin).isZero(0))
+      s.fail(entry, fmt::format("pins that start at rest; particle {} has a velocity", pin));
+  }
   std::sort(particles.pins.begin(), particles.pins.end());
   particles.pin_home.resize(3, static_cast<int>(particles.pins.size()));
-  for (size_t i = 0; i < particles.pins.size(); ++i) {
-    const int pin = particles.pins[i];
-    if (pin >= particles.size())
-      s.fail("particles", fmt::format("particles from 0 to {}, got {}", particles.size() - 1, pin));
-    if (particles.pinned[pin]) s.fail("particles", fmt::format("each particle once, got {} twice", pin));
-    particles.pinned[pin] = 1;
-    particles.pin_home.col(static_cast<int>(i)) = scene.start.x.col(pin);
-    if (!scene.start.v.col(pin).isZero(0))
-      s.fail("particles", fmt::format("pins that start at rest; particle {} has a velocity", pin));
-  }
+  for (size_t i = 0; i < particles.pins.size(); ++i)
+    particles.pin_home.col(static_cast<int>(i)) = scene.start.x.col(particles.pins[i]);
   // pins keep their distances by themselves
   if (auto* constraints = scene.model.find<Constraints>())
     std::erase_if(constraints->list, [&](const auto& c) { return particles.pinned[c.a] && particles.pinned[c.b]; });
   if (static_cast<int>(particles.pins.size()) == particles.size())
-    s.fail("particles", "at least one particle left free");
+    s.fail("particles", fmt::format("at least one particle left free, got all {}", particles.size()));
   if (s.has("motion")) {
     if (scene.model.find<Constraints>())
       s.fail("motion", "pins that stand still: the work of moved pins on hard distances is not modelled");
@@ -164,12 +183,16 @@ void read_time(const Section& file, Scene& scene) {
   const Section s = file.section("time");
   scene.duration = s.positive("duration");
   scene.samples = s.count("samples");
-  if (scene.samples > 1000000) s.fail("samples", "at most a million samples");
+  if (scene.samples > most_samples) s.fail("samples", fmt::format("at most a million samples, got {}", scene.samples));
   scene.step = s.positive("step");
-  if (scene.step > scene.duration) s.fail("step", "a step not longer than the duration");
-  if (scene.duration / scene.samples / scene.step > 1e9) s.fail("step", "at most 1e9 steps between two samples");
+  if (scene.step > scene.duration)
+    s.fail("step", fmt::format("a step not longer than the duration of {} s, got {} s", scene.duration, scene.step));
+  if (const double between = scene.duration / scene.samples / scene.step; between > 1e9)
+    s.fail("step", fmt::format("at most 1e9 steps between two samples, got {:.3g}", between));
   scene.window = s.positive("window");
-  if (scene.window > scene.duration) s.fail("window", "a window not longer than the duration");
+  if (scene.window > scene.duration)
+    s.fail("window",
+           fmt::format("a window not longer than the duration of {} s, got {} s", scene.duration, scene.window));
   scene.tolerance = s.positive("tolerance");
   scene.method = s.text("method");
 }
@@ -210,8 +233,17 @@ Scene expand(const Section& file, const std::string& name) {
     const Section s = file.section("camera");
     scene.camera = Camera{s.vec3("eye"), s.vec3("target"), std::nullopt};
     if (s.has("at")) scene.camera->at = s.not_negative("at");
-    if (scene.camera->at > scene.duration) s.fail("at", "a time not after the end of the run");
+    if (scene.camera->at > scene.duration)
+      s.fail("at", fmt::format("a time not after the end of the run, {} s", scene.duration));
     if (scene.camera->eye == scene.camera->target) s.fail("target", "a point other than the eye");
+  }
+  if (first_order) {
+    for (const std::string_view key :
+         {"spring", "constraint", "springs", "pins", "gravity", "drag", "wind", "aerodynamics", "sphere"})
+      if (file.has(key)) file.fail(key, fmt::format("no {} beside [rotation], {}", key, without_mass));
+    for (const Section& p : file.sections("particle"))
+      for (const std::string_view key : {"mass", "velocity"})
+        if (p.has(key)) p.fail(key, fmt::format("no {} beside [rotation], {}", key, without_mass));
   }
   file.finish();
   if (!first_order) scene.model.particles.place_pins(scene.start);
@@ -222,12 +254,21 @@ Scene expand(const Section& file, const std::string& name) {
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file) {
-  return expand(Section::parse_file(file), file_name_of(file.stem().string()));
+  const std::string text = read_file(file, "a scene file (TOML)");
+  check_keys(text, file.string(), scene_keys());
+  return expand(Section::parse_text(text, file.string()), file_name_of(file.stem().string()));
 }
 
 Scene parse_scene(std::string_view text, const std::string& name) {
+  check_keys(text, name, scene_keys());
   return expand(Section::parse_text(text, name), name);
 }
+
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
 
 double Scene::size() const {
   const double diagonal = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();

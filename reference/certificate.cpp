@@ -2,6 +2,7 @@
 #include "reference/certificate.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -42,8 +43,8 @@ void certify_motion(const Scene& scene, const Readback& r, CertificateWriter& w)
           fmt::format("at {:.3g} s off by {:.2g} m", r.later->t, off), same);
   };
   if (!r.later) {
-    if (p.move) w.row("motion of pins", "as in the scene", "not told", Parity::unattested);
-    if (spheres && spheres->moving()) w.row("motion of spheres", "as in the scene", "not told", Parity::unattested);
+    if (p.move) w.not_told("motion of pins", "as in the scene");
+    if (spheres && spheres->moving()) w.not_told("motion of spheres", "as in the scene");
     return;
   }
   const double t = r.later->t;
@@ -93,6 +94,36 @@ bool Certificate::mismatch() const {
   return std::any_of(rows.begin(), rows.end(), [](const CertificateRow& r) { return r.parity == Parity::mismatch; });
 }
 
+bool Certificate::fully_attested() const {
+  return std::none_of(rows.begin(), rows.end(), [](const CertificateRow& r) { return r.parity == Parity::unattested; });
+}
+
+std::string summary_of(const Certificate& certificate) {
+  size_t match = 0, other = 0;
+  std::vector<std::string> wrong, untold;
+  for (const CertificateRow& row : certificate.rows) switch (row.parity) {
+      case Parity::match:
+        ++match;
+        break;
+      case Parity::different_law:
+        ++other;
+        break;
+      case Parity::mismatch:
+        wrong.push_back(row.quantity);
+        break;
+      case Parity::unattested:
+        untold.push_back(row.quantity);
+    }
+  const size_t told = match + wrong.size();
+  std::string out =
+      told == 0 ? "nothing was read back"
+                : fmt::format("{} {} read back, {}", told, told == 1 ? "quantity" : "quantities",
+                              wrong.empty() ? "no mismatch" : fmt::format("MISMATCH: {}", fmt::join(wrong, ", ")));
+  if (other > 0) out += fmt::format("; {} under another law", other);
+  if (!untold.empty()) out += fmt::format("; not attested: {}", fmt::join(untold, ", "));
+  return out;
+}
+
 Certificate certify(const std::string& method, const Scene& scene, const Outcome& outcome) {
   Certificate certificate{method, scene.name, {}};
   if (!outcome.readback) {
@@ -100,15 +131,22 @@ Certificate certify(const std::string& method, const Scene& scene, const Outcome
     return certificate;
   }
   const Readback& r = *outcome.readback;
-  CertificateWriter w(certificate, r);
+  CertificateWriter w(certificate, outcome);
   certify_particles(scene, r, w);
   certify_start(scene, r, w);
   certify_motion(scene, r, w);
   certify_springs(scene, r, w);
   certify_terms(scene, r, w);
-  w.row("step", fmt::format("{:.6g} s", outcome.step), fmt::format("{:.6g} s", r.step), r.step == outcome.step);
+  const std::string step = fmt::format("{:.6g} s", outcome.step);
+  if (r.step)
+    w.row("step", step, fmt::format("{:.6g} s", *r.step), *r.step == outcome.step);
+  else
+    w.not_told("step", step);
   w.row("precision", "double", r.precision, r.precision == "double" ? Parity::match : Parity::different_law);
-  w.row("sleeping", "off", r.may_sleep ? "on" : "off", !r.may_sleep);
+  if (r.may_sleep)
+    w.row("sleeping", "off", *r.may_sleep ? "on" : "off", !*r.may_sleep);
+  else
+    w.not_told("sleeping", "off");
   for (const std::string& law : outcome.different_law) {
     const size_t colon = law.find(": ");
     certificate.rows.push_back(

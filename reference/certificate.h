@@ -25,9 +25,14 @@ struct Certificate {
   std::string method, scene;
   std::vector<CertificateRow> rows;
   bool mismatch() const;
+  bool fully_attested() const;  // no row is Parity::unattested
 };
 
-/// Compares what the engine read back with the scene. Without read-back all rows are unattested.
+/// One line: how many quantities were read back, and what does not match, has another law or is not attested.
+std::string summary_of(const Certificate& certificate);
+
+/// Compares what the engine read back with the scene. Whatever the scene has and the engine does not tell has a row
+/// that says so; so has, in one row, whatever the scene does not have and the engine does not deny.
 Certificate certify(const std::string& method, const Scene& scene, const Outcome& outcome);
 
 }  // namespace crosscheck

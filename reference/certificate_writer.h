@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "reference/certificate.h"
@@ -14,27 +15,40 @@ inline double worse(double a, double b) { return std::isnan(b) || b > a ? b : a;
 
 class CertificateWriter {
  public:
-  CertificateWriter(Certificate& certificate, const Readback& readback)
-      : certificate_(certificate), readback_(readback) {}
+  /// The outcome must have a read-back.
+  CertificateWriter(Certificate& certificate, const Outcome& outcome)
+      : certificate_(certificate), outcome_(outcome), readback_(*outcome.readback) {}
 
   void row(const std::string& quantity, std::string asked, std::string read_back, Parity parity) {
-    const auto how = readback_.mapped.find(quantity);
+    auto how = readback_.mapped.find(quantity);
+    if (how == readback_.mapped.end() && quantity.ends_with("stiffness")) how = readback_.mapped.find("stiffness");
+    if (how == readback_.mapped.end() && quantity == "wind") how = readback_.mapped.find("wind on triangles");
     certificate_.rows.push_back({quantity, std::move(asked), how == readback_.mapped.end() ? "as it is" : how->second,
                                  std::move(read_back), parity});
   }
   void row(const std::string& quantity, std::string asked, std::string read_back, bool same) {
     row(quantity, std::move(asked), std::move(read_back), same ? Parity::match : Parity::mismatch);
   }
+  void not_told(const std::string& quantity, std::string asked) {
+    row(quantity, std::move(asked), "not told", Parity::unattested);
+  }
   /// A quantity compared by its largest deviation, relative to its scale.
   void deviation(const std::string& quantity, std::string asked, double largest, double scale) {
     row(quantity, std::move(asked), fmt::format("largest deviation {:.2g}", scale > 0 ? largest / scale : largest),
         largest <= tolerance() * scale);
+  }
+  /// Whether the engine says by itself that it has the ingredient under another law: a row of its own says which.
+  bool other_law(std::string_view ingredient) const {
+    return std::any_of(outcome_.different_law.begin(), outcome_.different_law.end(), [&](const std::string& law) {
+      return law.starts_with(ingredient) && law.substr(ingredient.size()).starts_with(": ");
+    });
   }
   /// Rounding of an engine that computes in this precision, after a mapping and its inverse: some tens of ulps.
   double tolerance() const { return readback_.precision == "single" ? 1e-5 : 1e-12; }
 
  private:
   Certificate& certificate_;
+  const Outcome& outcome_;
   const Readback& readback_;
 };
 

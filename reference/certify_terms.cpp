@@ -9,7 +9,7 @@ namespace {
 void certify_spheres(const Spheres* spheres, const Readback& r, CertificateWriter& w) {
   const size_t asked = spheres ? spheres->list.size() : 0;
   if (!r.spheres) {
-    if (asked > 0) w.row("spheres", fmt::format("{}", asked), "not told", Parity::unattested);
+    if (asked > 0) w.not_told("spheres", fmt::format("{}", asked));
     return;
   }
   if (asked > 0 || !r.spheres->empty())
@@ -28,12 +28,11 @@ void certify_spheres(const Spheres* spheres, const Readback& r, CertificateWrite
         w.row(what + of, fmt::format("{:.6g}{}", wanted, unit), fmt::format("{:.6g}{}", *told, unit),
               std::abs(*told - wanted) <= w.tolerance() * scale);
       else
-        w.row(what + of, fmt::format("{:.6g}{}", wanted, unit), "not told", Parity::unattested);
+        w.not_told(what + of, fmt::format("{:.6g}{}", wanted, unit));
     };
     number("contact radius", s.contact_radius(), ball.radius, " m", s.contact_radius());
     number("friction", s.friction, ball.friction, "", 1);
-    if (s.restitution > 0 || ball.restitution.value_or(0) != 0)
-      number("restitution", s.restitution, ball.restitution, "", 1);
+    number("restitution", s.restitution, ball.restitution, "", 1);
     if (i == 0 && r.margin) number("margin", s.margin, r.margin, " m", s.contact_radius());
   }
 }
@@ -52,7 +51,7 @@ void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
                                         blowing.mean.z(), wind ? "m/s^2" : "m/s on triangles",
                                         blowing.gusts ? ", gusts" : "", wind && air ? ", and on triangles" : "");
   if (!told) {
-    w.row("wind", asked, "not told", Parity::unattested);
+    w.not_told("wind", asked);
     return;
   }
   State probed = scene.start;
@@ -71,41 +70,74 @@ void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
         off <= 100 * w.tolerance() * (scale + springs));
 }
 
+std::string acceleration_text(const Vec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}) m/s^2", v.x(), v.y(), v.z());
+}
+
+void certify_gravity(const Gravity& gravity, const Readback& r, CertificateWriter& w) {
+  const Vec3& g = gravity.acceleration;
+  if (r.gravity)
+    w.row("gravity", acceleration_text(g), acceleration_text(*r.gravity),
+          (*r.gravity - g).norm() <= w.tolerance() * g.norm());
+  else
+    w.not_told("gravity", acceleration_text(g));
+}
+
+void certify_drag(const Drag& drag, const Particles& particles, const Readback& r, CertificateWriter& w) {
+  const Eigen::ArrayXd rates = drag.c.array() / particles.mass.array();
+  const double low = rates.minCoeff(), high = rates.maxCoeff();
+  const std::string asked =
+      high - low < 1e-12 * high ? fmt::format("{:.6g} /s", high) : fmt::format("{:.6g} to {:.6g} /s", low, high);
+  if (!r.drag || static_cast<int>(r.drag->size()) != particles.size()) {
+    w.not_told("drag", asked);
+    return;
+  }
+  double worst = 0;
+  for (int i = 0; i < particles.size(); ++i)
+    if (!particles.pinned[i]) worst = worse(worst, std::abs((*r.drag)[i] - rates[i]));
+  // gamma comes back from 1 - exp(-gamma h): eps / (gamma h) is left
+  w.row("drag", asked, fmt::format("largest deviation {:.2g} /s", worst),
+        worst <= std::max(w.tolerance(), 1e-9) * high);
+}
+
+/// What the scene does not have must not be in the engine either; what the engine does not deny stands in one row.
+void certify_absent(const Model& model, const Readback& r, CertificateWriter& w) {
+  if (!model.find<Gravity>() && r.gravity && !r.gravity->isZero(0))
+    w.row("gravity", "none", acceleration_text(*r.gravity), false);
+  if (!model.find<Drag>() && r.drag && std::any_of(r.drag->begin(), r.drag->end(), [](double c) { return c != 0; }))
+    w.row("drag", "none", "some", false);
+  if (model.first_order()) return;
+
+  const auto* spheres = model.find<Spheres>();
+  const std::pair<const char*, bool> not_denied[] = {
+      {"gravity", !model.find<Gravity>() && !r.gravity},
+      {"drag", !model.find<Drag>() && !r.drag},
+      {"dashpots", !model.find<Dashpots>() && !(r.probe && r.probe->dashpots.size() > 0)},
+      {"wind", !model.find<Wind>() && !model.find<Aerodynamics>() && !(r.probe && r.probe->wind.size() > 0)},
+      {"spheres", !spheres && !r.spheres},
+      {"motion of pins", !model.particles.pins.empty() && !model.particles.move && !r.later},
+      {"motion of spheres", spheres && !spheres->moving() && !r.later},
+  };
+  std::string absent;
+  for (const auto& [what, silent] : not_denied)
+    if (silent) absent += fmt::format("{}no {}", absent.empty() ? "" : ", ", what);
+  if (!absent.empty()) w.not_told("nothing else", absent);
+}
+
 }  // namespace
 
 void certify_terms(const Scene& scene, const Readback& r, CertificateWriter& w) {
-  const Model& model = scene.model;
-  auto vector = [](const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m/s^2", v.x(), v.y(), v.z()); };
-  if (const auto* gravity = model.find<Gravity>()) {
-    if (r.gravity)
-      w.row("gravity", vector(gravity->acceleration), vector(*r.gravity),
-            (*r.gravity - gravity->acceleration).norm() <= w.tolerance() * gravity->acceleration.norm());
-    else
-      w.row("gravity", vector(gravity->acceleration), "not told", Parity::unattested);
-  }
-  if (const auto* drag = model.find<Drag>()) {
-    const double low = (drag->c.array() / model.particles.mass.array()).minCoeff();
-    const double high = (drag->c.array() / model.particles.mass.array()).maxCoeff();
-    const std::string asked =
-        high - low < 1e-12 * high ? fmt::format("{:.6g} /s", high) : fmt::format("{:.6g} to {:.6g} /s", low, high);
-    if (r.drag && static_cast<int>(r.drag->size()) == model.particles.size()) {
-      double worst = 0;
-      for (int i = 0; i < model.particles.size(); ++i)
-        if (!model.particles.pinned[i])
-          worst = worse(worst, std::abs((*r.drag)[i] - drag->c[i] / model.particles.mass[i]));
-      // gamma comes back from 1 - exp(-gamma h): eps / (gamma h) is left
-      w.row("drag", asked, fmt::format("largest deviation {:.2g} /s", worst),
-            worst <= std::max(w.tolerance(), 1e-9) * high);
-    } else {
-      w.row("drag", asked, "not told", Parity::unattested);
-    }
-  }
-  // what the scene does not have must not be in the engine either
-  if (!model.find<Gravity>() && r.gravity && !r.gravity->isZero(0)) w.row("gravity", "none", vector(*r.gravity), false);
-  if (!model.find<Drag>() && r.drag && std::any_of(r.drag->begin(), r.drag->end(), [](double c) { return c != 0; }))
-    w.row("drag", "none", "some", false);
+  const Overloaded certify_term{
+      [&](const Gravity& t) { certify_gravity(t, r, w); },
+      [&](const Drag& t) { certify_drag(t, scene.model.particles, r, w); },
+      [&](const Rotation& t) { w.not_told("rotation", fmt::format("{:.6g} rad/s", t.rate)); },
+      [](const OneOf<Wind, Aerodynamics, Spheres> auto&) {},     // below: they may be in the engine alone
+      [](const OneOf<Springs, Dashpots, Constraints> auto&) {},  // certify_springs.cpp
+  };
+  for (const Term& term : scene.model.terms) std::visit(certify_term, term);
   certify_wind(scene, r, w);
-  certify_spheres(model.find<Spheres>(), r, w);
+  certify_spheres(scene.model.find<Spheres>(), r, w);
+  certify_absent(scene.model, r, w);
 }
 
 }  // namespace crosscheck

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "mysim/errors.h"
+#include "mysim/nearest.h"
 #include "mysim/observers/watch.h"
 #include "reference/methods/families.h"
 
@@ -31,7 +32,11 @@ std::vector<std::string> split(const std::string& text, char at) {
 }  // namespace
 
 void refuse_option(const std::string& method, const std::string& option, const std::string& known) {
-  throw InputError(fmt::format("method {}: unknown option '+{}'; expected {}", method, option, known));
+  std::vector<std::string> options;  // of the sentence, all words behind a plus
+  for (size_t at = known.find('+'); at != std::string::npos; at = known.find('+', at + 1))
+    options.push_back(known.substr(at + 1, known.find_first_of(" ,;", at) - at - 1));
+  throw InputError(fmt::format("method {}: unknown option '+{}'; expected {}{}", method, option, known,
+                               did_you_mean(option, options)));
 }
 
 std::vector<Method> all_methods() {
@@ -54,7 +59,13 @@ Method find_method(const std::string& text) {
     }
     for (const std::string& full : row.full_names()) known.push_back(full);
   }
-  throw InputError(fmt::format("unknown method '{}'; expected one of: {}, exec:PATH", text, fmt::join(known, ", ")));
+  // "leapfrg" is nearer to the short name
+  std::vector<std::string> names = known;
+  if (parts[0].find('/') == std::string::npos)
+    for (std::string& full : names)
+      if (full.starts_with("mysim/")) full = full.substr(6);
+  throw InputError(fmt::format("unknown method '{}'; expected one of: {}, exec:PATH{}", text, fmt::join(known, ", "),
+                               did_you_mean(parts[0], names)));
 }
 
 const Stepper* rule_of(const Method& method) {
@@ -72,9 +83,8 @@ std::vector<Method> find_methods(const std::string& list) {
 }
 
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers) {
-  Watch watch(scene.model);
-  observers.push_back(&watch);
-  Observers all(std::move(observers));
+  Watch watch(scene.model, &scene.start);
+  Watched all(watch, std::move(observers));
   try {
     return method.engine(scene, run, all);
   } catch (const Unsupported& refusal) {

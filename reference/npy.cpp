@@ -94,6 +94,7 @@ std::vector<Points> read_npy(const std::filesystem::path& file, int least, int m
   std::ifstream in(file, std::ios::binary);
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
+  if (std::filesystem::is_directory(file, error)) fail("cannot be read; expected a .npy file, got a folder");
   if (!in || error) fail("cannot be read; expected a .npy file");
   unsigned char head[12] = {};
   in.read(reinterpret_cast<char*>(head), 10);

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "mysim/errors.h"
+#include "mysim/json.h"
 #include "report/finding_rules.h"
 
 namespace crosscheck {
@@ -18,14 +17,13 @@ using Told = std::map<std::pair<std::string, std::string>, std::vector<std::stri
 
 Told told_in(const std::filesystem::path& old) {
   const std::filesystem::path file = old / "report.json";
-  std::ifstream in(file);
   Told told;
   try {
-    const auto json = nlohmann::json::parse(in);
-    for (const auto& finding : json.at("findings"))
-      told[{finding.at("scene"), finding.at("rule")}].push_back(finding.at("sentence"));
-  } catch (const nlohmann::json::exception&) {
-    throw InputError(fmt::format("{}: expected a finished report whose findings name their rules", file.string()));
+    const JsonField json = JsonField::parse_file(file.string());
+    for (const JsonField& finding : json["findings"].elements())
+      told[{finding["scene"].text(), finding["rule"].text()}].push_back(finding["sentence"].text());
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("expected a finished report whose findings name their rules: {}", error.what()));
   }
   return told;
 }

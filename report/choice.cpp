@@ -80,7 +80,7 @@ std::string own_name(std::string methods) {
   return methods;
 }
 
-/// Who is cheapest for 1 % of the motion, and how many times as long Bullet's best takes.
+/// Who is cheapest for 1 % of the motion, and how many times as long as mysim's best Bullet's takes.
 ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts& facts, const Rows& result) {
   const Table* t = result.table("speed-accuracy-cheapest-cost");
   for (size_t i = 0; t && i < t->rows.size(); ++i) {
@@ -88,7 +88,7 @@ ChoiceCell cheapest_cell(const Scene& scene, const SceneFacts& facts, const Rows
     if (text_at(*t, i, "scene") != scene.name || number_at(*t, i, "part of motion") != 0.01 || method.empty() ||
         text_at(*t, i, "measure") != "error")
       continue;
-    const auto factor = number_at(*t, i, "Bullet / best");
+    const auto factor = number_at(*t, i, "Bullet / mysim");
     return {fmt::format("{}{}{}", own_name(method), same.empty() ? "" : ", " + own_name(same),
                         factor              ? "; Bullet\u00a0×\u00a0" + times_text(*factor)
                         : bullet_can(facts) ? "; Bullet:\u00a0none"

@@ -30,7 +30,7 @@ FedProgram::FedProgram(const std::vector<std::string>& argv) {
   posix_spawn_file_actions_addopen(&actions.list, 1, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions.list, err_, 2);
   try {
-    child_ = spawn(argv, actions, inherited_environment());
+    child_ = spawn(argv, actions);
   } catch (...) {
     for (const int file : {ends[0], ends[1], err_}) close(file);
     throw;

@@ -14,8 +14,10 @@
 
 #include "mysim/files.h"
 #include "report/assets.h"
+#include "report/charts/times_told.h"
+#include "report/fitting_figure.h"
+#include "report/gnuplot.h"
 #include "report/pdf_date.h"
-#include "report/run_program.h"
 
 namespace crosscheck {
 
@@ -128,7 +130,8 @@ std::string plot_command(const Figure& f) {
   for (const Curve& c : f.curves) {
     if (c.points.empty()) continue;
     const int gap = c.markers ? 1 : std::max<int>(1, static_cast<int>(c.points.size()) / 8);
-    const std::string look = fmt::format("lc rgb \"{}\" pt {} ps 0.8", c.style.colour, c.style.marker);
+    const std::string look =
+        fmt::format("lc rgb \"{}\" pt {} ps {}", c.style.colour, c.style.marker, c.title == scaled_times ? 1.8 : 0.8);
     parts.push_back(element(f, c.title,
                             c.line ? fmt::format("linespoints {} lw 2 dt {} pointinterval {}", look, c.style.dash, gap)
                                    : "points " + look + " lw 2",
@@ -258,7 +261,11 @@ std::string title_command(const FigureWords& figure) {
   return figure.size.titled ? fmt::format("set title {}\n", single_quoted(figure.title)) : "";
 }
 
-void draw(const Drawing& figure, const Provenance& provenance, const std::filesystem::path& folder) {
+namespace {
+
+/// Writes and draws; what gnuplot warned of is handed to `judge` before any file stands in the folder.
+void draw(const Drawing& figure, const Provenance& provenance, const std::filesystem::path& folder,
+          void (*judge)(const std::string& what, const std::string& warnings)) {
   // gnuplot writes its files bit by bit: in a folder of its own, so that no half figure is ever seen
   const std::filesystem::path work = folder / fmt::format(".{}.{}.part", figure.name, getpid());
   struct Remove {
@@ -271,16 +278,26 @@ void draw(const Drawing& figure, const Provenance& provenance, const std::filesy
   write_file(work / "style.gp", asset("style.gp"));
   write_csv(figure.data, provenance, work);
   write_file(work / (figure.name + ".gp"), figure.script);
-  const ProgramResult drawn = run_program({"gnuplot", figure.name + ".gp"}, work);
-  if (drawn.status != 0 || !drawn.err.empty()) {
-    const std::string why =
-        fmt::format("figure {}: gnuplot: {}", figure.name, drawn.err.empty() ? "failed" : drawn.err);
-    if (drawn.status == 0 && drawn.err.find("difficulty") != std::string::npos) throw Crowded(why);
-    throw std::runtime_error(why);
-  }
+  const std::string what = "figure " + figure.name;
+  const std::vector<std::string> forms{figure.name + ".svg", figure.name + ".pdf", figure.name + ".png"};
+  judge(what, run_gnuplot(figure.name + ".gp", work, forms, what));
   undate(work / (figure.name + ".pdf"));
   for (const auto& file : std::filesystem::directory_iterator(work))
     std::filesystem::rename(file.path(), folder / file.path().filename());
+}
+
+}  // namespace
+
+void draw(const Drawing& figure, const Provenance& provenance, const std::filesystem::path& folder) {
+  draw(figure, provenance, folder,
+       [](const std::string& what, const std::string& warnings) { tell_warnings(warnings, what); });
+}
+
+void draw_if_it_fits(const Drawing& figure, const Provenance& provenance, const std::filesystem::path& folder) {
+  draw(figure, provenance, folder, [](const std::string& what, const std::string& warnings) {
+    if (warnings.find("difficulty") != std::string::npos) throw Crowded(fmt::format("{}: gnuplot: {}", what, warnings));
+    tell_warnings(warnings, what);
+  });
 }
 
 }  // namespace crosscheck

@@ -98,8 +98,8 @@ struct Crowded : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes and draws it into the folder (style.gp is put beside it). Throws std::runtime_error that names the figure
-/// when gnuplot complains, Crowded where it complains of too little room.
+/// Writes and draws it into the folder (style.gp is put beside it); what gnuplot warns of is told on stderr. Throws
+/// std::runtime_error that names the figure when gnuplot fails, or a form of it is missing, empty or cut off.
 void draw(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
 
 /// The end of a script: the terminals for a figure so much taller than the usual one, each with the plot command.

@@ -4,10 +4,12 @@
 
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/json.h"
+#include "mysim/nearest.h"
+#include "report/fitting_figure.h"
 #include "report/provenance.h"
 
 namespace crosscheck {
@@ -32,7 +34,8 @@ FigureSize figure_size(const std::string& set, const std::string& width) {
   else if (set == "lecture")
     size = {24, 20, true};
   else
-    throw InputError(fmt::format("--set {}: expected paper or lecture", set));
+    throw InputError(
+        fmt::format("--set {}: expected paper or lecture{}", set, did_you_mean(set, {"paper", "lecture"})));
   if (!width.empty()) size.width = centimetres(width);
   return size;
 }
@@ -83,11 +86,16 @@ void draw_in_size(Chart& chart, FigureSize size, const Provenance& provenance, c
   constexpr double least = 5;  // pt
   for (;;) {
     resize(chart, size);
+    const double smaller = std::round(9.2 * size.font) / 10;
+    if (smaller < least) return draw_figure(chart, provenance, folder);  // gnuplot says what does not fit
     try {
-      return draw_figure(chart, provenance, folder);
+      return std::visit(
+          [&]<class F>(const F& figure) {
+            if constexpr (std::derived_from<F, FigureWords>) draw_if_it_fits(drawing_of(figure), provenance, folder);
+          },
+          chart.figure);
     } catch (const Crowded&) {
-      size.font = std::round(9.2 * size.font) / 10;
-      if (size.font < least) throw;
+      size.font = smaller;
     }
   }
 }
@@ -109,23 +117,23 @@ void write_words(const FigureWords& figure, const std::filesystem::path& folder)
 
 void write_catalogue(const std::vector<FigureInSet>& figures, const Provenance& provenance,
                      const std::filesystem::path& folder) {
-  nlohmann::ordered_json json;
+  Json json;
   for (const auto& [key, value] : provenance)
     if (key != "scene") json["provenance"][key] = value;
-  json["figures"] = nlohmann::ordered_json::array();
+  json["figures"] = Json::list();
   for (const auto& [f, scene, endings] : figures) {
-    nlohmann::ordered_json files;
+    Json files;
     for (const char* ending : endings) files[ending] = f.name + "." + ending;
-    json["figures"].push_back({{"name", f.name},
-                               {"title", f.title},
-                               {"scene", scene},
-                               {"finding", f.finding},
-                               {"caption", f.caption},
-                               {"tier", f.tier},
-                               {"width_cm", f.size.width},
-                               {"font_pt", f.size.font},
-                               {"from_timings", f.from_costs},
-                               {"files", files}});
+    json["figures"].push({{"name", f.name},
+                          {"title", f.title},
+                          {"scene", scene},
+                          {"finding", f.finding},
+                          {"caption", f.caption},
+                          {"tier", f.tier},
+                          {"width_cm", f.size.width},
+                          {"font_pt", f.size.font},
+                          {"from_timings", f.from_costs},
+                          {"files", std::move(files)}});
   }
   write_file(folder / "figures.json", json.dump(1) + "\n");
   const std::string date = value_of(provenance, "date");

@@ -19,8 +19,8 @@ std::string latex(const std::string& text);
 /// Gives the chart's figure a size; false where it has none.
 bool resize(Chart& chart, const FigureSize& size);
 
-/// Draws the chart's figure in this size, where its letters find no room with smaller ones (but no smaller than 5 pt),
-/// and leaves it with the size that it has. Throws as draw() does.
+/// Draws the chart's figure in this size, where its letters find no room with smaller ones (but no smaller than 5 pt,
+/// where what does not fit is told on stderr), and leaves it with the size that it has. Throws as draw() does.
 void draw_in_size(Chart& chart, FigureSize size, const Provenance& provenance, const std::filesystem::path& folder);
 
 /// A word that a shell takes as it is.

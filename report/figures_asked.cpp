@@ -7,6 +7,7 @@
 
 #include "experiments/scenes.h"
 #include "mysim/errors.h"
+#include "mysim/nearest.h"
 #include "report/printed_picture.h"
 
 namespace crosscheck {
@@ -40,15 +41,15 @@ AskedPicture picture_named(const std::string& name, const FiguresOptions& option
     if (name == picture_name(asked.scene)) return asked;
     names.push_back(picture_name(asked.scene));
   }
-  throw InputError(
-      fmt::format("{}: expected a picture of a scene that --scene names: {}", name, fmt::join(names, ", ")));
+  throw InputError(fmt::format("{}: expected a picture of a scene that --scene names: {}{}", name,
+                               fmt::join(names, ", "), did_you_mean(name, names)));
 }
 
 [[noreturn]] void fail(const std::string& name) {
-  std::vector<std::string_view> known;
-  for (const Experiment& e : experiments()) known.push_back(e.name);
-  throw InputError(
-      fmt::format("unknown figures '{}'; expected SCENE-picture or one of {}", name, fmt::join(known, ", ")));
+  std::vector<std::string> known;
+  for (const Experiment& e : experiments()) known.emplace_back(e.name);
+  throw InputError(fmt::format("unknown figures '{}'; expected SCENE-picture or one of {}{}", name,
+                               fmt::join(known, ", "), did_you_mean(name, known)));
 }
 
 }  // namespace

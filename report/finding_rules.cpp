@@ -49,12 +49,15 @@ const std::vector<FindingRule>& finding_rules() {
        {"order-slopes"},
        "spring-order"},
       {"cheapest",
-       "at part of motion = 0.01 and measure = error: method, and min and max of Bullet / best, in CPU time and in "
+       "at part of motion = 0.01 and measure = error: method and what is as cheap within noise, and min and max of "
+       "Bullet / mysim, in CPU time and in "
        "force evaluations; methods of speed-accuracy with less than two runs on a scene",
        {"speed-accuracy-cheapest-cost", "speed-accuracy-cheapest", "speed-accuracy", "engines"},
        "cheapest-1-percent-cost"},
       {"size-cost",
-       "over sides: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler",
+       "over sides: min and max of cpu per step of bullet/deformable-explicit / that of mysim/symplectic-euler+plain, "
+       "and / "
+       "that of mysim/symplectic-euler",
        {"size-cost"},
        "size-cost"},
       {"symplectic-energy",
@@ -76,6 +79,11 @@ const std::vector<FindingRule>& finding_rules() {
        "creep, and centre height less mysim's, of drop-aside at mysim's finest step",
        {"sphere-drape"},
        "drop-aside-sliding"},
+      {"after-contact",
+       "max of difference over the whole run, of the rules of mysim and of bullet/deformable-explicit, in the scene's "
+       "own table",
+       {"engines"},
+       "{}-agreement"},
       {"penetration",
        "max over drops of particles and of triangles, in parts of the radius",
        {"sphere-penetration"},

@@ -18,9 +18,7 @@ void agreement(const Scene& scene, const SceneFacts& facts, std::vector<Finding>
                                        theirs, nice_length(*b->difference));
     if (scene.window < scene.duration)
       sentence += fmt::format(
-          " After that single positions are not compared, since contact makes them unpredictable; the centres of mass "
-          "stay "
-          "within {} over the whole run.",
+          " Single positions are compared up to there; the centres of mass stay within {} over the whole run.",
           nice_length(b->centres.value_or(0)));
     out.push_back({scene.name, "agreement", sentence, "another engine", "same-rule"});
   } else if (!b->different_law.empty()) {

@@ -12,7 +12,8 @@
 namespace crosscheck {
 namespace {
 
-/// "it can do without bend springs, which saves 33 % of the cost (kept: gravity, structural springs and pins)"
+/// "it can do without bend springs, which saves 33 % of the spring evaluations (kept: gravity, structural springs and
+/// pins)"
 std::string told(const LeastModel& least, const Rows& rows, const std::string& scene) {
   if (!least.holds && least.left_out.empty()) return "from other starts less may be enough";
   std::string gone = least.left_out;  // "a, b" reads "a and b" in a sentence
@@ -21,8 +22,8 @@ std::string told(const LeastModel& least, const Rows& rows, const std::string& s
     return fmt::format("without {} it fails from {} of {} other starts", gone, least.failing, least.starts);
   if (least.left_out.empty()) return "all is needed";
   const std::vector<std::string> kept = kept_without(rows, scene, least.left_out);
-  return fmt::format("it can do without {}, which saves {:.0f} % of the cost{}", gone, 100 * (1 - least.cost),
-                     kept.empty() ? "" : fmt::format(" (kept: {})", joined(kept)));
+  return fmt::format("it can do without {}, which saves {:.0f} % of the spring evaluations{}", gone,
+                     100 * (1 - least.cost), kept.empty() ? "" : fmt::format(" (kept: {})", joined(kept)));
 }
 
 std::string at_text(const LeastModel& least) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "experiments/cells.h"
 #include "report/drape_told.h"
@@ -52,6 +53,56 @@ void slide_off(const Table& table, std::vector<Finding>& out) {
                  "another engine", "slide-off"});
 }
 
+/// Largest difference from mysim/symplectic-euler that each method's rows of a scene show, m, by method.
+std::map<std::string, double> differences_over_run(const Table& rows) {
+  std::map<std::string, double> largest;
+  for (size_t i = 0; i < rows.rows.size(); ++i)
+    if (const auto apart = number_at(rows, i, "difference")) {
+      double& known = largest[text_at(rows, i, "method")];
+      known = std::max(known, *apart);
+    }
+  return largest;
+}
+
+/// What becomes of single positions after the window: mysim's own rules of an order above one, which share its contact
+/// rule, say whether they can be predicted. They part by what their steps err and by what grows of it; where that stays
+/// small beside the difference of Bullet, it is Bullet's answer that differs, and no chance.
+void after_contact(const Rows& result, const Table& engines, std::vector<Finding>& out) {
+  for (const std::string& scene : distinct(engines, "scene")) {
+    const Table* rows = result.table(scene + "-engines");
+    std::set<std::string> rules;
+    double window = 0, duration = 0;
+    bool touched = false, bullet = false;
+    for (size_t i = 0; i < engines.rows.size(); ++i) {
+      if (text_at(engines, i, "scene") != scene || text_at(engines, i, "verdict") != "ok") continue;
+      const std::string& method = text_at(engines, i, "method");
+      window = number_at(engines, i, "window", 0), duration = std::max(duration, number_at(engines, i, "end", 0));
+      touched |= number_at(engines, i, "smallest clearance", 1) < 1e-3;
+      bullet |= method == theirs;
+      for (const char* rule : {"leapfrog", "suzuki4", "rk4", "trapezoidal", "implicit-midpoint", "dopri5"})
+        if (method == std::string("mysim/") + rule) rules.insert(method);
+    }
+    if (!rows || !touched || !bullet || rules.size() < 2 || !(window < duration * (1 - 1e-9))) continue;
+    const auto apart = differences_over_run(*rows);
+    if (!apart.contains(theirs)) continue;
+    double own = 0;
+    for (const std::string& rule : rules)
+      if (const auto found = apart.find(rule); found != apart.end()) own = std::max(own, found->second);
+    const double other = apart.at(theirs);
+    // three times: beyond what one more rule of the kind might add
+    const std::string said =
+        other > 3 * own ? fmt::format("single positions can be predicted there, and it is {} that differs, by up to {}",
+                                      theirs, nice_length(other))
+                        : fmt::format("{} differs by up to {}: no more can be said of single positions", theirs,
+                                      nice_length(other));
+    out.push_back(
+        {"", "contact",
+         fmt::format("On {}, beyond {:.3g} s and up to {:.3g} s, {} of mysim's rules stay within {} of {}; {}.", scene,
+                     window, duration, rules.size(), nice_length(own), ours, said),
+         "another engine", "after-contact"});
+  }
+}
+
 void depth(const Table& table, std::vector<Finding>& out) {
   double particles = 0, triangles = 0, their_triangles = 0, longest = 0;
   std::map<std::string, double> of_bullet;
@@ -85,6 +136,7 @@ void depth(const Table& table, std::vector<Finding>& out) {
 
 std::vector<Finding> sphere_findings(const Rows& result) {
   std::vector<Finding> out;
+  if (const Table* t = result.table("engines")) after_contact(result, *t, out);
   if (const Table* table = result.table("sphere-cone")) cone(*table, out);
   if (const Table* table = result.table("sphere-leaving")) leaving(*table, out);
   if (const Table* table = result.table("sphere-drape")) slide_off(*table, out);

@@ -23,13 +23,13 @@ double half_spacing(const std::set<double>& values) {
   return least < 1e300 ? std::sqrt(least) : 1.1;
 }
 
-struct Grid {
+struct MapGrid {
   double x_half, y_half;            // factors
   double left, right, bottom, top;  // ends of the cells
 };
 
 /// Of one panel: others may have more cells over the same axes.
-Grid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
+MapGrid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
   std::set<double> xs, ys;
   for (const HeatMap::HeatCell& c : panel.cells) {
     if (!(c.x > 0 && c.y > 0 && std::isfinite(c.x) && std::isfinite(c.y)))
@@ -44,11 +44,11 @@ Grid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
 }
 
 /// The axes of all panels.
-Grid axes_of(const HeatMap& map) {
+MapGrid axes_of(const HeatMap& map) {
   if (map.panels.empty()) throw std::runtime_error(fmt::format("figure {}: nothing to draw", map.name));
-  Grid all = grid_of(map, map.panels[0]);
+  MapGrid all = grid_of(map, map.panels[0]);
   for (const HeatMap::Panel& p : map.panels) {
-    const Grid grid = grid_of(map, p);
+    const MapGrid grid = grid_of(map, p);
     all.left = std::min(all.left, grid.left), all.right = std::max(all.right, grid.right);
     all.bottom = std::min(all.bottom, grid.bottom), all.top = std::max(all.top, grid.top);
   }
@@ -67,7 +67,7 @@ Table data_of(const HeatMap& map) {
                {"top", "see y"}},
               {}};
   for (const HeatMap::Panel& p : map.panels) {
-    const Grid grid = grid_of(map, p);
+    const MapGrid grid = grid_of(map, p);
     for (const HeatMap::HeatCell& c : p.cells)
       table.add({p.title, map.kinds.at(c.kind).title, c.x, c.y, c.x / grid.x_half, c.x * grid.x_half, c.y / grid.y_half,
                  c.y * grid.y_half});
@@ -133,7 +133,7 @@ std::vector<Tip> told_of(const HeatMap& map) {
 }
 
 Drawing drawing_of(const HeatMap& map) {
-  const Grid grid = axes_of(map);
+  const MapGrid grid = axes_of(map);
   const int columns = columns_of(map);
   const int panels = static_cast<int>(map.panels.size()), across = std::min(columns, panels),
             down = (panels + columns - 1) / columns;

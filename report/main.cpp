@@ -1,13 +1,21 @@
 // crosscheck: the subcommands, and nothing else.
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
+#include "mysim/complaint.h"
 #include "mysim/errors.h"
+#include "mysim/nearest.h"
+#include "mysim/shell_words.h"
+#include "mysim/supervised.h"
+#include "mysim/telling.h"
+#include "reference/build_id.h"
 #include "report/commands/commands.h"
+#include "report/commands/validate.h"
 
 using namespace crosscheck;
 
@@ -15,12 +23,9 @@ namespace {
 
 /// The command line as a person would type it.
 std::string command_line(int argc, char** argv) {
-  std::string line = "crosscheck";
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    line += word.find_first_of(" \t'\"") == std::string::npos ? " " + word : " '" + word + "'";
-  }
-  return line;
+  std::vector<std::string> words(argv, argv + argc);
+  words[0] = "crosscheck";
+  return shell_line(words);
 }
 
 /// CLI11's own range checks let nan through and print 309 digits.
@@ -38,11 +43,18 @@ CLI::Validator number(bool zero_allowed) {
       "");
 }
 
+/// The name of the program and its version, that of the build where it has one.
+std::string version() {
+  const std::string id = build_id();
+  return fmt::format("crosscheck " CROSSCHECK_VERSION "{}", id.empty() ? "" : " (build " + id.substr(0, 12) + ")");
+}
+
 int run(int argc, char** argv) {
   const CLI::Validator above_zero = number(false), not_below_zero = number(true);
   CLI::App app{
       "Crosscheck sets mysim, an in-house mass-spring and cloth engine, beside matching Bullet soft-body scenes."};
   app.require_subcommand(1);
+  app.set_version_flag("--version", version(), "the version of this program");
   const std::string line = command_line(argc, argv);
   int status = 0;
   auto quick_or_full = [](CLI::App* command, bool& full) {
@@ -60,6 +72,12 @@ int run(int argc, char** argv) {
   list->add_option("WHAT", what, "scenes, methods, experiments or assignments")->required();
   list->add_flag("--json", json, "for programs");
   list->callback([&] { status = list_command(what, json); });
+
+  std::vector<std::string> validated;
+  auto* validate = app.add_subcommand("validate", "what a scene is, and whether its file is good; runs nothing");
+  validate->add_option("SCENE", validated, "shipped scenes or TOML files")->required();
+  validate->add_flag("--json", json, "for programs");
+  validate->callback([&] { status = validate_command(validated, json); });
 
   RunOptions run_options;
   auto* run = app.add_subcommand("run", "one run: trajectory, energies, verdict");
@@ -211,21 +229,19 @@ int run(int argc, char** argv) {
     return grader_command({argv + 1, argv + argc});
 
   if (argc > 1 && argv[1][0] != '-') {
-    std::string known;
-    bool found = false;
-    for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
-      known += (known.empty() ? "" : ", ") + command->get_name();
-      found |= command->get_name() == argv[1];
-    }
-    if (!found) throw InputError(fmt::format("unknown command '{}'; expected one of: {}", argv[1], known));
+    std::vector<std::string> known;
+    for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
+      known.push_back(command->get_name());
+    if (std::find(known.begin(), known.end(), argv[1]) == known.end())
+      throw InputError(fmt::format("unknown command '{}'; expected one of: {}{}", argv[1], fmt::join(known, ", "),
+                                   did_you_mean(argv[1], known)));
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& done) {
     return app.exit(done);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "crosscheck: {} (crosscheck --help shows the commands)\n", error.what());
-    return 2;
+    throw InputError(complaint("crosscheck", app, error));
   }
   return status;
 }
@@ -233,13 +249,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "crosscheck: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "crosscheck: {}\n", error.what());
-    return 1;
-  }
+  return supervised([&] { return run_and_tell("crosscheck", [&] { return run(argc, argv); }); });
 }

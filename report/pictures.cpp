@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "mysim/errors.h"
+#include "mysim/nearest.h"
 #include "report/bodies.h"
 #include "report/facts.h"
 #include "report/strain.h"
@@ -180,7 +181,10 @@ Mode mode_named(const std::string& name) {
                                                     {"strip", Mode::strip}};
   for (const auto& [known, mode] : table)
     if (name == known) return mode;
-  throw InputError(fmt::format("--mode {}: expected shaded, stretch, springs, difference or strip", name));
+  std::vector<std::string> names;
+  for (const auto& [known, mode] : table) names.emplace_back(known);
+  throw InputError(fmt::format("--mode {}: expected shaded, stretch, springs, difference or strip{}", name,
+                               did_you_mean(name, names)));
 }
 
 std::vector<std::string> pictured_methods(const Scene& scene) {

@@ -17,18 +17,6 @@
 namespace crosscheck {
 namespace {
 
-/// The inherited environment with the extra entries in place of those of the same name.
-std::vector<std::string> merged_environment(const std::vector<std::string>& extra) {
-  std::vector<std::string> all = extra;
-  for (const std::string& inherited : inherited_environment()) {
-    const std::string name = inherited.substr(0, inherited.find('=') + 1);
-    bool replaced = false;
-    for (const std::string& own : extra) replaced = replaced || own.compare(0, name.size(), name) == 0;
-    if (!replaced) all.push_back(inherited);
-  }
-  return all;
-}
-
 /// Reads both pipes until both are at their end: reading one after the other could block the program for ever.
 void read_all(Pipe& out, std::string& out_text, Pipe& err, std::string& err_text) {
   std::array<char, 4096> chunk;
@@ -60,7 +48,7 @@ ProgramResult run_program(const std::vector<std::string>& argv, const std::files
   posix_spawn_file_actions_adddup2(&actions.list, err.write_end, 2);
   posix_spawn_file_actions_addchdir_np(&actions.list, cwd.c_str());
 
-  const pid_t child = spawn(argv, actions, merged_environment(extra_env));
+  const pid_t child = spawn(argv, actions, extra_env);
   Pipe::close_end(out.write_end), Pipe::close_end(err.write_end);
 
   ProgramResult result;

@@ -13,8 +13,8 @@ struct ProgramResult {
   std::string out;  // all of stdout
 };
 
-/// Runs argv[0] (looked up in PATH) in the folder cwd with stdin empty; extra_env holds "NAME=value" entries that win
-/// over the inherited ones. Throws std::runtime_error if the program cannot be started.
+/// Runs argv[0] (looked up in PATH) in the folder cwd with stdin empty, in the environment of
+/// program_environment(extra_env). Throws std::runtime_error if the program cannot be started.
 ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
                           const std::vector<std::string>& extra_env = {});
 

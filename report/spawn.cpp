@@ -8,6 +8,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "mysim/program_environment.h"
+
 namespace crosscheck {
 namespace {
 
@@ -21,18 +23,12 @@ std::vector<char*> pointers(const std::vector<std::string>& strings) {
 }  // namespace
 
 pid_t spawn(const std::vector<std::string>& argv, const FileActions& actions,
-            const std::vector<std::string>& environment) {
+            const std::vector<std::string>& extra_env) {
   pid_t child = 0;
   const int failed = posix_spawnp(&child, argv[0].c_str(), &actions.list, nullptr, pointers(argv).data(),
-                                  pointers(environment).data());
+                                  pointers(program_environment(extra_env)).data());
   if (failed) throw std::runtime_error("cannot start " + argv[0] + ": " + std::strerror(failed));
   return child;
-}
-
-std::vector<std::string> inherited_environment() {
-  std::vector<std::string> all;
-  for (char** entry = environ; *entry; ++entry) all.emplace_back(*entry);
-  return all;
 }
 
 int end_of(pid_t child) {

@@ -17,13 +17,10 @@ struct FileActions {
   FileActions& operator=(const FileActions&) = delete;
 };
 
-/// Starts argv[0] (looked up in PATH) with the entries "NAME=value" as its environment. Throws std::runtime_error that
-/// names it.
+/// Starts argv[0] (looked up in PATH) in the environment of program_environment(extra_env). Throws std::runtime_error
+/// that names it.
 pid_t spawn(const std::vector<std::string>& argv, const FileActions& actions,
-            const std::vector<std::string>& environment);
-
-/// The entries of this program's own environment.
-std::vector<std::string> inherited_environment();
+            const std::vector<std::string>& extra_env = {});
 
 /// Waits for it: its exit code, or 128 + signal number if a signal ended it.
 int end_of(pid_t child);

@@ -83,37 +83,20 @@ void caveats_of(Advice& a, const Trial& t) {
 }
 
 /// What can be promised at all, with the truth's bar in the window; throws CannotPromise where nothing can.
-Advice promise_of(const Scene& scene, double tolerance, const Truth& truth) {
-  Advice a{scene,
-           tolerance,
-           truth.tier,
-           truth.how,
-           0,
-           truth.of_contact_rule,
-           std::min({scene.window, scene.duration, truth.until}),
-           {},
-           0,
-           {},
-           {},
-           "",
-           0,
-           {}};
-  double motion = 0;
-  const Trajectory& path = truth.trajectory;
-  for (int i = 0; i < path.frames() && path.t[i] <= a.until * (1 + 1e-9); ++i) {
-    a.bar = std::max(a.bar, truth.bars.empty() ? truth.bar : truth.bars[i]);
-    motion = std::max(motion, rms_distance(path.x[i], path.x[0]));
-  }
+Advice promise_of(const Scene& scene, double tolerance, const TruePath& path) {
+  const Truth& truth = path.truth();
+  Advice a{scene, tolerance, truth.tier, truth.how, path.bar(), truth.of_contact_rule, path.until(), {}, 0,
+           {},    {},        "",         0,         {}};
   // a third: what is left for the run's own error is then at least twice the bar
   if (!(a.bar <= tolerance / 3))
     throw CannotPromise(
         fmt::format("the truth is known to {:.2g} m only, and {:.2g} m is asked: ask for {:.2g} m or more", a.bar,
                     tolerance, 3 * a.bar));
-  if (tolerance >= motion)
+  if (tolerance >= path.motion())
     throw CannotPromise(
         fmt::format("nothing in the scene moves by more than {:.3g} m (RMS), and {:.3g} m is asked: any "
                     "answer would do",
-                    motion, tolerance));
+                    path.motion(), tolerance));
   return a;
 }
 
@@ -153,15 +136,17 @@ std::optional<size_t> cheapest(const std::vector<Trial>& trials, const std::stri
 }  // namespace
 
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods) {
-  const auto truth = truth_of(scene, default_run(scene));
-  if (!truth) throw CannotPromise("no truth is known for the scene: nothing to promise against");
-  Advice a = promise_of(scene, tolerance, *truth);
+  const TruePath path(scene, tolerance);
+  Advice a = promise_of(scene, tolerance, path);
 
   std::vector<Candidate> models{{"full", scene, {}}};
-  if (auto least = least_of(scene, tolerance)) models.insert(models.begin(), std::move(*least));
+  if (auto least = least_of(path.dense(), tolerance)) {
+    least->scene.samples = scene.samples;  // what is tried is run as its file will be
+    models.insert(models.begin(), std::move(*least));
+  }
   std::stable_sort(methods.begin(), methods.end(),
                    [](const Method& x, const Method& y) { return urgency(x) < urgency(y); });
-  Search search(a, *truth);
+  Search search(a, path);
   for (const Candidate& model : models)
     for (const Method& method : methods) search.over(model, method);
 
@@ -178,9 +163,9 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
   for (const Ingredient& i : model.out) a.left_out.push_back(i.name);
   a.toml = file_of(a, model, chosen, method);
   const Scene written = parse_scene(a.toml, scene.name);
-  Recorder recorder;
-  const Outcome again = run_method(method, written, default_run(written), {&recorder});
-  a.checked = largest_rms_distance(recorder.trajectory, truth->trajectory, a.until);
+  Farthest farthest(path);
+  const Outcome again = run_method(method, written, looked_at(method, written, path), {&farthest});
+  a.checked = farthest.distance();
   if (again.verdict != Verdict::ok || !(a.checked + a.bar <= tolerance))
     throw CannotPromise(fmt::format("the advised file, run again, errs by {:.3g} m", a.checked));
   caveats_of(a, chosen);

@@ -22,7 +22,7 @@ struct Trial {
   std::string method;
   double step;                  // s, as used; the mean of adaptive methods
   double relative;              // relative tolerance of adaptive methods; 0 elsewhere
-  std::optional<double> error;  // m, largest RMS distance from the truth in the window; empty where it failed
+  std::optional<double> error;  // m, largest RMS distance from the truth in the window, after any step; none: failed
   Outcome outcome;
   long springs;
   std::optional<double> limit;  // s, the largest stable step that theory predicts; empty where none does
@@ -51,9 +51,9 @@ struct Advice {
 
 /// Tries each method on the scene, and on the least model whose own error is half the tolerance at most. A step is
 /// taken when it meets the tolerance, every smaller one that was tried does so too, and among them one of half its
-/// length; steps are refined to 5 %. Methods that already cost four times the best are left. Throws CannotPromise where
-/// no truth is known, its bar is above a third of the tolerance, the tolerance is above the scene's motion, or no
-/// method meets it.
+/// length; steps are refined to 5 %. Errors are looked for after every step, not at the samples alone (true_path.h).
+/// Methods that already cost four times the best are left. Throws CannotPromise where no truth is known, its bar is
+/// above a third of the tolerance, the tolerance is above the scene's motion, or no method meets it.
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods);
 
 }  // namespace crosscheck

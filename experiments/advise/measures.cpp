@@ -1,7 +1,6 @@
 // Measures from runs of mysim that are looked at in every step.
 #include "experiments/advise/measures.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +9,7 @@
 #include "experiments/rest.h"
 #include "mysim/energy.h"
 #include "mysim/frequency.h"
+#include "reference/exact/eigenvalues.h"
 #include "reference/method.h"
 
 namespace crosscheck {
@@ -96,7 +96,7 @@ std::optional<double> period_of(const Scene& scene, double about) {
     for (const Vec3& p : path) mean += p / static_cast<double>(path.size());
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     for (const Vec3& p : path) spread += (p - mean) * (p - mean).transpose();
-    const Vec3 along = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+    const Vec3 along = symmetric_eigensystem(spread).vectors.col(2);
     std::vector<double> y;
     for (const Vec3& p : path) y.push_back(along.dot(p - mean));
     const auto [low, high] = std::minmax_element(y.begin(), y.end());

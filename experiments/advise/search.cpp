@@ -25,13 +25,13 @@ const Trial& Search::run(const Run& run) {
     if (t.model == model_->name && t.method == method_->name &&
         (method_->adaptive ? t.relative == run.tolerance : std::abs(t.step - run.step) < 1e-9 * run.step))
       return t;
-  Recorder recorder;
+  Farthest farthest(path_);
   Trial t{model_->name, method_->name, 0, 0, {}, {}, springs_of(model_->scene.model), limit_};
-  t.outcome = run_method(*method_, model_->scene, run, {&recorder});
+  t.outcome = run_method(*method_, model_->scene, run, {&farthest});
   t.step = t.outcome.step > 0 ? t.outcome.step : run.step;
   if (method_->adaptive) t.relative = run.tolerance;
   if (t.outcome.verdict == Verdict::ok) {
-    t.error = largest_rms_distance(recorder.trajectory, truth_.trajectory, advice_.until);
+    t.error = farthest.distance();
     t.meets = *t.error + advice_.bar <= advice_.tolerance;
   }
   advice_.trials.push_back(std::move(t));
@@ -43,7 +43,7 @@ const Trial& Search::at(long steps) {
   return run(r);
 }
 const Trial& Search::at_tolerance(double relative) {
-  Run r = default_run(model_->scene);
+  Run r = looked_at(*method_, model_->scene, path_);
   r.tolerance = relative;
   return run(r);
 }

@@ -8,6 +8,7 @@
 
 #include "experiments/adequacy/ingredients.h"
 #include "experiments/advise/advice.h"
+#include "experiments/advise/true_path.h"
 
 namespace crosscheck {
 
@@ -21,7 +22,7 @@ struct Candidate {
 /// a method that already costs four times the best of those before it is left.
 class Search {
  public:
-  Search(Advice& advice, const Truth& truth) : advice_(advice), truth_(truth) {}
+  Search(Advice& advice, const TruePath& path) : advice_(advice), path_(path) {}
 
   void over(const Candidate& model, const Method& method);
 
@@ -39,7 +40,7 @@ class Search {
   void keep(double cost) { best_ = std::min(best_, cost); }
 
   Advice& advice_;
-  const Truth& truth_;
+  const TruePath& path_;
   const Candidate* model_ = nullptr;
   const Method* method_ = nullptr;
   std::optional<double> limit_;

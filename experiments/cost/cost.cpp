@@ -55,8 +55,10 @@ long springs_of(const Scene& scene) { return static_cast<long>(scene.model.find<
 
 void cost_of_size(const Request& request, int n, Rows& rows) {
   const Scene scene = sized_cloth(n);
-  std::vector<Method> methods;
-  for (Method& method : methods_of(request, scene)) {
+  std::vector<Method> methods, asked = methods_of(request, scene);
+  // beside engines that know networks only: the same rule without the kernel for regular cloths
+  if (request.methods.empty()) asked.push_back(find_method("mysim/symplectic-euler+plain"));
+  for (Method& method : asked) {
     if (method.adaptive) continue;  // how long its steps are is its own choice
     if (run_method(method, scene, steps_of(scene, 1), {}).verdict != Verdict::unsupported)
       methods.push_back(std::move(method));

@@ -54,7 +54,13 @@ std::vector<Point> disagreements_points(const Request& request) {
                "disagreements",
                {{"name", "1"}, {"world", "1"}, {"what", "1"}, {"cause", "1"}, {"effect", "1"}, {"scene hash", "1"}},
                {}};
-           summary.add({d.name, d.world, d.what, d.cause, d.effect(all), scene.hash});
+           std::string effect = d.effect(all);
+           if (d.measured) {
+             const TableTold more = d.measured(d);
+             rows.add(more.table);
+             effect += " " + more.sentence;
+           }
+           summary.add({d.name, d.world, d.what, d.cause, effect, scene.hash});
            rows.add(table);
            rows.add(summary);
          }});

@@ -26,6 +26,13 @@ struct Series {
   double last() const { return points.back().second; }
 };
 
+struct Disagreement;
+/// A table of its own and what it says, one sentence.
+struct TableTold {
+  Table table;
+  std::string sentence;
+};
+
 struct Disagreement {
   std::string name;   // of the scene file too
   std::string world;  // whose it is
@@ -36,7 +43,8 @@ struct Disagreement {
   /// The quantity; none: the largest distance of a particle from its place in the first variant's run (m), on a
   /// logarithmic axis.
   std::function<double(const Scene&, const State&)> value;
-  std::function<std::string(const std::vector<Series>&)> effect;  // the measured size, one sentence
+  std::function<std::string(const std::vector<Series>&)> effect;     // the measured size, one sentence
+  std::function<TableTold(const Disagreement&)> measured = nullptr;  // where curves over time do not show it all
 };
 
 std::vector<Disagreement> disagreements();

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <ranges>
 
+#include "experiments/disagreements/contact_direction.h"
 #include "experiments/disagreements/disagreements.h"
 #include "experiments/metrics.h"
 #include "mysim/energy.h"
@@ -20,6 +21,12 @@ double sag(const Scene& scene, const State& s) {
 double length(const Scene&, const State& s) { return (s.x.col(1) - s.x.col(0)).norm(); }
 double along_wind(const Scene&, const State& s) { return s.v.row(2).mean(); }
 double gap(const Scene& scene, const State& s) { return 1e3 * *clearance(scene, s.t, s.x); }
+/// By how much the particle moves steeper than the tangent of the ball where it is, mrad; 0 in its first half
+/// millimetre, since it falls freely to where a field of 20 mm puts the surface, up to 0.1 mm below.
+double steeper(const Scene& scene, const State& s) {
+  const Vec3 v = s.v.col(0), from = s.x.col(0) - scene.model.find<Spheres>()->list[0].centre;
+  return moved(scene, s) < 5e-4 ? 0 : 1e3 * (std::atan2(-v.y(), v.x()) - std::atan2(from.x(), from.y()));
+}
 double energy(const Scene& scene, const State& s) { return energy_of(scene.model, s).total(); }
 
 /// Time between the first and the last upward passage through the middle, over the swings between, s.
@@ -119,6 +126,42 @@ std::string field_effect(const std::vector<Series>& all) {
   auto place = [](double mm) { return fmt::format("{:.3g} mm {}", std::abs(mm), mm < 0 ? "inside" : "outside"); };
   return fmt::format("The particle lies {} the surface with the default voxel of 0.25 m and {} with 0.02 m.",
                      place(all[1].last()), place(all[2].last()));
+}
+
+std::string direction_effect(const std::vector<Series>& all) {
+  auto most = [](const Series& s) {
+    double mrad = 0;
+    for (const auto& point : s.points) mrad = std::max(mrad, std::abs(point.second));
+    return mrad;
+  };
+  return fmt::format(
+      "Sliding down from rest the particle moves up to {:.2g} mrad off the tangent, with a quarter of the step up to "
+      "{:.2g} mrad; with voxels of 20 mm {:.2g} mrad, with 1.25 mm {:.2g} mrad; in mysim {:.1g} mrad.",
+      most(all[1]), most(all[2]), most(all[3]), most(all[4]), most(all[0]));
+}
+
+/// Over the angle, as the step goes to 0.
+TableTold directions(const Disagreement& d) {
+  constexpr double first = 2, last = 45;  // degrees
+  std::vector<double> angles;
+  for (double degrees = first; degrees <= last; degrees += 0.5) angles.push_back(degrees * std::numbers::pi / 180);
+  const Scene scene = scene_of(d);
+  Table table{d.name + "-angles",
+              {{"method", "1"}, {"angle", "rad"}, {"in plane", "rad"}, {"sideways", "rad"}, {"scene hash", "1"}},
+              {}};
+  double steeper_by = 0, flatter_by = 0, sideways = 0;  // mrad
+  const std::string bullet = d.variants[1].method;
+  for (const std::string& method : {d.variants[0].method, bullet, d.variants[3].method, d.variants[4].method})
+    for (const DirectionError& e : direction_errors(method, scene, angles)) {
+      table.add({method, e.angle, e.in_plane, e.sideways, scene.hash});
+      if (method != bullet) continue;
+      steeper_by = std::max(steeper_by, 1e3 * e.in_plane), flatter_by = std::min(flatter_by, 1e3 * e.in_plane);
+      sideways = std::max(sideways, 1e3 * std::abs(e.sideways));
+    }
+  return {table,
+          fmt::format("Let go at {:g} to {:g} degrees it is pushed off the normal by {:.2g} to {:.2g} mrad in the "
+                      "plane of gravity and by up to {:.2g} mrad sideways, extrapolated to a step of zero.",
+                      first, last, flatter_by, steeper_by, sideways)};
 }
 
 std::string hop_effect(const std::vector<Series>& all) {
@@ -250,8 +293,8 @@ std::vector<Disagreement> disagreements() {
       {"distance-field",
        "bullet/pbd",
        "The default distance field misplaces obstacles",
-       "Distances to an obstacle are read from a grid; on a ball of radius R a voxel of size a is wrong by up to "
-       "a^2 / 4R.",
+       "Distances to an obstacle are read from a grid; on a ball of radius R the depth in a voxel of size a is wrong "
+       "by up to a^2 / 4R (how wrong its direction is: see the direction of contact).",
        "height over the surface",
        "mm",
        {{"what is asked, mysim", "mysim/leapfrog"},
@@ -259,6 +302,22 @@ std::vector<Disagreement> disagreements() {
         {"Bullet, voxel of 0.02 m", "bullet/pbd"}},
        gap,
        field_effect},
+      {"contact-direction",
+       "bullet/deformable-explicit",
+       "Contact pushes in a direction that is off, whatever the step",
+       "The normal is the gradient of the grid of distances inside one voxel, constant along each axis there: exact in "
+       "the middle of a voxel of size a, off by up to a / 2R in each direction at its faces. A smooth ball is felt as "
+       "one with facets.",
+       "direction of motion, less the tangent's",
+       "mrad",
+       {{"mysim", "mysim/leapfrog"},
+        {"Bullet, voxel of 5 mm", "bullet/deformable-explicit"},
+        {"the same, a quarter of the step", "bullet/deformable-explicit", 1.25e-4},
+        {"Bullet, voxel of 20 mm", "bullet/deformable-explicit+voxel=0.02"},
+        {"Bullet, voxel of 1.25 mm", "bullet/deformable-explicit+voxel=0.00125"}},
+       steeper,
+       direction_effect,
+       directions},
       {"contact-hop",
        "bullet/deformable-explicit",
        "Sliding nodes hop on curved obstacles",

@@ -12,7 +12,7 @@
 namespace crosscheck {
 namespace {
 
-using Key = std::pair<std::string, std::string>;  // method, without
+using QuestionKey = std::pair<std::string, std::string>;  // method, without
 
 /// One scene's baseline on its way to a new one.
 class Change {
@@ -81,7 +81,7 @@ class Change {
 
  private:
   Baseline baseline_;
-  std::set<Key> asked_;
+  std::set<QuestionKey> asked_;
   std::vector<Compared> changed_;
 };
 

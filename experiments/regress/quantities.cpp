@@ -52,7 +52,7 @@ void settings(const Seen& seen, Quantities& out) {
     if (!word.empty()) out.push_back({setting_prefix + name, "word", 0, word});
   };
   add("precision", told.precision);
-  add("sleeping", told.may_sleep ? "on" : "off");
+  if (told.may_sleep) add("sleeping", *told.may_sleep ? "on" : "off");
   if (told.margin) add("margin", fmt::format("{:.6g} m", *told.margin));
   for (const auto& [name, value] : told.settings) add(name, value);
 }

@@ -37,6 +37,7 @@ BlessedSpeed speed_from(const std::string& line, const std::vector<Machine>& mac
 }  // namespace
 
 const BlessedSpeed* find_speed(const SpeedFile& file, const SpeedQuestion& question, const Machine& machine) {
+  if (machine.cpu.empty()) return nullptr;
   for (const BlessedSpeed& s : file.speeds)
     if (s.scene == question.scene.name && s.method == question.method.name && s.machine == machine) return &s;
   return nullptr;

@@ -11,9 +11,10 @@
 
 namespace crosscheck {
 
-/// The kind of machine and program that a speed belongs to: on another kind it says nothing.
+/// The kind of machine and program that a speed belongs to: on another kind it says nothing, for what a method takes
+/// beside the plain loop depends on the processor's units and caches and on the compiler.
 struct Machine {
-  std::string cpu, compiler;  // model; with its flags
+  std::string cpu, compiler;  // processor_kind() (machine.h), empty where that is not known; with its flags
   std::string yardstick;      // which plain loop
   bool operator==(const Machine&) const = default;
 };
@@ -31,7 +32,7 @@ struct SpeedFile {
   std::vector<BlessedSpeed> speeds;  // of several kinds of machine side by side
 };
 
-/// The question's speed on that kind of machine, or null.
+/// The question's speed on that kind of machine, or null; no kind is like one that is not known.
 const BlessedSpeed* find_speed(const SpeedFile& file, const SpeedQuestion& question, const Machine& machine);
 
 /// speed-cost.csv in the folder.

@@ -21,16 +21,34 @@ std::vector<double> changes_of(const Ratios& ratios, double was) {
 
 double middle(std::vector<double> values) { return timing_of(std::move(values)).median; }
 
-/// What is blessed of the question under other circumstances, in words; empty where nothing is.
+/// What a machine differs in from this one, in words; empty where in nothing.
+std::string differences_of(const Machine& there, const Machine& here) {
+  std::string text;
+  const auto tell = [&](const char* part, const std::string& is, const std::string& would_be) {
+    if (is == would_be) return;
+    text += fmt::format("{}on another {} ({}; this is {})", text.empty() ? "" : " and ", part, is, would_be);
+  };
+  tell("processor", there.cpu, here.cpu);
+  tell("compiler", there.compiler, here.compiler);
+  tell("yardstick", there.yardstick, here.yardstick);
+  return text;
+}
+
+int parts_apart(const Machine& a, const Machine& b) {
+  return (a.cpu != b.cpu) + (a.compiler != b.compiler) + (a.yardstick != b.yardstick);
+}
+
+/// What is blessed of the question under other circumstances, in words: on the machine that is most like this one.
+/// Empty where nothing is.
 std::string why_elsewhere(const SpeedFile& file, const SpeedQuestion& q, const Machine& here) {
-  std::string why;
+  const BlessedSpeed* nearest = nullptr;
   for (const BlessedSpeed& s : file.speeds) {
     if (s.scene != q.scene.name || s.method != q.method.name) continue;
+    if (here.cpu.empty()) return "this processor cannot be told from others";
     if (s.machine == here && s.hash != q.scene.hash) return "blessed of another scene by that name";
-    why = fmt::format("blessed on {}, {}, {}; this is {}, {}, {}", s.machine.cpu, s.machine.compiler,
-                      s.machine.yardstick, here.cpu, here.compiler, here.yardstick);
+    if (!nearest || parts_apart(s.machine, here) < parts_apart(nearest->machine, here)) nearest = &s;
   }
-  return why;
+  return nearest ? "blessed " + differences_of(nearest->machine, here) : "";
 }
 
 void judge(SpeedCompared& row) {

@@ -60,7 +60,7 @@ double left_by_one_step(const Question& question, const Answered& answered, doub
 /// the rule damps: what the start had in excess is gone by then, and what the last steps leave is not.
 double left_by_steps(const Question& question, const Answered& answered, const Rounding& rounding, const Quantity& q) {
   const Outcome& outcome = answered.outcome;
-  // a sum over steps of energies before and behind contacts; what rests on a sphere is rounded alike in each of them
+  // a sum over steps of impulses times ways; what rests on a sphere is rounded alike in each of them
   if (q.name == contact_quantity) return 8 * eps * static_cast<double>(outcome.steps) * q.size;
   if (q.unit == "m") return rounding.one_step * std::sqrt(static_cast<double>(outcome.steps));
   if (q.unit != "J" || !(outcome.step > 0)) return 0;

@@ -19,7 +19,9 @@ Table engines_cost_table() {
            {"distance", "m"},
            {"times mysim", "1"},
            {"times mysim low", "1"},
-           {"times mysim high", "1"}},
+           {"times mysim high", "1"},
+           {"part timed", "1"},
+           {"part timed of mysim", "1"}},
           {}};
 }
 
@@ -36,15 +38,11 @@ void add_by_engine(const std::string& scene, double part_of_motion, const std::s
     std::erase_if(its, [&](const WorkPoint& p) { return !p.time || engine_of(p.method) != engine; });
     const WorkPoint* best = cheapest(its, bound);
     if (!best) continue;
-    std::vector<Cell> row{scene,         part_of_motion, measure,    engine,      best->method,
-                          best->setting, best->asked,    best->cost, *best->error};
-    if (ours && ours->time && ours->time->low > 0)
-      for (const double times :
-           {best->cost / ours->cost, best->time->low / ours->time->high, best->time->high / ours->time->low})
-        row.emplace_back(times);
-    else
-      row.resize(table.columns.size());
-    table.add(std::move(row));
+    const Timing* beside = ours && ours->time && ours->time->low > 0 ? &*ours->time : nullptr;
+    table.add({scene, part_of_motion, measure, engine, best->method, best->setting, best->asked, best->cost,
+               *best->error, beside ? Cell(best->cost / ours->cost) : Cell(),
+               beside ? Cell(best->time->low / beside->high) : Cell(),
+               beside ? Cell(best->time->high / beside->low) : Cell(), best->part, ours ? Cell(ours->part) : Cell()});
   }
 }
 

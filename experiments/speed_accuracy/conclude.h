@@ -17,6 +17,7 @@ struct WorkPoint {
   std::optional<double> error;      // m; of runs that are ok
   double cost;                      // evaluations, or s
   std::optional<Timing> time = {};  // where the cost is time
+  double part = 1;                  // of the run that was timed; the rest is scaled
 };
 
 /// The runs that no cheaper run beats, from cheap to dear, each with a smaller error than the one before. An error

@@ -21,18 +21,8 @@ Scene with_gamma(Scene scene, double gamma) {
 }
 
 /// Cells show blow-ups as they are: kicked by a ten-thousandth of the springs' length, so that growth comes to where
-/// energy and finiteness judge it, and yet far below the stretch at rest, beside whose energy the swinging energy of
-/// neutral rules at long steps must stay small.
+/// the watch judges it.
 constexpr double visible = 1e-4;
-
-/// That kick, or a smaller one whose energy is a thousandth of what the springs hold at rest.
-double kick_for(const Subject& subject, int mode) {
-  const Model& model = subject.scene.model;
-  const Energy rest = energy_of(model, subject.scene.start),
-               moved = energy_of(model, kicked(subject, {mode, visible}).start);
-  const double given = moved.total() - rest.total();
-  return rest.elastic > 0 && given > 0 ? visible * std::min(1.0, std::sqrt(1e-3 * rest.elastic / given)) : visible;
-}
 
 /// h omega from 1/50 to 20 of the scene as it is; 0 <= part <= 1.
 double step_at(double part, double omega) { return 0.02 / omega * std::pow(1000, part); }
@@ -48,7 +38,7 @@ std::span<const MapKind> map_kinds() {
 }
 
 void map_on(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows,
-            const Watch& watch) {
+            const RunCallback& watch) {
   Table cells = map_table(), limits = map_limit_table(), check = map_check_table();
   const std::string map(kind.name);
   const Subject as_it_is = subject_of(scene);
@@ -68,7 +58,7 @@ void map_on(const MapKind& kind, const Scene& scene, const Method& method, const
     const double value = kind.value(static_cast<double>(r) / (size.rows - 1), omega);
     const Subject subject = subject_of(kind.with(scene, value));
     const Prediction predicted = predicted_limit(method, subject.spectrum);
-    const Kick kick{predicted.mode, kick_for(subject, predicted.mode)};
+    const Kick kick{predicted.mode, visible};
     double held = 0, failed = 0;  // the last cell that held before the first that failed
     for (int c = 0; c < size.columns; ++c) {
       const double h = step_at(static_cast<double>(c) / (size.columns - 1), omega);

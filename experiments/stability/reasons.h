@@ -23,6 +23,14 @@ inline std::string why_apart(const Subject& subject, const Method& method) {
   return all;
 }
 
+/// What a saddle means for the row; empty where there was none.
+inline std::string word_on_saddle(const Subject& subject) {
+  if (!subject.saddle) return "";
+  return subject.at_rest
+             ? "the equilibrium in the symmetry of the start is a saddle, not a rest; this is the rest beside it"
+             : "the only equilibrium found is a saddle, not a rest";
+}
+
 /// Why the measurement is not what theory says, or why theory says nothing; empty where they agree.
 inline std::string reason_for(const Subject& subject, const Method& method, const Prediction& p, const Measured& m) {
   // a bracket tells no more than its width
@@ -35,7 +43,8 @@ inline std::string reason_for(const Subject& subject, const Method& method, cons
       if (!p.missing.empty()) return p.missing;
       return p.limit == 0 ? "" : why_apart(subject, method);
     case Measured::every_step:
-      return p.missing.empty() && std::isfinite(p.limit) ? why_apart(subject, method) : "";
+      if (!p.missing.empty()) return p.missing;
+      return std::isfinite(p.limit) ? why_apart(subject, method) : "";
     default:
       return "";
   }

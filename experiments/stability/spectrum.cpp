@@ -9,6 +9,7 @@
 #include "mysim/errors.h"
 #include "mysim/frequency.h"
 #include "mysim/steppers/stepper.h"
+#include "mysim/uniform.h"
 #include "reference/exact/eigenvalues.h"
 
 namespace crosscheck {
@@ -160,19 +161,26 @@ Spectrum spectrum_of(const Scene& scene, const State& state) {
   return s;
 }
 
-std::optional<State> equilibrium_of(const Scene& scene) {
+namespace {
+
+/// 1/s^2: what a particle's springs could do to it over their stretch.
+double stiffest_of(const Model& model) {
+  double stiffest = 0;
+  for (const Spring& spring : model.find<Springs>()->list)
+    for (const int end : {spring.a, spring.b})
+      if (!model.particles.pinned[end]) stiffest = std::max(stiffest, spring.k / model.particles.mass[end]);
+  return stiffest;
+}
+
+/// Where all forces cancel, to the last digits.
+std::optional<State> settled(const Scene& scene) {
   const Model& model = scene.model;
-  if (model.first_order()) return State{0, Points::Zero(3, scene.start.x.cols()), scene.start.v};
   auto rest = rest_of(scene);
   if (!rest) return std::nullopt;
   State s = std::move(*rest);
   System f(model);
   Points a(3, s.x.cols());
-  // 1/s^2: what a particle's springs could do to it over the scene's size
-  double stiffest = 0;
-  for (const Spring& spring : model.find<Springs>()->list)
-    for (const int end : {spring.a, spring.b})
-      if (!model.particles.pinned[end]) stiffest = std::max(stiffest, spring.k / model.particles.mass[end]);
+  const double stiffest = stiffest_of(model);
   Workspace w(s);
   try {
     // implicit Euler steps so long that they are Newton's towards the rest, kept downhill
@@ -204,6 +212,41 @@ std::optional<State> equilibrium_of(const Scene& scene) {
   f.acceleration(s, a);
   if (!(largest_column(a) <= 1e-11 * stiffest * scene.size())) return std::nullopt;
   return s;
+}
+
+/// Whether the stiffness pushes away from the state in some direction: by the signs of the pivots of K, which are those
+/// of its eigenvalues (J. J. Sylvester, 1852). A billionth of the stiffest is rounding.
+bool is_saddle(const Model& model, const State& state) {
+  const Linearised l = linearised(model, state);
+  const double rounding = 1e-9 * stiffest_of(model);
+  Sparse k = l.k;
+  for (int i = 0; i < l.size(); ++i) k.coeffRef(i, i) += rounding;
+  const Eigen::SimplicialLDLT<Sparse> solver(k);
+  return solver.info() != Eigen::Success || (solver.vectorD().array() < 0).any();
+}
+
+}  // namespace
+
+Equilibrium equilibrium_of(const Scene& scene) {
+  if (scene.model.first_order()) return {State{0, Points::Zero(3, scene.start.x.cols()), scene.start.v}};
+  auto rest = settled(scene);
+  if (!rest) return {};
+  if (!is_saddle(scene.model, *rest)) return {std::move(rest)};
+  double shortest = scene.size();
+  for (const Spring& s : scene.model.find<Springs>()->list)
+    if (s.rest > 0) shortest = std::min(shortest, s.rest);
+  std::mt19937_64 engine(1);
+  for (const double push : {0.01, 0.03, 0.1}) {
+    Scene pushed = scene;
+    pushed.start = *rest;
+    for (int i = 0; i < pushed.start.x.cols(); ++i)
+      for (int axis = 0; axis < 3; ++axis) {
+        const double part = push * shortest * (2 * uniform(engine) - 1);
+        if (!scene.model.particles.pinned[i]) pushed.start.x(axis, i) += part;
+      }
+    if (auto beside = settled(pushed); beside && !is_saddle(scene.model, *beside)) return {std::move(beside), true};
+  }
+  return {std::nullopt, true};
 }
 
 }  // namespace crosscheck

@@ -48,11 +48,18 @@ struct Spectrum {
 /// Dense up to 400 free coordinates (200 where damping and stiffness do not commute), by Lanczos and Arnoldi iterations
 /// of Spectra beyond that: then only the slowest and the fastest mode, or, where they do not commute, the four rates of
 /// largest |z|, which tell nothing of the least damped one. A rotation x' = w cross x is one vibration of |w|
-/// without drag. Modes that the stiffness pushes away from the state count as omega = 0.
+/// without drag. Modes that the stiffness pushes away from the state, as it may at the start of a motion, count as
+/// omega = 0.
 Spectrum spectrum_of(const Scene& scene, const State& state);
 
+struct Equilibrium {
+  std::optional<State> rest;
+  bool saddle = false;  // one was found on the way, and left
+};
 /// The state of rest of rest.h, by Newton's steps to the last digits: no particle is accelerated by more than 1e-11 of
-/// what its springs could do. A rotation rests at the origin.
-std::optional<State> equilibrium_of(const Scene& scene);
+/// what its springs could do. A rotation rests at the origin. An equilibrium that the stiffness pushes away from
+/// (omega^2 < 0 in some direction: a saddle, where what starts in a plane of symmetry ends up) is no rest: it is left
+/// by random pushes of a hundredth of the shortest spring and more, until what is found holds, or for good after three.
+Equilibrium equilibrium_of(const Scene& scene);
 
 }  // namespace crosscheck

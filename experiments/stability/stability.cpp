@@ -99,7 +99,8 @@ void limit_on(const Scene& scene, const Method& method, const Effort& effort, Ro
   const Kick kick{predicted.mode};
   const Measured measured = measured_limit(method, subject, effort.steps, kick, effort.precision);
   std::string reason = reason_for(subject, method, predicted, measured);
-  if (!measured.reason.empty()) reason += (reason.empty() ? "" : "; ") + measured.reason;
+  for (const std::string& more : {measured.reason, word_on_saddle(subject)})
+    if (!more.empty()) reason += (reason.empty() ? "" : "; ") + more;
   Cell limit, deviation, above, precision;
   if (measured.kind == Measured::found) {
     limit = measured.limit(), precision = measured.precision();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "experiments/stability/limit.h"
 
@@ -12,8 +13,9 @@ namespace crosscheck {
 struct Subject {
   Scene scene;  // its start is the state
   bool at_rest = false;
-  Spectrum spectrum;   // about the state
-  double spacing = 1;  // m, the shortest spring that has a length: the scale beside which a kick is small
+  bool saddle = false;  // an equilibrium was found that is no rest, but a saddle
+  Spectrum spectrum;    // about the state
+  double spacing = 1;   // m, the shortest spring that has a length: the scale beside which a kick is small
 };
 Subject subject_of(const Scene& scene);
 
@@ -38,7 +40,7 @@ struct StepTrial {
   /// the mode by a constant factor, by that factor: rounding and nonlinearity do 1e-6 to a kick over a run, and what
   /// grows by less than 1e-9 in a step is called neutral however long one looks.
   bool held() const;
-  /// The verdict, or `energy` where the run ended before what grew had passed the energy budget.
+  /// The verdict, or `energy` where the run ended before what grew had more energy than the watch allows.
   Verdict fate() const { return verdict == Verdict::ok && !held() ? Verdict::energy : verdict; }
 };
 
@@ -61,11 +63,14 @@ struct Measured {
   double precision() const { return kind == found ? failed / held - 1 : 0; }
 };
 /// The largest step that `holds`: doubled and halved from `first` until one holds and one fails, then halved in the
-/// logarithm until failed / held - 1 <= precision. Not below `lowest`, not above `highest`.
+/// logarithm until failed / held - 1 <= precision. Not below `lowest`, not above `highest`; from `fine_above` to five
+/// times that upwards in tenths.
 Measured largest_step(const std::function<bool(double)>& holds, double first, double lowest, double highest,
-                      double precision);
-/// The same by trials of the method. A step that it refuses counts as none that holds; where the bracket ends at such
-/// a one it is no limit but `refused_above`, and where every step was refused the scene is `unsupported`.
+                      double precision, double fine_above = std::numeric_limits<double>::infinity());
+/// The same by trials of the method, from the scene's own step on: nobody tells it what theory allows. Where theory
+/// says how fast the scene can vibrate, that only says where to give up. A step that it refuses counts as none that
+/// holds; where the bracket ends at such a one it is no limit but `refused_above`, and where every step was refused the
+/// scene is `unsupported`.
 Measured measured_limit(const Method& method, const Subject& subject, long steps, const Kick& kick, double precision);
 
 }  // namespace crosscheck

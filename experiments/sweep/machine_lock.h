@@ -8,8 +8,8 @@ class MachineLock {
  public:
   enum class Hold { with_others, alone };
   /// Waits until it is had. The lock file is /tmp/crosscheck-UID.lock wherever TMPDIR points, since batch systems give
-  /// each job a TMPDIR of its own; jobs that also have a /tmp of their own do not see each other. Where no lock file
-  /// can be made, nobody waits.
+  /// each job a TMPDIR of its own; jobs that also have a /tmp of their own do not see each other. CROSSCHECK_LOCK
+  /// names another file, as tests do, which wait for nobody but themselves. Where none can be made, nobody waits.
   explicit MachineLock(Hold hold);
   ~MachineLock();
   MachineLock(const MachineLock&) = delete;

@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/json.h"
 
 namespace crosscheck {
 
@@ -18,23 +16,26 @@ Plan plan_of(std::vector<std::string> experiments, std::span<const Point> points
 }
 
 void write_plan(const Plan& plan, const std::filesystem::path& folder) {
-  nlohmann::ordered_json json{{"experiments", plan.experiments}, {"provenance", plan.provenance}, {"points", {}}};
-  for (const Plan::Entry& p : plan.points) json["points"].push_back({{"name", p.name}, {"hash", p.hash}});
-  write_file(folder / "plan.json", json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  Json json{{"experiments", plan.experiments}, {"provenance", Json::list()}, {"points", {}}};
+  for (const auto& [key, value] : plan.provenance) json["provenance"].push(Json::list(key, value));
+  for (const Plan::Entry& p : plan.points) json["points"].push({{"name", p.name}, {"hash", p.hash}});
+  write_file(folder / "plan.json", json.dump(1) + "\n");
 }
 
 Plan read_plan(const std::filesystem::path& folder) {
   const auto file = folder / "plan.json";
-  std::ifstream in(file);
-  if (!in)
+  if (!std::filesystem::exists(file))
     throw InputError(fmt::format("{}: expected the plan of a sweep, written by `experiment --shard`", file.string()));
   try {
-    const auto json = nlohmann::json::parse(in);
-    Plan plan{json.at("experiments"), {}, json.at("provenance").get<Provenance>()};
-    for (const auto& p : json.at("points")) plan.points.push_back({p.at("name"), p.at("hash")});
+    const JsonField json = JsonField::parse_file(file.string());
+    Plan plan{json["experiments"].texts(), {}, {}};
+    for (const JsonField& line : json["provenance"].elements())
+      plan.provenance.emplace_back(line[0].text(), line[1].text());
+    if (const JsonField points = json["points"]; !points.is_null())
+      for (const JsonField& p : points.elements()) plan.points.push_back({p["name"].text(), p["hash"].text()});
     return plan;
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: expected experiments, provenance and points: {}", file.string(), error.what()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("expected experiments, provenance and points of a sweep: {}", error.what()));
   }
 }
 

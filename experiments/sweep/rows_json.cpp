@@ -5,88 +5,92 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "mysim/errors.h"
+#include "mysim/json.h"
 
 namespace crosscheck {
 namespace {
 
-using nlohmann::json;
-
-json json_of(const Cell& cell) {
+Json json_of(const Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* whole = std::get_if<long>(&cell)) return *whole;
   if (const auto* number = std::get_if<double>(&cell)) {
     if (std::isfinite(*number)) return *number;
-    return json{{"number", fmt::format("{}", *number)}};
+    return {{"number", fmt::format("{}", *number)}};
   }
   return nullptr;
 }
 
-Cell cell_of(const json& value) {
-  if (value.is_null()) return {};
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) return value.get<double>();
-  if (value.is_object()) return std::stod(value.at("number").get<std::string>());
-  return value.get<long>();
+double not_finite(const JsonField& field) {
+  const std::string word = field.text();
+  for (const double value : {NAN, -NAN, INFINITY, -INFINITY})
+    if (word == fmt::format("{}", value)) return value;
+  field.fail("nan or inf");
 }
 
-Parity parity_named(const std::string& name) {
+Cell cell_of(const JsonField& value) {
+  if (value.is_null()) return {};
+  if (value.is_text()) return value.text();
+  if (value.is_whole()) return value.whole();
+  return value.is_object() ? not_finite(value["number"]) : value.number();
+}
+
+Parity parity_of(const JsonField& field) {
+  const std::string name = field.text();
   for (const Parity p : {Parity::match, Parity::different_law, Parity::mismatch, Parity::unattested})
     if (name_of(p) == name) return p;
-  throw InputError(fmt::format("parity: expected match, different law, mismatch or unattested, got '{}'", name));
+  field.fail("match, different law, mismatch or unattested");
 }
 
 }  // namespace
 
 std::string rows_json(const Rows& rows) {
-  json out{{"tables", json::array()}, {"certificates", json::array()}, {"notes", rows.notes}};
+  Json certificates = Json::list(), tables = Json::list();
   for (const Table& table : rows.tables) {
-    json columns = json::array(), lines = json::array();
-    for (const Column& c : table.columns) columns.push_back({c.name, c.unit});
+    Json columns = Json::list(), lines = Json::list();
+    for (const Column& c : table.columns) columns.push(Json::list(c.name, c.unit));
     for (const auto& row : table.rows) {
-      json line = json::array();
-      for (const Cell& cell : row) line.push_back(json_of(cell));
-      lines.push_back(std::move(line));
+      Json& line = lines.push(Json::list());
+      for (const Cell& cell : row) line.push(json_of(cell));
     }
-    out["tables"].push_back({{"name", table.name}, {"columns", columns}, {"rows", std::move(lines)}});
+    tables.push({{"columns", std::move(columns)}, {"name", table.name}, {"rows", std::move(lines)}});
   }
   for (const Certificate& c : rows.certificates) {
-    json lines = json::array();
+    Json lines = Json::list();
     for (const CertificateRow& r : c.rows)
-      lines.push_back({r.quantity, r.asked, r.mapped, r.read_back, std::string(name_of(r.parity))});
-    out["certificates"].push_back({{"method", c.method}, {"scene", c.scene}, {"rows", std::move(lines)}});
+      lines.push(Json::list(r.quantity, r.asked, r.mapped, r.read_back, name_of(r.parity)));
+    certificates.push({{"method", c.method}, {"rows", std::move(lines)}, {"scene", c.scene}});
   }
-  // what an outside program said may be no UTF-8
-  return out.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+  const Json all{{"certificates", std::move(certificates)}, {"notes", rows.notes}, {"tables", std::move(tables)}};
+  return all.dump() + "\n";
 }
 
 Rows read_rows(const std::string& text) {
   try {
-    const json in = json::parse(text);
+    const JsonField in = JsonField::parse(text, "rows");
     Rows rows;
-    for (const json& t : in.at("tables")) {
-      Table table{t.at("name"), {}, {}};
-      for (const json& c : t.at("columns")) table.columns.push_back({c.at(0), c.at(1)});
-      for (const json& line : t.at("rows")) {
+    for (const JsonField& t : in["tables"].elements()) {
+      Table table{t["name"].text(), {}, {}};
+      for (const JsonField& c : t["columns"].elements()) table.columns.push_back({c[0].text(), c[1].text()});
+      for (const JsonField& line : t["rows"].elements()) {
         std::vector<Cell> row;
-        for (const json& value : line) row.push_back(cell_of(value));
-        if (row.size() != table.columns.size()) throw InputError("rows: expected as many cells as columns");
+        for (const JsonField& value : line.elements()) row.push_back(cell_of(value));
+        if (row.size() != table.columns.size()) line.fail("as many cells as columns");
         table.rows.push_back(std::move(row));
       }
       rows.tables.push_back(std::move(table));
     }
-    for (const json& c : in.at("certificates")) {
-      Certificate certificate{c.at("method"), c.at("scene"), {}};
-      for (const json& r : c.at("rows"))
-        certificate.rows.push_back({r.at(0), r.at(1), r.at(2), r.at(3), parity_named(r.at(4))});
+    for (const JsonField& c : in["certificates"].elements()) {
+      Certificate certificate{c["method"].text(), c["scene"].text(), {}};
+      for (const JsonField& r : c["rows"].elements())
+        certificate.rows.push_back({r[0].text(), r[1].text(), r[2].text(), r[3].text(), parity_of(r[4])});
       rows.certificates.push_back(std::move(certificate));
     }
-    rows.notes = in.at("notes").get<std::vector<std::string>>();
+    rows.notes = in["notes"].texts();
     return rows;
-  } catch (const json::exception& error) {
-    throw InputError(fmt::format("rows: expected JSON of tables, certificates and notes: {}", error.what()));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("expected JSON of tables, certificates and notes: {}", error.what()));
   }
 }
 

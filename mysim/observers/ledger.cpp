@@ -50,8 +50,4 @@ Verdict Ledger::observe(const State& state, bool sample) {
   return Verdict::ok;
 }
 
-void Ledger::contact(const State& proposed, const State& resolved) {
-  contact_ += energy_of(model_, proposed).total() - energy_of(model_, resolved).total();
-}
-
 }  // namespace crosscheck

@@ -23,7 +23,7 @@ class Integral {
 };
 
 enum class ContactLoss {
-  reported,  // the engine shows the state before and after contact
+  reported,  // the engine tells what its contacts take
   inferred,  // it does not: what is missing from the balance is called contact loss, and no closure is claimed
   sampled,   // nor is more seen than samples: what drag and air took between them is an estimate, no closure either
 };
@@ -32,7 +32,7 @@ struct LedgerRow {
   double t;               // s
   Energy energy;          // J
   double drag, dashpots;  // J, taken by them since the start
-  double contact;         // J, lost in contact since the start
+  double contact;         // J, lost in contact since the start: friction and impacts, less what moving spheres gave
   double wind, pins;      // J, work done by the wind and by moved pins since the start
   double dissipated() const { return drag + dashpots; }
   /// total + dissipated + contact - wind - pins, J: constant up to the method's error.
@@ -45,7 +45,7 @@ class Ledger : public Observer {
   Ledger(const Model& model, ContactLoss contact);
   bool every_step() const override { return true; }
   Verdict observe(const State& state, bool sample) override;
-  void contact(const State& proposed, const State& resolved) override;
+  void contact(double lost) override { contact_ += lost; }
 
   const std::vector<LedgerRow>& rows() const { return rows_; }
   /// True where no closure of the balance is claimed.

@@ -1,4 +1,4 @@
-// The verdict on a run, from its energy.
+// The verdict on a run, from its positions.
 #include "mysim/observers/watch.h"
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 
 namespace crosscheck {
 
-Watch::Watch(const Model& model) : model_(model) {
+Watch::Watch(const Model& model, const State* start) : model_(model) {
+  if (start) start_ = *start;
   if (const auto* spheres = model.find<Spheres>())
     for (const Sphere& s : spheres->list)
       if (s.motion) {
@@ -16,10 +17,35 @@ Watch::Watch(const Model& model) : model_(model) {
         const double speed = (1 + s.restitution) * top_speed(*s.motion);
         moving_spheres_ += model.particles.mass.sum() * speed * speed;
       }
+  // an engine that pushes a resting particle out of a contact hands it a little speed: that of a fall by a millimetre
   if (const auto* gravity = model.find<Gravity>(); gravity && model.find<Spheres>())
     contact_ = 1e-3 * model.particles.mass.sum() * gravity->acceleration.norm();
   if (model.find<Wind>() || model.find<Aerodynamics>() || model.particles.move)
     ledger_.emplace(model, ContactLoss::reported);
+}
+
+void Watch::begin(const State& state) {
+  begun_ = true;
+  if (!start_) start_ = state;
+  if (start_->v.cols() != start_->x.cols()) start_->v = Points::Zero(3, start_->x.cols());
+  State& start = *start_;
+  const Particles& particles = model_.particles;
+  const Energy energy = energy_of(model_, start);
+  given_ = energy.kinetic + energy.elastic + moving_spheres_ + contact_;
+  weight_0_ = energy.gravitational;
+  System system(model_);
+  Points a(3, start.x.cols());
+  system.acceleration(start, a);
+  // engines in single precision know a position to 6e-8 of its coordinates, and five such roundings in two steps are
+  // no motion
+  const double known = 5 * 6e-8 * start.x.cwiseAbs().maxCoeff();
+  for (int i = 0; i < particles.size(); ++i)
+    if (!particles.pinned[i]) {
+      pull_ += particles.mass[i] * a.col(i).squaredNorm();
+      rounding_ += particles.mass[i] / 2 * 3 * known * known;
+    }
+  stretch_.emplace(model_, start);
+  if (ledger_) ledger_->observe(start, false);
 }
 
 bool Watch::frozen(const State& state) {
@@ -44,40 +70,65 @@ bool Watch::frozen(const State& state) {
   return false;
 }
 
+Verdict Watch::moves_too_fast(const State& state) {
+  const Particles& particles = model_.particles;
+  const double span = state.t - before_.t, h = span / 2;
+  double kinetic = 0;
+  for (int i = 0; i < particles.size(); ++i)
+    if (!particles.pinned[i]) kinetic += particles.mass[i] / 2 * (state.x.col(i) - before_.x.col(i)).squaredNorm();
+  kinetic /= span * span;
+  if (const auto* gravity = model_.find<Gravity>())
+    sunk_ = std::max(sunk_, std::abs(potential_energy(*gravity, particles, state) - weight_0_));
+  if (ledger_) {
+    State middle{last_.t, last_.x, (state.x - before_.x) / span};
+    particles.place_pins(middle);
+    ledger_->observe(middle, false);
+    const LedgerRow row = ledger_->now(middle);
+    worked_ = std::max(worked_, std::abs(row.wind + row.pins));
+  }
+  const double had = given_ + sunk_ + worked_ + 2 * h * h * pull_ + rounding_ / (span * span);
+  if (!std::isfinite(kinetic) || !std::isfinite(had)) return Verdict::nan;
+  if (had > 0) most_ = std::max(most_, kinetic / had);
+  return kinetic > allowed * had ? Verdict::energy : Verdict::ok;
+}
+
+void Watch::earlier(const State& state) {
+  if (every_step()) return;
+  before_.t = state.t, before_.x = state.x;
+  paired_ = true;
+}
+
 Verdict Watch::observe(const State& state, bool sample) {
   if (!state.x.allFinite() || !state.v.allFinite()) return Verdict::nan;
-  if (model_.first_order() || state.v.cols() == 0) return Verdict::ok;  // no energy to judge by
-  if (ledger_) ledger_->observe(state, false);
-  if (!sample) return Verdict::ok;
-
-  const Energy energy = energy_of(model_, state);
-  if (!start_) {
-    start_ = energy;
-    // rounding is no motion: 1e-12 of each spring's length, 1e-14 of the energies
-    budget_ = (1 + 1e-14) * (energy.kinetic + energy.elastic) + 1e-14 * std::abs(energy.gravitational);
-    if (const auto* springs = model_.find<Springs>())
-      for (const Spring& s : springs->list)
-        budget_ += 1e-24 * s.k * (state.x.col(s.a) - state.x.col(s.b)).squaredNorm();
-    budget_ += moving_spheres_ + contact_;
-    given_ = budget_;
-    stretch_.emplace(model_, state);
+  if (model_.first_order()) return Verdict::ok;  // no energy to judge by
+  if (!begun_) begin(state);
+  const Verdict moves = paired_ || seen_ >= 2 ? moves_too_fast(state) : Verdict::ok;
+  if (!paired_) {
+    std::swap(before_, last_);
+    last_.t = state.t, last_.x = state.x;
+    ++seen_;
   }
-  if (!first_ && !asked_)
-    first_ = state;
-  else if (first_ && frozen(state))
-    return Verdict::frozen;
-  double work = 0;
-  if (ledger_) {
-    const LedgerRow row = ledger_->now(state);
-    work = row.wind + row.pins;
+  paired_ = false;
+  if (!sample || moves != Verdict::ok) return moves;
+  if (state.v.cols() == state.x.cols()) {
+    if (!first_ && !asked_)
+      first_ = state;
+    else if (first_ && frozen(state))
+      return Verdict::frozen;
   }
-  if (!std::isfinite(energy.total()) || !std::isfinite(work)) return Verdict::nan;
-  worked_ = std::max(worked_, std::abs(work));
-  budget_ = std::max({budget_, std::abs(energy.gravitational - start_->gravitational), worked_});
-  if (energy.total() - start_->total() - work > budget_) return Verdict::energy;
-  // a rule's energy may swing by as much again as start and work gave. Of gravity's part, which the budget above lets
-  // it make twice, the bound has what sinking gives and no more
-  return stretch_->exceeded(state, 2 * (given_ + worked_)) ? Verdict::stretch : Verdict::ok;
+  return stretch_->exceeded(state, given_ + worked_) ? Verdict::stretch : Verdict::ok;
 }
+
+Verdict Watch::later(const State& state) { return every_step() ? Verdict::ok : observe(state, false); }
+
+Verdict Watched::observe(const State& state, bool sample) {
+  const Verdict others = others_.observe(state, sample);
+  const Verdict own = sample || watch_.every_step() ? watch_.observe(state, sample) : Verdict::ok;
+  return others == Verdict::ok ? own : others;
+}
+
+void Watched::earlier(const State& state) { watch_.earlier(state); }
+
+Verdict Watched::later(const State& state) { return watch_.later(state); }
 
 }  // namespace crosscheck

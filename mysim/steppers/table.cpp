@@ -72,7 +72,7 @@ std::span<const Stepper> steppers() {
        .limit = limits::dopri5,
        .limit_formula = "its steps follow the tolerance; at a fixed step h omega < 1.0 without drag",
        .what = "Dormand-Prince 5(4) with error control and dense output: give --tol, not --step; beside a sphere its "
-               "steps are at most --step, since contact acts on whole steps",
+               "steps are at most the scene's own, since contact acts on whole steps",
        .adaptive = true},
       {.name = "implicit-euler",
        .step = implicit_euler,

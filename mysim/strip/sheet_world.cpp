@@ -15,12 +15,6 @@ struct Kick {
   double at, out, on;
 };
 
-/// A particle that came too near: as it would have been at the end of the step.
-struct Touched {
-  int particle;
-  Vec3 x, v;
-};
-
 /// What leaves the general engine its work.
 bool only_known_terms(const Model& model) {
   for (const Term& term : model.terms)
@@ -57,7 +51,7 @@ class World : public SheetWorld {
     began_ = true;
     t_ = t, t_next_ = t_next;
     set_balls();
-    for (Seen& seen : seen_) seen.touched.clear();
+    for (Seen& seen : seen_) seen.lost.clear();
     for (size_t i = 0; i < kicks_.size(); ++i) {
       const Kick& kick = kicks_[i];
       const Vec3 fall = fall_at(t + kick.at), shift = pins_at(t + kick.at);
@@ -77,14 +71,11 @@ class World : public SheetWorld {
   }
 
   void tell_contact(Observer& observer) override {
-    const bool any = std::any_of(seen_.begin(), seen_.end(), [](const Seen& s) { return !s.touched.empty(); });
-    if (!any) return;
-    const State resolved = state(t_next_);
-    State proposed = resolved;
+    bool any = false;
+    double sum = 0;  // one after the other: the same bits, however many bands there are
     for (const Seen& seen : seen_)
-      for (const Touched& each : seen.touched)
-        proposed.x.col(each.particle) = each.x, proposed.v.col(each.particle) = each.v;
-    observer.contact(proposed, resolved);
+      for (const double lost : seen.lost) sum += lost, any = true;
+    if (any) observer.contact(sum);
   }
 
   long evaluations() const override { return evaluations_; }
@@ -100,7 +91,7 @@ class World : public SheetWorld {
   /// What the thread of a band has come by.
   struct Seen {
     long coincident = 0;
-    std::vector<Touched> touched;
+    std::vector<double> lost;  // J, in contact, by each particle of its own that touched in the step
   };
   /// Whom the sweep of a band asks.
   struct Asked {
@@ -183,10 +174,11 @@ class World : public SheetWorld {
     if (scene_.model.particles.pinned[i]) return;
     const auto at = [](const T* p) { return Vec3(p[0], p[lanes<T>], p[2 * lanes<T>]); };
     Vec3 place = at(x), speed = at(v);
-    // where it was when the step began
-    const Vec3 before_step = band.body.position(here) - kicks_.back().on * band.body.velocity(here);
-    if (!touch(*spheres_, resolve_contact, t_, t_next_, before_step, place, speed)) return;
-    if (asked_of_contacts_) seen.touched.push_back({i, at(x), at(v)});
+    // where it was and how fast when the step began
+    const Vec3 v_n = band.body.velocity(here), x_n = band.body.position(here) - kicks_.back().on * v_n;
+    const auto lost = touch(*spheres_, resolve_contact, t_, t_next_, x_n, v_n, place, speed);
+    if (!lost) return;
+    if (asked_of_contacts_) seen.lost.push_back(scene_.model.particles.mass[i] * *lost);
     for (int c = 0; c < 3; ++c) x[c * lanes<T>] = static_cast<T>(place[c]), v[c * lanes<T>] = static_cast<T>(speed[c]);
   }
 

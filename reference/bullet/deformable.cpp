@@ -34,8 +34,7 @@ class DeformableWorld : public BodyWorld<btDeformableMultiBodyDynamicsWorld> {
     world_->setImplicit(implicit_);
     world_->setUseProjection(implicit_ && settings.projected);
     if (settings.tight) body_solver_.set_tolerance(1e-28);
-    // sphere error of the distance field at 0.02 m: 1e-4 m; at 0.005 m: 6e-6 m
-    world_->getWorldInfo().m_sparsesdf.setDefaultVoxelsz(btScalar(0.005));
+    world_->getWorldInfo().m_sparsesdf.setDefaultVoxelsz(static_cast<btScalar>(settings.voxel));
     world_->getWorldInfo().m_sparsesdf.Reset();
     scene_body_ = std::make_unique<SceneBody>(scene, world_->getWorldInfo(), settings.defaults);
     if (scene.model.find<Spheres>())
@@ -90,7 +89,9 @@ Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, c
   if (scene.model.find<Spheres>())
     out.different_law.push_back(
         "contact: Bullet finds it at the proposed position but uses normal and gap of the old one (a tangent plane), "
-        "so that nodes hop by (v h)^2 / 2R on a sphere; friction is Coulomb's in both");
+        "so that nodes hop by (v h)^2 / 2R on a sphere; and whatever the step, normals are gradients of a grid of "
+        "distances, off by up to a / 2R = " +
+        off_normal(scene, settings.voxel) + "; friction is Coulomb's in both");
   if (scene.model.find<Dashpots>() && !settings.implicit)
     out.different_law.push_back("dashpots: Bullet solves them implicitly, at the end of the explicit step");
   if (const auto limit = world.speed_limit(); limit && out.verdict == Verdict::ok) {

@@ -11,6 +11,7 @@ struct DeformableSettings {
   bool shipped = false;   // implicit: Bullet's own spring force, whose second derivatives are indefinite
   bool tight = false;     // implicit: conjugate gradients to 1e-28 of the squared residual, not to round-off of it
   bool projected = true;  // implicit: with setUseProjection(true); without it the world freezes
+  double voxel = 0.005;   // m, of the distance field: Bullet's default here
   Defaults defaults;
 };
 

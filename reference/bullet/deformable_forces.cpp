@@ -18,11 +18,8 @@ std::set<double> stiffnesses(const Springs& springs) {
 }
 
 /// The one coefficient of dashpots that lie along all springs, in their order: what Bullet's own force can carry.
-std::optional<double> one_dashpot_each(const Model& model) {
-  const auto* springs = model.find<Springs>();
-  const auto* dashpots = model.find<Dashpots>();
-  if (!springs || !dashpots || springs->list.size() != dashpots->list.size() || model.particles.move)
-    return std::nullopt;
+std::optional<double> one_dashpot_each(const Springs* springs, const Dashpots* dashpots) {
+  if (!springs || !dashpots || springs->list.size() != dashpots->list.size()) return std::nullopt;
   for (size_t i = 0; i < springs->list.size(); ++i)
     if (springs->list[i].a != dashpots->list[i].a || springs->list[i].b != dashpots->list[i].b ||
         dashpots->list[i].c != dashpots->list[0].c)
@@ -35,29 +32,41 @@ std::optional<double> one_dashpot_each(const Model& model) {
 DeformableForces::DeformableForces(const Scene& scene, double h, bool implicit, bool shipped, SceneBody& body,
                                    btDeformableMultiBodyDynamicsWorld& world)
     : scene_(scene), h_(h), implicit_(implicit), scene_body_(body) {
-  const Model& model = scene.model;
-  NetForce::Parts ours;
+  NetForce::Parts asked, ours;
+  const Gravity* gravity = nullptr;
+  const Overloaded take{
+      [&](const Gravity& t) { gravity = &t; },
+      [&](const Springs& t) { asked.springs = &t; },
+      [&](const Dashpots& t) { asked.dashpots = &t; },
+      [&](const Drag& t) { asked.drag = &t; },
+      [&](const Wind& t) {
+        ours.wind = &t;
+        mapped_["wind"] = "force class of our own: Bullet's deformable world has no wind";
+      },
+      [&](const Aerodynamics& t) {
+        ours.air = &t;
+        mapped_["wind on triangles"] = "force class of our own: Bullet's deformable world has no wind";
+      },
+      [](const Spheres&) {},                            // no forces: obstacles.h
+      [](const OneOf<Rotation, Constraints> auto&) {},  // refused before a world is built
+  };
+  for (const Term& term : scene.model.terms) std::visit(take, term);
   ours.implicit = implicit;
-  carry_drag(ours);
-  carry_springs(ours, shipped);
-  if ((ours.wind = model.find<Wind>()))
-    mapped_["wind"] = "force class of our own: Bullet's deformable world has no wind";
-  if ((ours.air = model.find<Aerodynamics>()))
-    mapped_["wind on triangles"] = "force class of our own: Bullet's deformable world has no wind";
+  carry_drag(asked.drag, ours);
+  carry_springs(asked.springs, asked.dashpots, ours, shipped);
   if (spring_force_) world.addForce(&body.body(), spring_force_.get());
   if (ours.any()) {
     net_force_ = std::make_unique<NetForce>(ours, scene, body);
     world.addForce(&body.body(), net_force_.get());
   }
-  if (const auto* gravity = model.find<Gravity>()) {
+  if (gravity) {
     gravity_force_ = std::make_unique<btDeformableGravityForce>(to_bullet(gravity->acceleration / factor_));
     world.addForce(&body.body(), gravity_force_.get());
     mapped_["gravity"] = factor_ != 1 ? "gravity force, g / (1 - h gamma)" : "gravity force, g as it is";
   }
 }
 
-void DeformableForces::carry_drag(NetForce::Parts& ours) {
-  const auto* drag = scene_.model.find<Drag>();
+void DeformableForces::carry_drag(const Drag* drag, NetForce::Parts& ours) {
   if (!drag) return;
   const std::optional<double> rate = uniform_drag_rate(scene_.model);
   auto& factor = scene_body_.body().m_cfg.drag;
@@ -76,13 +85,13 @@ void DeformableForces::carry_drag(NetForce::Parts& ours) {
   }
 }
 
-void DeformableForces::carry_springs(NetForce::Parts& ours, bool shipped) {
-  const auto* springs = scene_.model.find<Springs>();
-  const auto* dashpots = scene_.model.find<Dashpots>();
+void DeformableForces::carry_springs(const Springs* springs, const Dashpots* dashpots, NetForce::Parts& ours,
+                                     bool shipped) {
   const bool can = springs && springs->law == SpringLaw::hooke && stiffnesses(*springs).size() <= 2;
   if (shipped && springs && !can)
     throw Unsupported("Bullet's own mass-spring force has Hooke's law and two stiffnesses at most");
-  const std::optional<double> dashpot = one_dashpot_each(scene_.model);
+  const std::optional<double> dashpot =
+      scene_.model.particles.move ? std::nullopt : one_dashpot_each(springs, dashpots);
   if (can && (shipped || !implicit_)) {
     const std::set<double> all = stiffnesses(*springs);
     auto& links = scene_body_.body().m_links;
@@ -140,7 +149,7 @@ std::optional<std::vector<double>> DeformableForces::drag_rates(NetForce* own) c
     own->addScaledDampingForceDifferential(1, common, moving);
   } else {
     // what a common velocity changes of our own forces is their drag, unless air that looks at velocities is there too
-    if (scene_.model.find<Aerodynamics>()) return factor_ != 1 ? std::optional(rates) : std::nullopt;
+    if (own->parts().air) return own->parts().drag ? std::nullopt : std::optional(rates);
     ProbeState placed(scene_, scene_body_, t_);
     placed.stop();
     own->addScaledExplicitForce(1, still);

@@ -23,8 +23,8 @@ class DeformableForces {
   void read_back(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world, Readback& readback) const;
 
  private:
-  void carry_drag(NetForce::Parts& ours);
-  void carry_springs(NetForce::Parts& ours, bool shipped);
+  void carry_drag(const Drag* drag, NetForce::Parts& ours);
+  void carry_springs(const Springs* springs, const Dashpots* dashpots, NetForce::Parts& ours, bool shipped);
   /// 1/s, of each particle; nothing where they cannot be told from other forces.
   std::optional<std::vector<double>> drag_rates(NetForce* own) const;
   ForceProbe probe(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world) const;

@@ -27,6 +27,7 @@ class NetForce : public btDeformableLagrangianForce {
   };
   NetForce(const Parts& parts, const Scene& scene, const SceneBody& body);
 
+  const Parts& parts() const { return parts_; }
   void set_time(double t) { t_ = t; }  // of wind and pins, s
 
   void addScaledForces(btScalar scale, TVStack& force) override;

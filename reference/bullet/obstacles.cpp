@@ -1,6 +1,10 @@
 // Spheres in a Bullet world.
 #include "reference/bullet/obstacles.h"
 
+#include <fmt/format.h>
+
+#include <limits>
+
 namespace crosscheck::bullet {
 namespace {
 
@@ -70,6 +74,12 @@ void Obstacles::read_back(const btDiscreteDynamicsWorld& world, const btSoftBody
            ball->getRadius() + *readback.margin, objects[i]->getFriction() * body.m_cfg.kDF,
            objects[i]->getRestitution()});
     }
+}
+
+std::string off_normal(const Scene& scene, double voxel) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (const Sphere& s : scene.model.find<Spheres>()->list) radius = std::min(radius, s.contact_radius());
+  return fmt::format("{:.2g} mrad on voxels of a = {:.3g} mm", 1e3 * voxel / 2 / radius, 1e3 * voxel);
 }
 
 }  // namespace crosscheck::bullet

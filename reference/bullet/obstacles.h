@@ -34,4 +34,9 @@ class Obstacles {
   std::vector<Vec3> built_;  // m, where they stood when they entered
 };
 
+/// "5 mrad on voxels of a = 10 mm": how far Bullet's normals may be off in each direction, on the scene's smallest
+/// ball. Inside a voxel the gradient of the grid of distances is constant along each axis, right in the middle and off
+/// by half a voxel's turn at its faces.
+std::string off_normal(const Scene& scene, double voxel);
+
 }  // namespace crosscheck::bullet

@@ -36,8 +36,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     world_ = std::make_unique<btSoftRigidDynamicsWorld>(&stage_.dispatcher, &stage_.broadphase, &solver_,
                                                         &stage_.configuration);
     btSoftBodyWorldInfo& info = world_->getWorldInfo();
-    // its default voxel of 0.25 m would misplace the sphere by 1.5 cm
-    if (!settings.defaults.voxel) info.m_sparsesdf.setDefaultVoxelsz(btScalar(0.02));
+    info.m_sparsesdf.setDefaultVoxelsz(static_cast<btScalar>(settings.voxel));
     info.m_sparsesdf.Reset();
     const auto* gravity = model.find<Gravity>();
     info.m_gravity = gravity ? to_bullet(gravity->acceleration) : btVector3(0, 0, 0);
@@ -54,17 +53,23 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     cfg.collisions = btSoftBody::fCollision::SDF_RS;
     if (settings.own_wind) use_own_wind(*model.find<Aerodynamics>());
     enter();
-    adds_forces_ = model.find<Wind>() || model.find<Dashpots>() || model.find<Aerodynamics>();
 
     mapped_["stiffness"] = settings.demo ? "kLST = 1, the default of Bullet's demos, whatever the scene asks"
                                          : fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", settings.iterations);
-    if (*rate > 0) mapped_["drag"] = fmt::format("kDP = 1 - exp(-gamma h) = {:.6g}", double(cfg.kDP));
-    if (gravity) mapped_["gravity"] = "world info, g as it is";
-    if (model.find<Wind>()) mapped_["wind"] = "added force m a(t) on each node";
-    if (model.find<Dashpots>()) mapped_["dashpots"] = "added forces on the nodes at x_n, v_n";
-    if (model.find<Aerodynamics>())
-      mapped_["wind on triangles"] = settings.own_wind ? "Bullet's own model of lift and drag on two sides, C as drag"
-                                                       : "added forces on the nodes at x_n, v_n";
+    const char *added = "added forces on the nodes at x_n, v_n",
+               *own = "Bullet's own model of lift and drag on two sides, C as drag";
+    const Overloaded tell{
+        [&](const Gravity&) { mapped_["gravity"] = "world info, g as it is"; },
+        [&](const Drag&) { mapped_["drag"] = fmt::format("kDP = 1 - exp(-gamma h) = {:.6g}", double(cfg.kDP)); },
+        [&](const Wind&) { mapped_["wind"] = "added force m a(t) on each node"; },
+        [&](const Dashpots&) { mapped_["dashpots"] = added; },
+        [&](const Aerodynamics&) { mapped_["wind on triangles"] = settings.own_wind ? own : added; },
+        [](const OneOf<Springs, Constraints> auto&) {},  // links, above
+        [](const Spheres&) {},                           // obstacles.h
+        [](const Rotation&) {},                          // refused before a world is built
+    };
+    for (const Term& term : model.terms) std::visit(tell, term);
+    adds_forces_ = mapped_.contains("wind") || mapped_.contains("dashpots") || mapped_.contains("wind on triangles");
   }
 
   ~PbdWorld() override { tear_down(); }
@@ -130,12 +135,19 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     const Model& model = scene_.model;
     added_.f.setZero(3, model.particles.size());
     const State& now = scene_body_->read_state(t);
-    auto add = [&](const auto* term) {
-      if (term) add_force(*term, model.particles, now, added_);
+    const Overloaded add{
+        [&](const Wind& wind) {
+          if (winds) add_force(wind, model.particles, now, added_);
+        },
+        [&](const Aerodynamics& air) {
+          if (winds && !settings_.own_wind) add_force(air, model.particles, now, added_);
+        },
+        [&](const Dashpots& pairs) {
+          if (dashpots) add_force(pairs, model.particles, now, added_);
+        },
+        [](const OneOf<Rotation, Gravity, Springs, Constraints, Drag, Spheres> auto&) {},  // Bullet's own
     };
-    if (winds) add(model.find<Wind>());
-    if (winds && !settings_.own_wind) add(model.find<Aerodynamics>());
-    if (dashpots) add(model.find<Dashpots>());
+    for (const Term& term : model.terms) std::visit(add, term);
     for (int i = 0; i < model.particles.size(); ++i)
       if (!model.particles.pinned[i]) body().addForce(to_bullet(added_.f.col(i)), scene_body_->node_of(i));
   }
@@ -187,6 +199,10 @@ Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, const Pb
     out.different_law.push_back(
         "wind on triangles: Bullet's own drag acts along the wind and is limited by each node's speed, so that it "
         "does not begin on a cloth at rest");
+  if (scene.model.find<Spheres>())
+    out.different_law.push_back(
+        "contact: whatever the step, normals are gradients of a grid of distances, off by up to a / 2R = " +
+        off_normal(scene, settings.voxel));
   if (scene.model.find<Spheres>())
     out.different_law.push_back(
         "friction: a touching node loses a fixed share of its tangential motion in each step, whatever "

@@ -5,8 +5,9 @@
 
 namespace crosscheck::bullet {
 
-/// Puts the nodes to 1.1 times the start, so that all springs pull, with velocities that are no rigid motion (the
-/// coordinates, turned by one place, as m/s); puts all back when it goes.
+/// Puts the nodes to 1.1 times the start, so that all springs pull, with velocities that are no rigid motion: x + P x
+/// (as m/s), P turning the coordinates by one place, under which every distance d grows, d . (d + P d) >= |d|^2 / 2.
+/// Puts all back when it goes.
 class ProbeState {
  public:
   ProbeState(const Scene& scene, SceneBody& body, double t) : body_(body) {
@@ -16,6 +17,7 @@ class ProbeState {
     asked_.x = 1.1 * scene.start.x;
     asked_.v.resize(3, n);
     asked_.v << asked_.x.row(1), asked_.x.row(2), asked_.x.row(0);
+    asked_.v += asked_.x;
     for (int i = 0; i < n; ++i) {
       auto& node = body.body().m_nodes[body.node_of(i)];
       kept_.push_back({node.m_x, node.m_q, node.m_v, node.m_f});

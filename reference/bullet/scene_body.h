@@ -37,7 +37,6 @@ void require_supported(const Scene& scene);
 struct Defaults {
   bool rest = false;    // the first step overwrites rest lengths with the lengths it finds
   bool margin = false;  // 0.25 m
-  bool voxel = false;   // of the distance field: 0.25 m in the position-based world
   bool sleep = false;   // what is slower than 0.04 m/s for 2 s is put to sleep
 };
 

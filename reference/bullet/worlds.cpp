@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "mysim/errors.h"
+#include "mysim/nearest.h"
 #include "reference/bullet/deformable.h"
 #include "reference/bullet/pbd.h"
 
@@ -16,7 +17,23 @@ namespace {
 using Options = std::vector<std::string>;
 
 [[noreturn]] void refuse(std::string_view world, const std::string& option, std::string_view known) {
-  throw InputError(fmt::format("method bullet/{}: unknown option '+{}'; expected {} or none", world, option, known));
+  std::vector<std::string> options;  // of the sentence, all words behind a plus
+  for (size_t at = known.find('+'); at != std::string_view::npos; at = known.find('+', at + 1))
+    options.emplace_back(known.substr(at + 1, known.find_first_of(" ,;", at) - at - 1));
+  throw InputError(fmt::format("method bullet/{}: unknown option '+{}'; expected {} or none{}", world, option, known,
+                               did_you_mean(option, options)));
+}
+
+/// Reads "voxel=A", A in metres, into voxel; false where it is another option or no such length.
+bool read_voxel(const std::string& option, double& voxel) {
+  const std::string_view key = "voxel=";
+  if (!option.starts_with(key)) return false;
+  double value = 0;
+  const char* end = option.data() + option.size();
+  if (std::from_chars(option.data() + key.size(), end, value).ptr != end || !(value >= 1e-4 && value <= 1))
+    return false;
+  voxel = value;
+  return true;
 }
 
 Engine deformable(const DeformableSettings& settings) {
@@ -34,8 +51,9 @@ WorldChoice deformable_explicit(const Options& options) {
       settings.defaults.margin = true;
     else if (option == "default-sleep")
       settings.defaults.sleep = true;
-    else
-      refuse("deformable-explicit", option, "+default-rest, +default-margin, +default-sleep");
+    else if (!read_voxel(option, settings.voxel))
+      refuse("deformable-explicit", option,
+             "+default-rest, +default-margin, +default-sleep, +voxel=0.0001 to +voxel=1 (m)");
   }
   return {"Bullet's deformable world, explicit: springs in N/m, Coulomb friction",
           options.empty() ? "symplectic-euler" : "", deformable(settings)};
@@ -62,6 +80,7 @@ WorldChoice pbd(const Options& options) {
   PbdSettings settings;
   int asked = 0;  // iterations
   for (const std::string& option : options) {
+    if (read_voxel(option, settings.voxel)) continue;
     const char *begin = option.data() + 2, *end = option.data() + option.size();
     if (option == "demo")
       settings.demo = true;
@@ -70,10 +89,12 @@ WorldChoice pbd(const Options& options) {
     else if (option == "default-rest")
       settings.defaults.rest = true;
     else if (option == "default-voxel")
-      settings.defaults.voxel = true;
+      settings.voxel = 0.25;
     else if (!option.starts_with("n=") || asked != 0 || std::from_chars(begin, end, asked).ptr != end || asked < 1 ||
              asked > 1000)
-      refuse("pbd", option, "+n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest, +default-voxel");
+      refuse("pbd", option,
+             "+n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest, +default-voxel, +voxel=0.0001 to +voxel=1 "
+             "(m)");
   }
   settings.iterations = asked > 0 ? asked : settings.demo ? 10 : 1;
   return {"Bullet's position-based world, stiffness mapped per link; different link and friction laws", "",

@@ -11,7 +11,7 @@ namespace {
 using Complex = std::complex<double>;
 using Matrix8 = Eigen::Matrix<Complex, 8, 8>;
 using Vector8 = Eigen::Matrix<Complex, 8, 1>;
-constexpr Complex i(0, 1);
+constexpr Complex imaginary(0, 1);
 
 /// At t = 0: u = u' = 0, and of the six functions the one with j = 0 is 1.
 Vector8 at_start() { return Vector8::Unit(2); }
@@ -25,7 +25,8 @@ DrivenMotion::DrivenMotion(double w2, double drag, double dashpot, double amplit
       amplitude_(amplitude),
       omega_(2 * std::numbers::pi * motion.frequency),
       ramp_(motion.ramp),
-      z_(amplitude * (w2 + i * omega_ * dashpot) / (w2 - omega_ * omega_ + i * omega_ * (drag + dashpot))) {
+      z_(amplitude * (w2 + imaginary * omega_ * dashpot) /
+         (w2 - omega_ * omega_ + imaginary * omega_ * (drag + dashpot))) {
   const Eigen::Vector2d left = during(ramp_) - settled(ramp_);
   after_ = {w2, drag + dashpot, left[0], left[1]};
 }
@@ -35,13 +36,13 @@ Matrix8 DrivenMotion::generator() const {
   Matrix8 m = Matrix8::Zero();
   m(0, 1) = w, m(1, 0) = -w, m(1, 1) = -(drag_ + dashpot_);
   for (int j = 0; j < 6; ++j) {
-    m(2 + j, 2 + j) = i * omega_;
+    m(2 + j, 2 + j) = imaginary * omega_;
     if (j > 0) m(2 + j, 1 + j) = j / ramp_;
   }
   // u'/w is pushed by (w2 d + dashpot d') / w
   const double r[6] = {0, 0, 0, 10, -15, 6}, slope[6] = {0, 0, 30, -60, 30, 0};
   for (int j = 0; j < 6; ++j)
-    m(1, 2 + j) = amplitude_ / w * ((w2_ + i * omega_ * dashpot_) * r[j] + dashpot_ * slope[j] / ramp_);
+    m(1, 2 + j) = amplitude_ / w * ((w2_ + imaginary * omega_ * dashpot_) * r[j] + dashpot_ * slope[j] / ramp_);
   return m;
 }
 
@@ -51,8 +52,8 @@ Eigen::Vector2d DrivenMotion::during(double t) const {
 }
 
 Eigen::Vector2d DrivenMotion::settled(double t) const {
-  const Complex z = z_ * std::exp(i * omega_ * t);
-  return {z.imag(), (i * omega_ * z).imag()};
+  const Complex z = z_ * std::exp(imaginary * omega_ * t);
+  return {z.imag(), (imaginary * omega_ * z).imag()};
 }
 
 double DrivenMotion::position(double t) const {

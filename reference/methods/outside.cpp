@@ -1,9 +1,7 @@
 // Programs and trajectories from outside. Of them samples alone are seen: nothing is known of what happened between.
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
+#include "mysim/files.h"
 #include "mysim/fnv.h"
 #include "reference/methods/families.h"
 #include "reference/protocol/delivery.h"
@@ -13,8 +11,7 @@ namespace crosscheck {
 namespace {
 
 std::string fingerprint_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return fmt::format("{:016x}", Fnv1a::of(std::string(std::istreambuf_iterator<char>(in), {})));
+  return fmt::format("{:016x}", Fnv1a::of(read_file(file, "a program or a trajectory that can be read")));
 }
 
 }  // namespace

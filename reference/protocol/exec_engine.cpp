@@ -5,10 +5,10 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/json.h"
 #include "mysim/temporary_folder.h"
 #include "reference/npy.h"
 #include "reference/protocol/delivery.h"
@@ -28,8 +28,7 @@ std::string last_line(const std::string& text) {
   std::string line = text.substr(begin == std::string::npos ? 0 : begin + 1);
   line.erase(line.find_last_not_of(" \t\r\n") + 1);
   if (line.size() > 300) line = line.substr(0, 300) + " ...";
-  const std::string quoted = nlohmann::json(line).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  line = nlohmann::json::parse(quoted).get<std::string>();
+  line = JsonField::parse(Json(line).dump(), "stderr").text();  // bytes that are no UTF-8 are replaced
   for (char& c : line)
     if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
   return line;

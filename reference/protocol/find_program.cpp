@@ -21,8 +21,9 @@ bool is_file(const fs::path& path) {
 
 std::optional<fs::path> file_named(const std::string& name) {
   if (name.empty()) return std::nullopt;
-  if (is_file(name)) return fs::absolute(name);
-  if (name.find('/') != std::string::npos) return std::nullopt;
+  const bool path_given = name.find('/') != std::string::npos;
+  if (is_file(name) || (path_given && fs::is_directory(fs::path(name)))) return fs::absolute(name);
+  if (path_given) return std::nullopt;
   const char* path = std::getenv("PATH");
   std::istringstream folders(path ? path : "");
   for (std::string folder; std::getline(folders, folder, ':');)
@@ -51,6 +52,8 @@ Program find_program(const std::string& text) {
     throw InputError(
         fmt::format("method exec:{}: no such file; expected the path of a program, or a program in PATH", text));
   program.path = *found;
+  if (fs::is_directory(program.path))
+    throw InputError(fmt::format("method exec:{}: {} is a folder; expected a program", text, program.path.string()));
   if (access(program.path.c_str(), X_OK) != 0)
     throw InputError(fmt::format("method exec:{}: {} is not executable; expected a program (chmod +x makes it one)",
                                  text, program.path.string()));

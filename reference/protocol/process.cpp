@@ -15,6 +15,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "mysim/program_environment.h"
 #include "reference/protocol/pipe.h"
 
 namespace crosscheck {
@@ -41,13 +42,14 @@ void drain(Pipe& pipe, std::string& text) {
 }
 
 /// In the child; only what is allowed between fork and exec. An error goes back as its number.
-[[noreturn]] void become(char* const* argv, pid_t parent, int in, const Pipe& out, const Pipe& err,
-                         const Pipe& trouble) {
+[[noreturn]] void become(char* const* argv, char* const* environment, pid_t parent, int in, const Pipe& out,
+                         const Pipe& err, const Pipe& trouble) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);
   signal(SIGPIPE, SIG_DFL);
-  if (dup2(in, 0) >= 0 && dup2(out.write_end, 1) >= 0 && dup2(err.write_end, 2) >= 0) execv(argv[0], argv);
+  if (dup2(in, 0) >= 0 && dup2(out.write_end, 1) >= 0 && dup2(err.write_end, 2) >= 0)
+    execve(argv[0], argv, environment);
   const int error = errno;
   [[maybe_unused]] const ssize_t told = write(trouble.write_end, &error, sizeof error);
   _exit(127);
@@ -81,20 +83,26 @@ class Child {
   pid_t pid_;
 };
 
+std::vector<char*> pointers(const std::vector<std::string>& texts) {
+  std::vector<char*> all;
+  for (const std::string& text : texts) all.push_back(const_cast<char*>(text.c_str()));
+  all.push_back(nullptr);
+  return all;
+}
+
 double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
 }  // namespace
 
 ProcessEnd run_process(const std::vector<std::string>& words, double timeout) {
-  std::vector<char*> argv;
-  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
+  const std::vector<std::string> entries = program_environment();
+  const std::vector<char*> argv = pointers(words), environment = pointers(entries);
   Pipe out, err, trouble;
   int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (in < 0) fail("/dev/null", errno);
   const pid_t parent = getpid(), pid = fork();
   const int fork_error = errno;
-  if (pid == 0) become(argv.data(), parent, in, out, err, trouble);
+  if (pid == 0) become(argv.data(), environment.data(), parent, in, out, err, trouble);
   Pipe::close_end(in);
   if (pid < 0) fail(words[0] + " cannot be started", fork_error);
   Child child(pid);

@@ -9,7 +9,7 @@ namespace crosscheck {
 namespace {
 
 Motion motion_of(const JsonField& f) {
-  return {f["amplitude"].vec3(), f["frequency"].number_from(0), f["ramp"].number_from(0)};
+  return {vec3_of(f["amplitude"]), f["frequency"].number_from(0), f["ramp"].number_from(0)};
 }
 
 void read_waves(const JsonField& f, Gust& gust) {
@@ -20,10 +20,10 @@ void read_waves(const JsonField& f, Gust& gust) {
 }
 
 Blowing blowing_of(const JsonField& f, std::string_view key) {
-  Blowing blowing{f[key].vec3(), std::nullopt};
+  Blowing blowing{vec3_of(f[key]), std::nullopt};
   if (const auto g = f.find("gusts")) {
     const int seed = (*g)["seed"].whole_number(0, 2147483647);
-    blowing.gusts = {(*g)["variation"].number(), (*g)["side"].vec3(), seed, Gust(seed, 1), Gust(seed, 2)};
+    blowing.gusts = {(*g)["variation"].number(), vec3_of((*g)["side"]), seed, Gust(seed, 1), Gust(seed, 2)};
     read_waves((*g)["along"], blowing.gusts->along);  // what is written counts, not what the seed would give
     read_waves((*g)["across"], blowing.gusts->across);
   }
@@ -94,7 +94,7 @@ Term aerodynamics_of(const JsonField& f, const Scene& scene) {
 Term spheres_of(const JsonField& f, const Scene&) {
   Spheres spheres;
   for (const JsonField& s : f["list"].elements()) {
-    spheres.list.push_back({s["centre"].vec3(), s["radius"].number_from(0), s["margin"].number_from(0),
+    spheres.list.push_back({vec3_of(s["centre"]), s["radius"].number_from(0), s["margin"].number_from(0),
                             s["friction"].number_from(0), s["restitution"].number_from(0), std::nullopt});
     if (const auto motion = s.find("motion")) spheres.list.back().motion = motion_of(*motion);
   }
@@ -108,7 +108,7 @@ struct TermReader {
 };
 constexpr TermReader term_readers[] = {
     {Rotation::name, [](const JsonField& f, const Scene&) -> Term { return Rotation{f["rate"].number()}; }},
-    {Gravity::name, [](const JsonField& f, const Scene&) -> Term { return Gravity{f["acceleration"].vec3()}; }},
+    {Gravity::name, [](const JsonField& f, const Scene&) -> Term { return Gravity{vec3_of(f["acceleration"])}; }},
     {Springs::name, springs_of},
     {Dashpots::name, dashpots_of},
     {Constraints::name, constraints_of},
@@ -130,8 +130,8 @@ void read_particles(const JsonField& file, bool first_order, Scene& scene) {
   const JsonField f = file["particles"];
   const int n = f["count"].whole_number(1, 100000000);
   Particles& particles = scene.model.particles;
-  scene.start.x = f["x"].points(n);
-  scene.start.v = first_order ? Points(3, 0) : f["v"].points(n);
+  scene.start.x = points_of(f["x"], n);
+  scene.start.v = first_order ? Points(3, 0) : points_of(f["v"], n);
   particles.mass = Eigen::VectorXd::Ones(n);
   if (!first_order) {
     const std::vector<double> mass = f["mass"].numbers();
@@ -141,7 +141,7 @@ void read_particles(const JsonField& file, bool first_order, Scene& scene) {
   particles.pinned.assign(n, 0);
   if (const auto pins = file.find("pins")) {
     particles.pins = (*pins)["particles"].indices(n);
-    particles.pin_home = (*pins)["home"].points(static_cast<int>(particles.pins.size()));
+    particles.pin_home = points_of((*pins)["home"], static_cast<int>(particles.pins.size()));
     for (int pin : particles.pins) particles.pinned[pin] = 1;
     if (const auto motion = pins->find("motion")) particles.move = motion_of(*motion);
   }
@@ -150,8 +150,7 @@ void read_particles(const JsonField& file, bool first_order, Scene& scene) {
 }  // namespace
 
 Task read_scene_json(const std::filesystem::path& path) {
-  const nlohmann::json json = JsonField::parse_file(path.string());
-  const JsonField file(json, path.string());
+  const JsonField file = JsonField::parse_file(path.string());
   if (file["format"].text() != "crosscheck-scene") file["format"].fail("crosscheck-scene");
   file["version"].whole_number(1, 1);
 

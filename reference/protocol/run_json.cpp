@@ -7,8 +7,6 @@
 namespace crosscheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 template <class T>
 void add(Json& json, const char* key, const std::optional<T>& value) {
   if (!value) return;
@@ -18,29 +16,37 @@ void add(Json& json, const char* key, const std::optional<T>& value) {
     json[key] = *value;
 }
 
+Json texts_json(const std::map<std::string, std::string>& texts) {
+  Json json = Json::object();
+  for (const auto& [key, text] : texts) json[key] = text;
+  return json;
+}
+
 Json readback_json(const Readback& r) {
-  Json json{{"mass", r.mass},           {"pinned", Json::array()}, {"links", Json::array()}, {"precision", r.precision},
-            {"may_sleep", r.may_sleep}, {"step", r.step},          {"mapped", r.mapped},     {"settings", r.settings}};
-  for (char pinned : r.pinned) json["pinned"].push_back(int(pinned));
+  Json json{{"mass", r.mass},           {"pinned", Json::list()},         {"links", Json::list()},
+            {"precision", r.precision}, {"mapped", texts_json(r.mapped)}, {"settings", texts_json(r.settings)}};
+  for (char pinned : r.pinned) json["pinned"].push(pinned);
   for (const Readback::Link& link : r.links) {
-    json["links"].push_back({{"a", link.a}, {"b", link.b}, {"rest_length", link.rest}});
-    add(json["links"].back(), "stiffness", link.stiffness);
+    Json& entry = json["links"].push({{"a", link.a}, {"b", link.b}, {"rest_length", link.rest}});
+    add(entry, "stiffness", link.stiffness);
   }
+  add(json, "may_sleep", r.may_sleep);
+  add(json, "step", r.step);
   add(json, "gravity", r.gravity);
   add(json, "drag", r.drag);
   add(json, "margin", r.margin);
   if (r.spheres) {
-    json["spheres"] = Json::array();
+    json["spheres"] = Json::list();
     for (const Readback::Ball& ball : *r.spheres) {
-      Json& entry = json["spheres"].emplace_back(Json{{"centre", json_of(ball.centre)}});
+      Json& entry = json["spheres"].push({{"centre", json_of(ball.centre)}});
       add(entry, "radius", ball.radius);
       add(entry, "friction", ball.friction);
       add(entry, "restitution", ball.restitution);
     }
   }
   if (r.later) {
-    json["later"] = {{"t", r.later->t}, {"pins", json_of(r.later->pins)}, {"centres", Json::array()}};
-    for (const Vec3& centre : r.later->centres) json["later"]["centres"].push_back(json_of(centre));
+    json["later"] = {{"t", r.later->t}, {"pins", json_of(r.later->pins)}, {"centres", Json::list()}};
+    for (const Vec3& centre : r.later->centres) json["later"]["centres"].push(json_of(centre));
   }
   if (r.start) json["start"] = {{"x", json_of(r.start->x)}, {"v", json_of(r.start->v)}};
   if (r.probe) {
@@ -62,24 +68,24 @@ std::optional<double> optional_number(const JsonField& f, std::string_view key) 
 }
 
 Readback::Places places_of(const JsonField& f) {
-  Readback::Places places{f["t"].number(), f["pins"].points(static_cast<int>(f["pins"].elements().size())), {}};
-  for (const JsonField& centre : f["centres"].elements()) places.centres.push_back(centre.vec3());
+  Readback::Places places{f["t"].number(), points_of(f["pins"], static_cast<int>(f["pins"].size())), {}};
+  for (const JsonField& centre : f["centres"].elements()) places.centres.push_back(vec3_of(centre));
   return places;
 }
 
 ForceProbe probe_of(const JsonField& f, int n) {
   ForceProbe probe;
   if (const auto t = f.find("t")) probe.t = t->number();
-  probe.x = f["x"].points(n);
-  probe.v = f["v"].points(n);
+  probe.x = points_of(f["x"], n);
+  probe.v = points_of(f["v"], n);
   const std::pair<const char*, Points*> parts[] = {
       {"springs", &probe.springs}, {"dashpots", &probe.dashpots}, {"wind", &probe.wind}};
   for (const auto& [key, points] : parts)
-    if (const auto found = f.find(key)) *points = found->points(n);
+    if (const auto found = f.find(key)) *points = points_of(*found, n);
   return probe;
 }
 
-Readback readback_of(const JsonField& f, double step) {
+Readback readback_of(const JsonField& f) {
   Readback r;
   r.mass = f["mass"].numbers();
   const int n = static_cast<int>(r.mass.size());
@@ -91,18 +97,18 @@ Readback readback_of(const JsonField& f, double step) {
   r.precision = f["precision"].text();
   if (r.precision != "double" && r.precision != "single") f["precision"].fail("double or single");
   if (const auto sleep = f.find("may_sleep")) r.may_sleep = sleep->truth();
-  r.step = optional_number(f, "step").value_or(step);
-  if (const auto gravity = f.find("gravity")) r.gravity = gravity->vec3();
+  r.step = optional_number(f, "step");
+  if (const auto gravity = f.find("gravity")) r.gravity = vec3_of(*gravity);
   if (const auto drag = f.find("drag")) r.drag = drag->numbers();
   r.margin = optional_number(f, "margin");
   if (const auto spheres = f.find("spheres")) {
     r.spheres.emplace();
     for (const JsonField& s : spheres->elements())
-      r.spheres->push_back({s["centre"].vec3(), optional_number(s, "radius"), optional_number(s, "friction"),
+      r.spheres->push_back({vec3_of(s["centre"]), optional_number(s, "radius"), optional_number(s, "friction"),
                             optional_number(s, "restitution")});
   }
   if (const auto later = f.find("later")) r.later = places_of(*later);
-  if (const auto start = f.find("start")) r.start = State{0, (*start)["x"].points(n), (*start)["v"].points(n)};
+  if (const auto start = f.find("start")) r.start = State{0, points_of((*start)["x"], n), points_of((*start)["v"], n)};
   if (const auto probe = f.find("probe")) r.probe = probe_of(*probe, n);
   for (const auto& [key, map] : {std::pair{"mapped", &r.mapped}, {"settings", &r.settings}})
     if (const auto list = f.find(key))
@@ -130,12 +136,11 @@ std::string run_json(const Outcome& out) {
             {"cpu_seconds", out.cpu_seconds},
             {"different_law", out.different_law}};
   if (out.readback) json["readback"] = readback_json(*out.readback);
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1) + "\n";
 }
 
 void read_run_json(const std::filesystem::path& path, Outcome& out) {
-  const nlohmann::json json = JsonField::parse_file(path.string());
-  const JsonField f(json, path.filename().string());
+  const JsonField f = JsonField::parse_file(path.string());
   auto count = [&](const char* key, long& value) {
     if (const auto found = f.find(key)) value = static_cast<long>(found->number_from(0));
   };
@@ -157,7 +162,10 @@ void read_run_json(const std::filesystem::path& path, Outcome& out) {
       out.different_law.push_back(law.text());
     }
   }
-  if (const auto readback = f.find("readback")) out.readback = readback_of(*readback, out.step);
+  if (const auto readback = f.find("readback")) {
+    out.readback = readback_of(*readback);
+    if (!out.readback->step && f.find("step")) out.readback->step = out.step;
+  }
 }
 
 }  // namespace crosscheck

@@ -1,22 +1,18 @@
 // A scene and a run as JSON.
-#include <nlohmann/json.hpp>
-
 #include "reference/protocol/json_fields.h"
 #include "reference/protocol/scene_json.h"
 
 namespace crosscheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json motion_json(const Motion& motion) {
   return {{"amplitude", json_of(motion.amplitude)}, {"frequency", motion.frequency}, {"ramp", motion.ramp}};
 }
 
 Json waves_of(const Gust& gust) {
-  auto list = Json::array();
+  Json list = Json::list();
   for (const Gust::Wave& wave : gust.waves)
-    list.push_back({{"weight", wave.weight}, {"omega", wave.omega}, {"phase", wave.phase}});
+    list.push({{"weight", wave.weight}, {"omega", wave.omega}, {"phase", wave.phase}});
   return list;
 }
 
@@ -35,20 +31,19 @@ void add(Json& json, const Rotation& t) { json["rate"] = t.rate; }
 void add(Json& json, const Gravity& t) { json["acceleration"] = json_of(t.acceleration); }
 void add(Json& json, const Springs& t) {
   json["law"] = name_of(t.law);
-  auto& list = json["list"] = Json::array();
+  Json& list = json["list"] = Json::list();
   for (const Spring& s : t.list)
-    list.push_back(
-        {{"a", s.a}, {"b", s.b}, {"stiffness", s.k}, {"rest_length", s.rest}, {"family", name_of(s.family)}});
+    list.push({{"a", s.a}, {"b", s.b}, {"stiffness", s.k}, {"rest_length", s.rest}, {"family", name_of(s.family)}});
 }
 void add(Json& json, const Dashpots& t) {
-  auto& list = json["list"] = Json::array();
-  for (const auto& [a, b, c] : t.list) list.push_back({{"a", a}, {"b", b}, {"coefficient", c}});
+  Json& list = json["list"] = Json::list();
+  for (const auto& [a, b, c] : t.list) list.push({{"a", a}, {"b", b}, {"coefficient", c}});
 }
 void add(Json& json, const Constraints& t) {
-  auto& list = json["list"] = Json::array();
-  for (const auto& [a, b, length] : t.list) list.push_back({{"a", a}, {"b", b}, {"length", length}});
+  Json& list = json["list"] = Json::list();
+  for (const auto& [a, b, length] : t.list) list.push({{"a", a}, {"b", b}, {"length", length}});
 }
-void add(Json& json, const Drag& t) { json["coefficient"] = std::vector<double>(t.c.begin(), t.c.end()); }
+void add(Json& json, const Drag& t) { json["coefficient"] = std::span(t.c.data(), static_cast<size_t>(t.c.size())); }
 void add(Json& json, const Wind& t) { add_blowing(json, "acceleration", t.acceleration); }
 void add(Json& json, const Aerodynamics& t) {
   json["density"] = t.density;
@@ -57,25 +52,25 @@ void add(Json& json, const Aerodynamics& t) {
   json["triangles"] = t.triangles;
 }
 void add(Json& json, const Spheres& t) {
-  auto& list = json["list"] = Json::array();
+  Json& list = json["list"] = Json::list();
   for (const Sphere& s : t.list) {
-    list.push_back({{"centre", json_of(s.centre)},
-                    {"radius", s.radius},
-                    {"margin", s.margin},
-                    {"friction", s.friction},
-                    {"restitution", s.restitution}});
-    if (s.motion) list.back()["motion"] = motion_json(*s.motion);
+    Json& entry = list.push({{"centre", json_of(s.centre)},
+                             {"radius", s.radius},
+                             {"margin", s.margin},
+                             {"friction", s.friction},
+                             {"restitution", s.restitution}});
+    if (s.motion) entry["motion"] = motion_json(*s.motion);
   }
 }
 
 Json particles_json(const Particles& particles, const State& start, bool first_order) {
   Json json{{"count", particles.size()}};
-  if (!first_order) json["mass"] = std::vector<double>(particles.mass.begin(), particles.mass.end());
+  if (!first_order) json["mass"] = std::span(particles.mass.data(), static_cast<size_t>(particles.mass.size()));
   json["x"] = json_of(start.x);
   if (first_order) return json;
   json["v"] = json_of(start.v);
-  json["pinned"] = Json::array();
-  for (char pinned : particles.pinned) json["pinned"].push_back(int(pinned));
+  json["pinned"] = Json::list();
+  for (char pinned : particles.pinned) json["pinned"].push(pinned);
   return json;
 }
 
@@ -83,8 +78,8 @@ Json pins_json(const Particles& particles, const std::vector<double>& times) {
   Json json{{"particles", particles.pins}, {"home", json_of(particles.pin_home)}};
   if (!particles.move) return json;
   json["motion"] = motion_json(*particles.move);
-  json["displacement"] = Json::array();
-  for (double t : times) json["displacement"].push_back(json_of(displacement_at(*particles.move, t)));
+  json["displacement"] = Json::list();
+  for (double t : times) json["displacement"].push(json_of(displacement_at(*particles.move, t)));
   return json;
 }
 
@@ -116,19 +111,15 @@ std::string scene_json(const Scene& scene, const Run& run, const std::vector<std
               {"times", times}}},
             {"particles", particles_json(particles, scene.start, scene.model.first_order())}};
   if (!particles.pins.empty()) json["pins"] = pins_json(particles, times);
-  json["terms"] = Json::array();
+  json["terms"] = Json::list();
   for (const Term& term : scene.model.terms) {
-    Json& entry = json["terms"].emplace_back(Json{{"type", name_of(term)}});
+    Json& entry = json["terms"].push({{"type", name_of(term)}});
     std::visit([&](const auto& t) { add(entry, t); }, term);
   }
   if (!scene.triangles.empty()) json["triangles"] = scene.triangles;
 
   // a line for each part: long lists stay out of the way of a reader who pages through
-  std::string text = "{";
-  for (const auto& [key, value] : json.items())
-    text += (text.size() > 1 ? ",\n \"" : "\n \"") + key +
-            "\": " + value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return text + "\n}\n";
+  return json.dump_in_lines();
 }
 
 }  // namespace crosscheck

@@ -70,9 +70,9 @@ Figure contact_figure(const Scene& scene, const SceneFacts& facts, const Table& 
   std::vector<std::string> guessed, left_out, gave;
   for (const MethodFacts& m : facts.methods) {
     if (!m.supported()) continue;
-    // the sticky sphere holds the cloth by a force from nowhere: its work would dwarf the others' losses
+    // the sticky sphere takes all motion of what touches it, which would dwarf the others' losses
     if (!m.ok() || m.method.ends_with("+sticky")) {
-      left_out.push_back(m.ok() ? m.method + " (its contact does work from nowhere)"
+      left_out.push_back(m.ok() ? m.method + " (it takes all motion of what touches)"
                                 : fmt::format("{} ({} at {:.3g} s)", m.method, m.failure(), m.end));
       continue;
     }
@@ -85,16 +85,13 @@ Figure contact_figure(const Scene& scene, const SceneFacts& facts, const Table& 
       gave.push_back(fmt::format("{} ({} J)", m.method, nice(given)));
     f.curves.push_back(std::move(curve));
   }
-  f.finding = "What contact took, less what moving balls gave.";
+  f.finding = "What friction and impacts took, less what moving balls gave; what rests takes nothing.";
   if (!guessed.empty())
     f.finding +=
         fmt::format(" {} {} not tell it: it is inferred as what is missing from the balance, so no closure is claimed.",
                     joined(guessed), guessed.size() == 1 ? "does" : "do");
   if (!gave.empty())
     f.finding += fmt::format(" A curve that falls is contact that gives, which a still ball cannot: {}.", joined(gave));
-  f.finding +=
-      " Where a particle rests, rules of first order put it too deep or too high in each step and contact corrects it: "
-      "that part of their curves falls with the step.";
   if (!left_out.empty()) f.caption = fmt::format(" Not drawn: {}.", joined(left_out));
   return f;
 }

@@ -8,6 +8,7 @@
 
 #include "experiments/cells.h"
 #include "report/charts/charts.h"
+#include "report/charts/times_told.h"
 #include "report/findings_text.h"
 
 namespace crosscheck {
@@ -28,6 +29,28 @@ EngineLook look_of(const std::string& engine) {
   const auto found = known.find(engine);
   return found == known.end() ? EngineLook{engine, style_of(engine)}
                               : EngineLook{found->second.first, style_of(found->second.second)};
+}
+
+/// Of how many quotients a time is not of the whole run; empty where of none.
+std::string scaled_text(const Table& t) {
+  int all = 0, scaled = 0;
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    if (number_at(t, i, "part of motion") != 0.01 || text_at(t, i, "measure") != "error" ||
+        text_at(t, i, "engine") == "mysim" || !number_at(t, i, "times mysim"))
+      continue;
+    ++all;
+    scaled += number_at(t, i, "part timed", 1) < 1 || number_at(t, i, "part timed of mysim", 1) < 1;
+  }
+  return scaled == 0
+             ? ""
+             : fmt::format("in {} of {} quotients a time is scaled from the first part of its run; ", scaled, all);
+}
+
+/// The engines that have a marker, mysim among them, as methods begin.
+std::vector<std::string> drawn_engines(const std::vector<std::string>& engines) {
+  std::vector<std::string> methods{"mysim/"};
+  for (const std::string& engine : engines) methods.push_back(engine + "/");
+  return methods;
 }
 
 /// The row at 1 % of the motion.
@@ -136,9 +159,8 @@ std::vector<Chart> cheapest_charts(const ChartInput& input) {
       "whatever its method, step or tolerance: as none steps over a sampling interval, some are far nearer than asked "
       "for; "
       "thread CPU time on one core, medians, and the widest that both 90 % "
-      "intervals allow; a scene without a marker has no such run of that engine; mysim and odeint are compiled in this "
-      "build, Bullet and SUNDIALS are Debian's generic x86-64 builds; commit {}.",
-      input.commit);
+      "intervals allow; {}a scene without a marker has no such run of that engine; {}; commit {}.",
+      scaled_text(*t), builds_text(drawn_engines(engines)), input.commit);
   f.tier = "each scene's truth, its error bar taken off the 1 %";
   return {{"", f, "speed-accuracy", "", "Who is fastest at 1 %?", {table_of(*t, engines)}}};
 }

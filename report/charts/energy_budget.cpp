@@ -46,14 +46,12 @@ std::optional<Chart> budget_chart(const Table& table, const std::string& scene, 
   bars.label = "energy / J (left of zero: came in)";
   bars.parts = parts_for(shown.size());
   bool inferred = false;
-  std::vector<std::string> gives;  // whose contact gave energy
   for (size_t b = 0; b < shown.size(); ++b) {
     const size_t i = shown[b];
     bars.names.push_back(text_at(table, i, "method"));
     const bool guessed = flag_at(table, i, "contact inferred");
     inferred |= guessed;
     const double contact = number_at(table, i, "contact took", 0);
-    if (contact < 0 && !guessed) gives.push_back(text_at(table, i, "method"));
     const double heights[] = {number_at(table, i, "drag took", 0),
                               number_at(table, i, "dashpots took", 0),
                               guessed ? 0 : contact,
@@ -75,12 +73,6 @@ std::optional<Chart> budget_chart(const Table& table, const std::string& scene, 
     bars.finding +=
         " Hatched: an engine that does not tell its impulses; what is missing is called contact, and no closure is "
         "claimed.";
-  if (!gives.empty())
-    bars.finding += fmt::format(
-        " Contact of {} gave energy: where a particle rests, rules of first order let it "
-        "sink "
-        "in every step and contact lifts it again: what the rule loses so contact gives, and both fall with the step.",
-        joined(gives));
   bars.tier = "exact (the sum is zero), to the rounding of the sums";
   bars.caption = fmt::format("Scene {}; {}, rules that solve a whole step at ten times that; commit {}.", scene,
                              length_text(table, scene), commit);

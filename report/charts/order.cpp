@@ -35,6 +35,16 @@ Points2 column_of(const Table& points, const std::string& scene, const std::stri
   return out;
 }
 
+/// The methods that have rows of this scene, in the order of the table.
+std::vector<std::string> methods_in(const Table& points, const std::string& scene) {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < points.rows.size(); ++i)
+    if (const std::string& name = text_at(points, i, "method");
+        text_at(points, i, "scene") == scene && std::ranges::find(names, name) == names.end())
+      names.push_back(name);
+  return names;
+}
+
 /// The error at the smallest step over the last distance to it: about 1 for a method that converges to the truth at
 /// order 1, less at higher orders; large where it converges to something else.
 double astray(const Points2& errors, const Points2& own) {
@@ -80,37 +90,42 @@ std::vector<Chart> order_charts(const ChartInput& input) {
     f.y = {"largest RMS error / m", true, std::nullopt, std::nullopt};
     f.name = scene.name + "-order";
     std::vector<std::string> elsewhere;
-    const double bar = input.facts[i].bar;
-    for (const MethodFacts& m : input.facts[i].methods) {
-      Curve curve{title_of(*slopes, scene.name, m.method), style_of(m.method), {}, true, true};
-      Points2 errors = column_of(*points, scene.name, m.method, "error");
-      Points2 own = column_of(*points, scene.name, m.method, "distance to own finest");
+    size_t first = 0;  // row of this scene
+    while (first < points->rows.size() && text_at(*points, first, "scene") != scene.name) ++first;
+    if (first == points->rows.size()) continue;
+    const double bar = *number_at(*points, first, "truth bar");
+    for (const std::string& method : methods_in(*points, scene.name)) {
+      Curve curve{title_of(*slopes, scene.name, method), style_of(method), {}, true, true};
+      Points2 errors = column_of(*points, scene.name, method, "error");
+      Points2 own = column_of(*points, scene.name, method, "distance to own finest");
       // 4: a rule of first order whose last two errors are e and 2 e is at 1; a slower start may make it 2
       const bool else_where = astray(errors, own) > 4 && errors.back().second > 10 * bar;
       // below its error bar the truth tells nothing
       std::erase_if(errors, [&](const auto& p) { return p.second <= bar; });
       curve.points = std::move(errors);
       // a mark is named after its curve, if there is one
-      const std::string& marked = curve.points.empty() ? m.method : curve.title;
+      const std::string& marked = curve.points.empty() ? method : curve.title;
       for (size_t row = 0; row < points->rows.size(); ++row)
-        if (text_at(*points, row, "scene") == scene.name && text_at(*points, row, "method") == m.method)
+        if (text_at(*points, row, "scene") == scene.name && text_at(*points, row, "method") == method)
           if (const std::string& verdict = text_at(*points, row, "verdict"); verdict != "ok")
-            f.failures.push_back({marked + ": " + failure_word(verdict), style_of(m.method),
+            f.failures.push_back({marked + ": " + failure_word(verdict), style_of(method),
                                   *number_at(*points, row, "step"), 10 * scene.size(), failure_word(verdict)});
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
       // where a method converges to the truth both curves are nearly one: only the others' are drawn
       if (else_where) {
-        elsewhere.push_back(m.method);
-        MethodStyle open = style_of(m.method);
+        elsewhere.push_back(method);
+        MethodStyle open = style_of(method);
         open.dash = "(1,3)";
         open.marker = 6;
-        f.curves.push_back({m.method + ": from its own finest run", open, std::move(own), true, true});
+        f.curves.push_back({method + ": from its own finest run", open, std::move(own), true, true});
       }
     }
     if (f.curves.empty() && f.failures.empty()) continue;
-    f.floor = {"error bar of the truth", input.facts[i].bar};
+    f.floor = {"error bar of the truth", bar};
     f.caption = caption_of(scene, input.commit);
-    f.tier = tier_of(input.facts[i]);
+    SceneFacts truth;  // no other experiment need have run
+    truth.tier = text_at(*points, first, "truth tier"), truth.truth = text_at(*points, first, "truth"), truth.bar = bar;
+    f.tier = tier_of(truth);
     f.finding = slopes_sentence(*slopes, scene.name);
     if (!elsewhere.empty())
       f.finding +=

@@ -8,6 +8,7 @@
 
 #include "experiments/cells.h"
 #include "report/charts/charts.h"
+#include "report/charts/times_told.h"
 
 namespace crosscheck {
 namespace {
@@ -54,6 +55,13 @@ struct SceneRows {
   }
 };
 
+/// Whether the time was taken of a part of the run only, and scaled by its evaluations (of Bullet's worlds: steps).
+bool is_scaled(const SceneRows& s, size_t row) {
+  for (size_t i = 0; s.cost && i < s.cost->rows.size(); ++i)
+    if (same_run(s.runs, row, *s.cost, i)) return number_at(*s.cost, i, "part timed", 1) < 1;
+  return false;
+}
+
 SceneRows rows_of(const ChartInput& input, const Table& runs, const std::string& scene) {
   SceneRows s{runs, input.result.table("speed-accuracy-cost"), scene, "", {}};
   for (size_t i = 0; i < runs.rows.size(); ++i)
@@ -78,14 +86,18 @@ Tip told(const SceneRows& s, size_t row, const std::string& outcome) {
   std::string cost;
   for (const Cost kind : {Cost{false}, Cost{true}})
     if (const auto value = s.cost_of(row, kind); value && *value > 0)
-      cost +=
-          fmt::format("{}{} {}", cost.empty() ? "" : ", ", kind.text_of(*value), kind.time ? "of CPU" : "evaluations");
+      cost += fmt::format("{}{} {}", cost.empty() ? "" : ", ", kind.text_of(*value),
+                          !kind.time          ? "evaluations"
+                          : is_scaled(s, row) ? "of CPU (scaled from a part of the run)"
+                                              : "of CPU");
   const std::string setting = text_or_none(s.runs, row, "setting");
   return {
       fmt::format("{}, {}{}\n{}\n{}", text_or_none(s.runs, row, "method"), setting.starts_with("step") ? "step " : "",
                   setting_text(setting, *number_at(s.runs, row, "asked")), outcome, cost),
       run_of(s, row)};
 }
+
+constexpr int scaled_ring = 6;  // gnuplot's open circle
 
 int cross_of(const std::string& word) { return word == "blew up" ? 2 : word == "solver gave up" ? 1 : 3; }
 
@@ -99,6 +111,8 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
   const double top = 10 * s.motion, highest = 3 * s.motion;
   double lowest = s.bar ? std::max(*s.bar, 1e-16) : 1, furthest = 0;
   int failed = 0, good = 0, beyond = 0, uncounted = 0;
+  // in a look that no method has, and beneath them all, so that a pointer meets the run
+  Curve scaled{scaled_times, {"#777777", "1", scaled_ring}, {}, false, true};
   std::set<std::string> methods;
   for (const size_t i : s.rows) {
     const auto cost = s.cost_of(i, kind);
@@ -109,7 +123,9 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     }
     methods.insert(method);
     furthest = std::max(furthest, *cost);
+    const bool part = kind.time && is_scaled(s, i);
     if (verdict != "ok") {
+      if (part) scaled.points.emplace_back(*cost, 4 * s.motion);
       const std::string word = failure_word(verdict);
       f.failures.push_back({method + ": " + word, style_of(method), *cost, 4 * s.motion, word, cross_of(word),
                             told(s, i, fmt::format("{} at {:.3g} s", word, *number_at(s.runs, i, "end")))});
@@ -124,6 +140,7 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     const double y = std::min(highest, s.bar ? std::max(*apart, *s.bar) : *apart);
     beyond += *apart > highest;
     curve->points.emplace_back(*cost, y);
+    if (part) scaled.points.emplace_back(*cost, y);
     curve->told.push_back(told(s, i, s.measure() + " " + nice_length(*apart)));
     lowest = std::min(lowest, y);
     ++good;
@@ -143,14 +160,20 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
   std::string drawn;
   if (beyond > 0)
     drawn = fmt::format("{} above three times the motion ({}), drawn there; ", beyond, nice_length(highest));
+  if (!scaled.points.empty()) {
+    f.x.label = "CPU time of the run, ringed: scaled from a part of it / s";
+    drawn += fmt::format(
+        "{} of {} times are not of the whole run: the first part of it was timed, and scaled by the force evaluations "
+        "(of Bullet's implicit and position-based worlds by the steps) of the whole, ringed; ",
+        scaled.points.size(), good + failed);
+    f.curves.insert(f.curves.begin(), std::move(scaled));
+  }
   if (uncounted > 0) drawn += fmt::format("{} of unknown cost, not drawn; ", uncounted);
-  f.caption = fmt::format(
-      "Scene {}; {}{}commit {}.", s.scene,
-      kind.time
-          ? "thread CPU time, medians of runs taken in turns on one pinned core; mysim and odeint are compiled in "
-            "this build, Bullet and SUNDIALS are Debian's generic x86-64 builds; "
-          : "",
-      drawn, input.commit);
+  f.caption = fmt::format("Scene {}; {}{}commit {}.", s.scene,
+                          kind.time ? "thread CPU time, medians of runs taken in turns on one pinned core; " +
+                                          builds_text({methods.begin(), methods.end()}) + "; "
+                                    : "",
+                          drawn, input.commit);
   f.tier = s.bar ? fmt::format("{}{}, error bar {}", s.difference() ? "" : "the truth: ", s.truth, nice_length(*s.bar))
                  : "each method's own finest run, since no truth is known";
   return f;
@@ -164,7 +187,8 @@ std::optional<PageTable> cheapest_of(const SceneRows& s, const Cost& kind, const
   page.caption = fmt::format("The cheapest run of those tried with {} of at most a part of the motion ({}), in {}",
                              s.difference() ? "a difference" : "an error", nice_length(s.motion),
                              kind.time ? "CPU time" : "force evaluations");
-  page.header = {"at most", "cheapest", "step", "cost", "best of Bullet", "its step", "its cost", "times as much"};
+  page.header = {"at most",        "cheapest", "step",     "cost",
+                 "best of Bullet", "its step", "its cost", "times as much as mysim's"};
   if (kind.time) page.header.emplace_back("as cheap, within noise");
   const std::string column = kind.column();
   for (size_t i = 0; i < t->rows.size(); ++i) {
@@ -179,7 +203,7 @@ std::optional<PageTable> cheapest_of(const SceneRows& s, const Cost& kind, const
     row.push_back(theirs ? text_or_none(*t, i, "best of Bullet") : "");
     row.push_back(theirs ? setting_text(text_or_none(*t, i, "setting of Bullet"), *theirs) : "");
     row.push_back(theirs ? kind.text_of(*number_at(*t, i, (column + " of Bullet").c_str())) : "");
-    const auto factor = number_at(*t, i, "Bullet / best");
+    const auto factor = number_at(*t, i, "Bullet / mysim");
     row.push_back(factor ? fmt::format("{:.3g}", *factor) : "");
     if (kind.time) row.push_back(text_or_none(*t, i, "as cheap within noise"));
     page.rows.push_back(std::move(row));

@@ -38,7 +38,8 @@ PageTable growth_table(const Table& table, bool without_limit) {
   return page;
 }
 
-/// Two rules gain so little in a step that runs do not show it: only their rows are shown.
+/// Two rules gain so little in a step that runs do not show it: only their rows are shown, and how many others there
+/// are is said.
 Table slow_blow_ups(const Table& growth) {
   Table slow{growth.name, growth.columns, {}};
   for (size_t i = 0; i < growth.rows.size(); ++i)
@@ -63,6 +64,9 @@ std::optional<Chart> growth_chart(const Table& all) {
               "gain so little in each that a run may look fine: the growth of one vibration is measured instead.",
               "Slow blow-ups"};
   if (off >= 0) chart.text += fmt::format(" It differs from theory by at most {} ({}).", percent(off, 1), which);
+  if (const size_t others = all.rows.size() - growth.rows.size(); others > 0)
+    chart.text +=
+        fmt::format(" {} rows of other rules, beside their limits, stand in the table {} alone.", others, all.name);
   for (const bool without_limit : {true, false})
     if (PageTable page = growth_table(growth, without_limit); !page.rows.empty())
       chart.tables.push_back(std::move(page));

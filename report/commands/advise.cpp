@@ -1,15 +1,15 @@
 // advise: fits what is unset to the scene's wishes, then finds the cheapest model, method and step for a tolerance.
 #include <fmt/ranges.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
-
 #include "experiments/advise/advice.h"
 #include "experiments/advise/fit.h"
+#include "experiments/demand.h"
+#include "experiments/progress.h"
 #include "experiments/scenes.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/json.h"
+#include "mysim/output_folder.h"
 #include "report/charts/advice.h"
 #include "report/commands/commands.h"
 #include "report/facts.h"
@@ -18,13 +18,6 @@
 namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 Table trials_table(const Advice& a) {
   Table table{"advice",
@@ -74,31 +67,31 @@ std::string margin_text(const Trial& t) {
   return fmt::format("{:.3g} times the step ({:.4g} s)", *t.limit / t.step, *t.limit);
 }
 
-nlohmann::ordered_json json_of(const Trial& t) {
+Json json_of(const Trial& t) {
   return {{"model", t.model},
           {"method", t.method},
           {"step", t.step},
-          {"relative_tolerance", t.relative > 0 ? nlohmann::ordered_json(t.relative) : nullptr},
+          {"relative_tolerance", t.relative > 0 ? Json(t.relative) : Json()},
           {"error", *t.error},
-          {"stability_limit", t.limit ? nlohmann::ordered_json(*t.limit) : nullptr},
+          {"stability_limit", t.limit},
           {"force_evaluations", t.outcome.evaluations},
           {"cost", t.cost()}};
 }
 
 std::string json_of(const Advice& a) {
-  nlohmann::ordered_json json{{"scene", a.scene.name},
-                              {"scene_hash", a.scene.hash},
-                              {"tolerance", a.tolerance},
-                              {"truth", a.truth},
-                              {"tier", static_cast<int>(a.tier)},
-                              {"of_contact_rule", a.of_contact_rule},
-                              {"bar", a.bar},
-                              {"until", a.until},
-                              {"left_out", a.left_out},
-                              {"advised", json_of(a.trials[a.chosen])},
-                              {"second", a.second ? json_of(a.trials[*a.second]) : nullptr},
-                              {"error_of_the_file", a.checked},
-                              {"caveats", a.caveats}};
+  Json json{{"scene", a.scene.name},
+            {"scene_hash", a.scene.hash},
+            {"tolerance", a.tolerance},
+            {"truth", a.truth},
+            {"tier", static_cast<int>(a.tier)},
+            {"of_contact_rule", a.of_contact_rule},
+            {"bar", a.bar},
+            {"until", a.until},
+            {"left_out", a.left_out},
+            {"advised", json_of(a.trials[a.chosen])},
+            {"second", a.second ? json_of(a.trials[*a.second]) : Json()},
+            {"error_of_the_file", a.checked},
+            {"caveats", a.caveats}};
   return json.dump(1) + "\n";
 }
 
@@ -128,23 +121,17 @@ void print(const Fitted& fitted) {
                w.unit == "1" ? "" : " " + w.unit, w.reached, 100 * (w.reached / w.wished - 1));
 }
 
-}  // namespace
-
-int advise_command(const AdviseOptions& options) try {
-  // what was advised before would pass for this advice where none can be given
-  if (fs::exists(options.out / "advice.json"))
-    for (const char* name : {"advice.toml", "advice.json", "advice.csv", "advice-cost.csv"})
-      if (const fs::path old = options.out / name;
-          fs::exists(old) && !(fs::exists(options.scene) && fs::equivalent(old, options.scene)))
-        fs::remove(old);
+int advised(const AdviseOptions& options, OutputFolder& folder) {
   std::optional<Scene> scene;
   std::string toml;
   if (options.scene.ends_with(".toml") && std::filesystem::exists(options.scene)) {
-    const std::string text = text_of(options.scene);
+    const std::string text = read_file(options.scene, "a scene file (TOML)");
     if (has_unknowns(text, options.scene)) {
-      require_writable(options.out);
+      Progress progress(1);
+      progress.begin(fmt::format("fitting {}", options.scene));
       Fitted fitted = fit_to_wishes(text, options.scene);
       fitted.scene.name = file_name_of(std::filesystem::path(options.scene).stem().string());
+      progress.done();
       print(fitted);
       toml = fitted.toml;
       scene = std::move(fitted.scene);
@@ -154,28 +141,51 @@ int advise_command(const AdviseOptions& options) try {
   if (options.tolerance == 0 && toml.empty())
     throw InputError(
         fmt::format("--tolerance: expected a length above zero (m), as {} has nothing to be fitted", options.scene));
-  require_writable(options.out);
-  const auto file = options.out / "advice.toml";
+  const fs::path& out = folder.path();
+  const auto file = out / "advice.toml";
   if (!toml.empty()) write_file(file, toml);
   if (options.tolerance > 0) {
     std::vector<Method> methods;
     if (!options.methods.empty()) methods = find_methods(options.methods);
     for (Method& m : all_methods())
       if (options.methods.empty() && m.name.starts_with("mysim/")) methods.push_back(std::move(m));
+    // the truth's run, and that of each method; each of them is tried at several steps
+    require_room_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
+    Progress progress(0);
+    progress.begin(fmt::format("truth of {}", scene->name));
+    for (Method& method : methods) method = with_progress(method, progress);
     const Advice a = advise(*scene, options.tolerance, std::move(methods));
+    progress.done();
     const Provenance lines = with_scene(provenance(options.command_line), *scene);
-    write_csv(trials_table(a), lines, options.out);
-    write_csv(costs_table(a), lines, options.out);
+    write_csv(trials_table(a), lines, out);
+    write_csv(costs_table(a), lines, out);
     write_file(file, a.toml);
-    write_file(options.out / "advice.json", json_of(a));
-    draw(drawing_of(advice_figure(a, value_of(lines, "commit"))), lines, options.out);
+    write_file(out / "advice.json", json_of(a));
+    draw(drawing_of(advice_figure(a, value_of(lines, "commit"))), lines, out);
+    folder.finish();
     print(a);
+  } else {
+    folder.finish();
   }
-  fmt::print("  {}\n", file.string());
+  fmt::print("  {}\n", (options.out / "advice.toml").string());
   return 0;
-} catch (const CannotPromise& why) {
-  fmt::print(stderr, "crosscheck: cannot promise on {}: {}\n", options.scene, why.what());
-  return 1;
+}
+
+}  // namespace
+
+int advise_command(const AdviseOptions& options) {
+  OutputFolder folder(options.out, "advise");
+  try {
+    return advised(options, folder);
+  } catch (const CannotPromise& why) {
+    // what was advised before would pass for this advice where none can be given; but it may be what was asked about
+    const fs::path old = options.out / "advice.toml", now = folder.path() / "advice.toml";
+    if (!fs::exists(now) && fs::exists(old) && fs::exists(options.scene) && fs::equivalent(old, options.scene))
+      fs::copy_file(old, now);
+    folder.finish();
+    fmt::print(stderr, "crosscheck: cannot promise on {}: {}\n", options.scene, why.what());
+    return 1;
+  }
 }
 
 }  // namespace crosscheck

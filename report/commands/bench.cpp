@@ -4,6 +4,7 @@
 #include "experiments/bench/bench.h"
 #include "experiments/scenes.h"
 #include "mysim/files.h"
+#include "mysim/output_folder.h"
 #include "reference/independent/integrators.h"
 #include "report/charts/bench.h"
 #include "report/commands/commands.h"
@@ -46,7 +47,7 @@ void print(const std::vector<BenchLine>& lines, const std::string& instructions)
 int bench_command(const BenchOptions& options) { return bench_command(options, bench_plan(options.full)); }
 
 int bench_command(const BenchOptions& options, const BenchPlan& plan) {
-  require_writable(options.out);
+  OutputFolder folder(options.out, "bench");
   const Rows rows = bench(plan);
   std::vector<Scene> scenes = load_scenes(plan.scenes);
   for (const BenchPlan::Sheet& asked : plan.sheets) scenes.push_back(asked.scene());
@@ -58,10 +59,11 @@ int bench_command(const BenchOptions& options, const BenchPlan& plan) {
   const std::string instructions = best_instructions(rows);
   lines.emplace_back("best instructions", instructions);
 
-  for (const Table& table : rows.tables) write_csv(table, lines, options.out);
-  write_file(options.out / "bench.json", tables_json(rows, lines));
+  for (const Table& table : rows.tables) write_csv(table, lines, folder.path());
+  write_file(folder.path() / "bench.json", tables_json(rows, lines));
   const std::vector<BenchLine> found = bench_lines(rows);
-  draw(drawing_of(bench_figure(found, instructions, value_of(lines, "commit"))), lines, options.out);
+  draw(drawing_of(bench_figure(found, instructions, value_of(lines, "commit"))), lines, folder.path());
+  folder.finish();
   print(found, instructions);
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
   fmt::print("\n{}\n", (options.out / "bench.json").string());

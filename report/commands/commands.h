@@ -8,6 +8,7 @@
 namespace crosscheck {
 
 struct BenchPlan;
+class OutputFolder;
 
 int doctor_command();
 
@@ -68,6 +69,8 @@ struct ReportOptions {
   std::string command_line;
 };
 int report_command(const ReportOptions& options);
+/// The same into a folder that is held already, whatever the options say.
+int report_command(const ReportOptions& options, OutputFolder& folder);
 
 struct FiguresOptions {
   std::vector<std::string> names;   // of experiments; empty: all

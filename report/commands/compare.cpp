@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "experiments/demand.h"
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
+#include "experiments/progress.h"
 #include "experiments/scenes.h"
+#include "experiments/stability/outlook.h"
 #include "mysim/files.h"
+#include "mysim/output_folder.h"
 #include "reference/certificate.h"
 #include "report/certificate_json.h"
 #include "report/commands/commands.h"
@@ -21,6 +24,7 @@ void print(const Certificate& certificate) {
   for (const CertificateRow& r : certificate.rows)
     fmt::print("  {:<14} {:<14} asked: {}; handed over: {}; read back: {}\n", name_of(r.parity), r.quantity, r.asked,
                r.mapped, r.read_back);
+  fmt::print("  {}\n", summary_of(certificate));
 }
 
 std::string shown(const Cell& cell) {
@@ -70,25 +74,35 @@ int compare_command(const CompareOptions& options) {
     if (request.methods.empty()) request.methods = methods_of(request, asked);
     request.methods.push_back(trajectory_method(options.trajectory, asked, run_of(request, asked)));
   }
-  require_writable(options.out);
   const Scene& scene = request.scenes[0];
+  require_room_to_keep(methods_of(request, scene), scene, run_of(request, scene));
+  OutputFolder folder(options.out, "compare");
 
   Answers answers;
   Rows result;
+  Progress progress(static_cast<int>(methods_of(request, scene).size()) + 1);
+  for (const Method& method : methods_of(request, scene)) {
+    Request shown = request;
+    shown.methods = {with_progress(method, progress)};
+    answer_of(shown, scene, shown.methods[0], answers);
+  }
+  progress.begin(fmt::format("truth and certificates of {}", scene.name));
   engines_on(request, scene, answers, result);
+  progress.done();
   const Provenance lines = with_scenes(provenance(options.command_line), request.scenes);
-  for (const Table& table : result.tables) write_csv(table, lines, options.out);
+  for (const Table& table : result.tables) write_csv(table, lines, folder.path());
 
   bool mismatch = false;
   for (const Certificate& certificate : result.certificates) {
     print(certificate);
-    write_file(options.out / fmt::format("certificate-{}.json", file_name_of(certificate.method)),
+    write_file(folder.path() / fmt::format("certificate-{}.json", file_name_of(certificate.method)),
                certificate_json(certificate));
     if (certificate.mismatch()) {
       fmt::print("  MISMATCH: {} was given another scene; its numbers are not compared\n", certificate.method);
       mismatch = true;
     }
   }
+  folder.finish();
   if (mismatch) return 1;
 
   const Table& table = *result.table("engines");
@@ -112,6 +126,11 @@ int compare_command(const CompareOptions& options) {
   }
   for (const Answer& answer : answers)
     if (!answer.outcome.remark.empty()) fmt::print("\n{}: {}\n", answer.method, answer.outcome.remark);
+  for (const Method& method : methods_of(request, scene))
+    for (const Answer& answer : answers)
+      if (answer.method == method.name && answer.outcome.verdict == Verdict::ok)
+        if (const std::string outlook = outlook_of(method, scene, answer.outcome.step); !outlook.empty())
+          fmt::print("\n{}: {}\n", method.name, outlook);
   if (options.step > 0)
     for (const Method& method : methods_of(request, scene))
       if (method.adaptive) fmt::print("\n{} chooses its own steps: --step does not apply to it\n", method.name);

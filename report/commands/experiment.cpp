@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "experiments/demand.h"
 #include "experiments/experiment.h"
 #include "experiments/scenes.h"
 #include "experiments/sweep/sweep.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/output_folder.h"
 #include "report/certificate_json.h"
 #include "report/commands/commands.h"
 #include "report/provenance.h"
@@ -15,14 +17,39 @@
 namespace crosscheck {
 namespace {
 
+std::string file_of(const Certificate& c) {
+  return fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method));
+}
+
+std::vector<std::string> files_of(const Rows& rows) {
+  std::vector<std::string> files;
+  for (const Table& table : rows.tables) files.push_back(table.name + ".csv");
+  for (const Certificate& c : rows.certificates) files.push_back(file_of(c));
+  return files;
+}
+
 void write_tables(const Rows& rows, const Provenance& lines, const std::filesystem::path& out) {
-  for (const Table& table : rows.tables) {
-    write_csv(table, lines, out);
+  for (const Table& table : rows.tables) write_csv(table, lines, out);
+  for (const Certificate& c : rows.certificates) write_file(out / file_of(c), certificate_json(c));
+}
+
+void print_tables(const Rows& rows, const std::filesystem::path& out) {
+  for (const Table& table : rows.tables)
     fmt::print("{}  {} rows\n", (out / (table.name + ".csv")).string(), table.rows.size());
-  }
-  for (const Certificate& c : rows.certificates)
-    write_file(out / fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method)), certificate_json(c));
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
+}
+
+/// The plan, and what may come of its points; what earlier ones gave stays where the sweep goes on.
+void announce(GrowingOutput& folder, const Plan& plan, const Store& store, const ExperimentOptions& options) {
+  const std::string points = store.folder().filename().string();
+  std::vector<std::string> files{"plan.json"};
+  for (const Plan::Entry& point : plan.points)
+    for (const char* ending : {".json", ".failed"}) files.push_back(fmt::format("{}/{}{}", points, point.hash, ending));
+  if (options.resume)
+    folder.keep(points);
+  else
+    folder.forget(points);
+  folder.announce(files);
 }
 
 }  // namespace
@@ -48,13 +75,15 @@ int experiment_command(const ExperimentOptions& options) {
   std::vector<Scene> looked_at;
   for (const Experiment* experiment : chosen) {
     request.scenes = scenes_for(*experiment, scenes, options.full);
+    for (const Scene& scene : request.scenes)
+      require_room_to_keep(methods_of(request, scene), scene, run_of(request, scene));
     unite(looked_at, request.scenes);
     for (Point& point : experiment->points(request)) points.push_back(std::move(point));
   }
-  require_writable(options.out);
+  GrowingOutput folder(options.out, "experiment");
   const Store store(store_in(options.out));
-  if (!options.resume) store.clear();
   const Plan plan = plan_of(names, points, with_scenes(provenance(options.command_line), looked_at));
+  announce(folder, plan, store, options);
   write_plan(plan, options.out);
 
   Progress progress(static_cast<int>(points.size()));
@@ -64,10 +93,15 @@ int experiment_command(const ExperimentOptions& options) {
   if (sweep.shard.count > 1) {
     fmt::print("part {} of {} points is in {}; join the parts with: crosscheck merge DIR... --out DIR\n", options.shard,
                points.size(), store.folder().string());
+    folder.finish();
     return failed.empty() ? 0 : 1;
   }
   std::vector<std::string> missing;
-  write_tables(joined(plan, {&store, 1}, missing), plan.provenance, options.out);
+  const Rows rows = joined(plan, {&store, 1}, missing);
+  folder.announce(files_of(rows));
+  write_tables(rows, plan.provenance, options.out);
+  folder.finish();
+  print_tables(rows, options.out);
   for (const std::string& name : missing) fmt::print(stderr, "crosscheck: missing in the tables: {}\n", name);
   return failed.empty() && missing.empty() ? 0 : 1;
 }
@@ -89,8 +123,10 @@ int merge_command(const MergeOptions& options) {
                plan.points.size());
     return 1;
   }
-  require_writable(options.out);
-  write_tables(rows, plan.provenance, options.out);
+  OutputFolder folder(options.out, "merge");
+  write_tables(rows, plan.provenance, folder.path());
+  folder.finish();
+  print_tables(rows, options.out);
   return 0;
 }
 

@@ -1,9 +1,11 @@
 // figures: a set of figures fit to print, made from the experiments that they need and no others.
 #include <fmt/format.h>
 
+#include "experiments/demand.h"
 #include "experiments/sweep/sweep.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/output_folder.h"
 #include "report/commands/commands.h"
 #include "report/figure_set.h"
 #include "report/figures_asked.h"
@@ -29,6 +31,8 @@ Work work_of(const AskedFigures& asked, const FiguresOptions& options) {
   for (const Experiment* experiment : asked.experiments) {
     work.experiments.emplace_back(experiment->name);
     request.scenes = scenes_for(*experiment, options.scenes, options.full);
+    for (const Scene& scene : request.scenes)
+      require_room_to_keep(methods_of(request, scene), scene, run_of(request, scene));
     unite(work.scenes, request.scenes);
     for (Point& point : experiment->points(request)) work.points.push_back(std::move(point));
   }
@@ -87,11 +91,13 @@ class Problems {
 
 }  // namespace
 
-int figures_command(const FiguresOptions& options) {
+int figures_command(const FiguresOptions& asked_for) {
+  FiguresOptions options = asked_for;
   const FigureSize size = figure_size(options.set, options.width);
   const AskedFigures asked = figures_asked(options);
   const Work work = work_of(asked, options);
-  require_writable(options.out);
+  OutputFolder folder(options.out, "figures");
+  options.out = folder.path();
   std::vector<Scene> scenes = work.scenes;
   for (const AskedPicture& picture : asked.pictures) unite(scenes, {picture.scene});
   const Provenance plain = provenance(options.command_line), lines = with_scenes(plain, scenes);
@@ -144,11 +150,12 @@ int figures_command(const FiguresOptions& options) {
   store.clear();
   for (const FigureInSet& figure : drawn) write_words(figure.words, options.out);
   write_catalogue(drawn, lines, options.out);
+  folder.finish();
   if (drawn.empty()) problems.tell("there is nothing to draw");
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
   fmt::print("{} figures, {:g} cm wide, letters of {:g} pt{}\n{}\n", drawn.size(), size.width, size.font,
              smaller ? fmt::format(" (smaller in {} that have no room for them)", smaller) : "",
-             (options.out / "figures.json").string());
+             (asked_for.out / "figures.json").string());
   return problems.any() ? 1 : 0;
 }
 

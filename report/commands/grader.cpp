@@ -12,6 +12,9 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "mysim/output_folder.h"
+#include "mysim/program_environment.h"
+#include "mysim/shell_words.h"
 #include "report/commands/commands.h"
 
 namespace crosscheck {
@@ -43,9 +46,11 @@ std::string value_of(const std::vector<std::string>& words, const std::string& o
 
 int exit_status_of(const fs::path& program, std::vector<std::string> words) {
   words.insert(words.begin(), program.string());
+  std::vector<std::string> environment = program_environment();
   std::fflush(nullptr);
   pid_t child = 0;
-  if (const int why = posix_spawn(&child, program.c_str(), nullptr, nullptr, pointers(words).data(), environ))
+  if (const int why =
+          posix_spawn(&child, program.c_str(), nullptr, nullptr, pointers(words).data(), pointers(environment).data()))
     throw std::runtime_error(fmt::format("{}: {}", program.string(), std::strerror(why)));
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
@@ -55,8 +60,9 @@ int exit_status_of(const fs::path& program, std::vector<std::string> words) {
 
 /// Grades, then sets the parts that are steppers beside other engines; the page links to it.
 int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
-  const fs::path charts = page.parent_path() / (page.stem().string() + "-charts"), engines = charts / "steppers";
-  fs::remove_all(engines);
+  const fs::path charts = page.parent_path() / (page.stem().string() + "-charts");
+  OutputFolder folder(charts, "report");
+  const fs::path engines = folder.path() / "steppers";
   const std::vector<std::string> more = {"--engines", engines.string(), "--charts",
                                          charts.filename().string() + "/index.html"};
   words.insert(words.end(), more.begin(), more.end());
@@ -70,11 +76,11 @@ int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
     if (entry.path().extension() != ".program") yours.push_back(entry.path().filename().string());
   std::sort(yours.begin(), yours.end());
   for (const std::string& part : yours) options.methods += ",exec:steppers/" + part;
-  options.command_line = "crosscheck " + fmt::format("{}", fmt::join(words.begin(), words.end() - 4, " "));
-  options.out = ".";
-  fs::current_path(charts);  // where names of methods are short
+  options.command_line = "crosscheck " + shell_line({words.data(), words.size() - more.size()});
+  options.out = fs::absolute(charts);
+  fs::current_path(folder.path());  // where names of methods are short
   fmt::print("charts of {}, beside mysim and Bullet\n", fmt::join(yours, ", "));
-  return report_command(options);
+  return report_command(options, folder);
 }
 
 }  // namespace
@@ -86,8 +92,9 @@ int grader_command(const std::vector<std::string>& words) {
   std::vector<std::string> all = words;
   const fs::path program = grader();
   all.insert(all.begin(), program.string());
+  std::vector<std::string> environment = program_environment();
   std::fflush(nullptr);
-  execv(program.c_str(), pointers(all).data());
+  execve(program.c_str(), pointers(all).data(), pointers(environment).data());
   throw std::runtime_error(fmt::format("{}: {}", program.string(), std::strerror(errno)));
 }
 

@@ -1,12 +1,12 @@
 // list: scenes, methods, experiments, assignments.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "experiments/disagreements/disagreements.h"
 #include "experiments/experiment.h"
 #include "experiments/scenes.h"
 #include "mysim/errors.h"
+#include "mysim/json.h"
+#include "mysim/nearest.h"
 #include "report/commands/commands.h"
 
 namespace crosscheck {
@@ -35,11 +35,12 @@ int list_command(const std::string& what, bool json) {
   else if (what == "assignments")
     grader_command(json ? std::vector<std::string>{"list", "--json"} : std::vector<std::string>{"list"});
   else
-    throw InputError(fmt::format("list {}: expected scenes, methods, experiments or assignments", what));
+    throw InputError(fmt::format("list {}: expected scenes, methods, experiments or assignments{}", what,
+                                 did_you_mean(what, {"scenes", "methods", "experiments", "assignments"})));
 
   if (json) {
-    auto list = nlohmann::ordered_json::array();
-    for (const auto& [name, text] : rows) list.push_back({{"name", name}, {"what", text}});
+    Json list = Json::list();
+    for (const auto& [name, text] : rows) list.push({{"name", name}, {"what", text}});
     fmt::print("{}\n", list.dump(2));
     return 0;
   }

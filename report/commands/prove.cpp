@@ -1,12 +1,12 @@
 // regress --prove: each small wrong change to mysim, one after the other, against the baselines; all must be caught.
 #include <fmt/format.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "experiments/regress/mutations.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/json.h"
+#include "mysim/nearest.h"
+#include "mysim/output_folder.h"
 #include "report/commands/commands.h"
 #include "report/run_program.h"
 
@@ -35,13 +35,13 @@ Proof proof_of(const Mutation& mutation, const std::filesystem::path& program, c
   if (!options.filter.empty()) words.insert(words.end(), {"--filter", options.filter});
   std::filesystem::remove(out / "regress.json");
   const auto ended = run_program(words, std::filesystem::current_path(), {"CROSSCHECK_MUTANT=" + mutation.name});
-  std::ifstream in(out / "regress.json");
-  if (!in) throw std::runtime_error(fmt::format("{}: {}: no verdict: {}", program.string(), mutation.name, ended.err));
-  const nlohmann::json verdict = nlohmann::json::parse(in);
+  if (!std::filesystem::exists(out / "regress.json"))
+    throw std::runtime_error(fmt::format("{}: {}: no verdict: {}", program.string(), mutation.name, ended.err));
+  const JsonField verdict = JsonField::parse_file((out / "regress.json").string());
   Proof proof;
-  proof.caught = !verdict.at("passed").get<bool>();
-  proof.failures = verdict.at("failures").size() + verdict.at("without_answer").size();
-  proof.cause = verdict.at("cause").get<std::string>();
+  proof.caught = !verdict["passed"].truth();
+  proof.failures = verdict["failures"].size() + verdict["without_answer"].size();
+  proof.cause = verdict["cause"].text();
   proof.wrongly_named = proof.caught && !may_be_named(proof.cause, mutation);
   return proof;
 }
@@ -55,7 +55,8 @@ int prove_command(const RegressOptions& asked) {
     throw InputError(
         fmt::format("{}: expected the program of mutants; build the target crosscheck_mutants", program.string()));
   if (options.baselines.empty()) options.baselines = CROSSCHECK_BASELINES;
-  require_writable(options.out);
+  OutputFolder folder(options.out, "regress");
+  options.out = folder.path();
   int escaped = 0, wrongly_named = 0, named = 0, count = 0;
   for (const Mutation& mutation : read_mutations(CROSSCHECK_MUTATIONS)) {
     if (!options.mutant.empty() && options.mutant != mutation.name) continue;
@@ -68,11 +69,17 @@ int prove_command(const RegressOptions& asked) {
                proof.failures, proof.caught ? proof.cause : "", proof.wrongly_named ? "  WRONGLY NAMED" : "");
     std::fflush(stdout);
   }
-  if (count == 0) throw InputError(fmt::format("--mutant {}: no such mutation", options.mutant));
+  if (count == 0) {
+    std::vector<std::string> names;
+    for (const Mutation& mutation : read_mutations(CROSSCHECK_MUTATIONS)) names.push_back(mutation.name);
+    throw InputError(fmt::format("--mutant {}: no such mutation; expected one of those in {}{}", options.mutant,
+                                 CROSSCHECK_MUTATIONS, did_you_mean(options.mutant, names)));
+  }
   // that nothing is caught where nothing is wrong
   const Proof unchanged = proof_of({"none", "", {}, "", ""}, program, options);
   fmt::print("{:<8} {:<32} {:>6} failures\n", unchanged.caught ? "CAUGHT" : "passed", "(mysim as it is)",
              unchanged.failures);
+  folder.finish();
   fmt::print("\n{} of {} wrong changes caught; the cause named for {}, wrongly for {}\n", count - escaped, count, named,
              wrongly_named);
   return escaped == 0 && wrongly_named == 0 && !unchanged.caught ? 0 : 1;

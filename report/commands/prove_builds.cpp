@@ -1,14 +1,15 @@
 // regress --prove-builds: the same baselines in every build of the table in builds.cpp; nothing may have moved there.
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "experiments/regress/questions.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/json.h"
+#include "mysim/nearest.h"
+#include "mysim/output_folder.h"
 #include "report/commands/commands.h"
 #include "report/provenance.h"
 #include "report/regress/builds.h"
@@ -18,7 +19,7 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-struct Finding {
+struct BuildFinding {
   std::string state;  // as printed
   long quantities = 0, identical = 0, differing = 0, failures = 0;
   std::optional<double> off;  // tolerances, of what differs most
@@ -29,24 +30,23 @@ struct Finding {
 constexpr auto passed = "passed", alarm = "FALSE ALARM", not_here = "not here", not_built = "NOT BUILT",
                no_verdict = "NO VERDICT";
 
-std::string in_words(const nlohmann::json& row) {
-  const auto text = [&](const char* key) { return row.at(key).get<std::string>(); };
+std::string in_words(const JsonField& row) {
+  const auto text = [&](const char* key) { return row[key].text(); };
   const std::string without = text("without");
   return fmt::format("{}, {}{}: {}", text("scene"), text("method"), without.empty() ? "" : " without " + without,
                      text("quantity"));
 }
 
-Finding finding_of(const nlohmann::json& verdict) {
-  Finding finding{verdict.at("passed").get<bool>() ? passed : alarm};
-  finding.quantities = verdict.at("quantities").get<long>();
-  finding.identical = verdict.at("identical").get<long>();
-  finding.differing = verdict.at("differing").get<long>();
-  finding.failures = static_cast<long>(verdict.at("failures").size() + verdict.at("without_answer").size());
-  if (verdict.contains("furthest")) {
-    const nlohmann::json& row = verdict.at("furthest");
-    const auto off = row.find("tolerances_off");
-    finding.off = off != row.end() && off->is_number() ? off->get<double>() : INFINITY;  // of a word or a count
-    finding.furthest = in_words(row);
+BuildFinding finding_of(const JsonField& verdict) {
+  BuildFinding finding{verdict["passed"].truth() ? passed : alarm};
+  finding.quantities = verdict["quantities"].whole();
+  finding.identical = verdict["identical"].whole();
+  finding.differing = verdict["differing"].whole();
+  finding.failures = static_cast<long>(verdict["failures"].size() + verdict["without_answer"].size());
+  if (const auto row = verdict.find("furthest")) {
+    const auto off = row->find("tolerances_off");
+    finding.off = off && off->is_number() ? off->number() : INFINITY;  // of a word or a count
+    finding.furthest = in_words(*row);
   }
   return finding;
 }
@@ -56,7 +56,7 @@ const std::string& filter_of(const Build& build, const RegressOptions& options) 
 }
 
 /// Runs the build's program over the baselines.
-Finding asked(const fs::path& program, const Build& build, const RegressOptions& options) {
+BuildFinding asked(const fs::path& program, const Build& build, const RegressOptions& options) {
   const fs::path out = options.out / build.name;
   std::vector<std::string> words{program.string(), "regress",     "--no-speed",
                                  "--figures",      "0",           "--out",
@@ -69,12 +69,12 @@ Finding asked(const fs::path& program, const Build& build, const RegressOptions&
   if (!build.environment.empty()) environment.push_back(build.environment);
   fs::remove(out / "regress.json");
   const ProgramResult ended = run_program(words, fs::current_path(), environment);
-  std::ifstream in(out / "regress.json");
-  if (!in) return {.state = no_verdict, .note = last_lines(ended.out + ended.err, 5)};
-  return finding_of(nlohmann::json::parse(in));
+  const fs::path verdict = out / "regress.json";
+  if (!fs::exists(verdict)) return {.state = no_verdict, .note = last_lines(ended.out + ended.err, 5)};
+  return finding_of(JsonField::parse_file(verdict.string()));
 }
 
-Finding found(const Build& build, const RegressOptions& options) {
+BuildFinding found(const Build& build, const RegressOptions& options) {
   if (const std::string missing = missing_for(build); !missing.empty()) return {.state = not_here, .note = missing};
   fs::path program = fs::path(CROSSCHECK_BINARY_DIR) / "crosscheck";
   if (build.compiled()) {
@@ -87,7 +87,7 @@ Finding found(const Build& build, const RegressOptions& options) {
   return asked(program, build, options);
 }
 
-void print_finding(const Build& build, const RegressOptions& options, const Finding& f) {
+void print_finding(const Build& build, const RegressOptions& options, const BuildFinding& f) {
   fmt::print("{:<12} {:<12} ", f.state, build.name);
   if (f.state == not_here)
     fmt::print("{}\n", f.note);
@@ -120,7 +120,7 @@ Table empty_table() {
           {}};
 }
 
-void add_row(Table& table, const Build& build, const RegressOptions& options, const Finding& f) {
+void add_row(Table& table, const Build& build, const RegressOptions& options, const BuildFinding& f) {
   const auto count = [&](long n) { return f.state == passed || f.state == alarm ? Cell(n) : Cell(); };
   table.add({build.name, build.compiler, build.type, build.flags, build.environment, filter_of(build, options), f.state,
              count(f.quantities), count(f.failures), count(f.identical), count(f.differing), cell_of(f.off), f.furthest,
@@ -128,12 +128,13 @@ void add_row(Table& table, const Build& build, const RegressOptions& options, co
 }
 
 void require_known(const std::string& name) {
-  std::string names;
+  std::vector<std::string> names;
   for (const Build& build : builds()) {
     if (name.empty() || name == build.name) return;
-    names += (names.empty() ? "" : ", ") + build.name;
+    names.push_back(build.name);
   }
-  throw InputError(fmt::format("--build {}: no such build; expected one of: {}", name, names));
+  throw InputError(fmt::format("--build {}: no such build; expected one of: {}{}", name, fmt::join(names, ", "),
+                               did_you_mean(name, names)));
 }
 
 }  // namespace
@@ -145,23 +146,25 @@ int prove_builds_command(const RegressOptions& asked_for) {
   if (!options.methods.empty()) asked.methods = find_methods(options.methods);
   questions(asked);  // refuses what no build could answer
   if (options.baselines.empty()) options.baselines = CROSSCHECK_BASELINES;
-  require_writable(options.out);
+  OutputFolder folder(options.out, "regress");
+  options.out = folder.path();
   Table table = empty_table();
   std::map<std::string, int> count;
   for (const Build& build : builds()) {
     if (!options.build.empty() && options.build != build.name) continue;
-    const Finding finding = found(build, options);
+    const BuildFinding finding = found(build, options);
     print_finding(build, options, finding);
     add_row(table, build, options, finding);
     ++count[finding.state];
   }
   write_csv(table, provenance(options.command_line), options.out);
+  folder.finish();
   const int wrong = count[not_built] + count[no_verdict];
   fmt::print("\n{} builds passed, {} with a false alarm, {} without a verdict, {} not here\n", count[passed],
              count[alarm], wrong, count[not_here]);
   if (count[alarm] > 1 && count[passed] == 0)
     fmt::print("all of them say so: then something did move; `crosscheck regress` says what\n");
-  fmt::print("{}\n", (options.out / "builds.csv").string());
+  fmt::print("{}\n", (asked_for.out / "builds.csv").string());
   return count[passed] > 0 && count[alarm] == 0 && wrong == 0 ? 0 : 1;
 }
 

@@ -3,6 +3,7 @@
 
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/output_folder.h"
 #include "report/commands/regress_speed.h"
 
 namespace crosscheck {
@@ -36,20 +37,22 @@ void look(const std::vector<SpeedQuestion>& questions, const SpeedFile& blessed,
 }  // namespace
 
 int prove_speed_command(const RegressOptions& options) {
-  require_writable(options.out);
+  OutputFolder folder(options.out, "regress");
   Asked asked;
   asked.filter = options.filter;
   if (!options.methods.empty()) asked.methods = find_methods(options.methods);
   const std::vector<SpeedQuestion> questions = speed_questions(asked, {});
   if (questions.empty()) throw InputError("--prove-speed: no speed is asked of what the filter leaves");
-  const Machine machine = machine_of(provenance(options.command_line));
+  Machine machine = machine_of(provenance(options.command_line));
+  if (machine.cpu.empty()) machine.cpu = "this one";  // nothing of it is kept
   Progress progress(0);
-  const Measure measure = SpeedMeter(options.out, progress);
+  const Measure measure = SpeedMeter(folder.path(), progress);
   SpeedFile blessed;
   put_into(blessed, speeds_to_bless(questions, machine, measure), {});
   Tally tally;
   for (int i = 0; i < options.repetitions; ++i) look(questions, blessed, machine, measure, tally);
   progress.done();
+  folder.finish();
   fmt::print("{} repetitions of {} speeds: {} suspicions, {} alarms; the farthest off was {} by {:.3g}\n",
              options.repetitions, blessed.speeds.size(), tally.suspicions, tally.alarms, tally.where, tally.farthest);
   return tally.alarms == 0 ? 0 : 1;

@@ -10,6 +10,7 @@
 #include "experiments/regress/regress.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/output_folder.h"
 #include "report/commands/commands.h"
 #include "report/commands/regress_speed.h"
 #include "report/provenance.h"
@@ -112,10 +113,14 @@ int regressed(const RegressOptions& options) {
     regression.against = find_method(options.against);
   }
   regression.baselines = options.baselines.empty() ? std::filesystem::path(CROSSCHECK_BASELINES) : options.baselines;
-  regression.out = options.out;
-  require_writable(options.out);
+  OutputFolder folder(options.out, "regress");
+  regression.out = folder.path();
   const Provenance lines = provenance(options.command_line);
-  if (options.bless) return blessed(regression, options, lines);
+  if (options.bless) {
+    const int status = blessed(regression, options, lines);
+    folder.finish();
+    return status;
+  }
   if (!options.reason.empty()) throw InputError("--reason: expected --bless beside it");
 
   Progress progress(0);
@@ -125,14 +130,14 @@ int regressed(const RegressOptions& options) {
   progress.done();
   const std::vector<Question> asked = questions(regression.asked);
   const std::string cause = cause_of(asked, result.rows);
-  write_verdict(result, speeds, cause, lines, options.out);
-  std::filesystem::remove(options.out / "index.html");
+  write_verdict(result, speeds, cause, lines, regression.out);
   if (options.figures > 0 && !options.bisect) {
     VerdictPage page{result, speeds, cause};
     page.beside = regression.against ? regression.against->name : "the baselines in " + regression.baselines.string();
     page.lines = lines;
     write_verdict_page(page, asked, regression, options.figures);
   }
+  folder.finish();
   const int status = told(result, cause, options.out);
   print_speeds(speeds);
   return speeds.passed() ? status : 1;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "experiments/regress/machine.h"
 #include "experiments/regress/plain_loop.h"
 #include "experiments/regress/trade.h"
 
@@ -15,7 +16,7 @@ bool speed_is_asked(const RegressOptions& options) { return !options.no_speed &&
 Machine machine_of(const Provenance& lines) {
   std::string compiler = value_of(lines, "compiler");
   if (const std::string flags = CROSSCHECK_LINK_FLAGS; !flags.empty()) compiler += " " + flags;
-  return {value_of(lines, "cpu"), compiler, PlainLoop::name};
+  return {processor_kind(), compiler, PlainLoop::name};
 }
 
 SpeedRun speed_run_of(const Regression& regression, const Provenance& lines) {
@@ -51,8 +52,13 @@ void print_speeds(const Speeds& speeds) {
 }
 
 void bless_and_print_speeds(const Regression& regression, const Blessing& blessing, const Provenance& lines) {
+  const SpeedRun run = speed_run_of(regression, lines);
+  if (run.machine.cpu.empty()) {
+    fmt::print("no speeds blessed: this processor cannot be told from others\n");
+    return;
+  }
   Progress progress(0);
-  const std::vector<BlessedSpeed> written = bless_speeds(speed_run_of(regression, lines), blessing, progress);
+  const std::vector<BlessedSpeed> written = bless_speeds(run, blessing, progress);
   progress.done();
   for (const BlessedSpeed& speed : written)
     fmt::print("speed      {}, {}: {:.4g} times the plain loop, spread {:.1f} %\n", speed.scene, speed.method,

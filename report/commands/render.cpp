@@ -3,9 +3,12 @@
 
 #include <cstdio>
 
+#include "experiments/demand.h"
+#include "experiments/progress.h"
 #include "experiments/scenes.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/nearest.h"
 #include "report/clip.h"
 #include "report/commands/commands.h"
 #include "report/pictures.h"
@@ -32,7 +35,8 @@ Shot shot_of(const RenderOptions& options, const Scene& scene, bool clip) {
   if (options.at > scene.duration)
     throw InputError(fmt::format("--at {}: expected a time from 0 to {} s", options.at, scene.duration));
   if (!options.quality.empty() && options.quality != "fast" && options.quality != "still")
-    throw InputError(fmt::format("--quality {}: expected fast or still", options.quality));
+    throw InputError(fmt::format("--quality {}: expected fast or still{}", options.quality,
+                                 did_you_mean(options.quality, {"fast", "still"})));
   const bool fast = options.quality.empty() ? clip : options.quality == "fast";
   shot.quality = fast ? render::Quality::fast : render::Quality::still;
   read_size(options.size, shot);
@@ -41,11 +45,13 @@ Shot shot_of(const RenderOptions& options, const Scene& scene, bool clip) {
 }
 
 /// The methods' answers; those that give none are told.
-std::vector<Answer> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run) {
+std::vector<Answer> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run,
+                               Progress& progress) {
   std::vector<Answer> answers;
   for (const Method& method : methods) {
     Recorder recorder;
-    Outcome out = run_method(method, scene, run, {&recorder});
+    Outcome out = run_method(with_progress(method, progress), scene, run, {&recorder});
+    if (out.verdict == Verdict::unsupported || recorder.trajectory.frames() == 0) progress.done();
     if (out.verdict == Verdict::unsupported)
       fmt::print(stderr, "crosscheck: {} cannot run {}: {}\n", method.name, scene.name, out.reason);
     else if (recorder.trajectory.frames() == 0)
@@ -63,6 +69,9 @@ int render_command(const RenderOptions& options) {
   const bool clip = options.file.extension() == ".mp4";
   if (!clip && options.file.extension() != ".png")
     throw InputError(fmt::format("-o {}: expected a file name that ends in .png or .mp4", options.file.string()));
+  std::error_code unknown;
+  if (std::filesystem::is_directory(options.file, unknown))
+    throw InputError(fmt::format("-o {}: expected the name of a file, got a folder", options.file.string()));
   const Shot shot = shot_of(options, scene, clip);
   require_writable(options.file.has_parent_path() ? options.file.parent_path() : ".");
 
@@ -71,14 +80,19 @@ int render_command(const RenderOptions& options) {
     for (const std::string& name : pictured_methods(scene)) methods.push_back(find_method(name));
   else
     methods = find_methods(options.methods);
-  const std::vector<Answer> answers = answers_of(scene, methods, clip ? clip_run(scene) : default_run(scene));
+  const Run run = clip ? clip_run(scene) : default_run(scene);
+  require_room_to_keep(methods, scene, run);
+  Progress progress(static_cast<int>(methods.size()) + (clip ? 0 : 1));
+  const std::vector<Answer> answers = answers_of(scene, methods, run, progress);
+  progress.done();
   if (answers.empty()) return 1;
   std::vector<const Answer*> shown;
   for (const Answer& a : answers) shown.push_back(&a);
   if (clip)
     write_clip(scene, shown, shot, options.file);
   else
-    render::write_png(picture_of(scene, shown, shot), options.file);
+    progress.begin("drawing " + options.file.string()), render::write_png(picture_of(scene, shown, shot), options.file);
+  progress.done();
   fmt::print("{}\n", options.file.string());
   return 0;
 }

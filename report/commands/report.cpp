@@ -3,10 +3,12 @@
 
 #include <algorithm>
 
+#include "experiments/demand.h"
 #include "experiments/scenes.h"
 #include "experiments/sweep/sweep.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/output_folder.h"
 #include "report/certificate_json.h"
 #include "report/commands/commands.h"
 #include "report/findings_text.h"
@@ -22,13 +24,6 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// Files of an earlier report in the same folder would pass for this one's, also where this one is killed.
-void clear_former_report(const fs::path& out) {
-  if (fs::exists(out / "report.json"))
-    for (const char* part : {"data", "figures", "points", "index.html"}) fs::remove_all(out / part);
-  write_file(out / "report.json", "{\"problems\": [\"the report was not finished\"]}\n");
-}
-
 void write_data(const Rows& result, const Provenance& lines, const fs::path& folder) {
   for (const Table& table : result.tables) write_csv(table, lines, folder);
   for (const Certificate& c : result.certificates)
@@ -43,11 +38,12 @@ void write_picture(const Scene& scene, const std::vector<const Answer*>& shown, 
 
 class Builder {
  public:
-  Builder(const ReportOptions& options, Request request)
+  Builder(const ReportOptions& options, Request request, OutputFolder& folder)
       : options_(options),
         request_(std::move(request)),
-        figures_(options.out / "figures"),
-        runs_(options.out / "data" / "runs") {
+        folder_(folder),
+        figures_(folder.path() / "figures"),
+        runs_(folder.path() / "data" / "runs") {
     request_.watch = [this](const WatchedRuns& watched) {
       if (watched.of != "speed-accuracy" || has_own_charts(watched.of, watched.scene.name, all()))
         runs_.keep(watched, run_of(request_, watched.scene));
@@ -81,9 +77,9 @@ class Builder {
       if (c.mismatch())
         page_.problems.push_back(
             fmt::format("{} on {}: it built another scene, see its certificate", c.method, c.scene));
-    write_data(rows_, page_.provenance, options_.out / "data");
+    write_data(rows_, page_.provenance, folder_.path() / "data");
     for (const Scene& scene : request_.scenes)
-      write_file(options_.out / "data" / "scenes" / (file_name_of(scene.name) + ".toml"), scene.source);
+      write_file(folder_.path() / "data" / "scenes" / (file_name_of(scene.name) + ".toml"), scene.source);
     findings_ = all_findings(request_.scenes, rows_);
     page_.notes = rows_.notes;
     if (!options_.full) page_.notes.insert(page_.notes.begin(), left_out());
@@ -104,9 +100,10 @@ class Builder {
     }
     if (shown) page_.hero.insert(page_.hero.begin(), shown->pictures[0]);
 
-    write_file(options_.out / "report.json", report_json(page_, findings_, charts_, rows_));
-    write_file(options_.out / "index.html", page_html(page_));
+    write_file(folder_.path() / "report.json", report_json(page_, findings_, charts_, rows_));
+    write_file(folder_.path() / "index.html", page_html(page_));
     store_.clear();
+    folder_.finish();
     for (const std::string& problem : page_.problems)
       fmt::print(stderr, "crosscheck: missing in the report: {}\n", problem);
     for (const Finding& f : page_.findings) fmt::print("- {}\n", f.sentence);
@@ -152,7 +149,7 @@ class Builder {
   fs::path picture_of_scene(const Scene& scene) const { return figures_ / (file_name_of(scene.name) + "-picture.png"); }
 
   fs::path motions_of_scene(const Scene& scene) const {
-    return options_.out / "data" / (file_name_of(scene.name) + "-motions.json");
+    return folder_.path() / "data" / (file_name_of(scene.name) + "-motions.json");
   }
 
   std::vector<std::string> methods_pictured(const Scene& scene) const {
@@ -276,9 +273,10 @@ class Builder {
   Request request_;  // of the scenes that have a part of their own
   std::vector<const Experiment*> experiments_;
   std::vector<Request> requests_;  // one per experiment, with the scenes that it looks at
+  OutputFolder& folder_;
   fs::path figures_;
   RunsFolder runs_;
-  Store store_{store_in(options_.out)};
+  Store store_{store_in(folder_.path())};
   Rows rows_;
   AllFindings findings_;
   std::vector<Chart> charts_;
@@ -288,6 +286,7 @@ class Builder {
 }  // namespace
 
 int verify_command(const fs::path& folder) {
+  recover_output(folder);
   const Verification found = verify_report(folder);
   for (const std::string& mismatch : found.mismatches) fmt::print("{}\n", mismatch);
   fmt::print(
@@ -297,19 +296,24 @@ int verify_command(const fs::path& folder) {
 }
 
 int report_command(const ReportOptions& options) {
+  OutputFolder folder(options.out, "report");
+  return report_command(options, folder);
+}
+
+int report_command(const ReportOptions& options, OutputFolder& folder) {
   Request request;
   request.full = options.full;
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
   request.scenes = scenes_for({}, options.scenes, options.full);
+  for (const Scene& scene : request.scenes)
+    require_room_to_keep(methods_of(request, scene), scene, run_of(request, scene));
   request.scenes_only = !options.scenes.empty() && !options.full;
   if (!options.against.empty()) {
     changes_since(options.against, {});  // is it a report? Asked before the work
     if (fs::weakly_canonical(options.against) == fs::weakly_canonical(options.out))
       throw InputError("--against: expected another folder than that of --out, which is written anew");
   }
-  require_writable(options.out);
-  clear_former_report(options.out);
-  return Builder(options, std::move(request)).build();
+  return Builder(options, std::move(request), folder).build();
 }
 
 }  // namespace crosscheck

@@ -1,12 +1,15 @@
 // run: one method on one scene; writes trajectory.npy, velocities.npy, energy.csv, run.json.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "experiments/demand.h"
 #include "experiments/experiment.h"
+#include "experiments/progress.h"
 #include "experiments/scenes.h"
+#include "experiments/stability/outlook.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"
+#include "mysim/json.h"
+#include "mysim/output_folder.h"
 #include "reference/frame_files.h"
 #include "report/commands/commands.h"
 #include "report/provenance.h"
@@ -15,22 +18,22 @@ namespace crosscheck {
 namespace {
 
 std::string run_json(const Scene& scene, const Method& method, const Outcome& out, const std::vector<double>& times) {
-  nlohmann::ordered_json json{{"scene", scene.name},
-                              {"scene_hash", scene.hash},
-                              {"method", method.name},
-                              {"step", out.step},
-                              {"tolerance", out.tolerance > 0 ? nlohmann::ordered_json(out.tolerance) : nullptr},
-                              {"times", times},
-                              {"verdict", name_of(out.verdict)},
-                              {"reason", out.reason},
-                              {"end", out.end},
-                              {"steps", out.steps},
-                              {"force_evaluations", out.evaluations},
-                              {"coincident_springs", out.coincident},
-                              {"cpu_seconds", out.cpu_seconds},
-                              {"process_seconds", out.process_seconds},
-                              {"remark", out.remark},
-                              {"different_law", out.different_law}};
+  Json json{{"scene", scene.name},
+            {"scene_hash", scene.hash},
+            {"method", method.name},
+            {"step", out.step},
+            {"tolerance", out.tolerance > 0 ? Json(out.tolerance) : Json()},
+            {"times", times},
+            {"verdict", name_of(out.verdict)},
+            {"reason", out.reason},
+            {"end", out.end},
+            {"steps", out.steps},
+            {"force_evaluations", out.evaluations},
+            {"coincident_springs", out.coincident},
+            {"cpu_seconds", out.cpu_seconds},
+            {"process_seconds", out.process_seconds},
+            {"remark", out.remark},
+            {"different_law", out.different_law}};
   return json.dump(1) + "\n";
 }
 
@@ -47,32 +50,40 @@ int run_command(const RunOptions& options) {
   Run run = default_run(scene);
   if (options.step > 0) run.step = options.step;
   if (options.tolerance > 0) run.tolerance = options.tolerance;
-  if (options.duration > 0) {
-    // the sampling interval stays near the scene's own
-    run.samples = std::max(1, static_cast<int>(std::lround(scene.samples * options.duration / scene.duration)));
-    run.duration = options.duration;
-  }
-  if (run.step > run.duration)
+  if (options.duration > 0) run = lengthened(method, scene, run, options.duration);
+  if (run.step > run.duration && options.step > 0)
     throw InputError(fmt::format("--step: expected at most the duration of {} s, got {}", run.duration, run.step));
-  require_writable(options.out);
+  if (run.step > run.duration && !adaptive)
+    throw InputError(
+        fmt::format("--duration: expected at least one step of {} s, which is {}'s own, got {} s; --step "
+                    "gives a shorter one",
+                    run.step, scene.name, run.duration));
+  require_room_to_write(method, scene, run, options.out);
+  OutputFolder folder(options.out, "run");
 
-  FrameFiles frames(options.out);
+  FrameFiles frames(folder.path());
   Ledger ledger(scene.model, method.contact);
   std::vector<Observer*> observers{&frames};
   if (!scene.model.first_order()) observers.push_back(&ledger);
-  const Outcome out = run_method(method, scene, run, observers);
+  Progress progress(1);
+  Outcome out = run_method(with_progress(method, progress), scene, run, observers);
+  progress.done();
   if (out.verdict == Verdict::unsupported) {
     fmt::print(stderr, "crosscheck: {} cannot run {}: {}\n", method.name, scene.name, out.reason);
     return 1;
   }
 
   frames.finish();
+  if (out.verdict == Verdict::ok)
+    if (const std::string outlook = outlook_of(method, scene, out.step); !outlook.empty())
+      out.remark += (out.remark.empty() ? "" : "; ") + outlook;
   if (!ledger.rows().empty()) {  // none without velocities
     Table energy = ledger_table("energy");
     add_ledger(energy, method.name, ledger.rows(), ledger.contact_inferred());
-    write_csv(energy, with_scene(provenance(options.command_line), scene), options.out);
+    write_csv(energy, with_scene(provenance(options.command_line), scene), folder.path());
   }
-  write_file(options.out / "run.json", run_json(scene, method, out, frames.times()));
+  write_file(folder.path() / "run.json", run_json(scene, method, out, frames.times()));
+  folder.finish();
   fmt::print("{} by {}: {}{}\n", scene.name, method.name, in_words(out.verdict),
              out.reason.empty() ? "" : ", " + out.reason);
   fmt::print("  {} steps of {:.6g} s{}, {} force evaluations, {:.3g} s of CPU time, {} frames\n", out.steps, out.step,

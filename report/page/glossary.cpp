@@ -43,10 +43,12 @@ constexpr Word words[] = {
      "Of all steps and tolerances tried, the run of least CPU time whose error is at most 1 % "
      "of the motion, and who is no slower within the noise. Bullet × 30: the cheapest such run of Bullet's worlds "
      "takes "
-     "30 times as long; none: no run of theirs that was tried is as near."},
+     "30 times as long as that of mysim's; none: no run of theirs that was tried is as near."},
     {"failed", "failed",
-     "Blew up: shows more energy than it had to work with. Overstretched, froze, solver gave up: what "
-     "they say. A run that came to its end can still be far off."},
+     "Blew up: by their positions its particles move with more than ten times the energy that start, gravity, wind "
+     "and moved pins gave. Overstretched, froze, solver gave up: what they say. A run that came to its end can still "
+     "be "
+     "far off."},
     {"least", "least model",
      "What is left of a scene when all is left out that is not needed for an error of 1 %, or 10 %, of "
      "the motion; tried again from three other starts."},

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "reference/independent/integrators.h"
 #include "report/assets.h"
 #include "report/finding_rules.h"
 #include "report/page/inline_svg.h"
@@ -224,13 +223,12 @@ std::string page_html(const PageContent& c) {
   out +=
       glossary_html() +
       "<section class=\"made\" id=\"made\"><h2>How this was made</h2>\n<p>The error bar of a converged truth is the "
-      "largest of the difference of its two routes and of what refining each still changes. A difference is the "
+      "difference of its two routes, or, where that is more, three times what the order at which refining goes down "
+      "leaves of the last change. A difference is the "
       "distance between two engines, or from what the in-house contact rule converges to. Data, figures and scripts "
       "lie beside this page in <code>data/</code> and <code>figures/</code>; <code>report --verify</code> recomputes "
       "every sentence from them.</p>\n";
-  out += fmt::format(
-      "<p>The second route is {} on a right-hand side written apart from mysim's.</p>\n",
-      sundials_version() ? "SUNDIALS ARKODE" : "odeint; SUNDIALS is not there (Debian's package libsundials-dev)");
+  out += "<p>The second route is odeint's extrapolation on a right-hand side written apart from mysim's.</p>\n";
   for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", prose(note));
   out += provenance_html(c.provenance) + "</section>\n</main>\n";
   for (const PlayedRuns& runs : c.runs) out += runs_html(runs);

@@ -139,20 +139,20 @@ std::string statistics_html(const Table& table) {
 
 std::string certificate_html(const Certificate& certificate) {
   const bool bad = certificate.mismatch();
-  const long other = std::count_if(certificate.rows.begin(), certificate.rows.end(),
-                                   [](const CertificateRow& r) { return r.parity == Parity::different_law; });
   std::string out = fmt::format(
-      "<details{}><summary>Is it the same scene? {}: {} quantities read back, {}{}</summary><div "
+      "<details{}><summary>Is it the same scene? {}: {}</summary><div "
       "class=\"scroll\"><table><thead><tr><th>quantity"
       "</th><th>asked</th><th>handed over</th><th>read back</th><th>verdict</th></tr></thead><tbody>\n",
-      bad ? " open" : "", escaped(certificate.method), static_cast<long>(certificate.rows.size()) - other,
-      bad ? "MISMATCH" : "no mismatch", other ? fmt::format(", {} under another law", other) : "");
+      bad ? " open" : "", escaped(certificate.method), escaped(summary_of(certificate)));
   for (const CertificateRow& r : certificate.rows)
     out += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td class=\"text\">{}</td><td "
         "class=\"text\">{}</td><td class=\"{}\">{}</td></tr>\n",
         escaped(r.quantity), escaped(r.asked), escaped(r.mapped), escaped(r.read_back),
-        r.parity == Parity::mismatch ? "failed" : "ok", name_of(r.parity));
+        r.parity == Parity::mismatch     ? "failed"
+        : r.parity == Parity::unattested ? "none"
+                                         : "ok",
+        name_of(r.parity));
   return out + "</tbody></table></div></details>\n";
 }
 

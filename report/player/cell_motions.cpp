@@ -1,8 +1,8 @@
 #include "report/player/cell_motions.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "reference/exact/eigenvalues.h"
 #include "report/figure.h"
 #include "report/player/packed_numbers.h"
 #include "report/player/quantised.h"
@@ -10,8 +10,6 @@
 
 namespace crosscheck {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double left_out = 0.01;                       // of the largest departure
 constexpr double shape_steps = 127, path_steps = 2047;  // of the largest number: finer than what is left out
@@ -26,7 +24,8 @@ double four_digits(double value) {
   return std::round(value / unit) * unit;
 }
 
-/// Departures from rest, a column for each picture up to where the run has left the picture.
+/// Departures from rest, a column for each picture up to where the run has left the picture: a run that blows up may go
+/// on for long after that.
 Eigen::MatrixXd departures_of(const WatchedRun& run, double size) {
   Eigen::MatrixXd all(run.rest.size(), run.path.frames());
   int frames = 0;
@@ -63,27 +62,25 @@ Json cell_json(const WatchedRun& run, const Scene& scene, size_t row, Numbers& n
   const double largest = off.size() > 0 ? off.cwiseAbs().maxCoeff() : 0;
   if (off.cols() < 2 || !(largest > 0)) return nullptr;
   // the shapes are the left singular vectors; few pictures make their squares' matrix the small one
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(off.transpose() * off);
+  const Eigensystem squares = symmetric_eigensystem(off.transpose() * off);
   Eigen::MatrixXd rest = off;
-  Json metres = Json::array();
+  Json metres = Json::list();
   for (Eigen::Index k = off.cols() - 1; k >= 0 && rest.cwiseAbs().maxCoeff() > left_out * largest; --k) {
-    const Eigen::VectorXd path = solver.eigenvectors().col(k), shape = off * path;
+    const Eigen::VectorXd path = squares.vectors.col(k), shape = off * path;
     rest -= shape * path.transpose();
     const double shape_unit = shape.cwiseAbs().maxCoeff() / shape_steps,
                  path_unit = path.cwiseAbs().maxCoeff() / path_steps;
     if (!(shape_unit > 0)) break;
     add_whole(shape, shape_unit, numbers.shapes);
     add_whole(path, path_unit, numbers.paths);
-    metres.push_back(four_digits(shape_unit * path_unit));
+    metres.push(four_digits(shape_unit * path_unit));
   }
   const double seen = shortest_spring(run, scene) / 3;
   const auto last = static_cast<size_t>(off.cols() - 1);
-  return {row,
-          off.cols(),
-          four_digits((run.path.t[last] - run.path.t[0]) / static_cast<double>(last)),
-          four_digits(run.path.t[last]),
-          largest < seen ? two_digits(seen / largest) : 1.,
-          std::move(metres)};
+  return Json::list(
+      row, off.cols(), four_digits((run.path.t[last] - run.path.t[0]) / static_cast<double>(last)),
+      four_digits(run.path.t[last]), largest < seen ? two_digits(seen / largest) : 1., std::move(metres),
+      off.cols() < run.path.frames() ? four_digits(run.outcome.end) : 0.);  // where it left: when it ended
 }
 
 }  // namespace
@@ -91,10 +88,10 @@ Json cell_json(const WatchedRun& run, const Scene& scene, size_t row, Numbers& n
 std::string cell_motions_json(const WatchedRuns& watched) {
   std::vector<Points> rests;
   Numbers numbers;
-  Json cells = Json::array();
+  Json cells = Json::list();
   for (const WatchedRun& run : watched.runs) {
     if (rests.empty() || rests.back() != run.rest) rests.push_back(run.rest);
-    cells.push_back(cell_json(run, watched.scene, rests.size() - 1, numbers));
+    cells.push(cell_json(run, watched.scene, rests.size() - 1, numbers));
   }
   const QuantisedPlaces places = quantised(rests);
   const MethodStyle style = style_of(watched.method);

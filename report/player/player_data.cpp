@@ -17,8 +17,6 @@
 namespace crosscheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// As many digits as a reader of a plot needs.
 double five_digits(double value) { return std::stod(fmt::format("{:.5g}", value)); }
 
@@ -60,7 +58,7 @@ Json methods_json(const Scene& scene, const std::vector<Shown>& all, const Shown
   const auto particles = static_cast<size_t>(scene.model.particles.size());
   const Lattice lattice = lattice_of(all);
   const auto first = lattice.numbers_of(all[0].x);
-  Json methods = Json::array();
+  Json methods = Json::list();
   for (size_t m = 0; m < all.size(); ++m) {
     Json json = words_json(all[m]);
     double own = 0;
@@ -70,10 +68,10 @@ Json methods_json(const Scene& scene, const std::vector<Shown>& all, const Shown
     json["first"] = all[m].answer || (all.size() <= 4 && all[m].t.back() > 0.98 * scene.duration);
     json["frames"] = all[m].x.size();
     json["stretch"] = values_json(stretch, m, particles), json["distance"] = values_json(distance, m, particles);
-    json["plotted"] = Json::array();
+    json["plotted"] = Json::list();
     for (const auto& value : plotted_values(scene, all[m], known))
-      json["plotted"].push_back(value ? Json(five_digits(*value)) : Json());
-    methods.push_back(std::move(json));
+      json["plotted"].push(value ? Json(five_digits(*value)) : Json());
+    methods.push(std::move(json));
   }
   return methods;
 }
@@ -135,7 +133,7 @@ std::string player_json(const Scene& scene, const std::vector<const Answer*>& an
   json["finest"] = bound;
   json["at"] = scene.camera && scene.camera->at ? *scene.camera->at : scene.duration;  // the poster's time, s
   // an outside program may have said anything
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump();
 }
 
 std::string stage_json(const Scene& scene) {
@@ -143,7 +141,7 @@ std::string stage_json(const Scene& scene) {
   vantage.floor.reset();
   Json json = shared_json(scene, vantage, {0});
   json["stretch"] = json["distance"] = nullptr;
-  json["methods"] = Json::array();
+  json["methods"] = Json::list();
   return json.dump();
 }
 

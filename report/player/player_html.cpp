@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
+#include "mysim/json.h"
 #include "report/assets.h"
 
 namespace crosscheck {
@@ -40,7 +39,7 @@ std::string player_html(const PageImage& poster, const std::filesystem::path& mo
 
 std::string runs_html(const PlayedRuns& runs) {
   const std::string base =
-      runs.stage.empty() ? fmt::format("\"scene\":{}", nlohmann::json(runs.scene).dump()) : "\"stage\":" + runs.stage;
+      runs.stage.empty() ? fmt::format("\"scene\":{}", Json(runs.scene).dump()) : "\"stage\":" + runs.stage;
   std::string methods;
   for (const auto& file : runs.methods) methods += (methods.empty() ? "" : ",") + content_of_file(file);
   return fmt::format("<script type=\"application/json\" class=\"runs\" data-runs=\"{}\">{}</script>\n",

@@ -16,8 +16,6 @@
 namespace crosscheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// What a scene's runs are packed against.
 struct Against {
   const Scene& scene;
@@ -67,14 +65,14 @@ void add_difference(const Against& a, const Points& x, size_t frame, std::vector
 /// A run that came to its end.
 Json whole_run(const Against& a, const WatchedRun& run) {
   std::vector<std::uint16_t> numbers;
-  Json errors = Json::array();
+  Json errors = Json::list();
   size_t f = 0;
   for (size_t sample = 0; sample < run.path.x.size(); f += a.every, sample = f * static_cast<size_t>(a.stride)) {
     const Points& x = run.path.x[sample];
     add_difference(a, x, f, numbers);
     if (run.path.t[sample] > a.until * (1 + 1e-9) || f >= a.truth.x.size()) continue;
     const double error = rms_distance(x, a.truth.x[f]);
-    errors.push_back(error > 0 ? Json(std::round(100 * std::log10(error)) / 100) : Json());
+    errors.push(error > 0 ? Json(std::round(100 * std::log10(error)) / 100) : Json());
   }
   return {{"frames", f / a.every},
           {"places", packed_json(packed(std::move(numbers), static_cast<size_t>(run.path.x[0].size()), 2))},
@@ -101,11 +99,11 @@ Json last_pictures(const Against& a, const WatchedRuns& watched, const WatchedRu
   json["times"] = shown.t;
   json["low"] = vector_json(places.low), json["unit"] = vector_json(unit);
   json["places"] = packed_json(packed(places.numbers, static_cast<size_t>(shown.x[0].size()), 1));
-  json["plotted"] = Json::array();
+  json["plotted"] = Json::list();
   for (size_t k = 0; k < shown.t.size(); ++k) {
     const double kinetic =
         shown.v[k].size() > 0 ? energy_of(a.scene.model, {shown.t[k], shown.x[k], shown.v[k]}).kinetic : 0;
-    json["plotted"].push_back(kinetic > 0 ? Json(std::round(100 * std::log10(kinetic)) / 100) : Json());
+    json["plotted"].push(kinetic > 0 ? Json(std::round(100 * std::log10(kinetic)) / 100) : Json());
   }
   return json;
 }
@@ -120,15 +118,15 @@ std::string run_motions_json(const WatchedRuns& watched, const std::optional<Tru
   any.outcome.verdict = Verdict::ok;  // what they all are
   Json json = words_json({&any, watched.method, {0}, {}, {}});
   json["every"] = a.every, json["grain"] = a.grain;
-  json["runs"] = Json::array();
+  json["runs"] = Json::list();
   for (const WatchedRun& run : watched.runs) {
     const Outcome& out = run.outcome;
     Json own = out.verdict == Verdict::ok ? whole_run(a, run) : last_pictures(a, watched, run);
     if (!own.is_null())
       own["call"] = out.tolerance > 0 ? fmt::format("--tol {}", out.tolerance) : fmt::format("--step {}", out.step);
-    json["runs"].push_back(std::move(own));
+    json["runs"].push(std::move(own));
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump();
 }
 
 }  // namespace crosscheck

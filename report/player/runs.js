@@ -84,10 +84,10 @@ async function lastPictures(whole, method, run) {
   return {scene, motions: [{places: await unpack(run.places)}]};
 }
 
-/** The scene of a map with the last moments of a cell's run. */
+/** The scene of a map with the last pictures of a cell's run that its particles are still in. */
 async function lastMoments(set, method, place, outcome) {
   const wide = 3 * set.stage.particles, {cells, low, unit} = method;
-  const [row, frames, apart, end, larger, metres] = cells[place];
+  const [row, frames, apart, end, larger, metres, ended] = cells[place];
   const [rests, shapes, paths] = await Promise.all(['rests', 'shapes', 'paths'].map(name => unpack(method[name])));
   let shape = 0, path = 0;
   for (const before of cells.slice(0, place))
@@ -102,6 +102,7 @@ async function lastMoments(set, method, place, outcome) {
   const places = departures.map((d, i) => low[i % 3] + unit[i % 3] * rests[row * wide + i % wide] + larger * d);
   const largest = f => departures.subarray(f * wide, (f + 1) * wide).reduce((a, b) => Math.max(a, Math.abs(b)), 0);
   const times = Array.from({length: frames}, (_, f) => f * apart), sizes = times.map((_, f) => largest(f));
+  const left = ended > 0;  // what comes after these pictures is too far out to be seen
   const powers = Math.max(...sizes) > 100 * Math.max(...sizes.slice(0, Math.ceil(frames / 3)));  // it grows
   const scene = {
     ...set.stage,
@@ -117,11 +118,13 @@ async function lastMoments(set, method, place, outcome) {
       end: '',
       failed: null,
       failure: outcome === 'holds' ? '' : outcome,
-      reason: 'the last moments before',
+      reason: left ? 'the pictures before it left the frame' : 'the last moments before',
       first: true,
       plotted: powers ? sizes.map(size => (size > 0 ? Math.log10(size) : null)) : sizes
     }],
-    story: `The last ${frames} pictures of the run, up to ${Number(end.toPrecision(3))} s. ` +
+    story: (left ? `${frames} pictures up to ${Number(end.toPrecision(3))} s, when the run leaves the frame; it ended at ` +
+                       `${Number(ended.toPrecision(3))} s. `
+                 : `The last ${frames} pictures of the run, up to ${Number(end.toPrecision(3))} s. `) +
         (larger > 1 ? `Departures from rest are drawn ${short(larger)} times as large as they are.` :
                       'Departures are drawn in true size.')
   };

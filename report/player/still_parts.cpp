@@ -3,10 +3,8 @@
 
 namespace crosscheck {
 
-using Json = nlohmann::ordered_json;
-
 Json packed_json(const Packed& p) { return {{"count", p.count}, {"lag", p.lag}, {"order", p.order}, {"data", p.data}}; }
-Json vector_json(const Vec3& v) { return {v[0], v[1], v[2]}; }
+Json vector_json(const Vec3& v) { return std::span(v.data(), 3); }
 
 Json triangles_json(const Scene& scene) {
   if (scene.triangles.empty()) return nullptr;
@@ -19,13 +17,13 @@ Json triangles_json(const Scene& scene) {
 
 Json springs_json(const Scene& scene) {
   std::vector<std::uint16_t> ends;
-  Json families = Json::array();
+  Json families = Json::list();
   size_t threads = 0;
   const auto add = [&](int a, int b) {
     for (const int end : {a, b}) ends.push_back(static_cast<std::uint16_t>(end));
   };
   const auto close = [&](std::string_view name, size_t from) {
-    if (ends.size() > from) families.push_back({{"name", name}, {"count", (ends.size() - from) / 2}});
+    if (ends.size() > from) families.push({{"name", name}, {"count", (ends.size() - from) / 2}});
   };
   if (const auto* distances = scene.model.find<Constraints>()) {
     for (const auto& [a, b, length] : distances->list) add(a, b);
@@ -44,13 +42,13 @@ Json springs_json(const Scene& scene) {
 }
 
 Json spheres_json(const Scene& scene, const std::vector<double>& times) {
-  Json list = Json::array();
+  Json list = Json::list();
   if (const auto* spheres = scene.model.find<Spheres>())
     for (const Sphere& s : spheres->list) {
-      Json centres = Json::array();
+      Json centres;
       for (const double t : times)
-        if (s.motion || centres.empty()) centres.push_back(vector_json(s.centre_at(t)));
-      list.push_back({{"radius", s.radius}, {"centres", std::move(centres)}});
+        if (s.motion || centres.is_null()) centres.push(vector_json(s.centre_at(t)));
+      list.push({{"radius", s.radius}, {"centres", std::move(centres)}});
     }
   return list;
 }

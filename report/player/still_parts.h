@@ -1,21 +1,20 @@
 // What of a scene does not move with its methods, as the player reads it: triangles, springs, obstacles.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include "mysim/json.h"
 #include "mysim/scene.h"
 #include "report/player/packed_numbers.h"
 
 namespace crosscheck {
 
-nlohmann::ordered_json packed_json(const Packed& packed);
-nlohmann::ordered_json vector_json(const Vec3& v);
+Json packed_json(const Packed& packed);
+Json vector_json(const Vec3& v);
 
 /// Corners of the surface; null without one.
-nlohmann::ordered_json triangles_json(const Scene& scene);
+Json triangles_json(const Scene& scene);
 /// Ends of hard distances and springs, family after family; those of the surface's threads come first.
-nlohmann::ordered_json springs_json(const Scene& scene);
+Json springs_json(const Scene& scene);
 /// Obstacles; the centre of one that moves at each of the times (s).
-nlohmann::ordered_json spheres_json(const Scene& scene, const std::vector<double>& times);
+Json spheres_json(const Scene& scene, const std::vector<double>& times);
 
 }  // namespace crosscheck

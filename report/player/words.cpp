@@ -32,10 +32,9 @@ std::string why_failed(const Outcome& out) {
 
 }  // namespace
 
-nlohmann::ordered_json words_json(const Shown& s) {
-  nlohmann::ordered_json json{{"name", s.name},      {"colour", "#555555"}, {"dash", "1 4"},
-                              {"stops", s.t.back()}, {"failed", nullptr},   {"failure", ""},
-                              {"reason", ""},        {"note", ""},          {"known", !s.answer}};
+Json words_json(const Shown& s) {
+  Json json{{"name", s.name}, {"colour", "#555555"}, {"dash", "1 4"}, {"stops", s.t.back()}, {"failed", nullptr},
+            {"failure", ""},  {"reason", ""},        {"note", ""},    {"known", !s.answer}};
   json["end"] = s.answer ? "last good frame" : fmt::format("known up to {:.3g} s", s.t.back());
   if (!s.answer) return json;
   const Outcome& out = s.answer->outcome;

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "report/page/page.h"
 
 namespace crosscheck {
@@ -39,9 +37,8 @@ Table table_of(const Speeds& speeds) {
   return table;
 }
 
-void add_speeds(nlohmann::ordered_json& verdict, const Speeds& speeds) {
-  using Json = nlohmann::ordered_json;
-  verdict["speed"] = Json::array();
+void add_speeds(Json& verdict, const Speeds& speeds) {
+  verdict["speed"] = Json::list();
   for (const SpeedCompared& row : speeds.rows) {
     Json json{{"scene", row.scene}, {"method", row.method}, {"state", name_of(row.state)}};
     if (row.was) json["was"] = *row.was;
@@ -51,11 +48,11 @@ void add_speeds(nlohmann::ordered_json& verdict, const Speeds& speeds) {
       json["noise"] = row.noise, json["measurements"] = row.seen;
     if (!row.sentence.empty()) json["sentence"] = row.sentence;
     if (!row.note.empty()) json["note"] = row.note;
-    verdict["speed"].push_back(json);
+    verdict["speed"].push(json);
   }
   verdict["speed_notes"] = speeds.notes;
-  verdict["speed_failures"] = Json::array();
-  for (const FailedPoint& f : speeds.failures) verdict["speed_failures"].push_back({{"what", f.name}, {"why", f.why}});
+  verdict["speed_failures"] = Json::list();
+  for (const FailedPoint& f : speeds.failures) verdict["speed_failures"].push({{"what", f.name}, {"why", f.why}});
 }
 
 SpeedCases cases_of(const Speeds& speeds) {

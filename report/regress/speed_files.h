@@ -1,10 +1,9 @@
 // The speed part of the files of a regression run.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "experiments/regress/speed_run.h"
 #include "experiments/table.h"
+#include "mysim/json.h"
 
 namespace crosscheck {
 
@@ -12,7 +11,7 @@ namespace crosscheck {
 Table table_of(const Speeds& speeds);
 
 /// Adds "speed" (an entry for every speed that was measured), "speed_notes" and "speed_failures" to the verdict.
-void add_speeds(nlohmann::ordered_json& verdict, const Speeds& speeds);
+void add_speeds(Json& verdict, const Speeds& speeds);
 
 /// JUnit: a case for each speed that was compared.
 struct SpeedCases {

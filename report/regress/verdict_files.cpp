@@ -4,10 +4,10 @@
 
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "experiments/regress/closeness.h"
 #include "mysim/files.h"
+#include "mysim/json.h"
 #include "report/page/page.h"
 #include "report/regress/speed_files.h"
 
@@ -39,14 +39,14 @@ Table table_of(const Regressed& result) {
   return table;
 }
 
-nlohmann::ordered_json number(double value) {
+Json number(double value) {
   if (std::isfinite(value)) return value;
   return std::isnan(value) ? "nan" : "inf";
 }
 
-nlohmann::ordered_json json_of(const Compared& row) {
-  nlohmann::ordered_json json{{"scene", row.scene},       {"method", row.method}, {"without", row.without},
-                              {"quantity", row.quantity}, {"unit", row.unit},     {"state", name_of(row.state)}};
+Json json_of(const Compared& row) {
+  Json json{{"scene", row.scene},       {"method", row.method}, {"without", row.without},
+            {"quantity", row.quantity}, {"unit", row.unit},     {"state", name_of(row.state)}};
   if (row.was) json["was"] = number(*row.was);
   if (!row.was_word.empty()) json["was"] = row.was_word;
   if (row.is) json["is"] = number(*row.is);
@@ -57,11 +57,18 @@ nlohmann::ordered_json json_of(const Compared& row) {
 }
 
 std::string sentence(const Compared& row) {
-  const nlohmann::ordered_json json = json_of(row);
+  const auto shown = [](const std::optional<double>& value, const std::string& word) {
+    if (!word.empty() || !value) return word;
+    return std::isfinite(*value) ? Json(*value).dump() : std::isnan(*value) ? "nan" : "inf";
+  };
+  const std::pair<const char*, std::string> parts[] = {
+      {"was", shown(row.was, row.was_word)},
+      {"is", shown(row.is, row.is_word)},
+      {"tolerance", row.was && row.is ? Json(row.tolerance).dump() : ""},
+      {"note", row.note}};
   std::string text = fmt::format("{}: {}", row.quantity, name_of(row.state));
-  for (const char* key : {"was", "is", "tolerance", "note"})
-    if (json.contains(key))
-      text += fmt::format(", {} {}", key, json[key].is_string() ? json[key].get<std::string>() : json[key].dump());
+  for (const auto& [key, part] : parts)
+    if (!part.empty()) text += fmt::format(", {} {}", key, part);
   return text;
 }
 
@@ -106,17 +113,17 @@ void write_verdict(const Regressed& result, const Speeds& speeds, const std::str
                    const std::filesystem::path& folder) {
   write_csv(table_of(result), lines, folder);
   const Closeness close = closeness_of(result.rows);
-  nlohmann::ordered_json json{{"passed", result.passed() && speeds.passed()},
-                              {"cause", cause.empty() ? "not attributed" : cause},
-                              {"quantities", result.rows.size()},
-                              {"identical", close.identical},
-                              {"differing", close.differing},
-                              {"failures", nlohmann::ordered_json::array()},
-                              {"without_answer", nlohmann::ordered_json::array()}};
+  Json json{{"passed", result.passed() && speeds.passed()},
+            {"cause", cause.empty() ? "not attributed" : cause},
+            {"quantities", result.rows.size()},
+            {"identical", close.identical},
+            {"differing", close.differing},
+            {"failures", Json::list()},
+            {"without_answer", Json::list()}};
   if (close.furthest) json["furthest"] = json_of(*close.furthest);
   for (const Compared& row : result.rows)
-    if (failed(row.state)) json["failures"].push_back(json_of(row));
-  for (const FailedPoint& f : result.failures) json["without_answer"].push_back({{"question", f.name}, {"why", f.why}});
+    if (failed(row.state)) json["failures"].push(json_of(row));
+  for (const FailedPoint& f : result.failures) json["without_answer"].push({{"question", f.name}, {"why", f.why}});
   add_speeds(json, speeds);
   write_file(folder / "regress.json", json.dump(1) + "\n");
   write_file(folder / "junit.xml", junit(result, speeds));

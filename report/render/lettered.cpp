@@ -1,4 +1,4 @@
-// gnuplot reads raw pixels and writes the image; its exit code alone does not tell, a warning is a failure too.
+// gnuplot reads raw pixels and writes the image.
 #include "report/render/lettered.h"
 
 #include <fmt/format.h>
@@ -8,10 +8,10 @@
 #include <stdexcept>
 
 #include "mysim/temporary_folder.h"
+#include "report/gnuplot.h"
 #include "report/render/colour.h"
 #include "report/render/lettering.h"
 #include "report/render/png_file.h"
-#include "report/run_program.h"
 
 namespace crosscheck::render {
 namespace {
@@ -24,11 +24,10 @@ void write(const fs::path& file, const void* data, std::size_t bytes) {
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
 }
 
-void run_gnuplot(const std::string& script, const fs::path& folder, const std::string& what) {
+void draw_letters(const std::string& script, const fs::path& folder, const std::string& drawn,
+                  const std::string& what) {
   write(folder / "letters.gp", script.data(), script.size());
-  const ProgramResult result = run_program({"gnuplot", "-d", "letters.gp"}, folder);
-  if (result.status != 0 || !result.err.empty())
-    throw std::runtime_error(fmt::format("gnuplot (exit code {}) on {}: {}", result.status, what, result.err));
+  tell_warnings(run_gnuplot("letters.gp", folder, {drawn}, what), what);
 }
 
 }  // namespace
@@ -51,7 +50,7 @@ void write_lettered(const Picture& picture, const Layout& layout, const Image& i
                     const std::string& what, const fs::path& file) {
   const TemporaryFolder folder("render");
   write(folder.path / "pixels", image.rgb.data(), image.rgb.size());
-  run_gnuplot(lettering_script(picture, layout, paper, "pixels", "picture"), folder.path, what);
+  draw_letters(lettering_script(picture, layout, paper, "pixels", "picture"), folder.path, "picture", what);
   fs::copy_file(folder.path / "picture", file, fs::copy_options::overwrite_existing);
 }
 
@@ -64,7 +63,7 @@ Image lettered(const Picture& picture, const Layout& layout, const Image& image)
 
 Image drawn_letters(const std::string& script) {
   const TemporaryFolder folder("letters");
-  run_gnuplot(script, folder.path, "the letters of a clip");
+  draw_letters(script, folder.path, "picture.png", "the letters of a clip");
   return read_png(folder.path / "picture.png");
 }
 

@@ -13,7 +13,7 @@ namespace crosscheck::render {
 void paint_bar(const Picture& picture, const Layout& layout, Image& image);
 
 /// Writes the image with the picture's letters to the file. `what` names it in the messages of the
-/// std::runtime_error that is thrown where gnuplot is missing, fails, or warns.
+/// std::runtime_error that is thrown where gnuplot is missing or fails (a warning is none).
 void write_lettered(const Picture& picture, const Layout& layout, const Image& image, const Paper& paper,
                     const std::string& what, const std::filesystem::path& file);
 

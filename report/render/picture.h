@@ -100,8 +100,8 @@ class Studio {
 };
 
 /// draw(), then titles, colour bar and legend by gnuplot, written to file (PNG) under a temporary name and renamed.
-/// Throws std::runtime_error with the cause (nothing to be seen, gnuplot missing, warning on stderr, file not
-/// writable).
+/// Throws std::runtime_error with the cause (nothing to be seen, gnuplot missing, its picture not whole, file
+/// not writable).
 void write_png(const Picture& picture, const std::filesystem::path& file);
 void write_png(const Picture& picture, const std::filesystem::path& file, Studio& studio);
 

@@ -12,7 +12,7 @@
 namespace crosscheck::render {
 namespace {
 
-std::string header(const std::string& defines) {
+std::string shader_header(const std::string& defines) {
   std::string text =
       fmt::format("#version 330 core\n#define KEY_LIGHT {:.4f}\n#define SKY_LIGHT {:.4f}\n", key_light, sky_light);
   std::istringstream names(defines);
@@ -36,8 +36,8 @@ GLuint compile(const Gl& gl, GLenum stage, const std::string& text, const std::s
 }  // namespace
 
 Program::Program(const Gl& gl, const std::string& defines) : gl_(gl), id_(gl.CreateProgram()) {
-  const GLuint vertex = compile(gl, GL_VERTEX_SHADER, header(defines) + vertex_text(), defines);
-  const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, header(defines) + fragment_text(), defines);
+  const GLuint vertex = compile(gl, GL_VERTEX_SHADER, shader_header(defines) + vertex_text(), defines);
+  const GLuint fragment = compile(gl, GL_FRAGMENT_SHADER, shader_header(defines) + fragment_text(), defines);
   gl.AttachShader(id_, vertex), gl.AttachShader(id_, fragment);
   gl.LinkProgram(id_);
   gl.DeleteShader(vertex), gl.DeleteShader(fragment);

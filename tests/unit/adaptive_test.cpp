@@ -152,9 +152,15 @@ TEST(Adaptive, EveryContactOnTheWayToAStateIsInTheLedger) {
       const auto& rows = ledger.rows();
       ASSERT_GT(rows.back().contact, 0.1) << "friction took something";
       // nothing else is lost: what does not add up is the error of some hundred steps, each below the tolerance of the
-      // 20 J that the fall turns over
+      // 20 J that the fall turns over, and that of the contact rule, which in each step puts a particle back by a h^2 /
+      // 2 (a = g cos theta - v^2 / R presses it on) and takes m (a h)^2 / 2: too little by m h^2 a (v^2 / R) / 2. On
+      // the way down from rest a v^2 / R is g^2 / 6 at most: g^2 h / 6 for two kilograms in a second
+      const double rule = 9.81 * 9.81 / 6 * out.step;
+      fmt::print("{} tolerance {:.0e}: contact took {:.4g} J, open {:.2g} J, the rule's {:.2g} J\n", s.name, tolerance,
+                 rows.back().contact, rows.back().balance() - rows.front().balance(), rule);
       for (const LedgerRow& row : rows)
-        EXPECT_NEAR(row.balance(), rows.front().balance(), 20 * static_cast<double>(out.steps) * tolerance) << row.t;
+        EXPECT_NEAR(row.balance(), rows.front().balance(), 20 * static_cast<double>(out.steps) * tolerance + rule)
+            << row.t;
     }
 }
 

@@ -6,6 +6,7 @@
 #include "experiments/advise/advice.h"
 #include "experiments/advise/fit.h"
 #include "experiments/advise/measures.h"
+#include "experiments/advise/true_path.h"
 #include "experiments/scenes.h"
 #include "tests/unit/helpers.h"
 
@@ -165,6 +166,57 @@ TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
       EXPECT_EQ(parse_scene(a.toml, name).method, "mysim/" + std::string(method));
     }
   }
+}
+
+/// Half a kilogram pulled down by 0.1 m on a spring of 1 m, 300 N/m, without gravity, with `samples` samples in twelve
+/// of its periods; in a row of springs, where more are asked for.
+Scene sampled_spring(double samples_in_a_period, int springs = 1) {
+  const double period = 2 * std::numbers::pi * std::sqrt(0.5 / 300), duration = 12 * period;
+  std::string text = "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n";
+  for (int i = 1; i <= springs; ++i)
+    text += fmt::format(
+        "[[particle]]\nposition = [{}, {}, 0]\nmass = 0.5\n[[spring]]\nends = [{}, {}]\nstiffness = 300\nrest = 1\n",
+        springs > 1 && i == springs ? 0.2 : 0., -i - (i == springs ? 0.1 : 0.), i - 1, i);
+  text += "[pins]\nparticles = [0]\n";
+  return parse_scene(scene_text(text, duration, period / 200, static_cast<int>(std::lround(12 * samples_in_a_period))),
+                     "sampled");
+}
+
+TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
+  // a sample in each period sees nothing move, one in each half period sees turning points alone; a bent row of two
+  // springs has no closed form
+  for (const auto& [scene, truth_is] : {std::pair{sampled_spring(1), Tier::exact},
+                                        {sampled_spring(2), Tier::exact},
+                                        {sampled_spring(3), Tier::exact},
+                                        {sampled_spring(1, 2), Tier::converged}})
+    for (const double tolerance : {1e-2, 1e-3}) {
+      SCOPED_TRACE(fmt::format("{} samples, {} m", scene.samples, tolerance));
+      const Advice a =
+          advise(scene, tolerance, find_methods("leapfrog,symplectic-euler,rk4,dopri5,implicit-midpoint,suzuki4"));
+      EXPECT_EQ(a.tier, truth_is);
+      // beside the truth after every one of its steps, or at 1000 times where it chooses its steps itself
+      const Scene written = parse_scene(a.toml, "sampled");
+      crosscheck::Run run = default_run(written);
+      const Method method = find_method(written.method);
+      run.samples = method.adaptive ? 1000 : static_cast<int>(std::lround(run.duration / plan(run).h));
+      const Trajectory dense = answer(written.method, written, run).trajectory;
+      Scene finer = scene;
+      finer.step /= 4;
+      const auto truth = truth_of(finer, {finer.step, run.duration, run.samples});
+      ASSERT_TRUE(truth);
+      const double error = largest_rms_distance(dense, truth->trajectory, a.until);
+      EXPECT_LE(error, tolerance) << written.method;
+      EXPECT_GT(error, 0.02 * tolerance) << "and no more precise than it must be: " << written.method;
+    }
+}
+
+TEST(Advise, SeesTheFastestMotionOfAScene) {
+  EXPECT_NEAR(fastest_motion(sampled_spring(1)), std::sqrt(300 / 0.5), 1e-2);
+  EXPECT_EQ(fastest_motion(load_scene("projectile")), 0);
+  // what leads a pin may be faster than what hangs on it
+  const Scene led = parse_scene(
+      mass_on_spring("0.5", "80", "[pins.motion]\namplitude = [0, 0.01, 0]\nfrequency = 40\nramp = 0.1\n"), "led");
+  EXPECT_NEAR(fastest_motion(led), 80 * std::numbers::pi, 1e-9);
 }
 
 TEST(Advise, LeavesOutOfTheModelWhatTheToleranceAllows) {

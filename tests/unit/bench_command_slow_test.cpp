@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "experiments/bench/bench.h"
 #include "experiments/bench/sheet.h"
 #include "experiments/scenes.h"
+#include "mysim/json.h"
 #include "report/bench_lines.h"
 #include "report/commands/commands.h"
 #include "tests/unit/cli.h"
@@ -53,7 +53,7 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
   const std::string said = testing::internal::GetCapturedStdout();
   ASSERT_EQ(status, 0) << said;
 
-  const auto json = nlohmann::json::parse(read(folder_ / "bench.json"));
+  const JsonField json = JsonField::parse_file(folder_ / "bench.json");
   std::set<std::string> names{"bench-equal-error-cost", "bench-own-runs-cost", "bench-same-step-cost"};
   std::vector<std::string> lines{"odeint/rk4", "other model", "two stiffnesses: Bullet's force", "SSE2 alone"};
   // where the suite was built without Google Benchmark it says so
@@ -72,35 +72,34 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
     const std::string csv = rows(folder_ / (name + ".csv"));
     EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), table["rows"].size() + 1) << name;
     std::string header;
-    for (const auto& column : table["columns"])
-      header += fmt::format("{}{} [{}]", header.empty() ? "" : ",", column["name"].get<std::string>(),
-                            column["unit"].get<std::string>());
+    for (const JsonField& column : table["columns"].elements())
+      header += fmt::format("{}{} [{}]", header.empty() ? "" : ",", column["name"].text(), column["unit"].text());
     EXPECT_EQ(csv.substr(0, csv.find('\n')), header);
     // 17 digits read back to the same bits
     std::istringstream in(csv.substr(csv.find('\n') + 1));
-    for (const auto& row : table["rows"]) {
+    for (const JsonField& row : table["rows"].elements()) {
       std::string line, cell;
       std::getline(in, line);
-      for (const auto& column : table["columns"]) {
-        const auto& value = row[column["name"].get<std::string>()];
+      for (const JsonField& column : table["columns"].elements()) {
+        const JsonField value = row[column["name"].text()];
         const bool quoted = line.starts_with('"');
         const size_t end = quoted ? line.find('"', 1) + 1 : std::min(line.find(','), line.size());
         cell = quoted ? line.substr(1, end - 2) : line.substr(0, end);
         line.erase(0, std::min(end + 1, line.size()));
         if (value.is_null())
           EXPECT_EQ(cell, "");
-        else if (value.is_string())
-          EXPECT_EQ(cell, value.get<std::string>());
+        else if (value.is_text())
+          EXPECT_EQ(cell, value.text());
         else
-          EXPECT_EQ(std::stod(cell), value.get<double>());
+          EXPECT_EQ(std::stod(cell), value.number());
       }
     }
   }
   EXPECT_EQ(found, names);
 
   std::string provenance;
-  for (const auto& line : json["provenance"])
-    provenance += line["key"].get<std::string>() + ": " + line["value"].get<std::string>() + "\n";
+  for (const JsonField& line : json["provenance"].elements())
+    provenance += line["key"].text() + ": " + line["value"].text() + "\n";
   for (const char* key : {"command: crosscheck bench", "build of mysim", "build of Bullet", "build of odeint", "cpu",
                           "scene: sheet-20x20 ", "best instructions"})
     EXPECT_NE(provenance.find(key), std::string::npos) << key;

@@ -27,7 +27,7 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
       continue;
     }
     const Answered ours = answer("symplectic-euler", scene, run);
-    ASSERT_EQ(theirs.outcome.verdict, ours.outcome.verdict) << theirs.outcome.reason;
+    ASSERT_EQ(theirs.outcome.verdict == Verdict::ok, ours.outcome.verdict == Verdict::ok) << theirs.outcome.reason;
     if (ours.outcome.verdict != Verdict::ok) continue;  // a stiff cloth blows up at this step in any precision
     EXPECT_FALSE(certify("bullet32", scene, theirs.outcome).mismatch());
     const double growth = perturbation_growth(find_method("symplectic-euler"), scene, scene.step, until);

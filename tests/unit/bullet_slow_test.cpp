@@ -93,9 +93,15 @@ TEST(Scenes, PerturbationsGrowLessThanAThousandfoldInTheWindowForEveryStableStep
 class FirstTouch : public Observer {
  public:
   bool every_step() const override { return true; }
-  Verdict observe(const State&, bool) override { return Verdict::ok; }
-  void contact(const State&, const State& resolved) override { time = std::min(time, resolved.t); }
+  Verdict observe(const State& s, bool) override {
+    if (touched_) time = std::min(time, s.t);
+    return Verdict::ok;
+  }
+  void contact(double) override { touched_ = true; }
   double time = INFINITY;
+
+ private:
+  bool touched_ = false;
 };
 
 TEST(BulletDrape, AgreesUntilTheWindowAndInTheMeanAfterwards) {

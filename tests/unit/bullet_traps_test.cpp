@@ -33,7 +33,9 @@ TEST(BulletTraps, ShippedImplicitForceBlowsUpWhereSpringsArePushed) {
   const Scene scene = trap("indefinite-hessian");
   const Answered shipped = play("bullet/deformable-implicit+shipped", scene),
                  clamped = play("bullet/deformable-implicit", scene);
-  EXPECT_EQ(shipped.outcome.verdict, Verdict::energy);
+  // it clamps speeds: what blows up is seen by its length before it is seen by its energy
+  EXPECT_TRUE(shipped.outcome.verdict == Verdict::energy || shipped.outcome.verdict == Verdict::stretch)
+      << shipped.outcome.reason;
   EXPECT_EQ(clamped.outcome.verdict, Verdict::ok);
   // where springs are pulled only, it is the same force
   Scene pulled = load_scene("spring");
@@ -106,7 +108,7 @@ TEST(BulletTraps, SlowBodiesStayAwake) {
                                      {"bullet/deformable-implicit", std::exp(-0.05 * 4.5)},
                                      {"bullet/pbd", std::exp(-0.05 * 4.5)}}) {
     const Answered a = play(method, scene);
-    EXPECT_FALSE(a.outcome.readback->may_sleep);
+    EXPECT_FALSE(a.outcome.readback->may_sleep.value());
     double low = 1e300, high = -1e300;
     for (int i = 0; i < a.trajectory.frames(); ++i)
       if (a.trajectory.t[i] > 4) {
@@ -117,7 +119,7 @@ TEST(BulletTraps, SlowBodiesStayAwake) {
   }
   // left to itself it stops after two seconds, wherever it is
   const Answered asleep = play("bullet/deformable-explicit+default-sleep", scene);
-  EXPECT_TRUE(asleep.outcome.readback->may_sleep);
+  EXPECT_TRUE(asleep.outcome.readback->may_sleep.value());
   for (int i = 1; i < asleep.trajectory.frames(); ++i)
     if (const double t = asleep.trajectory.t[i]; t < 1.5 || t > 2.5) {
       EXPECT_EQ(asleep.trajectory.x[i] == asleep.trajectory.x[i - 1], t > 2.5) << t;
@@ -164,7 +166,7 @@ TEST(Frozen, IsNotWhatIsAtRestByItself) {
   const Answered first = answer("explicit-euler", load_scene("chain"), {1e-3, 1e-3, 1});
   EXPECT_EQ(first.trajectory.x[1], first.trajectory.x[0]);
   EXPECT_GT(largest_column(first.trajectory.v[1]), 0);
-  EXPECT_NE(first.outcome.verdict, Verdict::frozen);  // that speed is energy from nothing is another matter
+  EXPECT_EQ(first.outcome.verdict, Verdict::ok);
 }
 
 }  // namespace

@@ -43,6 +43,73 @@ TEST(Certificate, WithoutReadBackNothingIsAttested) {
   EXPECT_FALSE(c.mismatch());
 }
 
+std::string summary(const std::string& method, const Scene& scene, const Outcome& out) {
+  return summary_of(certify(method, scene, out));
+}
+
+TEST(Certificate, WhatIsNotToldHasARow) {
+  const Scene drape = load_scene("cloth-sphere");
+  const Outcome honest = answer("bullet/deformable-explicit", drape, {1e-3, 2e-3, 1}).outcome;
+  const struct {
+    const char* quantity;
+    std::function<void(Readback&)> hush;
+  } hushed[] = {
+      {"spring law", [](Readback& r) { r.probe.reset(); }},
+      {"spring law", [](Readback& r) { r.probe->springs.resize(3, 0); }},
+      {"gravity", [](Readback& r) { r.gravity.reset(); }},
+      {"drag", [](Readback& r) { r.drag.reset(); }},
+      {"start", [](Readback& r) { r.start.reset(); }},
+      {"spheres", [](Readback& r) { r.spheres.reset(); }},
+      {"contact radius", [](Readback& r) { r.spheres->at(0).radius.reset(); }},
+      {"friction", [](Readback& r) { r.spheres->at(0).friction.reset(); }},
+      {"restitution", [](Readback& r) { r.spheres->at(0).restitution.reset(); }},
+      {"step", [](Readback& r) { r.step.reset(); }},
+      {"sleeping", [](Readback& r) { r.may_sleep.reset(); }},
+      {"nothing else", [](Readback& r) { r.later.reset(); }},  // the sphere stands still in the scene
+      {"nothing else", [](Readback& r) { r.probe->wind.resize(3, 0); }},
+  };
+  EXPECT_TRUE(certify("engine", drape, honest).fully_attested());
+  for (const auto& [quantity, hush] : hushed) {
+    SCOPED_TRACE(quantity);
+    Outcome silent = honest;
+    hush(*silent.readback);
+    const Certificate c = certify("engine", drape, silent);
+    EXPECT_FALSE(c.mismatch());
+    EXPECT_FALSE(c.fully_attested());
+    EXPECT_TRUE(std::any_of(c.rows.begin(), c.rows.end(), [&](const CertificateRow& row) {
+      return row.quantity == quantity && row.parity == Parity::unattested;
+    })) << summary_of(c);
+    EXPECT_TRUE(contains(summary_of(c), "; not attested: "));
+    EXPECT_TRUE(contains(summary_of(c), quantity));
+  }
+}
+
+TEST(Certificate, AProbeThatStrainsNothingAttestsNothing) {
+  const Scene chain = load_scene("chain");
+  Outcome lazy = answer("bullet/deformable-explicit", chain, {1e-3, 2e-3, 1}).outcome;
+  // forces where all springs are at rest: every law says 0
+  for (int i = 1; i < chain.start.x.cols(); ++i)
+    lazy.readback->probe->x.col(i) =
+        lazy.readback->probe->x.col(i - 1) + chain.model.find<Springs>()->list[i - 1].rest * Vec3(1, 0, 0);
+  lazy.readback->probe->springs.setZero();
+  EXPECT_TRUE(contains(summary("engine", chain, lazy), "no mismatch; not attested: spring law and stiffness"));
+}
+
+TEST(Certificate, SummaryCountsWhatWasReadBack) {
+  const Scene chain = load_scene("chain");
+  const Outcome none = answer("rk4", chain, {1e-2, 0.1, 1}).outcome;
+  EXPECT_EQ(summary("engine", chain, none), "nothing was read back; not attested: whole scene");
+  const Certificate c{"engine",
+                      "scene",
+                      {{"masses", "", "", "", Parity::match},
+                       {"law of springs", "", "", "", Parity::different_law},
+                       {"drag", "", "", "", Parity::unattested}}};
+  EXPECT_EQ(summary_of(c), "1 quantity read back, no mismatch; 1 under another law; not attested: drag");
+  Certificate wrong = c;
+  wrong.rows.push_back({"pins", "", "", "", Parity::mismatch});
+  EXPECT_EQ(summary_of(wrong), "2 quantities read back, MISMATCH: pins; 1 under another law; not attested: drag");
+}
+
 TEST(Certificate, CatchesEveryTampering) {
   const std::pair<const char*, std::function<void(Readback&)>> tamperings[] = {
       {"a rest length", [](Readback& r) { r.links[40].rest *= 1 + 1e-9; }},
@@ -62,7 +129,7 @@ TEST(Certificate, CatchesEveryTampering) {
       {"friction", [](Readback& r) { *r.spheres->at(0).friction *= 0.9; }},
       {"friction is nan", [](Readback& r) { *r.spheres->at(0).friction = NAN; }},
       {"sleeping", [](Readback& r) { r.may_sleep = true; }},
-      {"step", [](Readback& r) { r.step *= 1 + 1e-7; }}};
+      {"step", [](Readback& r) { *r.step *= 1 + 1e-7; }}};
   const Scene scene = load_scene("cloth-sphere");
   for (const auto method : {"bullet/deformable-explicit", "bullet/deformable-implicit", "bullet/pbd"}) {
     const Outcome honest = answer(method, scene, {scene.step, 2 * scene.step, 1}).outcome;

@@ -20,11 +20,15 @@ class Cli : public testing::Test {
                                            testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
   }
-  void TearDown() override { fs::remove_all(folder_); }
+  void TearDown() override {
+    fs::remove_all(folder_);
+    fs::remove(folder_.string() + ".lock");
+  }
 
   ProgramResult call(std::vector<std::string> words) const {
     words.insert(words.begin(), CROSSCHECK_PROGRAM);
-    return run_program(words, folder_, {"ASAN_OPTIONS=detect_leaks=0"});
+    return run_program(words, folder_,
+                       {"ASAN_OPTIONS=detect_leaks=0", "CROSSCHECK_LOCK=" + (folder_.string() + ".lock")});
   }
   fs::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;

@@ -10,12 +10,15 @@ namespace {
 class CliRun : public Cli {};
 
 TEST_F(CliRun, KilledLeavesNoHalfFile) {
-  // 1e6 s of a chain take minutes, and frames come all the time
-  const ProgramResult result = run_program(
-      {"timeout", "-s", "KILL", "1", CROSSCHECK_PROGRAM, "run", "chain", "--duration", "1e6", "--out", "out"}, folder_);
+  // two thousand million steps of a chain take minutes, and frames come all the time
+  const ProgramResult result = run_program({"timeout", "-s", "KILL", "1", CROSSCHECK_PROGRAM, "run", "chain",
+                                            "--duration", "19000", "--step", "1e-5", "--out", "out"},
+                                           folder_);
   EXPECT_EQ(result.status, 128 + 9) << result.err;
-  ASSERT_TRUE(fs::exists(folder_ / "out")) << "it was running";
-  EXPECT_EQ(files(), 1) << "the folder and nothing else";
+  ASSERT_TRUE(fs::exists(folder_ / ".out.crosscheck/new")) << "it was running";
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  EXPECT_EQ(call({"run", "chain", "--out", "out"}).status, 0);
+  EXPECT_EQ(files(), 6) << "the folder, its five files and nothing else";
 }
 
 TEST_F(CliRun, MoreFramesTakeNoMoreMemory) {

@@ -31,7 +31,7 @@ TEST_F(Cli, BadInputExitsWith2AndOneHelpfulLine) {
   };
   const Row table[] = {
       {{"run", unknown_key}, {unknown_key_at, "gravity.strength", "unknown key", "acceleration"}},
-      {{"run", ghost}, {ghost_at, "spring[1].ends", "particles from 0 to 2", "7"}},
+      {{"run", ghost}, {ghost_at, "spring[1].ends[1]", "a particle from 0 to 2", "7"}},
       {{"run", negative}, {negative_at, "particle[1].mass", "above zero", "-0.5"}},
       {{"run", not_a_number}, {not_a_number_at, "particle[1].mass", "nan"}},
       {{"run", inside}, {inside_at, "sphere.radius", "no particle inside", "particle 2"}},

@@ -7,14 +7,12 @@
 #include "mysim/errors.h"
 #include "report/fed_program.h"
 #include "tests/unit/cli.h"
+#include "tests/unit/optional_packages.h"
 
 namespace crosscheck {
 namespace {
 
 using namespace testing_tools;
-
-#define NEEDS_FFMPEG \
-  if (!on_path("ffmpeg")) GTEST_SKIP() << "ffmpeg is not installed: no clip is written and looked at"
 
 class Clip : public Cli {
  protected:
@@ -63,7 +61,7 @@ TEST_F(Clip, NeedsFfmpegAndSaysSo) {
   write("mine.toml", own_scene);
   const ProgramResult result = run_program({CROSSCHECK_PROGRAM, "render", "mine.toml", "-o", "a.mp4"}, folder_,
                                            {"PATH=" + folder_.string(), "ASAN_OPTIONS=detect_leaks=0"});
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 2);
   EXPECT_EQ(result.err,
             "crosscheck: clips need ffmpeg, which is not installed; apt-get install --no-install-recommends ffmpeg\n");
   EXPECT_EQ(files(), 1);
@@ -78,7 +76,7 @@ TEST_F(Clip, WhatFfmpegSaysIsTold) {
   const ProgramResult result =
       run_program({CROSSCHECK_PROGRAM, "render", "mine.toml", "--methods", "rk4", "--size", "320x180", "-o", "a.mp4"},
                   folder_, {path, "ASAN_OPTIONS=detect_leaks=0"});
-  EXPECT_EQ(result.status, 1);
+  EXPECT_EQ(result.status, 2);
   EXPECT_NE(result.err.find("ffmpeg (exit code 3) on a.mp4: no such codec"), std::string::npos) << result.err;
   EXPECT_EQ(files(), 2);
 }

@@ -26,10 +26,12 @@ class Slide : public Observer {
   Verdict observe(const State& s, bool) override {
     for (int i = 0; i < s.x.cols(); ++i)
       nearest = std::min(nearest, (s.x.col(i) - sphere_.centre).norm() / sphere_.contact_radius());
+    if (touched_) angle = std::acos(s.x(1, 0) / s.x.col(0).norm());
+    touched_ = false;
     return s.x.allFinite() ? Verdict::ok : Verdict::nan;
   }
-  void contact(const State&, const State& resolved) override {
-    angle = std::acos(resolved.x(1, 0) / resolved.x.col(0).norm());
+  void contact(double) override {
+    touched_ = true;
     ++contacts;
   }
   double angle = 0;    // rad
@@ -38,6 +40,7 @@ class Slide : public Observer {
 
  private:
   const Sphere& sphere_;
+  bool touched_ = false;  // in the step whose state comes next
 };
 
 double leaving_angle(const Stepper& s, double h) {

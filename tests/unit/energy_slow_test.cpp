@@ -43,7 +43,11 @@ TEST(LedgerOfShippedScenes, ClosesToFirstOrderWithContact) {
     if (s.hard_constraints) continue;  // one sweep a step: first order shows at smaller steps only (0.67 here)
     // 900 particles land at other parts of a step each time: the spread of their mean is some per cent, of order 0.1;
     // the explicit trapezoidal rule, near its limit of stability at the largest step, comes to it last
-    EXPECT_NEAR(slope(errors[2], errors[3]), 1, 0.2);
+    // What contact takes is an impulse times a mean velocity: a rule of order one keeps its own error in it, of the
+    // others only the places where particles touch are left, between order one and two, and their own.
+    const double order = slope(errors[2], errors[3]);
+    EXPECT_GT(order, 0.8);
+    EXPECT_LT(order, s.order == 1 ? 1.2 : 2.2);
   }
 }
 

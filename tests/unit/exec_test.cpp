@@ -5,6 +5,8 @@
 #include "experiments/metrics.h"
 #include "experiments/scenes.h"
 #include "experiments/sweep/sweep.h"
+#include "mysim/json.h"
+#include "reference/certificate.h"
 #include "reference/npy.h"
 #include "reference/protocol/exec_engine.h"
 #include "reference/protocol/process.h"
@@ -43,6 +45,24 @@ class Exec : public InFolder {
   const Scene scene_ = load_scene("chain");
   const crosscheck::Run run_{1e-3, 0.08, 4};
 };
+
+TEST_F(Exec, AReadbackWithoutProbeDoesNotAttestTheLaw) {
+  // an engine that has every number right and pulls by another law: nothing of what it tells is wrong
+  Json readback{{"precision", "double"}};
+  const Particles& p = scene_.model.particles;
+  readback["mass"] = std::vector<double>(p.mass.begin(), p.mass.end());
+  readback["pinned"] = std::vector<int>(p.pinned.begin(), p.pinned.end());
+  for (const Spring& s : scene_.model.find<Springs>()->list)
+    readback["links"].push({{"a", s.a}, {"b", s.b}, {"rest_length", s.rest}, {"stiffness", s.k}});
+  write("run.json", Json{{"readback", readback}}.dump());
+  const Answered answered = run(deliver("x.npy") + deliver("run.json", "run.json"));
+  ASSERT_EQ(answered.outcome.verdict, Verdict::ok) << answered.outcome.reason;
+  const Certificate c = certify("engine", scene_, answered.outcome);
+  EXPECT_FALSE(c.mismatch());
+  EXPECT_FALSE(c.fully_attested());
+  EXPECT_TRUE(contains(summary_of(c),
+                       "no mismatch; not attested: start, spring law, gravity, drag, nothing else, step, sleeping"));
+}
 
 TEST_F(Exec, EachMisbehaviourIsAVerdictWithAClearLine) {
   const std::string good = deliver("x.npy");

@@ -1,15 +1,12 @@
 // A page opened from a file in a browser without a window, and what a script in it wrote down. Chromium is optional.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include "mysim/json.h"
 #include "report/run_program.h"
+#include "tests/unit/optional_packages.h"
 #include "tests/unit/temporary.h"
 
 namespace crosscheck::testing_tools {
-
-#define NEEDS_CHROMIUM \
-  if (!on_path("chromium")) GTEST_SKIP() << "chromium is not installed: the page is not tried in a browser"
 
 class InBrowser : public InFolder {
  protected:
@@ -42,17 +39,17 @@ class InBrowser : public InFolder {
   }
 
   /// What the page's self-test wrote into <script id="seen">.
-  nlohmann::json seen(const std::filesystem::path& page, std::vector<std::string> flags) const {
+  JsonField seen(const std::filesystem::path& page, std::vector<std::string> flags) const {
     flags.emplace_back("--dump-dom");
     const ProgramResult result = browse(page, flags);
     const std::string begin = "<script type=\"application/json\" id=\"seen\">";
     const size_t at = result.out.find(begin);
     if (at == std::string::npos) {
       ADD_FAILURE() << "the page did not come to its end: " << last_lines(result.err, 20);
-      return nlohmann::json::object();
+      return JsonField::parse("{}", "what the page saw");
     }
     const size_t from = at + begin.size();
-    return nlohmann::json::parse(result.out.substr(from, result.out.find("</script>", from) - from));
+    return JsonField::parse(result.out.substr(from, result.out.find("</script>", from) - from), "what the page saw");
   }
 };
 

@@ -1,10 +1,14 @@
 // The right-hand side written apart: the same numbers as mysim's on every shipped scene, and a slip in any of them
 // shows.
+#include <array>
+#include <span>
+
 #include "experiments/scenes.h"
 #include "reference/independent/integrators.h"
 #include "reference/independent/right_hand_side.h"
 #include "reference/multipliers.h"
 #include "tests/unit/helpers.h"
+#include "tests/unit/optional_packages.h"
 
 namespace crosscheck {
 namespace {
@@ -197,12 +201,12 @@ TEST(Integrators, OdeintsRungeKuttaIsMysims) {
   }
 }
 
-TEST(Integrators, FollowTheirTolerance) {
+constexpr std::array sundials_methods{"sundials/arkode", "sundials/arkode+order=4", "sundials/cvode"};
+
+void expect_tolerances_followed(std::span<const char* const> names) {
   const Scene scene = load_scene("pendulum");
   const Trajectory fine = answer("rk4", scene, {2e-5, 1, 20}).trajectory;
-  std::vector<std::string> names{"odeint/dopri5"};
-  if (sundials_version()) names.insert(names.end(), {"sundials/arkode", "sundials/arkode+order=4", "sundials/cvode"});
-  for (const std::string& name : names) {
+  for (const std::string name : names) {
     SCOPED_TRACE(name);
     double before = 0;
     for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
@@ -218,23 +222,44 @@ TEST(Integrators, FollowTheirTolerance) {
   }
 }
 
-TEST(Integrators, SampleAtTheTimesAskedForHoweverOftenTheyAreWatched) {
+TEST(Integrators, FollowTheirTolerance) { expect_tolerances_followed(std::array{"odeint/dopri5"}); }
+
+TEST(Sundials, FollowsItsTolerance) {
+  NEEDS_SUNDIALS;
+  expect_tolerances_followed(sundials_methods);
+}
+
+void expect_times_asked_for(std::span<const char* const> names) {
   const Scene scene = small_cloth();  // its wind makes the watch look at every step
-  for (const auto name : {"odeint/dopri5", "sundials/arkode", "sundials/arkode+order=4", "sundials/cvode"}) {
+  for (const std::string name : names) {
     const Method method = find_method(name);
     const crosscheck::Run run{1e-3, 0.5, 7, 1e-8};
     Recorder alone, watched;
     const Outcome out = run_method(method, scene, run, {&watched});
-    if (out.verdict == Verdict::unsupported) {
-      EXPECT_TRUE(contains(out.reason, "libsundials-dev")) << name;
-      EXPECT_FALSE(sundials_version());
-      continue;
-    }
+    ASSERT_EQ(out.verdict, Verdict::ok) << out.reason;
     method.engine(scene, run, alone);
     ASSERT_EQ(watched.trajectory.frames(), 8);
     for (int i = 0; i <= 7; ++i) EXPECT_NEAR(watched.trajectory.t[i], 0.5 * i / 7, 4 * eps);
     EXPECT_EQ(alone.trajectory.t.size(), 8u);
     EXPECT_LT(sup_rms(alone.trajectory, watched.trajectory), 1e-13) << name;
+  }
+}
+
+TEST(Integrators, SampleAtTheTimesAskedForHoweverOftenTheyAreWatched) {
+  expect_times_asked_for(std::array{"odeint/dopri5"});
+}
+
+TEST(Sundials, SamplesAtTheTimesAskedForHoweverOftenItIsWatched) {
+  NEEDS_SUNDIALS;
+  expect_times_asked_for(sundials_methods);
+}
+
+TEST(Sundials, WhereItIsMissingItsMethodsAreRefusedWithThePackagesName) {
+  if (sundials_version()) GTEST_SKIP() << "package libsundials-dev is installed: its absence is not tried";
+  for (const char* name : sundials_methods) {
+    const Outcome out = answer(name, load_scene("pendulum"), {1e-3, 0.1, 2, 1e-6}).outcome;
+    EXPECT_EQ(out.verdict, Verdict::unsupported) << name;
+    EXPECT_TRUE(contains(out.reason, "libsundials-dev")) << name << ": " << out.reason;
   }
 }
 

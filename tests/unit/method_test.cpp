@@ -67,7 +67,10 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
       {"rk4+sticky=1", "unknown option '+sticky=1'"},
       {"bullet/deformable-explicit+n=2",
        "method bullet/deformable-explicit: unknown option '+n=2'; expected +default-rest, +default-margin, "
-       "+default-sleep or none"},
+       "+default-sleep, +voxel=0.0001 to +voxel=1 (m) or none"},
+      {"bullet/deformable-explicit+voxel=0", "unknown option '+voxel=0'"},
+      {"bullet/deformable-explicit+voxel=0.02m", "unknown option '+voxel=0.02m'"},
+      {"bullet/pbd+voxel=2", "unknown option '+voxel=2'"},
       {"bullet/deformable-implicit+n=2",
        "method bullet/deformable-implicit: unknown option '+n=2'; expected +tight, +shipped, +unprojected or none"},
       {"bullet/deformable-implicit+tight=1", "'+tight=1'"},

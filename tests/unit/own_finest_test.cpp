@@ -2,6 +2,7 @@
 #include "experiments/experiment.h"
 #include "experiments/scenes.h"
 #include "experiments/sweep/sweep.h"
+#include "report/charts/charts.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {
@@ -54,6 +55,28 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
     EXPECT_NEAR(*rows[2].own / *rows[3].own, 3, 0.1);
     EXPECT_TRUE(result.table("order-slopes")->rows.empty());  // no order is promised for Bullet
   }
+}
+
+TEST(OrderCharts, AreDrawnFromTheirOwnTablesAlone) {
+  const Scene scene = load_scene("spring");
+  Request request;
+  request.scenes = {scene};
+  request.methods = find_methods("leapfrog,rk4,explicit-euler");
+  const Rows alone = computed(order_points(request));
+  Rows both = alone;
+  both.append(computed(engines_points(request)));
+  std::vector<std::vector<Chart>> drawn;
+  for (const Rows* rows : {&alone, static_cast<const Rows*>(&both)}) {
+    const std::vector<Scene> scenes{scene};
+    const std::vector<SceneFacts> facts{facts_of(scene.name, *rows)};
+    drawn.push_back(order_charts({scenes, facts, *rows, "commit"}));
+    ASSERT_EQ(drawn.back().size(), 1u);
+  }
+  const Figure &a = std::get<Figure>(drawn[0][0].figure), &b = std::get<Figure>(drawn[1][0].figure);
+  EXPECT_EQ(a.curves.size(), 3u);
+  EXPECT_EQ(drawing_of(a).script, drawing_of(b).script);
+  EXPECT_EQ(a.tier, b.tier);
+  EXPECT_TRUE(contains(a.tier, "the exact truth, error bar ")) << a.tier;
 }
 
 TEST(OwnFinest, OfAStepperFallsWithItsErrorAndRulesOfToleranceAreNamed) {

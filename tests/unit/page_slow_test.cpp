@@ -9,7 +9,6 @@
 namespace crosscheck {
 namespace {
 
-using nlohmann::json;
 using namespace testing_tools;
 
 class Page : public InBrowser {
@@ -38,35 +37,36 @@ class Page : public InBrowser {
 
 TEST_F(Page, ChartsSpeakAndTablesSort) {
   NEEDS_CHROMIUM;
-  const json saw = seen(page(), {});
-  EXPECT_EQ(saw["complaints"], json::array());
-  EXPECT_EQ(saw["charts"], 1);
-  EXPECT_TRUE(saw.value("named", false));
-  EXPECT_TRUE(saw.value("drawn", false));
-  EXPECT_GT(saw.value("markerSize", 0.), 3) << "pixels: markers are drawn, their shapes stand at the page's beginning";
-  EXPECT_EQ(saw["tip"], "first run");
-  EXPECT_TRUE(saw.value("gone", false));
+  const JsonField saw = seen(page(), {});
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
+  EXPECT_EQ(saw["charts"].number(), 1);
+  EXPECT_TRUE(saw["named"].truth());
+  EXPECT_TRUE(saw["drawn"].truth());
+  EXPECT_GT(saw["markerSize"].number(), 3) << "pixels: markers are drawn, their shapes stand at the page's beginning";
+  EXPECT_EQ(saw["tip"].text(), "first run");
+  EXPECT_TRUE(saw["gone"].truth());
   // by size in metres, whatever the unit; words below numbers, either way
-  EXPECT_EQ(saw["up"], json({"< 3.0e-13 m", "0.5 µm", "900 µm", "1.2 mm", "20 mm", "2 m", "–", "blew up at 2 s"}));
-  EXPECT_EQ(saw["down"][0], "2 m");
-  EXPECT_EQ(saw["down"][5], "< 3.0e-13 m");
-  EXPECT_EQ(saw["says"], "descending");
-  EXPECT_EQ(saw["kept"], json({"bullet/pbd-3", "bullet/pbd-0", "bullet/pbd-6"}));
-  EXPECT_NE(saw.value("csv", "").find("\"method\",\"error"), std::string::npos) << saw["csv"];
-  EXPECT_EQ(saw.value("csv", "").find("mysim/rk4"), std::string::npos) << "rows that are hidden are not saved";
-  EXPECT_LE(saw.value("height", 1), 0) << "the page is no wider than the window";
+  EXPECT_EQ(saw["up"].texts(), (std::vector<std::string>{"< 3.0e-13 m", "0.5 µm", "900 µm", "1.2 mm", "20 mm", "2 m",
+                                                         "–", "blew up at 2 s"}));
+  EXPECT_EQ(saw["down"][0].text(), "2 m");
+  EXPECT_EQ(saw["down"][5].text(), "< 3.0e-13 m");
+  EXPECT_EQ(saw["says"].text(), "descending");
+  EXPECT_EQ(saw["kept"].texts(), (std::vector<std::string>{"bullet/pbd-3", "bullet/pbd-0", "bullet/pbd-6"}));
+  EXPECT_NE(saw["csv"].text().find("\"method\",\"error"), std::string::npos) << saw["csv"].dump();
+  EXPECT_EQ(saw["csv"].text().find("mysim/rk4"), std::string::npos) << "rows that are hidden are not saved";
+  EXPECT_LE(saw["height"].number(), 0) << "the page is no wider than the window";
 }
 
 TEST_F(Page, IsDarkWhereTheReaderWantsIt) {
   NEEDS_CHROMIUM;
   const auto file = page();
-  const json light = seen(file, {"--blink-settings=preferredColorScheme=1"}),
-             dark = seen(file, {"--blink-settings=preferredColorScheme=0"});
-  EXPECT_EQ(light["background"], "rgb(255, 255, 255)");
-  EXPECT_EQ(dark["background"], "rgb(21, 24, 27)");
+  const JsonField light = seen(file, {"--blink-settings=preferredColorScheme=1"}),
+                  dark = seen(file, {"--blink-settings=preferredColorScheme=0"});
+  EXPECT_EQ(light["background"].text(), "rgb(255, 255, 255)");
+  EXPECT_EQ(dark["background"].text(), "rgb(21, 24, 27)");
   // drawings too; what is printed never is
-  EXPECT_EQ(light["filter"], "none");
-  EXPECT_TRUE(contains(dark.value("filter", ""), "invert"));
+  EXPECT_EQ(light["filter"].text(), "none");
+  EXPECT_TRUE(contains(dark["filter"].text(), "invert"));
   EXPECT_TRUE(contains(asset("page/style.css"), "@media screen and (prefers-color-scheme: dark)"));
 }
 

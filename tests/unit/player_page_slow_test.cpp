@@ -15,8 +15,6 @@
 namespace crosscheck {
 namespace {
 
-using nlohmann::json;
-
 class PlayerPage : public testing_tools::InBrowser {
  protected:
   /// Data of a scene, and the page that plays it: with the poster that a report has, and the self-test.
@@ -40,27 +38,27 @@ TEST_F(PlayerPage, PlaysFromAFileAndObeysItsControls) {
   NEEDS_CHROMIUM;
   // one that blows up is shown until then, and says so
   const auto file = page(load_scene("chain"), {"mysim/symplectic-euler", "bullet/pbd", "mysim/explicit-euler"});
-  const json saw = seen(file, {});
-  ASSERT_TRUE(saw.value("able", false)) << saw;
-  EXPECT_EQ(saw["complaints"], json::array());
-  EXPECT_TRUE(saw["poster"]);
-  EXPECT_EQ(saw["canvases"], 1);
-  EXPECT_GT(saw.value("drawn", 0.), 0.002) << "part of the picture that is not background";
+  const JsonField saw = seen(file, {});
+  ASSERT_TRUE(saw["able"].truth()) << saw.dump();
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
+  EXPECT_TRUE(saw["poster"].truth());
+  EXPECT_EQ(saw["canvases"].number(), 1);
+  EXPECT_GT(saw["drawn"].number(), 0.002) << "part of the picture that is not background";
   for (const char* what : {"moves", "returns", "slider", "colours", "springs", "turns", "plays"})
-    EXPECT_TRUE(saw.value(what, false)) << what;
-  EXPECT_EQ(saw["jump"], 0) << "pixels by which the page moved when the player came";
-  EXPECT_NE(saw.value("titles", "").find("blew up at"), std::string::npos) << saw["titles"];
-  EXPECT_NE(saw.value("list", "").find("blew up at"), std::string::npos) << saw["list"];
-  EXPECT_EQ(saw["lines"], 4) << "energies of the methods, and of the truth beside them";
+    EXPECT_TRUE(saw[what].truth()) << what;
+  EXPECT_EQ(saw["jump"].number(), 0) << "pixels by which the page moved when the player came";
+  EXPECT_NE(saw["titles"].text().find("blew up at"), std::string::npos) << saw["titles"].dump();
+  EXPECT_NE(saw["list"].text().find("blew up at"), std::string::npos) << saw["list"].dump();
+  EXPECT_EQ(saw["lines"].number(), 4) << "energies of the methods, and of the truth beside them";
 }
 
 TEST_F(PlayerPage, AClothIsDrawnWithItsSphere) {
   NEEDS_CHROMIUM;
-  const json saw = seen(page(load_scene("cloth-sphere"), {"mysim/symplectic-euler", "mysim/leapfrog"}), {});
-  EXPECT_EQ(saw["complaints"], json::array());
-  EXPECT_GT(saw.value("drawn", 0.), 0.1);
+  const JsonField saw = seen(page(load_scene("cloth-sphere"), {"mysim/symplectic-euler", "mysim/leapfrog"}), {});
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
+  EXPECT_GT(saw["drawn"].number(), 0.1);
   for (const char* what : {"moves", "returns", "slider", "colours", "springs", "turns", "plays"})
-    EXPECT_TRUE(saw.value(what, false)) << what;
+    EXPECT_TRUE(saw[what].truth()) << what;
 }
 
 /// A page with a chart whose first marker came to its end, whose second blew up; and a map with a cell.
@@ -114,41 +112,41 @@ class RunsPage : public PlayerPage {
 
 TEST_F(RunsPage, AClickOnAMarkerOrAChoiceInTheListPlaysItsRun) {
   NEEDS_CHROMIUM;
-  const json saw = seen(charts(), {});
-  EXPECT_EQ(saw["complaints"], json::array());
-  ASSERT_EQ(saw["windows"].size(), 4u) << saw;
-  for (const json& w : saw["windows"]) {
-    EXPECT_GT(w.value("drawn", 0.), 0.001) << w;
-    EXPECT_TRUE(w.value("moves", false)) << w;
-    EXPECT_TRUE(w.value("closed", false)) << w;
+  const JsonField saw = seen(charts(), {});
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
+  ASSERT_EQ(saw["windows"].size(), 4u) << saw.dump();
+  for (const JsonField& w : saw["windows"].elements()) {
+    EXPECT_GT(w["drawn"].number(), 0.001) << w.dump();
+    EXPECT_TRUE(w["moves"].truth()) << w.dump();
+    EXPECT_TRUE(w["closed"].truth()) << w.dump();
   }
-  EXPECT_EQ(saw["windows"][0]["panels"], 2) << "the run beside the truth";
-  EXPECT_NE(saw["windows"][0].value("says", "").find("./crosscheck run chain --method mysim/leapfrog --step"),
+  EXPECT_EQ(saw["windows"][0]["panels"].number(), 2) << "the run beside the truth";
+  EXPECT_NE(saw["windows"][0]["says"].text().find("./crosscheck run chain --method mysim/leapfrog --step"),
             std::string::npos)
-      << saw["windows"][0]["says"];
-  EXPECT_LT(saw["windows"][0].value("apart", 1.), 1e-3) << "m: as near to the truth as the run is, with its lattice";
-  EXPECT_EQ(saw["windows"][1]["panels"], 1);
-  EXPECT_NE(saw["windows"][1].value("says", "").find("last"), std::string::npos) << saw["windows"][1]["says"];
-  EXPECT_NE(saw["windows"][2].value("says", "").find("Departures"), std::string::npos) << saw["windows"][2]["says"];
-  EXPECT_EQ(saw["windows"][3]["says"], saw["windows"][1]["says"]) << "the list has the same runs";
+      << saw["windows"][0]["says"].dump();
+  EXPECT_LT(saw["windows"][0]["apart"].number(), 1e-3) << "m: as near to the truth as the run is, with its lattice";
+  EXPECT_EQ(saw["windows"][1]["panels"].number(), 1);
+  EXPECT_NE(saw["windows"][1]["says"].text().find("last"), std::string::npos) << saw["windows"][1]["says"].dump();
+  EXPECT_NE(saw["windows"][2]["says"].text().find("Departures"), std::string::npos) << saw["windows"][2]["says"].dump();
+  EXPECT_EQ(saw["windows"][3]["says"].text(), saw["windows"][1]["says"].text()) << "the list has the same runs";
 }
 
 TEST_F(RunsPage, WithoutWebGlNothingPretendsToPlay) {
   NEEDS_CHROMIUM;
-  const json saw = seen(charts(), {"--disable-3d-apis"});
-  EXPECT_EQ(saw["windows"], json::array());
-  EXPECT_EQ(saw["lists"], 0);
-  EXPECT_EQ(saw["complaints"], json::array());
+  const JsonField saw = seen(charts(), {"--disable-3d-apis"});
+  EXPECT_EQ(saw["windows"].dump(), "[]");
+  EXPECT_EQ(saw["lists"].number(), 0);
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
 }
 
 TEST_F(PlayerPage, WithoutWebGlThePosterStays) {
   NEEDS_CHROMIUM;
-  const json saw = seen(page(load_scene("chain"), {"mysim/symplectic-euler"}), {"--disable-3d-apis"});
-  EXPECT_FALSE(saw.value("able", true));
-  EXPECT_TRUE(saw.value("poster", false));
-  EXPECT_EQ(saw["desk"], 0) << "no controls that control nothing";
-  EXPECT_EQ(saw["canvases"], 0);
-  EXPECT_EQ(saw["complaints"], json::array());
+  const JsonField saw = seen(page(load_scene("chain"), {"mysim/symplectic-euler"}), {"--disable-3d-apis"});
+  EXPECT_FALSE(saw["able"].truth());
+  EXPECT_TRUE(saw["poster"].truth());
+  EXPECT_EQ(saw["desk"].number(), 0) << "no controls that control nothing";
+  EXPECT_EQ(saw["canvases"].number(), 0);
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
 }
 
 /// Two engines' drapes of 64 x 64 particles in 150 frames, as the page holds them.
@@ -164,8 +162,8 @@ TEST(PlayerSize, TwoDrapesOf4096ParticlesFitInto2Point2Megabytes) {
     ASSERT_EQ(shown.back()->outcome.verdict, Verdict::ok) << shown.back()->outcome.reason;
   }
   const std::string text = player_json(scene, shown, {});
-  const json data = json::parse(text);
-  EXPECT_EQ(data["particles"], 4096);
+  const JsonField data = JsonField::parse(text, "player");
+  EXPECT_EQ(data["particles"].number(), 4096);
   EXPECT_EQ(data["times"].size(), 151u);
   EXPECT_LE(text.size() + player_head().size(), 2'200'000u);
   RecordProperty("bytes", static_cast<int>(text.size()));

@@ -1,10 +1,10 @@
 // What the page's player is given: packed numbers come back, places lie within the stated bound, failures are told.
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <random>
 
 #include "experiments/scenes.h"
+#include "mysim/json.h"
 #include "report/player/packed_numbers.h"
 #include "report/player/player_data.h"
 #include "report/player/quantised.h"
@@ -13,10 +13,11 @@
 namespace crosscheck {
 namespace {
 
-using nlohmann::json;
 using testing_tools::unpacked;
 
-std::vector<std::uint16_t> numbers_of(const json& p) { return unpacked(p["count"], p["lag"], p["order"], p["data"]); }
+std::vector<std::uint16_t> numbers_of(const JsonField& p) {
+  return unpacked(p["count"].natural(), p["lag"].natural(), p["order"].whole_number(0, 9), p["data"].text());
+}
 
 /// A number of a lattice, which wrapped at 2^16.
 int lattice_number(std::uint16_t n) { return n < 65536 - 24576 ? n : n - 65536; }
@@ -92,74 +93,74 @@ TEST(SharedLattice, OfASinglePlaceIsOneToo) {
 
 class PlayerData : public testing::Test {
  protected:
-  json data_of(const Scene& scene, const std::vector<std::string>& methods) {
+  JsonField data_of(const Scene& scene, const std::vector<std::string>& methods) {
     Request request;
     request.scenes = {scene};
     std::vector<const Answer*> shown;
     for (const std::string& name : methods) shown.push_back(&answer_of(request, scene, find_method(name), answers_));
-    return json::parse(player_json(scene, shown, truth_of(scene, run_of(request, scene))));
+    return JsonField::parse(player_json(scene, shown, truth_of(scene, run_of(request, scene))), "player");
   }
   Answers answers_;
 };
 
 TEST_F(PlayerData, PlacesOfTheChainAreThoseOfItsRunInEachFrame) {
   const Scene scene = load_scene("chain");
-  const json data = data_of(scene, {"mysim/leapfrog", "mysim/rk4"});
+  const JsonField data = data_of(scene, {"mysim/leapfrog", "mysim/rk4"});
   ASSERT_EQ(data["times"].size(), 151u);
   ASSERT_EQ(data["methods"].size(), 3u) << "two methods and the truth";
-  const json& method = data["methods"][0];
+  const JsonField method = data["methods"][0];
   const auto numbers = numbers_of(method["places"]);
   const int n = scene.model.particles.size();
   ASSERT_EQ(numbers.size(), 151u * 3 * n);
-  EXPECT_FALSE(method.contains("over"));
-  const double bound = data["finest"];
+  EXPECT_FALSE(method.find("over").has_value());
+  const double bound = data["finest"].number();
   for (int f = 0; f < 151; ++f)
     for (int i = 0; i < n; ++i)
       for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(method["low"][k].get<double>() +
-                        method["unit"][k].get<double>() * lattice_number(numbers[3 * (f * n + i) + k]),
-                    answers_[0].trajectory.x[f](k, i), bound);
-  EXPECT_EQ(data["springs"]["families"][0]["count"], n - 1);
+        EXPECT_NEAR(
+            method["low"][k].number() + method["unit"][k].number() * lattice_number(numbers[3 * (f * n + i) + k]),
+            answers_[0].trajectory.x[f](k, i), bound);
+  EXPECT_EQ(data["springs"]["families"][0]["count"].number(), n - 1);
   EXPECT_TRUE(data["floor"].is_null()) << "all lies in a plane";
 }
 
 TEST_F(PlayerData, TheSameMotionTwiceTakesItsRoomOnce) {
   const Scene scene = load_scene("chain");
-  const json data = data_of(scene, {"mysim/symplectic-euler", "bullet/deformable-explicit"});
-  const json &ours = data["methods"][0], &theirs = data["methods"][1];
-  ASSERT_EQ(theirs["over"], 0);
-  EXPECT_LT(theirs["places"]["data"].get<std::string>().size(), 100u);
+  const JsonField data = data_of(scene, {"mysim/symplectic-euler", "bullet/deformable-explicit"});
+  const JsonField ours = data["methods"][0], theirs = data["methods"][1];
+  ASSERT_EQ(theirs["over"].number(), 0);
+  EXPECT_LT(theirs["places"]["data"].text().size(), 100u);
   // what is left of a motion that is not quite the same comes back
-  const json& truth = data["methods"][2];
+  const JsonField truth = data["methods"][2];
   const auto first = numbers_of(ours["places"]), own = numbers_of(truth["places"]);
   const auto path = truth_of(scene, run_of({{scene}}, scene))->trajectory;
   const auto n = static_cast<size_t>(3 * scene.model.particles.size());
   for (size_t i = 0; i < own.size(); ++i) {
-    const auto number = static_cast<std::uint16_t>(own[i] + (truth.contains("over") ? first[i] : 0));
-    EXPECT_NEAR(truth["low"][i % 3].get<double>() + truth["unit"][i % 3].get<double>() * lattice_number(number),
-                path.x[i / n].reshaped()[static_cast<Eigen::Index>(i % n)], data["finest"].get<double>());
+    const auto number = static_cast<std::uint16_t>(own[i] + (truth.find("over").has_value() ? first[i] : 0));
+    EXPECT_NEAR(truth["low"][i % 3].number() + truth["unit"][i % 3].number() * lattice_number(number),
+                path.x[i / n].reshaped()[static_cast<Eigen::Index>(i % n)], data["finest"].number());
   }
 }
 
 TEST_F(PlayerData, ARunThatBlewUpEndsNearTheOthersAndSaysWhenAndWhy) {
   const Scene scene = load_scene("chain");
-  const json data = data_of(scene, {"mysim/leapfrog", "mysim/explicit-euler"});
-  const json& failed = data["methods"][1];
-  EXPECT_LT(failed["frames"], 151);
-  EXPECT_NE(failed["failure"].get<std::string>().find(" s"), std::string::npos) << failed["failure"];
-  EXPECT_EQ(failed["reason"], "energy from nothing");
-  EXPECT_LE(failed["stops"].get<double>(), failed["failed"].get<double>());
-  for (int k = 0; k < 3; ++k) EXPECT_LT(failed["unit"][k].get<double>() * 16383, 20) << "m: within sight";
-  EXPECT_EQ(data["methods"][0]["failure"], "");
+  const JsonField data = data_of(scene, {"mysim/leapfrog", "mysim/explicit-euler"});
+  const JsonField failed = data["methods"][1];
+  EXPECT_LT(failed["frames"].number(), 151);
+  EXPECT_NE(failed["failure"].text().find(" s"), std::string::npos) << failed["failure"].text();
+  EXPECT_EQ(failed["reason"].text(), "energy from nothing");
+  EXPECT_LE(failed["stops"].number(), failed["failed"].number());
+  for (int k = 0; k < 3; ++k) EXPECT_LT(failed["unit"][k].number() * 16383, 20) << "m: within sight";
+  EXPECT_EQ(data["methods"][0]["failure"].text(), "");
 }
 
 TEST_F(PlayerData, DistancesFromTheContactRuleAreDifferencesAndEndWithIt) {
   const Scene scene = load_scene("cloth-sphere");
-  const json data = data_of(scene, {"mysim/symplectic-euler"});
+  const JsonField data = data_of(scene, {"mysim/symplectic-euler"});
   ASSERT_TRUE(data["distance"].is_object());
-  EXPECT_EQ(data["distance"]["name"], "difference from the converged contact rule");
-  const json& distance = data["methods"][0]["distance"];
-  const double frames = distance["count"].get<double>() / scene.model.particles.size();
+  EXPECT_EQ(data["distance"]["name"].text(), "difference from the converged contact rule");
+  const JsonField distance = data["methods"][0]["distance"];
+  const double frames = distance["count"].number() / scene.model.particles.size();
   EXPECT_LE((frames - 1) * scene.duration / scene.samples, scene.window + 1e-9);
   const auto levels = numbers_of(distance);
   EXPECT_LE(*std::max_element(levels.begin(), levels.end()), 63);

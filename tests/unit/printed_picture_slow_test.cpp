@@ -1,9 +1,8 @@
 // Pictures for print: letters keep their size, pages have that of the set, and everything beside a picture is true.
+#include "mysim/json.h"
 #include "report/printed_picture.h"
 
 #include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
 
 #include "experiments/scenes.h"
 #include "report/render/layout.h"
@@ -104,14 +103,14 @@ TEST_F(Cli, FiguresHoldThePictureOfAScene) {
         call({"figures", "mine-picture", "--scene", "mine.toml", "--width", "50mm", "--out", out});
     ASSERT_EQ(result.status, 0) << result.err;
   }
-  const auto json = nlohmann::json::parse(read(folder_ / "one/figures.json"));
+  const JsonField json = JsonField::parse_file(folder_ / "one/figures.json");
   ASSERT_EQ(json["figures"].size(), 1u);
-  const auto& figure = json["figures"][0];
-  EXPECT_EQ(figure["name"], "mine-picture");
-  EXPECT_EQ(figure["scene"], "mine");
-  EXPECT_EQ(figure["width_cm"], 5.0);
+  const JsonField figure = json["figures"][0];
+  EXPECT_EQ(figure["name"].text(), "mine-picture");
+  EXPECT_EQ(figure["scene"].text(), "mine");
+  EXPECT_EQ(figure["width_cm"].number(), 5.0);
   for (const auto& [ending, file] : figure["files"].items())
-    EXPECT_TRUE(fs::exists(folder_ / "one" / file.get<std::string>())) << ending;
+    EXPECT_TRUE(fs::exists(folder_ / "one" / file.text())) << ending;
   for (const char* ending : {"png", "pdf", "tex", "txt"})
     EXPECT_TRUE(read(folder_ / (std::string("one/mine-picture.") + ending)) ==
                 read(folder_ / (std::string("two/mine-picture.") + ending)))

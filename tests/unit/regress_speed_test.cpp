@@ -2,8 +2,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <unistd.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "experiments/regress/machine.h"
 #include "experiments/regress/plain_loop.h"
 #include "experiments/regress/speed_run.h"
 #include "experiments/scenes.h"
@@ -155,6 +160,89 @@ TEST(SpeedVerdicts, WhatIsOfAnotherKindIsNotCompared) {
   file.speeds[0].hash = "0123456789abcdef";
   EXPECT_EQ(state(&file).first, Pace::elsewhere);
   EXPECT_NE(state(&file).second.find("another scene"), std::string::npos);
+}
+
+TEST(SpeedVerdicts, WhyASpeedIsNotComparedIsNamed) {
+  const SpeedQuestion q = question("spring", "leapfrog");
+  const auto note = [&](std::vector<Machine> blessed_on, const Machine& machine) {
+    SpeedFile file;
+    for (const Machine& m : blessed_on) file.speeds.push_back(speed_of(q, 5)), file.speeds.back().machine = m;
+    const Speeds speeds = compared_speeds({q}, &file, machine, invented({{"spring", {50}}}));
+    EXPECT_TRUE(speeds.passed());
+    EXPECT_EQ(speeds.rows.at(0).state, Pace::elsewhere);
+    return speeds.notes.at(0);
+  };
+  const std::string begin = "1 of 1 speeds not compared: ";
+  const Machine other_cpu{"b CPU", here.compiler, here.yardstick}, other_both{"b CPU", "b compiler", here.yardstick};
+  EXPECT_EQ(note({other_cpu}, here), begin + "blessed on another processor (b CPU; this is a CPU)");
+  EXPECT_EQ(note({{here.cpu, "b compiler", here.yardstick}}, here),
+            begin + "blessed on another compiler (b compiler; this is a compiler -O3)");
+  // of several kinds the one most like this is named
+  EXPECT_EQ(note({other_both, other_cpu, other_both}, here), note({other_cpu}, here));
+  EXPECT_EQ(note({other_both}, here), begin +
+                                          "blessed on another processor (b CPU; this is a CPU) and on another compiler "
+                                          "(b compiler; this is a compiler -O3)");
+  // a processor that says nothing of itself is like no other, itself included
+  const Machine unknown{"", here.compiler, here.yardstick};
+  EXPECT_EQ(note({unknown}, unknown), begin + "this processor cannot be told from others");
+}
+
+/// A folder that looks like what Linux tells of a processor.
+class ProcessorKind : public ::testing::Test {
+ protected:
+  ProcessorKind() { std::filesystem::create_directories(folder); }
+  ~ProcessorKind() override { std::filesystem::remove_all(folder); }
+  void write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((folder / name).parent_path());
+    std::ofstream(folder / name) << text;
+  }
+  void cache(int index, const std::string& level, const std::string& type, const std::string& size) const {
+    const std::string at = fmt::format("caches/index{}/", index);
+    write(at + "level", level + "\n"), write(at + "type", type + "\n"), write(at + "size", size + "\n");
+  }
+  std::string kind(const std::string& cpuinfo) const {
+    write("cpuinfo", cpuinfo);
+    return processor_kind(folder / "cpuinfo", folder / "caches");
+  }
+  std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("crosscheck-processor-{}", getpid());
+};
+
+TEST_F(ProcessorKind, HasNameNumbersCachesAndInstructionSets) {
+  cache(0, "1", "Data", "32K"), cache(1, "1", "Instruction", "64K"), cache(2, "3", "Unified", "32768K");
+  const std::string text =
+      "processor\t: 0\nmodel name\t: AMD EPYC\ncpu family\t: 25\nmodel\t\t: 1\nstepping\t: 1\ncpu MHz\t\t: "
+      "2445.4\nflags\t\t: fpu hypervisor sse2 avx2 fma avx rdrand\n\nprocessor\t: 1\nmodel\t\t: 99\n";
+  const std::string zen3 = "AMD EPYC, cpu family 25, model 1, stepping 1, L1d 32K, L3 32768K, avx avx2 fma sse2";
+  EXPECT_EQ(kind(text), zen3);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string other = text;
+    return kind(other.replace(other.find(from), from.size(), to));
+  };
+  // the same name on another processor, as providers of virtual machines sell it
+  for (const auto& [from, to] : {std::pair{"family\t: 25", "family\t: 23"},
+                                 {"model\t\t: 1", "model\t\t: 49"},
+                                 {"stepping\t: 1", "stepping\t: 0"},
+                                 {"AMD EPYC", "AMD EPYC 7763"},
+                                 {" avx2", ""},
+                                 {" fma", " fma avx512f"}})
+    EXPECT_NE(with(from, to), zen3) << from;
+  // what changes from hour to hour, and from kernel to kernel, is no other kind
+  EXPECT_EQ(with("2445.4", "3300.1"), zen3);
+  EXPECT_EQ(with("rdrand", "rdrand ibpb"), zen3);
+  EXPECT_EQ(with("avx2 fma", "fma avx2"), zen3);
+  EXPECT_EQ(with("AMD EPYC", "AMD|EPYC").find('|'), std::string::npos) << "it parts the fields of the file";
+  cache(2, "3", "Unified", "16384K");
+  EXPECT_NE(kind(text), zen3);
+}
+
+TEST_F(ProcessorKind, OfOtherMakesAndOfNone) {
+  EXPECT_EQ(kind("processor\t: 0\nCPU implementer\t: 0x41\nCPU part\t: 0xd0c\nFeatures\t: fp asimd crc32\n"),
+            "CPU implementer 0x41, CPU part 0xd0c, asimd");
+  EXPECT_EQ(kind("model name\t: a CPU\n"), "") << "a name alone tells nothing";
+  EXPECT_EQ(kind(""), "");
+  EXPECT_EQ(processor_kind("/nonexistent", "/nonexistent"), "");
+  EXPECT_EQ(processor_kind(), processor_kind());
 }
 
 TEST(SpeedVerdicts, OneMethodBesideAnotherNeedsNothingStored) {

@@ -1,10 +1,9 @@
 // scene.json, run.json and .npy: what is written is read back to the last bit, and what is broken is named.
-#include <nlohmann/json.hpp>
-
+#include "reference/protocol/scene_json.h"
 #include "experiments/scenes.h"
+#include "mysim/json.h"
 #include "reference/npy.h"
 #include "reference/protocol/run_json.h"
-#include "reference/protocol/scene_json.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/refusal.h"
 #include "tests/unit/temporary.h"
@@ -45,27 +44,28 @@ TEST_F(SceneJson, GivesEveryShippedSceneAndItsRunBackToTheBit) {
 
 TEST_F(SceneJson, SaysPinsAndGustsOutright) {
   const Scene scene = small_cloth();
-  const nlohmann::json json = nlohmann::json::parse(scene_json(scene, default_run(scene), {}));
-  const auto& times = json["run"]["times"];
+  const JsonField json = JsonField::parse(scene_json(scene, default_run(scene), {}), "scene.json");
+  const std::vector<double> times = json["run"]["times"].numbers();
   ASSERT_EQ(times.size(), 11u);
-  EXPECT_EQ(json["run"]["steps_per_sample"].get<int>() * json["run"]["step"].get<double>() * 10, times[10]);
-  const auto& pins = json["pins"];
-  const auto& wind =
-      *std::find_if(json["terms"].begin(), json["terms"].end(), [](const auto& t) { return t["type"] == "wind"; });
+  EXPECT_EQ(json["run"]["steps_per_sample"].whole() * json["run"]["step"].number() * 10, times[10]);
+  const std::vector<JsonField> displacements = json["pins"]["displacement"].elements(),
+                               terms = json["terms"].elements();
+  const JsonField gusts = (*std::find_if(terms.begin(), terms.end(),
+                                         [](const JsonField& t) { return t["type"].text() == "wind"; }))["gusts"];
   const Blowing& blowing = scene.model.find<Wind>()->acceleration;
   for (size_t i = 0; i < times.size(); ++i) {
     const double t = times[i];
     for (int j = 0; j < 3; ++j)
-      EXPECT_EQ(pins["displacement"][i][j].get<double>(), displacement_at(*scene.model.particles.move, t)[j]);
+      EXPECT_EQ(displacements[i].numbers()[j], displacement_at(*scene.model.particles.move, t)[j]);
     // an outsider's own sum of the waves
     auto gust = [&](const char* which) {
       double sum = 0;
-      for (const auto& w : wind["gusts"][which])
-        sum += w["weight"].get<double>() * std::sin(w["omega"].get<double>() * t + w["phase"].get<double>());
+      for (const JsonField& w : gusts[which].elements())
+        sum += w["weight"].number() * std::sin(w["omega"].number() * t + w["phase"].number());
       return sum;
     };
-    const Vec3 sum = blowing.mean * (1 + wind["gusts"]["variation"].get<double>() * gust("along")) +
-                     blowing.gusts->side * gust("across");
+    const Vec3 sum =
+        blowing.mean * (1 + gusts["variation"].number() * gust("along")) + blowing.gusts->side * gust("across");
     EXPECT_LE((sum - blowing.at(t)).norm(), 1e-14 * blowing.mean.norm());  // a handful of roundings
   }
 }

@@ -1,7 +1,10 @@
 // Limits of whole scenes: spectra against closed forms and against the code's own Jacobian, and runs that hold just
 // below the predicted limit and fail just above.
 
+#include "experiments/stability/outlook.h"
+#include "experiments/stability/reasons.h"
 #include "experiments/stability/trial.h"
+#include "mysim/frequency.h"
 #include "reference/exact/eigenvalues.h"
 #include "tests/unit/declared.h"
 #include "tests/unit/networks.h"
@@ -253,6 +256,66 @@ TEST(MeasuredLimit, IsThePredictedOneToOnePerCent) {
       EXPECT_NEAR(m.limit() / p.limit, 1, 0.01);
     }
   }
+}
+
+TEST(MeasuredLimit, OfAKilogramOnASpringIsThatOfTheRuleWhereverTheSearchBegins) {
+  const std::string text =
+      "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1.1, 0, 0]\nmass = 1\n[[spring]]\nends "
+      "= [0, 1]\nstiffness = 100\nrest = 1\n[pins]\nparticles = [0]\n";
+  for (const double begin : {1e-3, 0.037, 0.3}) {
+    const Subject subject = subject_of(small_scene(text, 1, begin));
+    for (const char* name : {"leapfrog", "symplectic-euler", "suzuki4", "rk4"}) {
+      SCOPED_TRACE(fmt::format("{} from {} s", name, begin));
+      const Measured m = measured_limit(find_method(name), subject, 4000, {}, 0.002);
+      ASSERT_EQ(m.kind, Measured::found);
+      EXPECT_NEAR(m.limit() / (stepper(name).limit(10, 0)), 1, 0.01);
+      // no power of two of the time scale, as where a search begins at theory's
+      EXPECT_LT(m.held, stepper(name).limit(10, 0));
+    }
+  }
+}
+
+TEST(Equilibrium, ThatIsASaddleIsLeftForTheRestBesideIt) {
+  // upright, held at two corners: in its plane the springs between the corners are pushed together
+  const Scene cloth = small_scene(
+      std::string("[grid]\nsize = [6, 7]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\nv = [0, -1, 0]\nmass = 0.25\n"
+                  "[grid.stiffness]\nstructural = 200\nshear = 200\nbend = 200\n[pins]\nparticles = [0, 5]\n") +
+      gravity_text);
+  // a mass that stands on its spring
+  const Scene upright = small_scene(
+      std::string("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0, 1, 0]\nmass = 1\n"
+                  "[[spring]]\nends = [0, 1]\nstiffness = 100\nrest = 1\n[pins]\nparticles = [0]\n") +
+      gravity_text);
+  for (const Scene& scene : {cloth, upright}) {
+    const Subject subject = subject_of(scene);
+    EXPECT_TRUE(subject.saddle);
+    ASSERT_TRUE(subject.at_rest);
+    EXPECT_TRUE(contains(word_on_saddle(subject), "is a saddle, not a rest"));
+    const Eigen::VectorXd squares = symmetric_eigenvalues(Eigen::MatrixXd(subject.spectrum.system.k));
+    EXPECT_GT(squares[0], -1e-8 * squares[squares.size() - 1]);
+    // what the table measures there is what theory says there
+    const Measured m = measured_limit(find_method("leapfrog"), subject, 1000, {}, 0.005);
+    ASSERT_EQ(m.kind, Measured::found);
+    EXPECT_NEAR(m.limit() * subject.spectrum.omega, 2, 0.02);
+  }
+  EXPECT_FALSE(subject_of(load_scene("cloth-hang")).saddle);
+}
+
+TEST(Outlook, TellsSmallMarginsAndCertainGrowth) {
+  // pulled along and free across: at rest omega^2 = 2 k / m along, and no more however far it is stretched
+  const Scene net = with_grid("cloth-hang", 5);
+  Scene free = net;
+  std::erase_if(free.model.terms, [](const Term& t) { return std::holds_alternative<Drag>(t); });
+  Scene far = free;
+  for (Spring& s : far.model.find<Springs>()->list) s.rest *= 1e-6;
+  const double limit = 2 / fastest_frequency(far.model, far.start);
+  const Method leapfrog = find_method("leapfrog");
+  EXPECT_EQ(outlook_of(leapfrog, free, 0.85 * limit), "");
+  EXPECT_TRUE(begins(outlook_of(leapfrog, free, 0.95 * limit), "small margin: the step is 95 % of what is stable"));
+  const std::string growth = outlook_of(find_method("explicit-euler"), free, 0.1 * limit);
+  EXPECT_TRUE(begins(growth, "no step of explicit-euler is stable here"));
+  for (const char* name : {"implicit-euler", "xpbd", "dopri5", "bullet/pbd"})
+    EXPECT_EQ(outlook_of(find_method(name), free, 10 * limit), "") << name;
 }
 
 TEST(MeasuredLimit, WithoutDragTwoRulesHaveNoStableStepAndGrowAsTheFormulaSays) {

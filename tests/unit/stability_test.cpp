@@ -119,12 +119,12 @@ TEST(Stability, RunsHoldBelowTheLimitAndFailAbove) {
       }
       if (std::isfinite(limit)) {
         const double above = just_above(s, o.omega, o.gamma);
-        // steps for a factor of 30 by the step matrix, nine tenths of which lie between the first and the last tenth;
+        // steps for a factor of 1000 by the step matrix, nine tenths of which lie between the first and the last tenth;
         // dopri5 without drag is the slowest: 1.3e-5 a step
         const double growth = spectral_radius(step_matrix(s, o.omega, o.gamma, above), o.omega);
-        const int steps = 10 * (10 + static_cast<int>(std::min(1e5, 0.1 * std::log(30) / std::log(growth))));
+        const int steps = 10 * (10 + static_cast<int>(std::min(1e5, 0.1 * std::log(1000) / std::log(growth))));
         const Fate fate = try_out(s, o, above, steps);
-        EXPECT_TRUE(fate.verdict == Verdict::energy || fate.verdict == Verdict::nan || fate.growth > 5)
+        EXPECT_TRUE(fate.verdict != Verdict::ok || fate.growth > 5)
             << name_of(fate.verdict) << ", growth " << fate.growth;
       }
     }
@@ -175,11 +175,13 @@ Verdict verdict_at(double extension) {
 
 TEST(Stretch, IsAVerdictBesideEnergy) {
   // W = 9.81 N, D = 2 m, n = 1: s <= W + sqrt(W^2 + 2 (2 W + W^2 / 2)) = 25.07 m; a fall from rest reaches 2 W = 19.62
-  // m
+  // m. Ten times that length, 260.7 m, is allowed: a symplectic rule half a per cent below its limit swings
+  // as far. How fast it came
+  // there two states do not tell
   EXPECT_EQ(verdict_at(19.62), Verdict::ok);
-  EXPECT_EQ(verdict_at(25.0), Verdict::ok);
-  EXPECT_EQ(verdict_at(25.2), Verdict::stretch);
-  EXPECT_EQ(verdict_at(60), Verdict::energy);  // more than twice what gravity gave
+  EXPECT_EQ(verdict_at(250), Verdict::ok);
+  EXPECT_EQ(verdict_at(259), Verdict::ok);  // 260 m long
+  EXPECT_EQ(verdict_at(261), Verdict::stretch);
   EXPECT_EQ(name_of(Verdict::stretch), "stretch");
 }
 

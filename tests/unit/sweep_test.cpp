@@ -63,6 +63,7 @@ class Sweep : public InFolder {
 
   void SetUp() override {
     InFolder::SetUp();
+    setenv("CROSSCHECK_LOCK", (folder_ / "lock").c_str(), 1);  // or another run on this machine is waited for
     store = Store(folder_ / "points");
   }
   Store store{""};

@@ -9,10 +9,10 @@ namespace {
 
 // positions and lengths are of the order of a metre, made by two or three operations: 1e-9 is far above their round-off
 // and far below any cell
-constexpr double round_off = 1e-9;
+constexpr double mesh_round_off = 1e-9;
 
 Case mesh_case(const char* call, const Mesh& mesh, const char* row, const char* column, int columns) {
-  Case c{.call = call, .columns = columns, .tolerance = round_off, .row = row, .column = column};
+  Case c{.call = call, .columns = columns, .tolerance = mesh_round_off, .row = row, .column = column};
   put(c.in, mesh);
   return c;
 }

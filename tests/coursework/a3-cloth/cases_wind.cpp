@@ -9,11 +9,11 @@ namespace coursework::a3 {
 namespace {
 
 // forces of at most 10 N, summed over six triangles
-constexpr double round_off = 1e-9;
+constexpr double wind_round_off = 1e-9;
 
 Case wind_case(const Breeze& breeze, const std::vector<std::array<int, 3>>& faces, const Points& x, const Points& v,
                double t) {
-  Case c{.call = "wind_forces", .columns = 3, .tolerance = round_off, .row = "particle", .column = "force"};
+  Case c{.call = "wind_forces", .columns = 3, .tolerance = wind_round_off, .row = "particle", .column = "force"};
   put(c.in, breeze);
   put(c.in, faces);
   c.in.push_back(static_cast<double>(x.cols()));
@@ -29,7 +29,7 @@ Cases triangles(Random& random) {
   Cases cases;
   for (int i = 0; i < 2; ++i) {
     const Mesh mesh = random_mesh(random, 2, 4);
-    Case c{.call = "triangles", .columns = 3, .tolerance = round_off, .row = "triangle", .column = "corners"};
+    Case c{.call = "triangles", .columns = 3, .tolerance = wind_round_off, .row = "triangle", .column = "corners"};
     put(c.in, mesh);
     auto all = grid_triangles(grid_of(mesh, 1, 0, 0));
     for (auto& corners : all) std::sort(corners.begin(), corners.end());
@@ -42,7 +42,7 @@ Cases triangles(Random& random) {
 
 Cases air(Random& random) {
   const Breeze breeze = random_breeze(random);
-  Case c{.call = "wind_at", .columns = 3, .tolerance = round_off, .row = "time", .column = "air"};
+  Case c{.call = "wind_at", .columns = 3, .tolerance = wind_round_off, .row = "time", .column = "air"};
   put(c.in, breeze);
   const int count = 24;
   c.row_size = random.uniform(0.1, 0.2);

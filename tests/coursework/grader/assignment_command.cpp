@@ -4,6 +4,7 @@
 #include <random>
 
 #include "mysim/errors.h"
+#include "mysim/output_folder.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/commands.h"
 #include "tests/coursework/grader/handout.h"
@@ -24,10 +25,13 @@ int assignment_command(const AssignmentCommand& command) {
   const Assignment& assignment = find_assignment(command.assignment);
   if (!command.check.empty()) return rehearse(assignment, command.check) ? 0 : 1;
   if (command.out.empty()) throw crosscheck::InputError("assignment: expected --out FOLDER, or --check FILE.zip");
-  if (command.pack.empty())
-    write_handout(assignment, command.out);
-  else
+  if (command.pack.empty()) {
+    crosscheck::OutputFolder folder(command.out, "assignment " + std::string(assignment.name));
+    write_handout(assignment, folder.path());
+    folder.finish();
+  } else {
     write_package(assignment, secret_of(command), command.out);
+  }
   fmt::print("{}: {}\n", command.out, assignment.title);
   return 0;
 }

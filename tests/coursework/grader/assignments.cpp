@@ -1,9 +1,10 @@
 // The table of assignments: a new one is a folder, the declaration of its function and a row.
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdlib>
 #include <stdexcept>
 
+#include "mysim/nearest.h"
 #include "tests/coursework/grader/assignment.h"
 
 namespace coursework {
@@ -35,12 +36,13 @@ std::span<const Assignment> assignments() {
 }
 
 const Assignment& find_assignment(const std::string& name) {
-  std::string known;
+  std::vector<std::string> known;
   for (const Assignment& assignment : assignments()) {
     if (assignment.name == name) return assignment;
-    known += (known.empty() ? "" : ", ") + std::string(assignment.name);
+    known.emplace_back(assignment.name);
   }
-  throw std::invalid_argument(fmt::format("unknown assignment '{}'; expected one of: {}", name, known));
+  throw std::invalid_argument(fmt::format("unknown assignment '{}'; expected one of: {}{}", name,
+                                          fmt::join(known, ", "), crosscheck::did_you_mean(name, known)));
 }
 
 }  // namespace coursework

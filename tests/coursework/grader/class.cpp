@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
-#include <nlohmann/json.hpp>
 
 #include "mysim/errors.h"
 #include "mysim/files.h"
@@ -44,19 +43,16 @@ std::string fingerprint_of(const Submission& submission, const std::string& surr
 bool finished(const fs::path& file, const std::string& assignment, const std::string& fingerprint, Result& result) {
   if (!fs::exists(file)) return false;
   try {
-    const std::string text = content_of_file(file);
-    result = result_from_json(text, file.string());
-    return result.complete && result.assignment == assignment &&
-           nlohmann::json::parse(text).value("fingerprint", "") == fingerprint;
+    std::string of_then;
+    result = result_from_json(content_of_file(file), file.string(), &of_then);
+    return result.complete && result.assignment == assignment && of_then == fingerprint;
   } catch (const std::exception&) {
     return false;  // a file of something else: graded anew
   }
 }
 
 void write_result(const fs::path& file, const Result& result, const std::string& fingerprint) {
-  nlohmann::json json = nlohmann::json::parse(to_json(result));
-  json["fingerprint"] = fingerprint;
-  crosscheck::write_file(file, json.dump(1) + "\n");
+  crosscheck::write_file(file, to_json(result, fingerprint));
 }
 
 std::vector<std::pair<std::string, double>> by_part(const Assignment& assignment, const Result& result) {

@@ -85,14 +85,16 @@ bool has_engine(const Assignment& assignment) { return fs::exists(assignment.fol
 void keep_engine(const fs::path& program, const std::string& part, const Lane& lane, const fs::path& folder) {
   fs::create_directories(folder);
   const std::string name = "your-" + part;  // beside mysim's rule of the same name
-  const fs::path kept = fs::absolute(folder) / (name + ".program"), script = folder / name;
+  const fs::path kept = folder / (name + ".program"), script = folder / name;
   fs::copy_file(program, kept, fs::copy_options::overwrite_existing);
   fs::permissions(kept, fs::perms(0755));
-  // one file that changes with the program, as those expect who keep results by it
-  crosscheck::write_file(script, fmt::format("#!/bin/sh\n# {:016x}\nexec {} engine {} {} \"$1\" \"$2\" --lane {}\n",
-                                             crosscheck::Fnv1a::of(content_of_file(program)),
-                                             shell_word(fs::read_symlink("/proc/self/exe").string()),
-                                             shell_word(kept.string()), part, lane.name()));
+  // one file that changes with the program, as those expect who keep results by it; the two may move together
+  crosscheck::write_file(
+      script,
+      fmt::format("#!/bin/sh\n# {:016x}\nexec {} engine \"$(dirname -- \"$0\")\"/{} {} \"$1\" \"$2\" --lane {}\n",
+                  crosscheck::Fnv1a::of(content_of_file(program)),
+                  shell_word(fs::read_symlink("/proc/self/exe").string()), shell_word(kept.filename().string()), part,
+                  lane.name()));
   fs::permissions(script, fs::perms(0755));
 }
 

@@ -4,13 +4,13 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "mysim/fnv.h"
+#include "mysim/json.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/class.h"
 #include "tests/coursework/grader/commands.h"
@@ -125,10 +125,10 @@ int grade_command(const GradeCommand& given) {
 }
 
 int list_command(bool json) {
-  auto list = nlohmann::ordered_json::array();
+  auto list = crosscheck::Json::list();
   for (const Assignment& assignment : assignments()) {
     if (json)
-      list.push_back({{"name", assignment.name}, {"what", assignment.title}});
+      list.push({{"name", assignment.name}, {"what", assignment.title}});
     else
       fmt::print("{:<38} {}\n", assignment.name, assignment.title);
   }

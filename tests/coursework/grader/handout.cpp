@@ -100,8 +100,6 @@ PublicTests public_tests(const Assignment& assignment) {
 }
 
 void write_handout(const Assignment& assignment, const fs::path& folder) {
-  if (fs::exists(folder) && !fs::is_empty(folder))
-    throw std::runtime_error(folder.string() + ": there is something in it already");
   const fs::path from = assignment.folder(), shared = from.parent_path() / "check", check = folder / "check";
   const bool whole = assignment.takes_whole_program();
   const PublicTests tests = public_tests(assignment);

@@ -13,8 +13,8 @@ namespace coursework {
 PublicTests public_tests(const Assignment& assignment);
 
 /// Writes handout.md, the starter, check/, CMakeLists.txt and README.md into the folder, which is made; nothing of the
-/// solution, the styles, the mistakes and the tests' own code. Throws std::runtime_error where the folder holds
-/// something already, or cannot be written, or the assignment lacks a file.
+/// solution, the styles, the mistakes and the tests' own code. Throws std::runtime_error where the folder cannot be
+/// written, or the assignment lacks a file.
 void write_handout(const Assignment& assignment, const std::filesystem::path& folder);
 
 }  // namespace coursework

@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "mysim/errors.h"
+#include "mysim/nearest.h"
 #include "tests/coursework/grader/lanes.h"
 #include "tests/coursework/grader/own_folder.h"
 
@@ -61,7 +63,9 @@ std::unique_ptr<Lane> choose_lane(const std::string& named, bool unsafe) {
     if (why.empty()) return lane;
     reasons += fmt::format("  {}: {}\n", row.name, why);
   }
-  if (!known) throw std::runtime_error(fmt::format("no lane {}: there are {}bare", named, names));
+  if (!known)
+    throw crosscheck::InputError(fmt::format("--lane {}: there is no such lane; expected one of: {}bare{}", named,
+                                             names, crosscheck::did_you_mean(named, {"bwrap", "uid", "bare"})));
   throw std::runtime_error(
       fmt::format("Nothing here keeps a submission away from your files, so it is not run:\n{}"
                   "Install bubblewrap where user namespaces are allowed, or run the grader as root.\n{}",
@@ -72,7 +76,8 @@ std::unique_ptr<Lane> lane_named(const std::string& name) {
   if (name == "bare") return bare_lane();
   for (const Row& row : lanes)
     if (row.name == name) return row.make();
-  throw std::runtime_error("there is no lane " + name);
+  throw crosscheck::InputError(fmt::format("--lane {}: there is no such lane; expected bwrap, uid or bare{}", name,
+                                           crosscheck::did_you_mean(name, {"bwrap", "uid", "bare"})));
 }
 
 bool sees(const Lane& lane, const std::filesystem::path& secret) {

@@ -4,7 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "mysim/complaint.h"
 #include "mysim/errors.h"
+#include "mysim/supervised.h"
+#include "mysim/telling.h"
 #include "tests/coursework/grader/commands.h"
 
 using namespace coursework;
@@ -43,7 +46,7 @@ int run(int argc, char** argv) {
   auto* assignment = app.add_subcommand("assignment", "what an assignment consists of, for students and for harnesses");
   assignment->add_option("NAME", given.assignment, "crosscheck list assignments names them")->required();
   auto* out = assignment->add_option("--out", given.out,
-                                     "the hand-out's folder, which must be empty or new; with --pack FILE.zip");
+                                     "the hand-out's folder, empty, new or an earlier one of it; with --pack FILE.zip");
   assignment->add_option("--pack", given.pack, "the package of a grading service instead")
       ->check(CLI::IsMember({"gradescope"}))
       ->needs(out);
@@ -72,8 +75,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& done) {
     return app.exit(done);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "crosscheck-grade: {} (crosscheck-grade --help shows the commands)\n", error.what());
-    return 2;
+    throw crosscheck::InputError(crosscheck::complaint("crosscheck", app, error));
   }
   return status;
 }
@@ -81,16 +83,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const crosscheck::InputError& error) {
-    fmt::print(stderr, "crosscheck-grade: {}\n", error.what());
-    return 2;
-  } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "crosscheck-grade: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "crosscheck-grade: {}\n", error.what());
-    return 1;
-  }
+  return crosscheck::supervised(
+      [&] { return crosscheck::run_and_tell("crosscheck-grade", [&] { return run(argc, argv); }); });
 }

@@ -16,6 +16,8 @@
 #include <thread>
 #include <vector>
 
+#include "mysim/temporary_folder.h"
+
 namespace coursework {
 namespace fs = std::filesystem;
 namespace {
@@ -71,7 +73,7 @@ void take_back(const fs::path& entry, unsigned user) {
 }  // namespace
 
 OwnFolder::OwnFolder(unsigned mode, unsigned owner) {
-  std::string name = fs::temp_directory_path() / "crosscheck-XXXXXX";
+  std::string name = crosscheck::temporary_name("lane");
   if (!mkdtemp(name.data())) throw std::runtime_error(fmt::format("cannot make {}: {}", name, std::strerror(errno)));
   path_ = name;
   if (chmod(name.c_str(), mode) != 0 || (owner && chown(name.c_str(), owner, owner) != 0))

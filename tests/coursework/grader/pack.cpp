@@ -22,7 +22,7 @@ constexpr const char* setup = R"sh(#!/bin/sh
 set -e
 export DEBIAN_FRONTEND=noninteractive
 apt-get update
-apt-get install -y --no-install-recommends g++ libarchive-dev libseccomp-dev
+apt-get install -y --no-install-recommends g++ libarchive-dev libseccomp-dev zlib1g-dev
 sh /autograder/source/build.sh
 )sh";
 
@@ -38,7 +38,7 @@ xargs -P "$(nproc)" -I SOURCE sh -c '
   test -e "$object" || g++ $FLAGS -c SOURCE -o "$object"' < sources.txt
 # as an archive: what nobody calls stays out, and with it what it would need
 ar rc objects/all.a objects/*.o
-g++ objects/tests_coursework_grader_main.cpp.o objects/all.a -larchive -lseccomp -lpthread -o crosscheck-grade
+g++ objects/tests_coursework_grader_main.cpp.o objects/all.a -larchive -lseccomp -lz -lpthread -o crosscheck-grade
 rm -r objects
 chmod 0700 .
 export CROSSCHECK_CACHE="$PWD/cache" CROSSCHECK_COURSEWORK="$PWD/tests/coursework"

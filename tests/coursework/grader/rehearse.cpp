@@ -3,8 +3,9 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "mysim/errors.h"
+#include "mysim/json.h"
 #include "mysim/temporary_folder.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/pack.h"
@@ -25,19 +26,18 @@ std::string last_lines(const fs::path& log) {
 std::string wrong_with(const fs::path& results) {
   if (!fs::exists(results)) return "there is no results/results.json";
   try {
-    const auto json = nlohmann::json::parse(content_of_file(results));
+    const auto json = crosscheck::JsonField::parse(content_of_file(results), "results.json");
     double most = 0;
-    for (const auto& test : json.at("tests")) {
-      most += test.at("max_score").get<double>();
-      if (test.at("status") != "passed")
-        return fmt::format("the solution fails test {}: {}", test.at("number").get<std::string>(),
-                           test.at("output").get<std::string>());
+    for (const auto& test : json["tests"].elements()) {
+      most += test["max_score"].number();
+      if (test["status"].text() != "passed")
+        return fmt::format("the solution fails test {}: {}", test["number"].text(), test["output"].text());
     }
-    if (json.at("score") != most || most != 100)
-      return fmt::format("the solution gets {} of {} points", json.at("score").dump(), most);
-    if (json.at("extra_data").at("lane") == "bare") return "submissions would run without a lane";
-  } catch (const nlohmann::json::exception& error) {
-    return fmt::format("results.json is not as documented: {}", error.what());
+    if (json["score"].number() != most || most != 100)
+      return fmt::format("the solution gets {} of {} points", json["score"].dump(), most);
+    if (json["extra_data"]["lane"].text() == "bare") return "submissions would run without a lane";
+  } catch (const crosscheck::InputError& error) {
+    return fmt::format("the results are not as documented: {}", error.what());
   }
   return "";
 }

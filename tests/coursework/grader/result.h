@@ -36,8 +36,9 @@ struct Result {
 /// Whether all its points were earned, on a test that was run.
 bool passed(const TestResult& test);
 
-/// All of it as JSON, and back: how an interrupted class goes on. Throws InputError that names the file.
-std::string to_json(const Result& result);
-Result result_from_json(const std::string& text, const std::string& file);
+/// All of it as JSON, and back: how an interrupted class goes on. A fingerprint stands beside it where there is one:
+/// what was graded, and by what. Throws InputError that names the file.
+std::string to_json(const Result& result, const std::string& fingerprint = "");
+Result result_from_json(const std::string& text, const std::string& file, std::string* fingerprint = nullptr);
 
 }  // namespace coursework

@@ -8,9 +8,12 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <fstream>
 #include <memory>
+#include <new>
 #include <optional>
 
 #include "mysim/errors.h"
@@ -90,6 +93,41 @@ std::string unpack(archive* from, std::size_t& total) {
   return content;
 }
 
+/// libarchive looks at no checksum of gzip (consume_trailer() in its archive_read_support_filter_gzip.c skips it), and
+/// tar has none of what is in its files: zlib reads the file once more, to its end.
+void require_whole_gzip(const fs::path& file) {
+  constexpr int window_of_gzip = 15 + 16;                                  // the largest window, with gzip's header
+  constexpr std::size_t most = largest_total + most_entries * (4u << 10);  // with tar's headers and padding
+  const Refused damaged{{"archive.unreadable", {"damaged: its checksum is wrong, or its end is missing"}}};
+  std::ifstream in(file, std::ios::binary);
+  std::string packed(1u << 16, '\0'), block(1u << 16, '\0');
+  z_stream stream{};
+  if (inflateInit2(&stream, window_of_gzip) != Z_OK) throw std::bad_alloc();
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, inflateEnd);
+  const auto refill = [&] {
+    if (stream.avail_in > 0) return true;
+    in.read(packed.data(), static_cast<std::streamsize>(packed.size()));
+    stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_in = static_cast<uInt>(in.gcount());
+    return stream.avail_in > 0;
+  };
+  std::size_t total = 0;
+  for (bool more = true; more;) {  // one member after the other
+    for (int status = Z_OK; status != Z_STREAM_END;) {
+      if (!refill()) throw damaged;
+      stream.next_out = reinterpret_cast<Bytef*>(block.data());
+      stream.avail_out = static_cast<uInt>(block.size());
+      status = inflate(&stream, Z_NO_FLUSH);
+      if (status != Z_OK && status != Z_STREAM_END) throw damaged;
+      total += block.size() - stream.avail_out;
+      if (total > most) throw Refused{too_much()};
+    }
+    // tapes and some transfers pad with zeros
+    while ((more = refill()) && *stream.next_in == 0) ++stream.next_in, --stream.avail_in;
+    inflateReset(&stream);
+  }
+}
+
 void read_archive(const fs::path& file, Picker& picker) {
   const std::unique_ptr<archive, Free> from(archive_read_new());
   archive_read_support_format_zip(from.get());
@@ -121,6 +159,7 @@ void read_archive(const fs::path& file, Picker& picker) {
       picker.take(path, std::move(content));
     if (const auto why = picker.too_large()) throw Refused{*why};
   }
+  if (archive_filter_code(from.get(), 0) == ARCHIVE_FILTER_GZIP) require_whole_gzip(file);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace coursework {
 namespace {
 
 using namespace testing_tools;
-using nlohmann::json;
+using crosscheck::JsonField;
 
 const std::vector<std::string> visibilities = {"hidden", "after_due_date", "after_published", "visible"};
 const std::vector<std::string> styles = {"text", "html", "simple_format", "md", "ansi"};
@@ -92,41 +92,43 @@ TEST(Formats, TableIsFoundByName) {
 
 TEST(Schema, SeesEachKindOfViolation) {
   const std::vector<Field> fields = {{"a", Field::number}, {"b", Field::text, false, {"x"}}};
-  EXPECT_EQ(violations(json::parse(R"({"a": 1, "b": "x"})"), fields, "t"), "");
-  EXPECT_EQ(violations(json::parse(R"({"b": "x"})"), fields, "t"), "t.a is missing\n");
-  EXPECT_EQ(violations(json::parse(R"({"a": "1"})"), fields, "t"), "t.a has the wrong type\n");
-  EXPECT_EQ(violations(json::parse(R"({"a": 1, "b": "y"})"), fields, "t"), "t.b is \"y\"\n");
-  EXPECT_EQ(violations(json::parse(R"({"a": 1, "c": 0})"), fields, "t"), "t.c is not documented\n");
+  EXPECT_EQ(violations(JsonField::parse(R"({"a": 1, "b": "x"})", "t"), fields, "t"), "");
+  EXPECT_EQ(violations(JsonField::parse(R"({"b": "x"})", "t"), fields, "t"), "t.a is missing\n");
+  EXPECT_EQ(violations(JsonField::parse(R"({"a": "1"})", "t"), fields, "t"), "t.a has the wrong type\n");
+  EXPECT_EQ(violations(JsonField::parse(R"({"a": 1, "b": "y"})", "t"), fields, "t"), "t.b is \"y\"\n");
+  EXPECT_EQ(violations(JsonField::parse(R"({"a": 1, "c": 0})", "t"), fields, "t"), "t.c is not documented\n");
   for (const std::string bad : {"<a>", "<a></b>", "<a x=\"<\"/>", "<a>\x01</a>", "<a>&no;</a>", "<a/><b/>"})
     EXPECT_THROW(XmlReader(bad).document(), std::runtime_error) << bad;
 }
 
 TEST(Gradescope, FollowsItsDocumentation) {
   for (const Result& r : {awkward(), nothing_ran()}) {
-    const json out = json::parse(gradescope(r, common()));
+    const JsonField out = JsonField::parse(gradescope(r, common()), "results.json");
     EXPECT_EQ(violations(out, gradescope_top, "top"), "");
-    for (const json& each : out["tests"]) {
+    for (const JsonField& each : out["tests"].elements()) {
       EXPECT_EQ(violations(each, gradescope_test, "test"), "");
-      for (const json& tag : each["tags"]) EXPECT_TRUE(tag.is_string());
-      EXPECT_LE(each["score"], each["max_score"]);
-      EXPECT_EQ(each["status"] == "passed", each["score"] == each["max_score"]);
+      for (const JsonField& tag : each["tags"].elements()) EXPECT_TRUE(tag.is_text());
+      EXPECT_LE(each["score"].number(), each["max_score"].number());
+      EXPECT_EQ(each["status"].text() == "passed", each["score"].number() == each["max_score"].number());
     }
-    for (const json& each : out["leaderboard"]) EXPECT_EQ(violations(each, gradescope_leader, "leader"), "");
+    for (const JsonField& each : out["leaderboard"].elements())
+      EXPECT_EQ(violations(each, gradescope_leader, "leader"), "");
     EXPECT_EQ(out["tests"].size(), r.tests.size());
   }
 }
 
 TEST(Gradescope, ScoresAndHidesWhatItShould) {
-  const json out = json::parse(gradescope(awkward(), common()));
-  EXPECT_EQ(out["score"], 17);
-  EXPECT_EQ(out["leaderboard"][0]["value"], 8);
-  for (size_t i = 0; i < 6; ++i) EXPECT_EQ(out["tests"][i]["visibility"], i < 3 ? "visible" : "after_published") << i;
+  const JsonField out = JsonField::parse(gradescope(awkward(), common()), "results.json");
+  EXPECT_EQ(out["score"].number(), 17);
+  EXPECT_EQ(out["leaderboard"][0]["value"].number(), 8);
+  for (size_t i = 0; i < 6; ++i)
+    EXPECT_EQ(out["tests"][i]["visibility"].text(), i < 3 ? "visible" : "after_published") << i;
   // what a student's program said can break out of neither JSON nor HTML
-  const std::string shown = out["tests"][1]["output"];
-  EXPECT_EQ(out["tests"][1]["output_format"], "html");
+  const std::string shown = out["tests"][1]["output"].text();
+  EXPECT_EQ(out["tests"][1]["output_format"].text(), "html");
   EXPECT_NE(shown.find("1 &lt; x &amp;"), std::string::npos);
-  EXPECT_EQ(out["tests"][0]["output_format"], "text");
-  EXPECT_EQ(json::parse(gradescope(nothing_ran(), common()))["score"], 0);
+  EXPECT_EQ(out["tests"][0]["output_format"].text(), "text");
+  EXPECT_EQ(JsonField::parse(gradescope(nothing_ran(), common()), "results.json")["score"].number(), 0);
 }
 
 /// The schema of the Jenkins plug-in: who may hold whom, and which attributes must be there.
@@ -193,7 +195,7 @@ TEST(Autolab, LastLineHasTheScores) {
     const std::string text = autolab(r, common());
     ASSERT_TRUE(text.ends_with("\n"));
     const size_t begin = text.rfind('\n', text.size() - 2) + 1;
-    const json line = json::parse(text.substr(begin));
+    const JsonField line = JsonField::parse(text.substr(begin), "autolab.txt");
     EXPECT_EQ(violations(line, {{"scores", Field::object}, {"scoreboard", Field::list}}, "line"), "");
     for (const auto& [problem, points] : line["scores"].items()) EXPECT_TRUE(points.is_number()) << problem;
     EXPECT_EQ(line["scoreboard"].size(), 1u);

@@ -9,9 +9,12 @@
 #include <set>
 #include <sstream>
 
+#include "mysim/errors.h"
+#include "mysim/files.h"
 #include "mysim/temporary_folder.h"
 #include "tests/coursework/check/texts.h"
 #include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/commands.h"
 #include "tests/coursework/grader/grade.h"
 
 namespace coursework {
@@ -170,14 +173,26 @@ TEST(Handout, HasNoHiddenNumber) {
   }
 }
 
-TEST(Handout, DoesNotWriteOverAnything) {
-  const Handout handout(assignments().front());
-  try {
-    write_handout(assignments().front(), handout.folder);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), handout.folder.string() + ": there is something in it already");
-  }
+TEST(Handout, DoesNotWriteOverAnythingOfOthers) {
+  const crosscheck::TemporaryFolder scratch("handout");
+  const Assignment &one = assignments()[0], &other = assignments()[1];
+  const std::string folder = (scratch.path / "given").string();
+  const auto refusal = [&](const Assignment& assignment) -> std::string {
+    try {
+      assignment_command({.assignment = std::string(assignment.name), .out = folder});
+    } catch (const crosscheck::InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(one), "");
+  crosscheck::write_file(fs::path(folder) / "README.md", "the lecturer's own words");
+  EXPECT_EQ(refusal(one), "");
+  EXPECT_EQ(content_of_file(fs::path(folder) / "README.md.yours"), "the lecturer's own words");
+  EXPECT_NE(refusal(other).find(fmt::format("holds a result of crosscheck assignment {}", one.name)),
+            std::string::npos);
+  fs::remove(fs::path(folder) / "crosscheck.json");
+  EXPECT_NE(refusal(one).find("give an empty or a new folder"), std::string::npos);
 }
 
 }  // namespace

@@ -224,7 +224,7 @@ TEST(ChooseLane, UnsafeMustBeSaidTwiceAndNamesAreListed) {
   EXPECT_EQ(message("", true), "bare");
   EXPECT_EQ(message("bare", true), "bare");
   EXPECT_NE(message("bare", false).find("needs --no-sandbox"), std::string::npos);
-  EXPECT_EQ(message("nosuch", false), "no lane nosuch: there are bwrap, uid, bare");
+  EXPECT_EQ(message("nosuch", false), "--lane nosuch: there is no such lane; expected one of: bwrap, uid, bare");
 }
 
 /// What choose_lane says in a process that is started in another way.

@@ -3,10 +3,13 @@
 #include "tests/coursework/grader/pack.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <csignal>
 #include <sstream>
 
+#include "mysim/errors.h"
 #include "mysim/files.h"
 #include "mysim/temporary_folder.h"
 #include "tests/coursework/grader/build.h"
@@ -84,6 +87,50 @@ TEST(Zip, StaysInsideItsFolder) {
   write_file(scratch.path / "no.zip", "no zip");
   EXPECT_THROW(unpack_zip(scratch.path / "no.zip", scratch.path / "in"), std::runtime_error);
   EXPECT_FALSE(fs::exists(scratch.path / "out.txt"));
+}
+
+/// The size of files that this process may write, for a while; a write beyond it fails, as on a full disk.
+class SmallFiles {
+ public:
+  explicit SmallFiles(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~SmallFiles() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(Zip, IsWholeOrNotThere) {
+  const TemporaryFolder scratch("zip");
+  const fs::path zip = scratch.path / "p.zip";
+  std::string noise;  // that cannot be packed
+  for (unsigned i = 1; noise.size() < 100000; i = i * 1664525 + 1013904223) noise += static_cast<char>(i >> 24);
+  for (const bool earlier : {false, true}) {
+    if (earlier) write_file(zip, "an earlier one");
+    {
+      const SmallFiles small(50000);
+      try {
+        write_zip(zip, {{"noise", noise}});
+        ADD_FAILURE() << "it was written";
+      } catch (const crosscheck::InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("p.zip: cannot be written"), std::string::npos) << error.what();
+      }
+    }
+    EXPECT_EQ(fs::exists(zip), earlier);
+    EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path), {}), earlier) << "nothing half is left";
+  }
+  EXPECT_EQ(content_of_file(zip), "an earlier one");
+  write_zip(zip, {{"noise", noise}, {"run.sh", "#!/bin/sh\n"}});
+  unpack_zip(zip, scratch.path / "in");
+  EXPECT_EQ(content_of_file(scratch.path / "in/noise"), noise);
 }
 
 struct Ran {

@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "mysim/json.h"
 
 namespace coursework::testing_tools {
 
@@ -16,18 +17,18 @@ struct Field {
   std::vector<std::string> allowed = {};  // values of a text; empty: every one
 };
 
-inline bool is(const nlohmann::json& value, Field::Type type) {
+inline bool is(const crosscheck::JsonField& value, Field::Type type) {
   switch (type) {
     case Field::number:
       return value.is_number();
     case Field::text:
-      return value.is_string();
+      return value.is_text();
     case Field::flag:
-      return value.is_boolean();
+      return value.is_truth();
     case Field::object:
       return value.is_object();
     case Field::list:
-      return value.is_array();
+      return value.is_list();
     case Field::any:
       return true;
   }
@@ -35,18 +36,19 @@ inline bool is(const nlohmann::json& value, Field::Type type) {
 }
 
 /// What is wrong with it, a line each; empty: nothing.
-inline std::string violations(const nlohmann::json& value, const std::vector<Field>& fields, const std::string& where) {
+inline std::string violations(const crosscheck::JsonField& value, const std::vector<Field>& fields,
+                              const std::string& where) {
   if (!value.is_object()) return where + " is no object\n";
   std::string wrong;
   for (const Field& field : fields) {
     const auto found = value.find(field.name);
-    if (found == value.end()) {
+    if (!found) {
       if (field.required) wrong += fmt::format("{}.{} is missing\n", where, field.name);
     } else if (!is(*found, field.type)) {
       wrong += fmt::format("{}.{} has the wrong type\n", where, field.name);
     } else if (!field.allowed.empty()) {
       bool good = false;
-      for (const std::string& value_of : field.allowed) good |= *found == value_of;
+      for (const std::string& value_of : field.allowed) good |= found->is_text() && found->text() == value_of;
       if (!good) wrong += fmt::format("{}.{} is {}\n", where, field.name, found->dump());
     }
   }

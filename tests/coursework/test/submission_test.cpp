@@ -167,6 +167,41 @@ TEST(Submission, BombsAreRefusedOnBothSidesOfTheLimit) {
   }
 }
 
+TEST(Submission, DamagedGzipIsUnreadableWhereverTheDamageIs) {
+  const TemporaryFolder here("test");
+  std::string noise;  // that cannot be packed: a changed byte changes the text, and nothing else
+  for (unsigned i = 1; noise.size() < 3000; i = i * 1664525 + 1013904223) noise += static_cast<char>(i >> 24);
+  pack(here.path / "whole", {{"rk4.cpp", noise}, {"euler.cpp", "euler"}}, false);
+  const std::string whole = content_of_file(here.path / "whole");
+  const auto changed = [&](std::size_t at) {
+    std::string text = whole;
+    text[at] = static_cast<char>(text[at] ^ 4);
+    return text;
+  };
+  const std::pair<const char*, std::string> damaged[] = {{"in the middle", changed(whole.size() / 2)},
+                                                         {"in the checksum", changed(whole.size() - 6)},
+                                                         {"in the length", changed(whole.size() - 1)},
+                                                         {"the end is cut off", whole.substr(0, whole.size() - 3)},
+                                                         {"no checksum", whole.substr(0, whole.size() - 8)},
+                                                         {"half", whole.substr(0, whole.size() / 2)},
+                                                         {"something behind", whole + "rubbish"},
+                                                         {"a second one, cut off", whole + whole.substr(0, 40)}};
+  for (const auto& [what, bytes] : damaged) {
+    write_file(here.path / "archive", bytes);
+    const Submission one = read_submission(here.path / "archive", wanted);
+    EXPECT_TRUE(one.files.empty()) << what;
+    ASSERT_EQ(one.remarks.size(), 1u) << what;
+    EXPECT_EQ(one.remarks[0].key, "archive.unreadable") << what;
+  }
+  // what is whole stays so: padded with zeros, as some transfers do
+  for (const std::string& bytes : {whole, whole + std::string(512, '\0')}) {
+    write_file(here.path / "archive", bytes);
+    const Submission one = read_submission(here.path / "archive", wanted);
+    EXPECT_EQ(one.files.at("rk4.cpp"), noise);
+    EXPECT_TRUE(one.remarks.empty());
+  }
+}
+
 TEST(Submission, NamesLikeOptionsAndRubbishDoNoHarm) {
   const TemporaryFolder here("test");
   pack(here.path / "archive",

@@ -1,17 +1,20 @@
 // Autolab: whatever text, and on the last line the scores of each problem.
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
+#include "mysim/json.h"
 #include "tests/coursework/grader/formats/feedback.h"
 #include "tests/coursework/grader/formats/formats.h"
 #include "tests/coursework/grader/text_format.h"
 
 namespace coursework {
 
+using crosscheck::Json;
+
 std::string autolab(const Result& result, const Texts& common) {
   std::string text = summary_of(result, common) + "\n";
-  nlohmann::ordered_json scores = nlohmann::ordered_json::object();
+  std::vector<std::pair<std::string, double>> problems;
   double shown = 0, hidden = 0;
   for (const TestResult& test : result.tests) {
     if (test.hidden) {
@@ -19,15 +22,18 @@ std::string autolab(const Result& result, const Texts& common) {
       continue;
     }
     shown += test.earned;
-    double& problem = *scores.emplace(test.part, 0.0).first->get_ptr<double*>();
-    problem += test.earned;
+    auto problem = std::find_if(problems.begin(), problems.end(), [&](const auto& p) { return p.first == test.part; });
+    if (problem == problems.end()) problem = problems.insert(problem, {test.part, 0});
+    problem->second += test.earned;
     text += fmt::format("\n{} {}: {}\n", test.id, clean(test.title),
                         common.fill("points", points_text(test.earned), points_text(test.points)));
     if (!passed(test)) text += feedback_on(result, test, common) + "\n";
   }
+  Json scores;
+  for (const auto& [problem, points] : problems) scores[problem] = points;
   scores["hidden"] = hidden;
-  const nlohmann::ordered_json line = {{"scores", scores}, {"scoreboard", {shown}}};
-  return text + "\n" + line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const Json line{{"scores", std::move(scores)}, {"scoreboard", Json::list(shown)}};
+  return text + "\n" + line.dump() + "\n";
 }
 
 }  // namespace coursework

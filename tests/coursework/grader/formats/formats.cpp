@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "mysim/nearest.h"
 #include "tests/coursework/grader/text_format.h"
 
 namespace coursework {
@@ -19,11 +20,14 @@ std::span<const Format> formats() {
 
 const Format& find_format(const std::string& name) {
   std::string there;
+  std::vector<std::string> names;
   for (const Format& format : formats()) {
     if (format.name == name) return format;
     there += (there.empty() ? "" : ", ") + std::string(format.name);
+    names.emplace_back(format.name);
   }
-  throw std::invalid_argument("unknown format '" + name + "'; expected one of: " + there);
+  throw std::invalid_argument("unknown format '" + name + "'; expected one of: " + there +
+                              crosscheck::did_you_mean(name, names));
 }
 
 }  // namespace coursework

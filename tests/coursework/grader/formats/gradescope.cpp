@@ -1,14 +1,14 @@
 // Gradescope's results.json (Autograder Specifications, "Output format").
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "mysim/json.h"
 #include "tests/coursework/grader/formats/feedback.h"
 #include "tests/coursework/grader/formats/formats.h"
 
 namespace coursework {
 namespace {
 
-using nlohmann::ordered_json;
+using crosscheck::Json;
 
 std::string base64(const std::string& bytes) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -33,20 +33,20 @@ std::string html(const std::string& text) {
 }
 
 /// With a plot the text is HTML; the plot is an image of its own there, which can neither run nor restyle anything.
-void put_output(ordered_json& to, const TestResult& test, const std::string& text) {
+void put_output(Json& to, const TestResult& test, const std::string& text) {
   to["output"] = test.plot.empty() ? text
                                    : "<pre>" + html(text) + "</pre><img alt=\"your numbers and the right ones\" " +
                                          "src=\"data:image/svg+xml;base64," + base64(test.plot) + "\">";
   to["output_format"] = test.plot.empty() ? "text" : "html";
 }
 
-ordered_json test_of(const Result& result, const TestResult& test, const Texts& common) {
-  ordered_json out = {{"score", test.earned},
-                      {"max_score", test.points},
-                      {"status", passed(test) ? "passed" : "failed"},
-                      {"name", clean(test.title + (test.hidden ? " (" + common.of("hidden") + ")" : ""))},
-                      {"name_format", "text"},
-                      {"number", test.id}};
+Json test_of(const Result& result, const TestResult& test, const Texts& common) {
+  Json out{{"score", test.earned},
+           {"max_score", test.points},
+           {"status", passed(test) ? "passed" : "failed"},
+           {"name", clean(test.title + (test.hidden ? " (" + common.of("hidden") + ")" : ""))},
+           {"name_format", "text"},
+           {"number", test.id}};
   put_output(out, test, feedback_on(result, test, common));
   out["tags"] = test.concepts;
   out["visibility"] = test.hidden ? "after_published" : "visible";
@@ -58,14 +58,14 @@ ordered_json test_of(const Result& result, const TestResult& test, const Texts& 
 
 std::string gradescope(const Result& result, const Texts& common) {
   double earned = 0, seconds = 0, shown = 0;
-  ordered_json tests = ordered_json::array();
+  Json tests = Json::list();
   for (const TestResult& test : result.tests) {
-    tests.push_back(test_of(result, test, common));
+    tests.push(test_of(result, test, common));
     earned += test.earned;
     seconds += test.seconds;
     if (!test.hidden) shown += test.earned;
   }
-  const ordered_json out = {
+  const Json out{
       {"score", earned},
       {"execution_time", static_cast<long>(std::ceil(seconds))},
       {"output", summary_of(result, common)},
@@ -80,11 +80,11 @@ std::string gradescope(const Result& result, const Texts& common) {
         {"seed", result.secret ? "secret" : std::to_string(result.seed)},
         {"lane", result.lane},
         {"complete", result.complete}}},
-      {"tests", tests},
+      {"tests", std::move(tests)},
       // public points alone: a leaderboard is seen before the grades are
-      {"leaderboard", {{{"name", "Public points"}, {"value", shown}, {"order", "desc"}}}},
+      {"leaderboard", Json::list(Json{{"name", "Public points"}, {"value", shown}, {"order", "desc"}})},
   };
-  return out.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return out.dump(2) + "\n";
 }
 
 }  // namespace coursework

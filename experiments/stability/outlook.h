@@ -1,0 +1,16 @@
+// What a verdict at the end of a run cannot tell: how a longer run would fare.
+#pragma once
+
+#include <string>
+
+#include "reference/method.h"
+
+namespace crosscheck {
+
+/// A sentence on a run that held, at step h (s), or nothing: the rule's step is within a tenth of what is stable once
+/// every spring is stretched far (a net without drag then heats quietly and may fail later: a spring's stiffness acts
+/// across its line as along it), or the rule has no stable step here and grows for certain, and by how much. Scenes
+/// with dashpots or unequal drag rates, rules without a theory and adaptive ones have none.
+std::string outlook_of(const Method& method, const Scene& scene, double h);
+
+}  // namespace crosscheck

@@ -1,0 +1,369 @@
+// Exchange of names, or a journal.
+#include "mysim/output_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "mysim/errors.h"
+#include "mysim/supervised.h"
+
+namespace crosscheck {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr auto new_result = "new", old_list = "old", journal = "journal";
+
+bool is_there(const fs::path& path) { return fs::exists(fs::symlink_status(path)); }
+bool is_folder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
+
+/// Where something of the user's finds a place under a folder: its own path, or NAME.yours where that is taken, or
+/// where it is to have another one.
+fs::path free_path(const fs::path& root, const fs::path& path, bool other) {
+  fs::path at = root;
+  for (const fs::path& part : path.parent_path()) {
+    at /= part;
+    while (is_there(at) && !is_folder(at)) at += ".yours";
+  }
+  at /= path.filename();
+  if (!other && !is_there(at)) return at;
+  at += ".yours";
+  const fs::path first = at;
+  for (int n = 2; is_there(at); ++n) at = fs::path(first) += fmt::format("-{}", n);
+  return at;
+}
+
+void move_file(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to.parent_path());
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (!error) return;
+  fs::copy(from, to, fs::copy_options::copy_symlinks | fs::copy_options::recursive);  // another file system
+  fs::remove_all(from);
+}
+
+void keep_as_yours(const fs::path& root, const fs::path& path) { move_file(root / path, free_path(root, path, true)); }
+
+void link_or_copy(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (!error) return;
+  fs::copy(from, to, fs::copy_options::copy_symlinks);
+  if (fs::is_regular_file(fs::symlink_status(to))) fs::last_write_time(to, fs::last_write_time(from));
+}
+
+bool same_bytes(const fs::path& a, const fs::path& b) {
+  if (!fs::is_regular_file(fs::symlink_status(a)) || !fs::is_regular_file(fs::symlink_status(b))) return false;
+  if (fs::file_size(a) != fs::file_size(b)) return false;
+  std::ifstream one(a, std::ios::binary), other(b, std::ios::binary);
+  return std::equal(std::istreambuf_iterator<char>(one), {}, std::istreambuf_iterator<char>(other), {});
+}
+
+std::pair<dev_t, ino_t> identity(const fs::path& file) {
+  struct stat about {};
+  if (lstat(file.c_str(), &about) != 0) return {};
+  return {about.st_dev, about.st_ino};
+}
+
+/// Folders above a file that have become empty, up to the root.
+void remove_empty_above(const fs::path& root, const fs::path& path) {
+  std::error_code error;
+  for (fs::path at = path.parent_path(); !at.empty() && fs::remove(root / at, error); at = at.parent_path()) {
+  }
+}
+
+/// The user's files under `target` get a second name under `stage`, where a new result lies.
+void link_what_is_the_users(const fs::path& target, const std::optional<Manifest>& old, const fs::path& stage) {
+  const std::vector<std::string> paths = paths_in(target);
+  // those that change their names come last, so that they take nobody's
+  for (const bool changed : {false, true})
+    for (const std::string& path : paths) {
+      if (changed != (old && old->names(path)) || (changed && old->ours(target, path))) continue;
+      const bool folder = path.ends_with("/");
+      if (folder && is_folder(stage / path)) continue;
+      const fs::path to = free_path(stage, folder ? path.substr(0, path.size() - 1) : path, changed);
+      // folders on the way look like those they stand for
+      fs::path from_above = target, to_above = stage;
+      for (const fs::path& part : (folder ? to : to.parent_path()).lexically_relative(stage)) {
+        if (part == ".") continue;
+        from_above /= part, to_above /= part;
+        if (is_there(to_above)) continue;
+        if (is_folder(from_above))
+          fs::create_directory(to_above, from_above);
+        else
+          fs::create_directory(to_above);
+      }
+      if (!folder) link_or_copy(target / path, to);
+    }
+}
+
+/// Empties a folder that another has replaced: what is ours goes, and what of the user's is not in `target` moves
+/// there.
+void absorb(const fs::path& from, const fs::path& target) {
+  const std::optional<Manifest> old = read_manifest(from);
+  std::set<std::pair<dev_t, ino_t>> there;
+  for (const std::string& path : paths_in(target)) there.insert(identity(target / path));
+  for (const std::string& path : paths_in(from)) {
+    const fs::path file = from / path;
+    if (path.ends_with("/")) continue;
+    if ((old && old->ours(from, path)) || there.contains(identity(file)) || same_bytes(file, target / path) ||
+        same_bytes(file, (target / path) += ".yours"))
+      fs::remove(file);
+    else
+      move_file(file, free_path(target, path, old && old->names(path)));
+  }
+  fs::remove_all(from);
+}
+
+/// Moves a whole new result into the folder, file by file. However often it is interrupted, to begin again goes on.
+void follow_journal(const fs::path& work, const fs::path& target) {
+  const Manifest now = *read_manifest(work / journal);
+  const std::optional<Manifest> old = read_manifest(work / old_list);
+  const fs::path from = work / new_result;
+  fs::create_directories(target);
+  if (is_there(from / Manifest::file_name)) fs::rename(from / Manifest::file_name, target / Manifest::file_name);
+  if (old)
+    for (const auto& [path, about] : old->files) {
+      if (now.files.contains(path) || !is_there(target / path)) continue;
+      if (old->ours(target, path))
+        fs::remove(target / path);
+      else
+        keep_as_yours(target, path);
+      remove_empty_above(target, path);
+    }
+  for (const auto& [path, about] : now.files) {
+    if (!is_there(from / path)) continue;  // it is in its place
+    fs::path above;
+    for (const fs::path& part : fs::path(path).parent_path())
+      if (above /= part; is_there(target / above) && !is_folder(target / above)) keep_as_yours(target, above);
+    if (is_there(target / path) && !(old && old->ours(target, path))) keep_as_yours(target, path);
+    fs::create_directories((target / path).parent_path());
+    fs::rename(from / path, target / path);
+  }
+  fs::remove_all(work / journal);
+  fs::remove_all(work / old_list);
+  if (is_there(from)) absorb(from, target);
+}
+
+/// What an earlier process left in a working folder.
+void recover_from(const fs::path& work, const fs::path& target) {
+  std::error_code in_use;
+  if (is_there(work / journal / Manifest::file_name)) {
+    follow_journal(work, target);
+    fs::remove(work, in_use);
+    return;
+  }
+  const fs::path left = work / new_result;
+  if (is_there(left)) {
+    const std::optional<Manifest> manifest = read_manifest(left);
+    if (manifest && !manifest->finished)
+      fs::remove_all(left);  // half a result
+    else if (manifest && !is_there(target))
+      fs::rename(left, target);
+    else
+      absorb(left, target);
+  }
+  fs::remove_all(work / journal);
+  fs::remove_all(work / old_list);
+  fs::remove(work, in_use);
+}
+
+bool has_leftovers(const OutputPlace& place) { return is_there(place.beside) || is_there(place.inside); }
+
+/// Whether it lies in another folder of ours, inside of this one: the parts of a sweep do.
+bool is_of_another_result(const fs::path& target, const std::string& path) {
+  for (fs::path above = fs::path(path).parent_path(); !above.empty(); above = above.parent_path())
+    if (is_there(target / above / Manifest::file_name)) return true;
+  return false;
+}
+
+/// The manifest of a folder that may be written into; nothing where it is empty or not there.
+std::optional<Manifest> require_ours(const OutputPlace& place, const std::string& command) {
+  std::optional<Manifest> manifest = read_manifest(place.target);
+  if (manifest && manifest->command != command)
+    place.refuse(fmt::format("holds a result of crosscheck {}, and nothing in it was changed; give another folder",
+                             manifest->command));
+  if (manifest) return manifest;
+  std::vector<std::string> paths = paths_in(place.target);
+  std::erase_if(paths, [&](const std::string& path) { return is_of_another_result(place.target, path); });
+  if (paths.empty()) return manifest;
+  std::string foreign = paths[0];
+  manifest = adopted(place.target, command, foreign);
+  if (!manifest)
+    place.refuse(
+        fmt::format("holds files that are not of crosscheck {} ({}{}), and nothing in it was changed; give an "
+                    "empty or a new folder, or move them away",
+                    command, foreign, paths.size() > 1 ? fmt::format(" among {}", paths.size()) : ""));
+  return manifest;
+}
+
+/// Whatever the file system says becomes a word about --out.
+template <class F>
+auto told_of(const OutputPlace& place, F work) {
+  try {
+    return work();
+  } catch (const fs::filesystem_error& error) {
+    const fs::path where = error.path2().empty() ? error.path1() : error.path2();
+    place.refuse(fmt::format("{}: {}", where.string(), error.code().message()));
+  }
+}
+
+OutputPlace checked(OutputPlace place, const std::string& command) {
+  // before anything is made: what is refused stays as it is
+  told_of(place, [&] {
+    if (!has_leftovers(place)) require_ours(place, command);
+  });
+  return place;
+}
+
+/// With the lock: finishes, looks, and takes over what version 0.1 wrote.
+std::optional<Manifest> entered(const OutputPlace& place, const std::string& command) {
+  return told_of(place, [&] {
+    for (const fs::path& work : {place.beside, place.inside}) recover_from(work, place.target);
+    std::optional<Manifest> manifest = require_ours(place, command);
+    if (manifest && !is_there(place.target / Manifest::file_name)) write_manifest(*manifest, place.target);
+    return manifest;
+  });
+}
+
+}  // namespace
+
+void recover_output(const fs::path& folder) {
+  const OutputPlace place(folder);
+  if (!has_leftovers(place)) return;
+  std::optional<OutputLock> lock;
+  try {
+    lock.emplace(place, "that finishes what another began");
+  } catch (const InputError&) {
+    return;  // somebody is at it
+  }
+  told_of(place, [&] {
+    for (const fs::path& work : {place.beside, place.inside}) recover_from(work, place.target);
+  });
+}
+
+OutputFolder::OutputFolder(const fs::path& folder, const std::string& command)
+    : place_(checked(OutputPlace(folder), command)), lock_(place_, command), command_(command) {
+  entered(place_, command);
+  tell_supervisor(place_.target);
+  stage_ = (place_.exchangeable() ? place_.beside : place_.inside) / new_result;
+  told_of(place_, [&] {
+    fs::create_directories(stage_);
+    write_manifest(Manifest::begun(command), stage_);
+  });
+}
+
+OutputFolder::~OutputFolder() {
+  if (!lock_.own() || finished_) return;
+  std::error_code ignored;
+  fs::remove_all(stage_, ignored);
+  fs::remove(place_.inside, ignored);
+}
+
+void OutputFolder::finish() {
+  told_of(place_, [&] {
+    Manifest manifest = Manifest::begun(command_);
+    manifest.since = read_manifest(stage_).value_or(manifest).since;
+    for (const std::string& path : paths_in(stage_))
+      if (path.ends_with("/")) {
+        fs::remove(stage_ / path);
+        remove_empty_above(stage_, path.substr(0, path.size() - 1));
+      } else {
+        manifest.files[path] = listed(stage_ / path);
+      }
+    manifest.finished = true;
+    const std::optional<Manifest> old = read_manifest(place_.target);
+    const fs::path work = stage_.parent_path();
+    bool placed = false;
+    if (work == place_.beside) {
+      const bool first = !is_there(place_.target);
+      if (!first) {
+        link_what_is_the_users(place_.target, old, stage_);
+        fs::permissions(stage_, fs::status(place_.target).permissions());
+      }
+      write_manifest(manifest, stage_);
+      finished_ = placed = renameat2(AT_FDCWD, stage_.c_str(), AT_FDCWD, place_.target.c_str(),
+                                     first ? RENAME_NOREPLACE : RENAME_EXCHANGE) == 0;
+      if (placed && !first) absorb(stage_, place_.target);
+    } else {
+      write_manifest(manifest, stage_);
+    }
+    if (!placed) {
+      if (old) write_manifest(*old, work / old_list);
+      write_manifest(manifest, work / journal);
+      finished_ = true;  // from here on the new result is whole, and only to be moved
+      follow_journal(work, place_.target);
+    }
+    std::error_code in_use;
+    fs::remove(work, in_use);
+  });
+}
+
+GrowingOutput::GrowingOutput(const fs::path& folder, const std::string& command)
+    : place_(checked(OutputPlace(folder), command)), lock_(place_, command) {
+  tell_supervisor(place_.target);
+  const std::optional<Manifest> old = entered(place_, command);
+  manifest_ = Manifest::begun(command);
+  if (old) manifest_.files = old->files;
+  told_of(place_, [&] {
+    fs::create_directories(place_.target);
+    write_manifest(manifest_, place_.target);
+  });
+}
+
+void GrowingOutput::forget(const std::string& inner) {
+  told_of(place_, [&] {
+    for (const std::string& path : paths_in(place_.target)) {
+      if (!path.starts_with(inner + "/") || !manifest_.names(path)) continue;
+      if (manifest_.ours(place_.target, path))
+        fs::remove(place_.target / path);
+      else
+        keep_as_yours(place_.target, path);
+      remove_empty_above(place_.target, path);
+    }
+    std::erase_if(manifest_.files, [&](const auto& file) { return file.first.starts_with(inner + "/"); });
+    write_manifest(manifest_, place_.target);
+  });
+}
+
+void GrowingOutput::announce(const std::vector<std::string>& files) {
+  told_of(place_, [&] {
+    for (const std::string& path : files) {
+      if (is_there(place_.target / path) && !manifest_.ours(place_.target, path)) keep_as_yours(place_.target, path);
+      manifest_.files[path] = now_[path] = {};
+    }
+    write_manifest(manifest_, place_.target);
+  });
+}
+
+void GrowingOutput::keep(const std::string& inner) {
+  for (const auto& [path, about] : manifest_.files)
+    if (path.starts_with(inner + "/")) now_.emplace(path, about);
+}
+
+void GrowingOutput::finish() {
+  told_of(place_, [&] {
+    for (const std::string& path : paths_in(place_.target)) {
+      if (!manifest_.names(path) || now_.contains(path)) continue;
+      if (manifest_.ours(place_.target, path))
+        fs::remove(place_.target / path);
+      else
+        keep_as_yours(place_.target, path);
+      remove_empty_above(place_.target, path);
+    }
+    manifest_.files.clear();
+    for (auto& [path, about] : now_)
+      if (fs::is_regular_file(fs::symlink_status(place_.target / path)))
+        manifest_.files[path] = about.hash.empty() ? listed(place_.target / path) : about;
+    manifest_.finished = true;
+    write_manifest(manifest_, place_.target);
+  });
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,178 @@
+// validate: a scene's particles, springs, frequencies, critical steps and demand.
+#include "report/commands/validate.h"
+
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <map>
+
+#include "experiments/demand.h"
+#include "experiments/progress.h"
+#include "experiments/scenes.h"
+#include "mysim/free_room.h"
+#include "mysim/frequency.h"
+#include "mysim/json.h"
+#include "mysim/telling.h"
+
+namespace crosscheck {
+namespace {
+
+/// What is told of a scene.
+struct SceneSummary {
+  Scene scene;
+  std::map<Family, long> springs;
+  double omega = 0;                                      // rad/s
+  std::optional<double> gamma;                           // 1/s, of all particles alike
+  std::vector<std::pair<std::string, double>> critical;  // of each explicit rule: s; 0 stable at no step
+  Demand demand{};
+  int evaluations = 0;  // per step of the default method; 0: as its equations take
+  bool adaptive = false;
+  std::string warning;
+};
+
+SceneSummary facts_of(Scene scene) {
+  SceneSummary facts{std::move(scene), {}, 0, {}, {}, {}, 0, false, ""};
+  const Model& model = facts.scene.model;
+  if (const auto* springs = model.find<Springs>())
+    for (const Spring& spring : springs->list) ++facts.springs[spring.family];
+  if (!model.first_order()) facts.omega = fastest_frequency(model, facts.scene.start);
+  facts.gamma = uniform_drag_rate(model);
+  for (const Stepper& rule : steppers()) {
+    // rules that solve equations are stable at every step, adaptive ones choose their own
+    if (rule.evaluations == 0 || rule.adaptive || !facts.gamma || (facts.omega == 0 && *facts.gamma == 0)) continue;
+    if (const double limit = rule.limit(facts.omega, *facts.gamma); std::isfinite(limit))
+      facts.critical.emplace_back(rule.name, limit);
+  }
+  const Method method = find_method(facts.scene.method);
+  facts.demand = demand_of(method, facts.scene, default_run(facts.scene));
+  facts.adaptive = method.adaptive;
+  if (const Stepper* rule = rule_of(method)) {
+    facts.evaluations = rule->evaluations;
+    for (const auto& [name, limit] : facts.critical)
+      if (name == rule->name && facts.scene.step > limit)
+        facts.warning = limit > 0 ? fmt::format(
+                                        "the step of {:.3g} s is above {}'s critical step of {:.3g} s: the run "
+                                        "will blow up",
+                                        facts.scene.step, name, limit)
+                                  : fmt::format("{} is stable at no step without drag: its energy grows", name);
+  }
+  return facts;
+}
+
+std::string listed_springs(const SceneSummary& facts) {
+  long all = 0;
+  std::vector<std::string> families;
+  for (const auto& [family, count] : facts.springs) {
+    all += count;
+    families.push_back(fmt::format("{} {}", count, name_of(family)));
+  }
+  return families.empty() ? "0" : fmt::format("{} ({})", all, fmt::join(families, ", "));
+}
+
+template <class T>
+std::size_t length_of_term(const Model& model) {
+  const T* term = model.find<T>();
+  return term ? term->list.size() : 0;
+}
+
+void print_facts(const SceneSummary& f, const std::string& asked) {
+  const Model& model = f.scene.model;
+  const auto line = [](const char* name, const std::string& text) { fmt::print("  {:<16} {}\n", name, text); };
+  fmt::print("{}: a good scene\n", asked);
+  line("particles", fmt::format("{}, {} of them pinned{}", model.particles.size(), model.particles.pins.size(),
+                                model.particles.move ? " and moved" : ""));
+  line("springs", listed_springs(f));
+  if (const auto count = length_of_term<Dashpots>(model)) line("dashpots", fmt::format("{}", count));
+  if (const auto count = length_of_term<Constraints>(model)) line("hard distances", fmt::format("{}", count));
+  if (const auto count = length_of_term<Spheres>(model)) line("spheres", fmt::format("{}", count));
+  std::vector<std::string> terms;
+  for (const Term& term : model.terms)
+    if (!std::holds_alternative<Springs>(term)) terms.emplace_back(name_of(term));
+  line("ingredients", terms.empty() ? "springs alone" : fmt::format("{}", fmt::join(terms, ", ")));
+  line("largest omega", model.first_order() ? "none: a first-order scene"
+                        : f.omega > 0 ? fmt::format("{:.4g} rad/s, of the stiffness at the start with pins held; a "
+                                                    "period of {:.3g} s",
+                                                    f.omega, 6.283185307179586 / f.omega)
+                                      : "0: nothing vibrates");
+  if (!f.gamma)
+    line("critical steps", "not told: the particles' drag rates differ");
+  else if (f.critical.empty())
+    line("critical steps", "none: nothing vibrates");
+  for (std::size_t i = 0; i < f.critical.size(); ++i) {
+    const auto& [name, limit] = f.critical[i];
+    line(i == 0 ? "critical steps" : "",
+         fmt::format("{:<18} {}", name, limit > 0 ? fmt::format("{:.4g} s", limit) : "stable at no step without drag"));
+  }
+  if (!f.critical.empty())
+    line("", fmt::format("from omega{}; {}longer springs than at the start change omega",
+                         *f.gamma > 0 ? fmt::format(" and the drag rate of {:.3g} 1/s", *f.gamma) : "",
+                         length_of_term<Dashpots>(model) > 0 ? "dashpots are left out, and make them shorter; " : ""));
+  line("default run",
+       fmt::format("{}, {:.6g} s in {}, {} samples", f.scene.method, f.scene.duration,
+                   f.adaptive ? "steps of its own choice"
+                              : fmt::format("{:.0f} steps of at most {:.4g} s", f.demand.steps, f.scene.step),
+                   f.scene.samples));
+  line("  memory", fmt::format("about {}, from the numbers of particles and springs; {} are free",
+                               in_bytes(f.demand.memory), in_bytes(free_memory())));
+  line("  disk", fmt::format("{} of frames", in_bytes(f.demand.frames)));
+  line("  time",
+       fmt::format("about {:.2g} s of CPU time, good to a factor of 3: steps x {} x (particles + springs) x a "
+                   "cost measured once",
+                   f.demand.seconds,
+                   f.evaluations > 0 ? fmt::format("{} force evaluation{}", f.evaluations, f.evaluations > 1 ? "s" : "")
+                                     : "the evaluations that its equations take"));
+  if (!f.warning.empty()) line("warning", f.warning);
+}
+
+Json json_of(const SceneSummary& f, const std::string& asked) {
+  Json families = Json::object(), critical = Json::object();
+  for (const auto& [family, count] : f.springs) families[name_of(family)] = count;
+  for (const auto& [name, limit] : f.critical) critical[name] = limit;
+  return {{"scene", asked},
+          {"valid", true},
+          {"hash", f.scene.hash},
+          {"particles", f.scene.model.particles.size()},
+          {"pins", f.scene.model.particles.pins.size()},
+          {"springs", std::move(families)},
+          {"dashpots", length_of_term<Dashpots>(f.scene.model)},
+          {"constraints", length_of_term<Constraints>(f.scene.model)},
+          {"spheres", length_of_term<Spheres>(f.scene.model)},
+          {"largest_omega", f.omega},
+          {"critical_steps", std::move(critical)},
+          {"method", f.scene.method},
+          {"step", f.scene.step},
+          {"steps", std::llround(f.demand.steps)},
+          {"memory_bytes", std::llround(f.demand.memory)},
+          {"disk_bytes", std::llround(f.demand.frames)},
+          {"cpu_seconds", f.demand.seconds},
+          {"warning", f.warning.empty() ? Json() : Json(f.warning)}};
+}
+
+}  // namespace
+
+int validate_command(const std::vector<std::string>& scenes, bool json) {
+  int status = 0;
+  Json entries = Json::list();
+  Progress progress(static_cast<int>(scenes.size()));
+  for (const std::string& asked : scenes) {
+    progress.begin("checking " + asked);
+    std::string fault;
+    std::optional<SceneSummary> facts;
+    try {
+      facts = facts_of(load_scene(asked));
+    } catch (...) {
+      fault = in_words(std::current_exception());
+      status = 2;
+    }
+    progress.done();
+    if (!facts) fmt::print(stderr, "crosscheck: {}\n", fault);
+    if (json)
+      entries.push(facts ? json_of(*facts, asked) : Json{{"scene", asked}, {"valid", false}, {"fault", fault}});
+    else if (facts)
+      print_facts(*facts, asked);
+  }
+  if (json) fmt::print("{}\n", Json{{"format", 1}, {"scenes", std::move(entries)}}.dump(2));
+  return status;
+}
+
+}  // namespace crosscheck
