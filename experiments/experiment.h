@@ -112,11 +112,6 @@ std::vector<Point> one_point_per_scene(const Request& request, const std::string
 /// file, the step and the number of points.
 std::string content_of(const Request& request, const Scene& scene);
 
-/// The ledger of one run as rows of (method, t, energies, losses, work, balance error); the last is empty where the
-/// contact loss was inferred, as no closure is claimed there.
-Table ledger_table(const std::string& name);
-void add_ledger(Table& table, const std::string& method, const std::vector<LedgerRow>& rows, bool contact_inferred);
-
 /// A run of the scene at the request's step.
 Run run_of(const Request& request, const Scene& scene);
 

@@ -35,6 +35,7 @@ class ToldObserver : public PairsObserver {
     return inner_.observe(state, sample);
   }
   void contact(double lost) override { inner_.contact(lost); }
+  bool closely() const override { return pairs_ && pairs_->closely(); }
   void earlier(const State& state) override {
     if (pairs_) pairs_->earlier(state);
   }

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 
-#include "experiments/disagreements/disagreements.h"
 #include "mysim/errors.h"
 #include "mysim/nearest.h"
 #include "mysim/section.h"
@@ -14,6 +13,8 @@
 
 namespace crosscheck {
 namespace {
+
+constexpr const char* folder_of_disagreements = CROSSCHECK_SCENES "/disagreements";
 
 /// Of several cloths a quick run looks at one of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-swing",   "cloth-wind",
@@ -57,6 +58,15 @@ std::vector<std::string> quick_scenes() {
 
 namespace {
 
+/// The scenes beside the shipped ones, each a file in a folder of their own.
+std::vector<std::string> scenes_of_disagreements() {
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(folder_of_disagreements))
+    if (file.path().extension() == ".toml") names.push_back(file.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 /// Reads the file and makes sure that its default method is one.
 Scene checked(const std::filesystem::path& file) {
   Scene scene = read_scene(file);
@@ -71,19 +81,22 @@ Scene checked(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::filesystem::path file_of_disagreement(const std::string& name) {
+  return std::filesystem::path(folder_of_disagreements) / (name + ".toml");
+}
+
 Scene load_scene(const std::string& name) {
   const auto shipped = shipped_scenes();
   if (std::find(shipped.begin(), shipped.end(), name) != shipped.end())
     return checked(std::filesystem::path(CROSSCHECK_SCENES) / (name + ".toml"));
-  const auto known = disagreements();
-  if (std::any_of(known.begin(), known.end(), [&](const Disagreement& d) { return d.name == name; }))
-    return checked(file_of_disagreement(name));
+  const auto known = scenes_of_disagreements();
+  if (std::find(known.begin(), known.end(), name) != known.end()) return checked(file_of_disagreement(name));
   std::error_code unreadable;  // then the path of a file is what was meant, and it is named when it is read
   if (name.ends_with(".toml") || name.find('/') != std::string::npos || std::filesystem::exists(name, unreadable) ||
       unreadable)
     return checked(name);
   std::vector<std::string> names(shipped.begin(), shipped.end());
-  for (const Disagreement& d : known) names.emplace_back(d.name);
+  names.insert(names.end(), known.begin(), known.end());
   throw InputError(fmt::format("unknown scene '{}'; expected one of {}, or the path of a .toml file{}", name,
                                fmt::join(shipped, ", "), did_you_mean(name, names)));
 }

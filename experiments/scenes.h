@@ -1,6 +1,7 @@
 // The table of shipped scenes, and how a name or a path becomes a scene.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ std::vector<std::string> quick_scenes();
 /// A shipped scene by name, the scene of a known disagreement by name, or any TOML file by path. Throws InputError that
 /// lists what there is.
 Scene load_scene(const std::string& name_or_path);
+
+/// Where the scene of a known disagreement is.
+std::filesystem::path file_of_disagreement(const std::string& name);
 
 /// Several at once; none given: all shipped ones. Throws InputError when two have the same name, under which their rows
 /// and files could not be told apart.

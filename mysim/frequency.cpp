@@ -35,6 +35,13 @@ double fastest_frequency(const Model& model, const State& state) {
   return std::sqrt(omega2);
 }
 
+double stretched_frequency(const Model& model, const State& state) {
+  if (!model.find<Springs>()) return 0;
+  Model far = model;
+  for (Spring& s : far.find<Springs>()->list) s.rest *= 1e-6;
+  return fastest_frequency(far, state);
+}
+
 std::optional<double> uniform_drag_rate(const Model& model) {
   const auto* drag = model.find<Drag>();
   if (!drag) return 0;

@@ -11,6 +11,9 @@ namespace crosscheck {
 /// iteration from a seeded start, to 1e-4 or 500 products: from below.
 double fastest_frequency(const Model& model, const State& state);
 
+/// The same with every spring stretched far: then it pulls across its line as it does along it, and no state is faster.
+double stretched_frequency(const Model& model, const State& state);
+
 /// The one drag rate gamma = c / m of all free particles (1/s), 0 without drag, or nothing when they differ.
 std::optional<double> uniform_drag_rate(const Model& model);
 

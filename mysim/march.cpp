@@ -21,7 +21,7 @@ Outcome march(World& world, const Run& run, Observer& observer) {
   out.verdict = observer.observe(world.state(0), true);
 
   for (int sample = 0; sample < steps.samples && out.verdict == Verdict::ok; ++sample) {
-    if (pairs && left(0) == 2) pairs->earlier(world.state(steps.time(sample, 0)));
+    if (pairs && !pairs->closely() && left(0) == 2) pairs->earlier(world.state(steps.time(sample, 0)));
     clock.start();
     for (int step = 1; step <= steps.steps_per_sample && out.verdict == Verdict::ok; ++step) {
       const double t = steps.time(sample, step);
@@ -34,8 +34,9 @@ Outcome march(World& world, const Run& run, Observer& observer) {
       }
       out.end = t;
       const bool first = out.steps++ == 0, sampled = step == steps.steps_per_sample;
-      const bool earlier = pairs && !sampled && left(step) == 2,
-                 later = pairs && !sampled && step >= 2 && left(step) == 0;
+      const bool between = pairs && !sampled, closely = between && pairs->closely(),
+                 earlier = between && !closely && left(step) == 2,
+                 later = closely || (between && step >= 2 && left(step) == 0);
       if (!every_step && !sampled && !first && !earlier && !later) continue;
 
       clock.stop();

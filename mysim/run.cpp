@@ -39,11 +39,11 @@ std::string_view in_words(Verdict verdict) {
     case Verdict::ok:
       return "ok";
     case Verdict::energy:
-      return "blew up (energy from nothing)";
+      return "blew up (ten times too fast)";
     case Verdict::nan:
       return "blew up (not a number)";
     case Verdict::stretch:
-      return "overstretched (longer than its energy allows)";
+      return "overstretched (ten times too long)";
     case Verdict::solver:
       return "the solver gave up";
     case Verdict::frozen:

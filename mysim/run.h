@@ -14,9 +14,9 @@ namespace crosscheck {
 
 enum class Verdict {
   ok,
-  energy,       // more energy than everything the run had to work with
+  energy,       // over ten times as fast as the true motion ever is (observers/watch.h)
   nan,          // a non-finite position or velocity
-  stretch,      // springs longer than the energy at hand could make them
+  stretch,      // a spring over ten times as long as in the true motion
   solver,       // an equation inside a step had no answer
   frozen,       // forces act, and nothing moves
   timeout,      // an outside program did not end in time

@@ -64,7 +64,7 @@ std::optional<Trajectory> by_rk4(const Scene& scene, const Run& run, bool hard) 
   Recorder recorder;
   Outcome out;
   if (hard) {
-    Watch watch(scene.model, &scene.start);
+    Watch watch(scene, run);
     Watched look(watch, {&recorder});
     MultiplierWorld world(scene, plan(run).h);
     out = march(world, run, look);

@@ -83,7 +83,7 @@ std::vector<Method> find_methods(const std::string& list) {
 }
 
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers) {
-  Watch watch(scene.model, &scene.start);
+  Watch watch(scene, run);
   Watched all(watch, std::move(observers));
   try {
     return method.engine(scene, run, all);

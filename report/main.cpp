@@ -1,53 +1,12 @@
 // crosscheck: the subcommands, and nothing else.
-#include <fmt/ranges.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-
-#include "mysim/complaint.h"
-#include "mysim/errors.h"
-#include "mysim/nearest.h"
-#include "mysim/shell_words.h"
 #include "mysim/supervised.h"
 #include "mysim/telling.h"
-#include "reference/build_id.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
-#include "report/commands/validate.h"
 
 using namespace crosscheck;
 
 namespace {
-
-/// The command line as a person would type it.
-std::string command_line(int argc, char** argv) {
-  std::vector<std::string> words(argv, argv + argc);
-  words[0] = "crosscheck";
-  return shell_line(words);
-}
-
-/// CLI11's own range checks let nan through and print 309 digits.
-CLI::Validator number(bool zero_allowed) {
-  return CLI::Validator(
-      [zero_allowed](const std::string& text) {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool good =
-            end != text.c_str() && *end == '\0' && std::isfinite(value) && (value > 0 || (zero_allowed && value == 0));
-        return good ? std::string()
-                    : fmt::format("expected a finite number {} zero, got '{}'", zero_allowed ? "not below" : "above",
-                                  text);
-      },
-      "");
-}
-
-/// The name of the program and its version, that of the build where it has one.
-std::string version() {
-  const std::string id = build_id();
-  return fmt::format("crosscheck " CROSSCHECK_VERSION "{}", id.empty() ? "" : " (build " + id.substr(0, 12) + ")");
-}
 
 int run(int argc, char** argv) {
   const CLI::Validator above_zero = number(false), not_below_zero = number(true);
@@ -73,21 +32,7 @@ int run(int argc, char** argv) {
   list->add_flag("--json", json, "for programs");
   list->callback([&] { status = list_command(what, json); });
 
-  std::vector<std::string> validated;
-  auto* validate = app.add_subcommand("validate", "what a scene is, and whether its file is good; runs nothing");
-  validate->add_option("SCENE", validated, "shipped scenes or TOML files")->required();
-  validate->add_flag("--json", json, "for programs");
-  validate->callback([&] { status = validate_command(validated, json); });
-
-  RunOptions run_options;
-  auto* run = app.add_subcommand("run", "one run: trajectory, energies, verdict");
-  run->add_option("SCENE", run_options.scene, "a shipped scene or a TOML file")->required();
-  run->add_option("--method", run_options.method, "default: the scene's own");
-  run->add_option("--step", run_options.step, "s, of fixed-step methods")->check(above_zero);
-  run->add_option("--tol", run_options.tolerance, "relative, of adaptive methods")->check(above_zero);
-  run->add_option("--duration", run_options.duration, "s")->check(above_zero);
-  run->add_option("--out", run_options.out, "folder (out/run)");
-  run->callback([&] { run_options.command_line = line, status = run_command(run_options); });
+  add_single_run(app, line, status);
 
   CompareOptions compare_options;
   auto* compare = app.add_subcommand("compare", "parity certificate, then methods side by side");
@@ -228,22 +173,7 @@ int run(int argc, char** argv) {
   if (argc > 1 && (argv[1] == std::string("grade") || argv[1] == std::string("assignment")))
     return grader_command({argv + 1, argv + argc});
 
-  if (argc > 1 && argv[1][0] != '-') {
-    std::vector<std::string> known;
-    for (const CLI::App* command : app.get_subcommands([](CLI::App*) { return true; }))
-      known.push_back(command->get_name());
-    if (std::find(known.begin(), known.end(), argv[1]) == known.end())
-      throw InputError(fmt::format("unknown command '{}'; expected one of: {}{}", argv[1], fmt::join(known, ", "),
-                                   did_you_mean(argv[1], known)));
-  }
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& done) {
-    return app.exit(done);
-  } catch (const CLI::ParseError& error) {
-    throw InputError(complaint("crosscheck", app, error));
-  }
-  return status;
+  return parse(app, argc, argv, status);
 }
 
 }  // namespace

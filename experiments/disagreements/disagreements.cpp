@@ -3,13 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "mysim/scene.h"
+#include "experiments/scenes.h"
 
 namespace crosscheck {
-
-std::filesystem::path file_of_disagreement(const std::string& name) {
-  return std::filesystem::path(CROSSCHECK_SCENES) / "disagreements" / (name + ".toml");
-}
 
 Scene scene_of(const Disagreement& disagreement) { return read_scene(file_of_disagreement(disagreement.name)); }
 

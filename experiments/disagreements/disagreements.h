@@ -3,7 +3,6 @@
 // scenes/disagreements/ and a row.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -48,7 +47,6 @@ struct Disagreement {
 };
 
 std::vector<Disagreement> disagreements();
-std::filesystem::path file_of_disagreement(const std::string& name);
 Scene scene_of(const Disagreement& disagreement);
 
 /// Runs the variants; each curve ends where its run failed.

@@ -130,16 +130,4 @@ Prediction predicted_limit(const Method& method, const Spectrum& spectrum) {
   return predicted_limit(*rule, spectrum);
 }
 
-double growth_per_step(const Stepper& rule, const Vibration& vibration, double h) {
-  for (const DiscreteRule& each : discrete_rules())
-    if (each.name == rule.name) {
-      const Mode mode{vibration.omega * vibration.omega, vibration.gamma, 0, 0, 0, 0, 0, {}};
-      Eigen::Matrix2d m = each.of_mode(mode, h).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
-      const double unit = vibration.omega > 0 ? vibration.omega : 1;
-      m(0, 1) *= unit, m(1, 0) /= unit;
-      return m.eigenvalues().cwiseAbs().maxCoeff();
-    }
-  return 1;
-}
-
 }  // namespace crosscheck

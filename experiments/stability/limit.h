@@ -27,8 +27,4 @@ Prediction predicted_limit(const Stepper& rule, const Spectrum& spectrum);
 /// By the rule that the method follows; `missing` where it follows none, or only without what the scene has.
 Prediction predicted_limit(const Method& method, const Spectrum& spectrum);
 
-/// What a step of the rule multiplies the vibration's amplitude by, by the eigenvalues of its amplification matrix;
-/// 1 where the rule has none in closed form.
-double growth_per_step(const Stepper& rule, const Vibration& vibration, double h);
-
 }  // namespace crosscheck

@@ -5,18 +5,11 @@
 
 #include <cmath>
 
-#include "experiments/stability/limit.h"
 #include "mysim/frequency.h"
+#include "reference/exact/discrete.h"
 
 namespace crosscheck {
 namespace {
-
-/// The springs as they pull when they are stretched far, by k in every direction.
-Model stretched_far(const Scene& scene) {
-  Model model = scene.model;
-  for (Spring& s : model.find<Springs>()->list) s.rest *= 1e-6;
-  return model;
-}
 
 /// A bound of its fastest vibration (S. Gershgorin, 1931), rad/s: omega^2 <= max over particles a of the sum over its
 /// springs of k / m_a + k / sqrt(m_a m_b), pins left out.
@@ -33,6 +26,20 @@ double bound_of_frequency(const Model& model) {
 }
 
 }  // namespace
+
+double growth_per_step(const Stepper& rule, const Vibration& vibration, double h) {
+  for (const DiscreteRule& each : discrete_rules())
+    if (each.name == rule.name) {
+      const Mode mode{vibration.omega * vibration.omega, vibration.gamma, 0, 0, 0, 0, 0, {}};
+      Eigen::Matrix2d m = each.of_mode(mode, h).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
+      const double unit = vibration.omega > 0 ? vibration.omega : 1;
+      m(0, 1) *= unit, m(1, 0) /= unit;
+      // the roots of lambda^2 - trace lambda + determinant
+      const double half = m.trace() / 2, determinant = m.determinant(), square = half * half - determinant;
+      return square < 0 ? std::sqrt(determinant) : std::abs(half) + std::sqrt(square);
+    }
+  return 1;
+}
 
 std::string outlook_of(const Method& method, const Scene& scene, double h) {
   constexpr double small = 0.1;
@@ -52,7 +59,7 @@ std::string outlook_of(const Method& method, const Scene& scene, double h) {
   }
   // power iteration only where the bound leaves it open
   if (rule->limit(bound_of_frequency(model), *gamma) > (1 + small) * h) return "";
-  const double omega = fastest_frequency(stretched_far(scene), scene.start), limit = rule->limit(omega, *gamma);
+  const double omega = stretched_frequency(model, scene.start), limit = rule->limit(omega, *gamma);
   if (limit > (1 + small) * h) return "";
   return fmt::format(
       "small margin: the step is {:.0f} % of what is stable once every spring is stretched far "

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "experiments/stability/spectrum.h"
 #include "reference/method.h"
 
 namespace crosscheck {
@@ -12,5 +13,9 @@ namespace crosscheck {
 /// across its line as along it), or the rule has no stable step here and grows for certain, and by how much. Scenes
 /// with dashpots or unequal drag rates, rules without a theory and adaptive ones have none.
 std::string outlook_of(const Method& method, const Scene& scene, double h);
+
+/// What a step of the rule multiplies the vibration's amplitude by, by the eigenvalues of its amplification matrix;
+/// 1 where the rule has none in closed form.
+double growth_per_step(const Stepper& rule, const Vibration& vibration, double h);
 
 }  // namespace crosscheck

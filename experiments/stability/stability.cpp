@@ -9,6 +9,7 @@
 #include "experiments/estimate.h"
 #include "experiments/experiment.h"
 #include "experiments/stability/map.h"
+#include "experiments/stability/outlook.h"
 #include "experiments/stability/reasons.h"
 #include "experiments/stability/tables.h"
 

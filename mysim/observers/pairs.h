@@ -11,9 +11,11 @@ namespace crosscheck {
 class PairsObserver : public Observer {
  public:
   static constexpr int steps_between_pairs = 16;
+  /// Once true it stays so: later() is then shown every state between two samples, and earlier() none.
+  virtual bool closely() const { return false; }
   /// The state two steps before the next that is shown.
   virtual void earlier(const State& state) = 0;
-  /// The state two steps after that one, between two samples. Anything but Verdict::ok ends the run.
+  /// The state two steps after that one, or any where looking closely, between two samples. Anything but Verdict::ok ends the run.
   virtual Verdict later(const State& state) = 0;
 };
 

@@ -8,6 +8,11 @@
 
 namespace crosscheck {
 
+Watch::Watch(const Scene& scene, const Run& run) : Watch(scene.model, &scene.start) {
+  duration_ = run.duration;
+  true_ = [&scene, &run] { return reach_of(scene, run); };
+}
+
 Watch::Watch(const Model& model, const State* start) : model_(model) {
   if (start) start_ = *start;
   if (const auto* spheres = model.find<Spheres>())
@@ -18,8 +23,10 @@ Watch::Watch(const Model& model, const State* start) : model_(model) {
         moving_spheres_ += model.particles.mass.sum() * speed * speed;
       }
   // an engine that pushes a resting particle out of a contact hands it a little speed: that of a fall by a millimetre
-  if (const auto* gravity = model.find<Gravity>(); gravity && model.find<Spheres>())
+  if (const auto* gravity = model.find<Gravity>(); gravity && model.find<Spheres>()) {
     contact_ = 1e-3 * model.particles.mass.sum() * gravity->acceleration.norm();
+    slowest_ = std::sqrt(2e-3 * gravity->acceleration.norm());
+  }
   if (model.find<Wind>() || model.find<Aerodynamics>() || model.particles.move)
     ledger_.emplace(model, ContactLoss::reported);
 }
@@ -38,13 +45,13 @@ void Watch::begin(const State& state) {
   system.acceleration(start, a);
   // engines in single precision know a position to 6e-8 of its coordinates, and five such roundings in two steps are
   // no motion
-  const double known = 5 * 6e-8 * start.x.cwiseAbs().maxCoeff();
+  const double known = rounded_ = 5 * 6e-8 * start.x.cwiseAbs().maxCoeff();
   for (int i = 0; i < particles.size(); ++i)
     if (!particles.pinned[i]) {
       pull_ += particles.mass[i] * a.col(i).squaredNorm();
       rounding_ += particles.mass[i] / 2 * 3 * known * known;
     }
-  stretch_.emplace(model_, start);
+  at_start_ = std::max(1., largest_stretch(model_, start, start.x));
   if (ledger_) ledger_->observe(start, false);
 }
 
@@ -73,10 +80,14 @@ bool Watch::frozen(const State& state) {
 Verdict Watch::moves_too_fast(const State& state) {
   const Particles& particles = model_.particles;
   const double span = state.t - before_.t, h = span / 2;
-  double kinetic = 0;
+  double kinetic = 0, furthest = 0;
   for (int i = 0; i < particles.size(); ++i)
-    if (!particles.pinned[i]) kinetic += particles.mass[i] / 2 * (state.x.col(i) - before_.x.col(i)).squaredNorm();
+    if (!particles.pinned[i]) {
+      const double square = (state.x.col(i) - before_.x.col(i)).squaredNorm();
+      kinetic += particles.mass[i] / 2 * square, furthest = std::max(furthest, square);
+    }
   kinetic /= span * span;
+  fastest_ = std::max(fastest_, (std::sqrt(furthest) - rounded_) / span);
   if (const auto* gravity = model_.find<Gravity>())
     sunk_ = std::max(sunk_, std::abs(potential_energy(*gravity, particles, state) - weight_0_));
   if (ledger_) {
@@ -89,7 +100,29 @@ Verdict Watch::moves_too_fast(const State& state) {
   const double had = given_ + sunk_ + worked_ + 2 * h * h * pull_ + rounding_ / (span * span);
   if (!std::isfinite(kinetic) || !std::isfinite(had)) return Verdict::nan;
   if (had > 0) most_ = std::max(most_, kinetic / had);
-  return kinetic > allowed * had ? Verdict::energy : Verdict::ok;
+  if (kinetic > (true_ ? blown_up : suspect) * had) return Verdict::energy;
+  return reach_ && beyond_reach() == Verdict::energy ? Verdict::energy : Verdict::ok;
+}
+
+Verdict Watch::beyond_reach() const {
+  if (fastest_ > allowed * std::max(reach_->speed, slowest_)) return Verdict::energy;
+  return longest_ > allowed * std::max(reach_->stretch, 1.) ? Verdict::stretch : Verdict::ok;
+}
+
+Verdict Watch::goes_too_far(const State& state) {
+  longest_ = std::max(longest_, largest_stretch(model_, *start_, state.x));
+  const bool ends = state.t >= duration_ * (1 - 1e-9), longer = longest_ > 3 * at_start_;
+  if (true_ && !reach_asked_ && (most_ > suspect || longest_ > allowed * at_start_ ||
+                                 (ends && (most_ > in_order || longer)))) {
+    reach_asked_ = true;
+    reach_ = true_();
+    if (!reach_) true_ = nullptr;
+  }
+  if (reach_) return beyond_reach();
+  if (true_) return Verdict::ok;
+  // nobody to ask
+  if (most_ > suspect) return Verdict::energy;
+  return longest_ > 30 * at_start_ ? Verdict::stretch : Verdict::ok;
 }
 
 void Watch::earlier(const State& state) {
@@ -109,6 +142,7 @@ Verdict Watch::observe(const State& state, bool sample) {
     ++seen_;
   }
   paired_ = false;
+  if (!closely_ && !every_step() && most_ > in_order) closely_ = true, seen_ = 0;
   if (!sample || moves != Verdict::ok) return moves;
   if (state.v.cols() == state.x.cols()) {
     if (!first_ && !asked_)
@@ -116,7 +150,7 @@ Verdict Watch::observe(const State& state, bool sample) {
     else if (first_ && frozen(state))
       return Verdict::frozen;
   }
-  return stretch_->exceeded(state, given_ + worked_) ? Verdict::stretch : Verdict::ok;
+  return goes_too_far(state);
 }
 
 Verdict Watch::later(const State& state) { return every_step() ? Verdict::ok : observe(state, false); }

@@ -1,57 +1,68 @@
-// Tells when a run has failed: a non-finite state, particles that move with more energy than everything the run had to
-// work with, or springs longer than that energy could make them.
+// Tells when a run has failed: it moves ten times as fast, or makes a spring ten times as long, as the true motion ever
+// does; or its state is not finite.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "mysim/observers/ledger.h"
 #include "mysim/observers/pairs.h"
-#include "mysim/observers/stretch.h"
+#include "mysim/reach.h"
 
 namespace crosscheck {
 
-/// Verdict::energy when K^ > 10 B, where K^ is the kinetic energy of the free particles by central differences of their
-/// positions,
+/// Verdict::energy when a free particle is faster than ten times the largest speed of the true motion, by central
+/// differences of positions; Verdict::stretch when a spring is longer, over its length at rest, than ten times the
+/// longest of the true motion. The true motion (reach.h) is computed only where the run's own energy leaves it open,
+/// which is about one run in twenty. With the kinetic energy of the free particles by central differences,
 ///   K^_n = sum of m/2 |(x_{n+1} - x_{n-1}) / (t_{n+1} - t_{n-1})|^2,
-/// and B what the run had to work with:
-///   B = K_0 + U_0 + max |change of gravitational energy| + max |work of wind and moved pins| + 2 h^2 sum of m |a_0|^2,
-/// with kinetic and elastic energy and accelerations at the start, and what moving spheres may give.
+/// and what the run had to work with,
+///   B = K_0 + U_0 + max |change of gravitational energy| + max |work of wind and moved pins| + 2 h^2 sum of m |a_0|^2
+/// (kinetic and elastic energy and accelerations at the start, and what moving spheres may give), a run is
+///   in order while K^ <= B, and no spring is longer than three times what the longest was at the start or at rest,
+///   blown up when K^ > 1000 B, at once,
+///   asked about at the next sample when K^ > 10 B, and at its end otherwise.
 ///
-/// Why: on a mode of frequency omega leapfrog and symplectic Euler go through x_n = A cos(n theta + phi) with
+/// Why B: on a mode of frequency omega leapfrog and symplectic Euler go through x_n = A cos(n theta + phi) with
 /// sin(theta / 2) = h omega / 2, so that v^_n^2 + omega^2 (1 - (h omega / 2)^2) x_n^2 is the same at every step. Hence
 /// K^ <= 2 (K_0 + U_0) for every h omega < 2, while the energy itself swings by 1 / (1 - (h omega / 2)^2): that swing
 /// lies all in the springs. Above the limit theta is complex and K^ grows by a constant factor in every step. Hooke's
 /// energy of links that a position-based rule leaves unsolved does not enter, nor does what an engine calls its
 /// velocities. The last part of B is the speed that the first step gives before anything has moved (explicit Euler).
-/// Rules that lose energy have less than that; a rule that gains some in every step (explicit Euler, the trapezoidal
-/// rule without drag) passes when it has gained that much. tests/unit/verdict_trials.cpp counts how often it errs.
+/// Bounds of energy alone do not do: what is not linear heats to some B and stays there, and a prestressed net or one
+/// that lies in a hollow has far more energy than it can ever move with. tests/unit/verdict_trials.cpp counts how often
+/// a verdict errs.
 ///
-/// It looks at every step where the work of wind or pins is added up, else at pairs of states (pairs.h). Of engines
-/// that deliver samples alone the difference reaches over two sampling intervals: a mean velocity, whose square is at
-/// most the mean of the squares. No good run is condemned by it, but what only shakes to and fro between two samples,
-/// or is over before the third, is seen by being not finite or too long.
-///
-/// Verdict::stretch when a spring of a hanging net is longer than its energies can make it, ten times over
-/// (stretch.h); gravity's part counts as what sinking gives, once: a net that sinks and sinks, and loses what gravity
-/// gives.
+/// It looks at every step where the work of wind or pins is added up and once K^ has passed B, else at pairs of states
+/// (pairs.h). Of engines
+/// that deliver samples alone the difference reaches over two sampling intervals: a mean velocity, which is no larger.
+/// No good run is condemned by it, but what only shakes to and fro between two samples, or is over before the third, is
+/// seen by being not finite or too long. Where there is no true motion to be had (hard distances; a watch without a
+/// scene) K^ > 10 B is a failure, and thirty times the length of the start.
 ///
 /// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
 /// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not
 /// asked of hard distances, whose own forces may balance, nor where no velocities are told.)
 class Watch : public PairsObserver {
  public:
-  /// The energy at the start is that of `start`, where engines may not tell velocities; else of the first state shown.
+  /// Of a run of the scene; both must outlive it.
+  Watch(const Scene& scene, const Run& run);
+  /// Of who knows no more than the model. The energy at the start is that of `start`, where engines may not tell
+  /// velocities; else of the first state shown.
   explicit Watch(const Model& model, const State* start = nullptr);
   bool every_step() const override { return ledger_.has_value(); }
   Verdict observe(const State& state, bool sample) override;
+  /// Where K^ has passed B.
+  bool closely() const override { return closely_; }
   void earlier(const State& state) override;
   Verdict later(const State& state) override;
 
   /// The largest K^ / B so far.
   double most() const { return most_; }
-  /// 2 by the derivation. What is not linear may heat to some B and stay there, and what fails passes every bound: from
-  /// 10 B on speeds come to ten times the true ones.
+  /// What is no failure goes less than so many times as fast and as far as the true motion.
   static constexpr double allowed = 10;
+  /// Bounds of K^ / B: in order below, asked about at the end; asked about at once; blown up.
+  static constexpr double in_order = 1, suspect = 10, blown_up = 1000;
 
  private:
   struct Seen {
@@ -60,19 +71,25 @@ class Watch : public PairsObserver {
   };
   void begin(const State& state);
   bool frozen(const State& state);
-  /// K^ > 10 B, by what was seen two steps before; not ok either where a part of B is not finite.
+  /// By what was seen two steps before; not ok either where a part of B is not finite.
   Verdict moves_too_fast(const State& state);
+  /// At a sample: what the lengths say, and the true motion where it is asked for.
+  Verdict goes_too_far(const State& state);
+  Verdict beyond_reach() const;
 
   const Model& model_;
+  double duration_ = 0;                         // s
+  std::function<std::optional<Reach>()> true_;  // none: of who knows no more than the model
+  std::optional<Reach> reach_;                  // once asked for
+  bool reach_asked_ = false;
   std::optional<State> start_;
   std::optional<Ledger> ledger_;  // only where wind or moved pins do work
-  std::optional<StretchBound> stretch_;
   std::optional<State> first_;  // until the sample after it
   bool asked_ = false;          // whether anything moved
   bool begun_ = false;
   Seen before_, last_;  // of the states shown; `paired_`: before_ is two steps before the next
   int seen_ = 0;
-  bool paired_ = false;
+  bool paired_ = false, closely_ = false;
   double moving_spheres_ = 0;  // J, the most that moving spheres are expected to give
   double contact_ = 0;         // J, what corrections at contacts may give
   double given_ = 0;           // J, kinetic and elastic at the start and what moving spheres and contacts may give
@@ -81,7 +98,12 @@ class Watch : public PairsObserver {
   double worked_ = 0;          // J, the largest work of wind and moved pins so far
   double pull_ = 0;            // kg m^2/s^4, sum of m |a_0|^2
   double rounding_ = 0;        // kg m^2, sum of m/2 |rounding of a position|^2
+  double slowest_ = 0;   // m/s, what an engine may hand to what rests: roundings apart
+  double rounded_ = 0;   // m, of a position
   double most_ = 0;
+  double fastest_ = 0;   // m/s, of a free particle, less what roundings may be
+  double at_start_ = 1;  // 1, the longest spring of the start, or 1
+  double longest_ = 0;   // 1
 };
 
 /// Other observers and a watch as one. The watch sees the same states whoever else looks at every step: who looks on
@@ -91,6 +113,7 @@ class Watched : public PairsObserver {
   Watched(Watch& watch, std::vector<Observer*> others) : watch_(watch), others_(std::move(others)) {}
   bool every_step() const override { return watch_.every_step() || others_.every_step(); }
   Verdict observe(const State& state, bool sample) override;
+  bool closely() const override { return watch_.closely(); }
   void contact(double lost) override { others_.contact(lost); }
   void earlier(const State& state) override;
   Verdict later(const State& state) override;

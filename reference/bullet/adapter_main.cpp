@@ -29,7 +29,7 @@ void answer(const Task& task, const std::filesystem::path& folder) {
   }
   Recorder recorder;
   // a run that blew up ends here as it would inside: Bullet is not made to step through what is no number
-  Watch watch(task.scene.model, &task.scene.start);
+  Watch watch(task.scene, task.run);
   Watched observers(watch, {&recorder});
   const Outcome out = bullet::choose_world(world, options).engine(task.scene, task.run, observers);
   write_file(folder / "trajectory.npy", npy_bytes(recorder.trajectory.x));

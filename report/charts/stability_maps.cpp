@@ -19,7 +19,7 @@ struct Fate {
 };
 constexpr Fate fates[] = {
     {"ok", "holds", "#D8E8F0"},
-    {"energy", "energy from nothing", "#D55E00"},
+    {"energy", "blows up", "#D55E00"},
     {"nan", "not a number", "#5B1A4F"},
     {"stretch", "overstretched", "#E9B44C"},
     {"solver", "solver gives up", "#7F7F7F"},

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "experiments/demand.h"
-#include "experiments/experiment.h"
+#include "experiments/ledger_table.h"
 #include "experiments/progress.h"
 #include "experiments/scenes.h"
 #include "experiments/stability/outlook.h"

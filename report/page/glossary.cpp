@@ -45,9 +45,8 @@ constexpr Word words[] = {
      "takes "
      "30 times as long as that of mysim's; none: no run of theirs that was tried is as near."},
     {"failed", "failed",
-     "Blew up: by their positions its particles move with more than ten times the energy that start, gravity, wind "
-     "and moved pins gave. Overstretched, froze, solver gave up: what they say. A run that came to its end can still "
-     "be "
+     "Blew up: a particle is more than ten times as fast as any ever is in the true motion. Overstretched: a spring "
+     "is more than ten times as long. Froze, solver gave up: what they say. A run that came to its end can still be "
      "far off."},
     {"least", "least model",
      "What is left of a scene when all is left out that is not needed for an error of 1 %, or 10 %, of "

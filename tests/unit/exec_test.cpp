@@ -210,7 +210,7 @@ TEST_F(Exec, NamesAreFilesFirstAndOptionsThen) {
   const std::pair<std::string, std::string> cases[] = {
       {(folder_ / "none").string(), "none: no such file; expected the path of a program"},
       {(folder_ / "none+n=1").string(), "no such file"},
-      {folder_.string(), "no such file"},
+      {folder_.string(), "is a folder; expected a program"},
       {"", "no such file"},
       {"no-such-program-anywhere", "no such file"},
       {(folder_ / "data").string(), "is not executable"},

@@ -148,7 +148,7 @@ TEST_F(PlayerData, ARunThatBlewUpEndsNearTheOthersAndSaysWhenAndWhy) {
   const JsonField failed = data["methods"][1];
   EXPECT_LT(failed["frames"].number(), 151);
   EXPECT_NE(failed["failure"].text().find(" s"), std::string::npos) << failed["failure"].text();
-  EXPECT_EQ(failed["reason"].text(), "energy from nothing");
+  EXPECT_EQ(failed["reason"].text(), "ten times too fast");
   EXPECT_LE(failed["stops"].number(), failed["failed"].number());
   for (int k = 0; k < 3; ++k) EXPECT_LT(failed["unit"][k].number() * 16383, 20) << "m: within sight";
   EXPECT_EQ(data["methods"][0]["failure"].text(), "");

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "experiments/stability/map.h"
+#include "experiments/stability/outlook.h"
 #include "experiments/stability/stability.h"
 #include "report/heat_map.h"
 #include "tests/unit/resized.h"

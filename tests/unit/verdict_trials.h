@@ -153,13 +153,13 @@ class Freely : public Observer {
  public:
   /// Two watches look on: one is shown all steps, the other pairs of states, as in runs. `most_*`: what counts as
   /// within.
-  Freely(const TrialScene& trial, const StepPlan& steps, double most_stretch, double most_speed)
+  Freely(const TrialScene& trial, const Run& run, double most_stretch, double most_speed)
       : trial_(trial),
-        steps_(steps),
+        steps_(plan(run)),
         most_stretch_(most_stretch),
         most_speed_(most_speed),
-        all_(trial.scene.model, &trial.scene.start),
-        pairs_(trial.scene.model, &trial.scene.start) {}
+        all_(trial.scene, run),
+        pairs_(trial.scene, run) {}
 
   bool every_step() const override { return true; }
   Verdict observe(const State& state, bool sample) override {
@@ -173,15 +173,15 @@ class Freely : public Observer {
     const Verdict now = all_.observe(state, sample);
     if (by_all == Verdict::ok && (by_all = now) != Verdict::ok) when_all = step_;
     if (by_pairs == Verdict::ok) {
-      const int before = static_cast<int>(steps_.steps_per_sample - 1 - (step_ - 1) % steps_.steps_per_sample),
-                part = before % PairsObserver::steps_between_pairs;
+      const int before = static_cast<int>(steps_.steps_per_sample - 1 - (step_ - 1) % steps_.steps_per_sample);
       const bool pairs = steps_.steps_per_sample > 1;
+      constexpr int between = PairsObserver::steps_between_pairs;
       if (pairs_.every_step() || sample)
         by_pairs = pairs_.observe(state, sample);
-      else if (pairs && part == 0 && steps_.steps_per_sample - before >= 2)
+      else if (pairs && (pairs_.closely() || (before % between == 0 && steps_.steps_per_sample - before >= 2)))
         by_pairs = pairs_.later(state);
       const int next = sample ? steps_.steps_per_sample : before;
-      if (pairs && next % PairsObserver::steps_between_pairs == 2) pairs_.earlier(state);
+      if (pairs && !pairs_.closely() && next % between == 2) pairs_.earlier(state);
       if (by_pairs != Verdict::ok) when_pairs = step_;
     }
     return finite ? Verdict::ok : Verdict::nan;
@@ -239,13 +239,6 @@ inline double nominal_limit(const Stepper& rule, const TrialScene& trial, double
   return std::min(rule.limit(omega, trial.gamma + trial.beta * omega * omega), rule.limit(omega, trial.gamma));
 }
 
-/// omega with every spring stretched far: then it pulls across its line as it does along it.
-inline double stretched_frequency(const TrialScene& trial) {
-  TrialScene far = trial;
-  for (Spring& s : far.scene.model.find<Springs>()->list) s.rest *= 1e-6;
-  return fastest_frequency(far.scene.model, far.scene.start);
-}
-
 /// The cell of a seed, or nothing where the method does not take the scene, the step lies within half a per cent of the
 /// limit, or truth hardly moves.
 inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
@@ -271,18 +264,18 @@ inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
   run.timed = false;
   trial.step = plan(run).h, trial.steps = per_sample * samples, trial.share = limit > 0 ? trial.step / limit : 0;
   if (limit > 0 && std::abs(trial.share - 1) < 0.005) return std::nullopt;
-  if (rule && limit > 0) trial.margin = nominal_limit(*rule, drawn, stretched_frequency(drawn)) / trial.step - 1;
+  if (rule && limit > 0) trial.margin = nominal_limit(*rule, drawn, stretched_frequency(scene.model, scene.start)) / trial.step - 1;
 
   // truth: rk4 at steps a tenth of its own limit
   const Stepper& exact = stepper("rk4");
-  const double fine = std::min(trial.step, 0.1 * nominal_limit(exact, drawn, stretched_frequency(drawn)));
+  const double fine = std::min(trial.step, 0.1 * nominal_limit(exact, drawn, stretched_frequency(scene.model, scene.start)));
   const Run fine_run{fine, run.duration, run.samples, 1e-6, false};
-  Freely truth(drawn, plan(fine_run), INFINITY, INFINITY);
+  Freely truth(drawn, fine_run, INFINITY, INFINITY);
   simulate(exact, ContactRule::coulomb, scene, fine_run, truth);
   if (!(truth.speed > 1e-4 * drawn.omega * scene.size()) || !std::isfinite(truth.speed)) return std::nullopt;
 
   const auto run_freely = [&](const Run& as) {
-    Freely freely(drawn, plan(as), 10 * truth.stretch, 10 * truth.speed);
+    Freely freely(drawn, as, 10 * truth.stretch, 10 * truth.speed);
     method.engine(scene, as, freely);
     return freely;
   };
