@@ -38,7 +38,8 @@ double fastest_decay(const Model& model) {
   if (const auto* dashpots = model.find<Dashpots>())
     for (const auto& d : dashpots->list)
       for (const auto& [a, b] : {std::pair{d.a, d.b}, std::pair{d.b, d.a}})
-        rate[a] += d.c / particles.mass[a] + (particles.pinned[b] ? 0 : d.c / std::sqrt(particles.mass[a] * particles.mass[b]));
+        rate[a] += d.c / particles.mass[a] +
+                   (particles.pinned[b] ? 0 : d.c / std::sqrt(particles.mass[a] * particles.mass[b]));
   for (const int pin : particles.pins) rate[pin] = 0;
   return rate.size() > 0 ? rate.maxCoeff() : 0;
 }
@@ -58,7 +59,8 @@ double largest_stretch(const Model& model, const State& start, const Points& x) 
 
 std::optional<Reach> reach_of(const Scene& scene, const Run& run) {
   const auto rules = steppers();
-  const Stepper& rule = *std::find_if(rules.begin(), rules.end(), [](const Stepper& s) { return s.name == "leapfrog"; });
+  const Stepper& rule =
+      *std::find_if(rules.begin(), rules.end(), [](const Stepper& s) { return s.name == "leapfrog"; });
   const double omega = stretched_frequency(scene.model, scene.start), decay = fastest_decay(scene.model),
                limit = std::min(rule.limit(omega, 0), rule.limit(omega, decay));
   const double sampling = run.duration / run.samples;

@@ -1,5 +1,5 @@
-// crosscheck_run: `run` and `validate` alone, with the options that they have in crosscheck. It is built in a fraction of
-// the time.
+// crosscheck_run: `run` and `validate` alone, with the options that they have in crosscheck. It is built in a fraction
+// of the time.
 #include "mysim/supervised.h"
 #include "mysim/telling.h"
 #include "report/commands/command_line.h"

@@ -15,7 +15,8 @@ class PairsObserver : public Observer {
   virtual bool closely() const { return false; }
   /// The state two steps before the next that is shown.
   virtual void earlier(const State& state) = 0;
-  /// The state two steps after that one, or any where looking closely, between two samples. Anything but Verdict::ok ends the run.
+  /// The state two steps after that one, or any where looking closely, between two samples. Anything but Verdict::ok
+  /// ends the run.
   virtual Verdict later(const State& state) = 0;
 };
 

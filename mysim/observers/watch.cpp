@@ -9,7 +9,6 @@
 namespace crosscheck {
 
 Watch::Watch(const Scene& scene, const Run& run) : Watch(scene.model, &scene.start) {
-  duration_ = run.duration;
   true_ = [&scene, &run] { return reach_of(scene, run); };
 }
 
@@ -111,9 +110,7 @@ Verdict Watch::beyond_reach() const {
 
 Verdict Watch::goes_too_far(const State& state) {
   longest_ = std::max(longest_, largest_stretch(model_, *start_, state.x));
-  const bool ends = state.t >= duration_ * (1 - 1e-9), longer = longest_ > 3 * at_start_;
-  if (true_ && !reach_asked_ && (most_ > suspect || longest_ > allowed * at_start_ ||
-                                 (ends && (most_ > in_order || longer)))) {
+  if (true_ && !reach_asked_ && (most_ > in_order || longest_ > longer * at_start_)) {
     reach_asked_ = true;
     reach_ = true_();
     if (!reach_) true_ = nullptr;
@@ -122,7 +119,7 @@ Verdict Watch::goes_too_far(const State& state) {
   if (true_) return Verdict::ok;
   // nobody to ask
   if (most_ > suspect) return Verdict::energy;
-  return longest_ > 30 * at_start_ ? Verdict::stretch : Verdict::ok;
+  return longest_ > allowed * longer * at_start_ ? Verdict::stretch : Verdict::ok;
 }
 
 void Watch::earlier(const State& state) {

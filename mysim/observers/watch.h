@@ -21,7 +21,7 @@ namespace crosscheck {
 /// (kinetic and elastic energy and accelerations at the start, and what moving spheres may give), a run is
 ///   in order while K^ <= B, and no spring is longer than three times what the longest was at the start or at rest,
 ///   blown up when K^ > 1000 B, at once,
-///   asked about at the next sample when K^ > 10 B, and at its end otherwise.
+///   held against the true motion from the next sample on otherwise.
 ///
 /// Why B: on a mode of frequency omega leapfrog and symplectic Euler go through x_n = A cos(n theta + phi) with
 /// sin(theta / 2) = h omega / 2, so that v^_n^2 + omega^2 (1 - (h omega / 2)^2) x_n^2 is the same at every step. Hence
@@ -61,8 +61,10 @@ class Watch : public PairsObserver {
   double most() const { return most_; }
   /// What is no failure goes less than so many times as fast and as far as the true motion.
   static constexpr double allowed = 10;
-  /// Bounds of K^ / B: in order below, asked about at the end; asked about at once; blown up.
+  /// Bounds of K^ / B: in order up to; without a true motion failed, with one blown up beyond.
   static constexpr double in_order = 1, suspect = 10, blown_up = 1000;
+  /// The bound of lengths over the longest of the start, or of springs at rest.
+  static constexpr double longer = 3;
 
  private:
   struct Seen {
@@ -78,14 +80,13 @@ class Watch : public PairsObserver {
   Verdict beyond_reach() const;
 
   const Model& model_;
-  double duration_ = 0;                         // s
   std::function<std::optional<Reach>()> true_;  // none: of who knows no more than the model
   std::optional<Reach> reach_;                  // once asked for
   bool reach_asked_ = false;
   std::optional<State> start_;
   std::optional<Ledger> ledger_;  // only where wind or moved pins do work
-  std::optional<State> first_;  // until the sample after it
-  bool asked_ = false;          // whether anything moved
+  std::optional<State> first_;    // until the sample after it
+  bool asked_ = false;            // whether anything moved
   bool begun_ = false;
   Seen before_, last_;  // of the states shown; `paired_`: before_ is two steps before the next
   int seen_ = 0;
@@ -98,8 +99,8 @@ class Watch : public PairsObserver {
   double worked_ = 0;          // J, the largest work of wind and moved pins so far
   double pull_ = 0;            // kg m^2/s^4, sum of m |a_0|^2
   double rounding_ = 0;        // kg m^2, sum of m/2 |rounding of a position|^2
-  double slowest_ = 0;   // m/s, what an engine may hand to what rests: roundings apart
-  double rounded_ = 0;   // m, of a position
+  double slowest_ = 0;         // m/s, what an engine may hand to what rests: roundings apart
+  double rounded_ = 0;         // m, of a position
   double most_ = 0;
   double fastest_ = 0;   // m/s, of a free particle, less what roundings may be
   double at_start_ = 1;  // 1, the longest spring of the start, or 1

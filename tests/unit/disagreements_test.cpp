@@ -1,7 +1,7 @@
 // Every known disagreement is there: its scene, its failing variant, the matched one, and a sentence with numbers.
 #include "experiments/disagreements/disagreements.h"
-#include "experiments/scenes.h"
 #include "experiments/disagreements/contact_direction.h"
+#include "experiments/scenes.h"
 #include "experiments/sweep/sweep.h"
 
 #include <numbers>

@@ -1,7 +1,7 @@
 // Trials of the verdict on runs (mysim/observers/watch.h), not part of the suite: random cells by seed, each run to its
 // end with nobody stopping it. Prints by family how many good runs were condemned and how many bad ones were passed,
 // with 95 % intervals (C. J. Clopper and E. S. Pearson, 1934), as runs are judged and looking at every step, and writes
-// verdict-trials.csv.
+// verdict-trials.csv and verdict-trials-by-family.csv.
 //
 //   verdict_trials [SEEDS=4000] [FOLDER=.] [FIRST=1]
 #include <boost/math/distributions/binomial.hpp>
@@ -19,12 +19,17 @@ struct Count {
   long cells = 0, wrong = 0, wrong_every = 0;
 };
 
-std::string rate(long wrong, long cells) {
+/// The 95 % interval of a rate, %.
+std::pair<double, double> interval(long wrong, long cells) {
   using Binomial = boost::math::binomial_distribution<>;
-  if (cells == 0) return "none";
   const auto n = static_cast<double>(cells), k = static_cast<double>(wrong);
-  return fmt::format("{} of {} ({:.2f} to {:.2f} %)", wrong, cells, 100 * Binomial::find_lower_bound_on_p(n, k, 0.025),
-                     100 * Binomial::find_upper_bound_on_p(n, k, 0.025));
+  return {100 * Binomial::find_lower_bound_on_p(n, k, 0.025), 100 * Binomial::find_upper_bound_on_p(n, k, 0.025)};
+}
+
+std::string rate(long wrong, long cells) {
+  if (cells == 0) return "none";
+  const auto [low, high] = interval(wrong, cells);
+  return fmt::format("{} of {} ({:.2f} to {:.2f} %)", wrong, cells, low, high);
 }
 
 }  // namespace
@@ -83,12 +88,37 @@ int main(int argc, char** argv) {
       std::fflush(stdout);
     }
   }
-  for (const auto& [name, both] : counts)
+  Table families{"verdict-trials-by-family",
+                 {{"family", "1"},
+                  {"good", "1"},
+                  {"condemned", "1"},
+                  {"condemned from", "%"},
+                  {"condemned to", "%"},
+                  {"bad", "1"},
+                  {"passed", "1"},
+                  {"passed from", "%"},
+                  {"passed to", "%"},
+                  {"fail later", "1"},
+                  {"told", "1"}},
+                 {}};
+  for (const auto& [name, both] : counts) {
+    std::vector<Cell> row{name};
+    for (const Count& count : both) {
+      row.insert(row.end(), {count.cells, count.wrong});
+      const auto [low, high] = interval(count.wrong, std::max(1l, count.cells));
+      for (const double bound : {low, high})
+        row.push_back(count.cells > 0 ? Cell(fmt::format("{:.2f}", bound)) : Cell());
+    }
+    row.insert(row.end(), {later[name][0], later[name][1]});
+    families.add(row);
     fmt::print("{:16} good condemned {:32} bad passed {:32} by every step {} and {}; fail later {}, told {}\n", name,
                rate(both[0].wrong, both[0].cells), rate(both[1].wrong, both[1].cells), both[0].wrong_every,
                both[1].wrong_every, later[name][0], later[name][1]);
-  write_csv(table, {{"command", fmt::format("verdict_trials {} . {}", last - first + 1, first)}},
-            argc > 2 ? argv[2] : ".");
+  }
+  const std::string folder = argc > 2 ? argv[2] : ".";
+  const Provenance command{{"command", fmt::format("verdict_trials {} . {}", last - first + 1, first)}};
+  write_csv(families, command, folder);
+  write_csv(table, command, folder);
   const auto& all = counts["all"];
   return all[0].wrong <= 0.005 * static_cast<double>(all[0].cells) &&
                  all[1].wrong <= 0.01 * static_cast<double>(all[1].cells)

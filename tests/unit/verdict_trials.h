@@ -216,6 +216,21 @@ class Freely : public Observer {
   long step_ = 0;
 };
 
+/// How far and how fast the truth goes, at every step.
+struct TrueMotion : Observer {
+  explicit TrueMotion(const Model& of) : model(of) {}
+  bool every_step() const override { return true; }
+  Verdict observe(const State& state, bool) override {
+    for (const Spring& s : model.find<Springs>()->list)
+      stretch = std::max(stretch, (state.x.col(s.a) - state.x.col(s.b)).norm() / s.rest);
+    for (int i = 0; i < state.v.cols(); ++i)
+      if (!model.particles.pinned[i]) speed = std::max(speed, state.v.col(i).norm());
+    return Verdict::ok;
+  }
+  const Model& model;
+  double stretch = 0, speed = 0;  // 1; m/s
+};
+
 /// A cell, and what became of it.
 struct Trial {
   unsigned seed = 0;
@@ -264,13 +279,15 @@ inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
   run.timed = false;
   trial.step = plan(run).h, trial.steps = per_sample * samples, trial.share = limit > 0 ? trial.step / limit : 0;
   if (limit > 0 && std::abs(trial.share - 1) < 0.005) return std::nullopt;
-  if (rule && limit > 0) trial.margin = nominal_limit(*rule, drawn, stretched_frequency(scene.model, scene.start)) / trial.step - 1;
+  if (rule && limit > 0)
+    trial.margin = nominal_limit(*rule, drawn, stretched_frequency(scene.model, scene.start)) / trial.step - 1;
 
   // truth: rk4 at steps a tenth of its own limit
   const Stepper& exact = stepper("rk4");
-  const double fine = std::min(trial.step, 0.1 * nominal_limit(exact, drawn, stretched_frequency(scene.model, scene.start)));
+  const double fine =
+      std::min(trial.step, 0.1 * nominal_limit(exact, drawn, stretched_frequency(scene.model, scene.start)));
   const Run fine_run{fine, run.duration, run.samples, 1e-6, false};
-  Freely truth(drawn, fine_run, INFINITY, INFINITY);
+  TrueMotion truth(scene.model);
   simulate(exact, ContactRule::coulomb, scene, fine_run, truth);
   if (!(truth.speed > 1e-4 * drawn.omega * scene.size()) || !std::isfinite(truth.speed)) return std::nullopt;
 

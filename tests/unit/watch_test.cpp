@@ -3,10 +3,10 @@
 #include "mysim/observers/watch.h"
 
 #include <optional>
-#include <utility>
 
 #include "experiments/scenes.h"
 #include "tests/unit/declared.h"
+#include "tests/unit/free_run.h"
 
 namespace crosscheck {
 namespace {
@@ -42,34 +42,15 @@ TEST(WatchOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthAbove) {
     }
 }
 
-/// The first step at which a run that nobody stops is more than ten times as fast as `speed`, by central differences.
-long leaves(const Scene& scene, const crosscheck::Run& run, const char* rule, double speed) {
-  struct Free : Observer {
-    explicit Free(double fastest) : most(fastest) {}
-    bool every_step() const override { return true; }
-    Verdict observe(const State& s, bool) override {
-      ++step;
-      if (left == 0 && step >= 2 && (s.x - before.x).norm() / (s.t - before.t) > most) left = step;
-      before = std::exchange(last, s);
-      return Verdict::ok;
-    }
-    double most;
-    State before, last;
-    long step = -1, left = 0;
-  } free(10 * speed);
-  simulate(stepper(rule), ContactRule::coulomb, scene, run, free);
-  return free.left;
-}
-
 TEST(WatchOnASpring, TellsAtTheStepOfLeavingOrTheNextSample) {
   // 1 % above the limit it goes through x_n = (-1)^n A cosh(n p), p = 2 acosh(1.01) = 0.28, with A = 0.1 m: K^ passes
-  // ten times what there is, and the true motion is asked for, before it is ten times as fast as that, 1 m/s
+  // what there is, and the true motion is asked for, before it is ten times as fast as that, 1 m/s
   const Scene scene = kilogram(1.1, 0);
   const double h = 0.202;
   for (const int per_sample : {1, 40, 1000}) {
     SCOPED_TRACE(per_sample);
     const crosscheck::Run run{h, h * 2000, 2000 / per_sample};
-    const long left = leaves(scene, run, "leapfrog", 1);
+    const long left = step_of_leaving(scene, run, "leapfrog", 1);
     const Answered a = answer("leapfrog", scene, run);
     EXPECT_GT(left, 10);
     EXPECT_NE(a.outcome.verdict, Verdict::ok);

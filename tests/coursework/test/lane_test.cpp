@@ -103,7 +103,8 @@ TEST(LeftRunning, WhatOutlivesItsParentIsSeen) {
 
 TEST_P(LaneTest, NothingItWroteIsLeft) {
   if (GetParam() == "bare") return;
-  const std::string name = "litter-of-lane-test";
+  // of this lane and this process alone: another lane's test may be writing beside it
+  const std::string name = "litter-of-lane-test-" + std::string(GetParam()) + "-" + std::to_string(getpid());
   const auto own = open_folder("own");
   Job littering = job("litter", name);
   littering.writable = own;
