@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "experiments/estimate.h"
-#include "experiments/progress.h"
 #include "mysim/errors.h"
 #include "mysim/free_room.h"
+#include "mysim/progress.h"
 
 namespace crosscheck {
 namespace {

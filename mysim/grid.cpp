@@ -51,6 +51,8 @@ Grid read_grid(const Section& s) {
   g.origin = s.vec3("origin");
   g.u = s.vec3("u");
   g.v = s.vec3("v");
+  for (const char* side : {"u", "v"})
+    if (s.vec3(side).norm() == 0) s.fail(side, "a side that has a length");
   if (g.u.cross(g.v).norm() <= 1e-12 * g.u.norm() * g.v.norm()) s.fail("v", "a side that is not parallel to u");
   g.w = Vec3::Zero();
   if (g.nw == 1 && s.has("w"))
@@ -63,7 +65,8 @@ Grid read_grid(const Section& s) {
   g.mass = s.positive("mass");
   const bool inextensible = s.has("inextensible");
   if (inextensible) {
-    if (const std::string family = s.text("inextensible"); family != "structural")
+    if (const std::string family = s.text("inextensible", "\"structural\", the one family that can keep its lengths");
+        family != "structural")
       s.fail("inextensible",
              fmt::format("\"structural\", the one family that can keep its lengths, got \"{}\"", family));
     g.stiffness.structural = std::numeric_limits<double>::infinity();

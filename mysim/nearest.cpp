@@ -50,6 +50,17 @@ std::string nearest(std::string_view word, const std::vector<std::string>& names
   if (!best)
     for (const std::string& name : names)
       if (has_part(folded_word(name), asked) && (!best || name.size() < best->size())) best = &name;
+  if (!best)
+    for (const std::string& name : names)
+      if (name.size() >= 4 && has_part(asked, folded_word(name)) && (!best || name.size() > best->size())) best = &name;
+  std::size_t longest = 4;  // letters of a beginning that are no chance
+  if (!best)
+    for (const std::string& name : names) {
+      const std::string candidate = folded_word(name);
+      const auto alike = static_cast<std::size_t>(
+          std::mismatch(asked.begin(), asked.end(), candidate.begin(), candidate.end()).first - asked.begin());
+      if (alike > longest) best = &name, longest = alike;
+    }
   return best ? *best : "";
 }
 

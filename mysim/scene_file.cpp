@@ -182,8 +182,7 @@ void read_pins(const Section& file, Scene& scene) {
 void read_time(const Section& file, Scene& scene) {
   const Section s = file.section("time");
   scene.duration = s.positive("duration");
-  scene.samples = s.count("samples");
-  if (scene.samples > most_samples) s.fail("samples", fmt::format("at most a million samples, got {}", scene.samples));
+  scene.samples = s.count("samples", most_samples);
   scene.step = s.positive("step");
   if (scene.step > scene.duration)
     s.fail("step", fmt::format("a step not longer than the duration of {} s, got {} s", scene.duration, scene.step));

@@ -163,9 +163,7 @@ struct Section::Node {
     return *value;
   }
 
-  /// A whole number from `least` to 100000000.
-  int whole(const toml::node& n, std::string_view key, int least) const {
-    constexpr int most = 100000000;
+  int whole(const toml::node& n, std::string_view key, int least, int most) const {
     const auto value = n.is_integer() ? n.value<int64_t>() : std::nullopt;
     if (value && *value >= least && *value <= most) return static_cast<int>(*value);
     std::string hint = n.is_integer() || n.is_floating_point() ? "" : mended_number(n);
@@ -215,7 +213,7 @@ double Section::number(std::string_view key) const {
 }
 
 double Section::positive(std::string_view key) const {
-  constexpr auto expected = "a number above zero";
+  constexpr auto expected = "a finite number above zero";
   const toml::node& n = node_->need(key, expected);
   const double value = node_->finite(n, key, expected);
   if (!(value > 0)) node_->refuse(n, key, expected);
@@ -223,19 +221,18 @@ double Section::positive(std::string_view key) const {
 }
 
 double Section::not_negative(std::string_view key) const {
-  constexpr auto expected = "a number not below zero";
+  constexpr auto expected = "a finite number not below zero";
   const toml::node& n = node_->need(key, expected);
   const double value = node_->finite(n, key, expected);
   if (!(value >= 0)) node_->refuse(n, key, expected);
   return value;
 }
 
-int Section::count(std::string_view key) const {
-  return node_->whole(node_->need(key, "a whole number from 1"), key, 1);
+int Section::count(std::string_view key, int most) const {
+  return node_->whole(node_->need(key, "a whole number from 1"), key, 1, most);
 }
 
-std::string Section::text(std::string_view key) const {
-  constexpr auto expected = "a text in quotes";
+std::string Section::text(std::string_view key, std::string_view expected) const {
   const toml::node& n = node_->need(key, expected);
   const auto* value = n.as_string();
   if (!value || value->get().empty()) node_->refuse(n, key, expected);
@@ -253,13 +250,14 @@ Vec3 Section::vec3(std::string_view key) const {
   return v;
 }
 
-std::vector<int> Section::integers(std::string_view key) const {
-  constexpr auto expected = "a list of whole numbers from 0, as in [0, 1]";
+std::vector<int> Section::integers(std::string_view key, int least) const {
+  const std::string expected = fmt::format("a list of whole numbers from {0}, as in [{0}, {1}]", least, least + 1);
   const toml::node& n = node_->need(key, expected);
   const toml::array* values = n.as_array();
   if (!values) node_->refuse(n, key, expected);
   std::vector<int> list;
-  for (const toml::node& item : *values) list.push_back(node_->whole(item, fmt::format("{}[{}]", key, list.size()), 0));
+  for (const toml::node& item : *values)
+    list.push_back(node_->whole(item, fmt::format("{}[{}]", key, list.size()), least, greatest_count));
   return list;
 }
 
@@ -296,7 +294,9 @@ void Section::fail(std::string_view key, const std::string& expected) const {
   // key[i] is an entry of a list, in a line of its own in long ones
   const toml::node* n = node_->table->get(key.substr(0, key.find('[')));
   if (const toml::node* entry = n ? (*node_->table).at_path(key).node() : nullptr) n = entry;
-  node_->fail_at(n ? n->source() : node_->table->source(), key, fmt::format("expected {}", expected));
+  const bool shown = n && n->is_value() && expected.find("got ") == std::string::npos;
+  node_->fail_at(n ? n->source() : node_->table->source(), key,
+                 fmt::format("expected {}{}", expected, shown ? ", got " + as_written(*n, *node_->text) : ""));
 }
 
 void Section::finish() const {
@@ -375,6 +375,7 @@ class KeyCheck {
       if (name == key) tables.push_back(table);
     }
     if (!tables.empty()) return fmt::format("; it belongs to {}", fmt::join(tables, " or "));
+    if (key.size() < 6) return "";  // short words are near to too many
     const std::string meant = nearest(key, names);
     for (const auto& [name, table] : all)
       if (name == meant) return fmt::format("; did you mean '{}' of {}?", name, table);
@@ -385,6 +386,11 @@ class KeyCheck {
   bool may_miss(const Key& key) const {
     const auto has = [&](const toml::table* table) { return table->contains(key.unless); };
     return !key.required || (!key.unless.empty() && std::any_of(around_.begin(), around_.end(), has));
+  }
+
+  static std::string unless_told(const Key& key) {
+    const bool told = key.unless.empty() || key.expected.find(key.unless) != std::string_view::npos;
+    return told ? "" : fmt::format(", unless the file has '{}'", key.unless);
   }
 
   /// Unknown keys and missing ones, which often are one and the same.
@@ -406,7 +412,8 @@ class KeyCheck {
       // what is missing is what was meant rather than what is there already
       const std::string meant = nearest(key.str(), absent);
       std::string hint = elsewhere(key.str(), here);
-      if (!hint.starts_with("; it belongs")) {
+      const bool lacks = std::any_of(missing.begin(), missing.end(), [&](const Key* k) { return k->name == meant; });
+      if (lacks || !hint.starts_with("; it belongs")) {
         if (!meant.empty())
           hint = fmt::format("; did you mean '{}'?", meant);
         else if (const std::string there = did_you_mean(key.str(), known); !there.empty())
@@ -415,9 +422,17 @@ class KeyCheck {
       }
       unknown.emplace_back(key.source().begin.line, fmt::format("{}: unknown key{}", full(path, key.str()), hint));
     }
+    // keys that stand here and belong to a missing table: its header is what is missing
+    const auto only_header = [&](const Key& key) {
+      return std::any_of(unknown.begin(), unknown.end(), [&](const auto& one) {
+        return one.second.ends_with(fmt::format("; it belongs to [{}]", full(path, key.name)));
+      });
+    };
     std::string lacking;
     for (const Key* key : missing) {
-      lacking += (lacking.empty() ? "" : ", ") + written(path, *key);
+      lacking +=
+          (lacking.empty() ? "" : ", ") +
+          (only_header(*key) ? fmt::format("the line [{}] above them", full(path, key->name)) : written(path, *key));
       for (const Key& other : keys)
         if (other.name == key->unless && other.kind != Key::Kind::value)
           lacking += fmt::format(" (or {} in its place)", written(path, other));
@@ -436,7 +451,7 @@ class KeyCheck {
     const bool one_value = missing.size() == 1 && missing[0]->kind == Key::Kind::value;
     fail(table.source().begin.line,
          fmt::format("{}: {} missing; expected {}", which, missing.size() == 1 ? "is" : "are",
-                     one_value ? std::string(missing[0]->expected) : lacking));
+                     one_value ? std::string(missing[0]->expected) + unless_told(*missing[0]) : lacking));
   }
 
   /// Tables that are none, or single ones that should be several.

@@ -28,10 +28,11 @@ class Section {
   double number(std::string_view key) const;        // any finite number
   double positive(std::string_view key) const;      // > 0
   double not_negative(std::string_view key) const;  // >= 0
-  int count(std::string_view key) const;            // whole number > 0
-  std::string text(std::string_view key) const;     // not empty
-  Vec3 vec3(std::string_view key) const;            // three finite numbers
-  std::vector<int> integers(std::string_view key) const;
+  static constexpr int greatest_count = 100000000;
+  int count(std::string_view key, int most = greatest_count) const;                              // whole number > 0
+  std::string text(std::string_view key, std::string_view expected = "a text in quotes") const;  // not empty
+  Vec3 vec3(std::string_view key) const;                                                         // three finite numbers
+  std::vector<int> integers(std::string_view key, int least = 0) const;
 
   Section section(std::string_view key) const;                   // a table; an error when it is missing
   std::vector<Section> sections(std::string_view key) const;     // an array of tables; empty when it is missing

@@ -134,14 +134,19 @@ std::string wrong_with_value(const std::string& v) {
   if (line_matches(v, R"(^[-+]?\d+,\d)")) return "a comma is no part of a number; expected a decimal point, as in 0.5";
   if (line_matches(v, R"(^[-+]?\d+['. ]\d{3}['. ]\d{3})")) return "expected a number without separators, as in 1000000";
   if (line_matches(v, R"(^[-+]?\d[\d._]*[eE]$)")) return "expected a power of ten behind the e, as in 1e-3";
-  if (line_matches(v, R"(^[-+]?\d[\d._]*([eE][-+]?\d+)?\s*[A-Za-z%])"))
-    return "expected the number alone, without its unit (units are fixed; a comment behind # may tell them)";
-  if (line_matches(v, R"(^[-+]?\d[\d._]*([eE][-+]?\d+)?\s+[-+]?\d)"))
-    return "two numbers stand behind one =; expected one, or a list: [1, 2, 3]";
   if (line_matches(v, R"(^[-+]?\d[\d._]*([eE][-+]?\d+)?\s*[,;]$)"))
     return "expected nothing behind the number: no comma, no semicolon";
+  if (line_matches(v, R"(^\d+\s*[xX]\s*\d+)")) return "expected a list in square brackets: [20, 20]";
+  if (line_matches(v, R"(^[-+]?[\d.]*[oO][\d.oO]*$)")) return "the letter O stands in the number; expected the digit 0";
+  if (line_matches(v, R"(^[-+]?[\d.]+\s+[eE]\s*[-+]?\s*\d)") || line_matches(v, R"(^[-+]?[\d.]+[eE]\s+[-+]?\s*\d)"))
+    return "expected the number in one piece, as in 1e-3";
+  if (line_matches(v, R"(^[-+]?\d[\d._]*([eE][-+]?\d+)?\s*(?![eE][-+]?\d)[A-Za-z%])"))
+    return "expected the number alone, without its unit (units are fixed); what explains it stands behind a #";
+  if (line_matches(v, R"(^[-+]?\d[\d._]*([eE][-+]?\d+)?\s+[-+]?\d)"))
+    return "two numbers stand behind one =; expected one, or a list: [1, 2, 3]";
   if (line_matches(v, R"(^[A-Za-z][\w./+-]*\s*;?$)") && v != "true" && v != "false" && v != "inf" && v != "nan")
     return fmt::format("expected a text in quotes: \"{}\"", trimmed_line(v.substr(0, v.find(';'))));
+  if (line_matches(v, R"(^[A-Za-z][\w,.'-]*\s+[^\s=])")) return "expected the whole text in quotes";
   if (v[0] == '"' && v.size() > 1) {
     const std::string rest = trimmed_line(v.substr(std::min(v.find('"', 1), v.size() - 1) + 1));
     if (rest == "," || rest == ";") return "expected nothing behind the text: no comma, no semicolon";
@@ -152,8 +157,8 @@ std::string wrong_with_value(const std::string& v) {
 
 std::string wrong_with_list(const std::string& v) {
   if (v.find(';') != std::string::npos)
-    return "expected commas, no semicolons, between the entries of a list: [0, 0, 0]";
-  if (line_matches(v, R"([\d.]\s+[-+.]?\d)")) return "expected commas between the entries of a list: [0, 0, 0]";
+    return "expected commas, no semicolons, between the entries of a list: [1, 2, 3]";
+  if (line_matches(v, R"([\d.]\s+[-+.]?\d)")) return "expected commas between the entries of a list: [1, 2, 3]";
   if (line_matches(v, R"(,\s*,)")) return "two commas follow each other; expected an entry between them";
   if (line_matches(v, R"(\[\s*,)")) return "expected an entry before the first comma of the list";
   const std::string inner = v.substr(1, v.rfind(']') == std::string::npos ? std::string::npos : v.rfind(']') - 1);
@@ -212,8 +217,8 @@ std::string wrong_with_line(const BareLine& line) {
   if (!line_matches(key, R"(^[A-Za-z0-9_."-]+$)"))
     return fmt::format("expected the name of a key alone before the =, one word without unit or index, got '{}'", key);
   if (value.starts_with("(") || (value.starts_with("{") && value.find('=') == std::string::npos && value.size() > 1))
-    return "expected a list in square brackets: [0, 0, 0]";
-  if (value.starts_with("<")) return "expected a list in square brackets: [0, 0, 0]";
+    return "expected a list in square brackets: [1, 2, 3]";
+  if (value.starts_with("<")) return "expected a list in square brackets: [1, 2, 3]";
   if (value.starts_with("{")) {
     if (value.find('}') == std::string::npos)
       return "a table in braces must end in the same line; expected } there, or a table [NAME] with lines of its own";
@@ -222,8 +227,8 @@ std::string wrong_with_line(const BareLine& line) {
     return "";
   }
   if (value.starts_with("[")) return wrong_with_list(value);
-  if (line_matches(value, R"(^[-+]?[\d.]+([eE][-+]?\d+)?\s*,\s*[-+]?[\d.]+([eE][-+]?\d+)?\s*,)"))
-    return "expected a list in square brackets: [0, 0, 0]";
+  if (line_matches(value, R"(^[-+]?[\d.]+([eE][-+]?\d+)?\s*,(\s+[-+]?[\d.]|\s*[-+]?[\d.]+([eE][-+]?\d+)?\s*,))"))
+    return "expected a list in square brackets: [1, 2, 3]";
   return wrong_with_value(value);
 }
 
@@ -310,7 +315,7 @@ TomlFault explain_toml(std::string_view text, int line, std::string_view descrip
         return told(
             {i + 1, "the text of several lines that begins here has no closing quotes; expected the same three again"});
   for (const int at : {line, line - 1})
-    if (at >= 1 && at <= static_cast<int>(lines.size()) && !lines[at - 1].shown.empty())
+    if (at >= 1 && at <= static_cast<int>(lines.size()) && !trimmed_line(lines[at - 1].code).empty())
       if (const std::string wrong = wrong_with_line(lines[at - 1]); !wrong.empty()) return told({at, wrong});
   return told({line, std::string(description)});
 }

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "experiments/progress.h"
 #include "mysim/errors.h"
+#include "mysim/progress.h"
 #include "report/render/clip_letters.h"
 #include "report/render/video.h"
 #include "report/run_program.h"

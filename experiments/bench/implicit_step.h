@@ -5,7 +5,7 @@
 
 #include "experiments/bench/micro.h"
 #include "experiments/point.h"
-#include "experiments/progress.h"
+#include "mysim/progress.h"
 
 namespace crosscheck {
 

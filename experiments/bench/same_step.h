@@ -4,7 +4,7 @@
 
 #include "experiments/bench/turns.h"
 #include "experiments/point.h"
-#include "experiments/progress.h"
+#include "mysim/progress.h"
 
 namespace crosscheck {
 

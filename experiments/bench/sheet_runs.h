@@ -1,7 +1,7 @@
 // Whole runs on a sheet and how far each ends from the truth: the errors that are compared.
 #pragma once
 
-#include "experiments/progress.h"
+#include "mysim/progress.h"
 #include "reference/method.h"
 
 namespace crosscheck {

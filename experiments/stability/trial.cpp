@@ -146,8 +146,10 @@ StepTrial try_step(const Method& method, const Subject& subject, double h, long 
   if (subject.at_rest) observers.push_back(&departure);
   const Outcome out = run_method(method, kicked(subject, kick), run, observers);
   StepTrial trial{out.verdict, out.reason, out.end};
-  // a rule of its own may rest elsewhere, unless the scene turns about the origin: what moves there is no growth
-  if (departure.first > 0 && (rule || rotation)) {
+  // a rule of its own, and one that corrects positions spring by spring, may rest elsewhere, unless the scene turns
+  // about the origin: what moves there is no growth
+  const bool rests_there = rule && !rule->hard_constraints;
+  if (departure.first > 0 && (rests_there || rotation)) {
     trial.growth = departure.last / departure.first;
     // What grows fast has reached the springs' nonlinearity within the first tenth and stays there. A stable mode
     // swings by 1 / sqrt(1 - (h / limit)^2) at most, which is 1000 at half a millionth below its limit: no search is as

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/progress.h"
 #include "experiments/sweep/plan.h"
 #include "experiments/sweep/store.h"
+#include "mysim/progress.h"
 
 namespace crosscheck {
 

@@ -5,8 +5,8 @@
 
 #include "experiments/demand.h"
 #include "experiments/experiment.h"
+#include "experiments/method_progress.h"
 #include "experiments/metrics.h"
-#include "experiments/progress.h"
 #include "experiments/scenes.h"
 #include "experiments/stability/outlook.h"
 #include "mysim/files.h"

@@ -10,6 +10,7 @@
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "mysim/fnv.h"
+#include "mysim/progress.h"
 #include "report/commands/commands.h"
 #include "report/run_program.h"
 
@@ -64,6 +65,8 @@ int engine_command(const EngineOptions& options) {
   // a precision or a library found once may be another after the tree was built again
   std::error_code none;
   fs::remove(build / "CMakeCache.txt", none);
+  Progress progress(2);
+  progress.begin("configuring", 2);
   const unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   const bool configured =
       cmake({"-S", (source / "reference/bullet/adapter").string(), "-B", build.string(), "-G", "Ninja",
@@ -71,7 +74,9 @@ int engine_command(const EngineOptions& options) {
              "-DCROSSCHECK_BUILD=" CROSSCHECK_BINARY_DIR, "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
             "cmake");
   if (!configured) fs::remove_all(build, none);
+  progress.begin("compiling the adapter", 30);  // s, on two cores
   if (!configured || !cmake({"--build", build.string(), "--parallel", std::to_string(jobs)}, "the build")) return 1;
+  progress.done();
   install(build / "bullet_engine", options.program);
   fmt::print("{}\n", options.program.string());
   return 0;

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "experiments/demand.h"
-#include "experiments/progress.h"
+#include "experiments/method_progress.h"
 #include "experiments/scenes.h"
 #include "mysim/errors.h"
 #include "mysim/files.h"

@@ -3,7 +3,7 @@
 
 #include "experiments/demand.h"
 #include "experiments/ledger_table.h"
-#include "experiments/progress.h"
+#include "experiments/method_progress.h"
 #include "experiments/scenes.h"
 #include "experiments/stability/outlook.h"
 #include "mysim/errors.h"

@@ -7,11 +7,12 @@
 #include <map>
 
 #include "experiments/demand.h"
-#include "experiments/progress.h"
 #include "experiments/scenes.h"
+#include "mysim/errors.h"
 #include "mysim/free_room.h"
 #include "mysim/frequency.h"
 #include "mysim/json.h"
+#include "mysim/progress.h"
 #include "mysim/telling.h"
 
 namespace crosscheck {
@@ -148,6 +149,16 @@ Json json_of(const SceneSummary& f, const std::string& asked) {
           {"warning", f.warning.empty() ? Json() : Json(f.warning)}};
 }
 
+/// One step by the scene's own method, unless that is a program from outside. Throws InputError where it refuses.
+void require_taken(const Scene& scene, const std::string& asked) {
+  const Method method = find_method(scene.method);
+  if (scene.method.starts_with("exec:")) return;
+  const Outcome out = run_method(method, scene, {scene.step, scene.step, 1, 1e-3, false}, {});
+  if (out.verdict == Verdict::unsupported)
+    throw InputError(fmt::format("{}: time.method: expected a method that can run it; {} cannot: {}", asked,
+                                 method.name, out.reason));
+}
+
 }  // namespace
 
 int validate_command(const std::vector<std::string>& scenes, bool json) {
@@ -160,7 +171,9 @@ int validate_command(const std::vector<std::string>& scenes, bool json) {
     std::optional<SceneSummary> facts;
     try {
       facts = facts_of(load_scene(asked));
+      require_taken(facts->scene, asked);
     } catch (...) {
+      facts.reset();
       fault = in_words(std::current_exception());
       status = 2;
     }

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "experiments/progress.h"
 #include "mysim/free_room.h"
+#include "mysim/progress.h"
 #include "mysim/telling.h"
 #include "tests/unit/helpers.h"
 
@@ -27,6 +27,9 @@ TEST(Nearest, IsProposedForSlipsAndForNothingElse) {
                            {"symplectic_euler", "symplectic-euler"},
                            {"euler", "symplectic-euler"},
                            {"xpbd", "mysim/xpbd"},
+                           {"time_step", "step"},
+                           {"durability", "duration"},
+                           {"stiffness_structural", "stiffness"},
                            {"colour", ""},
                            {"x", ""},
                            {"", ""},

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <mutex>
 
 #include "mysim/errors.h"
 #include "mysim/files.h"
 #include "mysim/fnv.h"
+#include "mysim/progress.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/parallel.h"
 #include "tests/coursework/grader/text_format.h"
@@ -101,6 +103,8 @@ std::vector<Graded> grade_class(const Assignment& assignment, const fs::path& fo
   const std::string surroundings = surroundings_of(assignment, lane, options);
   std::mutex speaking;
   std::size_t done = 0;
+  int graded = 0;
+  const auto begun = std::chrono::steady_clock::now();
   in_parallel(entries.size(), options.jobs, [&](std::size_t i) {
     Graded& one = all[i];
     one.result.submission = entries[i].filename().string();
@@ -124,8 +128,16 @@ std::vector<Graded> grade_class(const Assignment& assignment, const fs::path& fo
       one.failure = error.what();
     }
     const std::lock_guard<std::mutex> lock(speaking);
-    fmt::print(stderr, "{} of {}: {}{}\n", ++done, entries.size(), printable(one.result.submission),
-               known ? " (graded before)" : "");
+    ++done, graded += !known;
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    // those that were graded before cost nothing; of the others that are to come nobody knows
+    const std::size_t left = entries.size() - done;
+    fmt::print(
+        stderr, "{} of {}: {}{}{}\n", done, entries.size(), printable(one.result.submission),
+        known ? " (graded before)" : "",
+        graded > 0 && left > 0
+            ? fmt::format(", about {} left", crosscheck::rough_duration(elapsed / graded * static_cast<double>(left)))
+            : "");
   });
   return all;
 }

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <random>
 #include <thread>
 
@@ -11,6 +12,7 @@
 #include "mysim/files.h"
 #include "mysim/fnv.h"
 #include "mysim/json.h"
+#include "mysim/progress.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/class.h"
 #include "tests/coursework/grader/commands.h"
@@ -70,6 +72,14 @@ void require_hidden(const Assignment& assignment, const GradeCommand& command, c
                                    lane.name(), secret.string(), folder.string()));
 }
 
+/// What comes next: the compilers, the tests one by one, and the causes of what went wrong.
+void tell(std::unique_ptr<crosscheck::Progress>& progress, const Result& result) {
+  if (result.complete) return;
+  const char* next = progress ? "testing the submission" : "compiling the submission";
+  if (!progress) progress = std::make_unique<crosscheck::Progress>(static_cast<int>(result.tests.size()) + 1);
+  progress->begin(next);
+}
+
 int grade_all(const Assignment& assignment, const GradeCommand& command, const Lane& lane,
               const GradeOptions& options) {
   const std::vector<Graded> all = grade_class(assignment, command.submission, lane, options, command.out);
@@ -110,13 +120,16 @@ int grade_command(const GradeCommand& given) {
   umask(077);  // results are written while submissions run: nobody else reads them
   if (command.all) return grade_all(assignment, command, *lane, options);
 
+  std::unique_ptr<crosscheck::Progress> progress;
   options.so_far = [&](const Result& result) {
+    tell(progress, result);
     if (!command.out.empty()) crosscheck::write_file(command.out, format.write(result, options.common));
     if (!command.report.empty())
       crosscheck::write_file(command.report, page_of(result, options.common, options.own,
                                                      fs::exists(command.engines) ? command.charts : ""));
   };
   const Result result = grade(assignment, submission, *lane, options);
+  progress.reset();
   if (command.out.empty())
     fmt::print("{}", format.write(result, options.common));
   else

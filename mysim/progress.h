@@ -7,8 +7,6 @@
 
 namespace crosscheck {
 
-struct Method;
-
 /// What is told at a moment.
 struct ProgressSeen {
   int begun = 0, total = 0;  // steps of work; of one alone no number is told
@@ -43,9 +41,5 @@ class Progress {
   struct Display;
   std::unique_ptr<Display> display_;
 };
-
-/// The method, each run of which is announced as a step of work and tells at its samples how far it has come. Its
-/// answers are the same.
-Method with_progress(const Method& method, Progress& progress);
 
 }  // namespace crosscheck
