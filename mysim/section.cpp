@@ -213,7 +213,7 @@ double Section::number(std::string_view key) const {
 }
 
 double Section::positive(std::string_view key) const {
-  constexpr auto expected = "a finite number above zero";
+  constexpr auto expected = "a number above zero";
   const toml::node& n = node_->need(key, expected);
   const double value = node_->finite(n, key, expected);
   if (!(value > 0)) node_->refuse(n, key, expected);
@@ -221,7 +221,7 @@ double Section::positive(std::string_view key) const {
 }
 
 double Section::not_negative(std::string_view key) const {
-  constexpr auto expected = "a finite number not below zero";
+  constexpr auto expected = "a number not below zero";
   const toml::node& n = node_->need(key, expected);
   const double value = node_->finite(n, key, expected);
   if (!(value >= 0)) node_->refuse(n, key, expected);

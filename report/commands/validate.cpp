@@ -89,7 +89,8 @@ void print_facts(const SceneSummary& f, const std::string& asked) {
   std::vector<std::string> terms;
   for (const Term& term : model.terms)
     if (!std::holds_alternative<Springs>(term)) terms.emplace_back(name_of(term));
-  line("ingredients", terms.empty() ? "springs alone" : fmt::format("{}", fmt::join(terms, ", ")));
+  line("ingredients", terms.empty() ? model.find<Springs>() ? "springs alone" : "none: nothing acts on the particles"
+                                    : fmt::format("{}", fmt::join(terms, ", ")));
   line("largest omega", model.first_order() ? "none: a first-order scene"
                         : f.omega > 0 ? fmt::format("{:.4g} rad/s, of the stiffness at the start with pins held; a "
                                                     "period of {:.3g} s",

@@ -28,7 +28,7 @@ TEST(Nearest, IsProposedForSlipsAndForNothingElse) {
                            {"euler", "symplectic-euler"},
                            {"xpbd", "mysim/xpbd"},
                            {"time_step", "step"},
-                           {"durability", "duration"},
+                           {"symplexity", "symplectic-euler"},
                            {"stiffness_structural", "stiffness"},
                            {"colour", ""},
                            {"x", ""},

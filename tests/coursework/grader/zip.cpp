@@ -17,42 +17,24 @@ namespace {
 
 constexpr size_t block = 1 << 16;
 
-void check(archive* a, int result) {
+void check(archive* a, la_ssize_t result) {
   if (result < ARCHIVE_OK) throw std::runtime_error(fmt::format("zip: {}", archive_error_string(a)));
 }
 
-struct Sink {
-  crosscheck::GrowingFile file;
-  std::string failed;  // why it could not be written
-};
-
-/// No exception may pass through the library.
 la_ssize_t append_to(archive*, void* to, const void* bytes, size_t size) {
-  auto& sink = *static_cast<Sink*>(to);
-  try {
-    sink.file.append({static_cast<const char*>(bytes), size});
-    return static_cast<la_ssize_t>(size);
-  } catch (const std::exception& error) {
-    sink.failed = error.what();
-    return -1;
-  }
-}
-
-void check(archive* a, la_ssize_t result, const Sink& sink) {
-  if (result >= ARCHIVE_OK) return;
-  if (!sink.failed.empty()) throw crosscheck::InputError(sink.failed);
-  check(a, static_cast<int>(result));
+  static_cast<std::string*>(to)->append(static_cast<const char*>(bytes), size);
+  return static_cast<la_ssize_t>(size);
 }
 
 }  // namespace
 
 void write_zip(const fs::path& zip, const std::map<std::string, std::string>& files) {
-  Sink sink{crosscheck::GrowingFile(zip), {}};
+  // packed in memory, as the library leaks what it packs with where writing fails
+  std::string packed;
   const std::unique_ptr<archive, int (*)(archive*)> out(archive_write_new(), archive_write_free);
   check(out.get(), archive_write_set_format_zip(out.get()));
-  // it gets its name when it is whole: a full disk or a kill leaves no half zip
   check(out.get(), archive_write_set_bytes_in_last_block(out.get(), 1));
-  check(out.get(), archive_write_open(out.get(), &sink, nullptr, append_to, nullptr), sink);
+  check(out.get(), archive_write_open(out.get(), &packed, nullptr, append_to, nullptr));
   const std::unique_ptr<archive_entry, void (*)(archive_entry*)> entry(archive_entry_new(), archive_entry_free);
   for (const auto& [name, content] : files) {
     archive_entry_clear(entry.get());
@@ -60,11 +42,14 @@ void write_zip(const fs::path& zip, const std::map<std::string, std::string>& fi
     archive_entry_set_size(entry.get(), static_cast<la_int64_t>(content.size()));
     archive_entry_set_filetype(entry.get(), AE_IFREG);
     archive_entry_set_perm(entry.get(), content.starts_with("#!") ? 0755 : 0644);
-    check(out.get(), archive_write_header(out.get(), entry.get()), sink);
-    check(out.get(), archive_write_data(out.get(), content.data(), content.size()), sink);
+    check(out.get(), archive_write_header(out.get(), entry.get()));
+    check(out.get(), archive_write_data(out.get(), content.data(), content.size()));
   }
-  check(out.get(), archive_write_close(out.get()), sink);
-  sink.file.finish();
+  check(out.get(), archive_write_close(out.get()));
+  // it gets its name when it is whole: a full disk or a kill leaves no half zip
+  crosscheck::GrowingFile file(zip);
+  file.append(packed);
+  file.finish();
 }
 
 void unpack_zip(const fs::path& zip, const fs::path& folder) {
