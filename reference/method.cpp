@@ -82,8 +82,9 @@ std::vector<Method> find_methods(const std::string& list) {
   return methods;
 }
 
-Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers) {
-  Watch watch(scene, run);
+Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
+                   const ReachFunction& reach) {
+  Watch watch(scene, run, reach);
   Watched all(watch, std::move(observers));
   try {
     return method.engine(scene, run, all);

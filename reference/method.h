@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mysim/observers/ledger.h"
+#include "mysim/reach.h"
 #include "mysim/run.h"
 #include "mysim/steppers/stepper.h"
 
@@ -40,7 +41,9 @@ const Stepper* rule_of(const Method& method);
 /// Splits "a,b,c" and finds each.
 std::vector<Method> find_methods(const std::string& list);
 
-/// Runs the method under a watch for failures; Unsupported becomes an outcome with that verdict.
-Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers);
+/// Runs the method under a watch for failures (observers/watch.h), which may ask `reach`; Unsupported becomes an
+/// outcome with that verdict.
+Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
+                   const ReachFunction& reach = reach_of);
 
 }  // namespace crosscheck

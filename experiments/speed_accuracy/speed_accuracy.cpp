@@ -149,6 +149,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
   };
   std::vector<Timed> timed;
   std::vector<std::function<double()>> runs;
+  RememberedReach reach;  // short runs are repeated a thousand times
   const std::vector<Method> methods = methods_for(request, scene);
   for (const Method& method : methods)
     for (const Setting& setting : ladder(method, scene, base, request.full)) {
@@ -157,9 +158,9 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
       if (timed.empty() || timed.back().method != method.name)
         if (run_method(method, scene, part.run, {}).verdict == Verdict::unsupported) continue;
       timed.push_back({method.name, setting, part.share});
-      runs.push_back([&method, &scene, part, &timed, at = timed.size() - 1] {
+      runs.push_back([&method, &scene, &reach, part, &timed, at = timed.size() - 1] {
         // watched: what Bullet's worlds do after a blow-up takes many times as long as a step
-        const Outcome out = run_method(method, scene, part.run, {});
+        const Outcome out = run_method(method, scene, part.run, {}, std::ref(reach));
         timed[at].evaluations = out.evaluations;
         return out.cpu_seconds;
       });

@@ -8,8 +8,8 @@
 
 namespace crosscheck {
 
-Watch::Watch(const Scene& scene, const Run& run) : Watch(scene.model, &scene.start) {
-  true_ = [&scene, &run] { return reach_of(scene, run); };
+Watch::Watch(const Scene& scene, const Run& run, ReachFunction reach) : Watch(scene.model, &scene.start) {
+  true_ = [&scene, &run, reach = std::move(reach)] { return reach(scene, run); };
 }
 
 Watch::Watch(const Model& model, const State* start) : model_(model) {

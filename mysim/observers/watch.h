@@ -45,8 +45,8 @@ namespace crosscheck {
 /// asked of hard distances, whose own forces may balance, nor where no velocities are told.)
 class Watch : public PairsObserver {
  public:
-  /// Of a run of the scene; both must outlive it.
-  Watch(const Scene& scene, const Run& run);
+  /// Of a run of the scene; both must outlive it. `reach` is asked how far the true motion goes.
+  Watch(const Scene& scene, const Run& run, ReachFunction reach = reach_of);
   /// Of who knows no more than the model. The energy at the start is that of `start`, where engines may not tell
   /// velocities; else of the first state shown.
   explicit Watch(const Model& model, const State* start = nullptr);
