@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "experiments/scenes.h"
+#include "reference/exact/eigenvalues.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck::testing_tools {
@@ -60,7 +61,7 @@ inline double spectral_radius(const Eigen::Matrix2d& m, double rate) {
   Eigen::Matrix2d scaled = m;
   scaled(0, 1) *= rate;
   scaled(1, 0) /= rate;
-  return scaled.eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(scaled).cwiseAbs().maxCoeff();
 }
 
 /// The damped oscillators on which limits are tried, rad/s and 1/s.

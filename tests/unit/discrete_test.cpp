@@ -1,11 +1,11 @@
 // Closed forms of one-step rules: mysim's steppers and Bullet's explicit world produce them to round-off, each its own
 // and no other.
-#include <Eigen/Eigenvalues>
 #include <numbers>
 
 #include "experiments/scenes.h"
 #include "mysim/frequency.h"
 #include "reference/exact/discrete.h"
+#include "reference/exact/eigenvalues.h"
 #include "reference/exact/exact.h"
 #include "tests/unit/random_scenes.h"
 
@@ -171,7 +171,7 @@ TEST(ExactDiscrete, FrequencyAndDecayOfOneSpringAreTheTextbooks) {
   for (const Fact& fact : facts) {
     SCOPED_TRACE(fact.rule);
     const Eigen::Matrix2d step = discrete(fact.rule).of_mode(m, h).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
-    const std::complex<double> lambda = step.eigenvalues()[0];
+    const std::complex<double> lambda = eigenvalues(step)[0];
     EXPECT_NEAR(std::abs(std::arg(lambda)) / fact.angle, 1, 10 * eps / z);  // roundings of 1 beside an angle of z
     EXPECT_NEAR(std::abs(lambda), fact.decay, 10 * eps);
   }
