@@ -118,9 +118,10 @@ Readback readback_of(const JsonField& f) {
 
 Verdict verdict_of(const JsonField& f) {
   const std::string text = f.text();
-  for (const Verdict verdict : {Verdict::ok, Verdict::energy, Verdict::nan, Verdict::solver, Verdict::frozen})
+  for (const Verdict verdict :
+       {Verdict::ok, Verdict::energy, Verdict::nan, Verdict::stretch, Verdict::solver, Verdict::frozen})
     if (text == name_of(verdict)) return verdict;
-  f.fail("ok, energy, nan, solver or frozen");
+  f.fail("ok, energy, nan, solver or frozen, or stretch");
 }
 
 }  // namespace

@@ -28,7 +28,13 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
     }
     const Answered ours = answer("symplectic-euler", scene, run);
     ASSERT_EQ(theirs.outcome.verdict == Verdict::ok, ours.outcome.verdict == Verdict::ok) << theirs.outcome.reason;
-    if (ours.outcome.verdict != Verdict::ok) continue;  // a stiff cloth blows up at this step in any precision
+    if (ours.outcome.verdict != Verdict::ok) {
+      // a stiff cloth blows up at this step in any precision; Bullet clamps speeds, so that lengths may tell first
+      EXPECT_EQ(ours.outcome.verdict, Verdict::energy);
+      EXPECT_TRUE(theirs.outcome.verdict == Verdict::energy || theirs.outcome.verdict == Verdict::stretch)
+          << theirs.outcome.reason;
+      continue;
+    }
     EXPECT_FALSE(certify("bullet32", scene, theirs.outcome).mismatch());
     const double growth = perturbation_growth(find_method("symplectic-euler"), scene, scene.step, until);
     const double motion = motion_of(ours.trajectory);
