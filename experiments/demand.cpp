@@ -10,6 +10,7 @@
 #include "mysim/errors.h"
 #include "mysim/free_room.h"
 #include "mysim/progress.h"
+#include "mysim/scene_keys.h"
 
 namespace crosscheck {
 namespace {

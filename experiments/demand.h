@@ -8,9 +8,6 @@
 
 namespace crosscheck {
 
-/// The most samples that a run may have.
-constexpr int most_samples = 1000000;
-
 struct Demand {
   double steps;    // 1; of adaptive methods as many as the scene's own step would make
   double seconds;  // s of CPU time, good to a factor of about 3 (experiments/estimate.h)

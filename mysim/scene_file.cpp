@@ -14,7 +14,6 @@
 namespace crosscheck {
 namespace {
 
-constexpr int most_samples = 1000000;
 constexpr auto without_mass = "which makes the scene first-order: without mass and without forces";
 
 // the table of terms that have a section of their own; springs, dashpots and constraints come from [grid], [[spring]]

@@ -110,8 +110,7 @@ Verdict Watch::beyond_reach() const {
 
 Verdict Watch::goes_too_far(const State& state) {
   longest_ = std::max(longest_, largest_stretch(model_, *start_, state.x));
-  if (true_ && !reach_asked_ && (most_ > in_order || longest_ > longer * at_start_)) {
-    reach_asked_ = true;
+  if (true_ && !reach_ && (most_ > in_order || longest_ > longer * at_start_)) {
     reach_ = true_();
     if (!reach_) true_ = nullptr;
   }

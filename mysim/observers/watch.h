@@ -34,11 +34,10 @@ namespace crosscheck {
 /// a verdict errs.
 ///
 /// It looks at every step where the work of wind or pins is added up and once K^ has passed B, else at pairs of states
-/// (pairs.h). Of engines
-/// that deliver samples alone the difference reaches over two sampling intervals: a mean velocity, which is no larger.
-/// No good run is condemned by it, but what only shakes to and fro between two samples, or is over before the third, is
-/// seen by being not finite or too long. Where there is no true motion to be had (hard distances; a watch without a
-/// scene) K^ > 10 B is a failure, and thirty times the length of the start.
+/// (pairs.h). Of engines that deliver samples alone the difference reaches over two sampling intervals: a mean
+/// velocity, which is no larger. No good run is condemned by it, but what only shakes to and fro between two samples,
+/// or is over before the third, is seen by being not finite or too long. Where there is no true motion to be had (hard
+/// distances; a watch without a scene) K^ > 10 B is a failure, and thirty times the length of the start.
 ///
 /// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
 /// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not
@@ -82,7 +81,6 @@ class Watch : public PairsObserver {
   const Model& model_;
   std::function<std::optional<Reach>()> true_;  // none: of who knows no more than the model
   std::optional<Reach> reach_;                  // once asked for
-  bool reach_asked_ = false;
   std::optional<State> start_;
   std::optional<Ledger> ledger_;  // only where wind or moved pins do work
   std::optional<State> first_;    // until the sample after it
