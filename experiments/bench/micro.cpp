@@ -11,13 +11,23 @@
 namespace crosscheck {
 namespace {
 
+/// Why a benchmark gave no times, or "". Google Benchmark 1.8 renamed what 1.7 calls an error.
+template <class Run>
+std::string error_of(const Run& run) {
+  if constexpr (requires { run.error_occurred; })
+    return run.error_occurred ? run.error_message : "";
+  else
+    return run.skipped != decltype(run.skipped){} ? run.skip_message : "";
+}
+
 /// Keeps the times and prints nothing.
 class Collector : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
   void ReportRuns(const std::vector<Run>& runs) override {
     for (const Run& run : runs) {
-      if (run.error_occurred) throw std::runtime_error(run.benchmark_name() + ": " + run.error_message);
+      if (const std::string error = error_of(run); !error.empty())
+        throw std::runtime_error(run.benchmark_name() + ": " + error);
       times[run.run_name.function_name] = run.cpu_accumulated_time / static_cast<double>(run.iterations);
     }
   }
