@@ -1,15 +1,54 @@
-// The table of experiments.
+// The table of experiments; points, rows and requests.
 #include "experiments/experiment.h"
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <algorithm>
 
-#include "experiments/scenes.h"
+#include <algorithm>
+#include <stdexcept>
+
+#include "experiments/scenes/scenes.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
-#include "mysim/errors.h"
-#include "mysim/nearest.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/hash.h"
+#include "mysim/base/text.h"
+#include "reference/truth/cache.h"
 
 namespace crosscheck {
+
+const Table* Rows::table(const std::string& name) const {
+  for (const Table& t : tables)
+    if (t.name == name) return &t;
+  return nullptr;
+}
+
+void Rows::add(const Table& table) {
+  for (Table& t : tables) {
+    if (t.name != table.name) continue;
+    if (t.columns != table.columns) throw std::logic_error(fmt::format("table {}: its columns differ", t.name));
+    t.rows.insert(t.rows.end(), table.rows.begin(), table.rows.end());
+    return;
+  }
+  tables.push_back(table);
+}
+
+void Rows::append(const Rows& other) {
+  for (const Table& t : other.tables) add(t);
+  certificates.insert(certificates.end(), other.certificates.begin(), other.certificates.end());
+  for (const std::string& note : other.notes)
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
+std::string Point::hash() const {
+  return fmt::format("{:016x}", Fnv1a::of(fmt::format("{}\n{}\n{}", build_id(), name, content)));
+}
+
+std::string content_of(const Scene& scene) {
+  return fmt::format("{} {} duration={} samples={} step={} window={} tolerance={} method={}", scene.name, scene.hash,
+                     exact_text(scene.duration), scene.samples, exact_text(scene.step), exact_text(scene.window),
+                     exact_text(scene.tolerance), scene.method);
+}
+
 std::span<const Experiment> experiments() {
   // undamped, so that what a rule itself takes is seen
   static constexpr std::string_view long_runs[] = {"spring", "pendulum"};
@@ -80,7 +119,7 @@ bool has_own_charts(const std::string& experiment, const std::string& scene, boo
   return all || few.empty() || std::find(few.begin(), few.end(), scene) != few.end();
 }
 
-void unite(std::vector<Scene>& all, const std::vector<Scene>& more) {
+void add_missing(std::vector<Scene>& all, const std::vector<Scene>& more) {
   for (const Scene& scene : more)
     if (std::none_of(all.begin(), all.end(), [&](const Scene& s) { return s.name == scene.name; }))
       all.push_back(scene);
@@ -103,8 +142,8 @@ Run run_of(const Request& request, const Scene& scene) {
   return run;
 }
 
-Answer& answer_of(const Request& request, const Scene& scene, const Method& method, Answers& answers) {
-  for (Answer& a : answers)
+Result& result_of(const Request& request, const Scene& scene, const Method& method, Results& answers) {
+  for (Result& a : answers)
     if (a.scene == scene.name && a.method == method.name) return a;
   Recorder recorder;
   std::vector<Observer*> observers{&recorder};
@@ -113,7 +152,7 @@ Answer& answer_of(const Request& request, const Scene& scene, const Method& meth
   Outcome out = run_method(method, scene, run_of(request, scene), observers);
   const bool unsupported = out.verdict == Verdict::unsupported;  // found out during the run, perhaps
   if (unsupported) recorder.trajectory = {};
-  return answers.emplace_back(Answer{scene.name, method.name, std::move(out), std::move(recorder.trajectory),
+  return answers.emplace_back(Result{scene.name, method.name, std::move(out), std::move(recorder.trajectory),
                                      unsupported ? std::vector<LedgerRow>() : ledger.rows(),
                                      ledger.contact_inferred()});
 }

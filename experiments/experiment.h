@@ -1,4 +1,4 @@
-// Experiments: drivers that run methods over scenes and write tables. The table of them is in experiment.cpp.
+// Experiments: the points of their work, the rows these give, what is requested of them, and the table of them.
 #pragma once
 
 #include <deque>
@@ -8,12 +8,45 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/point.h"
-#include "mysim/observers/trajectory.h"
+#include "experiments/tables/table.h"
+#include "mysim/run/observers.h"
+#include "mysim/scene/scene.h"
+#include "reference/certificate/certificate.h"
 #include "reference/method.h"
-#include "reference/truth.h"
+#include "reference/truth/truth.h"
 
 namespace crosscheck {
+
+// A point: one piece of an experiment's work, independent of all others. Sweeps compute points in any order, on any
+// machine, and keep what they gave.
+
+/// What points give. Results are joined by appending the rows of tables of the same name.
+struct Rows {
+  std::vector<Table> tables;
+  std::vector<Certificate> certificates;
+  std::vector<std::string> notes;  // what was left out and why, for people
+
+  const Table* table(const std::string& name) const;
+  /// Appends the rows of a table to the one of that name, or begins it. Throws std::logic_error when columns differ.
+  void add(const Table& table);
+  /// Appends all of another's; a note that is there already is not said twice.
+  void append(const Rows& other);
+};
+
+struct Point {
+  std::string name;     // for people: "engines: cloth-hang"; no two of a sweep share it
+  std::string content;  // everything, beside the program, that its rows depend on
+  std::function<void(Rows&)> compute;
+  bool timed = false;  // measures time: is run alone, pinned to one core, after all others
+
+  /// Fingerprint of name, content and program: 16 hexadecimal digits. The same point of another build is another point.
+  std::string hash() const;
+};
+
+/// What the rows of a scene depend on: its name, its hash, its times, its tolerance and its default method.
+std::string content_of(const Scene& scene);
+
+// Experiments: drivers that run methods over scenes and write tables. The table of them is in experiment.cpp.
 
 /// A run as it went, for who wants to see it move.
 struct WatchedRun {
@@ -40,7 +73,7 @@ struct Request {
 };
 
 /// One method's answer to one scene at the request's step, kept: experiments and pictures look at the same run.
-struct Answer {
+struct Result {
   std::string scene, method;
   Outcome outcome;
   Trajectory trajectory;
@@ -86,23 +119,23 @@ std::vector<Scene> scenes_for(const Experiment& experiment, const std::vector<st
 bool has_own_charts(const std::string& experiment, const std::string& scene, bool all);
 
 /// Appends those scenes of which none of the same name is there.
-void unite(std::vector<Scene>& all, const std::vector<Scene>& more);
+void add_missing(std::vector<Scene>& all, const std::vector<Scene>& more);
 
 /// The methods that a request runs on a scene: the ones it names, or all of mysim and Bullet; on a scene with a sphere
 /// also the assignment's sticky sphere, to be seen failing beside them.
 std::vector<Method> methods_of(const Request& request, const Scene& scene);
 
-/// Answers that are at hand: a deque, so that references stay valid.
-using Answers = std::deque<Answer>;
+/// Results that are at hand: a deque, so that references stay valid.
+using Results = std::deque<Result>;
 
 /// The method's answer to the scene at the request's step, from those at hand or by running it now.
-Answer& answer_of(const Request& request, const Scene& scene, const Method& method, Answers& answers);
+Result& result_of(const Request& request, const Scene& scene, const Method& method, Results& answers);
 
 /// Tables SCENE-energy and engines-energy: the ledgers of the answers at the request's step.
-void add_energies(const Request& request, const Scene& scene, Answers& answers, Rows& rows);
+void add_energies(const Request& request, const Scene& scene, Results& answers, Rows& rows);
 
 /// Experiment `engines` on one scene, with the answers that it looked at.
-void engines_on(const Request& request, const Scene& scene, Answers& answers, Rows& rows);
+void engines_on(const Request& request, const Scene& scene, Results& answers, Rows& rows);
 
 /// One point per scene: `compute` is given a request of that scene alone. Its content is the scene's and the request's.
 std::vector<Point> one_point_per_scene(const Request& request, const std::string& experiment,

@@ -1,18 +1,54 @@
-// Where the terms add their forces.
+// Where the terms add their forces (N), and the stiffness and damping (the tangent) of implicit methods.
 #pragma once
+
+#include <vector>
 
 #include "mysim/types.h"
 
 namespace crosscheck {
 
+// Where the terms add their forces.
+
 struct Forces {
-  Points f;             // N (3 x n)
-  long coincident = 0;  // springs met at zero length: their direction is undefined, they get zero force
+  Points f;                     // N (3 x n)
+  long degenerate_springs = 0;  // springs met at zero length: their direction is undefined, they get zero force
 
   void clear() {
     f.setZero();
-    coincident = 0;
+    degenerate_springs = 0;
   }
+};
+
+// The stiffness and damping of a model at a state, as a matrix that is never formed: a list of pairs.
+
+enum class Curvature {
+  exact,    // -dF/dx as it is; indefinite where springs are shortened
+  clamped,  // with the negative parts left out: positive semidefinite
+};
+
+/// K = -dF/dx (N/m) and C = -dF/dv (N s/m), both symmetric, as sums over pairs of particles a, b of the 3 x 3 block
+/// across (I - n n^T) + along n n^T on the difference of the two. Pins are left to the caller.
+class Tangent {
+ public:
+  struct Pair {
+    int a, b;
+    Vec3 n;                // unit vector
+    double along, across;  // N/m or N s/m
+  };
+  void clear() { stiffness_.clear(), damping_.clear(); }
+  void add_stiffness(const Pair& pair) { stiffness_.push_back(pair); }
+  void add_damping(const Pair& pair) { damping_.push_back(pair); }
+
+  /// out += (stiffness K + damping C) d, for N (3 x n) columns d.
+  void add_product(double stiffness, double damping, const Points& d, Points& out) const;
+  /// Adds the 3 x 3 blocks on the diagonal of (stiffness K + damping C) to blocks (3 x 3n).
+  void add_diagonal(double stiffness, double damping, Eigen::Matrix3Xd& blocks) const;
+  bool empty() const { return stiffness_.empty() && damping_.empty(); }
+  const std::vector<Pair>& stiffness() const { return stiffness_; }
+  const std::vector<Pair>& damping() const { return damping_; }
+
+ private:
+  std::vector<Pair> stiffness_, damping_;
 };
 
 }  // namespace crosscheck

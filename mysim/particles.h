@@ -1,12 +1,30 @@
-// The constant part of the particles: masses, which of them are pinned, and how the pins move.
+// The constant part of the particles: masses, pins, and the prescribed motion of pins and spheres.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "mysim/motion.h"
+#include "mysim/types.h"
 
 namespace crosscheck {
+
+// Prescribed motion of pins and spheres.
+
+/// Prescribed motion, of all pins together or of a sphere: displacement d(t) = amplitude r(t) sin(2 pi frequency t),
+/// where the ramp r rises from 0 to 1 in the first `ramp` seconds as 6 s^5 - 15 s^4 + 10 s^3 (twice continuously
+/// differentiable).
+struct Motion {
+  Vec3 amplitude;    // m
+  double frequency;  // Hz
+  double ramp;       // s
+};
+
+/// A bound of |d'(t)|, m/s: |amplitude| (omega + 15/8 / ramp), 15/8 being the ramp's steepest slope.
+double max_speed(const Motion& motion);
+Vec3 displacement_at(const Motion& motion, double t);  // m
+Vec3 velocity_at(const Motion& motion, double t);      // m/s, the derivative of displacement_at
+
+// The constant part of the particles: masses, which of them are pinned, and how the pins move.
 
 struct Particles {
   Eigen::VectorXd mass;        // n, kg; pinned particles have one too (energies leave it out)

@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "mysim/errors.h"
-#include "mysim/nearest.h"
-#include "mysim/observers/watch.h"
-#include "reference/methods/families.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/text.h"
+#include "mysim/run/observers.h"
 
 namespace crosscheck {
 namespace {
@@ -68,7 +67,7 @@ Method find_method(const std::string& text) {
                                did_you_mean(parts[0], names)));
 }
 
-const Stepper* rule_of(const Method& method) {
+const Stepper* stepper_of(const Method& method) {
   if (method.stepper) return method.stepper;
   const std::string name = method.rule == "implicit-euler+linear" ? "implicit-euler" : method.rule;
   for (const Stepper& rule : steppers())
@@ -83,9 +82,9 @@ std::vector<Method> find_methods(const std::string& list) {
 }
 
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
-                   const ReachFunction& reach) {
-  Watch watch(scene, run, reach);
-  Watched all(watch, std::move(observers));
+                   const MotionBoundsFunction& bounds) {
+  DivergenceMonitor monitor(scene, run, bounds);
+  MonitoredObservers all(monitor, std::move(observers));
   try {
     return method.engine(scene, run, all);
   } catch (const Unsupported& refusal) {

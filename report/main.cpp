@@ -1,6 +1,7 @@
 // crosscheck: the subcommands, and nothing else.
-#include "mysim/supervised.h"
-#include "mysim/telling.h"
+
+#include "mysim/base/errors.h"
+#include "mysim/base/this_process.h"
 #include "report/commands/command_line.h"
 #include "report/commands/commands.h"
 
@@ -179,5 +180,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return supervised([&] { return run_and_tell("crosscheck", [&] { return run(argc, argv); }); });
+  return run_supervised([&] { return run_reporting_errors("crosscheck", [&] { return run(argc, argv); }); });
 }

@@ -1,23 +1,24 @@
 // Experiment `adequacy`: the model ladder of each scene, the least model within its tolerance, and how cloth depends on
 // its grid.
+
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "experiments/adequacy/ladder.h"
+#include "experiments/adequacy/ablation.h"
 #include "experiments/adequacy/resolution.h"
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
-#include "mysim/errors.h"
+#include "mysim/base/errors.h"
 
 namespace crosscheck {
 namespace {
 
 constexpr unsigned unseen_starts = 3;
 
-Table rungs_table() {
+Table ablations_table() {
   return {"adequacy",
           {{"scene", "1"},
            {"rung", "1"},
@@ -73,7 +74,8 @@ Scene without_all(Scene scene, const std::vector<std::string>& names) {
 
 /// What the least model errs by on another start, against the full model by the same rule and step. Where nothing can
 /// be left out: the least error of leaving anything out. Empty where the full model itself fails.
-std::optional<double> unseen_error(const Scene& scene, const Yardstick& y, const std::vector<std::string>& out) {
+std::optional<double> unseen_error(const Scene& scene, const ReferenceSolution& y,
+                                   const std::vector<std::string>& out) {
   Recorder full;
   if (run_method(y.method, scene, y.run, {&full}).verdict != Verdict::ok) return std::nullopt;
   Outcome ignored;
@@ -86,27 +88,27 @@ std::optional<double> unseen_error(const Scene& scene, const Yardstick& y, const
 }
 
 std::string truth_text(const Truth& truth) {
-  return truth.of_contact_rule ? "what the in-house contact rule converges to: a difference"
-                               : std::string(name_of(truth.tier));
+  return truth.under_contact_rule ? "what the in-house contact rule converges to: a difference"
+                                  : std::string(name_of(truth.tier));
 }
 
 void ladder_on(const Request&, const Scene& scene, Rows& rows) {
-  Table table = rungs_table(), least = least_table();
+  Table table = ablations_table(), least = least_table();
   try {
-    const Yardstick y = yardstick_of(scene, scene.tolerance);
+    const ReferenceSolution y = reference_solution_of(scene, scene.tolerance);
     Trajectory seen = y.truth.trajectory;
     const size_t frames = static_cast<size_t>(y.run.samples) + 1;
     seen.t.resize(frames), seen.x.resize(frames);
     const double motion = motion_of(seen);
-    const std::vector<Rung> ladder = ladder_of(scene, y, 0.3 * motion);
+    const std::vector<AblatedModel> ladder = ablations_of(scene, y, 0.3 * motion);
     const double full_cost = ladder.front().cost();
-    for (const Rung& r : ladder)
+    for (const AblatedModel& r : ladder)
       table.add({scene.name, r.name, fmt::format("{}", fmt::join(r.out, ", ")),
                  r.out.empty() ? "full"
                  : r.single    ? "single"
                                : "cumulative",
                  r.error ? Cell(*r.error) : Cell(), scene.tolerance, r.error && *r.error <= scene.tolerance ? 1l : 0l,
-                 motion, y.truth.bar, truth_text(y.truth), std::string(name_of(r.outcome.verdict)),
+                 motion, y.truth.error_bar, truth_text(y.truth), std::string(name_of(r.outcome.verdict)),
                  r.outcome.evaluations, springs_of(r.scene.model), r.cost()});
     const double speed = 0.2 * largest_speed(y.truth.trajectory);
     const std::pair<double, const char*> tolerances[] = {{scene.tolerance, "the scene's own"},
@@ -114,7 +116,7 @@ void ladder_on(const Request&, const Scene& scene, Rows& rows) {
                                                          {0.1 * motion, "10 % of its motion"}};
     std::map<std::vector<std::string>, std::vector<std::optional<double>>> unseen;  // by what is left out
     for (const auto& [tolerance, what] : tolerances) {
-      const Rung& l = least_model(ladder, tolerance);
+      const AblatedModel& l = least_model(ladder, tolerance);
       std::vector<Cell> row{scene.name,
                             tolerance,
                             std::string(what),
@@ -155,7 +157,7 @@ void resolution_on(const Request& request, const Scene& scene, Rows& rows) {
               {}};
   std::vector<int> sizes{8, 12, 16, 24};
   if (request.full) sizes.insert(sizes.end(), {32, 48, 64, 96, 128});
-  for (const Resolved& r : resolved(scene, sizes))
+  for (const GridResult& r : grid_convergence(scene, sizes))
     table.add({scene.name, static_cast<long>(r.n), r.n - 1., r.error ? Cell(*r.error) : Cell(),
                r.sag ? Cell(*r.sag) : Cell(), r.factor ? Cell(*r.factor) : Cell(), r.verdict, r.evaluations, r.springs,
                static_cast<double>(r.evaluations) * static_cast<double>(r.springs)});
@@ -177,7 +179,7 @@ void bending_on(const Request& request, Rows& rows) {
 std::vector<Point> adequacy_points(const Request& request) {
   std::vector<Point> points;  // the longest first: side by side, none is left that others must wait for
   for (const Scene& scene : request.scenes) {
-    if (!sheet_of(scene) || scene.model.find<Spheres>()) continue;
+    if (!cloth_grid_of(scene) || scene.model.find<Spheres>()) continue;
     Request alone = request;
     alone.scenes = {scene};
     points.push_back({fmt::format("adequacy: grids of {}", scene.name), content_of(request, scene) + scene.source,

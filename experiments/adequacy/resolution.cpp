@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/rest.h"
+#include "experiments/measures.h"
 #include "reference/method.h"
-#include "reference/truth.h"
+#include "reference/truth/truth.h"
 
 namespace crosscheck {
 namespace {
@@ -27,7 +27,7 @@ Scene for_rest(Scene scene) {
 
 /// How far the lowest point hangs below the highest, along gravity, m. The scene's start becomes its rest, from where
 /// another rest of much the same cloth is near.
-std::optional<double> sag_of(Scene& scene) {
+std::optional<double> settle_and_sag(Scene& scene) {
   const auto* gravity = scene.model.find<Gravity>();
   if (!gravity || gravity->acceleration.isZero(0)) return std::nullopt;
   const auto rest = rest_of(for_rest(scene));
@@ -42,7 +42,7 @@ std::optional<double> factor_for(const Scene& at_rest, double wished, double sag
   double a = 1, of_a = sag_at_1, b = 1.1;
   for (int i = 0; i < 12; ++i) {
     Scene stiffer = with_stiffness(at_rest, b);
-    const auto of_b = sag_of(stiffer);
+    const auto of_b = settle_and_sag(stiffer);
     if (!of_b) return std::nullopt;
     if (std::abs(*of_b - wished) < 2e-6 * wished) return b;
     const double slope = (*of_b - of_a) / (1 / b - 1 / a), inverse = 1 / b + (wished - *of_b) / slope;
@@ -56,15 +56,15 @@ std::optional<double> factor_for(const Scene& at_rest, double wished, double sag
 
 }  // namespace
 
-std::vector<Resolved> resolved(const Scene& scene, const std::vector<int>& sizes) {
-  std::vector<Resolved> list;
+std::vector<GridResult> grid_convergence(const Scene& scene, const std::vector<int>& sizes) {
+  std::vector<GridResult> list;
   std::vector<Trajectory> surfaces;
   std::vector<Scene> scenes;
   const double interval = scene.duration / scene.samples;
   const int samples = std::max(1, static_cast<int>(scene.window / interval * (1 + 1e-9)));
   for (const int n : sizes) {
     Scene& now = scenes.emplace_back(with_resolution(scene, n));
-    const Grid grid = *sheet_of(now);
+    const Grid grid = *cloth_grid_of(now);
     Recorder recorder;
     const Run run{std::min(now.step, interval), samples * interval, samples};
     const Outcome out = run_method(find_method("mysim/leapfrog"), now, run, {&recorder});
@@ -73,7 +73,7 @@ std::vector<Resolved> resolved(const Scene& scene, const std::vector<int>& sizes
     const auto* springs = now.model.find<Springs>();
     list.push_back({n,
                     {},
-                    sag_of(now),
+                    settle_and_sag(now),
                     {},
                     std::string(name_of(out.verdict)),
                     out.evaluations,
@@ -81,7 +81,7 @@ std::vector<Resolved> resolved(const Scene& scene, const std::vector<int>& sizes
     if (out.verdict != Verdict::ok) surface = {};
     surfaces.push_back(std::move(surface));
   }
-  const Resolved& finest = list.back();
+  const GridResult& finest = list.back();
   for (size_t i = 0; i + 1 < list.size(); ++i) {
     if (surfaces[i].frames() > 0 && surfaces.back().frames() > 0)
       list[i].error = largest_rms_distance(surfaces[i], surfaces.back());

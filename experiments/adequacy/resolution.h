@@ -4,12 +4,12 @@
 #include <optional>
 #include <vector>
 
-#include "experiments/adequacy/grids.h"
-#include "mysim/observers/trajectory.h"
+#include "experiments/scenes/cloths.h"
+#include "mysim/run/observers.h"
 
 namespace crosscheck {
 
-struct Resolved {
+struct GridResult {
   int n;                         // particles along the longer side
   std::optional<double> error;   // m, largest RMS distance from the finest grid in the window, at 17 x 17 points
   std::optional<double> sag;     // m, how far the lowest point hangs below the highest one at rest
@@ -20,7 +20,7 @@ struct Resolved {
 
 /// The cloth at each resolution by leapfrog, ascending; the last is the finest. Rests are looked for where the scene,
 /// its pins standing still and its winds and drag left out, has one.
-std::vector<Resolved> resolved(const Scene& scene, const std::vector<int>& sizes);
+std::vector<GridResult> grid_convergence(const Scene& scene, const std::vector<int>& sizes);
 
 /// y = a x^p by least squares in the logarithms: the exponent and its standard error. Nothing with fewer than three
 /// points.

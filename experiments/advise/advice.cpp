@@ -1,5 +1,4 @@
-// Advice: models and methods one after another through the search, the cheapest that is met soundly, its file, its
-// check.
+// Bisection over steps and tolerances for each model and method; the cheapest sound one, its file, its check.
 #include "experiments/advise/advice.h"
 
 #include <fmt/ranges.h>
@@ -7,16 +6,136 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/adequacy/ladder.h"
-#include "experiments/advise/search.h"
+#include "experiments/adequacy/ablation.h"
 #include "experiments/metrics.h"
-#include "mysim/errors.h"
+#include "experiments/stability/limit.h"
+#include "mysim/base/errors.h"
+#include "mysim/model/system.h"
 
 namespace crosscheck {
+
+void Search::over(const Candidate& model, const Method& method) {
+  model_ = &model;
+  method_ = &method;
+  limit_.reset();
+  if (const Stepper* rule = stepper_of(method); rule && !method.adaptive && !model.scene.model.first_order()) {
+    const double omega = highest_frequency(model.scene.model, model.scene.start);
+    const double gamma = uniform_drag_rate(model.scene.model).value_or(0);
+    if (const double limit = rule->limit(omega, gamma); std::isfinite(limit)) limit_ = limit;
+  }
+  method.adaptive ? over_tolerances() : over_steps();
+}
+
+const Trial& Search::run(const Run& run) {
+  for (const Trial& t : advice_.trials)  // done before
+    if (t.model == model_->name && t.method == method_->name &&
+        (method_->adaptive ? t.relative == run.tolerance : std::abs(t.step - run.step) < 1e-9 * run.step))
+      return t;
+  MaxErrorObserver farthest(path_);
+  Trial t{model_->name, method_->name, 0, 0, {}, {}, springs_of(model_->scene.model), limit_};
+  t.outcome = run_method(*method_, model_->scene, run, {&farthest});
+  t.step = t.outcome.step > 0 ? t.outcome.step : run.step;
+  if (method_->adaptive) t.relative = run.tolerance;
+  if (t.outcome.verdict == Verdict::ok) {
+    t.error = farthest.distance();
+    t.meets = *t.error + advice_.error_bar <= advice_.tolerance;
+  }
+  advice_.trials.push_back(std::move(t));
+  return advice_.trials.back();
+}
+const Trial& Search::at(long steps) {
+  Run r = default_run(model_->scene);
+  r.step = r.duration / r.samples / static_cast<double>(steps);
+  return run(r);
+}
+const Trial& Search::at_tolerance(double relative) {
+  Run r = observed_run(*method_, model_->scene, path_);
+  r.tolerance = relative;
+  return run(r);
+}
+/// 1e9 spring evaluations take some seconds; a run that doubles them again and again would never end.
+bool Search::hopeless(const Trial& t) const {
+  return t.outcome.verdict == Verdict::unsupported || t.cost() > dearest();
+}
+/// What so many steps between two samples cost at least: nothing is run to see that it is too much.
+bool Search::too_dear(long steps) const {
+  const int evaluations = method_->stepper ? std::max(1, method_->stepper->evaluations) : 1;
+  return static_cast<double>(steps) * advice_.scene.samples * evaluations *
+             static_cast<double>(springs_of(model_->scene.model)) >
+         dearest();
+}
+
+void Search::over_steps() {
+  const double interval = advice_.scene.duration / advice_.scene.samples;
+  // from twice the stable step on
+  long meets = 1, fails = 0;
+  if (limit_ && *limit_ > 0) meets = std::max(1l, static_cast<long>(interval / *limit_ / 2));
+  constexpr long most = 1l << 22;  // where a run fails at once, however short its steps
+  double cost = 0;
+  for (bool confirmed = false; !confirmed;) {
+    if (too_dear(meets)) return;
+    const Trial& t = at(meets);
+    if (t.meets) {
+      cost = t.cost();
+      // a smaller step must do as well: one that is right by luck is none
+      const bool luck = !at(2 * meets).meets;
+      if (!luck) confirmed = true;
+      if (luck) fails = meets, meets *= 4;
+    } else {
+      if (hopeless(t) || meets >= most) return;
+      fails = meets, meets *= 2;
+    }
+  }
+  while (fails == 0 && meets > 1) {
+    const Trial& t = at(meets / 2);
+    if (t.meets)
+      meets /= 2, cost = t.cost();
+    else
+      fails = meets / 2;
+  }
+  while (meets > fails + 1 && static_cast<double>(meets) > 1.05 * static_cast<double>(fails) &&
+         worth(cost, static_cast<double>(fails) / static_cast<double>(meets))) {
+    const long middle = std::clamp(std::lround(std::sqrt(static_cast<double>(meets) * static_cast<double>(fails))),
+                                   fails + 1, meets - 1);
+    const Trial& t = at(middle);
+    (t.meets ? meets : fails) = middle;
+    if (t.meets) cost = t.cost();
+  }
+  keep(cost);
+}
+
+void Search::over_tolerances() {
+  constexpr double loosest = 1e-1, tightest = 1e-13;
+  double meets = loosest, fails = 0, cost = 0;
+  for (bool confirmed = false; !confirmed;) {
+    const Trial& t = at_tolerance(meets);
+    if (t.meets) {
+      cost = t.cost();
+      confirmed = at_tolerance(meets / 4).meets;
+      if (!confirmed) fails = meets, meets /= 16;
+    } else {
+      if (hopeless(t)) return;
+      fails = meets, meets /= 4;
+    }
+    if (meets < tightest) return;
+  }
+  // the cost of a fifth-order rule goes as the fifth root of its tolerance
+  while (fails > 0 && fails / meets > 1.28 && worth(cost, std::pow(meets / fails, 0.2))) {
+    const double middle = std::sqrt(meets * fails);
+    const Trial& t = at_tolerance(middle);
+    (t.meets ? meets : fails) = middle;
+    if (t.meets) cost = t.cost();
+  }
+  keep(cost);
+}
+
+// Advice: models and methods one after another through the search, the cheapest that is met soundly, its file, its
+// check.
+
 namespace {
 
 /// Rules of high order first: they set the price that the others are left at.
-int urgency(const Method& m) {
+int search_order(const Method& m) {
   if (!m.stepper) return 20;
   return (m.stepper->evaluations == 0 ? 10 : 0) - m.stepper->order;
 }
@@ -24,7 +143,7 @@ int urgency(const Method& m) {
 /// The least model that a file can say and whose own error leaves half of the tolerance.
 std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
   try {
-    const Yardstick y = yardstick_of(scene, tolerance);
+    const ReferenceSolution y = reference_solution_of(scene, tolerance);
     Candidate least{"full", scene, {}};
     for (bool more = true; more;) {
       more = false;
@@ -53,7 +172,7 @@ std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
 
 /// The scene's file with what was chosen.
 std::string file_of(const Advice& a, const Candidate& model, const Trial& chosen, const Method& method) {
-  Document file(a.scene.source, a.scene.name);
+  TomlDocument file(a.scene.source, a.scene.name);
   for (const Ingredient& i : model.out)
     for (const std::string& key : i.keys) file.erase(key);
   file.set("time.method", chosen.method);
@@ -67,7 +186,7 @@ std::string file_of(const Advice& a, const Candidate& model, const Trial& chosen
 }
 
 void caveats_of(Advice& a, const Trial& t) {
-  if (a.of_contact_rule)
+  if (a.under_contact_rule)
     a.caveats.push_back("with contact this is a difference from what the in-house contact rule converges to, no error");
   if (a.until < a.scene.duration * (1 - 1e-9))
     a.caveats.push_back(
@@ -82,18 +201,18 @@ void caveats_of(Advice& a, const Trial& t) {
     a.caveats.push_back(fmt::format("the method follows another law: {}", fmt::join(t.outcome.different_law, "; ")));
 }
 
-/// What can be promised at all, with the truth's bar in the window; throws CannotPromise where nothing can.
-Advice promise_of(const Scene& scene, double tolerance, const TruePath& path) {
+/// What can be promised at all, with the truth's bar in the window; throws CannotGuarantee where nothing can.
+Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path) {
   const Truth& truth = path.truth();
-  Advice a{scene, tolerance, truth.tier, truth.how, path.bar(), truth.of_contact_rule, path.until(), {}, 0,
-           {},    {},        "",         0,         {}};
+  Advice a{scene, tolerance, truth.tier, truth.how, path.error_bar(), truth.under_contact_rule, path.until(), {}, 0, {},
+           {},    "",        0,          {}};
   // a third: what is left for the run's own error is then at least twice the bar
-  if (!(a.bar <= tolerance / 3))
-    throw CannotPromise(
-        fmt::format("the truth is known to {:.2g} m only, and {:.2g} m is asked: ask for {:.2g} m or more", a.bar,
-                    tolerance, 3 * a.bar));
+  if (!(a.error_bar <= tolerance / 3))
+    throw CannotGuarantee(
+        fmt::format("the truth is known to {:.2g} m only, and {:.2g} m is asked: ask for {:.2g} m or more", a.error_bar,
+                    tolerance, 3 * a.error_bar));
   if (tolerance >= path.motion())
-    throw CannotPromise(
+    throw CannotGuarantee(
         fmt::format("nothing in the scene moves by more than {:.3g} m (RMS), and {:.3g} m is asked: any "
                     "answer would do",
                     path.motion(), tolerance));
@@ -107,10 +226,10 @@ bool finer(const Trial& x, const Trial& y) {
 }
 
 /// What a finer trial does not confirm was met by luck.
-void mark_luck(std::vector<Trial>& trials) {
+void mark_accidental(std::vector<Trial>& trials) {
   for (Trial& t : trials)
-    for (const Trial& o : trials) t.by_luck |= t.meets && !o.meets && !o.by_luck && finer(o, t);
-  for (Trial& t : trials) t.meets &= !t.by_luck;
+    for (const Trial& o : trials) t.accidental |= t.meets && !o.meets && !o.accidental && finer(o, t);
+  for (Trial& t : trials) t.meets &= !t.accidental;
 }
 
 /// Met by it and by all finer trials, of which there is one at least.
@@ -136,8 +255,8 @@ std::optional<size_t> cheapest(const std::vector<Trial>& trials, const std::stri
 }  // namespace
 
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods) {
-  const TruePath path(scene, tolerance);
-  Advice a = promise_of(scene, tolerance, path);
+  const DenseTruth path(scene, tolerance);
+  Advice a = guarantee_of(scene, tolerance, path);
 
   std::vector<Candidate> models{{"full", scene, {}}};
   if (auto least = least_of(path.dense(), tolerance)) {
@@ -145,14 +264,14 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
     models.insert(models.begin(), std::move(*least));
   }
   std::stable_sort(methods.begin(), methods.end(),
-                   [](const Method& x, const Method& y) { return urgency(x) < urgency(y); });
+                   [](const Method& x, const Method& y) { return search_order(x) < search_order(y); });
   Search search(a, path);
   for (const Candidate& model : models)
     for (const Method& method : methods) search.over(model, method);
 
-  mark_luck(a.trials);
+  mark_accidental(a.trials);
   const auto best = cheapest(a.trials);
-  if (!best) throw CannotPromise(fmt::format("no method that was tried comes within {:.2g} m", tolerance));
+  if (!best) throw CannotGuarantee(fmt::format("no method that was tried comes within {:.2g} m", tolerance));
   a.chosen = *best;
   const Trial& chosen = a.trials[a.chosen];
   a.second = cheapest(a.trials, chosen.method);
@@ -163,11 +282,11 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
   for (const Ingredient& i : model.out) a.left_out.push_back(i.name);
   a.toml = file_of(a, model, chosen, method);
   const Scene written = parse_scene(a.toml, scene.name);
-  Farthest farthest(path);
-  const Outcome again = run_method(method, written, looked_at(method, written, path), {&farthest});
+  MaxErrorObserver farthest(path);
+  const Outcome again = run_method(method, written, observed_run(method, written, path), {&farthest});
   a.checked = farthest.distance();
-  if (again.verdict != Verdict::ok || !(a.checked + a.bar <= tolerance))
-    throw CannotPromise(fmt::format("the advised file, run again, errs by {:.3g} m", a.checked));
+  if (again.verdict != Verdict::ok || !(a.checked + a.error_bar <= tolerance))
+    throw CannotGuarantee(fmt::format("the advised file, run again, errs by {:.3g} m", a.checked));
   caveats_of(a, chosen);
   return a;
 }

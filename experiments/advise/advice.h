@@ -1,18 +1,23 @@
 // Advice: the cheapest model, method and step that answer a scene to a tolerance, found by measured search.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "experiments/advise/dense_truth.h"
+#include "experiments/scenes/ingredients.h"
 #include "reference/method.h"
-#include "reference/truth.h"
+#include "reference/truth/truth.h"
 
 namespace crosscheck {
 
+// Advice: the cheapest model, method and step that answer a scene to a tolerance, found by measured search.
+
 /// Nothing that was tried meets what is asked, or nothing can tell whether it does. what() is the reason, one line.
-struct CannotPromise : std::runtime_error {
+struct CannotGuarantee : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
@@ -26,7 +31,7 @@ struct Trial {
   Outcome outcome;
   long springs;
   std::optional<double> limit;  // s, the largest stable step that theory predicts; empty where none does
-  bool by_luck = false;         // within the tolerance, but a shorter step of the same method and model is not
+  bool accidental = false;      // within the tolerance, but a shorter step of the same method and model is not
   bool meets = false;           // error + error bar of the truth within the tolerance, over a whole run that held
   /// Force evaluations times springs.
   double cost() const { return static_cast<double>(outcome.evaluations) * static_cast<double>(springs); }
@@ -37,8 +42,8 @@ struct Advice {
   double tolerance;  // m
   Tier tier;
   std::string truth;             // how it was found
-  double bar;                    // m, the truth's, in the window
-  bool of_contact_rule;          // what is met is a difference, no error
+  double error_bar;              // m, the truth's, in the window
+  bool under_contact_rule;       // what is met is a difference, no error
   double until;                  // s, the promise ends here
   std::vector<Trial> trials;     // everything tried, in order
   size_t chosen;                 // of the trials
@@ -51,9 +56,46 @@ struct Advice {
 
 /// Tries each method on the scene, and on the least model whose own error is half the tolerance at most. A step is
 /// taken when it meets the tolerance, every smaller one that was tried does so too, and among them one of half its
-/// length; steps are refined to 5 %. Errors are looked for after every step, not at the samples alone (true_path.h).
-/// Methods that already cost four times the best are left. Throws CannotPromise where no truth is known, its bar is
+/// length; steps are refined to 5 %. Errors are looked for after every step, not at the samples alone (dense_truth.h).
+/// Methods that already cost four times the best are left. Throws CannotGuarantee where no truth is known, its bar is
 /// above a third of the tolerance, the tolerance is above the scene's motion, or no method meets it.
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods);
+
+// The search for the cheapest run of a model by a method that meets a tolerance.
+
+struct Candidate {
+  std::string name;  // "full", or "without ..."
+  Scene scene;
+  std::vector<Ingredient> out;
+};
+
+/// Longest steps first, halved until they meet the tolerance, then refined. What is tried goes to the advice's trials;
+/// a method that already costs four times the best of those before it is left.
+class Search {
+ public:
+  Search(Advice& advice, const DenseTruth& path) : advice_(advice), path_(path) {}
+
+  void over(const Candidate& model, const Method& method);
+
+ private:
+  /// The run with that step, or with that relative tolerance; one that was done before is not done again.
+  const Trial& run(const Run& run);
+  const Trial& at(long steps);  // between two samples
+  const Trial& at_tolerance(double relative);
+  bool hopeless(const Trial& t) const;
+  bool too_dear(long steps) const;
+  bool worth(double cost, double ratio) const { return cost * ratio < best_; }
+  double dearest() const { return std::min(4 * best_, 1e9); }
+  void over_steps();
+  void over_tolerances();
+  void keep(double cost) { best_ = std::min(best_, cost); }
+
+  Advice& advice_;
+  const DenseTruth& path_;
+  const Candidate* model_ = nullptr;
+  const Method* method_ = nullptr;
+  std::optional<double> limit_;
+  double best_ = INFINITY;
+};
 
 }  // namespace crosscheck

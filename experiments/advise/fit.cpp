@@ -2,17 +2,17 @@
 #include "experiments/advise/fit.h"
 
 #include <fmt/ranges.h>
-
 #include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 
 #include "experiments/advise/advice.h"
-#include "experiments/advise/measures.h"
-#include "mysim/errors.h"
-#include "mysim/frequency.h"
+#include "experiments/measures.h"
+#include "mysim/base/errors.h"
+#include "mysim/model/system.h"
 
 namespace crosscheck {
 namespace {
@@ -40,21 +40,22 @@ const Kind* kind_of(std::string_view path) {
 }
 
 using Measure = std::function<std::optional<double>(const Scene&)>;
-struct Aim {
+struct Objective {
   Wished wished;
   Measure measure;
 };
 
-std::vector<Aim> aims_of(const Wish& wish) {
-  std::vector<Aim> aims;
-  if (wish.sag) aims.push_back({{"sag", "m", *wish.sag, 0}, sag_of});
+std::vector<Objective> objectives_of(const Wish& wish) {
+  std::vector<Objective> objectives;
+  if (wish.sag) objectives.push_back({{"sag", "m", *wish.sag, 0}, sag_of});
   if (wish.period)
-    aims.push_back({{"period", "s", *wish.period, 0}, [w = *wish.period](const Scene& s) { return period_of(s, w); }});
+    objectives.push_back(
+        {{"period", "s", *wish.period, 0}, [w = *wish.period](const Scene& s) { return period_of(s, w); }});
   if (wish.settle_time)
-    aims.push_back({{"settle time", "s", *wish.settle_time, 0},
-                    [w = *wish.settle_time](const Scene& s) { return settle_time_of(s, w); }});
-  if (wish.max_stretch) aims.push_back({{"max stretch", "1", *wish.max_stretch, 0}, max_stretch_of});
-  return aims;
+    objectives.push_back({{"settle time", "s", *wish.settle_time, 0},
+                          [w = *wish.settle_time](const Scene& s) { return settle_time_of(s, w); }});
+  if (wish.max_stretch) objectives.push_back({{"max stretch", "1", *wish.max_stretch, 0}, max_stretch_of});
+  return objectives;
 }
 
 class Fit {
@@ -76,14 +77,14 @@ class Fit {
     // the wishes, read with values put in where there are none yet
     Eigen::VectorXd middle(size());
     for (int i = 0; i < size(); ++i) middle[i] = 0.5 * std::log(kinds_[i]->low * kinds_[i]->high);
-    aims_ = aims_of(scene_at(middle).wish);
-    if (std::ssize(aims_) != size()) {
+    objectives_ = objectives_of(scene_at(middle).wish);
+    if (std::ssize(objectives_) != size()) {
       std::vector<std::string> names;
       for (const Unknown& u : unknowns_) names.push_back(u.name);
       throw InputError(
           fmt::format("{}: wish: expected as many wishes (sag, period, settle_time, max_stretch) as there "
                       "are values to fit ({}: {}), got {}",
-                      name, size(), fmt::join(names, ", "), aims_.size()));
+                      name, size(), fmt::join(names, ", "), objectives_.size()));
     }
   }
 
@@ -97,15 +98,16 @@ class Fit {
     }
     for (int i = 0; i < size(); ++i) {
       unknowns_[i].value = std::exp(p[i]);
-      aims_[i].wished.reached = aims_[i].wished.wished * std::exp(r[i]);
+      objectives_[i].wished.reached = objectives_[i].wished.wished * std::exp(r[i]);
       if (!(std::abs(std::expm1(r[i])) <= 0.02))
-        throw CannotPromise(fmt::format("{} = {:.4g} {} cannot be reached: the nearest is {:.4g}", aims_[i].wished.name,
-                                        aims_[i].wished.wished, unit_of(i), aims_[i].wished.reached));
+        throw CannotGuarantee(fmt::format("{} = {:.4g} {} cannot be reached: the nearest is {:.4g}",
+                                          objectives_[i].wished.name, objectives_[i].wished.wished, unit_of(i),
+                                          objectives_[i].wished.reached));
     }
     Fitted fitted{scene_at(p), "", unknowns_, {}};
-    for (const Aim& aim : aims_) fitted.wishes.push_back(aim.wished);
-    Document file = file_at(p);
-    const double omega = fastest_frequency(fitted.scene.model, fitted.scene.start);
+    for (const Objective& objective : objectives_) fitted.wishes.push_back(objective.wished);
+    TomlDocument file = file_at(p);
+    const double omega = highest_frequency(fitted.scene.model, fitted.scene.start);
     if (omega > 0 && fitted.scene.step > 1 / omega) file.set("time.step", 1 / omega);
     fitted.toml = fmt::format("# Fitted by crosscheck to its wishes.\n{}", file.text());
     fitted.scene = parse_scene(fitted.toml, name_);
@@ -114,10 +116,10 @@ class Fit {
 
  private:
   int size() const { return static_cast<int>(unknowns_.size()); }
-  std::string unit_of(int i) const { return aims_[i].wished.unit == "1" ? "" : aims_[i].wished.unit; }
+  std::string unit_of(int i) const { return objectives_[i].wished.unit == "1" ? "" : objectives_[i].wished.unit; }
 
-  Document file_at(const Eigen::VectorXd& p) const {
-    Document file(file_.text(), name_);
+  TomlDocument file_at(const Eigen::VectorXd& p) const {
+    TomlDocument file(file_.text(), name_);
     for (int i = 0; i < size(); ++i)
       for (const std::string& path : unknowns_[i].paths) file.set(path, std::exp(p[i]));
     return file;
@@ -129,9 +131,9 @@ class Fit {
     const Scene scene = scene_at(p);
     Eigen::VectorXd r(size());
     for (int i = 0; i < size(); ++i) {
-      const auto measured = aims_[i].measure(scene);
+      const auto measured = objectives_[i].measure(scene);
       if (!measured || !(*measured > 0)) return std::nullopt;
-      r[i] = std::log(*measured / aims_[i].wished.wished);
+      r[i] = std::log(*measured / objectives_[i].wished.wished);
     }
     return r;
   }
@@ -163,8 +165,8 @@ class Fit {
     over(0);
     if (!best) {
       std::vector<std::string> names;
-      for (const Aim& aim : aims_) names.push_back(aim.wished.name);
-      throw CannotPromise(
+      for (const Objective& objective : objectives_) names.push_back(objective.wished.name);
+      throw CannotGuarantee(
           fmt::format("{} cannot be measured in this scene, whatever the parameters: it does not swing, "
                       "or has no rest (hard distances, spheres, gusts, moving pins, nothing pinned)",
                       fmt::join(names, ", ")));
@@ -194,15 +196,17 @@ class Fit {
   }
 
   std::string name_;
-  Document file_;
+  TomlDocument file_;
   std::vector<Unknown> unknowns_;
   std::vector<const Kind*> kinds_;  // of the unknowns
-  std::vector<Aim> aims_;
+  std::vector<Objective> objectives_;
 };
 
 }  // namespace
 
-bool has_unknowns(std::string_view text, const std::string& name) { return !Document(text, name).where("fit").empty(); }
+bool has_unknowns(std::string_view text, const std::string& name) {
+  return !TomlDocument(text, name).where("fit").empty();
+}
 
 Fitted fit_to_wishes(std::string_view text, const std::string& name) { return Fit(text, name).run(); }
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mysim/scene.h"
+#include "mysim/scene/scene.h"
 
 namespace crosscheck {
 
@@ -34,7 +34,7 @@ bool has_unknowns(std::string_view text, const std::string& name);
 /// Finds the values by simulation: on a coarse grid over decades first, then by damped Gauss-Newton steps in the
 /// logarithms of the parameters and of the measures, until each wish is met within 0.2 %. The step becomes at most half
 /// of leapfrog's limit. Throws InputError where values are to be fitted without as many wishes, or that cannot be
-/// fitted, and CannotPromise where a wish cannot be measured or is not met within 2 %.
+/// fitted, and CannotGuarantee where a wish cannot be measured or is not met within 2 %.
 Fitted fit_to_wishes(std::string_view text, const std::string& name);
 
 }  // namespace crosscheck

@@ -1,12 +1,12 @@
+// What quick and full benches measure, and in which order.
 #include "experiments/bench/bench.h"
 
 #include <fmt/format.h>
 
 #include "experiments/bench/kernels.h"
-#include "experiments/bench/on_scenes.h"
-#include "experiments/scenes.h"
-#include "experiments/sweep/cores.h"
-#include "mysim/errors.h"
+#include "experiments/scenes/scenes.h"
+#include "experiments/timing/machine.h"
+#include "mysim/base/errors.h"
 
 namespace crosscheck {
 namespace {
@@ -29,29 +29,29 @@ std::vector<std::string> all_scenes() {
 
 }  // namespace
 
-BenchPlan bench_plan(bool full) {
+BenchSuite bench_suite(bool full) {
   const std::vector<Peer> all{odeint_rk4(),      odeint_dopri5(),   arkode(),    cvode(),
                               bullet_explicit(), bullet_implicit(), bullet_pbd()};
-  BenchPlan plan{{64, 128, 256},
-                 all_scenes(),
-                 {{32, all},
-                  {32, {bullet_explicit()}, sheet_of_two_stiffnesses},
-                  {32, {bullet_pbd_on_links()}, sheet_of_links},
-                  {64, {odeint_rk4()}}},
-                 {},
-                 {{64}, {60, 240}, {3, 0.1}},
-                 {11, 0.015},
-                 {11, 0.004},
-                 {},
-                 // one thread is at work; the least for two; what the caches of two cores hold; more than that
-                 {{64, 96, 256, 512}, {11, 0.06}}};
+  BenchSuite plan{{64, 128, 256},
+                  all_scenes(),
+                  {{32, all},
+                   {32, {bullet_explicit()}, hanging_cloth_of_two_stiffnesses},
+                   {32, {bullet_pbd_on_links()}, hanging_cloth_of_links},
+                   {64, {odeint_rk4()}}},
+                  {},
+                  {{64}, {60, 240}, {3, 0.1}},
+                  {11, 0.015},
+                  {11, 0.004},
+                  {},
+                  // one thread is at work; the least for two; what the caches of two cores hold; more than that
+                  {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
     plan.sheets = {{32, all},
-                   {32, {bullet_explicit()}, sheet_of_two_stiffnesses},
-                   {32, {bullet_pbd_on_links()}, sheet_of_links},
+                   {32, {bullet_explicit()}, hanging_cloth_of_two_stiffnesses},
+                   {32, {bullet_pbd_on_links()}, hanging_cloth_of_links},
                    {64, all},
-                   {64, {bullet_explicit()}, sheet_of_two_stiffnesses},
-                   {64, {bullet_pbd_on_links()}, sheet_of_links},
+                   {64, {bullet_explicit()}, hanging_cloth_of_two_stiffnesses},
+                   {64, {bullet_pbd_on_links()}, hanging_cloth_of_links},
                    {128, {odeint_rk4(), {"odeint/dopri5", {1e-4}}, {"bullet/deformable-explicit", {0.95}}}}};
     plan.implicit_step = {{32, 64, 128}, {60, 240}, {5, 0.1}};
     plan.kernels = {21, 0.02};
@@ -63,14 +63,14 @@ BenchPlan bench_plan(bool full) {
   return plan;
 }
 
-Rows bench(const BenchPlan& plan) {
+Rows bench(const BenchSuite& plan) {
   Rows rows;
-  std::vector<EqualErrorAsked> sheets;
-  for (const BenchPlan::Sheet& asked : plan.sheets)
+  std::vector<EqualErrorOptions> sheets;
+  for (const BenchSuite::PeerCloth& asked : plan.sheets)
     sheets.push_back({std::make_shared<const Scene>(asked.scene()), asked.peers, plan.turns});
   // shipped scenes, two sheets at the same step, and implicit steps
   int work = 3 + static_cast<int>(plan.kernel_sides.size() + plan.threads.sides.size()) + work_of(plan.implicit_step);
-  for (const EqualErrorAsked& asked : sheets) work += work_of(asked);
+  for (const EqualErrorOptions& asked : sheets) work += work_of(asked);
   Progress progress(work);
   two_threads(plan.threads, rows, progress);
   pin_to_one_core();
@@ -84,7 +84,7 @@ Rows bench(const BenchPlan& plan) {
   } catch (const Unsupported& refusal) {
     rows.notes.push_back(fmt::format("bench leaves out kernels: {}", refusal.what()));
   }
-  for (const EqualErrorAsked& asked : sheets) equal_error(asked, rows, progress);
+  for (const EqualErrorOptions& asked : sheets) equal_error(asked, rows, progress);
   same_step(plan.same_step, rows, progress);
   try {
     implicit_step(plan.implicit_step, rows, progress);

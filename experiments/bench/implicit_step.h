@@ -1,27 +1,67 @@
-// mysim's implicit step beside a sparse factorisation: the same linear system, solved to round-off by both.
+// mysim's implicit step beside a sparse factorisation by Eigen: the same linear system, solved to round-off by both.
 #pragma once
+
+#include <Eigen/SparseCholesky>
 
 #include <vector>
 
 #include "experiments/bench/micro.h"
-#include "experiments/point.h"
-#include "mysim/progress.h"
+#include "experiments/experiment.h"
+#include "mysim/base/progress.h"
+#include "mysim/scene/scene.h"
 
 namespace crosscheck {
 
-struct ImplicitStepAsked {
+// A linear implicit Euler step as one writes it on Eigen: the matrix formed, factorised and solved.
+
+/// (M (1/h^2 + gamma/h) + K) u = M (g - gamma v) + F(x + h v) with K the clamped tangent at x + h v, rows and
+/// columns of pins left out; then x' = x + h v + u. Springs, gravity and uniform drag; pins that stand still. K is
+/// written into a pattern that is made once, with a fill-reducing order that is found once (approximate minimum
+/// degree).
+class FactorisedStep {
+ public:
+  /// Throws std::invalid_argument where the drag of particles is no rate that all have.
+  FactorisedStep(const Scene& scene, double h);
+  /// Positions after a step from x, v (3 x n), m.
+  const Points& step(const Points& x, const Points& v);
+
+ private:
+  using Sparse = Eigen::SparseMatrix<double>;
+  /// Where the 3 x 3 block of two particles stands in the lower triangle; -1 where it is not kept.
+  struct Places {
+    int number[3][3];
+  };
+  void add(const Places& places, const Eigen::Matrix3d& block);
+
+  std::vector<Spring> springs_;
+  Eigen::ArrayXd mass_;
+  Vec3 gravity_;
+  double h_, gamma_;
+  std::vector<int> first_;              // row of each particle; -1 of pins
+  std::vector<Places> diagonal_, off_;  // of particles; of springs
+  Sparse matrix_;
+  Eigen::VectorXd right_;
+  Eigen::SimplicialLDLT<Sparse> solver_;
+  Points end_;
+};
+
+// mysim's implicit step beside a sparse factorisation: the same linear system, solved to round-off by both.
+
+struct ImplicitStepOptions {
   std::vector<int> sides;     // particles along a side of the sheet
   std::vector<double> rates;  // steps a second
-  MicroPlan plan;
+  MicrobenchmarkOptions plan;
 };
 
 /// How many are announced.
-inline int work_of(const ImplicitStepAsked& asked) { return static_cast<int>(asked.sides.size() * asked.rates.size()); }
+inline int work_of(const ImplicitStepOptions& asked) {
+  return static_cast<int>(asked.sides.size() * asked.rates.size());
+}
 
 /// `bench-implicit-step-cost`: from the sheet as it hangs after half a second, one step of `implicit-euler+linear` and
-/// one by Eigen's SimplicialLDLT (factorised_step.h): how far apart both end (the farthest particle, m), their times,
+/// one by Eigen's SimplicialLDLT (implicit_step.h): how far apart both end (the farthest particle, m), their times,
 /// iterations of conjugate gradients, and the ratio of the times, round by round; with the best instructions for mysim,
 /// and with SSE2 alone.
-void implicit_step(const ImplicitStepAsked& asked, Rows& rows, Progress& progress);
+void implicit_step(const ImplicitStepOptions& asked, Rows& rows, Progress& progress);
 
 }  // namespace crosscheck

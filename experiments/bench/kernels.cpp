@@ -1,24 +1,27 @@
+// The tables of kernels.
 #include "experiments/bench/kernels.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <memory>
+#include <set>
 
-#include "experiments/bench/sheet.h"
 #include "experiments/cost/cost.h"
-#include "experiments/timing.h"
+#include "experiments/scenes/cloths.h"
+#include "experiments/timing/instruction_sets.h"
+#include "experiments/timing/timing.h"
 
 namespace crosscheck {
 namespace {
 
-using strip::Isa;
+using simd::InstructionSet;
 
 constexpr auto naive = "naive loop", double_precision = "double", single_precision = "single";
 
 /// A sheet with a wave in it, so that every spring pulls.
-Scene waving_sheet(int n) {
-  Scene scene = sheet(n);
+Scene waving_cloth(int n) {
+  Scene scene = hanging_cloth(n);
   for (int i = 0; i < scene.start.x.cols(); ++i)
     scene.start.x(1, i) += 0.03 * std::sin(9 * scene.start.x(0, i)) * std::sin(6 * scene.start.x(2, i));
   return scene;
@@ -26,25 +29,27 @@ Scene waving_sheet(int n) {
 
 struct Row {
   std::string kernel, instructions, precision;
-  Piece once;
+  BenchmarkFunction once;
   std::string name() const { return fmt::format("{}, {}, {}", kernel, instructions, precision); }
 };
 
-void add_sweep(std::vector<Row>& rows, std::string kernel, Isa isa, std::string precision, std::optional<Piece> once) {
+void add_fused_step(std::vector<Row>& rows, std::string kernel, InstructionSet isa, std::string precision,
+                    std::optional<BenchmarkFunction> once) {
   if (once) rows.push_back({std::move(kernel), std::string(name_of(isa)), std::move(precision), std::move(*once)});
 }
 
 std::vector<Row> rows_for(const Scene& scene) {
-  const std::string plainest(name_of(Isa::sse2));  // what the suite is compiled for
+  const std::string plainest(name_of(InstructionSet::sse2));  // what the suite is compiled for
   std::vector<Row> rows{{naive, plainest, double_precision, naive_loop(scene)},
                         {"plain loop", plainest, double_precision, plain_loop(scene)}};
-  for (const Isa isa : strip::available())
+  for (const InstructionSet isa : simd::supported_instruction_sets())
     rows.push_back({"general kernel", std::string(name_of(isa)), double_precision, general_kernel(scene, isa)});
-  for (const Isa isa : strip::available()) {
-    add_sweep(rows, "sweep, reproducible", isa, double_precision, sweep<double>(scene, isa, false));
+  for (const InstructionSet isa : simd::supported_instruction_sets()) {
+    add_fused_step(rows, "sweep, reproducible", isa, double_precision, fused_step<double>(scene, isa, false));
     // with SSE2 both are the same
-    if (isa != Isa::sse2) add_sweep(rows, "sweep, fastest", isa, double_precision, sweep<double>(scene, isa, true));
-    add_sweep(rows, "sweep, fastest", isa, single_precision, sweep<float>(scene, isa, true));
+    if (isa != InstructionSet::sse2)
+      add_fused_step(rows, "sweep, fastest", isa, double_precision, fused_step<double>(scene, isa, true));
+    add_fused_step(rows, "sweep, fastest", isa, single_precision, fused_step<float>(scene, isa, true));
   }
   return rows;
 }
@@ -53,7 +58,7 @@ std::vector<Row> rows_for(const Scene& scene) {
 struct Peak {
   std::string name;
   double operations;  // of a run
-  Piece once;
+  BenchmarkFunction once;
 };
 
 std::string peak_name(std::string_view instructions, std::string_view precision) {
@@ -61,9 +66,9 @@ std::string peak_name(std::string_view instructions, std::string_view precision)
 }
 
 template <class T>
-Peak peak_of(Isa isa, const char* precision) {
+Peak peak_of(InstructionSet isa, const char* precision) {
   constexpr long rounds = 1000;
-  const strip::Kernel<T> kernel = strip::kernel<T>(isa, false);
+  const simd::Kernel<T> kernel = simd::kernel<T>(isa, false);
   T none = 0;
   return {peak_name(name_of(isa), precision), static_cast<double>(rounds) * kernel.multiply_and_add(0, &none),
           [kernel, sum = std::make_shared<T>(0)] { kernel.multiply_and_add(rounds, sum.get()); }};
@@ -71,7 +76,7 @@ Peak peak_of(Isa isa, const char* precision) {
 
 std::vector<Peak> peaks() {
   std::vector<Peak> all;
-  for (const Isa isa : strip::available()) {
+  for (const InstructionSet isa : simd::supported_instruction_sets()) {
     all.push_back(peak_of<double>(isa, double_precision));
     all.push_back(peak_of<float>(isa, single_precision));
   }
@@ -80,15 +85,15 @@ std::vector<Peak> peaks() {
 
 }  // namespace
 
-Table kernels_table(int side, const MicroPlan& plan) {
-  const Scene scene = waving_sheet(side);
+Table kernels_table(int side, const MicrobenchmarkOptions& plan) {
+  const Scene scene = waving_cloth(side);
   const auto springs = static_cast<long>(scene.model.find<Springs>()->list.size());
   const std::vector<Row> rows = rows_for(scene);
-  std::vector<Micro> micros;
+  std::vector<Microbenchmark> micros;
   for (const Row& row : rows) micros.push_back({row.name(), row.once});
   const std::vector<Peak> most = peaks();
   for (const Peak& peak : most) micros.push_back({peak.name, peak.once});
-  const auto times = measured(micros, plan);
+  const auto times = run_microbenchmarks(micros, plan);
   std::map<std::string, double> rate_of;  // GFLOP/s
   for (const Peak& peak : most) rate_of[peak.name] = peak.operations / timing_of(times.at(peak.name)).median / 1e9;
   Table table{"bench-kernels-cost",
@@ -109,11 +114,70 @@ Table kernels_table(int side, const MicroPlan& plan) {
   for (const Row& row : rows) {
     const std::vector<double>& own = times.at(row.name());
     const Timing each = timing_of(own).times(1e9 / static_cast<double>(springs));
-    const Timing ratio = timing_of(quotients(times.at(rows[0].name()), own));
+    const Timing ratio = timing_of(ratios_of_rounds(times.at(rows[0].name()), own));
     const double rate = flop_per_spring / each.median;
     table.add({static_cast<long>(side), springs, row.kernel, row.instructions, row.precision, each.median, each.low,
                each.high, ratio.median, ratio.low, ratio.high, rate,
                rate / rate_of.at(peak_name(row.instructions, row.precision))});
+  }
+  return table;
+}
+
+namespace {
+
+using simd::InstructionSet;
+
+long springs_of(const Scene& scene) {
+  const auto* springs = scene.model.find<Springs>();
+  return springs ? static_cast<long>(springs->list.size()) : 0;
+}
+
+std::string naive_name(const Scene& scene) { return scene.name + ", naive loop"; }
+
+}  // namespace
+
+Table scenes_table(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& plan) {
+  struct Way {
+    const Scene* scene;
+    std::string kernel, instructions, name;
+  };
+  std::vector<Way> ways;
+  std::vector<Microbenchmark> micros;
+  const auto add = [&](const Scene& scene, const char* kernel, InstructionSet isa, BenchmarkFunction once) {
+    ways.push_back(
+        {&scene, kernel, std::string(name_of(isa)), fmt::format("{}, {}, {}", scene.name, kernel, name_of(isa))});
+    micros.push_back({ways.back().name, std::move(once)});
+  };
+  for (const Scene& scene : scenes) {
+    if (springs_of(scene) == 0) continue;
+    micros.push_back({naive_name(scene), naive_loop(scene)});
+    std::set<InstructionSet> sets;
+    for (const CodePath& path : code_paths()) sets.insert(path.instructions);
+    for (const InstructionSet isa : sets) add(scene, "general kernel", isa, general_kernel(scene, isa));
+    for (const InstructionSet isa : sets)
+      if (auto piece = fused_step<double>(scene, isa, false)) add(scene, "sweep, reproducible", isa, std::move(*piece));
+  }
+  const auto times = run_microbenchmarks(micros, plan);
+  Table table{"bench-scenes-cost",
+              {{"scene", "1"},
+               {"particles", "1"},
+               {"springs", "1"},
+               {"kernel", "1"},
+               {"instructions", "1"},
+               {"time", "ns"},
+               {"low", "ns"},
+               {"high", "ns"},
+               {"naive loop", "ns"},
+               {"times the naive loop", "1"},
+               {"ratio low", "1"},
+               {"ratio high", "1"}},
+              {}};
+  for (const Way& way : ways) {
+    const Scene& scene = *way.scene;
+    const auto &own = times.at(way.name), &beside = times.at(naive_name(scene));
+    const Timing each = timing_of(own).times(1e9), ratio = timing_of(ratios_of_rounds(beside, own));
+    table.add({scene.name, static_cast<long>(scene.start.x.cols()), springs_of(scene), way.kernel, way.instructions,
+               each.median, each.low, each.high, timing_of(beside).median * 1e9, ratio.median, ratio.low, ratio.high});
   }
   return table;
 }

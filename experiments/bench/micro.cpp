@@ -1,3 +1,4 @@
+// Google Benchmark; in no other file.
 #include "experiments/bench/micro.h"
 
 #include <benchmark/benchmark.h>
@@ -6,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "experiments/sweep/machine_lock.h"
+#include "experiments/timing/machine.h"
 
 namespace crosscheck {
 namespace {
@@ -35,9 +36,9 @@ class Collector : public benchmark::BenchmarkReporter {
 };
 
 /// One round; with nothing known of how long each takes, Google Benchmark finds it out.
-std::map<std::string, double> round_of(const std::vector<Micro>& all, double seconds,
+std::map<std::string, double> round_of(const std::vector<Microbenchmark>& all, double seconds,
                                        const std::map<std::string, double>& known) {
-  for (const Micro& micro : all) {
+  for (const Microbenchmark& micro : all) {
     auto* entry = benchmark::RegisterBenchmark(micro.name.c_str(), [once = micro.once](benchmark::State& state) {
       for (auto _ : state) once();
     });
@@ -54,8 +55,9 @@ std::map<std::string, double> round_of(const std::vector<Micro>& all, double sec
 
 }  // namespace
 
-std::map<std::string, std::vector<double>> measured(const std::vector<Micro>& all, const MicroPlan& plan) {
-  const MachineLock alone(MachineLock::Hold::alone);
+std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
+                                                               const MicrobenchmarkOptions& plan) {
+  const MachineLock exclusive(MachineLock::Mode::exclusive);
   const auto first = round_of(all, plan.seconds, {});
   std::map<std::string, std::vector<double>> times;
   for (int round = 0; round < plan.rounds; ++round)

@@ -5,24 +5,25 @@
 #include <string>
 #include <vector>
 
-#include "experiments/bench/pieces.h"
+#include "experiments/bench/spring_forces.h"
 
 namespace crosscheck {
 
-struct Micro {
+struct Microbenchmark {
   std::string name;
-  Piece once;
+  BenchmarkFunction once;
 };
 
-struct MicroPlan {
+struct MicrobenchmarkOptions {
   int rounds = 15;
   double seconds = 0.02;  // of each piece in each round
 };
 
 /// CPU time of one run of each, s, one for each round; by name. In a round all have their turn one after the other, so
 /// that a slow spell of the machine falls on all, and quotients within a round tell most; alone on this machine among
-/// all of Crosscheck (machine_lock.h). Names must differ. Throws
+/// all of Crosscheck (experiments/timing/machine.h). Names must differ. Throws
 /// Unsupported with the package's name where the suite was built without Google Benchmark.
-std::map<std::string, std::vector<double>> measured(const std::vector<Micro>& all, const MicroPlan& plan);
+std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
+                                                               const MicrobenchmarkOptions& plan);
 
 }  // namespace crosscheck

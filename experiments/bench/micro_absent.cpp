@@ -1,10 +1,12 @@
 // What stands in for Google Benchmark where the suite was built without it.
+
 #include "experiments/bench/micro.h"
-#include "mysim/errors.h"
+#include "mysim/base/errors.h"
 
 namespace crosscheck {
 
-std::map<std::string, std::vector<double>> measured(const std::vector<Micro>&, const MicroPlan&) {
+std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>&,
+                                                               const MicrobenchmarkOptions&) {
   throw Unsupported("the suite was built without Google Benchmark (Debian's package libbenchmark-dev)");
 }
 

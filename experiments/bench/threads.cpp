@@ -1,3 +1,4 @@
+// Wall times with one and with two threads.
 #include "experiments/bench/threads.h"
 
 #include <fmt/format.h>
@@ -7,11 +8,10 @@
 #include <cmath>
 #include <ctime>
 
-#include "experiments/bench/sheet.h"
-#include "experiments/sweep/cores.h"
-#include "experiments/sweep/machine_lock.h"
-#include "experiments/timing.h"
-#include "mysim/strip/sheet_world.h"
+#include "experiments/scenes/cloths.h"
+#include "experiments/timing/machine.h"
+#include "experiments/timing/timing.h"
+#include "mysim/run/cloth_grid_world.h"
 
 namespace crosscheck {
 namespace {
@@ -27,12 +27,12 @@ double cpu_of_all_threads() {
 }
 
 /// A sheet that is stepped on and on.
-class Stepped {
+class TimedCloth {
  public:
-  Stepped(const Scene& scene, int threads)
+  TimedCloth(const Scene& scene, int threads)
       : h_(scene.step),
-        world_(strip::sheet_world(*find_method(rule).stepper, ContactRule::coulomb, scene, h_,
-                                  {Precision::reproducible, threads}, nobody_)) {}
+        world_(simd::make_cloth_grid_world(*find_method(rule).stepper, ContactRule::coulomb, scene, h_,
+                                           {Precision::reproducible, threads}, no_observers_)) {}
 
   /// Wall time of a step, s.
   double step(int steps) {
@@ -45,20 +45,20 @@ class Stepped {
     return wall / steps;
   }
   /// How many are at work.
-  int threads() const { return world_->other_seconds() > 0 ? 2 : 1; }
+  int threads() const { return world_->worker_seconds() > 0 ? 2 : 1; }
   /// Of the time of as many cores.
   double share() const { return timing_of(share_).median; }
 
  private:
-  Observers nobody_{{}};
+  Observers no_observers_{{}};
   double h_;
-  std::unique_ptr<strip::SheetWorld> world_;
+  std::unique_ptr<simd::ClothGridWorld> world_;
   long taken_ = 0;
   std::vector<double> share_;
 };
 
 /// As many steps as take so long.
-int steps_in(double seconds, Stepped& world) {
+int steps_in(double seconds, TimedCloth& world) {
   int steps = 1;
   for (double taken; steps < 1000000 && (taken = world.step(steps) * steps) < seconds;)
     steps = static_cast<int>(std::ceil(steps * std::clamp(1.2 * seconds / taken, 2., 64.)));
@@ -67,7 +67,7 @@ int steps_in(double seconds, Stepped& world) {
 
 }  // namespace
 
-void two_threads(const ThreadsAsked& asked, Rows& rows, Progress& progress) {
+void two_threads(const ThreadsOptions& asked, Rows& rows, Progress& progress) {
   if (cores_allowed() < 2) {
     rows.notes.emplace_back("bench leaves out two threads: this process may use one core");
     return;
@@ -90,19 +90,20 @@ void two_threads(const ThreadsAsked& asked, Rows& rows, Progress& progress) {
                {"ratio high", "1"}},
               {}};
   for (const int side : asked.sides) {
-    const Scene scene = sheet(side);
+    const Scene scene = hanging_cloth(side);
     progress.begin(fmt::format("{}: two threads", scene.name));
-    Stepped one(scene, 1), two(scene, 2);
-    const MachineLock alone(MachineLock::Hold::alone);
+    TimedCloth one(scene, 1), two(scene, 2);
+    const MachineLock exclusive(MachineLock::Mode::exclusive);
     const int steps = steps_in(asked.turns.seconds, one), rounds = asked.turns.rounds;
     const std::vector<std::function<double()>> runs{[&] { return one.step(steps); }, [&] { return two.step(steps); }};
     const auto times =
-        timed_in_turns(runs, TimingPlan{.least = rounds, .most = rounds, .resolution = 0, .warm = INFINITY});
-    const Timing a = timing_of(times[0]), b = timing_of(times[1]), ratio = timing_of(quotients(times[0], times[1]));
+        time_round_robin(runs, TimingOptions{.least = rounds, .most = rounds, .resolution = 0, .warm = INFINITY});
+    const Timing a = timing_of(times[0]), b = timing_of(times[1]),
+                 ratio = timing_of(ratios_of_rounds(times[0], times[1]));
     const long at_work = two.threads();
     const double share = two.share();
-    table.add({scene.name, fmt::format("{}+threads=2", rule), std::string(name_of(strip::chosen())), at_work,
-               static_cast<long>(steps), a.median, a.low, a.high, b.median, b.low, b.high, share, ratio.median,
+    table.add({scene.name, fmt::format("{}+threads=2", rule), std::string(name_of(simd::active_instruction_set())),
+               at_work, static_cast<long>(steps), a.median, a.low, a.high, b.median, b.low, b.high, share, ratio.median,
                ratio.low, ratio.high});
     if (at_work > 1 && share < nearly_all)
       rows.notes.push_back(

@@ -3,15 +3,15 @@
 
 #include <vector>
 
-#include "experiments/bench/turns.h"
-#include "experiments/point.h"
-#include "mysim/progress.h"
+#include "experiments/experiment.h"
+#include "experiments/timing/timing.h"
+#include "mysim/base/progress.h"
 
 namespace crosscheck {
 
-struct ThreadsAsked {
+struct ThreadsOptions {
   std::vector<int> sides;  // particles along a side of each sheet
-  TurnPlan turns;
+  TimedRunOptions turns;
 };
 
 /// `bench-threads-cost`: wall time of a step of leapfrog with one thread and with +threads=2, which may take one where
@@ -19,6 +19,6 @@ struct ThreadsAsked {
 /// they were timed: threads that wait look again and again, so that what is missing somebody else had, and the ratio is
 /// then less than the machine can give. A note says so below 95 %, and where there is one core only. Call it before the
 /// process is bound to a core.
-void two_threads(const ThreadsAsked& asked, Rows& rows, Progress& progress);
+void two_threads(const ThreadsOptions& asked, Rows& rows, Progress& progress);
 
 }  // namespace crosscheck

@@ -1,24 +1,79 @@
-// The timed points of experiment `cost`.
+// The timed points of experiment `cost`, and loops with a known amount of work.
 #include "experiments/cost/cost.h"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
-#include "experiments/cells.h"
-#include "experiments/cost/roofline.h"
-#include "experiments/cost/sized_cloth.h"
 #include "experiments/estimate.h"
+#include "experiments/scenes/cloths.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
-#include "experiments/timing.h"
-#include "mysim/clock.h"
-#include "mysim/spring_kernel.h"
+#include "experiments/tables/table.h"
+#include "experiments/timing/timing.h"
+#include "mysim/base/this_process.h"
+#include "mysim/simd/instruction_sets.h"
+#include "mysim/simd/spring_graph/spring_kernel.h"
 
 namespace crosscheck {
 namespace {
 
-class Nobody : public Observer {
+/// Tells the compiler that somebody reads it, so that the work is not left out.
+void keep(const double* data) { asm volatile("" : : "r"(data) : "memory"); }
+
+/// Compiled for each instruction set; the best that the machine has is taken.
+#if defined(__SANITIZE_ADDRESS__)
+// what chooses among them runs before the sanitizer is ready
+#else
+[[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
+#endif
+void triad(double* __restrict a, const double* __restrict b, const double* __restrict c, size_t n) {
+  for (size_t i = 0; i < n; ++i) a[i] = b[i] + 0.5 * c[i];
+}
+
+}  // namespace
+
+Kernel multiply_add_kernel() {
+  constexpr long rounds = 400000;
+  const simd::Kernel<double> kernel = simd::kernel<double>(simd::active_instruction_set(), false);
+  double none = 0;
+  const int each = kernel.multiply_and_add(0, &none);
+  return {static_cast<double>(each) * rounds, 0, [kernel, sum = std::make_shared<double>(0)] {
+            CpuClock clock;
+            clock.start();
+            kernel.multiply_and_add(rounds, sum.get());
+            clock.stop();
+            return clock.seconds();
+          }};
+}
+
+Kernel triad_kernel(double bytes) {
+  const auto n = static_cast<size_t>(bytes / 24);
+  const int rounds = std::max(1, static_cast<int>(32e6 / bytes));
+  struct Arrays {
+    std::vector<double> a, b, c;
+  };
+  auto arrays =
+      std::make_shared<Arrays>(Arrays{std::vector<double>(n, 1), std::vector<double>(n, 2), std::vector<double>(n, 3)});
+  return {2. * static_cast<double>(n) * rounds, 24. * static_cast<double>(n) * rounds, [arrays, n, rounds] {
+            CpuClock clock;
+            double* a = arrays->a.data();
+            const double *b = arrays->b.data(), *c = arrays->c.data();
+            clock.start();
+            for (int round = 0; round < rounds; ++round) {
+              triad(a, b, c, n);
+              keep(a);
+            }
+            clock.stop();
+            return clock.seconds();
+          }};
+}
+
+namespace {
+
+class NullObserver : public Observer {
  public:
   Verdict observe(const State&, bool) override { return Verdict::ok; }
 };
@@ -35,8 +90,8 @@ long steps_to_time(const Method& method, const Scene& scene) {
 /// CPU time of one step, s, of a run of so many; 0 where the method does not take the scene.
 std::function<double()> step_of(const Method& method, const Scene& scene, long steps, Outcome* told = nullptr) {
   return [&method, &scene, steps, told] {
-    Nobody nobody;
-    Outcome out = method.engine(scene, steps_of(scene, steps), nobody);
+    NullObserver null_observer;
+    Outcome out = method.engine(scene, steps_of(scene, steps), null_observer);
     const double each = out.steps > 0 ? out.cpu_seconds / static_cast<double>(out.steps) : 0;
     if (told) *told = std::move(out);
     return each;
@@ -46,7 +101,7 @@ std::function<double()> step_of(const Method& method, const Scene& scene, long s
 /// What the runs say is the time of a step and not of themselves: they are long enough as they are.
 std::vector<std::vector<double>> steps_timed(std::span<const std::function<double()>> runs, bool full) {
   const int repetitions = full ? 9 : 5;
-  return timed_in_turns(runs, {.least = repetitions, .most = repetitions, .resolution = 0});
+  return time_round_robin(runs, {.least = repetitions, .most = repetitions, .resolution = 0});
 }
 
 long springs_of(const Scene& scene) { return static_cast<long>(scene.model.find<Springs>()->list.size()); }

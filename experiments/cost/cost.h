@@ -1,9 +1,29 @@
-// Experiment `cost`: what a step costs, against size, by phase, and beside what the machine can do.
+// Experiment `cost`: what a step costs, against size, by phase, and on the roofline of this machine.
 #pragma once
+
+#include <functional>
 
 #include "experiments/experiment.h"
 
 namespace crosscheck {
+
+// What this machine can do at most, measured by small loops of this build (S. Williams, A. Waterman and D. Patterson,
+// "Roofline", 2009).
+
+/// A loop with a known amount of work; run() does it once and says what CPU time it took, s.
+struct Kernel {
+  double flop, bytes;  // of one run; bytes as the source asks for them
+  std::function<double()> run;
+};
+
+/// Multiplications and additions in registers that wait for nobody, with the instructions that mysim's kernels use
+/// (fused ones where these have them).
+Kernel multiply_add_kernel();
+
+/// a = b + s c over three arrays of `bytes` in all: what memory of that size delivers. 24 bytes an element.
+Kernel triad_kernel(double bytes);
+
+// Experiment `cost`: what a step costs, against size, by phase, and beside what the machine can do.
 
 /// `size-cost`: time per step of every method on a cloth of n x n particles.
 void cost_of_size(const Request& request, int n, Rows& rows);

@@ -1,6 +1,4 @@
-// Known disagreements: where Bullet's worlds answer otherwise than the scene asks, each in the smallest scene that
-// shows it, with its cause and the measured size of its effect. The table is in table.cpp; a new one is a scene file in
-// scenes/disagreements/ and a row.
+// Known disagreements between Bullet and what a scene asks: the scenes, their runs, and the direction of contact.
 #pragma once
 
 #include <functional>
@@ -8,8 +6,27 @@
 #include <vector>
 
 #include "experiments/experiment.h"
+#include "mysim/scene/scene.h"
 
 namespace crosscheck {
+
+// In which direction a method pushes a particle away from a ball, against the ball's own normal.
+
+/// At one place of the ball, `angle` from the top: the direction of the impulses, less the normal there, in the plane
+/// of gravity (positive: as if the place were farther down) and across it. rad; as the step goes to 0.
+struct DirectionError {
+  double angle, in_plane, sideways;
+};
+
+/// Lets the scene's particle go at rest 0.12 mm inside the scene's ball, without friction, at each of the angles (rad),
+/// and reads the direction off the impulses of 4 ms, m (v - g t), in which it moves by less than 0.06 mm. In steps h of
+/// 0.2 ms and half of it, extrapolated to 0 as 2 e(h/2) - e(h). Throws std::runtime_error where the method cannot run
+/// the scene.
+std::vector<DirectionError> direction_errors(const std::string& method, Scene scene, const std::vector<double>& angles);
+
+// Known disagreements: where Bullet's worlds answer otherwise than the scene asks, each in the smallest scene that
+// shows it, with its cause and the measured size of its effect. The table is in experiments/tables/table.cpp; a new one
+// is a scene file in scenes/disagreements/ and a row.
 
 /// One curve of the figure: a method at a step, perhaps on the scene with another spring law.
 struct Variant {
@@ -27,7 +44,7 @@ struct Series {
 
 struct Disagreement;
 /// A table of its own and what it says, one sentence.
-struct TableTold {
+struct TableWithSentence {
   Table table;
   std::string sentence;
 };
@@ -42,14 +59,15 @@ struct Disagreement {
   /// The quantity; none: the largest distance of a particle from its place in the first variant's run (m), on a
   /// logarithmic axis.
   std::function<double(const Scene&, const State&)> value;
-  std::function<std::string(const std::vector<Series>&)> effect;     // the measured size, one sentence
-  std::function<TableTold(const Disagreement&)> measured = nullptr;  // where curves over time do not show it all
+  std::function<std::string(const std::vector<Series>&)> effect;  // the measured size, one sentence
+  std::function<TableWithSentence(const Disagreement&)> measured =
+      nullptr;  // where curves over time do not show it all
 };
 
 std::vector<Disagreement> disagreements();
 Scene scene_of(const Disagreement& disagreement);
 
 /// Runs the variants; each curve ends where its run failed.
-std::vector<Series> play(const Disagreement& disagreement, const Scene& scene);
+std::vector<Series> run_variants(const Disagreement& disagreement, const Scene& scene);
 
 }  // namespace crosscheck

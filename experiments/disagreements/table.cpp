@@ -1,4 +1,5 @@
 // The table of known disagreements.
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,10 +7,9 @@
 #include <numbers>
 #include <ranges>
 
-#include "experiments/disagreements/contact_direction.h"
 #include "experiments/disagreements/disagreements.h"
 #include "experiments/metrics.h"
-#include "mysim/energy.h"
+#include "mysim/model/energy.h"
 
 namespace crosscheck {
 namespace {
@@ -141,7 +141,7 @@ std::string direction_effect(const std::vector<Series>& all) {
 }
 
 /// Over the angle, as the step goes to 0.
-TableTold directions(const Disagreement& d) {
+TableWithSentence directions(const Disagreement& d) {
   constexpr double first = 2, last = 45;  // degrees
   std::vector<double> angles;
   for (double degrees = first; degrees <= last; degrees += 0.5) angles.push_back(degrees * std::numbers::pi / 180);

@@ -1,25 +1,27 @@
+// Reads and writes baselines and shapes.
 #include "experiments/regress/baseline.h"
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <fstream>
 
-#include "experiments/table.h"
-#include "mysim/errors.h"
-#include "mysim/files.h"
+#include "experiments/tables/table.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 
 namespace crosscheck {
 namespace {
 
-constexpr const char* header = "method,without,asked,quantity,unit,value,tolerance,blessing,derivation";
+constexpr const char* baseline_header = "method,without,asked,quantity,unit,value,tolerance,blessing,derivation";
 
-Expected expected_from(const std::string& line, size_t blessings) {
+BaselineRow baseline_row_from(const std::string& line, size_t blessings) {
   const std::vector<std::string> f = fields_of(line);
   if (f.size() != 9) throw InputError(fmt::format("expected 9 fields, got {}", f.size()));
-  Expected e;
+  BaselineRow e;
   e.method = f[0], e.without = f[1];
   if (f[2] != "always" && f[2] != "full") throw InputError(fmt::format("expected always or full, got '{}'", f[2]));
-  e.dear = f[2] == "full";
+  e.slow = f[2] == "full";
   Quantity& q = e.what.quantity;
   q.name = f[3], q.unit = f[4];
   if (q.unit == "word")
@@ -43,15 +45,15 @@ std::filesystem::path file_of(const std::filesystem::path& folder, const std::st
 std::string text_of(const Baseline& baseline) {
   std::string out = fmt::format("# written by `crosscheck regress --bless`, never by hand\n# scene: {}\n# hash: {}\n",
                                 baseline.scene, baseline.hash);
-  for (size_t i = 0; i < baseline.blessings.size(); ++i) out += line_of(baseline.blessings[i], i + 1);
+  for (size_t i = 0; i < baseline.blessings.size(); ++i) out += comment_line_of(baseline.blessings[i], i + 1);
   out += fmt::format("# rows: {}\n", baseline.expected.size());
   for (const std::string& line : words_of_derivations()) out += fmt::format("# {}\n", line);
-  out += fmt::format("{}\n", header);
-  for (const Expected& e : baseline.expected) {
+  out += fmt::format("{}\n", baseline_header);
+  for (const BaselineRow& e : baseline.expected) {
     const Quantity& q = e.what.quantity;
     out +=
         fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_field(e.method), csv_field(e.without),
-                    e.dear ? "full" : "always", csv_field(q.name), q.unit, q.is_word() ? q.word : exact_text(q.value),
+                    e.slow ? "full" : "always", csv_field(q.name), q.unit, q.is_word() ? q.word : exact_text(q.value),
                     fmt::format("{:.2g}", e.what.tolerance), e.blessing, csv_field(e.what.derivation));
   }
   return out;
@@ -61,19 +63,45 @@ std::optional<Baseline> read_baseline(const std::filesystem::path& folder, const
   const std::filesystem::path file = file_of(folder, scene);
   if (!std::filesystem::exists(file)) return std::nullopt;
   Baseline baseline;
-  read_strictly(file, [&](StrictLines& lines) {
+  read_strictly(file, [&](StrictCsvReader& lines) {
     lines.next(), lines.next();
-    baseline.scene = after("# scene: ", lines.line());
+    baseline.scene = without_prefix("# scene: ", lines.line());
     if (baseline.scene != scene) throw InputError(fmt::format("expected the scene {}", scene));
     lines.next();
-    baseline.hash = after("# hash: ", lines.line());
+    baseline.hash = without_prefix("# hash: ", lines.line());
     lines.next();
     baseline.blessings = lines.blessings();
-    lines.rows(header, [&](const std::string& row) {
-      baseline.expected.push_back(expected_from(row, baseline.blessings.size()));
+    lines.rows(baseline_header, [&](const std::string& row) {
+      baseline.expected.push_back(baseline_row_from(row, baseline.blessings.size()));
     });
   });
   return baseline;
+}
+
+std::filesystem::path shape_file(const std::filesystem::path& folder, const std::string& scene) {
+  return folder / (file_name_of(scene) + "-shape.csv");
+}
+
+std::string shape_text(const std::string& scene, const std::string& method, double t, const Points& x) {
+  std::string text =
+      fmt::format("# written by `crosscheck regress --bless`, for pictures: {} under {}\n# t: {}\nx [m],y [m],z [m]\n",
+                  scene, method, t);
+  for (int i = 0; i < x.cols(); ++i) text += fmt::format("{:.6g},{:.6g},{:.6g}\n", x(0, i), x(1, i), x(2, i));
+  return text;
+}
+
+std::optional<FinalShape> read_shape(const std::filesystem::path& folder, const std::string& scene, int particles) {
+  std::ifstream in(shape_file(folder, scene));
+  std::string line;
+  FinalShape shape{0, Points(3, particles)};
+  if (!std::getline(in, line) || !std::getline(in, line) || std::sscanf(line.c_str(), "# t: %lf", &shape.t) != 1 ||
+      !std::getline(in, line))
+    return std::nullopt;
+  int i = 0;
+  for (; std::getline(in, line); ++i)
+    if (i >= particles || std::sscanf(line.c_str(), "%lf,%lf,%lf", &shape.x(0, i), &shape.x(1, i), &shape.x(2, i)) != 3)
+      return std::nullopt;
+  return i == particles && shape.x.allFinite() ? std::optional(shape) : std::nullopt;
 }
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Baselines: what each method answered when somebody last said that this is right. One readable file per scene.
+// Baselines: the quantities and the last shape of each scene when somebody last said that they are right.
 #pragma once
 
 #include <filesystem>
@@ -6,22 +6,25 @@
 #include <string>
 #include <vector>
 
-#include "experiments/regress/lines.h"
+#include "experiments/regress/strict_csv.h"
 #include "experiments/regress/tolerance.h"
+#include "mysim/types.h"
 
 namespace crosscheck {
 
-struct Expected {
+// Baselines: what each method answered when somebody last said that this is right. One readable file per scene.
+
+struct BaselineRow {
   std::string method, without;
-  bool dear = false;  // asked in full runs only
-  Toleranced what;
+  bool slow = false;  // asked in full runs only
+  QuantityWithTolerance what;
   int blessing = 1;  // its number in the file, from 1
 };
 
 struct Baseline {
   std::string scene, hash;  // of the scene that these are answers to
   std::vector<Blessing> blessings;
-  std::vector<Expected> expected;
+  std::vector<BaselineRow> expected;
 };
 
 /// SCENE.csv in the folder: comment lines with the scene's hash and each blessing, then one row for each quantity.
@@ -30,5 +33,20 @@ std::filesystem::path file_of(const std::filesystem::path& folder, const std::st
 
 /// Throws InputError "FILE:LINE: expected ..." where the text is no baseline; nothing where there is no file.
 std::optional<Baseline> read_baseline(const std::filesystem::path& folder, const std::string& scene);
+
+// The last shape of a scene under its own method, kept beside its baseline: what pictures of a failure are set against.
+
+/// SCENE-shape.csv in the folder.
+std::filesystem::path shape_file(const std::filesystem::path& folder, const std::string& scene);
+
+/// One row for each particle, m, to 6 digits, which is all that a picture shows; t in s.
+std::string shape_text(const std::string& scene, const std::string& method, double t, const Points& x);
+
+struct FinalShape {
+  double t;  // s
+  Points x;  // m
+};
+/// None where there is no such file, or one that does not hold `particles` rows.
+std::optional<FinalShape> read_shape(const std::filesystem::path& folder, const std::string& scene, int particles);
 
 }  // namespace crosscheck

@@ -1,10 +1,11 @@
+// Reads a file of mutations.
 #include "experiments/regress/mutations.h"
 
 #include <fmt/format.h>
 
 #include <fstream>
 
-#include "mysim/errors.h"
+#include "mysim/base/errors.h"
 
 namespace crosscheck {
 

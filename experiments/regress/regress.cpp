@@ -1,3 +1,4 @@
+// Runs cases as points of a sweep, compares them with baselines, and blesses these.
 #include "experiments/regress/regress.h"
 
 #include <fmt/format.h>
@@ -6,44 +7,122 @@
 #include <map>
 #include <set>
 
-#include "experiments/regress/asking.h"
-#include "mysim/errors.h"
+#include "experiments/regress/baseline.h"
+#include "mysim/base/errors.h"
 
 namespace crosscheck {
 namespace {
 
-Question by(const Method& method, Question question) {
-  question.method = method;
-  return question;
+Table answers_table() {
+  return {"answers",
+          {{"question", "1"},
+           {"quantity", "1"},
+           {"unit", "1"},
+           {"value", "1"},
+           {"word", "1"},
+           {"count", "1"},
+           {"tolerance", "1"},
+           {"derivation", "1"}},
+          {}};
 }
 
-std::string name_of_old(const Question& q) { return q.in_words() + " (against)"; }
+/// Its rows are the question's quantities.
+Point point_of(const Job& job) {
+  const auto& [test_case, name, tolerances] = job;
+  return {name, test_case.scene.hash + test_case.method.fingerprint + (tolerances ? " tolerances" : ""),
+          [job](Rows& rows) {
+            std::vector<QuantityWithTolerance> all;
+            if (job.with_tolerances)
+              all = with_tolerances(job.test_case);
+            else
+              for (Quantity& q : quantities_of(job.test_case, run_case(job.test_case)))
+                all.push_back({std::move(q), 0, ""});
+            Table table = answers_table();
+            for (const QuantityWithTolerance& t : all)
+              table.add({job.name, t.quantity.name, t.quantity.unit, t.quantity.value, t.quantity.word,
+                         static_cast<long>(t.quantity.count), t.tolerance, t.derivation});
+            rows.add(table);
+          },
+          false};
+}
+
+std::vector<QuantityWithTolerance> answer_in(const Table& table) {
+  std::vector<QuantityWithTolerance> all;
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    QuantityWithTolerance t;
+    t.quantity = {std::get<std::string>(table.at(i, "quantity")), std::get<std::string>(table.at(i, "unit")),
+                  std::get<double>(table.at(i, "value")), std::get<std::string>(table.at(i, "word")),
+                  std::get<long>(table.at(i, "count")) != 0};
+    t.tolerance = std::get<double>(table.at(i, "tolerance"));
+    t.derivation = std::get<std::string>(table.at(i, "derivation"));
+    all.push_back(std::move(t));
+  }
+  return all;
+}
+
+}  // namespace
+
+JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, int jobs, Progress& progress) {
+  std::vector<Point> points;
+  for (const Job& job : all) points.push_back(point_of(job));
+  progress.expect(static_cast<int>(points.size()));
+  const Store store(store_in(out));
+  store.clear();
+  JobResults asked;
+  asked.failures = run_points(points, {jobs, {}}, store, progress);
+  for (const Point& point : points) {
+    const auto rows = store.find(point.hash());
+    if (const Table* table = rows ? rows->table("answers") : nullptr) asked.answers[point.name] = answer_in(*table);
+  }
+  return asked;
+}
+
+const QuantityWithTolerance* find(const std::vector<QuantityWithTolerance>& all, const std::string& name) {
+  const auto at =
+      std::find_if(all.begin(), all.end(), [&](const QuantityWithTolerance& t) { return t.quantity.name == name; });
+  return at == all.end() ? nullptr : &*at;
+}
+
+std::vector<Quantity> quantities_in(const std::vector<QuantityWithTolerance>& all) {
+  std::vector<Quantity> list;
+  for (const QuantityWithTolerance& t : all) list.push_back(t.quantity);
+  return list;
+}
+
+namespace {
+
+Case with_method(const Method& method, Case test_case) {
+  test_case.method = method;
+  return test_case;
+}
+
+std::string name_with_other_method(const Case& q) { return q.in_words() + " (against)"; }
 
 /// The scenes' baselines; what is wrong with a file is a row.
-class Shelf {
+class BaselineCache {
  public:
-  Shelf(const std::filesystem::path& folder, std::vector<Compared>& rows) : folder_(folder), rows_(rows) {}
+  BaselineCache(const std::filesystem::path& folder, std::vector<Comparison>& rows) : folder_(folder), rows_(rows) {}
 
   /// Null where there is none that can be used.
-  const Baseline* of(const Question& question) {
-    const std::string& scene = question.scene.name;
-    if (const auto known = shelf_.find(scene); known != shelf_.end()) return known->second ? &*known->second : nullptr;
-    auto& place = shelf_[scene];
-    Compared row;
+  const Baseline* of(const Case& test_case) {
+    const std::string& scene = test_case.scene.name;
+    if (const auto known = cache_.find(scene); known != cache_.end()) return known->second ? &*known->second : nullptr;
+    auto& place = cache_[scene];
+    Comparison row;
     row.scene = scene, row.quantity = "baseline", row.unit = "word";
     try {
       place = read_baseline(folder_, scene);
       if (!place) {
-        row.state = Standing::missing, row.note = fmt::format("{}: no such file", file_of(folder_, scene).string());
+        row.state = Status::missing, row.note = fmt::format("{}: no such file", file_of(folder_, scene).string());
         rows_.push_back(row);
-      } else if (const std::string now = question.hash; place->hash != now) {
-        row.state = Standing::stale, row.was_word = place->hash, row.is_word = now;
+      } else if (const std::string now = test_case.hash; place->hash != now) {
+        row.state = Status::stale, row.was_word = place->hash, row.is_word = now;
         row.note = "the scene is another one than the one that these are answers to";
         rows_.push_back(row);
         place.reset();
       }
     } catch (const InputError& error) {
-      row.state = Standing::unreadable, row.note = error.what();
+      row.state = Status::unreadable, row.note = error.what();
       rows_.push_back(row);
     }
     return place ? &*place : nullptr;
@@ -51,31 +130,31 @@ class Shelf {
 
  private:
   std::filesystem::path folder_;
-  std::vector<Compared>& rows_;
-  std::map<std::string, std::optional<Baseline>> shelf_;
+  std::vector<Comparison>& rows_;
+  std::map<std::string, std::optional<Baseline>> cache_;
 };
 
 /// What the old engine answered, as an expectation. What only one of two engines is asked for is no difference between
 /// them; their verdicts both have.
-std::vector<Expected> expected_from(const std::vector<Toleranced>& old, const std::vector<Toleranced>& now,
-                                    const Question& q) {
-  std::vector<Expected> expected;
-  for (const Toleranced& t : old)
+std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTolerance>& old,
+                                                const std::vector<QuantityWithTolerance>& now, const Case& q) {
+  std::vector<BaselineRow> expected;
+  for (const QuantityWithTolerance& t : old)
     if (find(now, t.quantity.name)) expected.push_back({q.method.name, q.without, false, t});
   return expected;
 }
 
-/// Blessed, and nobody asks for it any more: a method, an ingredient or a scene's question was taken away.
-std::vector<Compared> asked_no_more(const Baseline& baseline, const std::vector<Question>& all, bool full) {
+/// BlessResult, and nobody asks for it any more: a method, an ingredient or a scene's question was taken away.
+std::vector<Comparison> no_longer_selected(const Baseline& baseline, const std::vector<Case>& all, bool full) {
   std::set<std::pair<std::string, std::string>> asked;
-  for (const Question& q : all)
+  for (const Case& q : all)
     if (q.scene.name == baseline.scene) asked.emplace(q.method.name, q.without);
-  std::vector<Compared> rows;
-  for (const Expected& e : baseline.expected) {
-    if ((e.dear && !full) || !asked_by_itself(e.method) || !asked.emplace(e.method, e.without).second) continue;
-    Compared row;
+  std::vector<Comparison> rows;
+  for (const BaselineRow& e : baseline.expected) {
+    if ((e.slow && !full) || !selected_by_default(e.method) || !asked.emplace(e.method, e.without).second) continue;
+    Comparison row;
     row.scene = baseline.scene, row.method = e.method, row.without = e.without;
-    row.quantity = "all", row.unit = "word", row.state = Standing::gone;
+    row.quantity = "all", row.unit = "word", row.state = Status::gone;
     row.note = "nobody asks for it any more";
     rows.push_back(row);
   }
@@ -84,46 +163,158 @@ std::vector<Compared> asked_no_more(const Baseline& baseline, const std::vector<
 
 }  // namespace
 
-bool Regressed::passed() const {
+bool RegressionResult::passed() const {
   return failures.empty() &&
-         std::none_of(rows.begin(), rows.end(), [](const Compared& row) { return failed(row.state); });
+         std::none_of(rows.begin(), rows.end(), [](const Comparison& row) { return failed(row.state); });
 }
 
-Regressed regress(const Regression& regression, Progress& progress) {
-  const std::vector<Question> all = questions(regression.asked);
-  std::vector<Asking> askings;
-  for (const Question& q : all) {
-    askings.push_back({q, q.in_words()});
-    if (regression.against) askings.push_back({by(*regression.against, q), name_of_old(q), true});
+RegressionResult regress(const Regression& regression, Progress& progress) {
+  const std::vector<Case> all = cases(regression.asked);
+  std::vector<Job> todo;
+  for (const Case& q : all) {
+    todo.push_back({q, q.in_words()});
+    if (regression.against) todo.push_back({with_method(*regression.against, q), name_with_other_method(q), true});
   }
-  AskedAnswers asked = ask(askings, regression.out, regression.jobs, progress);
-  Regressed result;
+  JobResults asked = run_jobs(todo, regression.out, regression.jobs, progress);
+  RegressionResult result;
   result.failures = std::move(asked.failures);
-  std::vector<Compared> rows;
-  Shelf shelf(regression.baselines, result.rows);
+  std::vector<Comparison> rows;
+  BaselineCache cache(regression.baselines, result.rows);
   std::set<std::string> whole_scenes;
-  for (const Question& q : all) {
+  for (const Case& q : all) {
     const auto is = asked.answers.find(q.in_words());
     if (is == asked.answers.end()) continue;
-    std::vector<Expected> expected;
+    std::vector<BaselineRow> expected;
     if (regression.against) {
-      const auto was = asked.answers.find(name_of_old(q));
+      const auto was = asked.answers.find(name_with_other_method(q));
       if (was == asked.answers.end()) continue;
-      expected = expected_from(was->second, is->second, q);
-    } else if (const Baseline* baseline = shelf.of(q)) {
-      expected = expected_of(*baseline, q);
-      if (whole(regression.asked) && whole_scenes.insert(q.scene.name).second) {
-        const auto gone = asked_no_more(*baseline, all, regression.asked.full);
+      expected = rows_from_other_method(was->second, is->second, q);
+    } else if (const Baseline* baseline = cache.of(q)) {
+      expected = baseline_rows_of(*baseline, q);
+      if (covers_all(regression.asked) && whole_scenes.insert(q.scene.name).second) {
+        const auto gone = no_longer_selected(*baseline, all, regression.asked.full);
         rows.insert(rows.end(), gone.begin(), gone.end());
       }
     } else {
       continue;  // said once for the scene
     }
-    const std::vector<Compared> more = compared(q, quantities_in(is->second), expected);
+    const std::vector<Comparison> more = compared(q, quantities_in(is->second), expected);
     rows.insert(rows.end(), more.begin(), more.end());
   }
   result.rows.insert(result.rows.end(), rows.begin(), rows.end());
   return result;
+}
+
+namespace {
+
+using CaseKey = std::pair<std::string, std::string>;  // method, without
+
+/// One scene's baseline on its way to a new one.
+class Change {
+ public:
+  /// Throws InputError where the file cannot be read, and where only a part of a stale one is asked for.
+  Change(const Case& test_case, const Regression& regression, const Blessing& blessing) {
+    auto old = read_baseline(regression.baselines, test_case.scene.name);
+    const Selection& asked = regression.asked;
+    const bool part = !asked.filter.empty() && asked.filter != test_case.scene.name;
+    if (old && old->hash != test_case.hash) {
+      if (part || !asked.methods.empty() || !asked.full)
+        throw InputError(
+            fmt::format("{}: expected the whole scene to be blessed (--full --filter {}), as the scene has changed",
+                        file_of(regression.baselines, test_case.scene.name).string(), test_case.scene.name));
+      old->expected.clear();
+    }
+    if (old) baseline_ = *old;
+    baseline_.scene = test_case.scene.name, baseline_.hash = test_case.hash;
+    baseline_.blessings.push_back(blessing);
+  }
+
+  /// What is the same keeps its row and its blessing. Throws InputError where a number is not finite.
+  void answered(const Case& q, const std::vector<QuantityWithTolerance>& now) {
+    asked_.emplace(q.method.name, q.without);
+    const std::vector<BaselineRow> before = baseline_rows_of(baseline_, q);
+    std::vector<BaselineRow> after;
+    for (const Comparison& row : compared(q, quantities_in(now), before)) {
+      if (row.state == Status::not_finite)
+        throw InputError(fmt::format("nothing is blessed: {}: {} is not finite", q.in_words(), row.quantity));
+      if (row.state != Status::same) changed_.push_back(row);
+      if (row.state == Status::gone) continue;
+      if (row.state == Status::same)
+        after.push_back(*std::find_if(before.begin(), before.end(),
+                                      [&](const BaselineRow& e) { return e.what.quantity.name == row.quantity; }));
+      else
+        after.push_back(
+            {q.method.name, q.without, q.slow, *find(now, row.quantity), static_cast<int>(baseline_.blessings.size())});
+    }
+    std::erase_if(baseline_.expected,
+                  [&](const BaselineRow& e) { return e.method == q.method.name && e.without == q.without; });
+    baseline_.expected.insert(baseline_.expected.end(), after.begin(), after.end());
+  }
+
+  /// Takes out what was blessed and is asked no more.
+  void drop_what_nobody_asks() {
+    std::erase_if(baseline_.expected, [&](const BaselineRow& e) {
+      if (!selected_by_default(e.method) || asked_.contains({e.method, e.without})) return false;
+      Comparison row;
+      row.scene = baseline_.scene, row.method = e.method, row.without = e.without;
+      row.quantity = e.what.quantity.name, row.unit = e.what.quantity.unit, row.state = Status::gone;
+      changed_.push_back(row);
+      return true;
+    });
+  }
+
+  const std::vector<Comparison>& changed() const { return changed_; }
+
+  int blessing() const { return static_cast<int>(baseline_.blessings.size()); }
+
+  std::string text() {
+    std::stable_sort(baseline_.expected.begin(), baseline_.expected.end(),
+                     [](const BaselineRow& a, const BaselineRow& b) {
+                       return std::tie(a.method, a.without) < std::tie(b.method, b.without);
+                     });
+    return text_of(baseline_);
+  }
+
+ private:
+  Baseline baseline_;
+  std::set<CaseKey> asked_;
+  std::vector<Comparison> changed_;
+};
+
+/// Of the scene's own method, for pictures; empty where it has none.
+std::string shape_of(const Case& q) {
+  const CaseRun answered = comparable_part(run_case(q));
+  if (answered.trajectory.frames() == 0) return "";
+  return shape_text(q.scene.name, q.method.name, answered.trajectory.t.back(), answered.trajectory.x.back());
+}
+
+}  // namespace
+
+BlessResult bless(const Regression& regression, const Blessing& blessing, Progress& progress) {
+  const std::vector<Case> all = cases(regression.asked);
+  std::vector<Job> todo;
+  for (const Case& q : all) todo.push_back({q, q.in_words(), true});
+  const JobResults asked = run_jobs(todo, regression.out, regression.jobs, progress);
+  for (const FailedPoint& f : asked.failures)
+    throw InputError(fmt::format("nothing is blessed: {}: {}", f.name, f.why));
+
+  std::map<std::string, Change> changes;
+  for (const Case& q : all)
+    changes.try_emplace(q.scene.name, q, regression, blessing)
+        .first->second.answered(q, asked.answers.at(q.in_words()));
+  BlessResult blessed;
+  for (auto& [scene, change] : changes) {
+    if (covers_all(regression.asked) && regression.asked.full) change.drop_what_nobody_asks();
+    if (change.changed().empty()) continue;
+    blessed.files.emplace_back(file_of(regression.baselines, scene), change.text());
+    blessed.numbers[scene] = change.blessing();
+    blessed.changed.insert(blessed.changed.end(), change.changed().begin(), change.changed().end());
+    for (const Case& q : all)
+      if (q.scene.name == scene && q.without.empty() && q.method.name == find_method(q.scene.method).name)
+        if (const std::string shape = shape_of(q); !shape.empty())
+          blessed.files.emplace_back(shape_file(regression.baselines, scene), shape);
+  }
+  return blessed;
 }
 
 }  // namespace crosscheck

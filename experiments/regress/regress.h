@@ -1,41 +1,71 @@
-// Regression: asks, and sets the answers beside baselines or beside another method's.
+// Regression: runs the cases side by side and compares them with baselines or with another method; blesses new
+// baselines.
 #pragma once
 
 #include <filesystem>
 #include <map>
+#include <string>
+#include <vector>
 
-#include "experiments/regress/questions.h"
-#include "experiments/regress/verdicts.h"
+#include "experiments/regress/cases.h"
+#include "experiments/regress/comparison.h"
+#include "experiments/regress/tolerance.h"
 #include "experiments/sweep/sweep.h"
 
 namespace crosscheck {
 
+// Asks questions side by side, each in a process of its own.
+
+/// A question with the name that its answer is found under; tolerances take three more runs.
+struct Job {
+  Case test_case;
+  std::string name;
+  bool with_tolerances = false;
+};
+
+struct JobResults {
+  std::map<std::string, std::vector<QuantityWithTolerance>>
+      answers;                        // by name; tolerances are 0 where nobody asked for them
+  std::vector<FailedPoint> failures;  // questions without an answer: a crash
+};
+
+/// `out` is the folder for what is finished; `jobs` as in SweepOptions.
+JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& out, int jobs, Progress& progress);
+
+/// The one of that name, or null.
+const QuantityWithTolerance* find(const std::vector<QuantityWithTolerance>& all, const std::string& name);
+
+/// Without their tolerances.
+std::vector<Quantity> quantities_in(const std::vector<QuantityWithTolerance>& all);
+
+// Regression: asks, and sets the answers beside baselines or beside another method's.
+
 struct Regression {
-  Asked asked;
+  Selection asked;
   std::optional<Method> against;    // instead of baselines; then exactly one method is asked
   std::filesystem::path baselines;  // folder
   std::filesystem::path out;        // folder, for what is finished
   int jobs = 0;                     // as SweepOptions
 };
 
-struct Regressed {
-  std::vector<Compared> rows;         // in the order of the questions; failures of files stand first
+struct RegressionResult {
+  std::vector<Comparison> rows;       // in the order of the questions; failures of files stand first
   std::vector<FailedPoint> failures;  // questions without an answer: a crash
   bool passed() const;
 };
 
 /// Asks all questions and compares. What a baseline expects and nobody asks (dear rows in a quick run, other methods)
 /// is left alone; a row that is asked and has no baseline, or one of another scene, fails.
-Regressed regress(const Regression& regression, Progress& progress);
+RegressionResult regress(const Regression& regression, Progress& progress);
 
-struct Blessed {
-  std::vector<Compared> changed;                                     // before and after
+struct BlessResult {
+  std::vector<Comparison> changed;                                   // before and after
   std::vector<std::pair<std::filesystem::path, std::string>> files;  // to be written, with their text
   std::map<std::string, int> numbers;                                // of the blessing in each changed scene's baseline
 };
 /// Asks with tolerances; what moved, is new or is gone stands in the new baselines under this blessing, rows that are
 /// the same keep theirs. Nothing is written yet. Throws InputError where a file cannot be read, where a part of a stale
 /// one is asked for (the rest would stay stale), and where a question has no answer.
-Blessed bless(const Regression& regression, const Blessing& blessing, Progress& progress);
+BlessResult bless(const Regression& regression, const Blessing& blessing, Progress& progress);
 
 }  // namespace crosscheck

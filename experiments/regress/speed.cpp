@@ -1,26 +1,79 @@
-// Rounds over questions.
+// The plain loop, rounds over the cases, and the file of blessed speeds.
 #include "experiments/regress/speed.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <memory>
 #include <random>
 
-#include "experiments/cost/sized_cloth.h"
 #include "experiments/estimate.h"
-#include "experiments/regress/patience.h"
-#include "experiments/regress/plain_loop.h"
-#include "experiments/scenes.h"
-#include "mysim/uniform.h"
+#include "experiments/observers.h"
+#include "experiments/scenes/cloths.h"
+#include "experiments/scenes/scenes.h"
+#include "experiments/tables/table.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/random.h"
+#include "mysim/base/this_process.h"
 
 namespace crosscheck {
+
+PlainLoop::PlainLoop(const Scene& scene) : h_(1e-3 * scene.step) {
+  const auto& particles = scene.model.particles;
+  const auto n = static_cast<size_t>(particles.size());
+  start_x_.assign(scene.start.x.data(), scene.start.x.data() + scene.start.x.size());
+  start_v_.assign(scene.start.v.data(), scene.start.v.data() + scene.start.v.size());
+  start_v_.resize(3 * n);  // first-order scenes have none
+  force_.resize(3 * n);
+  for (size_t i = 0; i < n; ++i) {
+    per_mass_.push_back(particles.pinned[i] ? 0 : 1 / particles.mass[static_cast<Eigen::Index>(i)]);
+    falls_.push_back(particles.pinned[i] ? 0 : 1);
+  }
+  if (const auto* springs = scene.model.find<Springs>())
+    for (const Spring& s : springs->list) edges_.push_back({s.a, s.b, s.k, s.rest});
+  if (const auto* gravity = scene.model.find<Gravity>())
+    std::copy_n(gravity->acceleration.data(), 3, std::begin(gravity_));
+}
+
+double PlainLoop::seconds_of(long steps) {
+  x_ = start_x_, v_ = start_v_;
+  CpuClock clock;
+  clock.start();
+  advance(steps);
+  clock.stop();
+  return clock.seconds();
+}
+
+// aligned: what stands before it in the program must not change how fast it is
+[[gnu::noinline, gnu::aligned(64)]] void PlainLoop::advance(long steps) {
+  const size_t numbers = x_.size();
+  for (long step = 0; step < steps; ++step) {
+    std::fill(force_.begin(), force_.end(), 0.);
+    for (const Edge& edge : edges_) {
+      const double *a = &x_[3 * static_cast<size_t>(edge.a)], *b = &x_[3 * static_cast<size_t>(edge.b)];
+      const double dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
+      const double length = std::sqrt(dx * dx + dy * dy + dz * dz);
+      const double pull = length > 0 ? edge.stiffness * (length - edge.rest) / length : 0;
+      double *on_a = &force_[3 * static_cast<size_t>(edge.a)], *on_b = &force_[3 * static_cast<size_t>(edge.b)];
+      on_a[0] -= pull * dx, on_a[1] -= pull * dy, on_a[2] -= pull * dz;
+      on_b[0] += pull * dx, on_b[1] += pull * dy, on_b[2] += pull * dz;
+    }
+    for (size_t i = 0; i < numbers; ++i) {
+      v_[i] += h_ * (force_[i] * per_mass_[i / 3] + gravity_[i % 3] * falls_[i / 3]);
+      x_[i] += h_ * v_[i];
+    }
+  }
+}
+
 namespace {
 
 constexpr double long_enough = 5e-3;  // s of CPU time by the estimate: a round of all questions takes half a second
 
-bool inside(const Method& method) { return method.name.starts_with("mysim/") || method.name.starts_with("bullet/"); }
+bool in_process(const Method& method) {
+  return method.name.starts_with("mysim/") || method.name.starts_with("bullet/");
+}
 
 /// From the start up to the end of the window, as far as that is not long; the same on every machine.
 Run first_steps(const Scene& scene, const Method& method) {
@@ -32,12 +85,12 @@ Run first_steps(const Scene& scene, const Method& method) {
 }
 
 /// A run that blows up, is refused or takes many times what it should has no speed.
-bool ends_well(const Method& method, const SpeedQuestion& q) {
-  Patience patience(2 + 20 * estimated_seconds(method, q.scene, q.run));
-  return run_method(method, q.scene, q.run, {&patience}).verdict == Verdict::ok;
+bool ends_well(const Method& method, const SpeedCase& q) {
+  TimeoutObserver timeout(2 + 20 * estimated_seconds(method, q.scene, q.run));
+  return run_method(method, q.scene, q.run, {&timeout}).verdict == Verdict::ok;
 }
 
-class Nobody : public Observer {
+class NullObserver : public Observer {
  public:
   Verdict observe(const State&, bool) override { return Verdict::ok; }
 };
@@ -50,18 +103,18 @@ double mean_seconds(double resolution, const std::function<double()>& run) {
   return sum / count;
 }
 
-double seconds_of(const Method& method, const SpeedQuestion& q, double resolution) {
+double seconds_of(const Method& method, const SpeedCase& q, double resolution) {
   return mean_seconds(resolution, [&] {
-    Nobody nobody;
-    return method.engine(q.scene, q.run, nobody).cpu_seconds;
+    NullObserver null_observer;
+    return method.engine(q.scene, q.run, null_observer).cpu_seconds;
   });
 }
 
 /// Takes small pieces of memory and gives some of them back, so that what is asked for next comes to lie elsewhere: a
 /// small scene can take a quarter more time for where its arrays lie beside each other, whoever wrote the program.
-class OtherPlaces {
+class HeapShuffle {
  public:
-  explicit OtherPlaces(std::mt19937_64& engine) {
+  explicit HeapShuffle(std::mt19937_64& engine) {
     std::vector<std::unique_ptr<char[]>> given_back;
     for (size_t size = 16; size <= 1024; size += 16)  // malloc keeps a list for each of these sizes
       for (int i = 0; i < 8; ++i)
@@ -75,41 +128,41 @@ class OtherPlaces {
 };
 
 /// A question that is known to run, and how many steps of the plain loop take long enough.
-struct Lane {
+struct PreparedCase {
   bool runs;
   long steps = 1;
 
-  Lane(const SpeedQuestion& q, double resolution)
+  PreparedCase(const SpeedCase& q, double resolution)
       : runs(ends_well(q.method, q) && (!q.against || ends_well(*q.against, q))) {
     PlainLoop loop(q.scene);
     while (loop.seconds_of(steps) < resolution / 2 && steps < (1L << 40)) steps *= 2;
   }
 };
 
-void take_turn(const SpeedQuestion& q, const Lane& lane, double resolution, Ratios& ratios) {
+void measure_once(const SpeedCase& q, const PreparedCase& prepared, double resolution, Ratios& ratios) {
   PlainLoop loop(q.scene);
-  const double per_steps = q.run.duration / q.scene.step / static_cast<double>(lane.steps);
-  const double before = loop.seconds_of(lane.steps), is = seconds_of(q.method, q, resolution),
+  const double per_steps = q.run.duration / q.scene.step / static_cast<double>(prepared.steps);
+  const double before = loop.seconds_of(prepared.steps), is = seconds_of(q.method, q, resolution),
                was = q.against ? seconds_of(*q.against, q, resolution) : 0,
-               plain = (before + loop.seconds_of(lane.steps)) / 2 * per_steps;
+               plain = (before + loop.seconds_of(prepared.steps)) / 2 * per_steps;
   ratios.is.push_back(is / plain);
   if (q.against) ratios.was.push_back(was / plain);
 }
 
 }  // namespace
 
-std::string SpeedQuestion::in_words() const { return fmt::format("{} under {}", scene.name, method.name); }
+std::string SpeedCase::in_words() const { return fmt::format("{} under {}", scene.name, method.name); }
 
-std::vector<SpeedQuestion> speed_questions(const Asked& asked, const std::optional<Method>& against) {
+std::vector<SpeedCase> speed_cases(const Selection& asked, const std::optional<Method>& against) {
   std::vector<Method> methods = asked.methods.empty() ? all_methods() : asked.methods;
-  std::erase_if(methods, [](const Method& method) { return !inside(method); });
-  std::vector<SpeedQuestion> all;
+  std::erase_if(methods, [](const Method& method) { return !in_process(method); });
+  std::vector<SpeedCase> all;
   const auto add = [&](const Scene& scene, const Method& method) {
-    SpeedQuestion q{scene, method, against};
+    SpeedCase q{scene, method, against};
     q.run = first_steps(scene, method);
     if (passes(asked.filter, scene.name, method.name)) all.push_back(std::move(q));
   };
-  if (against && !inside(*against)) return all;
+  if (against && !in_process(*against)) return all;
   for (const std::string& name : scenes_of(asked)) {
     const Scene scene = load_scene(name);
     const std::string own = find_method(scene.method).name;
@@ -122,17 +175,92 @@ std::vector<SpeedQuestion> speed_questions(const Asked& asked, const std::option
   return all;
 }
 
-std::vector<Ratios> measured_ratios(const std::vector<SpeedQuestion>& questions, const SpeedPlan& plan, int seed) {
+std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const SpeedOptions& plan, int seed) {
   std::mt19937_64 engine(static_cast<uint64_t>(seed));
-  std::vector<Lane> lanes;
-  for (const SpeedQuestion& q : questions) lanes.emplace_back(q, plan.resolution);
-  std::vector<Ratios> all(questions.size());
+  std::vector<PreparedCase> prepared_cases;
+  for (const SpeedCase& q : cases) prepared_cases.emplace_back(q, plan.resolution);
+  std::vector<Ratios> all(cases.size());
   for (int round = 0; round < plan.rounds; ++round) {
-    const OtherPlaces elsewhere(engine);
-    for (size_t i = 0; i < lanes.size(); ++i)
-      if (lanes[i].runs) take_turn(questions[i], lanes[i], plan.resolution, all[i]);
+    const HeapShuffle shuffled(engine);
+    for (size_t i = 0; i < prepared_cases.size(); ++i)
+      if (prepared_cases[i].runs) measure_once(cases[i], prepared_cases[i], plan.resolution, all[i]);
   }
   return all;
+}
+
+namespace {
+
+constexpr const char* speed_header = "scene,hash,method,ratio,spread,machine,blessing";
+constexpr const char* form_of_machine = "CPU | COMPILER AND FLAGS | YARDSTICK";
+
+std::vector<Machine> machines_of(const std::vector<BlessedSpeed>& speeds) {
+  std::vector<Machine> all;
+  for (const BlessedSpeed& s : speeds)
+    if (std::find(all.begin(), all.end(), s.machine) == all.end()) all.push_back(s.machine);
+  return all;
+}
+
+BlessedSpeed speed_from(const std::string& line, const std::vector<Machine>& machines, size_t blessings) {
+  const std::vector<std::string> f = fields_of(line);
+  if (f.size() != 7) throw InputError(fmt::format("expected 7 fields, got {}", f.size()));
+  BlessedSpeed s{f[0], f[1], f[2], finite_number(f[3], "ratio"), finite_number(f[4], "spread")};
+  if (s.scene.empty() || s.method.empty()) throw InputError("expected a scene and a method");
+  if (!(s.ratio > 0)) throw InputError("expected a ratio above zero");
+  if (s.spread < 0) throw InputError("expected a spread that is not negative");
+  s.machine = machines[static_cast<size_t>(number_up_to(machines.size(), f[5], "machine")) - 1];
+  s.blessing = number_up_to(blessings, f[6], "blessing");
+  return s;
+}
+
+}  // namespace
+
+const BlessedSpeed* find_speed(const SpeedFile& file, const SpeedCase& test_case, const Machine& machine) {
+  if (machine.cpu.empty()) return nullptr;
+  for (const BlessedSpeed& s : file.speeds)
+    if (s.scene == test_case.scene.name && s.method == test_case.method.name && s.machine == machine) return &s;
+  return nullptr;
+}
+
+std::filesystem::path speed_file_in(const std::filesystem::path& folder) { return folder / "speed-cost.csv"; }
+
+std::string text_of(const SpeedFile& file) {
+  std::string out = "# written by `crosscheck regress --bless`, never by hand\n";
+  for (size_t i = 0; i < file.blessings.size(); ++i) out += comment_line_of(file.blessings[i], i + 1);
+  const std::vector<Machine> machines = machines_of(file.speeds);
+  for (size_t i = 0; i < machines.size(); ++i)
+    out += fmt::format("# machine {}: {} | {} | {}\n", i + 1, machines[i].cpu, machines[i].compiler,
+                       machines[i].yardstick);
+  out += fmt::format("# rows: {}\n", file.speeds.size());
+  out += "# ratio: CPU time of the method over that of as many steps of the plain loop on the same scene, in turns;\n";
+  out +=
+      "# the middle of seven measurements apart in time, each in a process of its own, laid out otherwise in memory\n";
+  out += "# spread: how far the second farthest of these is from the middle, relative\n";
+  out += fmt::format("{}\n", speed_header);
+  for (const BlessedSpeed& s : file.speeds)
+    out += fmt::format("{},{},{},{:.5g},{:.2g},{},{}\n", csv_field(s.scene), s.hash, csv_field(s.method), s.ratio,
+                       s.spread, std::find(machines.begin(), machines.end(), s.machine) - machines.begin() + 1,
+                       s.blessing);
+  return out;
+}
+
+std::optional<SpeedFile> read_speed_file(const std::filesystem::path& folder) {
+  const std::filesystem::path name = speed_file_in(folder);
+  if (!std::filesystem::exists(name)) return std::nullopt;
+  SpeedFile file;
+  read_strictly(name, [&file](StrictCsvReader& lines) {
+    lines.next(), lines.next();
+    file.blessings = lines.blessings();
+    std::vector<Machine> machines;
+    for (; lines.line().starts_with("# machine"); lines.next()) {
+      const auto parts = split_by_bars(without_prefix(fmt::format("# machine {}: ", machines.size() + 1), lines.line()),
+                                       3, form_of_machine);
+      machines.push_back({parts[0], parts[1], parts[2]});
+    }
+    lines.rows(speed_header, [&](const std::string& row) {
+      file.speeds.push_back(speed_from(row, machines, file.blessings.size()));
+    });
+  });
+  return file;
 }
 
 }  // namespace crosscheck

@@ -1,16 +1,53 @@
-// How fast methods are, as ratios to a plain loop on the same scene in the same rounds.
+// The speed of methods, as ratios to a plain loop on the same scene in the same rounds; and the file of blessed speeds.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "experiments/regress/questions.h"
+#include "experiments/regress/cases.h"
+#include "experiments/regress/strict_csv.h"
+#include "mysim/scene/scene.h"
 
 namespace crosscheck {
 
+// The yardstick of speed: a plain loop over a scene's springs and particles that nobody makes faster.
+
+/// Symplectic Euler with springs and gravity on plain arrays, one number after the other; what else a scene has it
+/// leaves out. It uses nothing of any engine, so that a change to one of them cannot change it.
+class PlainLoop {
+ public:
+  /// Stored speeds name it; whoever changes the loop changes this, and stored speeds are no longer compared.
+  static constexpr const char* name = "plain loop 1";
+
+  explicit PlainLoop(const Scene& scene);
+  /// CPU time of so many steps from the scene's start, s. They are so short that no scene blows up: what a step costs
+  /// does not depend on its length, but sums of nan cost something else.
+  double seconds_of(long steps);
+  /// Where it is, three numbers for each particle, m.
+  const std::vector<double>& places() const { return x_; }
+  double step() const { return h_; }  // s
+
+ private:
+  struct Edge {
+    int a, b;
+    double stiffness, rest;  // N/m, m
+  };
+  void advance(long steps);
+
+  std::vector<Edge> edges_;
+  std::vector<double> start_x_, start_v_, x_, v_, force_;  // three for each particle
+  std::vector<double> per_mass_, falls_;                   // 1/kg, and 1; 0 where pinned
+  double gravity_[3] = {0, 0, 0};                          // m/s^2
+  double h_;                                               // s
+};
+
+// How fast methods are, as ratios to a plain loop on the same scene in the same rounds.
+
 /// One scene under one method, over its first steps; beside another method where one is named.
-struct SpeedQuestion {
+struct SpeedCase {
   Scene scene;
   Method method;
   std::optional<Method> against = {};
@@ -22,10 +59,10 @@ struct SpeedQuestion {
 /// under every method asked (all of mysim and Bullet): what the filter leaves of them. With `against`, those scenes
 /// under the one method that is asked. What a program of its own does is not asked: it has a clock of its own. Empty
 /// where nothing is left.
-std::vector<SpeedQuestion> speed_questions(const Asked& asked, const std::optional<Method>& against);
+std::vector<SpeedCase> speed_cases(const Selection& asked, const std::optional<Method>& against);
 
 /// How well is measured: so many rounds, in each of which every question has its turn.
-struct SpeedPlan {
+struct SpeedOptions {
   int rounds;
   double resolution = 2e-3;  // s: shorter runs are repeated within a round until they have taken as much
 };
@@ -38,10 +75,43 @@ struct Ratios {
 };
 
 /// How they are had: by measured_ratios(), or from a table of invented ones.
-using Measure = std::function<std::vector<Ratios>(const std::vector<SpeedQuestion>&, const SpeedPlan&)>;
+using MeasureSpeeds = std::function<std::vector<Ratios>(const std::vector<SpeedCase>&, const SpeedOptions&)>;
 
 /// In each round each question is asked between two turns of the plain loop, so that a slow spell of the machine falls
 /// on both, and with everything elsewhere in memory, as drawn from the seed: what that changes is noise, too.
-std::vector<Ratios> measured_ratios(const std::vector<SpeedQuestion>& questions, const SpeedPlan& plan, int seed);
+std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const SpeedOptions& plan, int seed);
+
+// Blessed speeds: what each method cost beside the plain loop when somebody last said that this is right. One file.
+
+/// The kind of machine and program that a speed belongs to: on another kind it says nothing, for what a method takes
+/// beside the plain loop depends on the processor's units and caches and on the compiler.
+struct Machine {
+  std::string cpu,
+      compiler;  // processor_kind() (experiments/timing/machine.h), empty where that is not known; with its flags
+  std::string yardstick;  // which plain loop
+  bool operator==(const Machine&) const = default;
+};
+
+struct BlessedSpeed {
+  std::string scene, hash, method;  // hash: of the scene
+  double ratio = 0;                 // CPU time over the plain loop's: the middle of some measurements apart in time
+  double spread = 0;                // relative: how far the second farthest of these is from the middle
+  Machine machine;
+  int blessing = 1;  // its number in the file, from 1
+};
+
+struct SpeedFile {
+  std::vector<Blessing> blessings;
+  std::vector<BlessedSpeed> speeds;  // of several kinds of machine side by side
+};
+
+/// The question's speed on that kind of machine, or null; no kind is like one that is not known.
+const BlessedSpeed* find_speed(const SpeedFile& file, const SpeedCase& test_case, const Machine& machine);
+
+/// speed-cost.csv in the folder.
+std::filesystem::path speed_file_in(const std::filesystem::path& folder);
+std::string text_of(const SpeedFile& file);
+/// Throws InputError "FILE:LINE: expected ..."; nothing where there is no file.
+std::optional<SpeedFile> read_speed_file(const std::filesystem::path& folder);
 
 }  // namespace crosscheck

@@ -1,3 +1,4 @@
+// Tolerances from perturbed runs.
 #include "experiments/regress/tolerance.h"
 
 #include <fmt/format.h>
@@ -15,12 +16,12 @@ namespace {
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 bool solves(const Method& method) {
-  const Stepper* rule = rule_of(method);
+  const Stepper* rule = stepper_of(method);
   return (rule && rule->evaluations == 0) || method.name.starts_with("bullet/deformable-implicit");
 }
 
-bool single(const Method& method, const Answered& answered) {
-  if (answered.outcome.readback) return answered.outcome.readback->precision == "single";
+bool single(const Method& method, const CaseRun& case_run) {
+  if (case_run.outcome.readback) return case_run.outcome.readback->precision == "single";
   return method.name.starts_with("bullet32/");
 }
 
@@ -39,32 +40,32 @@ Scene pushed(Scene scene, double size, int axis) {
   return scene;
 }
 
-double motion_in(const Answered& answered) {
-  return answered.trajectory.frames() > 0 ? motion_of(answered.trajectory) : 0;
+double motion_in(const CaseRun& case_run) {
+  return case_run.trajectory.frames() > 0 ? motion_of(case_run.trajectory) : 0;
 }
 
 /// What the equation of one step leaves in places, m: mysim's rules stop at 1e-12 of the inertial forces, or where the
 /// spring forces, of places known to their last digits, are no longer told apart; the lightest particle yields most.
-double left_by_one_step(const Question& question, const Answered& answered, double lengths) {
-  const Model& model = question.scene.model;
+double left_by_one_step(const Case& test_case, const CaseRun& case_run, double lengths) {
+  const Model& model = test_case.scene.model;
   double stiffest = 0, lightest = INFINITY;
   if (const auto* springs = model.find<Springs>())
     for (const Spring& s : springs->list) stiffest = std::max(stiffest, s.k);
   for (int i = 0; i < model.particles.size(); ++i)
     if (!model.particles.pinned[i]) lightest = std::min(lightest, model.particles.mass[i]);
-  const double h = answered.outcome.step;
+  const double h = case_run.outcome.step;
   return lengths * (1e-12 + 8 * eps * stiffest * h * h / lightest);
 }
 
 /// What steps leave in the quantity: solvers, and sums over steps. A change of the start tells nothing of that where
 /// the rule damps: what the start had in excess is gone by then, and what the last steps leave is not.
-double left_by_steps(const Question& question, const Answered& answered, const Rounding& rounding, const Quantity& q) {
-  const Outcome& outcome = answered.outcome;
+double left_by_steps(const Case& test_case, const CaseRun& case_run, const Rounding& rounding, const Quantity& q) {
+  const Outcome& outcome = case_run.outcome;
   // a sum over steps of impulses times ways; what rests on a sphere is rounded alike in each of them
   if (q.name == contact_quantity) return 8 * eps * static_cast<double>(outcome.steps) * q.size;
   if (q.unit == "m") return rounding.one_step * std::sqrt(static_cast<double>(outcome.steps));
   if (q.unit != "J" || !(outcome.step > 0)) return 0;
-  const Particles& particles = question.scene.model.particles;
+  const Particles& particles = test_case.scene.model.particles;
   double mass = 0;
   for (int i = 0; i < particles.size(); ++i)
     if (!particles.pinned[i]) mass += particles.mass[i];
@@ -73,15 +74,15 @@ double left_by_steps(const Question& question, const Answered& answered, const R
 
 }  // namespace
 
-Rounding rounding_of(const Question& question, const Answered& answered) {
-  const double motion = motion_in(answered), lengths = question.scene.size() + motion;
-  if (single(question.method, answered))
-    return {*single_precision_bound(question.scene, motion, 1, answered.outcome.steps), "single precision"};
-  if (solves(question.method))
-    return {1e-10 * std::max(1.0, lengths), "solver", left_by_one_step(question, answered, lengths)};
+Rounding rounding_of(const Case& test_case, const CaseRun& case_run) {
+  const double motion = motion_in(case_run), lengths = test_case.scene.size() + motion;
+  if (single(test_case.method, case_run))
+    return {*single_precision_bound(test_case.scene, motion, 1, case_run.outcome.steps), "single precision"};
+  if (solves(test_case.method))
+    return {1e-10 * std::max(1.0, lengths), "solver", left_by_one_step(test_case, case_run, lengths)};
   // the bound is for ten thousand roundings that add up like a random walk
-  const double more = std::sqrt(std::max(1.0, static_cast<double>(answered.outcome.evaluations) / 1e4));
-  return {*round_off_bound(question.scene, motion, 1) * more, "double precision"};
+  const double more = std::sqrt(std::max(1.0, static_cast<double>(case_run.outcome.evaluations) / 1e4));
+  return {*round_off_bound(test_case.scene, motion, 1) * more, "double precision"};
 }
 
 std::vector<std::string> words_of_derivations() {
@@ -109,17 +110,17 @@ std::vector<std::string> words_of_derivations() {
   };
 }
 
-std::vector<Toleranced> with_tolerances(const Question& question) {
-  const Answered whole = answer_to(question), answered = as_compared(whole);
-  const std::vector<Quantity> quantities = quantities_of(question, whole);
-  std::vector<Toleranced> all;
-  const Rounding rounding = rounding_of(question, answered);
+std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
+  const CaseRun whole = run_case(test_case), case_run = comparable_part(whole);
+  const std::vector<Quantity> quantities = quantities_of(test_case, whole);
+  std::vector<QuantityWithTolerance> all;
+  const Rounding rounding = rounding_of(test_case, case_run);
   const double little = std::max(1e-10, rounding.size);  // m: far above a number's last digits
   const auto moved_by = [&](double size, unsigned seed) {
-    Question other = question;
-    other.scene = pushed(perturbed(question.scene, size, seed), size, static_cast<int>(seed) - 1);
+    Case other = test_case;
+    other.scene = pushed(perturbed(test_case.scene, size, seed), size, static_cast<int>(seed) - 1);
     // asked as before: where a closed form is left by the move, the error from the one of the unmoved scene counts
-    return quantities_of(question, answer_to(other));
+    return quantities_of(test_case, run_case(other));
   };
   std::vector<std::vector<Quantity>> moved;
   for (const unsigned seed : {1u, 2u, 3u}) moved.push_back(moved_by(little, seed));
@@ -154,24 +155,24 @@ std::vector<Toleranced> with_tolerances(const Question& question) {
     const double change = change_of(q);
     if (q.name == time_of_failure) {
       // not scaled: what grows until it fails may have begun as a rounding, so that the time goes as its logarithm
-      all.push_back({q, rounded_up(change + q.bar),
-                     fmt::format("start moved by {:.1e} m: {:.1e}; steps: {:.1e}", little, change, q.bar)});
+      all.push_back({q, rounded_up(change + q.error_bar),
+                     fmt::format("start moved by {:.1e} m: {:.1e}; steps: {:.1e}", little, change, q.error_bar)});
       continue;
     }
     if (saturated(q) || (chance && grown(q))) {
       // times are those of crossings, which come and go
       const bool elsewhere = chance && q.unit == "s" && change > 0.01 * scale[q.unit];
       const double within = elsewhere ? scale[q.unit] : (chance ? 10 : 3) * change;
-      all.push_back({q, rounded_up(within + q.bar),
+      all.push_back({q, rounded_up(within + q.error_bar),
                      fmt::format("start moved by {:.1e} m: {:.1e}, beyond prediction", little, change)});
       continue;
     }
-    const double left = left_by_steps(question, answered, rounding, q);
-    const double tolerance = change * rounding.size / little + digits_of(q) + left + q.bar;
+    const double left = left_by_steps(test_case, case_run, rounding, q);
+    const double tolerance = change * rounding.size / little + digits_of(q) + left + q.error_bar;
     all.push_back({q, rounded_up(tolerance),
                    fmt::format("start moved by {:.1e} m: {:.1e}; rounding: {:.1e} m, {}{}{}", little, change,
                                rounding.size, rounding.kind, left > 0 ? fmt::format("; steps leave {:.1e}", left) : "",
-                               q.bar > 0 ? fmt::format("; truth known to {:.1e}", q.bar) : "")});
+                               q.error_bar > 0 ? fmt::format("; truth known to {:.1e}", q.error_bar) : "")});
   }
   return all;
 }

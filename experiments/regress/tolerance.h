@@ -1,11 +1,11 @@
 // How much of a change rounding explains: the tolerance of each quantity, found by measurement.
 #pragma once
 
-#include "experiments/regress/answer.h"
+#include "experiments/regress/cases.h"
 
 namespace crosscheck {
 
-struct Toleranced {
+struct QuantityWithTolerance {
   Quantity quantity;
   double tolerance = 0;    // in the quantity's unit; 0 for words and counts: they must be equal
   std::string derivation;  // short: words_of_derivation() explains it
@@ -17,7 +17,7 @@ struct Rounding {
   std::string kind;
   double one_step = 0;  // m: of rules that solve an equation in each step, what that leaves
 };
-Rounding rounding_of(const Question& question, const Answered& answered);
+Rounding rounding_of(const Case& test_case, const CaseRun& case_run);
 
 /// What derivations say, line by line, for the reader of a file of them.
 std::vector<std::string> words_of_derivations();
@@ -27,6 +27,6 @@ std::vector<std::string> words_of_derivations();
 /// last digits of the number itself come on top. A quantity that is zero but for rounding is bounded beside the largest
 /// one of its unit. Not scaled: the time at which a run failed, and what is beyond prediction, which a fourth, far
 /// smaller move tells.
-std::vector<Toleranced> with_tolerances(const Question& question);
+std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case);
 
 }  // namespace crosscheck

@@ -1,36 +1,105 @@
-// The runs of experiment `speed-accuracy`.
+// The steps and tolerances at which methods are tried, their runs, and the timing of these.
 #include "experiments/speed_accuracy/speed_accuracy.h"
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "experiments/last_pictures.h"
+#include "experiments/estimate.h"
 #include "experiments/metrics.h"
-#include "experiments/speed_accuracy/ladder.h"
-#include "experiments/speed_accuracy/tables.h"
-#include "experiments/timing.h"
-#include "mysim/frequency.h"
+#include "experiments/observers.h"
+#include "experiments/tables/speed_accuracy.h"
+#include "experiments/timing/timing.h"
+#include "mysim/model/system.h"
 
 namespace crosscheck {
+namespace {
 
-Apart distance_over_time(const Trajectory& a, const Trajectory& b, double until) {
-  Apart apart;
+/// The longest step at which the method's rule holds by theory when the scene begins, s; infinite where none is known.
+double limit_of(const Method& method, const Scene& scene) {
+  const Stepper* rule = stepper_of(method);
+  if (!rule || !std::isfinite(rule->limit(1, 0.1)) || scene.model.first_order())
+    return std::numeric_limits<double>::infinity();
+  const double omega = highest_frequency(scene.model, scene.start);
+  return omega > 0 ? rule->limit(omega, uniform_drag_rate(scene.model).value_or(0))
+                   : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Run Setting::applied_to(Run run) const {
+  (tolerance ? run.tolerance : run.step) = value;
+  return run;
+}
+
+std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run& run, bool full, int* dropped) {
+  std::vector<Setting> settings;
+  if (method.adaptive) {
+    for (double tolerance = 1e-2; tolerance > (full ? 5e-11 : 5e-9); tolerance /= 100)
+      settings.push_back({true, tolerance});
+    return settings;
+  }
+  double last = 0;
+  const double limit = limit_of(method, scene);
+  for (int halving = 6; halving >= -4; --halving) {
+    const Setting setting{false, time_grid({run.step * std::pow(2, halving), run.duration, run.samples}).h};
+    // one or two that fail show where the others end
+    if (setting.value == last || (halving > 3 && setting.value > 2 * limit)) continue;
+    last = setting.value;
+    const double most = (halving >= 0 ? 1.8 : 0.35) * (full ? 1 : 0.7);  // s
+    if (estimated_seconds(method, scene, setting.applied_to(run)) > most) {
+      if (dropped) ++*dropped;
+      continue;
+    }
+    settings.push_back(setting);
+  }
+  return settings;
+}
+
+TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting) {
+  Run run = setting.applied_to(base);
+  if (!method.fingerprint.empty()) return {run};     // a program of its own: what its start costs is not known
+  const bool touches = scene.model.find<Spheres>();  // that may cost more than falling
+  if (method.adaptive && touches) return {run};
+  const double enough = 0.02;  // s: a hundred thousand ticks of the clock
+  const double all_of_it =
+      method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run);
+  const double share = std::min(1., enough / all_of_it);
+  const bool whole = share > 0.7 || touches;
+  if (method.adaptive) {
+    if (whole) return {run};
+    run.samples = std::max(1, static_cast<int>(std::ceil(share * run.samples)));
+    run.duration = base.duration * run.samples / base.samples;
+    return {run, static_cast<double>(run.samples) / base.samples};
+  }
+  // the clock is read at each sample, which takes 0.3 microseconds: one in 100 is often enough to tell a blow-up
+  const long all = static_cast<long>(time_grid(run).steps_per_sample) * run.samples;
+  long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
+  const int samples =
+      std::clamp(static_cast<int>(share * all_of_it / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
+  steps = steps / samples * samples;
+  return {{time_grid(run).h, time_grid(run).h * static_cast<double>(steps), samples},
+          static_cast<double>(steps) / static_cast<double>(all)};
+}
+
+TrajectoryDistance distance_over_time(const Trajectory& a, const Trajectory& b, double until) {
+  TrajectoryDistance distance;
   double squares = 0;
   int samples = 0;
   for (int i = 0; i < std::min(a.frames(), b.frames()) && a.t[i] <= until * (1 + 1e-9); ++i, ++samples) {
     const double d = rms_distance(a.x[i], b.x[i]);
-    apart.largest = std::max(apart.largest, d);
+    distance.largest = std::max(distance.largest, d);
     squares += d * d;
   }
-  if (samples > 0) apart.over_time = std::sqrt(squares / samples);
-  return apart;
+  if (samples > 0) distance.over_time = std::sqrt(squares / samples);
+  return distance;
 }
 
 namespace {
 
-struct Try {
+struct SettingRun {
   Setting setting;
   Outcome outcome;
   Trajectory trajectory, end;  // and its last pictures, where it is watched and failed
@@ -39,10 +108,10 @@ struct Try {
 
 /// The runs of one method; empty where it does not take the scene, or built another one. A note says where it took some
 /// settings and refused others.
-std::vector<Try> tries_of(const Method& method, const Scene& scene, const Run& base, const std::vector<Setting>& ladder,
-                          bool watched, std::vector<std::string>& notes) {
-  const double omega = watched && !scene.model.first_order() ? fastest_frequency(scene.model, scene.start) : 0;
-  std::vector<Try> tries;
+std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const Run& base,
+                                const std::vector<Setting>& ladder, bool watched, std::vector<std::string>& notes) {
+  const double omega = watched && !scene.model.first_order() ? highest_frequency(scene.model, scene.start) : 0;
+  std::vector<SettingRun> tries;
   std::string refusal;
   size_t refused = 0;
   for (const Setting& setting : ladder) {
@@ -58,7 +127,7 @@ std::vector<Try> tries_of(const Method& method, const Scene& scene, const Run& b
       return {};
     }
     // its end is seen in a run of its own: who looks at every step makes adaptive methods take others
-    LastPictures last(omega, setting.tolerance ? 0 : setting.value);
+    LastFrames last(omega, setting.tolerance ? 0 : setting.value);
     if (watched && out.verdict != Verdict::ok) run_method(method, scene, setting.applied_to(base), {&last});
     tries.push_back({setting, std::move(out), std::move(recorder.trajectory), last.path()});
   }
@@ -90,7 +159,7 @@ std::string why_not(const Scene& scene, double motion) {
 void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
   const Run base = run_of(request, scene);
   const auto truth = truth_of(scene, base);
-  const bool of_rule = truth && truth->of_contact_rule;
+  const bool of_rule = truth && truth->under_contact_rule;
   Recorder plain;
   if (!truth) run_method(find_method(scene.method), scene, base, {&plain});
   const double motion = motion_of(truth ? truth->trajectory : plain.trajectory);
@@ -109,19 +178,19 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
   for (const Method& method : methods_for(request, scene)) {
     int dropped = 0;
     const auto settings = ladder(method, scene, base, request.full, &dropped);
-    const std::vector<Try> tries = tries_of(method, scene, base, settings, bool(request.watch), rows.notes);
+    const std::vector<SettingRun> tries = runs_at(method, scene, base, settings, bool(request.watch), rows.notes);
     if (!tries.empty() && dropped > 0) shortened.push_back(fmt::format("{} ({})", method.name, dropped));
     if (request.watch && !tries.empty()) {
       WatchedRuns watched{"speed-accuracy", scene, method.name, {}};
-      for (const Try& run : tries) watched.runs.push_back({run.outcome, run.ok() ? run.trajectory : run.end});
+      for (const SettingRun& run : tries) watched.runs.push_back({run.outcome, run.ok() ? run.trajectory : run.end});
       request.watch(watched);
     }
-    for (const Try& run : tries) {
+    for (const SettingRun& run : tries) {
       const Outcome& out = run.outcome;
       std::optional<double> largest, over_time, own;
       if (run.ok() && truth) {
-        const Apart apart = distance_over_time(run.trajectory, truth->trajectory, until);
-        largest = apart.largest, over_time = apart.over_time;
+        const TrajectoryDistance distance = distance_over_time(run.trajectory, truth->trajectory, until);
+        largest = distance.largest, over_time = distance.over_time;
       }
       if (run.ok() && tries.back().ok() && &run != &tries.back())
         own = distance_over_time(run.trajectory, tries.back().trajectory, scene.window).largest;
@@ -129,7 +198,7 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
                  run.setting.value, out.step, out.steps, out.evaluations, std::string(name_of(out.verdict)), out.end,
                  of_rule ? Cell() : cell_of(largest), of_rule ? Cell() : cell_of(over_time),
                  of_rule ? cell_of(largest) : Cell(), of_rule ? cell_of(over_time) : Cell(), cell_of(own), motion,
-                 until, tier.empty() ? Cell() : Cell(tier), truth ? Cell(truth->bar) : Cell(),
+                 until, tier.empty() ? Cell() : Cell(tier), truth ? Cell(truth->error_bar) : Cell(),
                  fmt::format("{}", fmt::join(out.different_law, "; "))});
     }
   }
@@ -149,7 +218,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
   };
   std::vector<Timed> timed;
   std::vector<std::function<double()>> runs;
-  RememberedReach reach;  // short runs are repeated a thousand times
+  MotionBoundsCache bounds;  // short runs are repeated a thousand times
   const std::vector<Method> methods = methods_for(request, scene);
   for (const Method& method : methods)
     for (const Setting& setting : ladder(method, scene, base, request.full)) {
@@ -158,14 +227,14 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
       if (timed.empty() || timed.back().method != method.name)
         if (run_method(method, scene, part.run, {}).verdict == Verdict::unsupported) continue;
       timed.push_back({method.name, setting, part.share});
-      runs.push_back([&method, &scene, &reach, part, &timed, at = timed.size() - 1] {
+      runs.push_back([&method, &scene, &bounds, part, &timed, at = timed.size() - 1] {
         // watched: what Bullet's worlds do after a blow-up takes many times as long as a step
-        const Outcome out = run_method(method, scene, part.run, {}, std::ref(reach));
+        const Outcome out = run_method(method, scene, part.run, {}, std::ref(bounds));
         timed[at].evaluations = out.evaluations;
         return out.cpu_seconds;
       });
     }
-  const auto times = timed_in_turns(runs, {.least = 3, .most = request.full ? 9 : 7, .enough = 0.05});
+  const auto times = time_round_robin(runs, {.least = 3, .most = request.full ? 9 : 7, .enough = 0.05});
   const double noise = times.empty() ? 0 : noise_floor(times);
   Table table = timing_table();
   for (size_t i = 0; i < timed.size(); ++i) {

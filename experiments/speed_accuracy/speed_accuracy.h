@@ -1,16 +1,48 @@
 // Experiment `speed-accuracy`: error against cost of every method on a scene, at many steps or tolerances.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "experiments/experiment.h"
+#include "reference/method.h"
 
 namespace crosscheck {
 
+// The steps and tolerances at which a method is tried on a scene, and what is timed of each run.
+
+struct Setting {
+  bool tolerance;  // else a step
+  double value;    // s; tolerances 1
+  /// The run at this setting.
+  Run applied_to(Run run) const;
+};
+
+/// Fixed steps, halved from 64 times the run's step down to a 16th of it; of those above 8 times only what is at most
+/// twice the limit of a rule whose limit is known. Steps longer than the sampling interval are one and the same: that
+/// one. Tolerances from 1e-2 to 1e-8 (full: 1e-10). Left out is what, by an estimate that is the same on every machine,
+/// would take more than 0.35 s of CPU time (1.8 s at the run's own step and longer ones); without `full` 0.7 times as
+/// much. `dropped` counts those.
+std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run& run, bool full,
+                            int* dropped = nullptr);
+
+/// What is timed of a run: the whole, or its first part.
+struct TimedPart {
+  Run run;
+  double share = 1;  // of the run's steps or samples
+};
+/// As much as takes about 20 ms by the estimate, or, of adaptive methods, by how the run begins. The whole run where
+/// something may be touched (that may cost more than falling), and of outside programs.
+TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting);
+
+// Experiment `speed-accuracy`: error against cost of every method on a scene, at many steps or tolerances.
+
 /// Distance of two runs over the samples that both have, up to a time: RMS over the particles, m.
-struct Apart {
+struct TrajectoryDistance {
   double largest = 0;    // over time
   double over_time = 0;  // RMS over time too
 };
-Apart distance_over_time(const Trajectory& a, const Trajectory& b, double until);
+TrajectoryDistance distance_over_time(const Trajectory& a, const Trajectory& b, double until);
 
 /// Rows of `speed-accuracy`: no time in them. Notes say what was left out.
 void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows);
@@ -18,7 +50,8 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows);
 /// each evaluation of a scene without contact costs the same.
 void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows);
 
-/// Adds what follows from both: `speed-accuracy-cost`, the Pareto lines and the cheapest methods (see conclude.cpp).
+/// Adds what follows from both: `speed-accuracy-cost`, the Pareto lines and the cheapest methods (see
+/// work_precision.cpp).
 void conclude_speed_accuracy(Rows& rows);
 
 /// Who compiled the code whose time is measured.

@@ -1,3 +1,4 @@
+// Spectra's solvers; in no other file.
 #include "experiments/stability/extreme_eigenvalues.h"
 
 #include <Spectra/GenEigsSolver.h>

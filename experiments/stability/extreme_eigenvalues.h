@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+
 #include <optional>
 
 namespace crosscheck {

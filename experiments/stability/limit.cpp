@@ -1,12 +1,17 @@
-// Limits of scenes from the limits of single modes, and from step matrices where modes do not stay apart.
+// Limits from modes and amplification matrices; perturbed runs, and the search for the largest step that holds.
 #include "experiments/stability/limit.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <map>
 
 #include "experiments/stability/extreme_eigenvalues.h"
-#include "reference/exact/discrete.h"
-#include "reference/exact/eigenvalues.h"
+#include "mysim/base/eigenvalues.h"
+#include "mysim/base/random.h"
+#include "reference/truth/discrete.h"
 
 namespace crosscheck {
 namespace {
@@ -69,7 +74,7 @@ double radius_of(const Stepper& rule, const LeapfrogMatrix& leapfrog, int n, dou
   return eigenvalues(y).cwiseAbs().maxCoeff();
 }
 
-Prediction of_mixed_modes(const Stepper& rule, const Spectrum& s) {
+PredictedLimit of_mixed_modes(const Stepper& rule, const Spectrum& s) {
   if (s.omega == 0) return {0, -1, "no springs hold the particles, and their drag rates differ"};
   const Linearised& system = s.system;
   const double top = 2 / s.omega;
@@ -96,7 +101,7 @@ Prediction of_mixed_modes(const Stepper& rule, const Spectrum& s) {
 
 /// Whether the rule's stability region is as deep in one direction of decaying vibrations as in another, to 15 %: then
 /// the fastest rates bind. rk4's depth is 2.62 to 2.96; the others' goes to 0 or 1 beside the imaginary axis.
-bool deep_all_round(const Stepper& rule) {
+bool isotropic_region(const Stepper& rule) {
   double least = infinity, most = 0;
   for (int i = 0; i <= 20; ++i) {  // rates of size 1, from undamped to critically damped
     const double depth = rule.limit(1, 0.1 * i);
@@ -107,12 +112,12 @@ bool deep_all_round(const Stepper& rule) {
 
 }  // namespace
 
-Prediction predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
+PredictedLimit predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
   if (std::isinf(rule.limit(1, 0))) return {infinity, -1, ""};
   if (!spectrum.commuting && !is_runge_kutta(rule)) return of_mixed_modes(rule, spectrum);
-  if (!spectrum.commuting && !spectrum.complete && !deep_all_round(rule))
+  if (!spectrum.commuting && !spectrum.complete && !isotropic_region(rule))
     return {0, -1, "damping and stiffness have different modes, and of so many only the fastest rates are known"};
-  Prediction least{infinity, -1, ""};
+  PredictedLimit least{infinity, -1, ""};
   for (size_t i = 0; i < spectrum.modes.size(); ++i) {
     const auto [omega, gamma] = spectrum.modes[i];
     // rounding makes modes of free motion a little stiff or soft: 1e-7 is the root of it
@@ -122,12 +127,220 @@ Prediction predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
   return least;
 }
 
-Prediction predicted_limit(const Method& method, const Spectrum& spectrum) {
-  const Stepper* rule = rule_of(method);
+PredictedLimit predicted_limit(const Method& method, const Spectrum& spectrum) {
+  const Stepper* rule = stepper_of(method);
   if (!rule) return {0, -1, "no linear theory: a rule of its own"};
   if (method.name.starts_with("bullet") && spectrum.system.has_dashpots() && std::isfinite(rule->limit(1, 0)))
     return {0, -1, "no linear theory: Bullet solves dashpots implicitly, at the end of the explicit step"};
   return predicted_limit(*rule, spectrum);
+}
+
+namespace {
+
+/// Rates of a vibration, 1/s: the one that is fast and the other.
+struct Rates {
+  std::complex<double> fast, other;
+};
+Rates rates_of(const Vibration& m) {
+  const std::complex<double> root = std::sqrt(std::complex<double>(m.gamma * m.gamma / 4 - m.omega * m.omega));
+  return {-m.gamma / 2 - root, -m.gamma / 2 + root};
+}
+
+/// How far the scene is from rest, at the start, in the first and in the last tenth of the run; and, where each step
+/// multiplies it, the kicked mode's amplitude at the start and now.
+class GrowthObserver : public Observer {
+ public:
+  GrowthObserver(const BaseState& base, bool multiplies, int mode, double duration)
+      : base_(base), duration_(duration), rotation_(multiplies && base.scene.model.first_order()) {
+    const Spectrum& s = base.spectrum;
+    if (multiplies && mode >= 0 && s.shapes.cols() > mode) {
+      shape_ = s.shapes.col(mode);
+      other_ = rates_of(s.modes[mode]).other;
+    }
+  }
+  bool every_step() const override { return true; }
+  Verdict observe(const State& state, bool) override {
+    const bool begins = state.t <= 0.1 * duration_, ends = state.t >= 0.9 * duration_ * (1 - 1e-12);
+    if (begins || ends) {
+      const double size = norm(state);
+      if (perturbation == 0) perturbation = size;
+      if (begins) first = std::max(first, size);
+      if (ends) last = std::max(last, size);
+    }
+    if (rotation_ || (shape_.size() > 0 && state.v.cols() > 0)) {
+      if (begins && start == 0) start = amplitude(state);
+      if (ends) end = amplitude(state);
+    }
+    return Verdict::ok;
+  }
+  bool of_mode() const { return start > 0; }
+  double perturbation = 0, first = 0, last = 0, start = 0, end = 0;
+
+ private:
+  double norm(const State& state) const {
+    const Points off = state.x - base_.scene.start.x;
+    if (base_.scene.model.first_order()) return off.norm();
+    const Linearised& system = base_.spectrum.system;
+    const Eigen::VectorXd w = system.weighted(off);
+    double sum = std::max(0.0, w.dot(system.k * w));
+    if (state.v.cols() > 0) sum += system.weighted(state.v).squaredNorm();
+    return std::sqrt(sum);
+  }
+  /// |w' - other w|, which the rule's factor at the fast rate multiplies in each step; |x| of a rotation.
+  double amplitude(const State& state) const {
+    if (rotation_) return norm(state);
+    const Linearised& system = base_.spectrum.system;
+    const double w = shape_.dot(system.weighted(state.x - base_.scene.start.x)),
+                 rate = shape_.dot(system.weighted(state.v));
+    return std::abs(rate - other_ * w);
+  }
+
+  const BaseState& base_;
+  double duration_;
+  bool rotation_;
+  Eigen::VectorXd shape_;
+  std::complex<double> other_;
+};
+
+}  // namespace
+
+BaseState base_state_of(const Scene& scene) {
+  BaseState base{scene, false, false, {}, scene.size()};
+  const Equilibrium found = equilibrium_of(scene);
+  base.saddle = found.saddle;
+  if (found.rest) {
+    base.scene.start = *found.rest;
+    base.at_rest = true;
+  }
+  base.spectrum = spectrum_of(base.scene, base.scene.start);
+  if (const auto* springs = scene.model.find<Springs>())
+    for (const Spring& s : springs->list) {
+      const double length = (base.scene.start.x.col(s.a) - base.scene.start.x.col(s.b)).norm();
+      // where ends meet there is no scale: a kick of the root of the rounding of a millionth of the scene drowns in
+      // the rounding of the scene
+      if (length > 1e-6 * scene.size()) base.spacing = std::min(base.spacing, length);
+    }
+  return base;
+}
+
+bool PerturbedRun::held() const {
+  if (verdict != Verdict::ok && verdict != Verdict::frozen) return false;
+  const double neutral = std::max(1e-9, 1e-6 / static_cast<double>(std::max(1L, steps)));
+  return !(growth > 1.05) && !(of_mode && per_step > 1 + neutral);
+}
+
+Run run_of_perturbed(double h, long steps) {
+  constexpr long samples = 100;
+  const long per_sample = std::max(1L, steps / samples);
+  Run run{h, h * static_cast<double>(per_sample * samples), samples};
+  run.timed = false;
+  return run;
+}
+
+Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation) {
+  Scene scene = base.scene;
+  if (!base.at_rest) return scene;
+  std::mt19937_64 engine(1);
+  const Spectrum& s = base.spectrum;
+  const double size = perturbation.size * base.spacing;
+  if (scene.model.first_order()) {
+    scene.start.x(0, 0) += size;
+    return scene;
+  }
+  const bool of_mode = perturbation.mode >= 0 && s.shapes.cols() > perturbation.mode;
+  const Eigen::VectorXd shape = of_mode ? Eigen::VectorXd(s.shapes.col(perturbation.mode)) : s.fastest;
+  Points push = s.system.offsets(shape, scene.model.particles.size());
+  push *= size / largest_column(push);
+  scene.start.x += push;
+  if (of_mode) scene.start.v += rates_of(s.modes[perturbation.mode]).fast.real() * push;
+  // a thousandth in every direction: should another mode than the kicked one be unstable, it has what to grow from
+  for (int i = 0; i < scene.start.x.cols(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double part = 1e-3 * size * (2 * uniform(engine) - 1);
+      if (!scene.model.particles.pinned[i]) scene.start.x(axis, i) += part;
+    }
+  return scene;
+}
+
+PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps,
+                           const Perturbation& perturbation, std::vector<Observer*> observers) {
+  const Run run = run_of_perturbed(h, steps);
+  const Stepper* rule = stepper_of(method);
+  const bool rotation = base.scene.model.first_order(), one_factor = rotation || (rule && is_runge_kutta(*rule));
+  const bool multiplies = base.at_rest && base.spectrum.commuting && one_factor;
+  GrowthObserver growth_observer(base, multiplies, perturbation.mode, run.duration);
+  if (base.at_rest) observers.push_back(&growth_observer);
+  const Outcome out = run_method(method, perturbed_scene(base, perturbation), run, observers);
+  PerturbedRun trial{out.verdict, out.reason, out.end};
+  // a rule of its own, and one that corrects positions spring by spring, may rest elsewhere, unless the scene turns
+  // about the origin: what moves there is no growth
+  const bool rests_there = rule && !rule->hard_constraints;
+  if (growth_observer.first > 0 && (rests_there || rotation)) {
+    trial.growth = growth_observer.last / growth_observer.first;
+    // What grows fast has reached the springs' nonlinearity within the first tenth and stays there. A stable mode
+    // swings by 1 / sqrt(1 - (h / limit)^2) at most, which is 1000 at half a millionth below its limit: no search is as
+    // fine.
+    constexpr double largest_swing = 1000;
+    if (growth_observer.last > largest_swing * growth_observer.perturbation)
+      trial.growth = growth_observer.last / growth_observer.perturbation;
+  }
+  trial.of_mode = out.verdict == Verdict::ok && growth_observer.of_mode();
+  if (trial.of_mode) {
+    trial.amplitude = growth_observer.end / growth_observer.start;
+    trial.steps = out.steps;
+    trial.per_step = std::exp(std::log(trial.amplitude) / static_cast<double>(std::max(1L, out.steps)));
+  }
+  return trial;
+}
+
+MeasuredLimit largest_step(const std::function<bool(double)>& holds, double first, double lowest, double highest,
+                           double precision, double fine_above) {
+  MeasuredLimit m;
+  if (holds(first)) {
+    m.held = first;
+    const auto next = [&](double h) { return h * (h < fine_above || h > 5 * fine_above ? 2 : 1.1); };
+    for (double h = next(first); m.failed == 0; h = next(h)) {
+      if (h > highest) return {MeasuredLimit::every_step, m.held, 0, ""};
+      (holds(h) ? m.held : m.failed) = h;
+    }
+  } else {
+    m.failed = first;
+    for (double h = first / 2; m.held == 0; h /= 2) {
+      if (h < lowest) return {MeasuredLimit::no_step, 0, m.failed, ""};
+      (holds(h) ? m.held : m.failed) = h;
+    }
+  }
+  while (m.failed / m.held - 1 > precision) {
+    const double middle = std::sqrt(m.held * m.failed);
+    (holds(middle) ? m.held : m.failed) = middle;
+  }
+  return m;
+}
+
+MeasuredLimit measured_limit(const Method& method, const BaseState& base, long steps, const Perturbation& perturbation,
+                             double precision) {
+  const Spectrum& s = base.spectrum;
+  const double unit = s.omega > 0 ? 1 / s.omega : base.scene.step;
+  const bool damped = base.scene.model.find<Drag>() || base.scene.model.find<Dashpots>();
+  std::map<double, std::string> refused;  // by step
+  bool answered = false;
+  const auto holds = [&](double h) {
+    const PerturbedRun trial = run_perturbed(method, base, h, steps, perturbation);
+    if (trial.unsupported()) refused[h] = trial.reason;
+    answered |= !trial.unsupported();
+    return trial.held();
+  };
+  // without drag a rule that grows at h omega = 1/64 does so at every step; with drag of a millionth of omega its limit
+  // would still be seen
+  const double lowest = unit / (damped ? 1 << 20 : 64), highest = 128 * unit;
+  // from a radian to five of them a step in tenths: a composed rule holds again beyond a band where it does not
+  // (suzuki4 at 4.05 radians, above its limit of 2.72), and doubling would step over it
+  MeasuredLimit m = largest_step(holds, std::clamp(base.scene.step, lowest, highest), lowest, highest, precision, unit);
+  if (refused.empty()) return m;
+  if (!answered) return {MeasuredLimit::unsupported, 0, 0, refused.begin()->second};
+  m.reason = fmt::format("a step of {:.3g} s is refused: {}", refused.begin()->first, refused.begin()->second);
+  if (m.kind == MeasuredLimit::found && refused.contains(m.failed)) m.kind = MeasuredLimit::refused_above, m.failed = 0;
+  return m;
 }
 
 }  // namespace crosscheck

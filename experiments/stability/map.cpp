@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include "experiments/adequacy/grids.h"
 #include "experiments/estimate.h"
-#include "experiments/last_pictures.h"
-#include "experiments/stability/tables.h"
-#include "mysim/errors.h"
+#include "experiments/observers.h"
+#include "experiments/scenes/cloths.h"
+#include "experiments/tables/stability.h"
+#include "mysim/base/errors.h"
 
 namespace crosscheck {
 namespace {
@@ -37,11 +37,11 @@ std::span<const MapKind> map_kinds() {
   return table;
 }
 
-void map_on(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows,
-            const RunCallback& watch) {
+void add_map(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows,
+             const RunCallback& watch) {
   Table cells = map_table(), limits = map_limit_table(), check = map_check_table();
   const std::string map(kind.name);
-  const Subject as_it_is = subject_of(scene);
+  const BaseState as_it_is = base_state_of(scene);
   const double omega = as_it_is.spectrum.omega;
   if (!(omega > 0)) return;
   const auto no_map = [&](const std::string& why) {
@@ -49,26 +49,26 @@ void map_on(const MapKind& kind, const Scene& scene, const Method& method, const
                                      kind.name, method.name, scene.name, why));
   };
   // what a method lacks it lacks in every cell: asked once, at the shortest step
-  if (const StepTrial first = try_step(method, as_it_is, step_at(0, omega), 1, {}); first.unsupported())
+  if (const PerturbedRun first = run_perturbed(method, as_it_is, step_at(0, omega), 1, {}); first.unsupported())
     return no_map(first.reason);
   long changed = 0, answered = 0;
   std::string refusal;
   WatchedRuns watched{map + "-map", scene, method.name, {}};
   for (int r = 0; r < size.rows; ++r) {
     const double value = kind.value(static_cast<double>(r) / (size.rows - 1), omega);
-    const Subject subject = subject_of(kind.with(scene, value));
-    const Prediction predicted = predicted_limit(method, subject.spectrum);
-    const Kick kick{predicted.mode, visible};
+    const BaseState base = base_state_of(kind.with(scene, value));
+    const PredictedLimit predicted = predicted_limit(method, base.spectrum);
+    const Perturbation perturbation{predicted.mode, visible};
     double held = 0, failed = 0;  // the last cell that held before the first that failed
     for (int c = 0; c < size.columns; ++c) {
       const double h = step_at(static_cast<double>(c) / (size.columns - 1), omega);
-      LastPictures pictures(subject.spectrum.omega, h);
-      const StepTrial trial = try_step(method, subject, h, size.steps, kick,
-                                       watch ? std::vector<Observer*>{&pictures} : std::vector<Observer*>{});
+      LastFrames pictures(base.spectrum.omega, h);
+      const PerturbedRun trial = run_perturbed(method, base, h, size.steps, perturbation,
+                                               watch ? std::vector<Observer*>{&pictures} : std::vector<Observer*>{});
       const bool refused = trial.unsupported();
       if (watch)
-        watched.runs.push_back({{.verdict = trial.verdict, .end = trial.end}, pictures.path(), subject.scene.start.x});
-      cells.add({scene.name, method.name, map, value, h, std::string(name_of(trial.fate())),
+        watched.runs.push_back({{.verdict = trial.verdict, .end = trial.end}, pictures.path(), base.scene.start.x});
+      cells.add({scene.name, method.name, map, value, h, std::string(name_of(trial.effective_verdict())),
                  refused ? Cell() : Cell(trial.end),
                  refused || !std::isfinite(trial.growth) ? Cell() : Cell(trial.growth)});
       if (refused) {
@@ -77,11 +77,11 @@ void map_on(const MapKind& kind, const Scene& scene, const Method& method, const
       }
       ++answered;
       if (failed == 0) (trial.held() ? held : failed) = h;
-      if (size.check) changed += try_step(method, subject, h, 10 * size.steps, kick).held() != trial.held();
+      if (size.check) changed += run_perturbed(method, base, h, 10 * size.steps, perturbation).held() != trial.held();
     }
     for (int i = 0; i < 5 && held > 0 && failed > 0; ++i) {
       const double middle = std::sqrt(held * failed);
-      const StepTrial trial = try_step(method, subject, middle, size.steps, kick);
+      const PerturbedRun trial = run_perturbed(method, base, middle, size.steps, perturbation);
       if (trial.unsupported()) break;
       (trial.held() ? held : failed) = middle;
     }
@@ -114,7 +114,7 @@ std::optional<MapSize> map_size(const Method& method, const Scene& scene, bool f
 std::optional<Scene> map_scene(const Scene& scene, bool full) {
   if (!scene.model.find<Springs>()) return std::nullopt;
   if (scene.start.x.cols() <= 64) return scene;
-  if (sheet_of(scene)) {
+  if (cloth_grid_of(scene)) {
     try {
       Scene small = with_resolution(scene, 6);
       small.name += "-6";

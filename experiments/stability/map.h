@@ -3,7 +3,7 @@
 #pragma once
 
 #include "experiments/experiment.h"
-#include "experiments/stability/trial.h"
+#include "experiments/stability/limit.h"
 
 namespace crosscheck {
 
@@ -28,8 +28,8 @@ std::optional<MapSize> map_size(const Method& method, const Scene& scene, bool f
 /// Tables stability-map (cells), stability-map-limit (limits of the rows) and, where asked, stability-map-check. A cell
 /// that the method refuses says so; where it refuses all there is no map, and a note. `watch` is shown the last
 /// pictures of each cell's run.
-void map_on(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows,
-            const RunCallback& watch = {});
+void add_map(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows,
+             const RunCallback& watch = {});
 
 /// The scene that maps of a scene are made of: itself, if it has at most 64 particles; else of a sheet of cloth the
 /// same with 6 particles along its longer side, "NAME-6"; else itself in a full run, or nothing.

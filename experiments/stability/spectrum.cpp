@@ -2,15 +2,16 @@
 #include "experiments/stability/spectrum.h"
 
 #include <Eigen/SparseCholesky>
+
 #include <cmath>
 
-#include "experiments/rest.h"
+#include "experiments/measures.h"
 #include "experiments/stability/extreme_eigenvalues.h"
-#include "mysim/errors.h"
-#include "mysim/frequency.h"
-#include "mysim/steppers/stepper.h"
-#include "mysim/uniform.h"
-#include "reference/exact/eigenvalues.h"
+#include "mysim/base/eigenvalues.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/random.h"
+#include "mysim/model/system.h"
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 namespace {
@@ -173,7 +174,7 @@ double stiffest_of(const Model& model) {
 }
 
 /// Where all forces cancel, to the last digits.
-std::optional<State> settled(const Scene& scene) {
+std::optional<State> converged_rest(const Scene& scene) {
   const Model& model = scene.model;
   auto rest = rest_of(scene);
   if (!rest) return std::nullopt;
@@ -229,7 +230,7 @@ bool is_saddle(const Model& model, const State& state) {
 
 Equilibrium equilibrium_of(const Scene& scene) {
   if (scene.model.first_order()) return {State{0, Points::Zero(3, scene.start.x.cols()), scene.start.v}};
-  auto rest = settled(scene);
+  auto rest = converged_rest(scene);
   if (!rest) return {};
   if (!is_saddle(scene.model, *rest)) return {std::move(rest)};
   double shortest = scene.size();
@@ -244,7 +245,8 @@ Equilibrium equilibrium_of(const Scene& scene) {
         const double part = push * shortest * (2 * uniform(engine) - 1);
         if (!scene.model.particles.pinned[i]) pushed.start.x(axis, i) += part;
       }
-    if (auto beside = settled(pushed); beside && !is_saddle(scene.model, *beside)) return {std::move(beside), true};
+    if (auto beside = converged_rest(pushed); beside && !is_saddle(scene.model, *beside))
+      return {std::move(beside), true};
   }
   return {std::nullopt, true};
 }

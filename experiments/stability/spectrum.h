@@ -2,10 +2,11 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+
 #include <optional>
 #include <vector>
 
-#include "mysim/scene.h"
+#include "mysim/scene/scene.h"
 
 namespace crosscheck {
 
@@ -56,10 +57,11 @@ struct Equilibrium {
   std::optional<State> rest;
   bool saddle = false;  // one was found on the way, and left
 };
-/// The state of rest of rest.h, by Newton's steps to the last digits: no particle is accelerated by more than 1e-11 of
-/// what its springs could do. A rotation rests at the origin. An equilibrium that the stiffness pushes away from
-/// (omega^2 < 0 in some direction: a saddle, where what starts in a plane of symmetry ends up) is no rest: it is left
-/// by random pushes of a hundredth of the shortest spring and more, until what is found holds, or for good after three.
+/// The state of rest of experiments/measures.h, by Newton's steps to the last digits: no particle is accelerated by
+/// more than 1e-11 of what its springs could do. A rotation rests at the origin. An equilibrium that the stiffness
+/// pushes away from (omega^2 < 0 in some direction: a saddle, where what starts in a plane of symmetry ends up) is no
+/// rest: it is left by random pushes of a hundredth of the shortest spring and more, until what is found holds, or for
+/// good after three.
 Equilibrium equilibrium_of(const Scene& scene);
 
 }  // namespace crosscheck

@@ -9,31 +9,30 @@
 #include "experiments/estimate.h"
 #include "experiments/experiment.h"
 #include "experiments/stability/map.h"
-#include "experiments/stability/outlook.h"
-#include "experiments/stability/reasons.h"
-#include "experiments/stability/tables.h"
+#include "experiments/stability/margin.h"
+#include "experiments/tables/stability.h"
 
 namespace crosscheck {
 namespace {
 
-std::string text_of(Measured::Kind kind) {
+std::string text_of(MeasuredLimit::Kind kind) {
   // in the order of the kinds
   constexpr const char* texts[] = {"limit", "no stable step", "every step tried", "held up to a refusal",
                                    "unsupported"};
   return texts[kind];
 }
 
-std::string text_of(const Prediction& p) {
+std::string text_of(const PredictedLimit& p) {
   if (!p.missing.empty()) return "none";
   return p.limit == 0 ? "no stable step" : std::isinf(p.limit) ? "every step" : "limit";
 }
 
 /// Growth per step of the binding mode around the limit, or at a few steps where none is stable: the excess is tiny
 /// beside the step's own factor, and runs to a blow-up would take millions of steps.
-void add_growth(const Method& method, const Stepper& rule, const Subject& subject, const Prediction& predicted,
+void add_growth(const Method& method, const Stepper& rule, const BaseState& base, const PredictedLimit& predicted,
                 Rows& rows) {
-  const Spectrum& s = subject.spectrum;
-  if (!subject.at_rest || !s.commuting || s.modes.empty() || !is_runge_kutta(rule)) return;
+  const Spectrum& s = base.spectrum;
+  if (!base.at_rest || !s.commuting || s.modes.empty() || !is_runge_kutta(rule)) return;
   const int mode = predicted.mode >= 0 ? predicted.mode : static_cast<int>(s.modes.size()) - 1;
   const Vibration& vibration = s.modes[mode];
   Table table = growth_table();
@@ -47,9 +46,9 @@ void add_growth(const Method& method, const Stepper& rule, const Subject& subjec
     if (expected == 1) continue;
     // as many steps as change the amplitude tenfold, but enough to average over rounding and few enough to pay for
     const long count = std::clamp(std::lround(2.3 / std::abs(std::log(expected))), 100L, 2000L);
-    const StepTrial trial = try_step(method, subject, h, count, {mode});
+    const PerturbedRun trial = run_perturbed(method, base, h, count, {mode});
     if (!trial.of_mode) continue;
-    table.add({subject.scene.name, method.name, vibration.omega, vibration.gamma, h, h * vibration.omega,
+    table.add({base.scene.name, method.name, vibration.omega, vibration.gamma, h, h * vibration.omega,
                predicted.limit > 0 ? Cell(h / predicted.limit) : Cell(), expected - 1, trial.per_step - 1,
                (trial.per_step - 1) / (expected - 1) - 1});
   }
@@ -66,7 +65,7 @@ std::string why_not(const Method& method) {
 
 /// Large scenes by who is stable at every step and solves an equation in each, or has no linear limit.
 bool is_dear(const Method& method, const Scene& scene) {
-  const Stepper* rule = rule_of(method);
+  const Stepper* rule = stepper_of(method);
   return !is_small(scene) && (!rule || std::isinf(rule->limit(1, 0)));
 }
 
@@ -92,36 +91,37 @@ Effort effort_for(const Method& method, const Scene& scene, bool full) {
   return {std::min(20000L, steps), std::min(least.precision, steps < 4000 ? 0.005 : 0.001)};
 }
 
-void limit_on(const Scene& scene, const Method& method, const Effort& effort, Rows& rows) {
+void add_limit(const Scene& scene, const Method& method, const Effort& effort, Rows& rows) {
   Table table = limits_table();
-  const Subject subject = subject_of(scene);
-  const Prediction predicted = predicted_limit(method, subject.spectrum);
+  const BaseState base = base_state_of(scene);
+  const PredictedLimit predicted = predicted_limit(method, base.spectrum);
   const bool finite = predicted.missing.empty() && std::isfinite(predicted.limit);
-  const Kick kick{predicted.mode};
-  const Measured measured = measured_limit(method, subject, effort.steps, kick, effort.precision);
-  std::string reason = reason_for(subject, method, predicted, measured);
-  for (const std::string& more : {measured.reason, word_on_saddle(subject)})
+  const Perturbation perturbation{predicted.mode};
+  const MeasuredLimit measured = measured_limit(method, base, effort.steps, perturbation, effort.precision);
+  std::string reason = reason_for(base, method, predicted, measured);
+  for (const std::string& more : {measured.reason, saddle_note(base)})
     if (!more.empty()) reason += (reason.empty() ? "" : "; ") + more;
   Cell limit, deviation, above, precision;
-  if (measured.kind == Measured::found) {
+  if (measured.kind == MeasuredLimit::found) {
     limit = measured.limit(), precision = measured.precision();
     if (finite && predicted.limit > 0) deviation = measured.limit() / predicted.limit - 1;
     // a twentieth above, kicked so that it is seen
     above =
-        std::string(name_of(try_step(method, subject, 1.05 * measured.failed, effort.steps, {kick.mode, 1e-3}).fate()));
+        std::string(name_of(run_perturbed(method, base, 1.05 * measured.failed, effort.steps, {perturbation.mode, 1e-3})
+                                .effective_verdict()));
   }
   Cell omega, gamma;
   if (predicted.mode >= 0 && finite) {
-    const Vibration& binding = subject.spectrum.modes[predicted.mode];
+    const Vibration& binding = base.spectrum.modes[predicted.mode];
     omega = binding.omega, gamma = binding.gamma;
   }
-  table.add({scene.name, method.name, std::string(subject.at_rest ? "rest" : "start"), text_of(predicted),
+  table.add({scene.name, method.name, std::string(base.at_rest ? "rest" : "start"), text_of(predicted),
              finite ? Cell(predicted.limit) : Cell(), omega, gamma, text_of(measured.kind), limit,
              measured.held > 0 ? Cell(measured.held) : Cell(), measured.failed > 0 ? Cell(measured.failed) : Cell(),
              deviation, above, effort.steps, reason, precision});
   rows.add(table);
-  if (const Stepper* rule = rule_of(method); rule && measured.kind != Measured::unsupported)
-    add_growth(method, *rule, subject, predicted, rows);
+  if (const Stepper* rule = stepper_of(method); rule && measured.kind != MeasuredLimit::unsupported)
+    add_growth(method, *rule, base, predicted, rows);
 }
 
 std::vector<Point> stability_points(const Request& request) {
@@ -146,7 +146,7 @@ std::vector<Point> stability_points(const Request& request) {
              }});
       } else {
         points.push_back({"stability: " + name, content_of(alone, scene), [=, full = request.full](Rows& rows) {
-                            limit_on(scene, method, effort_for(method, scene, full), rows);
+                            add_limit(scene, method, effort_for(method, scene, full), rows);
                           }});
       }
       if (!small || !mapped(request, method) || scene.model.first_order()) continue;
@@ -161,7 +161,7 @@ std::vector<Point> stability_points(const Request& request) {
       for (const MapKind& kind : map_kinds())
         points.push_back(
             {fmt::format("stability: map of step and {}, {}", kind.name, name), content,
-             [=, &kind, watch = request.watch](Rows& rows) { map_on(kind, *small, method, *size, rows, watch); }});
+             [=, &kind, watch = request.watch](Rows& rows) { add_map(kind, *small, method, *size, rows, watch); }});
     }
     if (!small && scene.model.find<Springs>())
       points.push_back({"stability: maps of " + scene.name, "", [name = scene.name](Rows& rows) {

@@ -1,10 +1,60 @@
-// The largest stable step of one method on one scene, as a row.
+// The largest stable step of one method on one scene, as a row, and why it is not the predicted one.
 #pragma once
 
-#include "experiments/point.h"
-#include "experiments/stability/trial.h"
+#include "experiments/experiment.h"
+#include "experiments/stability/limit.h"
 
 namespace crosscheck {
+
+// Why a measured limit is not the predicted one.
+
+/// Why theory, which looks at small motion about one state, may say something else than the run.
+inline std::string deviation_reason(const BaseState& base, const Method& method) {
+  const Model& model = base.scene.model;
+  std::vector<std::string> reasons;
+  if (model.find<Spheres>()) reasons.emplace_back("contact");
+  if (model.particles.move) reasons.emplace_back("moved pins");
+  if (!base.at_rest && model.find<Springs>())
+    reasons.emplace_back("the motion stretches and turns the springs of the start");
+  if (model.find<Aerodynamics>()) reasons.emplace_back("air damps too");
+  if (method.name.starts_with("bullet"))
+    reasons.emplace_back("Bullet clamps speeds to the body's diagonal over the step");
+  if (reasons.empty())
+    reasons.emplace_back(model.find<Springs>() ? "nonlinearity of the springs" : "for no reason that is known");
+  std::string all;
+  for (const std::string& reason : reasons) all += (all.empty() ? "" : "; ") + reason;
+  return all;
+}
+
+/// What a saddle means for the row; empty where there was none.
+inline std::string saddle_note(const BaseState& base) {
+  if (!base.saddle) return "";
+  return base.at_rest
+             ? "the equilibrium in the symmetry of the start is a saddle, not a rest; this is the rest beside it"
+             : "the only equilibrium found is a saddle, not a rest";
+}
+
+/// Why the measurement is not what theory says, or why theory says nothing; empty where they agree.
+inline std::string reason_for(const BaseState& base, const Method& method, const PredictedLimit& p,
+                              const MeasuredLimit& m) {
+  // a bracket tells no more than its width
+  const double enough = std::max(0.01, m.precision());
+  switch (m.kind) {
+    case MeasuredLimit::found:
+      if (!p.missing.empty()) return p.missing;
+      return std::abs(m.limit() / p.limit - 1) <= enough ? "" : deviation_reason(base, method);
+    case MeasuredLimit::no_step:
+      if (!p.missing.empty()) return p.missing;
+      return p.limit == 0 ? "" : deviation_reason(base, method);
+    case MeasuredLimit::every_step:
+      if (!p.missing.empty()) return p.missing;
+      return std::isfinite(p.limit) ? deviation_reason(base, method) : "";
+    default:
+      return "";
+  }
+}
+
+// The largest stable step of one method on one scene, as a row.
 
 /// What a search is worth.
 struct Effort {
@@ -19,6 +69,6 @@ Effort effort_for(const Method& method, const Scene& scene, bool full);
 inline bool is_small(const Scene& scene) { return scene.start.x.cols() <= 50; }
 
 /// A row of table stability, and rows of stability-growth where steps multiply modes.
-void limit_on(const Scene& scene, const Method& method, const Effort& effort, Rows& rows);
+void add_limit(const Scene& scene, const Method& method, const Effort& effort, Rows& rows);
 
 }  // namespace crosscheck

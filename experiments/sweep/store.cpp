@@ -1,14 +1,137 @@
-// Files.
+// The list of points and their rows as JSON files.
 #include "experiments/sweep/store.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
-#include "experiments/sweep/rows_json.h"
-#include "mysim/errors.h"
-#include "mysim/files.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/json.h"
 
 namespace crosscheck {
+
+PointList point_list_of(std::vector<std::string> experiments, std::span<const Point> points, Provenance provenance) {
+  PointList plan{std::move(experiments), {}, std::move(provenance)};
+  for (const Point& point : points) plan.points.push_back({point.name, point.hash()});
+  return plan;
+}
+
+void write_point_list(const PointList& plan, const std::filesystem::path& folder) {
+  Json json{{"experiments", plan.experiments}, {"provenance", Json::list()}, {"points", {}}};
+  for (const auto& [key, value] : plan.provenance) json["provenance"].push(Json::list(key, value));
+  for (const PointList::Entry& p : plan.points) json["points"].push({{"name", p.name}, {"hash", p.hash}});
+  write_file(folder / "plan.json", json.dump(1) + "\n");
+}
+
+PointList read_point_list(const std::filesystem::path& folder) {
+  const auto file = folder / "plan.json";
+  if (!std::filesystem::exists(file))
+    throw InputError(fmt::format("{}: expected the plan of a sweep, written by `experiment --shard`", file.string()));
+  try {
+    const JsonField json = JsonField::parse_file(file.string());
+    PointList plan{json["experiments"].texts(), {}, {}};
+    for (const JsonField& line : json["provenance"].elements())
+      plan.provenance.emplace_back(line[0].text(), line[1].text());
+    if (const JsonField points = json["points"]; !points.is_null())
+      for (const JsonField& p : points.elements()) plan.points.push_back({p["name"].text(), p["hash"].text()});
+    return plan;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("expected experiments, provenance and points of a sweep: {}", error.what()));
+  }
+}
+
+std::filesystem::path store_in(const std::filesystem::path& folder) { return folder / "points"; }
+
+// Cells: empty is null, words are strings, whole numbers integers, numbers floats; JSON has no nan and no inf, which
+// stand as {"number": "nan"}.
+
+namespace {
+
+Json json_of(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* whole = std::get_if<long>(&cell)) return *whole;
+  if (const auto* number = std::get_if<double>(&cell)) {
+    if (std::isfinite(*number)) return *number;
+    return {{"number", fmt::format("{}", *number)}};
+  }
+  return nullptr;
+}
+
+double not_finite(const JsonField& field) {
+  const std::string word = field.text();
+  for (const double value : {NAN, -NAN, INFINITY, -INFINITY})
+    if (word == fmt::format("{}", value)) return value;
+  field.fail("nan or inf");
+}
+
+Cell cell_of(const JsonField& value) {
+  if (value.is_null()) return {};
+  if (value.is_text()) return value.text();
+  if (value.is_integer()) return value.whole();
+  return value.is_object() ? not_finite(value["number"]) : value.number();
+}
+
+Parity parity_of(const JsonField& field) {
+  const std::string name = field.text();
+  for (const Parity p : {Parity::match, Parity::different_law, Parity::mismatch, Parity::unattested})
+    if (name_of(p) == name) return p;
+  field.fail("match, different law, mismatch or unattested");
+}
+
+}  // namespace
+
+std::string rows_json(const Rows& rows) {
+  Json certificates = Json::list(), tables = Json::list();
+  for (const Table& table : rows.tables) {
+    Json columns = Json::list(), lines = Json::list();
+    for (const Column& c : table.columns) columns.push(Json::list(c.name, c.unit));
+    for (const auto& row : table.rows) {
+      Json& line = lines.push(Json::list());
+      for (const Cell& cell : row) line.push(json_of(cell));
+    }
+    tables.push({{"columns", std::move(columns)}, {"name", table.name}, {"rows", std::move(lines)}});
+  }
+  for (const Certificate& c : rows.certificates) {
+    Json lines = Json::list();
+    for (const CertificateRow& r : c.rows)
+      lines.push(Json::list(r.quantity, r.asked, r.mapped, r.read_back, name_of(r.parity)));
+    certificates.push({{"method", c.method}, {"rows", std::move(lines)}, {"scene", c.scene}});
+  }
+  const Json all{{"certificates", std::move(certificates)}, {"notes", rows.notes}, {"tables", std::move(tables)}};
+  return all.dump() + "\n";
+}
+
+Rows read_rows(const std::string& text) {
+  try {
+    const JsonField in = JsonField::parse(text, "rows");
+    Rows rows;
+    for (const JsonField& t : in["tables"].elements()) {
+      Table table{t["name"].text(), {}, {}};
+      for (const JsonField& c : t["columns"].elements()) table.columns.push_back({c[0].text(), c[1].text()});
+      for (const JsonField& line : t["rows"].elements()) {
+        std::vector<Cell> row;
+        for (const JsonField& value : line.elements()) row.push_back(cell_of(value));
+        if (row.size() != table.columns.size()) line.fail("as many cells as columns");
+        table.rows.push_back(std::move(row));
+      }
+      rows.tables.push_back(std::move(table));
+    }
+    for (const JsonField& c : in["certificates"].elements()) {
+      Certificate certificate{c["method"].text(), c["scene"].text(), {}};
+      for (const JsonField& r : c["rows"].elements())
+        certificate.rows.push_back({r[0].text(), r[1].text(), r[2].text(), r[3].text(), parity_of(r[4])});
+      rows.certificates.push_back(std::move(certificate));
+    }
+    rows.notes = in["notes"].texts();
+    return rows;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("expected JSON of tables, certificates and notes: {}", error.what()));
+  }
+}
+
 namespace {
 
 std::optional<std::string> content_of(const std::filesystem::path& file) {

@@ -1,12 +1,44 @@
-// The folder in which a sweep keeps what its points gave: one file per point, by its hash.
+// What a sweep keeps on disk: its list of points, and the rows of each as JSON.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
-#include "experiments/point.h"
+#include "experiments/experiment.h"
 
 namespace crosscheck {
+
+// The plan of a sweep: the list of its points, written beside the store, so that shards can be joined later.
+
+struct PointList {
+  struct Entry {
+    std::string name, hash;
+    bool operator==(const Entry&) const = default;
+  };
+  std::vector<std::string> experiments;  // whose conclusions are drawn from the rows
+  std::vector<Entry> points;
+  Provenance provenance;  // of the tables: command, commit, scenes, ...
+};
+
+PointList point_list_of(std::vector<std::string> experiments, std::span<const Point> points, Provenance provenance);
+
+void write_point_list(const PointList& plan, const std::filesystem::path& folder);
+/// Throws InputError that names the file and what was expected.
+PointList read_point_list(const std::filesystem::path& folder);
+
+/// Where the points of a sweep with that output folder are kept.
+std::filesystem::path store_in(const std::filesystem::path& folder);
+
+// Rows as JSON, and back to the same bits: how a finished point is kept.
+
+std::string rows_json(const Rows& rows);
+/// Throws InputError, "expected ...", when the text is no rows.
+Rows read_rows(const std::string& text);
+
+// The folder in which a sweep keeps what its points gave: one file per point, by its hash.
 
 class Store {
  public:

@@ -16,26 +16,25 @@
 #include <system_error>
 
 #include "experiments/experiment.h"
-#include "experiments/sweep/board.h"
-#include "experiments/sweep/cores.h"
-#include "experiments/sweep/machine_lock.h"
-#include "mysim/errors.h"
+#include "experiments/sweep/work_queue.h"
+#include "experiments/timing/machine.h"
+#include "mysim/base/errors.h"
 
 namespace crosscheck {
 namespace {
 
 /// Children can be waited for, also where whoever started this program ignores SIGCHLD: then the system reaps them
 /// itself, and waitpid() knows of none.
-class ChildrenAreKept {
+class DefaultSigchld {
  public:
-  ChildrenAreKept() {
+  DefaultSigchld() {
     struct sigaction usual {};
     usual.sa_handler = SIG_DFL;
     sigaction(SIGCHLD, &usual, &before_);
   }
-  ~ChildrenAreKept() { sigaction(SIGCHLD, &before_, nullptr); }
-  ChildrenAreKept(const ChildrenAreKept&) = delete;
-  ChildrenAreKept& operator=(const ChildrenAreKept&) = delete;
+  ~DefaultSigchld() { sigaction(SIGCHLD, &before_, nullptr); }
+  DefaultSigchld(const DefaultSigchld&) = delete;
+  DefaultSigchld& operator=(const DefaultSigchld&) = delete;
 
  private:
   struct sigaction before_ {};
@@ -48,7 +47,7 @@ class Batch {
       : points_(std::move(points)), store_(store), progress_(progress), pids_(static_cast<size_t>(jobs), -1) {}
 
   std::vector<FailedPoint> run() {
-    const ChildrenAreKept kept;
+    const DefaultSigchld kept;
     for (const Point* point : points_) store_.forget_failure(point->hash());
     for (size_t w = 0; w < pids_.size(); ++w) start(w);
     int running = static_cast<int>(pids_.size());
@@ -67,11 +66,11 @@ class Batch {
       *worker = -1;
       --running;
       if (WIFEXITED(status) && WEXITSTATUS(status) == 0) continue;
-      const int at = board_->current[w].exchange(-1);
+      const int at = queue_->current[w].exchange(-1);
       if (at >= 0 && WIFSIGNALED(status))
         died_[points_[static_cast<size_t>(at)]] =
             fmt::format("it died of signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-      if (board_->next < static_cast<int>(points_.size())) {
+      if (queue_->next < static_cast<int>(points_.size())) {
         start(w);
         ++running;
       }
@@ -88,7 +87,7 @@ class Batch {
 
  private:
   void announce() {
-    const int begun = std::min(board_->next.load(), static_cast<int>(points_.size()));
+    const int begun = std::min(queue_->next.load(), static_cast<int>(points_.size()));
     while (announced_ < begun) progress_.begin(points_[static_cast<size_t>(announced_++)]->name);
   }
 
@@ -107,11 +106,11 @@ class Batch {
   }
 
   void work(size_t worker) {
-    for (int i; (i = board_->next++) < static_cast<int>(points_.size());) {
+    for (int i; (i = queue_->next++) < static_cast<int>(points_.size());) {
       const Point& point = *points_[static_cast<size_t>(i)];
-      board_->current[worker] = i;
+      queue_->current[worker] = i;
       if (point.timed) pin_to_one_core();
-      const MachineLock lock(point.timed ? MachineLock::Hold::alone : MachineLock::Hold::with_others);
+      const MachineLock lock(point.timed ? MachineLock::Mode::exclusive : MachineLock::Mode::shared);
       try {
         Rows rows;
         point.compute(rows);
@@ -119,7 +118,7 @@ class Batch {
       } catch (const std::exception& error) {
         store_.keep_failure(point.hash(), error.what());
       }
-      board_->current[worker] = -1;
+      queue_->current[worker] = -1;
     }
   }
 
@@ -127,7 +126,7 @@ class Batch {
   const Store& store_;
   Progress& progress_;
   std::vector<pid_t> pids_;
-  SharedBoard board_;
+  SharedWorkQueue queue_;
   std::map<const Point*, std::string> died_;  // of what signal
   int announced_ = 0;
 };
@@ -149,7 +148,7 @@ Shard shard_from(const std::string& text) {
 
 std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOptions& options, const Store& store,
                                     Progress& progress) {
-  const int jobs = std::clamp(options.jobs > 0 ? options.jobs : cores_allowed(), 1, Board::most_workers);
+  const int jobs = std::clamp(options.jobs > 0 ? options.jobs : cores_allowed(), 1, WorkQueue::most_workers);
   std::vector<FailedPoint> failed;
   for (const bool timed : {false, true}) {
     std::vector<const Point*> todo;
@@ -167,9 +166,9 @@ std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOp
   return failed;
 }
 
-Rows joined(const Plan& plan, std::span<const Store> stores, std::vector<std::string>& missing) {
+Rows joined(const PointList& plan, std::span<const Store> stores, std::vector<std::string>& missing) {
   Rows all;
-  for (const Plan::Entry& point : plan.points) {
+  for (const PointList::Entry& point : plan.points) {
     std::optional<Rows> rows;
     for (size_t i = 0; i < stores.size() && !rows; ++i) rows = stores[i].find(point.hash);
     if (rows)

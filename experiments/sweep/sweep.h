@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/sweep/plan.h"
 #include "experiments/sweep/store.h"
-#include "mysim/progress.h"
+#include "mysim/base/progress.h"
 
 namespace crosscheck {
 
@@ -37,7 +36,7 @@ std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOp
 
 /// The rows of all points of the plan in their order, each from the first store that has it, and what the plan's
 /// experiments conclude from them; the names of points that no store has are added to `missing`.
-Rows joined(const Plan& plan, std::span<const Store> stores, std::vector<std::string>& missing);
+Rows joined(const PointList& plan, std::span<const Store> stores, std::vector<std::string>& missing);
 
 /// Computes all points here and now, without a store: for a few, and for tests. Lets exceptions through.
 Rows computed(std::span<const Point> points);

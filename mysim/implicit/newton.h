@@ -1,14 +1,73 @@
-// Implicit steps: Newton's method with line search on the incremental potential, and its first step alone.
+// Implicit steps: Newton's method with line search on the incremental potential.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
-#include "mysim/implicit/conjugate_gradients.h"
-#include "mysim/implicit/incremental_potential.h"
-#include "mysim/multigrid/sheet_solver.h"
+#include "mysim/forces.h"
+#include "mysim/implicit/multigrid/solver.h"
+#include "mysim/model/system.h"
 
 namespace crosscheck {
+
+// The function whose minimum is the implicit Euler step.
+
+/// With y = x_n + h v_n and the unknown u = x - y (0 at pins, which stand where they are at the end of the step),
+///   P(u) = sum_i m_i |u_i|^2 / (2 h^2) + c_i |h v_n + u|_i^2 / (2 h)        inertia and drag
+///        + V(x) - sum_i m_i w . x_i - f_i . x_i                             springs, gravity, wind, air on triangles
+///        + sum_d c_d (n_d . (moved_a - moved_b))^2 / (2 h)                  dashpots, moved = h v (x - x_n when free)
+/// has the gradient of the implicit Euler equations (J. Martin et al., ACM Trans. Graph. 30 (4), 2011). Air and the
+/// dashpots' directions n_d have no energy: they are frozen at a given position, and the caller repeats the solve with
+/// the new ones until nothing changes.
+class IncrementalPotential {
+ public:
+  explicit IncrementalPotential(System& f);
+
+  /// A step of h from the state.
+  void begin(const State& start, double h);
+  /// Freezes air and dashpot directions at x = y + u. True when the scene has any of them.
+  bool freeze(const Points& u);
+
+  double value(const Points& u);                 // J, up to a constant
+  double rounding() const { return rounding_; }  // J, of the last value: what two equal potentials may differ by
+  void gradient(const Points& u, Points& g);     // N; 0 at pins. One evaluation
+  double force_rounding() const { return force_rounding_; }  // N, of the last gradient
+  double force_scale() const { return force_scale_; }        // N, of the last gradient: its largest part
+
+  /// The matrix M/h^2 + C/h + K of the second derivatives at u.
+  void linearise(const Points& u, Curvature curvature);
+  void apply(const Points& p, Points& out);               // out = matrix p. One evaluation
+  void precondition(const Points& r, Points& out) const;  // by the inverse 3 x 3 blocks on the diagonal
+
+  const Eigen::ArrayXd& inertia() const { return inertia_; }  // of each particle, in the matrix, N/m
+  /// Products with the matrix that were taken elsewhere.
+  void count(double products) { f_.count(std::lround(products)); }
+
+  const Points& inertial() const { return y_; }  // y, m
+  const std::vector<int>& pins() const { return model_.particles.pins; }
+  State& end(const Points& u);  // x = y + u, v = v_n + u / h at t + h
+
+ private:
+  void clear_pins(Points& p) const;
+
+  System& f_;
+  const Model& model_;
+  Eigen::ArrayXd drag_;   // n, c, N s/m
+  double stiffness_ = 0;  // N/m, sum over all springs
+  double stiffest_ = 0;   // N/m, largest sum over the springs of a particle
+  State start_, end_;
+  double h_ = 0;
+  Points y_, moved_, a_;
+  Forces frozen_air_;
+  Tangent frozen_damping_;   // dashpots along the frozen directions
+  Eigen::ArrayXd inertia_;   // n, m / h^2 + c / h, N/m
+  Tangent tangent_;          // springs
+  Eigen::Matrix3Xd blocks_;  // 3 x 3n, inverted
+  double rounding_ = 0, force_rounding_ = 0, force_scale_ = 0;
+};
+
+// Implicit steps: Newton's method with line search on the incremental potential, and its first step alone.
 
 class ImplicitStep {
  public:
@@ -38,7 +97,8 @@ class ImplicitStep {
   Points u_, trial_, g_, minus_g_, p_;
   CgMemory cg_;
   int iterations_ = 0;
-  std::shared_ptr<multigrid::SheetSolver> sheet_;  // null: solved by pairs; shared by copies, which never step at once
+  std::shared_ptr<multigrid::MultigridSolver>
+      multigrid_;  // null: solved by pairs; shared by copies, which never step at once
   std::vector<double> descent_;
 };
 

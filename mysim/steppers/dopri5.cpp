@@ -1,7 +1,6 @@
 // Stages, error estimate and interpolant of the pair; and its rule of order 5 at a fixed step.
-#include "mysim/steppers/dopri5.h"
 
-#include "mysim/steppers/stepper.h"
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 namespace {
@@ -17,12 +16,12 @@ constexpr double weight[7][6] = {
     {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84},
 };
 // fifth-order weights minus fourth-order weights
-constexpr double defect[7] = {71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40};
+constexpr double error_weight[7] = {71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40};
 // what the interpolant adds to the cubic through both ends and their slopes
-constexpr double bulge[7] = {-12715105075. / 11282082432,  0,
-                             87487479700. / 32700410799,   -10690763975. / 1880347072,
-                             701980252875. / 199316789632, -1453857185. / 822651844,
-                             69997945. / 29380423};
+constexpr double dense_weight[7] = {-12715105075. / 11282082432,  0,
+                                    87487479700. / 32700410799,   -10690763975. / 1880347072,
+                                    701980252875. / 199316789632, -1453857185. / 822651844,
+                                    69997945. / 29380423};
 
 /// out = sum of weights[j] k[j], for both parts of a state.
 template <size_t N>
@@ -54,7 +53,7 @@ void DormandPrince::attempt(System& f, State& s, double h) {
 
 const State& DormandPrince::error() {
   const double h = stage_.t;
-  combine(k_, defect, stage_);
+  combine(k_, error_weight, stage_);
   stage_.x *= h;
   stage_.v *= h;
   return stage_;
@@ -66,7 +65,7 @@ void DormandPrince::interpolate(const State& s, double h, double theta, State& o
     const Points rise = to - from, c = h * slope0 - rise, d = rise - h * slope1 - c;
     result = from + theta * (rise + (1 - theta) * (c + theta * (d + (1 - theta) * h * result)));
   };
-  combine(k_, bulge, out);
+  combine(k_, dense_weight, out);
   curve(s.x, next_.x, k_[0].x, k_[6].x, out.x);
   curve(s.v, next_.v, k_[0].v, k_[6].v, out.v);
 }

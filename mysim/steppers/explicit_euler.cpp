@@ -1,5 +1,6 @@
 // Forward Euler: X(t+h) = X + h f(X, t).
-#include "mysim/steppers/stepper.h"
+
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 

@@ -1,6 +1,7 @@
 // Implicit (backward) Euler: v' = v + h F(x', v', t') / m, x' = x + h v'. Drag is implicit too.
+
 #include "mysim/implicit/newton.h"
-#include "mysim/steppers/stepper.h"
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 

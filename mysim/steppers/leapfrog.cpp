@@ -1,8 +1,7 @@
 // Leapfrog in its drift-kick-drift form: one force evaluation a step, at the middle. Drag is averaged over old and new
 // velocity, v' = v + h a - h gamma (v + v') / 2, so that the step stays its own inverse under h -> -h and of order 2.
-#include "mysim/steppers/leapfrog.h"
 
-#include "mysim/steppers/stepper.h"
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 namespace {
@@ -50,6 +49,6 @@ void leapfrog_step(System& f, State& s, double h, int passes, Workspace& w) {
 
 void leapfrog(System& f, State& s, double h, Workspace& w) { leapfrog_step(f, s, h, 2, w); }
 
-Chain chain_of_leapfrog() { return {{1}}; }
+KickDriftComposition leapfrog_composition() { return {{1}}; }
 
 }  // namespace crosscheck

@@ -1,7 +1,6 @@
 // The classic fourth-order Runge-Kutta rule.
-#include "mysim/steppers/rk4.h"
 
-#include "mysim/steppers/stepper.h"
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 

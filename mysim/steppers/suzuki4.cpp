@@ -1,12 +1,13 @@
 // Suzuki's fourth-order composition (M. Suzuki, Phys. Lett. A 146, 1990): five leapfrogs of lengths p, p, 1 - 4p, p, p
 // with p = 1 / (4 - 4^(1/3)). The third goes backwards in time; symmetry cancels the error terms of order 3.
+
 #include <cmath>
 
-#include "mysim/steppers/leapfrog.h"
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 
-Chain chain_of_suzuki4() {
+KickDriftComposition suzuki4_composition() {
   const double p = 1 / (4 - std::cbrt(4.0));
   return {{p, p, 1 - 4 * p, p, p}};
 }
@@ -16,7 +17,7 @@ void suzuki4(System& f, State& s, double h, Workspace& w) {
   // four passes: what is left of the asymmetry of forces on moving particles is of order h^5, as is the rule's error
   constexpr int passes = 4;
   double done = 0;
-  for (const double part : chain_of_suzuki4().parts) {
+  for (const double part : suzuki4_composition().fractions) {
     leapfrog_step(f, s, part * h, passes, w);
     done += part;
     s.t = start + done * h;

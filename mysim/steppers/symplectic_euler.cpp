@@ -1,5 +1,6 @@
 // Symplectic Euler: kick with the force at x_n (drag at v_n), then drift with the new velocity.
-#include "mysim/steppers/stepper.h"
+
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 
@@ -10,6 +11,6 @@ void symplectic_euler(System& f, State& s, double h, Workspace& w) {
   s.x += h * s.v;
 }
 
-Chain chain_of_symplectic_euler() { return {{1}, true}; }
+KickDriftComposition symplectic_euler_composition() { return {{1}, true}; }
 
 }  // namespace crosscheck

@@ -1,5 +1,6 @@
 // Explicit trapezoidal rule: f0 = f(X, t), f1 = f(X + h f0, t + h), X(t+h) = X + h/2 (f0 + f1).
-#include "mysim/steppers/stepper.h"
+
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 

@@ -1,16 +1,17 @@
 // Extended position-based dynamics with small steps (M. Macklin, M. Mueller and N. Chentanez, Motion in Games, 2016; M.
 // Macklin et al., Symposium on Computer Animation, 2019): a free step, then one sweep over dashpots, springs and hard
 // distances, each of which corrects the positions of its two ends at once.
+
 #include <algorithm>
 
-#include "mysim/steppers/stepper.h"
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck {
 namespace {
 
-class Sweep {
+class ProjectionPass {
  public:
-  Sweep(const Particles& particles, const Eigen::ArrayXd& drag_rate, const Points& x_n, double h, State& s)
+  ProjectionPass(const Particles& particles, const Eigen::ArrayXd& drag_rate, const Points& x_n, double h, State& s)
       : particles_(particles), drag_rate_(drag_rate), x_n_(x_n), h_(h), s_(s) {}
 
   double inverse_mass(int a, int b) const { return inverse_mass(a) + inverse_mass(b); }
@@ -53,37 +54,37 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
   s.t += h;
   model.particles.place_pins(s);
 
-  Sweep sweep(model.particles, f.drag_rate(), x_n, h, s);
+  ProjectionPass pass(model.particles, f.drag_rate(), x_n, h, s);
   f.count(1);
   if (const auto* dashpots = model.find<Dashpots>())
     for (const auto& [i, j, c] : dashpots->list) {
-      const Vec3 d = sweep.between(i, j);
-      const double length2 = d.squaredNorm(), inverse = sweep.inverse_mass(i, j);
+      const Vec3 d = pass.between(i, j);
+      const double length2 = d.squaredNorm(), inverse = pass.inverse_mass(i, j);
       if (length2 == 0) continue;
       // along the line, what is left of the separation is d' with d' + (c h inverse mass) d' = moved apart
-      sweep.push(i, j, (-c * h * sweep.moved_apart(i, j).dot(d) / (length2 * (1 + c * h * inverse))) * d);
+      pass.push(i, j, (-c * h * pass.moved_apart(i, j).dot(d) / (length2 * (1 + c * h * inverse))) * d);
     }
   if (const auto* springs = model.find<Springs>())
     for (const Spring& p : springs->list) {
-      const Vec3 d = sweep.between(p.a, p.b);
+      const Vec3 d = pass.between(p.a, p.b);
       const double length = d.norm();
       if (length == 0) {
-        f.count_coincident(p.rest > 0);
+        f.count_degenerate_springs(p.rest > 0);
         continue;
       }
       // implicit along the line, linearised: for Hooke's law -(L - r) / (inverse mass + compliance / h^2)
       const auto [force, slope] = tension_of(p, springs->law, length);
-      const double stiffening = h * h * std::max(0.0, slope) * sweep.inverse_mass(p.a, p.b);
-      sweep.push(p.a, p.b, (-h * h * force / (length * (1 + stiffening))) * d);
+      const double stiffening = h * h * std::max(0.0, slope) * pass.inverse_mass(p.a, p.b);
+      pass.push(p.a, p.b, (-h * h * force / (length * (1 + stiffening))) * d);
     }
   if (const auto* constraints = model.find<Constraints>())
     for (const auto& [i, j, rest] : constraints->list) {
-      const Vec3 d = sweep.between(i, j);
-      const double length = d.norm(), inverse = sweep.inverse_mass(i, j);
+      const Vec3 d = pass.between(i, j);
+      const double length = d.norm(), inverse = pass.inverse_mass(i, j);
       if (length == 0)
-        f.count_coincident(1);
+        f.count_degenerate_springs(1);
       else if (inverse > 0)
-        sweep.push(i, j, (-(length - rest) / (length * inverse)) * d);
+        pass.push(i, j, (-(length - rest) / (length * inverse)) * d);
     }
 }
 

@@ -5,9 +5,9 @@
 
 namespace crosscheck {
 
-Aerodynamics read_aerodynamics(const Section& s, const std::vector<std::array<int, 3>>& triangles) {
+Aerodynamics read_aerodynamics(const TomlTable& s, const std::vector<std::array<int, 3>>& triangles) {
   if (triangles.empty()) s.fail("velocity", "a scene with a [grid]: air presses on its triangles");
-  return {s.positive("density"), s.positive("coefficient"), read_blowing(s, "velocity"), triangles};
+  return {s.positive("density"), s.positive("coefficient"), read_wind_signal(s, "velocity"), triangles};
 }
 
 void add_force(const Aerodynamics& air, const Particles&, const State& state, Forces& forces) {

@@ -14,13 +14,13 @@ namespace crosscheck {
 struct Aerodynamics {
   static constexpr std::string_view name = "aerodynamics";
   static constexpr bool uses_velocity = true;
-  double density;      // rho of the air, kg/m^3
-  double coefficient;  // C, 1: twice the sine's slope of the normal force, 1 to 2 for a flat plate
-  Blowing velocity;    // of the air, m/s
+  double density;       // rho of the air, kg/m^3
+  double coefficient;   // C, 1: twice the sine's slope of the normal force, 1 to 2 for a flat plate
+  WindSignal velocity;  // of the air, m/s
   std::vector<std::array<int, 3>> triangles;
 };
 
-Aerodynamics read_aerodynamics(const Section& s, const std::vector<std::array<int, 3>>& triangles);
+Aerodynamics read_aerodynamics(const TomlTable& s, const std::vector<std::array<int, 3>>& triangles);
 void add_force(const Aerodynamics& air, const Particles& particles, const State& state, Forces& forces);
 
 }  // namespace crosscheck

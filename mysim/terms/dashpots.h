@@ -6,7 +6,6 @@
 
 #include "mysim/forces.h"
 #include "mysim/particles.h"
-#include "mysim/tangent.h"
 
 namespace crosscheck {
 

@@ -3,7 +3,7 @@
 
 #include "mysim/forces.h"
 #include "mysim/particles.h"
-#include "mysim/section.h"
+#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 
@@ -13,7 +13,7 @@ struct Drag {
   Eigen::VectorXd c;  // n, N s/m
 };
 
-inline Drag read_drag(const Section& s, const Particles& particles) {
+inline Drag read_drag(const TomlTable& s, const Particles& particles) {
   if (s.has("coefficient") && s.has("gamma")) s.fail("gamma", "either coefficient (N s/m) or gamma (1/s), not both");
   if (s.has("gamma")) return {s.positive("gamma") * particles.mass};
   return {Eigen::VectorXd::Constant(particles.size(), s.positive("coefficient"))};

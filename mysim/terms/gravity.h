@@ -3,7 +3,7 @@
 
 #include "mysim/forces.h"
 #include "mysim/particles.h"
-#include "mysim/section.h"
+#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 
@@ -12,7 +12,7 @@ struct Gravity {
   Vec3 acceleration;  // m/s^2
 };
 
-inline Gravity read_gravity(const Section& s) { return {s.vec3("acceleration")}; }
+inline Gravity read_gravity(const TomlTable& s) { return {s.vec3("acceleration")}; }
 
 inline void add_force(const Gravity& gravity, const Particles& particles, const State&, Forces& forces) {
   for (int i = 0; i < particles.size(); ++i) forces.f.col(i) += particles.mass[i] * gravity.acceleration;

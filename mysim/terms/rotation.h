@@ -2,7 +2,7 @@
 #pragma once
 
 #include "mysim/particles.h"
-#include "mysim/section.h"
+#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 
@@ -11,7 +11,7 @@ struct Rotation {
   double rate;  // rad/s
 };
 
-inline Rotation read_rotation(const Section& s) { return {s.number("rate")}; }
+inline Rotation read_rotation(const TomlTable& s) { return {s.number("rate")}; }
 
 /// Adds the velocity field to rate (3 x n, m/s).
 inline void add_velocity(const Rotation& rotation, const State& state, Points& rate) {

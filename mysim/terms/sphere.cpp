@@ -22,7 +22,7 @@ Vec3 normal_at(const Vec3& centre, const Vec3& x) {
 
 }  // namespace
 
-Sphere read_sphere(const Section& s) {
+Sphere read_sphere(const TomlTable& s) {
   Sphere sphere{s.vec3("centre"), s.positive("radius"), 0, 0, 0, std::nullopt};
   if (s.has("margin")) sphere.margin = s.positive("margin");
   if (s.has("friction")) sphere.friction = s.not_negative("friction");
@@ -34,7 +34,7 @@ Sphere read_sphere(const Section& s) {
   return sphere;
 }
 
-Motion read_motion(const Section& s) { return {s.vec3("amplitude"), s.positive("frequency"), s.positive("ramp")}; }
+Motion read_motion(const TomlTable& s) { return {s.vec3("amplitude"), s.positive("frequency"), s.positive("ramp")}; }
 
 double clearance_from(const Spheres& spheres, double t, const Vec3& x) {
   double smallest = std::numeric_limits<double>::infinity();

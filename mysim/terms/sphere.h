@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-#include "mysim/motion.h"
-#include "mysim/section.h"
+#include "mysim/particles.h"
+#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 
@@ -41,8 +41,8 @@ struct Spheres {
   }
 };
 
-Sphere read_sphere(const Section& s);
-Motion read_motion(const Section& s);
+Sphere read_sphere(const TomlTable& s);
+Motion read_motion(const TomlTable& s);
 
 /// Distance of a particle from the nearest contact surface at time t, m; negative inside.
 double clearance_from(const Spheres& spheres, double t, const Vec3& x);

@@ -51,7 +51,7 @@ static void loop(const std::vector<Spring>& list, const Points& x, Forces& force
     const double squared = d.squaredNorm();
     if (squared == 0) {
       // the ends met: no direction, no force, but the run says how often it happened
-      forces.coincident += s.rest > 0;
+      forces.degenerate_springs += s.rest > 0;
       continue;
     }
     const Vec3 f = scale_of<law>(s, squared) * d;

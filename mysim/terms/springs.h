@@ -10,7 +10,6 @@
 
 #include "mysim/forces.h"
 #include "mysim/particles.h"
-#include "mysim/tangent.h"
 
 namespace crosscheck {
 
@@ -39,7 +38,8 @@ struct Tension {
 };
 Tension tension_of(const Spring& spring, SpringLaw law, double length);
 
-/// The plain edge loop: the definition of the term, and the oracle of every faster kernel (spring_kernel.h).
+/// The plain edge loop: the definition of the term, and the oracle of every faster kernel
+/// (mysim/simd/spring_graph/spring_kernel.h).
 void add_force(const Springs& springs, const Particles& particles, const State& state, Forces& forces);
 void add_force(const Springs& springs, const Points& x, Forces& forces);
 double potential_energy(const Springs& springs, const Particles& particles, const State& state);  // J

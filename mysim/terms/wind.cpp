@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mysim/uniform.h"
+#include "mysim/base/random.h"
 
 namespace crosscheck {
 
@@ -26,17 +26,17 @@ double Gust::at(double t) const {
   return sum;
 }
 
-Blowing read_blowing(const Section& s, std::string_view key) {
-  Blowing blowing{s.vec3(key), std::nullopt};
+WindSignal read_wind_signal(const TomlTable& s, std::string_view key) {
+  WindSignal wind_signal{s.vec3(key), std::nullopt};
   if (s.has("gusts")) {
-    const Section g = s.section("gusts");
+    const TomlTable g = s.section("gusts");
     const int seed = g.count("seed");
-    blowing.gusts = {g.not_negative("variation"), g.vec3("side"), seed, Gust(seed, 1), Gust(seed, 2)};
+    wind_signal.gusts = {g.not_negative("variation"), g.vec3("side"), seed, Gust(seed, 1), Gust(seed, 2)};
   }
-  return blowing;
+  return wind_signal;
 }
 
-Vec3 Blowing::at(double t) const {
+Vec3 WindSignal::at(double t) const {
   if (!gusts) return mean;
   return mean * (1 + gusts->variation * gusts->along.at(t)) + gusts->side * gusts->across.at(t);
 }

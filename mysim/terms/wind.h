@@ -7,7 +7,7 @@
 
 #include "mysim/forces.h"
 #include "mysim/particles.h"
-#include "mysim/section.h"
+#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 
@@ -23,7 +23,7 @@ struct Gust {
 };
 
 /// w(t) = mean (1 + variation g1(t)) + side g2(t), with g1 and g2 independent gusts; in the unit of the mean.
-struct Blowing {
+struct WindSignal {
   Vec3 mean;
   struct Gusts {
     double variation;  // 1
@@ -36,14 +36,14 @@ struct Blowing {
   Vec3 at(double t) const;
 };
 /// Reads the mean from `key` and [gusts] beside it.
-Blowing read_blowing(const Section& s, std::string_view key);
+WindSignal read_wind_signal(const TomlTable& s, std::string_view key);
 
 struct Wind {
   static constexpr std::string_view name = "wind";
-  Blowing acceleration;  // m/s^2
+  WindSignal acceleration;  // m/s^2
 };
 
-inline Wind read_wind(const Section& s) { return {read_blowing(s, "acceleration")}; }
+inline Wind read_wind(const TomlTable& s) { return {read_wind_signal(s, "acceleration")}; }
 void add_force(const Wind& wind, const Particles& particles, const State& state, Forces& forces);
 
 }  // namespace crosscheck

@@ -2,23 +2,23 @@
 //
 //   PROGRAM scene.json OUTDIR      options: world=deformable-explicit (default), world=pbd ...; further ones go to the
 //   world
+
 #include <cstdio>
 #include <filesystem>
 
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/observers/trajectory.h"
-#include "mysim/observers/watch.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/run/observers.h"
 #include "reference/bullet/worlds.h"
-#include "reference/npy.h"
 #include "reference/protocol/run_json.h"
 #include "reference/protocol/scene_json.h"
+#include "reference/protocol/trajectory_files.h"
 
 using namespace crosscheck;
 
 namespace {
 
-void answer(const Task& task, const std::filesystem::path& folder) {
+void run_task(const EngineTask& task, const std::filesystem::path& folder) {
   std::string world = "deformable-explicit";
   std::vector<std::string> options;
   for (const std::string& option : task.options) {
@@ -29,8 +29,8 @@ void answer(const Task& task, const std::filesystem::path& folder) {
   }
   Recorder recorder;
   // a run that blew up ends here as it would inside: Bullet is not made to step through what is no number
-  Watch watch(task.scene, task.run);
-  Watched observers(watch, {&recorder});
+  DivergenceMonitor monitor(task.scene, task.run);
+  MonitoredObservers observers(monitor, {&recorder});
   const Outcome out = bullet::choose_world(world, options).engine(task.scene, task.run, observers);
   write_file(folder / "trajectory.npy", npy_bytes(recorder.trajectory.x));
   write_file(folder / "velocities.npy", npy_bytes(recorder.trajectory.v));
@@ -42,7 +42,7 @@ void answer(const Task& task, const std::filesystem::path& folder) {
 int main(int argc, char** argv) {
   try {
     if (argc != 3) throw InputError("expected: PROGRAM scene.json OUTDIR");
-    answer(read_scene_json(argv[1]), argv[2]);
+    run_task(read_scene_json(argv[1]), argv[2]);
     return 0;
   } catch (const Unsupported& lack) {
     std::fprintf(stderr, "%s\n", lack.what());

@@ -1,10 +1,103 @@
-// Bullet's deformable world, in its explicit and its implicit mode.
+// Bullet's deformable world, explicit and implicit, and the forces that it is given.
 #pragma once
 
-#include "mysim/run.h"
-#include "reference/bullet/scene_body.h"
+#include <BulletSoftBody/btDeformableGravityForce.h>
+#include <BulletSoftBody/btDeformableLagrangianForce.h>
+#include <BulletSoftBody/btDeformableMassSpringForce.h>
+#include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
+
+#include "mysim/run/run.h"
+#include "reference/bullet/soft_body.h"
 
 namespace crosscheck::bullet {
+
+// A force class of our own in Bullet's deformable world, for what Bullet's own forces cannot carry: more than two
+// stiffnesses, another spring law than Hooke's, springs whose implicit step cannot blow up, dashpots that differ or
+// hang on moved pins, drag that differs between particles or is implicit, and wind.
+
+/// In the explicit world springs, drag and wind act at (x_n, v_n, t_n), and Bullet solves the dashpots by themselves,
+/// implicitly. In the implicit world all is taken at q = x + h v, v and t_{n+1}; the springs' stiffness is handed over
+/// with its negative part left out (a shortened spring takes nothing from the stiffness across itself), which keeps the
+/// matrix positive definite; wind on triangles counts as a constant within the step.
+class SceneForce : public btDeformableLagrangianForce {
+ public:
+  struct CarriedTerms {
+    const Springs* springs = nullptr;
+    const Dashpots* dashpots = nullptr;
+    const Drag* drag = nullptr;
+    const Wind* wind = nullptr;
+    const Aerodynamics* air = nullptr;
+    double factor = 1;  // all forces but the dashpots' are multiplied by it
+    bool implicit = false;
+    bool any() const { return springs || dashpots || drag || wind || air; }
+  };
+  SceneForce(const CarriedTerms& carried, const Scene& scene, const SoftBody& body);
+
+  const CarriedTerms& carried() const { return carried_; }
+  void set_time(double t) { t_ = t; }  // of wind and pins, s
+
+  void addScaledForces(btScalar scale, TVStack& force) override;
+  void addScaledExplicitForce(btScalar scale, TVStack& force) override;
+  void addScaledDampingForce(btScalar scale, TVStack& force) override;
+  void addScaledDampingForceDifferential(btScalar scale, const TVStack& dv, TVStack& df) override;
+  void addScaledElasticForceDifferential(btScalar scale, const TVStack& dx, TVStack& df) override;
+  void buildDampingForceDifferentialDiagonal(btScalar scale, TVStack& diagonal) override;
+
+  /// Springs only, at m_q: what the certificate's probe asks too.
+  void addScaledElasticForce(btScalar scale, TVStack& force);
+  /// A value that Bullet does not use: forces of a known type would be merged with the first of their kind.
+  static constexpr auto type = static_cast<btDeformableLagrangianForceType>(100);
+  btDeformableLagrangianForceType getForceType() override { return type; }
+
+ private:
+  const btSoftBody::Node& node(int particle) const;
+  btVector3 velocity(int particle) const;
+  btVector3 dashpot_axis(int a, int b) const;  // from b to a, along which a dashpot acts
+  void add_particle_forces(btScalar scale, TVStack& force);
+
+  CarriedTerms carried_;
+  const Scene& scene_;
+  const SoftBody& soft_body_;
+  double t_ = 0;
+  State state_;                // by the air
+  Forces aerodynamic_forces_;  // N
+};
+
+// The forces of a scene in Bullet's deformable world: Bullet's own where they can carry it, a class of our own for the
+// rest; and what the world tells of them.
+
+class DeformableForces {
+ public:
+  /// Adds the forces to the world. implicit: the world's mode; shipped: in implicit mode too, Bullet's own spring force
+  /// is wanted. Throws Unsupported where it is wanted and cannot carry the springs.
+  DeformableForces(const Scene& scene, double h, bool implicit, bool shipped, SoftBody& body,
+                   btDeformableMultiBodyDynamicsWorld& world);
+
+  void set_time(double t);  // of wind and pins, s
+
+  /// Gravity, drag rates, and probes of springs, dashpots and wind, from the forces that the world's solver holds.
+  void read_back(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world, Readback& readback) const;
+
+ private:
+  void carry_drag(const Drag* drag, SceneForce::CarriedTerms& ours);
+  void carry_springs(const Springs* springs, const Dashpots* dashpots, SceneForce::CarriedTerms& ours, bool shipped);
+  /// 1/s, of each particle; nothing where they cannot be told from other forces.
+  std::optional<std::vector<double>> drag_rates(SceneForce* own) const;
+  ForceProbe probe(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world) const;
+
+  const Scene& scene_;
+  double h_;
+  bool implicit_;
+  SoftBody& soft_body_;
+  double factor_ = 1;  // 1 - h gamma: what the body's drag factor leaves of a velocity in one step
+  double t_ = 0;
+  std::map<std::string, std::string> mapped_;
+  std::unique_ptr<btDeformableMassSpringForce> spring_force_;
+  std::unique_ptr<btDeformableGravityForce> gravity_force_;
+  std::unique_ptr<SceneForce> scene_force_;
+};
+
+// Bullet's deformable world, in its explicit and its implicit mode.
 
 struct DeformableSettings {
   bool implicit = false;
@@ -12,7 +105,7 @@ struct DeformableSettings {
   bool tight = false;     // implicit: conjugate gradients to 1e-28 of the squared residual, not to round-off of it
   bool projected = true;  // implicit: with setUseProjection(true); without it the world freezes
   double voxel = 0.005;   // m, of the distance field: Bullet's default here
-  Defaults defaults;
+  BulletDefaults defaults;
 };
 
 /// btDeformableMultiBodyDynamicsWorld.

@@ -1,4 +1,6 @@
 // Bullet's position-based soft-body world.
+#include "reference/bullet/pbd.h"
+
 #include <BulletSoftBody/btSoftBodySolvers.h>
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <fmt/format.h>
@@ -6,10 +8,8 @@
 #include <cmath>
 #include <map>
 
-#include "mysim/errors.h"
-#include "reference/bullet/body_world.h"
-#include "reference/bullet/pbd.h"
-#include "reference/bullet/probe_state.h"
+#include "mysim/base/errors.h"
+#include "reference/bullet/soft_body.h"
 
 namespace crosscheck::bullet {
 namespace {
@@ -24,26 +24,26 @@ double newton_per_metre(double kLST, double mu, double h, int n) {
   return mu / (h * h) * std::expm1(-n * std::log1p(-kLST));
 }
 
-class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
+class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
  public:
-  PbdWorld(const Scene& scene, double h, const PbdSettings& settings) : BodyWorld(scene, h), settings_(settings) {
+  PbdWorld(const Scene& scene, double h, const PbdSettings& settings) : SoftBodyWorld(scene, h), settings_(settings) {
     const Model& model = scene.model;
     const std::optional<double> rate = uniform_drag_rate(model);
     if (!rate) throw Unsupported("Bullet's position-based world has one drag rate for the whole body");
     if (settings.own_wind && !model.find<Aerodynamics>())
       throw Unsupported("Bullet's own wind presses on triangles: the scene has none");
 
-    world_ = std::make_unique<btSoftRigidDynamicsWorld>(&stage_.dispatcher, &stage_.broadphase, &solver_,
-                                                        &stage_.configuration);
+    world_ = std::make_unique<btSoftRigidDynamicsWorld>(&collision_.dispatcher, &collision_.broadphase, &solver_,
+                                                        &collision_.configuration);
     btSoftBodyWorldInfo& info = world_->getWorldInfo();
     info.m_sparsesdf.setDefaultVoxelsz(static_cast<btScalar>(settings.voxel));
     info.m_sparsesdf.Reset();
     const auto* gravity = model.find<Gravity>();
     info.m_gravity = gravity ? to_bullet(gravity->acceleration) : btVector3(0, 0, 0);
-    info.m_dispatcher = &stage_.dispatcher;
-    info.m_broadphase = &stage_.broadphase;
+    info.m_dispatcher = &collision_.dispatcher;
+    info.m_broadphase = &collision_.broadphase;
 
-    scene_body_ = std::make_unique<SceneBody>(scene, info, settings.defaults);
+    soft_body_ = std::make_unique<SoftBody>(scene, info, settings.defaults);
     set_stiffness();
     auto& cfg = body().m_cfg;
     cfg.piterations = settings.iterations;
@@ -52,7 +52,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     cfg.kKHR = btScalar(0.1);  // at 1 contacts bounce, at 0 links pull nodes into the sphere
     cfg.collisions = btSoftBody::fCollision::SDF_RS;
     if (settings.own_wind) use_own_wind(*model.find<Aerodynamics>());
-    enter();
+    add_to_world();
 
     mapped_["stiffness"] = settings.demo ? "kLST = 1, the default of Bullet's demos, whatever the scene asks"
                                          : fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", settings.iterations);
@@ -65,25 +65,26 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
         [&](const Dashpots&) { mapped_["dashpots"] = added; },
         [&](const Aerodynamics&) { mapped_["wind on triangles"] = settings.own_wind ? own : added; },
         [](const OneOf<Springs, Constraints> auto&) {},  // links, above
-        [](const Spheres&) {},                           // obstacles.h
+        [](const Spheres&) {},                           // soft_body.h
         [](const Rotation&) {},                          // refused before a world is built
     };
     for (const Term& term : model.terms) std::visit(tell, term);
-    adds_forces_ = mapped_.contains("wind") || mapped_.contains("dashpots") || mapped_.contains("wind on triangles");
+    has_added_forces_ =
+        mapped_.contains("wind") || mapped_.contains("dashpots") || mapped_.contains("wind on triangles");
   }
 
-  ~PbdWorld() override { tear_down(); }
+  ~PbdWorld() override { remove_all(); }
 
   void step(double t, double t_next) override {
-    if (adds_forces_) add_forces(t, true, true);
+    if (has_added_forces_) add_forces(t, true, true);
     if (settings_.own_wind) body().setWindVelocity(to_bullet(scene_.model.find<Aerodynamics>()->velocity.at(t)));
-    scene_body_->place_pins(t_next);  // links are solved at the end of the step
+    soft_body_->place_pins(t_next);  // links are solved at the end of the step
     obstacles_.place(t_next);
     world_->stepSimulation(static_cast<btScalar>(h_), 0);
   }
 
   std::optional<Readback> read_back() override {
-    Readback r = scene_body_->read_back();
+    Readback r = soft_body_->read_back();
     const auto& cfg = body().m_cfg;
     if (const auto* springs = scene_.model.find<Springs>(); springs && !settings_.demo)
       for (size_t l = 0; l < springs->list.size(); ++l) {
@@ -94,7 +95,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     r.gravity = from_bullet(world_->getWorldInfo().m_gravity);
     r.drag = std::vector<double>(scene_.model.particles.size(), -std::log1p(-cfg.kDP) / h_);
     obstacles_.read_back(*world_, body(), r);
-    r.later = places_later();
+    r.later = prescribed_places();
     r.probe = probe(0);
     r.mapped = mapped_;
     r.settings["iterations"] = std::to_string(cfg.piterations);
@@ -119,12 +120,12 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     if (const auto* constraints = scene_.model.find<Constraints>())
       for (size_t c = 0; c < constraints->list.size(); ++c) set(1);  // the whole distance in each iteration
     body().updateLinkConstants();
-    scene_body_->restore_lengths();
+    soft_body_->restore_lengths();
   }
 
   void use_own_wind(const Aerodynamics& air) {
     for (const auto& [a, b, c] : air.triangles)
-      body().appendFace(scene_body_->node_of(a), scene_body_->node_of(b), scene_body_->node_of(c));
+      body().appendFace(soft_body_->node_of(a), soft_body_->node_of(b), soft_body_->node_of(c));
     world_->getWorldInfo().air_density = static_cast<btScalar>(air.density);
     body().m_cfg.aeromodel = btSoftBody::eAeroModel::F_TwoSidedLiftDrag;
     body().m_cfg.kDG = static_cast<btScalar>(air.coefficient);
@@ -134,7 +135,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
   void add_forces(double t, bool winds, bool dashpots) {
     const Model& model = scene_.model;
     added_.f.setZero(3, model.particles.size());
-    const State& now = scene_body_->read_state(t);
+    const State& now = soft_body_->read_state(t);
     const Overloaded add{
         [&](const Wind& wind) {
           if (winds) add_force(wind, model.particles, now, added_);
@@ -149,12 +150,12 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
     };
     for (const Term& term : model.terms) std::visit(add, term);
     for (int i = 0; i < model.particles.size(); ++i)
-      if (!model.particles.pinned[i]) body().addForce(to_bullet(added_.f.col(i)), scene_body_->node_of(i));
+      if (!model.particles.pinned[i]) body().addForce(to_bullet(added_.f.col(i)), soft_body_->node_of(i));
   }
 
   /// The forces that the nodes hold when they are put into a known state. Springs are no forces here.
   ForceProbe probe(double t) {
-    ProbeState placed(scene_, *scene_body_, t);
+    ProbeState placed(scene_, *soft_body_, t);
     using Stack = btAlignedObjectArray<btVector3>;
     Stack none, dashpots, winds;
     auto take = [&](Stack& forces) {
@@ -173,7 +174,7 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
 
   PbdSettings settings_;
   std::map<std::string, std::string> mapped_;
-  bool adds_forces_ = false;
+  bool has_added_forces_ = false;
   Forces added_;  // N
   btSequentialImpulseConstraintSolver solver_;
 };
@@ -181,8 +182,8 @@ class PbdWorld : public BodyWorld<btSoftRigidDynamicsWorld> {
 }  // namespace
 
 Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, const PbdSettings& settings) {
-  PbdWorld world(scene, plan(run).h, settings);
-  Outcome out = march(world, run, observer);
+  PbdWorld world(scene, time_grid(run).h, settings);
+  Outcome out = run_loop(world, run, observer);
   out.evaluations = out.steps;
   if (const auto* springs = scene.model.find<Springs>())
     out.different_law.push_back(
@@ -202,7 +203,7 @@ Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, const Pb
   if (scene.model.find<Spheres>())
     out.different_law.push_back(
         "contact: whatever the step, normals are gradients of a grid of distances, off by up to a / 2R = " +
-        off_normal(scene, settings.voxel));
+        normal_error_text(scene, settings.voxel));
   if (scene.model.find<Spheres>())
     out.different_law.push_back(
         "friction: a touching node loses a fixed share of its tangential motion in each step, whatever "

@@ -1,8 +1,8 @@
 // Bullet's position-based soft-body world.
 #pragma once
 
-#include "mysim/run.h"
-#include "reference/bullet/scene_body.h"
+#include "mysim/run/run.h"
+#include "reference/bullet/soft_body.h"
 
 namespace crosscheck::bullet {
 
@@ -11,7 +11,7 @@ struct PbdSettings {
   bool demo = false;      // as in Bullet's own cloth demos: every link at kLST = 1
   bool own_wind = false;  // Bullet's own wind on triangles instead of the scene's
   double voxel = 0.02;    // m, of the distance field; Bullet's default of 0.25 would misplace a ball by 1.5 cm
-  Defaults defaults;
+  BulletDefaults defaults;
 };
 
 /// btSoftRigidDynamicsWorld: position-based links. Stiffness is mapped per link by kLST = 1 - (1 + k h^2/mu)^(-1/n),

@@ -9,9 +9,6 @@ function(add_bullet_worlds name bullet)
 endfunction()
 set(BULLET_WORLDS_SOURCES
   deformable.cpp
-  deformable_forces.cpp
-  net_force.cpp
-  obstacles.cpp
   pbd.cpp
-  scene_body.cpp
+  soft_body.cpp
   worlds.cpp)

@@ -6,8 +6,8 @@
 
 #include <charconv>
 
-#include "mysim/errors.h"
-#include "mysim/nearest.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/text.h"
 #include "reference/bullet/deformable.h"
 #include "reference/bullet/pbd.h"
 

@@ -1,12 +1,13 @@
 // Bullet's worlds as methods: here in double precision, and in single precision as a program of their own, since one
 // program cannot hold both.
+
 #include <fmt/format.h>
 
 #include <filesystem>
 
-#include "mysim/errors.h"
+#include "mysim/base/errors.h"
 #include "reference/bullet/worlds.h"
-#include "reference/methods/families.h"
+#include "reference/method.h"
 #include "reference/protocol/exec_engine.h"
 
 namespace crosscheck {

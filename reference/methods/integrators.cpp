@@ -1,7 +1,7 @@
 // Integrators that are no engines: they solve the scene's equations, written apart, by somebody else's code.
-#include "reference/independent/integrators.h"
 
-#include "reference/methods/families.h"
+#include "reference/truth/independent/integrators.h"
+#include "reference/method.h"
 
 namespace crosscheck {
 

@@ -1,10 +1,11 @@
 // mysim's steppers as methods.
+
 #include <fmt/format.h>
 
 #include <charconv>
 
-#include "mysim/engine.h"
-#include "reference/methods/families.h"
+#include "mysim/run/engine.h"
+#include "reference/method.h"
 
 namespace crosscheck {
 namespace {
@@ -31,19 +32,19 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
       contact = ContactRule::sticky;
     else if (option == "linear" && stepper.linear)
       rule.step = stepper.linear, same_as += "+linear";
-    else if (option == "plain" && stepper.chain)
+    else if (option == "plain" && stepper.composition)
       execution.precision = Precision::plain;
-    else if (option == "fast" && stepper.chain)
+    else if (option == "fast" && stepper.composition)
       execution.precision = Precision::fastest;
-    else if (option == "single" && stepper.chain)
+    else if (option == "single" && stepper.composition)
       execution.precision = Precision::single;
-    else if (const auto threads = threads_in(option); threads && stepper.chain)
+    else if (const auto threads = threads_in(option); threads && stepper.composition)
       execution.threads = *threads;
     else
       refuse_option(name, option,
-                    stepper.linear  ? "+linear, +sticky or none"
-                    : stepper.chain ? "+sticky, +fast, +single, +plain, +threads=N or none"
-                                    : "+sticky or none");
+                    stepper.linear        ? "+linear, +sticky or none"
+                    : stepper.composition ? "+sticky, +fast, +single, +plain, +threads=N or none"
+                                          : "+sticky or none");
   }
   return {name,
           fmt::format("{} (order {}{}; {})", stepper.what, stepper.order, stepper.symplectic ? ", symplectic" : "",

@@ -1,11 +1,12 @@
 // Programs and trajectories from outside. Of them samples alone are seen: nothing is known of what happened between.
+
 #include <fmt/format.h>
 
-#include "mysim/files.h"
-#include "mysim/fnv.h"
-#include "reference/methods/families.h"
-#include "reference/protocol/delivery.h"
+#include "mysim/base/files.h"
+#include "mysim/base/hash.h"
+#include "reference/method.h"
 #include "reference/protocol/exec_engine.h"
+#include "reference/protocol/trajectory_files.h"
 
 namespace crosscheck {
 namespace {
@@ -35,7 +36,7 @@ Method trajectory_method(const std::filesystem::path& file, const Scene& scene, 
           .engine =
               [frames = std::move(frames)](const Scene& s, const Run& r, Observer& observer) {
                 Outcome out;
-                play(frames, s, r, observer, out);
+                replay(frames, s, r, observer, out);
                 return out;
               },
           .contact = ContactLoss::sampled,

@@ -1,19 +1,19 @@
 // The best answers known, played through the observer like any other method.
-#include "reference/truth.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "mysim/errors.h"
-#include "reference/exact/discrete.h"
-#include "reference/methods/families.h"
+#include "mysim/base/errors.h"
+#include "reference/method.h"
+#include "reference/truth/discrete.h"
+#include "reference/truth/truth.h"
 
 namespace crosscheck {
 namespace {
 
-Outcome play(const Truth& truth, const Run& run, Observer& observer) {
+Outcome replay(const Truth& truth, const Run& run, Observer& observer) {
   Outcome out;
-  out.step = plan(run).h;
+  out.step = time_grid(run).h;
   for (int i = 0; i < truth.trajectory.frames() && out.verdict == Verdict::ok; ++i) {
     out.end = truth.trajectory.t[i];
     out.verdict = observer.observe({out.end, truth.trajectory.x[i], truth.trajectory.v[i]}, true);
@@ -30,18 +30,18 @@ Method truth_method(Tier tier, const MethodOptions& options) {
           "",
           [tier](const Scene& scene, const Run& run, Observer& observer) {
             const auto truth = truth_of(scene, run);
-            if (!truth || truth->tier != tier || truth->of_contact_rule)
+            if (!truth || truth->tier != tier || truth->under_contact_rule)
               throw Unsupported(tier == Tier::exact
                                     ? "the scene has no closed form"
                                     : "the scene has a closed form, or contacts on whose rule the answer depends");
-            return play(*truth, run, observer);
+            return replay(*truth, run, observer);
           },
           ContactLoss::inferred};
 }
 
 MethodOptions names_of_discrete_rules() {
   MethodOptions names;
-  for (const DiscreteRule& rule : discrete_rules()) names.emplace_back(rule.name);
+  for (const DiscreteStepper& rule : discrete_steppers()) names.emplace_back(rule.name);
   return names;
 }
 
@@ -51,11 +51,11 @@ Method discrete_method(const MethodOptions& options) {
   const std::string known = fmt::format("one of the rules +{}", fmt::join(names_of_discrete_rules(), ", +"));
   if (options.empty()) throw InputError(fmt::format("method {}: no rule; expected {}", name, known));
   if (options.size() > 1) refuse_option(name, options[1], known);
-  for (const DiscreteRule& rule : discrete_rules())
+  for (const DiscreteStepper& rule : discrete_steppers())
     if (rule.name == options[0])
       return {name, fmt::format("closed form of what {} should produce, on linear scenes", rule.name), "",
               [&rule](const Scene& scene, const Run& run, Observer& observer) {
-                return play(discrete_truth(rule, scene, run), run, observer);
+                return replay(discrete_truth(rule, scene, run), run, observer);
               },
               ContactLoss::inferred};
   refuse_option(name, options[0], known);

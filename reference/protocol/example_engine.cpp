@@ -1,5 +1,6 @@
 // An engine for crosscheck in C++17: symplectic Euler with springs, drag, gravity and moved pins. Build it with any
 // compiler: c++ -std=c++17 -O2 example_engine.cpp -o engine
+
 #include <cstdio>
 #include <ctime>
 

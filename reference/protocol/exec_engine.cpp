@@ -1,22 +1,81 @@
-// One run of an outside program: a folder of its own, scene.json in, files out.
+// Finds an outside program and runs it once: a folder of its own, scene.json in, files out.
 #include "reference/protocol/exec_engine.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
+#include <sstream>
 
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/json.h"
-#include "mysim/temporary_folder.h"
-#include "reference/npy.h"
-#include "reference/protocol/delivery.h"
-#include "reference/protocol/process.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/json.h"
+#include "mysim/base/process.h"
 #include "reference/protocol/run_json.h"
 #include "reference/protocol/scene_json.h"
+#include "reference/protocol/trajectory_files.h"
 
 namespace crosscheck {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+std::optional<fs::path> find_in_path(const std::string& name) {
+  if (name.empty()) return std::nullopt;
+  const bool path_given = name.find('/') != std::string::npos;
+  if (is_file(name) || (path_given && fs::is_directory(fs::path(name)))) return fs::absolute(name);
+  if (path_given) return std::nullopt;
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (!folder.empty() && is_file(fs::path(folder) / name)) return fs::absolute(fs::path(folder) / name);
+  return std::nullopt;
+}
+
+double parse_timeout(const std::string& text, const std::string& value) {
+  char* end = nullptr;
+  const double seconds = std::strtod(value.c_str(), &end);
+  if (value.empty() || *end != '\0' || !std::isfinite(seconds) || !(seconds > 0))
+    throw InputError(fmt::format("method exec:{}: timeout: expected seconds above zero, got '{}'", text, value));
+  return std::min(seconds, 1e8);
+}
+
+}  // namespace
+
+Program find_program(const std::string& text) {
+  Program program;
+  // the longest part of it that is a file: names may hold pluses, and values of options may hold slashes
+  size_t end = text.size();
+  std::optional<fs::path> found = find_in_path(text);
+  while (!found && end > 0 && (end = text.rfind('+', end - 1)) != std::string::npos)
+    found = find_in_path(text.substr(0, end));
+  if (!found)
+    throw InputError(
+        fmt::format("method exec:{}: no such file; expected the path of a program, or a program in PATH", text));
+  program.path = *found;
+  if (fs::is_directory(program.path))
+    throw InputError(fmt::format("method exec:{}: {} is a folder; expected a program", text, program.path.string()));
+  if (access(program.path.c_str(), X_OK) != 0)
+    throw InputError(fmt::format("method exec:{}: {} is not executable; expected a program (chmod +x makes it one)",
+                                 text, program.path.string()));
+  if (end == text.size()) return program;
+  std::istringstream options(text.substr(end + 1));
+  for (std::string option; std::getline(options, option, '+');) {
+    if (option.starts_with("timeout="))
+      program.timeout = parse_timeout(text, option.substr(8));
+    else
+      program.options.push_back(option);
+  }
+  return program;
+}
+
 namespace fs = std::filesystem;
 namespace {
 
@@ -34,22 +93,23 @@ std::string last_line(const std::string& text) {
   return line;
 }
 
-std::string how_it_ended(const ProcessEnd& end) {
+std::string exit_text(const ProcessResult& end) {
   if (end.signal != 0) return fmt::format("was ended by signal {} ({})", end.signal, strsignal(end.signal));
   return fmt::format("ended with exit status {}", end.status);
 }
 
-Outcome failed(Outcome out, Verdict verdict, const std::string& what, const ProcessEnd& end) {
-  const std::string said = last_line(end.err);
+Outcome failed(Outcome out, Verdict verdict, const std::string& what, const ProcessResult& end) {
+  const std::string last_stderr_line = last_line(end.err);
   out.verdict = verdict;
-  out.reason = "the program " + what + (said.empty() ? "" : "; last line of its stderr: " + said);
+  out.reason =
+      "the program " + what + (last_stderr_line.empty() ? "" : "; last line of its stderr: " + last_stderr_line);
   out.readback.reset();
   out.end = 0;
   return out;
 }
 
 /// Reads what the program wrote. Throws InputError where it is not what the protocol asks.
-Frames read_delivery(const fs::path& folder, const Scene& scene, const Run& run, Outcome& out) {
+Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, Outcome& out) {
   for (const char* file : {"run.json", "trajectory.npy", "velocities.npy"}) {
     const fs::file_status status = fs::status(folder / file);
     if (fs::exists(status) && !fs::is_regular_file(status)) throw InputError(fmt::format("{}: expected a file", file));
@@ -72,8 +132,8 @@ Outcome run_program(const Program& program, const Scene& scene, const Run& run, 
   fs::create_directory(results);
 
   Outcome out;
-  out.step = plan(run).h;
-  ProcessEnd end;
+  out.step = time_grid(run).h;
+  ProcessResult end;
   try {
     end = run_process({program.path.string(), task.string(), results.string()}, program.timeout);
   } catch (const std::runtime_error& error) {
@@ -85,31 +145,33 @@ Outcome run_program(const Program& program, const Scene& scene, const Run& run, 
   if (end.timed_out)
     return failed(out, Verdict::timeout, fmt::format("did not end within {:g} s and was killed", program.timeout), end);
   if (end.signal == 0 && end.status == 3) {
-    const std::string said = last_line(end.err), why = said.empty() ? last_line(end.out) : said;
+    const std::string last_stderr_line = last_line(end.err),
+                      why = last_stderr_line.empty() ? last_line(end.out) : last_stderr_line;
     throw Unsupported(why.empty() ? "the program says so (exit status 3) and gives no reason" : why);
   }
-  if (end.signal != 0 || end.status != 0) return failed(out, Verdict::crash, how_it_ended(end), end);
+  if (end.signal != 0 || end.status != 0) return failed(out, Verdict::crash, exit_text(end), end);
 
   Frames frames;
   try {
-    frames = read_delivery(results, scene, run, out);
+    frames = read_results(results, scene, run, out);
   } catch (const std::exception& broken) {
     std::string what = broken.what();
     if (what.starts_with(results.string() + "/")) what.erase(0, results.string().size() + 1);
     Outcome none;
-    none.step = plan(run).h;
+    none.step = time_grid(run).h;
     none.process_seconds = end.cpu_seconds;
     return failed(none, Verdict::crash, "did not deliver: " + what, end);
   }
-  const Verdict told = out.verdict;
-  play(frames, scene, run, observer, out);
-  if (told != Verdict::ok && out.reason.empty()) out.reason = "by the program's own word";
+  const Verdict reported = out.verdict;
+  replay(frames, scene, run, observer, out);
+  if (reported != Verdict::ok && out.reason.empty()) out.reason = "by the program's own word";
 
   auto remark = [&](const std::string& what) { out.remark += (out.remark.empty() ? "" : "; ") + what; };
-  if (const std::string said = last_line(end.err); !said.empty()) remark("it wrote on stderr, last: " + said);
+  if (const std::string last_stderr_line = last_line(end.err); !last_stderr_line.empty())
+    remark("it wrote on stderr, last: " + last_stderr_line);
   if (end.left_children) remark("it left a process behind that kept its output open, which was killed");
-  if (out.step != plan(run).h)
-    remark(fmt::format("it took steps of {:.6g} s, asked were {:.6g} s", out.step, plan(run).h));
+  if (out.step != time_grid(run).h)
+    remark(fmt::format("it took steps of {:.6g} s, asked were {:.6g} s", out.step, time_grid(run).h));
   return out;
 }
 

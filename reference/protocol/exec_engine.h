@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mysim/run.h"
+#include "mysim/run/run.h"
 
 namespace crosscheck {
 

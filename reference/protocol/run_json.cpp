@@ -1,8 +1,8 @@
 // Outcomes as JSON, and back.
 #include "reference/protocol/run_json.h"
 
-#include "mysim/errors.h"
-#include "reference/protocol/json_fields.h"
+#include "mysim/base/errors.h"
+#include "reference/protocol/scene_json.h"
 
 namespace crosscheck {
 namespace {
@@ -16,15 +16,19 @@ void add(Json& json, const char* key, const std::optional<T>& value) {
     json[key] = *value;
 }
 
-Json texts_json(const std::map<std::string, std::string>& texts) {
+Json string_map_json(const std::map<std::string, std::string>& texts) {
   Json json = Json::object();
   for (const auto& [key, text] : texts) json[key] = text;
   return json;
 }
 
 Json readback_json(const Readback& r) {
-  Json json{{"mass", r.mass},           {"pinned", Json::list()},         {"links", Json::list()},
-            {"precision", r.precision}, {"mapped", texts_json(r.mapped)}, {"settings", texts_json(r.settings)}};
+  Json json{{"mass", r.mass},
+            {"pinned", Json::list()},
+            {"links", Json::list()},
+            {"precision", r.precision},
+            {"mapped", string_map_json(r.mapped)},
+            {"settings", string_map_json(r.settings)}};
   for (char pinned : r.pinned) json["pinned"].push(pinned);
   for (const Readback::Link& link : r.links) {
     Json& entry = json["links"].push({{"a", link.a}, {"b", link.b}, {"rest_length", link.rest}});
@@ -133,7 +137,7 @@ std::string run_json(const Outcome& out) {
             {"step", out.step},
             {"steps", out.steps},
             {"force_evaluations", out.evaluations},
-            {"coincident_springs", out.coincident},
+            {"coincident_springs", out.degenerate_springs},
             {"cpu_seconds", out.cpu_seconds},
             {"different_law", out.different_law}};
   if (out.readback) json["readback"] = readback_json(*out.readback);
@@ -155,7 +159,7 @@ void read_run_json(const std::filesystem::path& path, Outcome& out) {
   number("cpu_seconds", out.cpu_seconds);
   count("steps", out.steps);
   count("force_evaluations", out.evaluations);
-  count("coincident_springs", out.coincident);
+  count("coincident_springs", out.degenerate_springs);
   if (const auto laws = f.find("different_law")) {
     for (const JsonField& law : laws->elements()) {
       // "ingredient: how it differs", as the certificate prints it

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "mysim/run.h"
+#include "mysim/run/run.h"
 
 namespace crosscheck {
 

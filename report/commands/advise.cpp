@@ -1,21 +1,71 @@
 // advise: fits what is unset to the scene's wishes, then finds the cheapest model, method and step for a tolerance.
+#include "report/commands/advise.h"
+
+#include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "experiments/advise/advice.h"
 #include "experiments/advise/fit.h"
-#include "experiments/demand.h"
-#include "experiments/method_progress.h"
-#include "experiments/scenes.h"
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/json.h"
-#include "mysim/output_folder.h"
-#include "report/charts/advice.h"
+#include "experiments/estimate.h"
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/json.h"
+#include "mysim/base/output_folder.h"
+#include "report/base/provenance.h"
 #include "report/commands/commands.h"
-#include "report/facts.h"
-#include "report/provenance.h"
+#include "report/findings/report_data.h"
 
 namespace crosscheck {
+
+Figure advice_figure(const Advice& a, const std::string& commit) {
+  Figure f;
+  f.name = a.scene.name + "-advice";
+  f.title = fmt::format("{}: error against cost of everything tried", a.scene.name);
+  f.x = {"force evaluations × springs", true, std::nullopt, std::nullopt};
+  f.y = {a.under_contact_rule ? "largest RMS difference / m" : "largest RMS error / m", true, std::nullopt,
+         std::nullopt};
+  double highest = a.tolerance;
+  for (const Trial& t : a.trials)
+    if (t.error && *t.error > a.error_bar) highest = std::max(highest, *t.error);
+  for (const Trial& t : a.trials) {
+    if (t.outcome.verdict == Verdict::unsupported || t.outcome.evaluations == 0) continue;
+    const bool full = t.model == "full";
+    const std::string title = t.method.substr(t.method.starts_with("mysim/") ? 6 : 0) + (full ? "" : ", least model");
+    MethodStyle style = style_of(t.method);
+    if (!full) style.dash = "(1,3)", style.marker = 6;
+    if (!t.error) {
+      f.failures.push_back(
+          {title + ": " + failure_class(std::string(name_of(t.outcome.verdict))), style, t.cost(), 3 * highest});
+      continue;
+    }
+    if (!(*t.error > a.error_bar)) continue;  // below its bar the truth tells nothing
+    auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == title; });
+    if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {title, style, {}, true, true});
+    curve->points.emplace_back(t.cost(), *t.error);
+  }
+  for (Curve& c : f.curves) std::sort(c.points.begin(), c.points.end());
+  const Trial& chosen = a.trials[a.chosen];
+  double lowest = *chosen.error;
+  for (const Curve& c : f.curves)
+    for (const auto& [x, y] : c.points) lowest = std::min(lowest, y);
+  // a line down from it to the axis, as a marker among many would be lost
+  const double error = std::max(*chosen.error, a.error_bar);
+  f.curves.push_back({"advised", {"#000000", "1", 3}, {{chosen.cost(), error}, {chosen.cost(), lowest / 2}}, true});
+  f.floor = {fmt::format("asked: {}", nice_length(a.tolerance)), a.tolerance};
+  f.finding = fmt::format("{} at {} meets {} at the least cost.", chosen.method,
+                          chosen.relative > 0 ? fmt::format("a relative tolerance of {:.2g}", chosen.relative)
+                                              : fmt::format("a step of {:.4g} s", chosen.step),
+                          nice_length(a.tolerance));
+  f.caption = fmt::format("Scene {}, until {:.3g} s; truth: {}, error bar {} ({}); commit {}.", a.scene.name, a.until,
+                          a.under_contact_rule ? "what the in-house contact rule converges to" : name_of(a.tier),
+                          nice_length(a.error_bar), a.truth, commit);
+  return f;
+}
+
 namespace fs = std::filesystem;
 namespace {
 
@@ -39,10 +89,10 @@ Table trials_table(const Advice& a) {
   for (size_t i = 0; i < a.trials.size(); ++i) {
     const Trial& t = a.trials[i];
     table.add({t.model, t.method, t.step, t.relative > 0 ? Cell(t.relative) : Cell(), t.error ? Cell(*t.error) : Cell(),
-               a.tolerance, a.bar,
-               std::string(t.meets     ? "yes"
-                           : t.by_luck ? "by luck"
-                                       : "no"),
+               a.tolerance, a.error_bar,
+               std::string(t.meets        ? "yes"
+                           : t.accidental ? "by luck"
+                                          : "no"),
                i == a.chosen ? 1l : 0l, std::string(name_of(t.outcome.verdict)), t.limit ? Cell(*t.limit) : Cell(),
                t.outcome.evaluations, t.springs, t.cost()});
   }
@@ -84,8 +134,8 @@ std::string json_of(const Advice& a) {
             {"tolerance", a.tolerance},
             {"truth", a.truth},
             {"tier", static_cast<int>(a.tier)},
-            {"of_contact_rule", a.of_contact_rule},
-            {"bar", a.bar},
+            {"of_contact_rule", a.under_contact_rule},
+            {"bar", a.error_bar},
             {"until", a.until},
             {"left_out", a.left_out},
             {"advised", json_of(a.trials[a.chosen])},
@@ -101,8 +151,8 @@ void print(const Advice& a) {
   fmt::print("  model     {}\n", a.left_out.empty() ? "full" : t.model);
   fmt::print("  method    {}\n", how_of(t));
   fmt::print("  {} {} (largest RMS over time; truth: {}, error bar {})\n",
-             a.of_contact_rule ? "differs  " : "error    ", nice_length(*t.error),
-             a.of_contact_rule ? "the in-house contact rule" : name_of(a.tier), nice_length(a.bar));
+             a.under_contact_rule ? "differs  " : "error    ", nice_length(*t.error),
+             a.under_contact_rule ? "the in-house contact rule" : name_of(a.tier), nice_length(a.error_bar));
   fmt::print("  margin    stability limit: {}\n", margin_text(t));
   fmt::print("  cost      {} force evaluations x {} springs; {:.2g} s of CPU time here\n", t.outcome.evaluations,
              t.springs, t.outcome.cpu_seconds);
@@ -150,7 +200,7 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
     for (Method& m : all_methods())
       if (options.methods.empty() && m.name.starts_with("mysim/")) methods.push_back(std::move(m));
     // the truth's run, and that of each method; each of them is tried at several steps
-    require_room_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
+    require_resources_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
     Progress progress(0);
     progress.begin(fmt::format("truth of {}", scene->name));
     for (Method& method : methods) method = with_progress(method, progress);
@@ -177,7 +227,7 @@ int advise_command(const AdviseOptions& options) {
   OutputFolder folder(options.out, "advise");
   try {
     return advised(options, folder);
-  } catch (const CannotPromise& why) {
+  } catch (const CannotGuarantee& why) {
     // what was advised before would pass for this advice where none can be given; but it may be what was asked about
     const fs::path old = options.out / "advice.toml", now = folder.path() / "advice.toml";
     if (!fs::exists(now) && fs::exists(old) && fs::exists(options.scene) && fs::equivalent(old, options.scene))

@@ -2,18 +2,17 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
 
-#include "mysim/complaint.h"
-#include "mysim/errors.h"
-#include "mysim/nearest.h"
-#include "mysim/shell_words.h"
-#include "reference/build_id.h"
+#include "mysim/base/command_line.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/text.h"
+#include "reference/truth/cache.h"
 #include "report/commands/commands.h"
-#include "report/commands/validate.h"
 
 namespace crosscheck {
 
@@ -21,7 +20,7 @@ namespace crosscheck {
 inline std::string command_line(int argc, char** argv) {
   std::vector<std::string> words(argv, argv + argc);
   words[0] = "crosscheck";
-  return shell_line(words);
+  return shell_join(words);
 }
 
 /// CLI11's own range checks let nan through and print 309 digits.
@@ -84,7 +83,7 @@ inline int parse(CLI::App& app, int argc, char** argv, const int& status) {
   } catch (const CLI::Success& done) {
     return app.exit(done);
   } catch (const CLI::ParseError& error) {
-    throw InputError(complaint("crosscheck", app, error));
+    throw InputError(usage_error("crosscheck", app, error));
   }
   return status;
 }

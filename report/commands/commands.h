@@ -1,4 +1,4 @@
-// The subcommands. Each returns the exit status: 0 done, 1 the answer is no; bad input throws InputError (exit 2).
+// The subcommands.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,16 @@
 
 namespace crosscheck {
 
-struct BenchPlan;
+// validate: what scenes are, without running them.
+
+/// Checks every scene and prints what it is: particles, springs by family, pins, the fastest vibration, the critical
+/// time step of each explicit rule, what its default run will take. Faults are told one line each on standard error; 2
+/// where there was one, 0 otherwise.
+int validate_command(const std::vector<std::string>& scenes, bool json);
+
+// The subcommands. Each returns the exit status: 0 done, 1 the answer is no; bad input throws InputError (exit 2).
+
+struct BenchSuite;
 class OutputFolder;
 
 int doctor_command();
@@ -125,7 +134,7 @@ struct BenchOptions {
 };
 int bench_command(const BenchOptions& options);
 /// The same with a plan of one's own, in place of the short or the long one.
-int bench_command(const BenchOptions& options, const BenchPlan& plan);
+int bench_command(const BenchOptions& options, const BenchSuite& plan);
 
 struct RenderOptions {
   std::string scene, methods, mode = "shaded", size = "1280x720";

@@ -1,20 +1,20 @@
 // compare: parity certificates, then the methods side by side; exit 1 on a mismatch or when equal rules differ.
+
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "experiments/demand.h"
+#include "experiments/estimate.h"
 #include "experiments/experiment.h"
-#include "experiments/method_progress.h"
 #include "experiments/metrics.h"
-#include "experiments/scenes.h"
-#include "experiments/stability/outlook.h"
-#include "mysim/files.h"
-#include "mysim/output_folder.h"
-#include "reference/certificate.h"
-#include "report/certificate_json.h"
+#include "experiments/scenes/scenes.h"
+#include "experiments/stability/margin.h"
+#include "mysim/base/files.h"
+#include "mysim/base/output_folder.h"
+#include "reference/certificate/certificate.h"
+#include "report/base/provenance.h"
 #include "report/commands/commands.h"
-#include "report/provenance.h"
+#include "report/commands/json_files.h"
 
 namespace crosscheck {
 namespace {
@@ -33,14 +33,14 @@ std::string shown(const Cell& cell) {
 }
 
 /// Prints what the same rules differ by; true when one differs by more than allowed.
-bool equal_rules_differ(const Request& request, const Scene& scene, Answers& answers) {
+bool equal_rules_differ(const Request& request, const Scene& scene, Results& answers) {
   const std::vector<Method> methods = methods_of(request, scene);
   bool differ = false;
   for (size_t i = 0; i < methods.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
       const std::string& rule = methods[i].rule;
-      const Answer &a = answer_of(request, scene, methods[i], answers),
-                   &b = answer_of(request, scene, methods[j], answers);
+      const Result &a = result_of(request, scene, methods[i], answers),
+                   &b = result_of(request, scene, methods[j], answers);
       if (rule.empty() || rule != methods[j].rule || methods[i].name == methods[j].name) continue;
       if (a.outcome.verdict != Verdict::ok || b.outcome.verdict != Verdict::ok) continue;
       if (!a.outcome.different_law.empty() || !b.outcome.different_law.empty()) continue;  // contact, for one
@@ -75,16 +75,16 @@ int compare_command(const CompareOptions& options) {
     request.methods.push_back(trajectory_method(options.trajectory, asked, run_of(request, asked)));
   }
   const Scene& scene = request.scenes[0];
-  require_room_to_keep(methods_of(request, scene), scene, run_of(request, scene));
+  require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
   OutputFolder folder(options.out, "compare");
 
-  Answers answers;
+  Results answers;
   Rows result;
   Progress progress(static_cast<int>(methods_of(request, scene).size()) + 1);
   for (const Method& method : methods_of(request, scene)) {
     Request shown = request;
     shown.methods = {with_progress(method, progress)};
-    answer_of(shown, scene, shown.methods[0], answers);
+    result_of(shown, scene, shown.methods[0], answers);
   }
   progress.begin(fmt::format("truth and certificates of {}", scene.name));
   engines_on(request, scene, answers, result);
@@ -124,12 +124,12 @@ int compare_command(const CompareOptions& options) {
         verdict == "unsupported" || verdict == "crash" || verdict == "timeout")
       fmt::print("    {}\n", std::get<std::string>(table.at(i, "reason")));
   }
-  for (const Answer& answer : answers)
+  for (const Result& answer : answers)
     if (!answer.outcome.remark.empty()) fmt::print("\n{}: {}\n", answer.method, answer.outcome.remark);
   for (const Method& method : methods_of(request, scene))
-    for (const Answer& answer : answers)
+    for (const Result& answer : answers)
       if (answer.method == method.name && answer.outcome.verdict == Verdict::ok)
-        if (const std::string outlook = outlook_of(method, scene, answer.outcome.step); !outlook.empty())
+        if (const std::string outlook = stability_warning(method, scene, answer.outcome.step); !outlook.empty())
           fmt::print("\n{}: {}\n", method.name, outlook);
   if (options.step > 0)
     for (const Method& method : methods_of(request, scene))

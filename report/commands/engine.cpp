@@ -1,4 +1,5 @@
 // engine bullet: builds the Bullet adapter against another Bullet tree, as a program for exec:.
+
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -7,12 +8,12 @@
 #include <sstream>
 #include <thread>
 
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/fnv.h"
-#include "mysim/progress.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/hash.h"
+#include "mysim/base/process.h"
+#include "mysim/base/progress.h"
 #include "report/commands/commands.h"
-#include "report/run_program.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;

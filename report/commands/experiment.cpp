@@ -1,18 +1,19 @@
 // experiment: runs experiments over scenes and writes their tables; merge: joins the parts of a sweep.
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "experiments/demand.h"
+#include "experiments/estimate.h"
 #include "experiments/experiment.h"
-#include "experiments/scenes.h"
+#include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/output_folder.h"
-#include "report/certificate_json.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/output_folder.h"
+#include "report/base/provenance.h"
 #include "report/commands/commands.h"
-#include "report/provenance.h"
+#include "report/commands/json_files.h"
 
 namespace crosscheck {
 namespace {
@@ -40,10 +41,10 @@ void print_tables(const Rows& rows, const std::filesystem::path& out) {
 }
 
 /// The plan, and what may come of its points; what earlier ones gave stays where the sweep goes on.
-void announce(GrowingOutput& folder, const Plan& plan, const Store& store, const ExperimentOptions& options) {
+void announce(ResumableOutput& folder, const PointList& plan, const Store& store, const ExperimentOptions& options) {
   const std::string points = store.folder().filename().string();
   std::vector<std::string> files{"plan.json"};
-  for (const Plan::Entry& point : plan.points)
+  for (const PointList::Entry& point : plan.points)
     for (const char* ending : {".json", ".failed"}) files.push_back(fmt::format("{}/{}{}", points, point.hash, ending));
   if (options.resume)
     folder.keep(points);
@@ -76,15 +77,15 @@ int experiment_command(const ExperimentOptions& options) {
   for (const Experiment* experiment : chosen) {
     request.scenes = scenes_for(*experiment, scenes, options.full);
     for (const Scene& scene : request.scenes)
-      require_room_to_keep(methods_of(request, scene), scene, run_of(request, scene));
-    unite(looked_at, request.scenes);
+      require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
+    add_missing(looked_at, request.scenes);
     for (Point& point : experiment->points(request)) points.push_back(std::move(point));
   }
-  GrowingOutput folder(options.out, "experiment");
+  ResumableOutput folder(options.out, "experiment");
   const Store store(store_in(options.out));
-  const Plan plan = plan_of(names, points, with_scenes(provenance(options.command_line), looked_at));
+  const PointList plan = point_list_of(names, points, with_scenes(provenance(options.command_line), looked_at));
   announce(folder, plan, store, options);
-  write_plan(plan, options.out);
+  write_point_list(plan, options.out);
 
   Progress progress(static_cast<int>(points.size()));
   const std::vector<FailedPoint> failed = run_points(points, sweep, store, progress);
@@ -107,10 +108,10 @@ int experiment_command(const ExperimentOptions& options) {
 }
 
 int merge_command(const MergeOptions& options) {
-  const Plan plan = read_plan(options.folders.at(0));
+  const PointList plan = read_point_list(options.folders.at(0));
   std::vector<Store> stores;
   for (const auto& folder : options.folders) {
-    if (read_plan(folder).points != plan.points)
+    if (read_point_list(folder).points != plan.points)
       throw InputError(fmt::format("{}: expected the points of {}: the same command, scenes and program",
                                    (folder / "plan.json").string(), options.folders[0].string()));
     stores.emplace_back(store_in(folder));

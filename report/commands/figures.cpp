@@ -1,19 +1,87 @@
 // figures: a set of figures fit to print, made from the experiments that they need and no others.
-#include <fmt/format.h>
+#include "report/commands/figures.h"
 
-#include "experiments/demand.h"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "experiments/estimate.h"
+#include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/output_folder.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/output_folder.h"
+#include "mysim/base/text.h"
+#include "report/base/provenance.h"
 #include "report/commands/commands.h"
-#include "report/figure_set.h"
-#include "report/figures_asked.h"
-#include "report/grounds.h"
-#include "report/printed_picture.h"
-#include "report/provenance.h"
+#include "report/figures/figure_set.h"
+#include "report/findings/evidence.h"
 
 namespace crosscheck {
+namespace {
+
+constexpr std::string_view picture_suffix = "-picture";
+
+const Experiment* experiment_named(const std::string& name) {
+  for (const Experiment& e : experiments())
+    if (name == e.name) return &e;
+  return nullptr;
+}
+
+/// The scenes that somebody named, or those that stand for the others.
+std::vector<PictureRequest> scenes_asked(const FiguresOptions& options) {
+  std::vector<PictureRequest> all;
+  const std::vector<Scene> scenes = scenes_for({}, options.scenes, options.full);
+  for (size_t i = 0; i < scenes.size(); ++i)
+    all.push_back({scenes[i], options.scenes.empty() ? scenes[i].name : options.scenes[i]});
+  return all;
+}
+
+PictureRequest picture_named(const std::string& name, const FiguresOptions& options) {
+  if (options.scenes.empty()) {
+    const std::string scene = name.substr(0, name.size() - picture_suffix.size());
+    return {load_scene(scene), scene};
+  }
+  const std::vector<PictureRequest> all = scenes_asked(options);
+  std::vector<std::string> names;
+  for (const PictureRequest& asked : all) {
+    if (name == picture_name(asked.scene)) return asked;
+    names.push_back(picture_name(asked.scene));
+  }
+  throw InputError(fmt::format("{}: expected a picture of a scene that --scene names: {}{}", name,
+                               fmt::join(names, ", "), did_you_mean(name, names)));
+}
+
+[[noreturn]] void fail(const std::string& name) {
+  std::vector<std::string> known;
+  for (const Experiment& e : experiments()) known.emplace_back(e.name);
+  throw InputError(fmt::format("unknown figures '{}'; expected SCENE-picture or one of {}{}", name,
+                               fmt::join(known, ", "), did_you_mean(name, known)));
+}
+
+}  // namespace
+
+FigureSelection select_figures(const FiguresOptions& options) {
+  FigureSelection asked;
+  if (options.names.empty()) {
+    for (const Experiment& e : experiments()) asked.experiments.push_back(&e);
+    asked.pictures = scenes_asked(options);
+  }
+  for (size_t i = 0; i < options.names.size(); ++i) {
+    const std::string& name = options.names[i];
+    if (std::count(options.names.begin(), options.names.end(), name) > 1)
+      throw InputError(fmt::format("{}: expected each name once", name));
+    if (const Experiment* experiment = experiment_named(name))
+      asked.experiments.push_back(experiment);
+    else if (name.ends_with(picture_suffix))
+      asked.pictures.push_back(picture_named(name, options));
+    else
+      fail(name);
+  }
+  return asked;
+}
+
 namespace {
 
 /// Everything that there is to compute, and what it is of.
@@ -23,7 +91,7 @@ struct Work {
   std::vector<Point> points;  // of the experiments
 };
 
-Work work_of(const AskedFigures& asked, const FiguresOptions& options) {
+Work work_of(const FigureSelection& asked, const FiguresOptions& options) {
   Work work;
   Request request;
   request.full = options.full;
@@ -32,15 +100,15 @@ Work work_of(const AskedFigures& asked, const FiguresOptions& options) {
     work.experiments.emplace_back(experiment->name);
     request.scenes = scenes_for(*experiment, options.scenes, options.full);
     for (const Scene& scene : request.scenes)
-      require_room_to_keep(methods_of(request, scene), scene, run_of(request, scene));
-    unite(work.scenes, request.scenes);
+      require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
+    add_missing(work.scenes, request.scenes);
     for (Point& point : experiment->points(request)) work.points.push_back(std::move(point));
   }
   return work;
 }
 
 /// The command that draws a picture again, into a folder of its own.
-std::string script_of(const AskedPicture& picture, const FiguresOptions& options, const FigureSize& size) {
+std::string script_of(const PictureRequest& picture, const FiguresOptions& options, const FigureSize& size) {
   const std::string name = picture_name(picture.scene);
   return fmt::format(
       "#!/bin/sh\n# Draws {0} again; to be started where crosscheck is. $1: the folder\n"
@@ -49,17 +117,17 @@ std::string script_of(const AskedPicture& picture, const FiguresOptions& options
 }
 
 /// Draws the picture of a scene into the folder, and hands its words to those who write the catalogue.
-Point picture_point(const AskedPicture& picture, const FiguresOptions& options, const FigureSize& size,
+Point picture_point(const PictureRequest& picture, const FiguresOptions& options, const FigureSize& size,
                     const Provenance& lines) {
   return {"picture: " + picture_name(picture.scene), content_of(picture.scene), [&, size](Rows& rows) {
             const Scene& scene = picture.scene;
-            Answers answers;
-            std::vector<const Answer*> shown;
+            Results answers;
+            std::vector<const Result*> shown;
             for (const std::string& name : pictured_methods(scene)) {
-              const Answer& a = answer_of({}, scene, find_method(name), answers);
+              const Result& a = result_of({}, scene, find_method(name), answers);
               if (a.trajectory.frames() > 0) shown.push_back(&a);
             }
-            const FigureWords words = words_of_picture(scene, shown, size, value_of(lines, "commit"));
+            const FigureInfo words = picture_info(scene, shown, size, value_of(lines, "commit"));
             write_printed(scene, shown, shot_for_print(scene, size, options.full), words, with_scene(lines, scene),
                           options.out);
             const auto script = options.out / (words.name + ".sh");
@@ -94,23 +162,23 @@ class Problems {
 int figures_command(const FiguresOptions& asked_for) {
   FiguresOptions options = asked_for;
   const FigureSize size = figure_size(options.set, options.width);
-  const AskedFigures asked = figures_asked(options);
+  const FigureSelection asked = select_figures(options);
   const Work work = work_of(asked, options);
   OutputFolder folder(options.out, "figures");
   options.out = folder.path();
   std::vector<Scene> scenes = work.scenes;
-  for (const AskedPicture& picture : asked.pictures) unite(scenes, {picture.scene});
+  for (const PictureRequest& picture : asked.pictures) add_missing(scenes, {picture.scene});
   const Provenance plain = provenance(options.command_line), lines = with_scenes(plain, scenes);
   const Store store(store_in(options.out));
   store.clear();
   Problems problems;
   std::vector<Point> points;  // the pictures first, which take longest
-  for (const AskedPicture& picture : asked.pictures) points.push_back(picture_point(picture, options, size, plain));
+  for (const PictureRequest& picture : asked.pictures) points.push_back(picture_point(picture, options, size, plain));
   const size_t pictures = points.size();
   points.insert(points.end(), work.points.begin(), work.points.end());
   problems.compute(points, store);
   std::vector<std::string> missing;  // told already
-  const Rows rows = joined(plan_of(work.experiments, work.points, lines), {&store, 1}, missing);
+  const Rows rows = joined(point_list_of(work.experiments, work.points, lines), {&store, 1}, missing);
 
   std::vector<FigureInSet> drawn;
   for (size_t i = 0; i < pictures; ++i)
@@ -131,10 +199,10 @@ int figures_command(const FiguresOptions& asked_for) {
   }
   std::vector<Point> drawings;
   for (Chart& chart : charts)
-    drawings.push_back({"figure: " + words_of(chart)->name, words_of(chart)->name, [&](Rows& letters) {
+    drawings.push_back({"figure: " + figure_info(chart)->name, figure_info(chart)->name, [&](Rows& letters) {
                           draw_in_size(chart, size, lines, options.out);
                           Table table{"letters", {{"font", "pt"}}, {}};
-                          table.add({words_of(chart)->size.font});
+                          table.add({figure_info(chart)->size.font});
                           letters.add(table);
                         }});
   problems.compute(drawings, store);
@@ -145,10 +213,10 @@ int figures_command(const FiguresOptions& asked_for) {
       its.font = std::get<double>(found->table("letters")->at(0, "font"));
       smaller += its.font < size.font;
       resize(charts[i], its);
-      drawn.push_back({*words_of(charts[i]), charts[i].scene, chart_endings});
+      drawn.push_back({*figure_info(charts[i]), charts[i].scene, chart_endings});
     }
   store.clear();
-  for (const FigureInSet& figure : drawn) write_words(figure.words, options.out);
+  for (const FigureInSet& figure : drawn) write_captions(figure.words, options.out);
   write_catalogue(drawn, lines, options.out);
   folder.finish();
   if (drawn.empty()) problems.tell("there is nothing to draw");

@@ -1,5 +1,6 @@
 // grade, assignment and list assignments: the grader, a program of its own, does them. Charts of a student's code are
 // made here, since the grader knows no other engine.
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spawn.h>
@@ -12,9 +13,9 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "mysim/output_folder.h"
-#include "mysim/program_environment.h"
-#include "mysim/shell_words.h"
+#include "mysim/base/output_folder.h"
+#include "mysim/base/process.h"
+#include "mysim/base/text.h"
 #include "report/commands/commands.h"
 
 namespace crosscheck {
@@ -36,7 +37,7 @@ std::vector<char*> pointers(std::vector<std::string>& words) {
 }
 
 /// What stands behind an option, or behind its =; empty where it is not given.
-std::string value_of(const std::vector<std::string>& words, const std::string& option) {
+std::string option_value(const std::vector<std::string>& words, const std::string& option) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == option && i + 1 < words.size()) return words[i + 1];
     if (words[i].starts_with(option + "=")) return words[i].substr(option.size() + 1);
@@ -76,7 +77,7 @@ int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
     if (entry.path().extension() != ".program") yours.push_back(entry.path().filename().string());
   std::sort(yours.begin(), yours.end());
   for (const std::string& part : yours) options.methods += ",exec:steppers/" + part;
-  options.command_line = "crosscheck " + shell_line({words.data(), words.size() - more.size()});
+  options.command_line = "crosscheck " + shell_join({words.data(), words.size() - more.size()});
   options.out = fs::absolute(charts);
   fs::current_path(folder.path());  // where names of methods are short
   fmt::print("charts of {}, beside mysim and Bullet\n", fmt::join(yours, ", "));
@@ -87,7 +88,7 @@ int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
 
 int grader_command(const std::vector<std::string>& words) {
   const bool of_class = std::find(words.begin(), words.end(), "--all") != words.end();
-  if (const std::string page = value_of(words, "--report"); words[0] == "grade" && !page.empty() && !of_class)
+  if (const std::string page = option_value(words, "--report"); words[0] == "grade" && !page.empty() && !of_class)
     return grade_with_charts(words, page);
   std::vector<std::string> all = words;
   const fs::path program = grader();

@@ -1,4 +1,6 @@
 // regress: answers beside baselines or beside another method's; --bless writes baselines.
+#include "report/commands/regress.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,21 +8,78 @@
 #include <cstdlib>
 #include <set>
 
-#include "experiments/regress/cause.h"
+#include "experiments/regress/attribution.h"
 #include "experiments/regress/regress.h"
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/output_folder.h"
+#include "experiments/regress/speed.h"
+#include "experiments/timing/machine.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/output_folder.h"
+#include "report/base/provenance.h"
 #include "report/commands/commands.h"
-#include "report/commands/regress_speed.h"
-#include "report/provenance.h"
-#include "report/regress/verdict_files.h"
-#include "report/regress/verdict_page.h"
+#include "report/commands/regress_verdict.h"
 
 namespace crosscheck {
+
+bool speed_is_asked(const RegressOptions& options) { return !options.no_speed && (!options.bisect || options.speed); }
+
+Machine machine_of(const Provenance& lines) {
+  std::string compiler = value_of(lines, "compiler");
+  if (const std::string flags = CROSSCHECK_LINK_FLAGS; !flags.empty()) compiler += " " + flags;
+  return {processor_kind(), compiler, PlainLoop::name};
+}
+
+SpeedRun speed_run_of(const Regression& regression, const Provenance& lines) {
+  return {regression.asked, regression.against, regression.baselines, regression.out, machine_of(lines)};
+}
+
+Speeds speeds_beside(const Regression& regression, const Provenance& lines, const std::vector<Comparison>& answers,
+                     Progress& progress) {
+  Speeds speeds = compared_speeds(speed_run_of(regression, lines), progress);
+  speeds.explanations = explain_speeds(speeds.rows, answers);
+  return speeds;
+}
+
+void print_speeds(const Speeds& speeds) {
+  const auto count = [&](SpeedStatus state) {
+    return std::count_if(speeds.rows.begin(), speeds.rows.end(),
+                         [&](const SpeedComparison& row) { return row.state == state; });
+  };
+  for (const SpeedComparison& row : speeds.rows)
+    if (row.state == SpeedStatus::slower || row.state == SpeedStatus::faster)
+      fmt::print(
+          "{:<10} {}, {}: {}\n           {:.4g} times the plain loop, was {:.4g}; noise {:.0f} %, seen in {} more "
+          "measurements\n",
+          name_of(row.state), row.scene, row.method, row.sentence, row.is, *row.was, 100 * row.noise, row.seen);
+  for (const SpeedComparison& row : speeds.rows)
+    if (row.state == SpeedStatus::gone) fmt::print("gone       {}, {}: {}\n", row.scene, row.method, row.note);
+  for (const FailedPoint& f : speeds.failures) fmt::print("no speed   {}: {}\n", f.name, f.why);
+  const auto compared = count(SpeedStatus::slower) + count(SpeedStatus::faster) + count(SpeedStatus::same);
+  if (compared > 0)
+    fmt::print("{} speeds: {} the same within the noise, {} slower, {} faster\n", compared, count(SpeedStatus::same),
+               count(SpeedStatus::slower), count(SpeedStatus::faster));
+  for (const std::string& note : speeds.notes) fmt::print("{}\n", note);
+}
+
+void bless_and_print_speeds(const Regression& regression, const Blessing& blessing, const Provenance& lines) {
+  const SpeedRun run = speed_run_of(regression, lines);
+  if (run.machine.cpu.empty()) {
+    fmt::print("no speeds blessed: this processor cannot be told from others\n");
+    return;
+  }
+  Progress progress(0);
+  const std::vector<BlessedSpeed> written = bless_speeds(run, blessing, progress);
+  progress.done();
+  for (const BlessedSpeed& speed : written)
+    fmt::print("speed      {}, {}: {:.4g} times the plain loop, spread {:.1f} %\n", speed.scene, speed.method,
+               speed.ratio, 100 * speed.spread);
+  fmt::print("{} speeds blessed\n", written.size());
+  if (!written.empty()) fmt::print("{}\n", speed_file_in(regression.baselines).string());
+}
+
 namespace {
 
-void print_row(const Compared& row) {
+void print_row(const Comparison& row) {
   std::string where = row.scene;
   if (!row.method.empty()) where += ", " + row.method;
   if (!row.without.empty()) where += " without " + row.without;
@@ -29,24 +88,24 @@ void print_row(const Compared& row) {
     fmt::print(": {}\n", row.note);
     return;
   }
-  fmt::print(": {}\n", change_in_words(row));
+  fmt::print(": {}\n", describe_change(row));
 }
 
-long count_of(const std::vector<Compared>& rows, Standing state) {
-  return std::count_if(rows.begin(), rows.end(), [&](const Compared& row) { return row.state == state; });
+long count_of(const std::vector<Comparison>& rows, Status state) {
+  return std::count_if(rows.begin(), rows.end(), [&](const Comparison& row) { return row.state == state; });
 }
 
-int told(const Regressed& result, const std::string& cause, const std::filesystem::path& out) {
-  const std::vector<Compared> worst = worst_of_each(result.rows);
-  for (const Compared& row : worst) print_row(row);
+int told(const RegressionResult& result, const std::string& cause, const std::filesystem::path& out) {
+  const std::vector<Comparison> worst = worst_comparisons(result.rows);
+  for (const Comparison& row : worst) print_row(row);
   for (const FailedPoint& f : result.failures) fmt::print("no answer  {}: {}\n", f.name, f.why);
-  const long fresh = count_of(result.rows, Standing::fresh), same = count_of(result.rows, Standing::same);
+  const long added = count_of(result.rows, Status::added), same = count_of(result.rows, Status::same);
   long wrong = 0;
-  for (const Compared& row : result.rows) wrong += failed(row.state);
+  for (const Comparison& row : result.rows) wrong += failed(row.state);
   fmt::print("\n{} quantities: {} the same, {} failed{}{}\n", result.rows.size(), same, wrong,
-             fresh > 0 ? fmt::format(", {} new (not blessed yet)", fresh) : "",
+             added > 0 ? fmt::format(", {} new (not blessed yet)", added) : "",
              result.failures.empty() ? "" : fmt::format("; {} questions without an answer", result.failures.size()));
-  if (count_of(result.rows, Standing::moved) > 0) fmt::print("cause: {}\n", cause.empty() ? "not attributed" : cause);
+  if (count_of(result.rows, Status::moved) > 0) fmt::print("cause: {}\n", cause.empty() ? "not attributed" : cause);
   for (const char* name : {"index.html", "regress.csv"})
     if (std::filesystem::exists(out / name)) fmt::print("{}\n", (out / name).string());
   return result.passed() ? 0 : 1;
@@ -55,17 +114,17 @@ int told(const Regressed& result, const std::string& cause, const std::filesyste
 using Figures = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;  // drawn as, kept as
 
 /// A page of what changes, and of each scene in which something moved the curve that goes beside its baseline.
-Figures before_and_after(const Regression& regression, const RegressOptions& options, const Blessed& result,
+Figures before_and_after(const Regression& regression, const RegressOptions& options, const BlessResult& result,
                          const Provenance& lines) {
-  Regressed changes;
+  RegressionResult changes;
   std::copy_if(result.changed.begin(), result.changed.end(), std::back_inserter(changes.rows),
-               [](const Compared& row) { return row.state == Standing::moved; });
+               [](const Comparison& row) { return row.state == Status::moved; });
   if (changes.rows.empty()) return {};  // what is new has no before
   const Speeds none;
   VerdictPage page{changes, none};
   page.blessed = options.reason, page.beside = "what was blessed before";
   page.lines = lines;
-  write_verdict_page(page, questions(regression.asked), regression,
+  write_verdict_page(page, cases(regression.asked), regression,
                      std::max(options.figures, static_cast<int>(result.numbers.size())));
   Figures figures;
   std::set<std::string> scenes;
@@ -86,9 +145,9 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
   Progress progress(0);
   const Blessing blessing{value_of(lines, "date").substr(0, 10), value_of(lines, "commit"), value_of(lines, "compiler"),
                           options.reason};
-  const Blessed result = bless(regression, blessing, progress);
+  const BlessResult result = bless(regression, blessing, progress);
   progress.done();
-  for (const Compared& row : result.changed) print_row(row);
+  for (const Comparison& row : result.changed) print_row(row);
   // before the files are written: pictures need the old shapes
   const auto drawn = options.figures > 0 ? before_and_after(regression, options, result, lines) : Figures{};
   for (const auto& [file, text] : result.files) write_file(file, text);
@@ -124,12 +183,12 @@ int regressed(const RegressOptions& options) {
   if (!options.reason.empty()) throw InputError("--reason: expected --bless beside it");
 
   Progress progress(0);
-  const Regressed result = regress(regression, progress);
+  const RegressionResult result = regress(regression, progress);
   Speeds speeds;
   if (speed_is_asked(options)) speeds = speeds_beside(regression, lines, result.rows, progress);
   progress.done();
-  const std::vector<Question> asked = questions(regression.asked);
-  const std::string cause = cause_of(asked, result.rows);
+  const std::vector<Case> asked = cases(regression.asked);
+  const std::string cause = attribution_of(asked, result.rows);
   write_verdict(result, speeds, cause, lines, regression.out);
   if (options.figures > 0 && !options.bisect) {
     VerdictPage page{result, speeds, cause};

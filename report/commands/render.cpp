@@ -1,17 +1,17 @@
 // render: a picture of a scene, or a clip of its run, methods side by side.
+
 #include <fmt/format.h>
 
 #include <cstdio>
 
-#include "experiments/demand.h"
-#include "experiments/method_progress.h"
-#include "experiments/scenes.h"
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/nearest.h"
-#include "report/clip.h"
+#include "experiments/estimate.h"
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/text.h"
 #include "report/commands/commands.h"
-#include "report/pictures.h"
+#include "report/pictures/clip.h"
+#include "report/pictures/scene_picture.h"
 
 namespace crosscheck {
 namespace {
@@ -45,9 +45,9 @@ Shot shot_of(const RenderOptions& options, const Scene& scene, bool clip) {
 }
 
 /// The methods' answers; those that give none are told.
-std::vector<Answer> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run,
+std::vector<Result> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run,
                                Progress& progress) {
-  std::vector<Answer> answers;
+  std::vector<Result> answers;
   for (const Method& method : methods) {
     Recorder recorder;
     Outcome out = run_method(with_progress(method, progress), scene, run, {&recorder});
@@ -81,13 +81,13 @@ int render_command(const RenderOptions& options) {
   else
     methods = find_methods(options.methods);
   const Run run = clip ? clip_run(scene) : default_run(scene);
-  require_room_to_keep(methods, scene, run);
+  require_resources_to_keep(methods, scene, run);
   Progress progress(static_cast<int>(methods.size()) + (clip ? 0 : 1));
-  const std::vector<Answer> answers = answers_of(scene, methods, run, progress);
+  const std::vector<Result> answers = answers_of(scene, methods, run, progress);
   progress.done();
   if (answers.empty()) return 1;
-  std::vector<const Answer*> shown;
-  for (const Answer& a : answers) shown.push_back(&a);
+  std::vector<const Result*> shown;
+  for (const Result& a : answers) shown.push_back(&a);
   if (clip)
     write_clip(scene, shown, shot, options.file);
   else

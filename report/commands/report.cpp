@@ -1,24 +1,24 @@
 // report: the main job. Runs the experiments, draws figures and pictures, writes data, report.json and the page.
+
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "experiments/demand.h"
-#include "experiments/scenes.h"
+#include "experiments/estimate.h"
+#include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/output_folder.h"
-#include "report/certificate_json.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/output_folder.h"
+#include "report/base/provenance.h"
 #include "report/commands/commands.h"
-#include "report/findings_text.h"
+#include "report/commands/json_files.h"
+#include "report/findings/findings_text.h"
+#include "report/findings/verify.h"
 #include "report/page/page.h"
-#include "report/pictures.h"
-#include "report/played_runs.h"
+#include "report/page/player_html.h"
+#include "report/pictures/scene_picture.h"
 #include "report/player/player_data.h"
-#include "report/provenance.h"
-#include "report/report_json.h"
-#include "report/verify.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -30,10 +30,10 @@ void write_data(const Rows& result, const Provenance& lines, const fs::path& fol
     write_file(folder / fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method)), certificate_json(c));
 }
 
-void write_picture(const Scene& scene, const std::vector<const Answer*>& shown, const Shot& shot,
+void write_picture(const Scene& scene, const std::vector<const Result*>& shown, const Shot& shot,
                    const fs::path& file) {
-  render::Studio studio;
-  render::write_png(picture_of(scene, shown, shot), file, studio);
+  render::OffscreenRenderer renderer;
+  render::write_png(picture_of(scene, shown, shot), file, renderer);
 }
 
 class Builder {
@@ -61,7 +61,7 @@ class Builder {
   }
 
   int build() {
-    Plan plan{{}, {}, page_.provenance};
+    PointList plan{{}, {}, page_.provenance};
     std::vector<Point> points = picture_points();  // the longest first
     const size_t pictures = points.size();
     for (size_t e = 0; e < requests_.size(); ++e) {
@@ -95,7 +95,7 @@ class Builder {
     // beside the answer stands the last scene that Bullet answers too
     const ScenePart* shown = nullptr;
     for (const ScenePart& part : page_.scenes) {
-      const MethodFacts* bullet = part.facts->find(theirs);
+      const MethodData* bullet = part.facts->find(theirs);
       if (!part.pictures.empty() && (!shown || (bullet && bullet->ok()))) shown = &part;
     }
     if (shown) page_.hero.insert(page_.hero.begin(), shown->pictures[0]);
@@ -109,7 +109,7 @@ class Builder {
     for (const Finding& f : page_.findings) fmt::print("- {}\n", f.sentence);
     fmt::print("{}\n", (options_.out / "index.html").string());
     bool agree = true;  // where the same rule must agree, it does
-    for (const SceneFacts& facts : findings_.facts) agree &= !same_rule_differs(facts);
+    for (const SceneData& facts : findings_.facts) agree &= !same_rule_differs(facts);
     return page_.problems.empty() && agree ? 0 : 1;
   }
 
@@ -127,7 +127,7 @@ class Builder {
   /// Every scene that some experiment looks at.
   std::vector<Scene> scenes_of_all() const {
     std::vector<Scene> all = request_.scenes;
-    for (const Request& request : requests_) unite(all, request.scenes);
+    for (const Request& request : requests_) add_missing(all, request.scenes);
     return all;
   }
 
@@ -165,7 +165,7 @@ class Builder {
   std::vector<std::string> pictured(const ScenePart& part) const {
     std::vector<std::string> names = methods_pictured(*part.scene);
     std::erase_if(names, [&](const std::string& name) {
-      const MethodFacts* m = part.facts->find(name);
+      const MethodData* m = part.facts->find(name);
       return m && !m->supported();
     });
     return names;
@@ -176,10 +176,10 @@ class Builder {
     std::vector<Point> points;
     for (const Scene& scene : request_.scenes)
       points.push_back({"picture: " + scene.name, content_of(request_, scene), [this, &scene](Rows&) {
-                          Answers answers;
-                          std::vector<const Answer*> shown;
+                          Results answers;
+                          std::vector<const Result*> shown;
                           for (const std::string& name : methods_pictured(scene)) {
-                            const Answer& a = answer_of(request_, scene, find_method(name), answers);
+                            const Result& a = result_of(request_, scene, find_method(name), answers);
                             if (a.trajectory.frames() > 0) shown.push_back(&a);
                           }
                           write_picture(scene, shown, usual_shot(scene, options_.full), picture_of_scene(scene));
@@ -191,7 +191,7 @@ class Builder {
 
   /// The runs that a figure plays, once for all figures that play them; false where there are none.
   bool add_runs(const std::string& key) {
-    if (std::ranges::find(page_.runs, key, &PlayedRuns::key) != page_.runs.end()) return true;
+    if (std::ranges::find(page_.runs, key, &PlayableRuns::key) != page_.runs.end()) return true;
     auto runs = runs_.of(key, page_.notes);
     if (!runs) return false;
     runs->stage = stage_of_map(key, scenes_of_all(), options_.full);
@@ -207,7 +207,7 @@ class Builder {
     page_.scenes.push_back({&scene, &findings_.facts[i], findings_.of_scenes[i], {}, {}, {}});
     ScenePart& part = page_.scenes.back();
     part.statistics = rows_.table(scene.name + "-statistics");
-    part.choice = choice_of(scene, findings_.facts[i], rows_);
+    part.recommendations = recommendations_of(scene, findings_.facts[i], rows_);
     for (const Certificate& c : rows_.certificates)
       if (c.scene == scene.name) part.certificates.push_back(&c);
     if (!fs::exists(picture_of_scene(scene))) return;  // why not, is among the problems
@@ -226,14 +226,14 @@ class Builder {
   void draw_charts() {
     std::vector<Point> points;
     for (const Chart& chart : charts_) {
-      if (const FigureWords* words = words_of(chart))
+      if (const FigureInfo* words = figure_info(chart))
         points.push_back({"figure: " + words->name, words->name,
                           [this, &chart](Rows&) { draw_figure(chart, page_.provenance, figures_); }});
       for (const Snapshot& s : chart.snapshots)
         points.push_back(
             {"picture: " + s.name, content_of(request_, s.scene), [this, &s](Rows&) {
-               std::deque<Answer> answers;
-               std::vector<const Answer*> shown;
+               std::deque<Result> answers;
+               std::vector<const Result*> shown;
                for (const Snapshot::Panel& panel : s.panels) {
                  Recorder recorder;
                  Outcome out = run_method(find_method(panel.method), s.scene, panel.run, {&recorder});
@@ -248,13 +248,13 @@ class Builder {
 
   void add(const Chart& chart) {
     Chapter::Entry entry{chart.heading, chart.text, {}, chart.tables};
-    if (const FigureWords* words = words_of(chart)) {
+    if (const FigureInfo* words = figure_info(chart)) {
       if (entry.heading.empty()) entry.heading = words->title;
       if (const fs::path file = figures_ / (words->name + ".svg"); fs::exists(file)) {
         entry.images.push_back({file, words->title + ". " + words->finding, words->finding + " " + words->caption});
-        Told& told = entry.images.back().told;
-        if (const auto* figure = std::get_if<Figure>(&chart.figure)) told.markers = told_of(*figure);
-        if (const auto* map = std::get_if<HeatMap>(&chart.figure)) told.boxes = told_of(*map);
+        Tooltips& tooltips = entry.images.back().tooltips;
+        if (const auto* figure = std::get_if<Figure>(&chart.figure)) tooltips.markers = tooltips_of(*figure);
+        if (const auto* map = std::get_if<HeatMap>(&chart.figure)) tooltips.boxes = tooltips_of(*map);
         if (add_runs(words->runs)) entry.images.back().runs = words->runs;
       }
     }
@@ -306,7 +306,7 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
   request.scenes = scenes_for({}, options.scenes, options.full);
   for (const Scene& scene : request.scenes)
-    require_room_to_keep(methods_of(request, scene), scene, run_of(request, scene));
+    require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
   request.scenes_only = !options.scenes.empty() && !options.full;
   if (!options.against.empty()) {
     changes_since(options.against, {});  // is it a report? Asked before the work

@@ -1,18 +1,18 @@
 // run: one method on one scene; writes trajectory.npy, velocities.npy, energy.csv, run.json.
+
 #include <fmt/format.h>
 
-#include "experiments/demand.h"
-#include "experiments/ledger_table.h"
-#include "experiments/method_progress.h"
-#include "experiments/scenes.h"
-#include "experiments/stability/outlook.h"
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/json.h"
-#include "mysim/output_folder.h"
-#include "reference/frame_files.h"
+#include "experiments/estimate.h"
+#include "experiments/scenes/scenes.h"
+#include "experiments/stability/margin.h"
+#include "experiments/tables/energy.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/json.h"
+#include "mysim/base/output_folder.h"
+#include "reference/protocol/trajectory_files.h"
+#include "report/base/provenance.h"
 #include "report/commands/commands.h"
-#include "report/provenance.h"
 
 namespace crosscheck {
 namespace {
@@ -29,7 +29,7 @@ std::string run_json(const Scene& scene, const Method& method, const Outcome& ou
             {"end", out.end},
             {"steps", out.steps},
             {"force_evaluations", out.evaluations},
-            {"coincident_springs", out.coincident},
+            {"coincident_springs", out.degenerate_springs},
             {"cpu_seconds", out.cpu_seconds},
             {"process_seconds", out.process_seconds},
             {"remark", out.remark},
@@ -50,7 +50,7 @@ int run_command(const RunOptions& options) {
   Run run = default_run(scene);
   if (options.step > 0) run.step = options.step;
   if (options.tolerance > 0) run.tolerance = options.tolerance;
-  if (options.duration > 0) run = lengthened(method, scene, run, options.duration);
+  if (options.duration > 0) run = with_duration(method, scene, run, options.duration);
   if (run.step > run.duration && options.step > 0)
     throw InputError(fmt::format("--step: expected at most the duration of {} s, got {}", run.duration, run.step));
   if (run.step > run.duration && !adaptive)
@@ -58,10 +58,10 @@ int run_command(const RunOptions& options) {
         fmt::format("--duration: expected at least one step of {} s, which is {}'s own, got {} s; --step "
                     "gives a shorter one",
                     run.step, scene.name, run.duration));
-  require_room_to_write(method, scene, run, options.out);
+  require_resources_to_write(method, scene, run, options.out);
   OutputFolder folder(options.out, "run");
 
-  FrameFiles frames(folder.path());
+  TrajectoryWriter frames(folder.path());
   Ledger ledger(scene.model, method.contact);
   std::vector<Observer*> observers{&frames};
   if (!scene.model.first_order()) observers.push_back(&ledger);
@@ -75,7 +75,7 @@ int run_command(const RunOptions& options) {
 
   frames.finish();
   if (out.verdict == Verdict::ok)
-    if (const std::string outlook = outlook_of(method, scene, out.step); !outlook.empty())
+    if (const std::string outlook = stability_warning(method, scene, out.step); !outlook.empty())
       out.remark += (out.remark.empty() ? "" : "; ") + outlook;
   if (!ledger.rows().empty()) {  // none without velocities
     Table energy = ledger_table("energy");
@@ -90,7 +90,8 @@ int run_command(const RunOptions& options) {
              adaptive ? fmt::format(" in the mean (relative tolerance {:.3g})", out.tolerance) : "", out.evaluations,
              out.cpu_seconds, frames.times().size());
   if (!out.remark.empty()) fmt::print("  {}\n", out.remark);
-  if (out.coincident > 0) fmt::print("  springs met at zero length {} times and got no force there\n", out.coincident);
+  if (out.degenerate_springs > 0)
+    fmt::print("  springs met at zero length {} times and got no force there\n", out.degenerate_springs);
   fmt::print("  {}\n", options.out.string());
   return 0;
 }

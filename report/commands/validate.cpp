@@ -1,19 +1,18 @@
 // validate: a scene's particles, springs, frequencies, critical steps and demand.
-#include "report/commands/validate.h"
 
 #include <fmt/ranges.h>
 
 #include <cmath>
 #include <map>
 
-#include "experiments/demand.h"
-#include "experiments/scenes.h"
-#include "mysim/errors.h"
-#include "mysim/free_room.h"
-#include "mysim/frequency.h"
-#include "mysim/json.h"
-#include "mysim/progress.h"
-#include "mysim/telling.h"
+#include "experiments/estimate.h"
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/json.h"
+#include "mysim/base/progress.h"
+#include "mysim/base/this_process.h"
+#include "mysim/model/system.h"
+#include "report/commands/commands.h"
 
 namespace crosscheck {
 namespace {
@@ -25,7 +24,7 @@ struct SceneSummary {
   double omega = 0;                                      // rad/s
   std::optional<double> gamma;                           // 1/s, of all particles alike
   std::vector<std::pair<std::string, double>> critical;  // of each explicit rule: s; 0 stable at no step
-  Demand demand{};
+  ResourceEstimate demand{};
   int evaluations = 0;  // per step of the default method; 0: as its equations take
   bool adaptive = false;
   std::string warning;
@@ -36,7 +35,7 @@ SceneSummary facts_of(Scene scene) {
   const Model& model = facts.scene.model;
   if (const auto* springs = model.find<Springs>())
     for (const Spring& spring : springs->list) ++facts.springs[spring.family];
-  if (!model.first_order()) facts.omega = fastest_frequency(model, facts.scene.start);
+  if (!model.first_order()) facts.omega = highest_frequency(model, facts.scene.start);
   facts.gamma = uniform_drag_rate(model);
   for (const Stepper& rule : steppers()) {
     // rules that solve equations are stable at every step, adaptive ones choose their own
@@ -45,9 +44,9 @@ SceneSummary facts_of(Scene scene) {
       facts.critical.emplace_back(rule.name, limit);
   }
   const Method method = find_method(facts.scene.method);
-  facts.demand = demand_of(method, facts.scene, default_run(facts.scene));
+  facts.demand = resource_estimate_of(method, facts.scene, default_run(facts.scene));
   facts.adaptive = method.adaptive;
-  if (const Stepper* rule = rule_of(method)) {
+  if (const Stepper* rule = stepper_of(method)) {
     facts.evaluations = rule->evaluations;
     for (const auto& [name, limit] : facts.critical)
       if (name == rule->name && facts.scene.step > limit)
@@ -115,8 +114,8 @@ void print_facts(const SceneSummary& f, const std::string& asked) {
                               : fmt::format("{:.0f} steps of at most {:.4g} s", f.demand.steps, f.scene.step),
                    f.scene.samples));
   line("  memory", fmt::format("about {}, from the numbers of particles and springs; {} are free",
-                               in_bytes(f.demand.memory), in_bytes(free_memory())));
-  line("  disk", fmt::format("{} of frames", in_bytes(f.demand.frames)));
+                               format_bytes(f.demand.memory), format_bytes(free_memory())));
+  line("  disk", fmt::format("{} of frames", format_bytes(f.demand.frames)));
   line("  time",
        fmt::format("about {:.2g} s of CPU time, good to a factor of 3: steps x {} x (particles + springs) x a "
                    "cost measured once",

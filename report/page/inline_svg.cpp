@@ -1,3 +1,4 @@
+// Rewrites gnuplot's SVG.
 #include "report/page/inline_svg.h"
 
 #include <fmt/format.h>
@@ -6,11 +7,13 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <stdexcept>
+#include <string_view>
+#include <vector>
 
-#include "mysim/fnv.h"
+#include "mysim/base/hash.h"
 #include "report/page/page.h"
-#include "report/page/svg_cells.h"
 
 namespace crosscheck {
 namespace {
@@ -170,15 +173,15 @@ void remove_names(std::string& text) {
 }
 
 /// What stands in its title: whose run it is stands in what it plays already (page.js puts it in front again).
-std::string title_of(const Tip& tip) {
+std::string title_of(const Tooltip& tip) {
   const std::string method = tip.run.substr(0, tip.run.rfind(' ')) + ", ";
   return escaped(!tip.run.empty() && tip.words.starts_with(method) ? tip.words.substr(method.size()) : tip.words);
 }
 
 /// Gives the shapes from a place on their words. Where there are more, the last is the key's sample.
-void tell(std::string& body, size_t at, const std::string& shape, const std::vector<Tip>& tips) {
+void tell(std::string& body, size_t at, const std::string& shape, const std::vector<Tooltip>& tips) {
   const std::string open = "<" + shape + " ";
-  for (const Tip& tip : tips) {
+  for (const Tooltip& tip : tips) {
     at = at == std::string::npos ? at : body.find(open, at);
     if (at == std::string::npos) throw std::runtime_error("a drawing with fewer shapes than runs");
     const size_t close = body.find("/>", at);
@@ -191,7 +194,7 @@ void tell(std::string& body, size_t at, const std::string& shape, const std::vec
 
 }  // namespace
 
-std::string sharing_markers(const std::string& page) {
+std::string deduplicate_markers(const std::string& page) {
   const std::string begin = "<defs><circle id='gpDot'", body = "<body>";
   std::string out, shapes;
   size_t done = 0;
@@ -209,7 +212,7 @@ std::string sharing_markers(const std::string& page) {
   return out;
 }
 
-std::string inline_svg(const std::string& svg, const std::string& alt, const Told& told) {
+std::string inline_svg(const std::string& svg, const std::string& alt, const Tooltips& tooltips) {
   const Part head = part_of(svg, "<svg", ">");
   const std::string view = "viewBox=\"";
   const size_t box = svg.find(view), end = svg.rfind("</svg>");
@@ -243,14 +246,97 @@ std::string inline_svg(const std::string& svg, const std::string& alt, const Tol
   // of another drawing with patterns of its own
   replace_all(body, "gpPat", fmt::format("gpPat{:x}-", Fnv1a::of(body)));
   remove_empty_groups(body);
-  if (!told.boxes.empty()) join_boxes_and_borders(body);
-  for (size_t i = 0; i < told.markers.size(); ++i)
-    if (!told.markers[i].empty()) tell(body, body.find(fmt::format("_plot_{}\"", i + 1)), "use", told.markers[i]);
-  tell(body, 0, "polygon", told.boxes);
+  if (!tooltips.boxes.empty()) join_boxes_and_borders(body);
+  for (size_t i = 0; i < tooltips.markers.size(); ++i)
+    if (!tooltips.markers[i].empty())
+      tell(body, body.find(fmt::format("_plot_{}\"", i + 1)), "use", tooltips.markers[i]);
+  tell(body, 0, "polygon", tooltips.boxes);
   return fmt::format(
       "<svg {} role=\"img\" aria-label=\"{}\"><g fill=\"none\" color=\"black\" stroke=\"currentColor\" "
       "font-family=\"DejaVu Sans\" font-size=\"12\">{}</g></svg>",
       seen, escaped(alt), body);
+}
+
+namespace {
+
+struct Tag {
+  size_t from, size;
+  std::string_view bytes, width, height, alt;
+};
+
+/// What stands in quotes behind `name="` in a tag.
+std::string_view attribute(std::string_view tag, std::string_view name) {
+  const size_t at = tag.find(name);
+  if (at == std::string_view::npos) return "";
+  const size_t from = at + name.size();
+  return tag.substr(from, tag.find('"', from) - from);
+}
+
+std::vector<Tag> pictures_in(std::string_view page) {
+  std::vector<Tag> tags;
+  const std::string_view begin = "<img src=\"data:image/png";
+  for (size_t at = page.find(begin); at != std::string_view::npos; at = page.find(begin, at + 1)) {
+    const std::string_view tag = page.substr(at, page.find('>', at) + 1 - at);
+    tags.push_back({at, tag.size(), attribute(tag, "src=\""), attribute(tag, " width=\""), attribute(tag, " height=\""),
+                    attribute(tag, " alt=\"")});
+  }
+  return tags;
+}
+
+}  // namespace
+
+std::string deduplicate_pictures(const std::string& page) {
+  const std::vector<Tag> tags = pictures_in(page);
+  std::map<std::string_view, int> uses, names;
+  for (const Tag& tag : tags) ++uses[tag.bytes];
+  std::string out;
+  size_t done = 0;
+  for (const Tag& tag : tags) {
+    if (uses[tag.bytes] < 2) continue;
+    const auto [name, first] = names.emplace(tag.bytes, static_cast<int>(names.size()) + 1);
+    out.append(page, done, tag.from - done);
+    out += fmt::format("<svg class=\"picture\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", tag.width,
+                       tag.height, tag.alt);
+    out += first ? fmt::format("<image id=\"picture-{}\" width=\"{}\" height=\"{}\" href=\"{}\"/></svg>", name->second,
+                               tag.width, tag.height, tag.bytes)
+                 : fmt::format("<use href=\"#picture-{}\"/></svg>", name->second);
+    done = tag.from + tag.size;
+  }
+  return out + page.substr(done);
+}
+
+namespace {
+
+constexpr std::string_view inner = "<g stroke='none' shape-rendering='crispEdges'>", open = "<polygon fill = '",
+                           points = "' points = '", close = "'/></g><path stroke='#ffffff' d='", end = "'/></g>";
+
+/// Where a text ends that must stand right at a place, or npos.
+size_t behind(const std::string& body, size_t place, std::string_view text) {
+  return place != std::string::npos && body.compare(place, text.size(), text) == 0 ? place + text.size()
+                                                                                   : std::string::npos;
+}
+
+}  // namespace
+
+void join_boxes_and_borders(std::string& body) {
+  std::string out;
+  size_t done = 0;
+  for (size_t at = body.find(inner); at != std::string::npos; at = body.find(inner, at + 1)) {
+    // <g ...><g stroke='none' ...><polygon fill = 'f' points = 'p '/></g><path stroke='#ffffff' d='...'/></g>
+    const size_t outer = body.rfind('<', at - 1), fill = behind(body, at + inner.size(), open);
+    if (fill == std::string::npos || behind(body, outer, "<g ") == std::string::npos) continue;
+    const size_t fill_end = body.find('\'', fill), corners = behind(body, fill_end, points);
+    const size_t corners_end = corners == std::string::npos ? corners : body.find('\'', corners);
+    const size_t border = behind(body, corners_end, close);
+    if (border == std::string::npos) continue;
+    const size_t box_end = behind(body, body.find('\'', border), end);
+    if (box_end == std::string::npos) continue;
+    out.append(body, done, outer - done);
+    out += fmt::format("<polygon fill=\"{}\" points=\"{}\"/>", body.substr(fill, fill_end - fill),
+                       body.substr(corners, body.find_last_not_of(' ', corners_end - 1) + 1 - corners));
+    done = box_end;
+  }
+  body = out + body.substr(done);
 }
 
 }  // namespace crosscheck

@@ -1,16 +1,16 @@
-// The page from top to bottom: which method for which scene, answers, chapters, scenes, words, how it was made.
+// The page from top to bottom, and report.json.
 #include "report/page/page.h"
-#include "report/page/same_pictures.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "report/assets.h"
-#include "report/finding_rules.h"
+#include "mysim/base/json.h"
+#include "report/base/assets.h"
+#include "report/base/provenance.h"
+#include "report/findings/evidence.h"
 #include "report/page/inline_svg.h"
-#include "report/player/player_html.h"
-#include "report/provenance.h"
+#include "report/page/player_html.h"
 
 namespace crosscheck {
 namespace {
@@ -108,7 +108,7 @@ std::string first_screen(const PageContent& c) {
       "<header><h1>Crosscheck: mysim beside Bullet</h1>\n<p class=\"lead\">An in-house mass-spring and cloth engine "
       "beside Bullet's soft bodies, each built from the same particles and springs.</p></header>\n" +
       contents_html(c) + "<main>\n";
-  if (!c.scenes.empty()) out += choice_table_html(c.scenes);
+  if (!c.scenes.empty()) out += recommendation_table_html(c.scenes);
   out += "<section class=\"answer\"><div class=\"questions\">\n";
   const std::vector<Finding> front = front_of(c.findings);
   // the picture ends the left column
@@ -135,9 +135,9 @@ std::string scene_section(const ScenePart& part, const std::vector<std::string>&
   const Scene& scene = *part.scene;
   std::string out = fmt::format("<section class=\"scene\" id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"question\">{1}</p>\n",
                                 escaped(scene.name), prose(scene.question));
-  std::vector<Finding> told = part.findings;
-  std::erase_if(told, [](const Finding& f) { return f.topic == choice_topic; });  // its table has it
-  out += finding_list(told, figures, "findings");
+  std::vector<Finding> shown = part.findings;
+  std::erase_if(shown, [](const Finding& f) { return f.topic == recommendation_topic; });  // its table has it
+  out += finding_list(shown, figures, "findings");
   for (const PageImage& image : part.pictures)
     out += &image == part.pictures.data() && !part.motions.empty() ? player_html(image, part.motions)
                                                                    : image_html(image, "render");
@@ -146,7 +146,7 @@ std::string scene_section(const ScenePart& part, const std::vector<std::string>&
   out += "</div>\n" + run_table_html(part);
   if (part.statistics) out += statistics_html(*part.statistics);
   for (const Certificate* certificate : part.certificates) out += certificate_html(*certificate);
-  const SceneFacts& facts = *part.facts;
+  const SceneData& facts = *part.facts;
   const std::string predictable =
       facts.measured_window < scene.duration * (1 - 1e-9)
           ? fmt::format("it passes a thousandfold after {:.3g} s: single positions are not predictable from there on",
@@ -231,8 +231,54 @@ std::string page_html(const PageContent& c) {
   out += "<p>The second route is odeint's extrapolation on a right-hand side written apart from mysim's.</p>\n";
   for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", prose(note));
   out += provenance_html(c.provenance) + "</section>\n</main>\n";
-  for (const PlayedRuns& runs : c.runs) out += runs_html(runs);
-  return sharing_pictures(sharing_markers(out + "<script>\n" + asset("page/page.js") + "</script>\n</body></html>\n"));
+  for (const PlayableRuns& runs : c.runs) out += runs_html(runs);
+  return deduplicate_pictures(
+      deduplicate_markers(out + "<script>\n" + asset("page/page.js") + "</script>\n</body></html>\n"));
+}
+
+namespace {
+
+Json evidence_json(const Evidence& e) { return {{"table", e.table}, {"rows", e.rows}, {"fingerprint", e.fingerprint}}; }
+
+Json finding_json(const Finding& f, const Rows& result, const std::vector<std::string>& figures) {
+  Json json = {{"scene", f.scene},       {"topic", f.topic},
+               {"sentence", f.sentence}, {"tier", f.tier},
+               {"chapter", f.chapter},   {"figure", figure_of(f.rule, f.scene, figures)},
+               {"rule", f.rule},         {"formula", finding_rule(f.rule).formula}};
+  json["evidence"] = Json::list();
+  for (const Evidence& e : evidence_of(f, result)) json["evidence"].push(evidence_json(e));
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const PageContent& page, const AllFindings& findings, const std::vector<Chart>& charts,
+                        const Rows& result) {
+  Json json;
+  for (const auto& [key, value] : page.provenance)
+    if (key != "scene") json["provenance"][key] = value;
+  const std::vector<std::string> figures = figures_of(page);
+  json["findings"] = Json::list();
+  for (const Finding& f : findings.overall) json["findings"].push(finding_json(f, result, figures));
+  for (const auto& of_scene : findings.of_scenes)
+    for (const Finding& f : of_scene) json["findings"].push(finding_json(f, result, figures));
+  json["scenes"] = Json::object();
+  for (const ScenePart& part : page.scenes)
+    json["scenes"][part.scene->name] = {
+        {"hash", part.scene->hash}, {"truth", part.facts->tier}, {"truth_bar", part.facts->error_bar}};
+  json["tables"] = Json::list();
+  for (const Table& table : result.tables) {
+    const Evidence whole = evidence_of(table);
+    json["tables"].push({{"name", whole.table}, {"rows", whole.rows.size()}, {"fingerprint", whole.fingerprint}});
+  }
+  json["figures"] = Json::list();
+  for (const Chart& c : charts)
+    if (const FigureInfo* f = figure_info(c))
+      json["figures"].push(
+          {{"name", f->name}, {"scene", c.scene}, {"caption", f->caption}, {"tier", f->tier}, {"finding", f->finding}});
+  json["notes"] = page.notes;
+  json["problems"] = page.problems;
+  return json.dump(1) + "\n";
 }
 
 }  // namespace crosscheck

@@ -1,44 +1,49 @@
-// The page: one self-contained HTML file that opens with the answer.
+// The page: one self-contained HTML file that opens with the answer; and report.json, the same as data.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "report/changes.h"
-#include "report/charts/charts.h"
-#include "report/choice.h"
-#include "report/findings.h"
+#include "report/figures/charts.h"
+#include "report/findings/evidence.h"
+#include "report/findings/findings.h"
+#include "report/findings/recommendation.h"
+#include "report/findings/verify.h"
 #include "report/page/inline_svg.h"
 
 namespace crosscheck {
+
+// The page: one self-contained HTML file that opens with the answer.
 
 /// A picture or a figure already on disk.
 struct PageImage {
   std::filesystem::path file;  // .png or .svg
   std::string alt, caption;
-  Told told = {};         // of .svg
-  std::string runs = {};  // which runs its markers or cells play: the key of PlayedRuns; empty: none
+  Tooltips tooltips = {};  // of .svg
+  std::string runs = {};   // which runs its markers or cells play: the key of PlayableRuns; empty: none
 };
 
-/// The runs of a figure, as the player has them: one file of JSON for each method (run_motions.h, cell_motions.h).
-struct PlayedRuns {
+/// The runs of a figure, as the player has them: one file of JSON for each method (report/player/run_motions.h,
+/// report/player/run_motions.h).
+struct PlayableRuns {
   std::string key;
   std::string scene;  // whose player's data they are added to
-  std::string stage;  // or JSON of a stage of their own (player_data.h)
+  std::string stage;  // or JSON of a stage of their own (report/player/player_data.h)
   std::vector<std::filesystem::path> methods;
 };
 
 struct ScenePart {
   const Scene* scene;
-  const SceneFacts* facts;
+  const SceneData* facts;
   std::vector<Finding> findings;
   std::vector<PageImage> pictures;  // renders
-  std::filesystem::path motions;    // what plays over the first picture (player_data.h); empty: it stays a picture
-  std::vector<PageImage> figures;   // charts
+  std::filesystem::path
+      motions;  // what plays over the first picture (report/player/player_data.h); empty: it stays a picture
+  std::vector<PageImage> figures;  // charts
   std::vector<const Certificate*> certificates;
-  const Table* statistics = nullptr;    // of perturbed runs, where there is contact
-  std::vector<ChoiceCell> choice = {};  // which method for it
+  const Table* statistics = nullptr;                     // of perturbed runs, where there is contact
+  std::vector<RecommendationCell> recommendations = {};  // which method for it
 };
 
 /// A part of the report that belongs to no scene of its own.
@@ -58,7 +63,7 @@ struct PageContent {
   std::vector<PageImage> hero;    // beside the answer: a picture, and the figures of the whole report
   std::vector<ScenePart> scenes;
   std::vector<Chapter> chapters;
-  std::vector<PlayedRuns> runs;       // that figures play
+  std::vector<PlayableRuns> runs;     // that figures play
   std::vector<std::string> notes;     // what was left out, and why
   std::vector<std::string> problems;  // what failed to be made
   std::string against;                // an earlier report, or empty
@@ -100,7 +105,7 @@ std::string run_table_html(const ScenePart& part);
 std::string statistics_html(const Table& statistics);
 std::string certificate_html(const Certificate& certificate);
 /// The table on the first screen: one row per scene.
-std::string choice_table_html(const std::vector<ScenePart>& scenes);
+std::string recommendation_table_html(const std::vector<ScenePart>& scenes);
 
 /// The way through the page.
 std::string contents_html(const PageContent& content);
@@ -109,5 +114,11 @@ std::string glossary_html();
 /// All methods, a line each.
 std::string methods_html();
 std::string term_link(const std::string& id);
+
+// report.json: what a report says, as data, and what each sentence rests on.
+
+/// Findings with formula, rows and fingerprints; scenes; tables with their fingerprints; figures, notes, problems.
+std::string report_json(const PageContent& page, const AllFindings& findings, const std::vector<Chart>& charts,
+                        const Rows& result);
 
 }  // namespace crosscheck

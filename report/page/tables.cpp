@@ -1,10 +1,13 @@
-// Tables of the page: those of chapters, runs of a scene, certificates.
+// Tables of the page: recommendations, chapters, runs of a scene, certificates, methods.
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
-#include "report/findings_text.h"
+#include "report/findings/findings_text.h"
 #include "report/page/page.h"
 
 namespace crosscheck {
@@ -19,8 +22,8 @@ std::string length_cell(const std::optional<double>& value, double floor = 0) {
 /// A clearance: negative inside; round-off is neither.
 std::string signed_length(double metres) { return std::abs(metres) < 1e-12 ? "0 m" : nice_length(metres); }
 
-std::string verdict_cell(const MethodFacts& m, const SceneFacts& facts) {
-  if (useless_at(m, facts))
+std::string verdict_cell(const MethodData& m, const SceneData& facts) {
+  if (is_useless(m, facts))
     return fmt::format("<td class=\"failed\">ok, but {} of the motion off</td>",
                        prose(percent(*m.error, facts.motion)));
   if (m.ok()) return "<td class=\"ok\">ok</td>";
@@ -89,12 +92,13 @@ std::string run_table_html(const ScenePart& part) {
       "Euler</th>{}<th>energy off</th><th>evaluations</th><th title=\"of the run as it is watched at every step; the "
       "chapter on cost times steps alone\">CPU, watched / s</th></tr></thead><tbody>\n",
       contact ? "<th>centres apart</th><th>clearance</th><th>creep at end</th>" : "");
-  for (const MethodFacts& m : part.facts->methods) {
-    out += fmt::format("<tr><th scope=\"row\">{}{}</th>{}{}{}", escaped(m.method),
-                       m.different_law.empty() ? ""
-                                               : fmt::format("<span class=\"law\" title=\"{}\">different law</span>",
-                                                             escaped(m.different_law)),
-                       verdict_cell(m, *part.facts), length_cell(m.error, part.facts->bar), length_cell(m.difference));
+  for (const MethodData& m : part.facts->methods) {
+    out += fmt::format(
+        "<tr><th scope=\"row\">{}{}</th>{}{}{}", escaped(m.method),
+        m.different_law.empty()
+            ? ""
+            : fmt::format("<span class=\"law\" title=\"{}\">different law</span>", escaped(m.different_law)),
+        verdict_cell(m, *part.facts), length_cell(m.error, part.facts->error_bar), length_cell(m.difference));
     if (contact) {
       out += length_cell(m.centres);
       out += m.clearance ? fmt::format("<td>{}</td>", signed_length(*m.clearance)) : "<td class=\"none\">–</td>";
@@ -154,6 +158,77 @@ std::string certificate_html(const Certificate& certificate) {
                                          : "ok",
         name_of(r.parity));
   return out + "</tbody></table></div></details>\n";
+}
+
+std::string recommendation_table_html(const std::vector<ScenePart>& scenes) {
+  std::string out =
+      "<section id=\"scenes\">\n<h2>Which method for which scene?</h2>\n<div class=\"scroll\"><table "
+      "class=\"choice\"><thead><tr><th>scene</th>";
+  // a column in which nothing stands is left out
+  std::vector<size_t> shown;
+  for (size_t i = 0; i < recommendation_columns().size(); ++i)
+    if (std::any_of(scenes.begin(), scenes.end(),
+                    [i](const ScenePart& part) { return !part.recommendations.at(i).empty(); }))
+      shown.push_back(i);
+  for (const size_t i : shown) out += fmt::format("<th>{}</th>", prose(recommendation_columns()[i].head));
+  out += "</tr></thead><tbody>\n";
+  for (const ScenePart& part : scenes) {
+    out += fmt::format("<tr><th scope=\"row\"><a href=\"#{0}\" title=\"{1}\">{0}</a></th>", escaped(part.scene->name),
+                       escaped(part.scene->question));
+    for (const size_t i : shown)
+      out += fmt::format("<td class=\"{}\">{}</td>", part.recommendations[i].css_class,
+                         prose(part.recommendations[i].text));
+    out += "</tr>\n";
+  }
+  out +=
+      "</tbody></table></div>\n<p class=\"note\">Errors at the scene's own step, in % of its motion (*: by steps of "
+      "the method's own); in bold who is "
+      "nearest, or within 5 % of the nearest; – where nothing was asked, or cannot be said. What each <a "
+      "href=\"#methods\">method</a> is; what "
+      "is meant by";
+  const char* mark = " ";
+  for (const size_t i : shown) out += std::exchange(mark, ", ") + term_link(recommendation_columns()[i].term);
+  return out + ".</p>\n</section>\n";
+}
+
+namespace {
+
+/// As a page writes what a terminal spells out, and without how to ask for it on a command line.
+std::string readable(std::string text) {
+  constexpr std::pair<std::string_view, std::string_view> table[] = {{": give --tol, not --step", ""},
+                                                                     {"--step", "the scene's step"},
+                                                                     {"omega", "ω"},
+                                                                     {"gamma", "γ"},
+                                                                     {"lambda", "λ"},
+                                                                     {"^2", "²"}};
+  for (const auto& [spelt, written] : table)
+    for (size_t at = text.find(spelt); at != std::string::npos; at = text.find(spelt, at + written.size()))
+      text.replace(at, spelt.size(), written);
+  return text;
+}
+
+std::string row_of(const Method& method) {
+  const Stepper* own = stepper_of(method);
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                     escaped(method.name),
+                     prose(readable(method.stepper ? std::string(method.stepper->what) : method.what)),
+                     own ? std::to_string(own->order) : "–",
+                     !own                   ? "–"
+                     : own->evaluations > 0 ? std::to_string(own->evaluations)
+                                            : "its solver's",
+                     own ? prose(readable(std::string(own->limit_formula))) : "–");
+}
+
+}  // namespace
+
+std::string methods_html() {
+  std::string out =
+      "<h3 id=\"methods\">Methods</h3>\n<div class=\"scroll\"><table "
+      "class=\"methods\"><thead><tr><th>method</th><th>what it is</th><th>order</th><th>force evaluations a step</th>"
+      "<th>stable while (ω: fastest vibration, γ: drag, h: step)</th></tr></thead><tbody>\n";
+  for (const Method& method : all_methods())
+    if (!method.name.starts_with("truth/")) out += row_of(method);
+  return out + "</tbody></table></div>\n";
 }
 
 }  // namespace crosscheck

@@ -32,16 +32,16 @@ class MotionPlayer extends HTMLElement {
       shown: narrow ? first.slice(0, 2) : first
     };
     if (!scene[this.look.colour]) this.look.colour = 'plain';
-    this.desk = new Desk(this, scene, this.look, {
+    this.controls = new Controls(this, scene, this.look, {
       toggle: () => (this.playing ? this.pause() : this.play()),
       seek: time => (this.pause(), this.seek(time), this.wake()),
       speed: speed => (this.speed = speed),
       look: change => (this.setLook(change), this.wake()),
       reset: () => (this.orbit.reset(), this.draw())
     });
-    this.desk.setLook(this.look);
-    this.desk.setPlaying(false);
-    this.desk.setTime(this.time, this.frame);
+    this.controls.setLook(this.look);
+    this.controls.setPlaying(false);
+    this.controls.setTime(this.time, this.frame);
     new IntersectionObserver(([entry]) => this.setSeen(entry.isIntersecting), {threshold: 0.4}).observe(this.box);
     new ResizeObserver(() => this.draw()).observe(this.box);
     dark.addEventListener('change', () => this.draw());
@@ -85,7 +85,7 @@ class MotionPlayer extends HTMLElement {
               `${this.scene.scene} in three dimensions; arrow keys turn, plus and minus zoom, 0 resets the view`
         },
         canvas, this.titles);
-    followHands(this.layer, this.orbit, () => this.draw());
+    attachPointerInput(this.layer, this.orbit, () => this.draw());
     this.box.append(this.layer);
     alive.push(this);
     this.draw();
@@ -110,7 +110,7 @@ class MotionPlayer extends HTMLElement {
     const {times} = this.scene, end = times[times.length - 1];
     if (this.untouched || this.time >= end) this.seek(0);  // at first it shows the poster's moment
     this.playing = true;
-    this.desk.setPlaying(true);
+    this.controls.setPlaying(true);
     let last = null;
     const tick = now => {
       if (!this.playing) return;
@@ -128,7 +128,7 @@ class MotionPlayer extends HTMLElement {
 
   pause() {
     this.playing = this.wanted = false;
-    this.desk.setPlaying(false);
+    this.controls.setPlaying(false);
   }
 
   /** Shows a time, s. */
@@ -136,7 +136,7 @@ class MotionPlayer extends HTMLElement {
     const {times} = this.scene;
     this.untouched = false;
     this.time = Math.max(0, Math.min(times[times.length - 1], time));
-    this.desk.setTime(this.time, this.frame);
+    this.controls.setTime(this.time, this.frame);
     this.draw();
   }
 
@@ -148,7 +148,7 @@ class MotionPlayer extends HTMLElement {
 
   setLook(change) {
     Object.assign(this.look, change);
-    this.desk.setLook(this.look);
+    this.controls.setLook(this.look);
     this.draw();
   }
 

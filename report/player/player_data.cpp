@@ -5,14 +5,12 @@
 
 #include <algorithm>
 
-#include "report/facts.h"
-#include "report/figure.h"
-#include "report/pictures.h"
-#include "report/player/quantised.h"
-#include "report/player/shown.h"
-#include "report/player/still_parts.h"
-#include "report/player/values.h"
-#include "report/player/words.h"
+#include "report/figures/figure.h"
+#include "report/findings/report_data.h"
+#include "report/pictures/scene_picture.h"
+#include "report/player/packed_numbers.h"
+#include "report/player/static_geometry.h"
+#include "report/player/thinned_trajectory.h"
 
 namespace crosscheck {
 namespace {
@@ -22,26 +20,27 @@ double five_digits(double value) { return std::stod(fmt::format("{:.5g}", value)
 
 Json values_json(const ColourValues& values, size_t motion, size_t particles) {
   if (!(values.top > 0) || values.of[motion].empty()) return nullptr;
-  return packed_json(packed(quantised(values.of[motion], values.top), particles, 1));
+  return packed_json(pack(quantise(values.of[motion], values.top), particles, 1));
 }
 
 /// Lattice and numbers of a motion: on the lattice of all, less those of the first one where that takes less room; on
 /// one of its own where it leaves that of all.
-Json places_json(const Shown& shown, const Lattice& lattice, const std::vector<std::uint16_t>& first, double& bound) {
+Json places_json(const ThinnedTrajectory& shown, const Lattice& lattice, const std::vector<std::uint16_t>& first,
+                 double& bound) {
   const auto per_frame = static_cast<size_t>(shown.x[0].size());
   const auto numbers = lattice.numbers_of(shown.x);
   if (!numbers) {
-    const QuantisedPlaces own = quantised(shown.x);
+    const QuantisedPositions own = quantise(shown.x);
     bound = own.bound;
     return {{"low", vector_json(own.low)},
             {"unit", vector_json(own.unit)},
-            {"places", packed_json(packed(own.numbers, per_frame, 2))}};
+            {"places", packed_json(pack(own.numbers, per_frame, 2))}};
   }
   bound = lattice.bound();
   Json json{{"low", vector_json(lattice.low)}, {"unit", vector_json(Vec3::Constant(lattice.unit))}};
-  const Packed whole = packed(*numbers, per_frame, 2);
+  const PackedNumbers whole = pack(*numbers, per_frame, 2);
   if (!first.empty()) {
-    const Packed apart = packed(less(*numbers, first, per_frame), per_frame, 2);
+    const PackedNumbers apart = pack(subtract_frames(*numbers, first, per_frame), per_frame, 2);
     if (apart.data.size() < whole.data.size()) {
       json["over"] = 0;
       json["places"] = packed_json(apart);
@@ -53,14 +52,14 @@ Json places_json(const Shown& shown, const Lattice& lattice, const std::vector<s
 }
 
 /// The motions, and the largest distance of a place of a run that went well from what the page draws, m.
-Json methods_json(const Scene& scene, const std::vector<Shown>& all, const Shown* known, const ColourValues& stretch,
-                  const ColourValues& distance, double& bound) {
+Json methods_json(const Scene& scene, const std::vector<ThinnedTrajectory>& all, const ThinnedTrajectory* known,
+                  const ColourValues& stretch, const ColourValues& distance, double& bound) {
   const auto particles = static_cast<size_t>(scene.model.particles.size());
   const Lattice lattice = lattice_of(all);
   const auto first = lattice.numbers_of(all[0].x);
   Json methods = Json::list();
   for (size_t m = 0; m < all.size(); ++m) {
-    Json json = words_json(all[m]);
+    Json json = motion_info_json(all[m]);
     double own = 0;
     json.update(places_json(all[m], lattice, m > 0 && first ? *first : std::vector<std::uint16_t>(), own));
     if (all[m].ok()) bound = std::max(bound, own);
@@ -80,7 +79,7 @@ Json methods_json(const Scene& scene, const std::vector<Shown>& all, const Shown
 Json distance_json(const Scene& scene, const Truth& truth, double top, double until) {
   if (!(top > 0)) return nullptr;
   const std::string name =
-      truth.of_contact_rule ? "difference from the converged contact rule" : "distance to the truth";
+      truth.under_contact_rule ? "difference from the converged contact rule" : "distance to the truth";
   const bool whole = until >= scene.duration * (1 - 1e-9);
   return {{"top", top}, {"name", name}, {"label", whole ? "mm" : fmt::format("mm, up to {:.3g} s", until)}};
 }
@@ -92,10 +91,10 @@ Json plot_json(const Scene& scene) {
 }
 
 /// What of it all methods share.
-Json shared_json(const Scene& scene, const Vantage& vantage, const std::vector<double>& times) {
+Json shared_json(const Scene& scene, const CameraPlacement& placement, const std::vector<double>& times) {
   Json json{{"scene", scene.name}, {"particles", scene.model.particles.size()}, {"times", times}};
-  json["from"] = vector_json(vantage.from);
-  json["floor"] = vantage.floor ? Json(*vantage.floor) : Json();
+  json["from"] = vector_json(placement.from);
+  json["floor"] = placement.floor ? Json(*placement.floor) : Json();
   json["triangles"] = triangles_json(scene);
   json["springs"] = springs_json(scene);
   json["pins"] = scene.model.particles.pins;
@@ -105,14 +104,14 @@ Json shared_json(const Scene& scene, const Vantage& vantage, const std::vector<d
 
 }  // namespace
 
-std::string player_json(const Scene& scene, const std::vector<const Answer*>& answers,
+std::string player_json(const Scene& scene, const std::vector<const Result*>& answers,
                         const std::optional<Truth>& truth) {
-  const std::vector<Shown> all = shown_of(scene, answers, truth);
+  const std::vector<ThinnedTrajectory> all = thin(scene, answers, truth);
   if (all.empty()) return "";
-  const Shown* known = all.back().answer ? nullptr : &all.back();
+  const ThinnedTrajectory* known = all.back().answer ? nullptr : &all.back();
   const double until = known ? std::min({scene.window, truth->until, known->t.back()}) : 0;
   const ColourValues stretch = stretch_values(scene, all);
-  const ColourValues distance = known ? distance_values(all, *known, until, truth->bar) : ColourValues();
+  const ColourValues distance = known ? distance_values(all, *known, until, truth->error_bar) : ColourValues();
   std::vector<double> times;
   for (int i = 0; i <= scene.samples; i += frame_stride(scene))
     times.push_back(five_digits(scene.duration * i / scene.samples));
@@ -121,11 +120,11 @@ std::string player_json(const Scene& scene, const std::vector<const Answer*>& an
   Json methods = methods_json(scene, all, known, stretch, distance, bound);
   std::vector<Points> seen;
   for (const bool failed : {false, true})
-    for (const Shown& s : all)
+    for (const ThinnedTrajectory& s : all)
       if (s.ok() != failed && (!failed || seen.empty())) seen.insert(seen.end(), s.x.begin(), s.x.end());
-  const Vantage vantage = vantage_of(scene, seen, times);
+  const CameraPlacement placement = camera_placement(scene, seen, times);
 
-  Json json = shared_json(scene, vantage, times);
+  Json json = shared_json(scene, placement, times);
   json["stretch"] = stretch.top > 0 ? Json{{"top", stretch.top}, {"label", "%"}} : Json();
   json["distance"] = known ? distance_json(scene, *truth, distance.top, until) : Json();
   json["plot"] = plot_json(scene);
@@ -137,9 +136,9 @@ std::string player_json(const Scene& scene, const std::vector<const Answer*>& an
 }
 
 std::string stage_json(const Scene& scene) {
-  Vantage vantage = vantage_of(scene, {scene.start.x}, {0});
-  vantage.floor.reset();
-  Json json = shared_json(scene, vantage, {0});
+  CameraPlacement placement = camera_placement(scene, {scene.start.x}, {0});
+  placement.floor.reset();
+  Json json = shared_json(scene, placement, {0});
   json["stretch"] = json["distance"] = nullptr;
   json["methods"] = Json::list();
   return json.dump();

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "experiments/experiment.h"
-#include "reference/truth.h"
+#include "reference/truth/truth.h"
 
 namespace crosscheck {
 
 /// The answers in lock-step, and the truth behind them where there is one. Distances from the truth are there up to the
 /// scene's window and the truth's end. Empty when there is nothing to play: no answer has frames, or the scene has too
-/// many particles for a page (see shown.h).
-std::string player_json(const Scene& scene, const std::vector<const Answer*>& answers,
+/// many particles for a page (see thinned_trajectory.h).
+std::string player_json(const Scene& scene, const std::vector<const Result*>& answers,
                         const std::optional<Truth>& truth);
 
 /// The same of a scene in which nothing has moved yet, without methods: where cells of its maps are played.

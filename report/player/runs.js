@@ -34,7 +34,7 @@ const signed = numbers => new Int16Array(numbers.buffer);
 const spheresAt = (scene, frames) => scene.spheres.map(
     sphere => ({...sphere, centres: sphere.centres.length > 1 ? frames.map(f => sphere.centres[f]) : sphere.centres}));
 
-/** The scene of a speed-accuracy chart with a run that came to its end beside the truth, as Stage and Desk take it. */
+/** The scene of a speed-accuracy chart with a run that came to its end beside the truth, as Stage and Controls take it. */
 async function runBesideTruth(whole, method, run) {
   const at = whole.methods.findIndex(m => m.known), truth = whole.methods[at], {every, grain} = method;
   const [{motions}, apart] = await Promise.all([unpackScene(whole), unpack(run.places)]);
@@ -79,7 +79,7 @@ async function lastPictures(whole, method, run) {
     methods: [{...method, ...run, stops: end, failed: null, first: true}],
     plot: {label: 'kinetic energy / J', unit: 'J', powers: true, title: 'Kinetic energy over the last pictures'},
     finest: run.unit[0],
-    story: `The last ${run.frames} pictures of the run, from ${Number(run.times[0].toPrecision(3))} s on.`
+    caption: `The last ${run.frames} pictures of the run, from ${Number(run.times[0].toPrecision(3))} s on.`
   };
   return {scene, motions: [{places: await unpack(run.places)}]};
 }
@@ -122,7 +122,7 @@ async function lastMoments(set, method, place, outcome) {
       first: true,
       plotted: powers ? sizes.map(size => (size > 0 ? Math.log10(size) : null)) : sizes
     }],
-    story: (left ? `${frames} pictures up to ${Number(end.toPrecision(3))} s, when the run leaves the frame; it ended at ` +
+    caption: (left ? `${frames} pictures up to ${Number(end.toPrecision(3))} s, when the run leaves the frame; it ended at ` +
                        `${Number(ended.toPrecision(3))} s. `
                  : `The last ${frames} pictures of the run, up to ${Number(end.toPrecision(3))} s. `) +
         (larger > 1 ? `Departures from rest are drawn ${short(larger)} times as large as they are.` :

@@ -40,7 +40,7 @@ class Stage {
     this.shapes = shapesOf(tools, scene, triangles, springs);
     this.map = tools.shadowMap(1024);
     this.scale = tools.colours(scaleBytes());
-    Object.assign(this, extentOf(scene, this.panels.map(p => p.motion)));
+    Object.assign(this, boundsOf(scene, this.panels.map(p => p.motion)));
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.enable(gl.SCISSOR_TEST);

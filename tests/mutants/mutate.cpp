@@ -1,13 +1,14 @@
 // mutate MUTATIONS MYSIM FILE OUT: writes mysim's FILE with all its mutations in it, each behind a switch that is read
 // at run time.
+
 #include <fmt/format.h>
 
 #include <fstream>
 #include <sstream>
 
 #include "experiments/regress/mutations.h"
-#include "mysim/errors.h"
-#include "mysim/files.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 
 using namespace crosscheck;
 

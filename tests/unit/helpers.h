@@ -1,4 +1,4 @@
-// What several unit tests share: seeded numbers, small scenes, runs, and distances over time.
+// What unit tests share: seeded numbers, small scenes, shipped scenes by name, runs, and distances over time.
 #pragma once
 
 #include <fmt/format.h>
@@ -6,18 +6,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "mysim/engine.h"
-#include "mysim/errors.h"
-#include "mysim/observers/ledger.h"
-#include "mysim/observers/trajectory.h"
-#include "mysim/uniform.h"
-#include "reference/method.h"
-#include "reference/truth.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/random.h"
+#include "mysim/run/engine.h"
+#include "mysim/run/observers.h"
+#include "mysim/scene/scene.h"
 
 namespace crosscheck::testing_tools {
+
+// What several unit tests share: seeded numbers, small scenes, runs, and distances over time.
 
 inline constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -71,6 +73,18 @@ inline Scene small_scene(const std::string& more, double duration = 1, double st
   return parse_scene(scene_text(more, duration, step, samples), "small");
 }
 
+/// Where the scenes that come with Crosscheck stand, and one of them.
+inline std::filesystem::path shipped_scene_folder() { return CROSSCHECK_SOURCE "/experiments/scenes"; }
+inline Scene shipped_scene(const std::string& name) { return read_scene(shipped_scene_folder() / (name + ".toml")); }
+/// The names of all, in the order of the alphabet.
+inline std::vector<std::string> shipped_scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(shipped_scene_folder()))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 /// The message of the InputError that the text causes; empty when it is a good scene.
 inline std::string message_of(const std::string& text) {
   try {
@@ -100,7 +114,7 @@ inline Scene small_cloth_in_air() {
   std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Wind>(t); });
   Dashpots dashpots;
   for (const Spring& s : scene.model.find<Springs>()->list) dashpots.list.push_back({s.a, s.b, 0.01});
-  const Blowing air{{0, 0, 2}, Blowing::Gusts{0.5, {1, 0, 0}, 3, Gust(3, 1), Gust(3, 2)}};
+  const WindSignal air{{0, 0, 2}, WindSignal::Gusts{0.5, {1, 0, 0}, 3, Gust(3, 1), Gust(3, 2)}};
   scene.model.terms.emplace_back(dashpots);
   scene.model.terms.emplace_back(Aerodynamics{1.2, 1, air, scene.triangles});
   return scene;
@@ -120,18 +134,6 @@ inline Trajectory trajectory_of(const Stepper& s, const Scene& scene, const Run&
   Recorder recorder;
   simulate(s, ContactRule::coulomb, scene, run, recorder);
   return recorder.trajectory;
-}
-
-/// Trajectory and outcome of a method by name, under its watch.
-struct Answered {
-  Trajectory trajectory;
-  Outcome outcome;
-};
-inline Answered answer(const std::string& method, const Scene& scene, const Run& run) {
-  Recorder r;
-  Answered a{{}, run_method(find_method(method), scene, run, {&r})};
-  a.trajectory = r.trajectory;
-  return a;
 }
 
 /// Largest RMS distance of two trajectories over time up to `until`, m. Both must have the same samples.
@@ -181,5 +183,39 @@ inline ::testing::AssertionResult begins(const std::string& text, const std::str
 
 /// Slope of the error between a step and half of it.
 inline double slope(double coarse, double fine) { return std::log2(coarse / fine); }
+
+// What bad input is told.
+
+/// The message of the InputError that f throws; empty when it throws none.
+template <class F>
+std::string refusal_of(F f) {
+  try {
+    f();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+// Runs that nobody stops.
+
+/// The first step at which a run that nobody stops is more than ten times as fast as `speed`, by central differences.
+inline long step_of_leaving(const Scene& scene, const crosscheck::Run& run, const char* rule, double speed) {
+  struct Free : Observer {
+    explicit Free(double fastest) : most(fastest) {}
+    bool every_step() const override { return true; }
+    Verdict observe(const State& s, bool) override {
+      ++step;
+      if (left == 0 && step >= 2 && largest_column(s.x - before.x) / (s.t - before.t) > most) left = step;
+      before = std::exchange(last, s);
+      return Verdict::ok;
+    }
+    double most;
+    State before, last;
+    long step = -1, left = 0;
+  } free(10 * speed);
+  simulate(stepper(rule), ContactRule::coulomb, scene, run, free);
+  return free.left;
+}
 
 }  // namespace crosscheck::testing_tools

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "mysim/grid.h"
-#include "mysim/model.h"
+#include "mysim/model/model.h"
+#include "mysim/scene/grid.h"
 #include "tests/coursework/check/case.h"
 #include "tests/coursework/check/random.h"
 

@@ -1,7 +1,7 @@
 // Part 5: the whole right-hand side, and what follows from it.
 #include <cmath>
 
-#include "mysim/steppers/stepper.h"
+#include "mysim/steppers/steppers.h"
 #include "tests/coursework/a3-cloth/cases.h"
 
 namespace coursework::a3 {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "mysim/model.h"
+#include "mysim/model/model.h"
 #include "tests/coursework/check/case.h"
 #include "tests/coursework/check/random.h"
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "mysim/contacts.h"
-#include "mysim/grid.h"
-#include "mysim/steppers/stepper.h"
+#include "mysim/run/contacts.h"
+#include "mysim/scene/grid.h"
+#include "mysim/steppers/steppers.h"
 #include "tests/coursework/a4-collision/cases.h"
 
 namespace coursework::a4 {

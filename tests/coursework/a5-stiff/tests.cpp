@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mysim/steppers/limits.h"
-#include "mysim/system.h"
+#include "mysim/model/system.h"
+#include "mysim/steppers/steppers.h"
 #include "tests/coursework/a5-stiff/tests_motion.h"
 #include "tests/coursework/grader/assignment.h"
 

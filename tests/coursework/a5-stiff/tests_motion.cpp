@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "mysim/steppers/stepper.h"
+#include "mysim/steppers/steppers.h"
 
 namespace coursework::a5 {
 namespace {

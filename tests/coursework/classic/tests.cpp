@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "tests/coursework/classic/looks.h"
-#include "tests/coursework/classic/whole.h"
+#include "tests/coursework/classic/whole_program.h"
 #include "tests/coursework/grader/assignment.h"
 
 namespace coursework {

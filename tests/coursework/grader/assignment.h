@@ -33,7 +33,7 @@ struct Test {
 };
 
 class Builder;
-class Lane;
+class Sandbox;
 
 struct Assignment {
   std::string_view name, title;
@@ -41,7 +41,7 @@ struct Assignment {
   std::span<const Test> tests;  // points and hidden points sum to 100
   /// Null: a file per part is handed in. Else a whole program is, whatever its files are called, and this finds the
   /// parts in it.
-  std::unique_ptr<Builder> (*builder)(const Assignment&, const Lane& trusted, const Lane& lane) = nullptr;
+  std::unique_ptr<Builder> (*builder)(const Assignment&, const Sandbox& trusted, const Sandbox& sandbox) = nullptr;
   bool takes_whole_program() const { return builder != nullptr; }
   std::filesystem::path folder() const;
 };

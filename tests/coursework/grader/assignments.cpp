@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "mysim/nearest.h"
+#include "mysim/base/text.h"
 #include "tests/coursework/grader/assignment.h"
 
 namespace coursework {

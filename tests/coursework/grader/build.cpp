@@ -1,20 +1,140 @@
-// One file per part, compiled and linked with ours in the place of earlier parts.
+// Finds the compiler and the cache, takes its messages apart, and links one file per part with ours in the place of
+// earlier parts.
 #include "tests/coursework/grader/build.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <stdexcept>
 
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/temporary_folder.h"
-#include "tests/coursework/grader/compiler.h"
-#include "tests/coursework/grader/diagnostics.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/hash.h"
 #include "tests/coursework/grader/parallel.h"
 
 namespace coursework {
+namespace fs = std::filesystem;
+using crosscheck::InputError;
+namespace {
+
+fs::path find_compiler() {
+  if (const char* named = std::getenv("CXX"); named && named[0] == '/') return named;
+  std::istringstream path(std::getenv("PATH") ? std::getenv("PATH") : "/usr/bin");
+  std::vector<fs::path> folders;
+  for (std::string folder; std::getline(path, folder, ':');) folders.push_back(folder);
+  for (const char* name : {"g++", "clang++", "c++"})
+    for (const fs::path& folder : folders) {
+      // a wrapper of this user's is none that a sandbox can see
+      if (folder.string().find("ccache") != std::string::npos || access((folder / name).c_str(), X_OK) != 0) continue;
+      const fs::path real = fs::canonical(folder / name);  // sandboxes show /usr, not /etc/alternatives
+      return real.filename().string().find("++") != std::string::npos ? real : folder / name;
+    }
+  throw InputError("no C++ compiler found; expected g++ or clang++ on the PATH");
+}
+
+fs::path cache_folder() {
+  if (const char* named = std::getenv("CROSSCHECK_CACHE"); named && *named) return fs::absolute(named) / "coursework";
+  if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache/crosscheck/coursework";
+  return fs::temp_directory_path() / fmt::format("crosscheck-coursework-{}", getuid());
+}
+
+}  // namespace
+
+std::string key_of(const std::string& content) {
+  // twice 64 bits: contents are ours, so nobody looks for two that collide
+  return fmt::format("{:016x}{:016x}", crosscheck::Fnv1a::of(content), crosscheck::Fnv1a::of(content + "/"));
+}
+
+Compiler::Compiler() : cache_(cache_folder()) {
+  const fs::path program = find_compiler();
+  // sandboxes set LANG to C, so that messages are in English; no fused multiply-add: the same numbers on every machine
+  command_ = {program.string(), "-w", "-ffp-contract=off", "-fno-diagnostics-show-caret", "-fdiagnostics-color=never"};
+  fingerprint_ = fmt::format("{} {}", fmt::join(command_, " "), fs::file_size(program));
+  crosscheck::require_writable(cache_);
+  // what is in it is run: it must be nobody else's
+  struct stat info {};
+  if (stat(cache_.c_str(), &info) != 0 || info.st_uid != geteuid())
+    throw InputError(
+        fmt::format("{}: belongs to another user; name another folder in CROSSCHECK_CACHE", cache_.string()));
+  fs::permissions(cache_, fs::perms(0700));
+}
+
+fs::path Compiler::cached(const std::string& key, const std::string& ending,
+                          const std::function<void(const fs::path&)>& make) const {
+  const fs::path file = cache_ / (key + ending);
+  if (fs::exists(file)) return file;
+  const crosscheck::TemporaryFolder scratch("build");
+  const fs::path made = scratch.path / ("made" + ending);
+  make(made);
+  // under another name first
+  const fs::path temporary = cache_ / (scratch.path.filename().string() + ending);
+  fs::copy_file(made, temporary);
+  fs::rename(temporary, file);
+  return file;
+}
+
+void compile_ours(const Sandbox& trusted, const std::vector<std::string>& command, const fs::path& writable,
+                  const std::string& what) {
+  const End end = trusted.run({.command = command, .writable = writable, .limits = compile_limits});
+  if (end.how == End::How::cpu || end.how == End::How::wall)
+    throw std::runtime_error(fmt::format("{}: compiling it took more than {:.0f} s ({:.0f} s of CPU)", what,
+                                         compile_limits.wall, compile_limits.cpu));
+  if (end.how != End::How::exited || end.code != 0)
+    throw std::runtime_error(fmt::format("{} does not compile:\n{}", what, end.captured_output));
+}
+
+namespace {
+
+/// N of the first "FILE:N:" in the line.
+std::optional<std::string> line_of(const std::string& file, const std::string& line) {
+  std::size_t at = line.find(file + ":");
+  if (at == std::string::npos) return {};
+  at += file.size() + 1;
+  const std::size_t end = line.find_first_not_of("0123456789", at);
+  if (end == std::string::npos || end == at || (line[end] != ':' && line[end] != ',')) return {};
+  return line.substr(at, end - at);
+}
+
+/// The name that ld puts between ` and ' after these words.
+std::optional<std::string> quoted_after(const std::string& words, const std::string& text) {
+  const std::size_t at = text.find(words);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = text.find_first_of("`'", at);
+  const std::size_t end = begin == std::string::npos ? begin : text.find('\'', begin + 1);
+  if (end == std::string::npos) return {};
+  return text.substr(begin + 1, end - begin - 1);
+}
+
+}  // namespace
+
+Remark first_error(const std::string& file, const std::string& said) {
+  std::istringstream lines(said);
+  std::optional<std::string> number, what;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t error = line.find("error: ");
+    if (!what && error != std::string::npos && line.find("ld returned") == std::string::npos) {
+      what = line.substr(error + 7, 300);
+      if (const auto here = line_of(file, line)) number = here;
+    }
+    // an error inside a header: the student's line is where the compiler says that it came from
+    if (!number) number = line_of(file, line);
+    if (what && number) return {"build.compile", {file, *number, *what}};
+  }
+  if (const auto name = quoted_after("multiple definition of", said)) {
+    if (*name == "main") return {"build.main", {file}};
+    return {"build.twice", {file, *name}};
+  }
+  if (const auto name = quoted_after("undefined reference to", said)) return {"build.undefined", {file, *name}};
+  if (what) return {"build.no_line", {file, *what}};
+  return {"build.other", {file, said.substr(0, said.find('\n')).substr(0, 300)}};
+}
+
 namespace fs = std::filesystem;
 namespace {
 
@@ -30,10 +150,10 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& begin,
 
 class PartBuilder : public Builder {
  public:
-  PartBuilder(const Assignment& assignment, const Lane& trusted, const Lane& lane)
+  PartBuilder(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox)
       : assignment_(assignment),
         trusted_(trusted),
-        lane_(lane),
+        sandbox_(sandbox),
         folder_(assignment.folder()),
         check_(folder_of_coursework() / "check"),
         command_(compiler_.command()) {
@@ -60,8 +180,8 @@ class PartBuilder : public Builder {
     prepare(jobs);
     const std::size_t count = assignment_.parts.size();
     std::vector<Built> objects(count), built(count);
-    in_parallel(count, jobs, [&](std::size_t i) { objects[i] = compiled(part(i), submission, folder / part(i)); });
-    in_parallel(count, jobs, [&](std::size_t i) { built[i] = linked(i, objects, folder / part(i)); });
+    parallel_for(count, jobs, [&](std::size_t i) { objects[i] = compiled(part(i), submission, folder / part(i)); });
+    parallel_for(count, jobs, [&](std::size_t i) { built[i] = linked(i, objects, folder / part(i)); });
     std::map<std::string, Built> all;
     for (std::size_t i = 0; i < count; ++i) all[part(i)] = built[i];
     return all;
@@ -112,21 +232,21 @@ class PartBuilder : public Builder {
       sources.push_back(solution_of(assignment_, *this, std::string(part.name)));
       sources.push_back(folder_ / "starter" / file_of(std::string(part.name)));
     }
-    in_parallel(sources.size(), jobs, [&](std::size_t i) { object_of(sources[i]); });
+    parallel_for(sources.size(), jobs, [&](std::size_t i) { object_of(sources[i]); });
   }
 
-  /// The compiler in the lane, on what stands in `in`; `file` is what is talked about where nothing is made.
-  Built made_in_lane(const std::vector<std::string>& more, const fs::path& in, const fs::path& made,
-                     const std::string& file) const {
+  /// The compiler in the sandbox, on what stands in `in`; `file` is what is talked about where nothing is made.
+  Built made_in_sandbox(const std::vector<std::string>& more, const fs::path& in, const fs::path& made,
+                        const std::string& file) const {
     fs::create_directories(made.parent_path());
     std::vector<std::string> command = command_;
     command.insert(command.end(), more.begin(), more.end());
     command.insert(command.end(), {"-o", made.string()});
     const End end =
-        lane_.run({.command = command, .readable = {in}, .writable = made.parent_path(), .limits = compile_limits});
+        sandbox_.run({.command = command, .readable = {in}, .writable = made.parent_path(), .limits = compile_limits});
     if (end.how == End::How::cpu || end.how == End::How::wall) return {{}, {"build.time", {file}}};
     const bool there = fs::symlink_status(made).type() == fs::file_type::regular;
-    if (end.how != End::How::exited || end.code != 0 || !there) return {{}, first_error(file, end.chatter)};
+    if (end.how != End::How::exited || end.code != 0 || !there) return {{}, first_error(file, end.captured_output)};
     return {made};
   }
 
@@ -140,7 +260,8 @@ class PartBuilder : public Builder {
     crosscheck::write_file(in / file, submission.files.at(file));
     for (const fs::path& header : files_in(folder_ / "starter", "", ".h"))
       fs::copy_file(header, in / header.filename());
-    return made_in_lane({"-I" + in.string(), "-c", (in / file).string()}, in, folder / "object" / (part + ".o"), file);
+    return made_in_sandbox({"-I" + in.string(), "-c", (in / file).string()}, in, folder / "object" / (part + ".o"),
+                           file);
   }
 
   /// Earlier parts are ours, so that a mistake in one costs nothing here. Later ones are never ours, since a solution
@@ -167,14 +288,14 @@ class PartBuilder : public Builder {
         theirs_used |= theirs;
       }
       Built built =
-          made_in_lane(words, in, folder / (their_later ? "out" : "out-starter") / "program", file_of(part(i)));
+          made_in_sandbox(words, in, folder / (their_later ? "out" : "out-starter") / "program", file_of(part(i)));
       if (!built.program.empty() || !theirs_used) return built;
     }
   }
 
   const Assignment& assignment_;
-  const Lane& trusted_;
-  const Lane& lane_;
+  const Sandbox& trusted_;
+  const Sandbox& sandbox_;
   const Compiler compiler_;
   fs::path folder_, check_;
   std::vector<std::string> command_;
@@ -183,9 +304,9 @@ class PartBuilder : public Builder {
 
 }  // namespace
 
-std::unique_ptr<Builder> builder_for(const Assignment& assignment, const Lane& trusted, const Lane& lane) {
-  if (assignment.builder) return assignment.builder(assignment, trusted, lane);
-  return std::make_unique<PartBuilder>(assignment, trusted, lane);
+std::unique_ptr<Builder> builder_for(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox) {
+  if (assignment.builder) return assignment.builder(assignment, trusted, sandbox);
+  return std::make_unique<PartBuilder>(assignment, trusted, sandbox);
 }
 
 fs::path solution_of(const Assignment& assignment, const Builder& builder, const std::string& part) {

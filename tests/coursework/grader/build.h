@@ -1,17 +1,63 @@
-// Programs around a part: the student's in a lane, ours from a cache.
+// Programs around a part, the student's in a sandbox and ours from a cache: the compiler, its messages in plain words,
+// the builders.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "tests/coursework/grader/assignment.h"
-#include "tests/coursework/grader/lane.h"
+#include "tests/coursework/grader/sandbox.h"
 #include "tests/coursework/grader/submission.h"
 
 namespace coursework {
+
+// The compiler, and the cache of what it made of sources of ours.
+
+/// Compiling may start the compiler's own passes; half a minute of CPU is thirty times what a part takes. The wall is
+/// far off: on a busy machine waiting is not the source's fault.
+constexpr Limits compile_limits{.cpu = 30, .wall = 300, .memory = 4096, .processes = 64, .output = 4096, .file = 64};
+
+class Compiler {
+ public:
+  /// Throws InputError when there is no C++ compiler, or no folder for a cache.
+  Compiler();
+
+  /// The program and options that every call begins with; the standard is not among them.
+  const std::vector<std::string>& command() const { return command_; }
+  /// Changes with the compiler and those options.
+  const std::string& fingerprint() const { return fingerprint_; }
+  const std::filesystem::path& cache() const { return cache_; }
+
+  /// The file that was made for this key, made now by `make` (which is given the file to write) where there is none.
+  /// Whoever asks at the same time finds all of it or nothing.
+  std::filesystem::path cached(const std::string& key, const std::string& ending,
+                               const std::function<void(const std::filesystem::path&)>& make) const;
+
+ private:
+  std::vector<std::string> command_;
+  std::string fingerprint_;
+  std::filesystem::path cache_;
+};
+
+/// Runs the command in the sandbox, which may write to `writable`. Throws std::runtime_error that says what became of
+/// `what` where it did not end well: these are sources of ours.
+void compile_ours(const Sandbox& trusted, const std::vector<std::string>& command,
+                  const std::filesystem::path& writable, const std::string& what);
+
+/// Fingerprint of a text, as a file name.
+std::string key_of(const std::string& content);
+
+// A compiler's output in plain words.
+
+/// The first error that concerns the student's `file` (its bare name): where and what. `said` is what g++ or clang++
+/// wrote, in English.
+Remark first_error(const std::string& file, const std::string& said);
+
+// Programs around a part: the student's in a sandbox, ours from a cache.
 
 struct Built {
   std::filesystem::path program;   // empty: there is none
@@ -20,8 +66,8 @@ struct Built {
   std::vector<Remark> notes = {};  // what else is to be said before any test
 };
 
-/// How an assignment's submissions become one program per part. `trusted` runs the compiler on sources of ours, `lane`
-/// on a student's.
+/// How an assignment's submissions become one program per part. `trusted` runs the compiler on sources of ours,
+/// `sandbox` on a student's.
 class Builder {
  public:
   virtual ~Builder() = default;
@@ -30,7 +76,7 @@ class Builder {
   /// once for the same contents. Throws std::runtime_error with the compiler's words.
   virtual std::filesystem::path ours(const std::string& part, const std::string& source) const = 0;
 
-  /// Every part's program with what the student wrote, compiled in the lane within `folder`, which need not exist;
+  /// Every part's program with what the student wrote, compiled in the sandbox within `folder`, which need not exist;
   /// `jobs` compilers at a time.
   virtual std::map<std::string, Built> theirs(const Submission& submission, const std::filesystem::path& folder,
                                               unsigned jobs) const = 0;
@@ -40,7 +86,7 @@ class Builder {
 };
 
 /// As the assignment says. Throws InputError when there is no C++ compiler.
-std::unique_ptr<Builder> builder_for(const Assignment& assignment, const Lane& trusted, const Lane& lane);
+std::unique_ptr<Builder> builder_for(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox);
 
 std::filesystem::path solution_of(const Assignment& assignment, const Builder& builder, const std::string& part);
 

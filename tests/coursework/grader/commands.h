@@ -12,7 +12,7 @@ struct GradeCommand {
   std::string assignment, submission;
   bool all = false, no_sandbox = false;
   std::optional<std::uint64_t> seed;
-  std::string secret_file, report, engines, charts, out, format = "text", language = "en", lane;
+  std::string secret_file, report, engines, charts, out, format = "text", language = "en", sandbox;
 };
 int grade_command(const GradeCommand& command);
 
@@ -25,7 +25,7 @@ struct AssignmentCommand {
 int assignment_command(const AssignmentCommand& command);
 
 struct EngineCommand {
-  std::string program, part, scene, folder, lane;
+  std::string program, part, scene, folder, sandbox;
 };
 int engine_command(const EngineCommand& command);
 

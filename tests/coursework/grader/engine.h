@@ -1,18 +1,19 @@
-// Students' parts as engines in crosscheck's charts, for assignments with a calls_engine.cpp.
+// Students' parts as engines in crosscheck's charts, for assignments with a
+// tests/coursework/a1-steppers/calls_engine.cpp.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
 #include "tests/coursework/grader/assignment.h"
-#include "tests/coursework/grader/lane.h"
+#include "tests/coursework/grader/sandbox.h"
 
 namespace coursework {
 
 bool has_engine(const Assignment& assignment);
 
-/// Leaves FOLDER/your-PART, a program of the engine protocol that runs the student's in this lane.
-void keep_engine(const std::filesystem::path& program, const std::string& part, const Lane& lane,
+/// Leaves FOLDER/your-PART, a program of the engine protocol that runs the student's in this sandbox.
+void keep_engine(const std::filesystem::path& program, const std::string& part, const Sandbox& sandbox,
                  const std::filesystem::path& folder);
 
 }  // namespace coursework

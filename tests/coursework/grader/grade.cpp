@@ -1,4 +1,4 @@
-// Builds the parts, runs the tests one process each, judges, looks for causes.
+// Builds the parts, runs the tests one process each, judges, looks for causes; and many submissions side by side.
 #include "tests/coursework/grader/grade.h"
 
 #include <fmt/format.h>
@@ -6,14 +6,19 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <mutex>
 
-#include "mysim/fnv.h"
-#include "mysim/temporary_folder.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/hash.h"
+#include "mysim/base/progress.h"
 #include "tests/coursework/check/plot.h"
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/grader/build.h"
-#include "tests/coursework/grader/cause.h"
 #include "tests/coursework/grader/engine.h"
+#include "tests/coursework/grader/mistakes.h"
+#include "tests/coursework/grader/parallel.h"
+#include "tests/coursework/grader/result.h"
 #include "tests/coursework/grader/run.h"
 
 namespace coursework {
@@ -27,34 +32,35 @@ std::string text_or(const Texts& texts, const std::string& key, const std::strin
 /// One grading: what its steps share.
 class Grading {
  public:
-  Grading(const Assignment& assignment, const Submission& submission, const Lane& lane, const GradeOptions& options)
+  Grading(const Assignment& assignment, const Submission& submission, const Sandbox& sandbox,
+          const GradeOptions& options)
       : assignment_(assignment),
         submission_(submission),
-        lane_(lane),
+        sandbox_(sandbox),
         options_(options),
-        trusted_(choose_lane("bare", true)),
-        builder_(builder_for(assignment, *trusted_, lane)),
+        trusted_(choose_sandbox("bare", true)),
+        builder_(builder_for(assignment, *trusted_, sandbox)),
         scratch_("grade") {
     result_.assignment = assignment.name;
     result_.submission = submission.name;
-    result_.lane = lane.name();
+    result_.sandbox = sandbox.name();
     result_.seed = options.secret ? 0 : options.seed;
     result_.secret = options.secret;
   }
 
   Result run() {
     list_tests();
-    options_.so_far(result_);
+    options_.on_progress(result_);
     build();
     for (std::size_t i = 0; i < result_.tests.size(); ++i) {
       run_test(i);
-      options_.so_far(result_);
+      options_.on_progress(result_);
     }
     for (const Part& part : assignment_.parts) look_for_cause(std::string(part.name));
     require_unseen();
     keep_engines();
     result_.complete = true;
-    options_.so_far(result_);
+    options_.on_progress(result_);
     return result_;
   }
 
@@ -104,14 +110,14 @@ class Grading {
   void run_test(std::size_t i) {
     const auto begin = std::chrono::steady_clock::now();
     TestResult& one = result_.tests[i];
-    Asked& asked = asked_[i];
+    TestRun& asked = asked_[i];
     Random random(one.hidden ? hidden_seed(options_.seed, *asked.test) : public_seed(assignment_, *asked.test));
     asked.cases = asked.test->cases(random);
     const auto unusable = unusable_.find(one.part);
     if (unusable != unusable_.end())
       asked.answers.assign(asked.cases.size(), unusable->second);
     else
-      asked.answers = run_calls(lane_, programs_.at(one.part), asked.cases);
+      asked.answers = run_calls(sandbox_, programs_.at(one.part), asked.cases);
     for (std::size_t k = 0; k < asked.cases.size(); ++k)
       asked.answers[k] = reduced(*asked.test, asked.cases[k], asked.answers[k]);
     judge_test(asked, one);
@@ -119,7 +125,7 @@ class Grading {
   }
 
   /// The first call that is not right is what is talked about; where all are, the first one is drawn.
-  void judge_test(const Asked& asked, TestResult& one) const {
+  void judge_test(const TestRun& asked, TestResult& one) const {
     std::size_t shown = 0;
     one.said.clear();
     for (std::size_t k = 0; k < asked.cases.size(); ++k) {
@@ -163,7 +169,7 @@ class Grading {
 
   /// Fills in the causes of a part's wrong answers. A crash or a loop is no answer: its message says all.
   void look_for_cause(const std::string& part) {
-    std::vector<Asked> of_part;
+    std::vector<TestRun> of_part;
     std::vector<TestResult*> wrong;
     for (std::size_t i = 0; i < asked_.size(); ++i) {
       if (result_.tests[i].part != part) continue;
@@ -186,23 +192,23 @@ class Grading {
     if (options_.engines.empty() || !has_engine(assignment_)) return;
     for (const auto& [part, program] : programs_) {
       bool answered = true;
-      for (const Asked& asked : asked_)
+      for (const TestRun& asked : asked_)
         if (asked.test->part == part)
           for (const Answer& answer : asked.answers) answered = answered && answer.how == How::answered;
-      if (answered) keep_engine(program, part, lane_, options_.engines);
+      if (answered) keep_engine(program, part, sandbox_, options_.engines);
     }
   }
 
   const Assignment& assignment_;
   const Submission& submission_;
-  const Lane& lane_;
+  const Sandbox& sandbox_;
   const GradeOptions& options_;
-  std::unique_ptr<Lane> trusted_;
+  std::unique_ptr<Sandbox> trusted_;
   std::unique_ptr<Builder> builder_;
   crosscheck::TemporaryFolder scratch_;
   std::map<std::string, fs::path> programs_;  // by part
   std::map<std::string, Answer> unusable_;    // by part: missing, or it does not compile
-  std::vector<Asked> asked_;                  // beside result_.tests
+  std::vector<TestRun> asked_;                // beside result_.tests
   Result result_;
 };
 
@@ -232,9 +238,166 @@ std::uint64_t hidden_seed(std::uint64_t seed, const Test& test) {
   return mixed(seed + 1, crosscheck::Fnv1a::of(test.id));
 }
 
-Result grade(const Assignment& assignment, const Submission& submission, const Lane& lane,
+Result grade(const Assignment& assignment, const Submission& submission, const Sandbox& sandbox,
              const GradeOptions& options) {
-  return Grading(assignment, submission, lane, options).run();
+  return Grading(assignment, submission, sandbox, options).run();
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+/// What results depend on beside the submission: this program, the assignment, the sandbox, the seed and the language.
+std::string surroundings_of(const Assignment& assignment, const Sandbox& sandbox, const GradeOptions& options) {
+  std::vector<fs::path> files = {fs::read_symlink("/proc/self/exe")};
+  for (const fs::path& folder : {assignment.folder(), folder_of_coursework() / "check"})
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin() + 1, files.end());
+  std::string all =
+      fmt::format("{} {} {} {}\n", options.seed, options.secret, options.common.of("total"), sandbox.name());
+  for (const fs::path& file : files)
+    all += fmt::format("{} {:016x}\n", file.filename().string(), crosscheck::Fnv1a::of(content_of_file(file)));
+  return all;
+}
+
+std::string fingerprint_of(const Submission& submission, const std::string& surroundings) {
+  std::string all = surroundings;
+  for (const auto& [name, content] : submission.files) all += fmt::format("{} {}\n{}", name, content.size(), content);
+  for (const auto& [name, why] : submission.missing) all += fmt::format("{} {}\n", name, why.key);
+  for (const Remark& remark : submission.remarks) all += remark.key + "\n";
+  return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
+}
+
+/// True when the file holds the whole result of the same grading.
+bool finished(const fs::path& file, const std::string& assignment, const std::string& fingerprint, Result& result) {
+  if (!fs::exists(file)) return false;
+  try {
+    std::string of_then;
+    result = result_from_json(content_of_file(file), file.string(), &of_then);
+    return result.complete && result.assignment == assignment && of_then == fingerprint;
+  } catch (const std::exception&) {
+    return false;  // a file of something else: graded anew
+  }
+}
+
+void write_result(const fs::path& file, const Result& result, const std::string& fingerprint) {
+  crosscheck::write_file(file, to_json(result, fingerprint));
+}
+
+std::vector<std::pair<std::string, double>> by_part(const Assignment& assignment, const Result& result) {
+  std::vector<std::pair<std::string, double>> sums;
+  for (const Part& part : assignment.parts) {
+    sums.emplace_back(part.name, 0);
+    for (const TestResult& test : result.tests)
+      if (test.part == part.name) sums.back().second += test.earned;
+  }
+  return sums;
+}
+
+std::string quoted(const std::string& text) {
+  // spreadsheets take what begins like this for a formula
+  const bool formula = !text.empty() && std::string("=+-@").find(text[0]) != std::string::npos;
+  if (!formula && text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string safe = formula ? "\"'" : "\"";
+  for (const char c : text) safe += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return safe + "\"";
+}
+
+std::string remark_of(const GradedSubmission& one) {
+  if (!one.failure.empty()) return "not graded: " + printable(one.failure);
+  return one.result.preflight.empty() ? "" : printable(one.result.preflight.front());
+}
+
+}  // namespace
+
+std::string file_name_for(const std::string& submission) {
+  const std::string plain = crosscheck::file_name_of(submission);
+  // names in other scripts would all become the same dashes
+  if (plain == submission) return plain;
+  return fmt::format("{}-{:08x}", plain, crosscheck::Fnv1a::of(submission) & 0xffffffffu);
+}
+
+std::vector<GradedSubmission> grade_class(const Assignment& assignment, const fs::path& folder, const Sandbox& sandbox,
+                                          const GradeOptions& options, const fs::path& out) {
+  if (!fs::is_directory(folder))
+    throw crosscheck::InputError(fmt::format("{}: expected a folder of submissions", folder.string()));
+  std::vector<fs::path> entries;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename().string()[0] != '.') entries.push_back(entry.path());
+  std::sort(entries.begin(), entries.end());
+  crosscheck::require_writable(out);
+  std::vector<GradedSubmission> all(entries.size());
+  const std::string surroundings = surroundings_of(assignment, sandbox, options);
+  std::mutex speaking;
+  std::size_t done = 0;
+  int graded = 0;
+  const auto begun = std::chrono::steady_clock::now();
+  parallel_for(entries.size(), options.jobs, [&](std::size_t i) {
+    GradedSubmission& one = all[i];
+    one.result.submission = entries[i].filename().string();
+    const fs::path base = out / file_name_for(one.result.submission);
+    bool known = false;
+    try {
+      // in a folder that students share, a link would be graded as somebody's who did not write it
+      if (fs::is_symlink(entries[i])) throw std::runtime_error("it is a link to something else");
+      const Submission submission = read_submission(entries[i], files_asked_for(assignment));
+      const std::string fingerprint = fingerprint_of(submission, surroundings);
+      known = finished(base.string() + ".json", std::string(assignment.name), fingerprint, one.result) &&
+              fs::exists(base.string() + ".html");
+      if (!known) {
+        GradeOptions mine = options;
+        mine.jobs = 1;
+        mine.on_progress = [&](const Result& result) { write_result(base.string() + ".json", result, fingerprint); };
+        one.result = grade(assignment, submission, sandbox, mine);
+        crosscheck::write_file(base.string() + ".html", page_of(one.result, options.common, options.own));
+      }
+    } catch (const std::exception& error) {
+      one.failure = error.what();
+    }
+    const std::lock_guard<std::mutex> lock(speaking);
+    ++done, graded += !known;
+    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    // those that were graded before cost nothing; of the others that are to come nobody knows
+    const std::size_t left = entries.size() - done;
+    fmt::print(
+        stderr, "{} of {}: {}{}{}\n", done, entries.size(), printable(one.result.submission),
+        known ? " (graded before)" : "",
+        graded > 0 && left > 0
+            ? fmt::format(", about {} left", crosscheck::format_duration(elapsed / graded * static_cast<double>(left)))
+            : "");
+  });
+  return all;
+}
+
+std::string class_csv(const Assignment& assignment, const std::vector<GradedSubmission>& all) {
+  std::string text = "submission,points [1]";
+  for (const Part& part : assignment.parts) text += fmt::format(",{} [1]", part.name);
+  text += ",remark\n";
+  for (const GradedSubmission& one : all) {
+    // no result is no zero: the cells stay empty
+    const bool graded = one.failure.empty();
+    text += quoted(one.result.submission) + "," + (graded ? points_text(one.result.earned()) : "");
+    for (const auto& [part, sum] : by_part(assignment, one.result)) text += "," + (graded ? points_text(sum) : "");
+    text += "," + quoted(remark_of(one)) + "\n";
+  }
+  return text;
+}
+
+std::string class_text(const Assignment& assignment, const std::vector<GradedSubmission>& all) {
+  std::size_t width = 10;
+  for (const GradedSubmission& one : all) width = std::max(width, one.result.submission.size());
+  std::string text = fmt::format("{:<{}} {:>7}", "submission", width, "points");
+  for (const Part& part : assignment.parts) text += fmt::format(" {:>12}", part.name);
+  text += "  remark\n";
+  for (const GradedSubmission& one : all) {
+    const bool graded = one.failure.empty();
+    text += fmt::format("{:<{}} {:>7}", printable(one.result.submission), width,
+                        graded ? points_text(one.result.earned()) : "-");
+    for (const auto& [part, sum] : by_part(assignment, one.result))
+      text += fmt::format(" {:>12}", graded ? points_text(sum) : "-");
+    text += "  " + remark_of(one) + "\n";
+  }
+  return text;
 }
 
 }  // namespace coursework

@@ -1,17 +1,21 @@
-// From a submission to a Result.
+// From a submission, or a folder of them, to results.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tests/coursework/check/texts.h"
 #include "tests/coursework/grader/assignment.h"
-#include "tests/coursework/grader/lane.h"
 #include "tests/coursework/grader/result.h"
+#include "tests/coursework/grader/sandbox.h"
 #include "tests/coursework/grader/submission.h"
 
 namespace coursework {
+
+// From a submission to a Result.
 
 struct GradeOptions {
   std::uint64_t seed = 0;  // of the hidden tests
@@ -20,12 +24,13 @@ struct GradeOptions {
   unsigned jobs = 1;       // compilers at a time
   std::string engines;     // folder in which parts are left as engines, where the assignment has such; empty: nowhere
   /// Called with what there is so far: before the first test, after every test, and at the end.
-  std::function<void(const Result&)> so_far = [](const Result&) {};
+  std::function<void(const Result&)> on_progress = [](const Result&) {};
 };
 
 /// Runs all tests, public ones first; points start at 0 and are earned. What a student may have done wrong is said in
 /// the result; throws std::runtime_error only for what is wrong on our side.
-Result grade(const Assignment& assignment, const Submission& submission, const Lane& lane, const GradeOptions& options);
+Result grade(const Assignment& assignment, const Submission& submission, const Sandbox& sandbox,
+             const GradeOptions& options);
 
 /// The files that the assignment asks for: one per part; none where it takes a whole program.
 std::vector<std::string> files_asked_for(const Assignment& assignment);
@@ -37,5 +42,26 @@ std::uint64_t hidden_seed(std::uint64_t seed, const Test& test);
 
 /// A remark as a sentence.
 std::string said(const Texts& common, const Remark& remark);
+
+// A class: every entry of a folder is a submission.
+
+struct GradedSubmission {
+  Result result;
+  std::string failure;  // why it could not be graded
+};
+
+/// Grades all, options.jobs at a time. For each submission NAME.json and NAME.html are written to `out`; one that an
+/// earlier run of this program finished with the same seed, sandbox and assignment, and that was not changed since, is
+/// read instead. In the order of names.
+std::vector<GradedSubmission> grade_class(const Assignment& assignment, const std::filesystem::path& folder,
+                                          const Sandbox& sandbox, const GradeOptions& options,
+                                          const std::filesystem::path& out);
+
+/// One row per submission: points in all, per part (public and hidden together), and the first remark.
+std::string class_csv(const Assignment& assignment, const std::vector<GradedSubmission>& all);
+std::string class_text(const Assignment& assignment, const std::vector<GradedSubmission>& all);
+
+/// A name for its files that no other submission has.
+std::string file_name_for(const std::string& submission);
 
 }  // namespace coursework

@@ -1,3 +1,4 @@
+// Writes the hand-out, with its README and CMakeLists.
 #include "tests/coursework/grader/handout.h"
 
 #include <fmt/format.h>
@@ -10,14 +11,129 @@
 
 #include "tests/coursework/check/texts.h"
 #include "tests/coursework/grader/grade.h"
-#include "tests/coursework/grader/handout_words.h"
 
 namespace coursework {
+
+std::string cmake_lists(const Assignment& assignment) {
+  std::string parts;
+  for (const Part& part : assignment.parts) parts += fmt::format("  {}.cpp\n", part.name);
+  return fmt::format(
+      R"(# Builds `check`: your files, and ours in check/. Needs CMake 3.10 and any C++17 compiler, nothing else.
+cmake_minimum_required(VERSION 3.10)
+project({0} CXX)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE RelWithDebInfo)
+endif()
+
+file(GLOB check_sources ${{CMAKE_CURRENT_SOURCE_DIR}}/check/*.cpp)
+add_executable(check
+{1}  ${{check_sources}})
+set_target_properties(check PROPERTIES CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON CXX_EXTENSIONS OFF)
+target_include_directories(check PRIVATE ${{CMAKE_CURRENT_SOURCE_DIR}} ${{CMAKE_CURRENT_SOURCE_DIR}}/check)
+target_compile_definitions(check PRIVATE "HANDOUT_FOLDER=\"${{CMAKE_CURRENT_SOURCE_DIR}}\"")
+if(MSVC)
+  target_compile_options(check PRIVATE /utf-8 /W3)
+else()
+  target_compile_options(check PRIVATE -Wall -Wextra)
+endif()
+)",
+      assignment.name, parts);
+}
+
+std::string readme(const Assignment& assignment, const PublicTests& tests) {
+  std::string parts;
+  for (const Part& part : assignment.parts) parts += fmt::format("- `{}.cpp`\n", part.name);
+  int points = 0, here = 0;
+  for (const PublicTest& test : tests.tests) points += test.points, here += !test.cases.empty();
+  return fmt::format(R"(# {0}
+
+Read `handout.md` first. Then fill in these files, in this order, and hand them in:
+
+{1}
+The headers and everything in `check/` are ours: the grader uses its own copies, so changes there do not count.
+
+## Build and check
+
+With CMake 3.10 or newer and any C++17 compiler:
+
+    cmake -S . -B build
+    cmake --build build
+    build/check
+
+(With an older CMake: make the folder `build`, go there, `cmake ..`, `cmake --build .`. Visual Studio and Xcode put the
+program into `build/Debug`.) Without CMake, in this folder:
+
+    g++ -std=c++17 -g -I. -Icheck *.cpp check/*.cpp -o check-it
+    ./check-it
+
+`check` runs the {2} public tests, {3} points in all, and says of each what was expected, what came, and where to read.
+`build/check 2.1` runs one test, `build/check {4}` one part. It writes `mine.html`: your curve on the right one. If the
+program ends in the middle, the last line names the test in which it did.
+
+{5} more tests run when you have handed in. They ask for the same properties with other numbers, so code that does what
+the handout says passes them too. All parts must compile for `check` to be built; the grader builds each part by itself, so
+there one part that does not compile costs its own points only.
+
+Tried with g++ and clang++ on Linux. Windows and macOS: not tested.
+)",
+                     assignment.title, parts, here, points, assignment.parts.front().name, tests.hidden);
+}
+
+std::string readme_of_whole(const Assignment& assignment, const PublicTests& tests) {
+  int points = 0;
+  for (const PublicTest& test : tests.tests) points += test.points;
+  return fmt::format(R"(# {0}
+
+Read `handout.md` first. Then fill in the sources and hand in the whole folder, or your own program if it has the same
+classes: for the grader it does not matter what files are called and where they lie, and `main` is not run.
+
+## Build and check
+
+With CMake 3.13 or newer and a compiler that knows C++20 (g++ 10, clang 10, Visual Studio 2019 16.10, or newer: `check`
+tries in which of many ways your classes can be called; your own files are compiled as C++14, as the grader does):
+
+    cmake -S . -B build
+    cmake --build build
+    build/check
+
+(Visual Studio and Xcode put the program into `build/Debug`.) Without CMake, in this folder:
+
+    g++ -std=c++20 -g -I. -Ivecmath -Icheck -Icheck/stubs $(ls *.cpp | grep -vx main.cpp) check/*.cpp -o check-it
+    ./check-it
+
+`check` asks your classes the grader's {1} public questions, {2} points in all, and says of each what was expected, what
+came, and where to read. Masses, stiffnesses and sizes are yours to choose, so it looks at shares, signs and shapes.
+`build/check 2.1` runs one test, `build/check {3}` one part. It writes `mine.html`: the curves of your steppers on the
+right ones, and, moved by your trapezoidal rule, your simple system and your pendulum, let go straight below its anchor,
+on the exact motion with your own masses and lengths. Those two are for the eye: no points depend on them. If the program
+ends in the middle, the last line names the test in which it did.
+
+`check` expects the classes in files with the starter's names in this folder, beside as many more as you like, and leaves
+`main.cpp` out. All of them must compile for it to be built; in the grader a class that does not compile costs its own
+part only. Everything in `check/` is ours: changes there do not count. Nothing is drawn, so it needs no OpenGL; a
+function that it does not know gets a line in `check/stubs/GL/gl.h`. The grader needs no such line.
+
+{4} more tests run when you have handed in. They ask the same questions at other states, so code that does what the
+handout says passes them too.
+
+## The window
+
+`vecmath/` holds vectors and matrices under their usual names. With OpenGL and GLUT (Debian: freeglut3-dev) the starter
+is built, in this folder, by
+
+    g++ -std=c++17 -g -Ivecmath *.cpp -lglut -lGLU -lGL -o particles
+
+Tried with g++ and clang++ on Linux. Windows and macOS: not tested.
+)",
+                     assignment.title, tests.tests.size(), points, assignment.parts.front().name, tests.hidden);
+}
+
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string content_of(const fs::path& file) {
+std::string file_content(const fs::path& file) {
   std::stringstream content;
   std::ifstream in(file, std::ios::binary);
   content << in.rdbuf();
@@ -25,7 +141,7 @@ std::string content_of(const fs::path& file) {
   return content.str();
 }
 
-void write(const fs::path& file, const std::string& content) {
+void write_text(const fs::path& file, const std::string& content) {
   std::ofstream out(file, std::ios::binary);
   out << content;
   if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
@@ -60,7 +176,7 @@ bool is_of_vecmath(const std::string& name) {
 
 /// A source of the grader's as it stands in `check`, where its headers are in no folders of their own.
 std::string source_in_check(const fs::path& file) {
-  std::string text = content_of(file);
+  std::string text = file_content(file);
   for (const std::string folder : {"tests/coursework/classic/", "tests/coursework/check/", "../../check/"})
     for (std::size_t at; (at = text.find("#include \"" + folder)) != std::string::npos;)
       text.erase(at + std::string_view("#include \"").size(), folder.size());
@@ -73,15 +189,15 @@ std::set<fs::path> sorted(const fs::path& folder) { return {fs::directory_iterat
 void write_surroundings(const fs::path& from, const fs::path& folder) {
   fs::create_directories(folder / "vecmath");
   for (const fs::path& file : sorted(from / "stubs"))
-    if (is_of_vecmath(file.filename().string())) write(folder / "vecmath" / file.filename(), content_of(file));
+    if (is_of_vecmath(file.filename().string())) write_text(folder / "vecmath" / file.filename(), file_content(file));
   for (const char* drawing : {"GL", "GLUT", "OpenGL"}) {
     fs::create_directories(folder / "check/stubs" / drawing);
     for (const fs::path& file : sorted(from / "stubs" / drawing))
-      write(folder / "check/stubs" / drawing / file.filename(), content_of(file));
+      write_text(folder / "check/stubs" / drawing / file.filename(), file_content(file));
   }
   fs::create_directories(folder / "check/probe");
   for (const fs::path& file : sorted(from / "probe"))
-    write(folder / "check/probe" / file.filename(), source_in_check(file));
+    write_text(folder / "check/probe" / file.filename(), source_in_check(file));
 }
 
 }  // namespace
@@ -104,22 +220,22 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
   const bool whole = assignment.takes_whole_program();
   const PublicTests tests = public_tests(assignment);
   fs::create_directories(check);
-  write(folder / "handout.md", content_of(from / "handout.md"));
-  for (const fs::path& file : sorted(from / "starter")) write(folder / file.filename(), content_of(file));
+  write_text(folder / "handout.md", file_content(from / "handout.md"));
+  for (const fs::path& file : sorted(from / "starter")) write_text(folder / file.filename(), file_content(file));
   for (const fs::path& file : sorted(shared))
     if (file.filename() != "child_main.cpp" && !(whole && file.filename() == "as_given.cpp"))
-      write(check / file.filename(), content_of(file));
+      write_text(check / file.filename(), file_content(file));
   for (const fs::path& file : sorted(from)) {
     const std::string name = file.filename().string();
-    if (name.starts_with("texts.") && ends(file, {".txt"})) write(check / name, shown_texts(file));
-    if (is_of_check(name) && ends(file, {".cpp", ".h"})) write(check / name, source_in_check(file));
+    if (name.starts_with("texts.") && ends(file, {".txt"})) write_text(check / name, shown_texts(file));
+    if (is_of_check(name) && ends(file, {".cpp", ".h"})) write_text(check / name, source_in_check(file));
   }
   if (whole) write_surroundings(from, folder);
   std::ofstream cases(check / "public_cases.txt", std::ios::binary);
   write_cases(cases, tests);
   if (!cases.flush()) throw std::runtime_error((check / "public_cases.txt").string() + ": cannot be written");
-  if (!whole) write(folder / "CMakeLists.txt", cmake_lists(assignment));
-  write(folder / "README.md", whole ? readme_of_whole(assignment, tests) : readme(assignment, tests));
+  if (!whole) write_text(folder / "CMakeLists.txt", cmake_lists(assignment));
+  write_text(folder / "README.md", whole ? readme_of_whole(assignment, tests) : readme(assignment, tests));
 }
 
 }  // namespace coursework

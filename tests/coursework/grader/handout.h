@@ -2,11 +2,14 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "tests/coursework/check/cases_file.h"
 #include "tests/coursework/grader/assignment.h"
 
 namespace coursework {
+
+// What the students are given: the lecture, the starter, and `check` with the public tests.
 
 /// The cases of every test under its public seed, as they go into the hand-out. A test whose raw numbers are reduced
 /// first has none: the rule that reduces them stays with the grader.
@@ -16,5 +19,15 @@ PublicTests public_tests(const Assignment& assignment);
 /// solution, the styles, the mistakes and the tests' own code. Throws std::runtime_error where the folder cannot be
 /// written, or the assignment lacks a file.
 void write_handout(const Assignment& assignment, const std::filesystem::path& folder);
+
+// What a hand-out says of itself: how it is built, what its `check` does, what counts.
+
+/// CMakeLists.txt for an assignment of one file per part. A whole program brings its own in its starter.
+std::string cmake_lists(const Assignment& assignment);
+
+/// README.md for an assignment of one file per part.
+std::string readme(const Assignment& assignment, const PublicTests& tests);
+/// README.md for a whole program.
+std::string readme_of_whole(const Assignment& assignment, const PublicTests& tests);
 
 }  // namespace coursework

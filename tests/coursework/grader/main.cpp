@@ -4,10 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "mysim/complaint.h"
-#include "mysim/errors.h"
-#include "mysim/supervised.h"
-#include "mysim/telling.h"
+#include "mysim/base/command_line.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/this_process.h"
 #include "tests/coursework/grader/commands.h"
 
 using namespace coursework;
@@ -35,7 +34,7 @@ int run(int argc, char** argv) {
   grade->add_option("--out", command.out, "FILE; with --all the folder of results (out/grade/ASSIGNMENT)");
   grade->add_option("--format", command.format, "text, gradescope, autolab or junit");
   grade->add_option("--lang", command.language, "en or zh")->check(CLI::IsMember({"en", "zh"}));
-  grade->add_option("--lane", command.lane, "bwrap, uid or bare (default: the first that keeps submissions in)");
+  grade->add_option("--lane", command.sandbox, "bwrap, uid or bare (default: the first that keeps submissions in)");
   grade->add_flag("--no-sandbox", command.no_sandbox, "run it as yourself, with limits only");
   grade->callback([&] {
     if (seeded->count()) command.seed = seed;
@@ -62,7 +61,7 @@ int run(int argc, char** argv) {
   runs->add_option("PART", engine.part)->required();
   runs->add_option("SCENE", engine.scene)->required();
   runs->add_option("DIR", engine.folder)->required();
-  runs->add_option("--lane", engine.lane);
+  runs->add_option("--lane", engine.sandbox);
   runs->callback([&] { status = engine_command(engine); });
 
   bool json = false;
@@ -75,7 +74,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& done) {
     return app.exit(done);
   } catch (const CLI::ParseError& error) {
-    throw crosscheck::InputError(crosscheck::complaint("crosscheck", app, error));
+    throw crosscheck::InputError(crosscheck::usage_error("crosscheck", app, error));
   }
   return status;
 }
@@ -83,6 +82,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return crosscheck::supervised(
-      [&] { return crosscheck::run_and_tell("crosscheck-grade", [&] { return run(argc, argv); }); });
+  return crosscheck::run_supervised(
+      [&] { return crosscheck::run_reporting_errors("crosscheck-grade", [&] { return run(argc, argv); }); });
 }

@@ -1,4 +1,4 @@
-// Files of mistakes: one place of a solution, replaced. mistakes.txt, novel.txt and double.txt of an assignment.
+// Files of known mistakes, and which of them a student's answers look like.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "tests/coursework/grader/assignment.h"
+#include "tests/coursework/grader/build.h"
 
 namespace coursework {
+
+// Files of mistakes: one place of a solution, replaced. mistakes.txt, novel.txt and double.txt of an assignment.
 
 /// Paragraphs `[name]`, `part: NAME`, `loses: IDS` (may be left out), then `<<<<`, the text, `====`, its replacement,
 /// `>>>>`. Throws InputError that names file, line and what was expected.
@@ -20,5 +23,27 @@ std::vector<std::pair<std::string, std::string>> read_pairs(const std::filesyste
 /// The source with the mistake made. Throws InputError that names the mistake unless its text stands there exactly
 /// once.
 std::string with_mistake(const std::string& source, const Mistake& mistake);
+
+// Which known mistake a student's answers look like.
+
+/// One test of a part as it was asked, and what came; answers are reduced where the test reduces.
+struct TestRun {
+  const Test* test = nullptr;
+  std::vector<Case> cases;
+  std::vector<Answer> answers;
+};
+
+/// The answer as it is compared with what is right.
+Answer reduced(const Test& test, const Case& what, Answer raw);
+
+/// Whether two wrong answers are the same one: the tolerance grows with the answers where they are larger than the
+/// right ones, so that two ways to write one mistake agree on a motion that blows up.
+bool agree(const Case& what, const Answer& student, const Answer& mistake);
+
+/// The name of the one mistake of `known` whose program answers all that was asked as the student's did; empty where
+/// none does, or several. `asked` are all the tests of one part.
+std::string likely_cause(const Assignment& assignment, const std::string& part, const std::vector<TestRun>& asked,
+                         const std::vector<Mistake>& known, const Builder& builder, const Sandbox& trusted,
+                         unsigned jobs);
 
 }  // namespace coursework

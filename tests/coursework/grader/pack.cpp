@@ -1,16 +1,140 @@
-// Collects sources, headers and scripts.
+// Collects sources by their include lines, headers and scripts into a zip, and rehearses it from the zip to
+// results.json.
 #include "tests/coursework/grader/pack.h"
 
+#include <archive.h>
+#include <archive_entry.h>
+#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <map>
+#include <memory>
+#include <set>
 #include <stdexcept>
 
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/json.h"
 #include "tests/coursework/grader/build.h"
-#include "tests/coursework/grader/zip.h"
+#include "tests/coursework/grader/container.h"
 
 namespace coursework {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr size_t block = 1 << 16;
+
+void check_archive(archive* a, la_ssize_t result) {
+  if (result < ARCHIVE_OK) throw std::runtime_error(fmt::format("zip: {}", archive_error_string(a)));
+}
+
+la_ssize_t append_to(archive*, void* to, const void* bytes, size_t size) {
+  static_cast<std::string*>(to)->append(static_cast<const char*>(bytes), size);
+  return static_cast<la_ssize_t>(size);
+}
+
+}  // namespace
+
+void write_zip(const fs::path& zip, const std::map<std::string, std::string>& files) {
+  // packed in memory, as the library leaks what it packs with where writing fails
+  std::string packed;
+  const std::unique_ptr<archive, int (*)(archive*)> out(archive_write_new(), archive_write_free);
+  check_archive(out.get(), archive_write_set_format_zip(out.get()));
+  check_archive(out.get(), archive_write_set_bytes_in_last_block(out.get(), 1));
+  check_archive(out.get(), archive_write_open(out.get(), &packed, nullptr, append_to, nullptr));
+  const std::unique_ptr<archive_entry, void (*)(archive_entry*)> entry(archive_entry_new(), archive_entry_free);
+  for (const auto& [name, content] : files) {
+    archive_entry_clear(entry.get());
+    archive_entry_set_pathname(entry.get(), name.c_str());
+    archive_entry_set_size(entry.get(), static_cast<la_int64_t>(content.size()));
+    archive_entry_set_filetype(entry.get(), AE_IFREG);
+    archive_entry_set_perm(entry.get(), content.starts_with("#!") ? 0755 : 0644);
+    check_archive(out.get(), archive_write_header(out.get(), entry.get()));
+    check_archive(out.get(), archive_write_data(out.get(), content.data(), content.size()));
+  }
+  check_archive(out.get(), archive_write_close(out.get()));
+  // it gets its name when it is whole: a full disk or a kill leaves no half zip
+  crosscheck::StreamingFile file(zip);
+  file.append(packed);
+  file.finish();
+}
+
+void unpack_zip(const fs::path& zip, const fs::path& folder) {
+  const std::unique_ptr<archive, int (*)(archive*)> in(archive_read_new(), archive_read_free);
+  check_archive(in.get(), archive_read_support_format_zip(in.get()));
+  check_archive(in.get(), archive_read_open_filename(in.get(), zip.c_str(), block));
+  archive_entry* entry = nullptr;
+  while (archive_read_next_header(in.get(), &entry) == ARCHIVE_OK) {
+    const fs::path name = archive_entry_pathname(entry);
+    if (name.is_absolute() || *name.lexically_normal().begin() == "..")
+      throw std::runtime_error(fmt::format("{}: {} points outside of it", zip.string(), name.string()));
+    if (archive_entry_filetype(entry) == AE_IFDIR) continue;
+    std::string content, part(block, '\0');
+    for (la_ssize_t got; (got = archive_read_data(in.get(), part.data(), part.size())) != 0;) {
+      if (got < 0) throw std::runtime_error(fmt::format("{}: {}", zip.string(), archive_error_string(in.get())));
+      content.append(part.data(), static_cast<size_t>(got));
+    }
+    crosscheck::write_file(folder / name, content);
+    if (archive_entry_perm(entry) & 0100) fs::permissions(folder / name, fs::perms(0755));
+  }
+  if (const char* wrong = archive_error_string(in.get()))
+    throw std::runtime_error(fmt::format("{}: {}", zip.string(), wrong));
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+/// The quoted includes of a file, relative to `root` or beside the file.
+std::vector<std::string> includes_of(const fs::path& root, const std::string& file) {
+  std::vector<std::string> found;
+  std::ifstream in(root / file);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("#include \"")) continue;
+    const std::string name = line.substr(10, line.find('"', 10) - 10);
+    const fs::path beside = (fs::path(file).parent_path() / name).lexically_normal();
+    found.push_back(fs::exists(root / beside) ? beside.generic_string() : name);
+  }
+  return found;
+}
+
+bool has_main(const fs::path& file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with("int main(")) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> sources_needed(const fs::path& root, std::vector<std::string> first) {
+  std::set<std::string> needed;
+  std::vector<std::string> todo = std::move(first);
+  auto want = [&](const fs::path& file) {
+    if (fs::exists(root / file)) todo.push_back(file.generic_string());
+  };
+  while (!todo.empty()) {
+    const std::string file = todo.back();
+    todo.pop_back();
+    if (!needed.insert(file).second) continue;
+    for (const std::string& included : includes_of(root, file)) want(included);
+    if (!file.ends_with(".h")) continue;
+    want(fs::path(file).replace_extension(".cpp"));
+    for (const auto& entry : fs::directory_iterator((root / file).parent_path())) {
+      const fs::path beside = fs::relative(entry.path(), root);
+      // a program of its own only uses the header
+      if (beside.extension() != ".cpp" || has_main(entry.path()) ||
+          fs::exists(fs::path(entry.path()).replace_extension(".h")))
+        continue;
+      const auto its = includes_of(root, beside.generic_string());
+      if (std::find(its.begin(), its.end(), file) != its.end()) want(beside);
+    }
+  }
+  return {needed.begin(), needed.end()};
+}
+
 namespace fs = std::filesystem;
 namespace {
 
@@ -126,6 +250,81 @@ void write_package(const Assignment& assignment, const std::string& secret, cons
   files["build.sh"] = filled(build, name);
   files["run_autograder"] = filled(run, name);
   write_zip(zip, files);
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+std::string last_lines(const fs::path& log) {
+  const std::string text = content_of_file(log);
+  constexpr size_t most = 1500;
+  return text.size() > most ? "... " + text.substr(text.size() - most) : text;
+}
+
+/// What is wrong with the results of our own solution; empty: nothing.
+std::string wrong_with(const fs::path& results) {
+  if (!fs::exists(results)) return "there is no results/results.json";
+  try {
+    const auto json = crosscheck::JsonField::parse(content_of_file(results), "results.json");
+    double most = 0;
+    for (const auto& test : json["tests"].elements()) {
+      most += test["max_score"].number();
+      if (test["status"].text() != "passed")
+        return fmt::format("the solution fails test {}: {}", test["number"].text(), test["output"].text());
+    }
+    if (json["score"].number() != most || most != 100)
+      return fmt::format("the solution gets {} of {} points", json["score"].dump(), most);
+    if (json["extra_data"]["lane"].text() == "bare") return "submissions would run without a lane";
+  } catch (const crosscheck::InputError& error) {
+    return fmt::format("the results are not as documented: {}", error.what());
+  }
+  return "";
+}
+
+bool not_ready(const std::string& why) {
+  fmt::print("not ready: {}\n", why);
+  return false;
+}
+
+}  // namespace
+
+bool rehearse(const Assignment& assignment, const fs::path& zip) {
+  const crosscheck::TemporaryFolder scratch("rehearse");
+  const fs::path root = scratch.path, source = root / "source", log = root / "log.txt";
+  unpack_zip(zip, source);
+  for (const char* needed : {"setup.sh", "run_autograder", "build.sh"})
+    if (!fs::exists(source / needed)) return not_ready(fmt::format("{} is not in the zip", needed));
+  const char* path = std::getenv("PATH");
+  const std::vector<std::string> environment = {std::string("PATH=") + (path ? path : "/usr/bin:/bin"), "LANG=C",
+                                                "HOME=" + root.string(), "AUTOGRADER_ROOT=" + root.string()};
+
+  fmt::print("build.sh, with the packages of this machine (setup.sh would install its own first)\n");
+  std::fflush(stdout);
+  const Usage built = run_in_container({"/bin/sh", (source / "build.sh").string()}, environment, log,
+                                       {.cpus = 1, .memory = 1 << 20, .time = 1800, .closed = false});
+  fmt::print("  {:.0f} s on one CPU, {} MB\n{}", built.time, built.memory, last_lines(log));
+  if (built.too_late) return not_ready("build.sh takes more than half an hour");
+  if (built.status != 0) return not_ready(fmt::format("build.sh ends with {}", built.status));
+
+  // Gradescope puts the script there, and makes the two folders
+  fs::copy_file(source / "run_autograder", root / "run_autograder");
+  fs::create_directories(root / "submission");
+  fs::create_directories(root / "results");
+  for (const auto& entry : fs::directory_iterator(assignment.folder() / "solution"))
+    fs::copy(entry.path(), root / "submission" / entry.path().filename());
+
+  const Container container;
+  fmt::print("run_autograder on the solution: {} MB, {} CPU, {:.0f} s, no new namespaces\n", container.memory,
+             container.cpus, container.time);
+  std::fflush(stdout);
+  const Usage used = run_in_container({(root / "run_autograder").string()}, environment, log, container);
+  fmt::print("  {:.0f} s at {} CPU, {} MB\n{}", used.time, container.cpus, used.memory, last_lines(log));
+  if (used.too_large) return not_ready(fmt::format("it takes more than {} MB", container.memory));
+  if (used.too_late) return not_ready(fmt::format("it takes more than {:.0f} s", container.time));
+  if (used.status != 0) return not_ready(fmt::format("run_autograder ends with {}", used.status));
+  if (const std::string wrong = wrong_with(root / "results/results.json"); !wrong.empty()) return not_ready(wrong);
+  fmt::print("ready\n");
+  return true;
 }
 
 }  // namespace coursework

@@ -1,13 +1,25 @@
-// The package that Gradescope takes: an assignment with its grader, which is built where it will run.
+// The package that Gradescope takes: an assignment with its grader, as a zip.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "tests/coursework/grader/assignment.h"
 
 namespace coursework {
+
+// Zip files of our own making.
+
+/// Files by their path inside the archive; those that begin with "#!" can be executed. Throws std::runtime_error where
+/// it cannot be written.
+void write_zip(const std::filesystem::path& zip, const std::map<std::string, std::string>& files);
+
+/// Unpacks into the folder. Throws std::runtime_error where the zip cannot be read or names a file outside.
+void unpack_zip(const std::filesystem::path& zip, const std::filesystem::path& folder);
+
+// The package that Gradescope takes: an assignment with its grader, which is built where it will run.
 
 /// Writes the zip: setup.sh (packages, then build.sh), run_autograder, the sources of the grader, of the part of mysim
 /// that it uses and of this assignment, the headers of the libraries that consist of headers, and `secret`, the line

@@ -11,7 +11,7 @@ namespace coursework {
 
 /// Calls work(0) ... work(count - 1), `jobs` at a time; the first exception is thrown again at the end.
 template <class Work>
-void in_parallel(std::size_t count, unsigned jobs, const Work& work) {
+void parallel_for(std::size_t count, unsigned jobs, const Work& work) {
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
   std::mutex failing;

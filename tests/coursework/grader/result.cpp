@@ -1,10 +1,13 @@
-// Sums, and JSON.
+// Results as JSON, text and page; on the page all that came from the student is escaped.
 #include "tests/coursework/grader/result.h"
 
 #include <fmt/format.h>
 
-#include "mysim/errors.h"
-#include "mysim/json.h"
+#include <sstream>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/json.h"
+#include "tests/coursework/check/plot.h"
 
 namespace coursework {
 
@@ -56,7 +59,7 @@ bool passed(const TestResult& test) { return test.said.empty() && test.earned ==
 std::string to_json(const Result& result, const std::string& fingerprint) {
   Json json{{"assignment", result.assignment}, {"complete", result.complete}};
   if (!fingerprint.empty()) json["fingerprint"] = fingerprint;
-  json.update({{"lane", result.lane},
+  json.update({{"lane", result.sandbox},
                {"preflight", result.preflight},
                {"secret", result.secret},
                {"seed", result.seed},
@@ -71,7 +74,7 @@ Result result_from_json(const std::string& text, const std::string& file, std::s
     const JsonField f = JsonField::parse(text, file);
     Result result{.assignment = f["assignment"].text(),
                   .submission = f["submission"].text(),
-                  .lane = f["lane"].text(),
+                  .sandbox = f["lane"].text(),
                   .seed = f["seed"].natural(),
                   .secret = f["secret"].truth(),
                   .preflight = f["preflight"].texts(),
@@ -83,6 +86,127 @@ Result result_from_json(const std::string& text, const std::string& file, std::s
   } catch (const crosscheck::InputError& error) {
     throw crosscheck::InputError(fmt::format("no result of the grader: {}", error.what()));
   }
+}
+
+namespace {
+
+const TestResult* public_twin(const Result& result, const TestResult& test) {
+  for (const TestResult& other : result.tests)
+    if (test.hidden && !other.hidden && other.id == test.id) return &other;
+  return nullptr;
+}
+
+}  // namespace
+
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+  return text;
+}
+
+std::string points_text(double points) { return fmt::format("{:g}", points); }
+
+std::vector<std::string> lines_on(const Result& result, const TestResult& test, const Texts& common) {
+  std::vector<std::string> lines;
+  if (passed(test)) return lines;
+  const TestResult* twin = public_twin(result, test);
+  const bool same = twin && !passed(*twin) && twin->said != common.of("shown_only") && twin->cause == test.cause;
+  if (same) return {common.of("as_public")};
+  std::istringstream said(test.said);
+  for (std::string line; std::getline(said, line);) lines.push_back(printable(line));
+  if (!test.cause.empty()) lines.push_back(test.cause);
+  if (!test.read.empty()) lines.push_back(common.fill("read", test.read));
+  return lines;
+}
+
+std::string total_of(const Result& result, const Texts& common) {
+  int seen = 0, right = 0, later = 0;
+  const std::string waiting = common.of("not_run");
+  for (const TestResult& test : result.tests) {
+    later += test.hidden && test.said == waiting;
+    seen += !test.hidden;
+    right += !test.hidden && passed(test);
+  }
+  const std::string total = common.fill("total", points_text(result.earned()), points_text(result.points()));
+  if (later == 0) return total;
+  return total + "\n" +
+         (right == seen
+              ? common.fill("public_done", std::to_string(later))
+              : common.fill("public_now", std::to_string(right), std::to_string(seen), std::to_string(later)));
+}
+
+std::string text_of(const Result& result, const Texts& common) {
+  std::string text =
+      common.fill("page.title", result.assignment, printable(result.submission)) + "\n" +
+      common.fill("page.lane", result.secret ? common.of("page.secret") : std::to_string(result.seed), result.sandbox) +
+      "\n";
+  for (const std::string& line : result.preflight) text += "! " + printable(line) + "\n";
+  std::string part, shown;  // what was said last on the part is not said again test by test
+  bool hidden = false;
+  for (const TestResult& test : result.tests) {
+    if (test.part != part || test.hidden != hidden) {
+      part = test.part, hidden = test.hidden, shown.clear();
+      text += fmt::format("\n{}{}\n", test.heading, hidden ? " (" + common.of("hidden") + ")" : "");
+    }
+    text += fmt::format("  {:<5} {:<8} {}  ({})\n", test.id, common.of(passed(test) ? "passed" : "failed"), test.title,
+                        common.fill("points", points_text(test.earned), points_text(test.points)));
+    const std::vector<std::string> lines = lines_on(result, test, common);
+    for (const std::string& line : lines) {
+      const bool again = line == shown;
+      if (line == test.cause || lines.size() == 1) shown = line;
+      if (!again) text += "        " + line + "\n";
+    }
+  }
+  return text + "\n" + total_of(result, common) + "\n" + (result.complete ? "" : common.of("page.not_done") + "\n");
+}
+
+namespace {
+
+constexpr const char* style = R"(<style>
+body{font:16px/1.5 system-ui,sans-serif;max-width:50rem;margin:2rem auto;padding:0 1rem;color:#222}
+h1{font-size:1.4rem}h2{font-size:1.15rem;margin-top:2rem}
+section{border-left:4px solid #d62728;padding:.2rem 1rem;margin:1rem 0;background:#fafafa}
+section.passed{border-color:#2ca02c}section h3{font-size:1rem;margin:.3rem 0}
+p{margin:.3rem 0}.points{float:right;font-weight:normal}.total{font-size:1.2rem;font-weight:bold;white-space:pre-line}
+.remark{background:#fff3cd;padding:.4rem .8rem;white-space:pre-wrap}svg{max-width:100%;height:auto;background:#fff}
+</style>)";
+
+std::string section_of(const Result& result, const TestResult& test, const Texts& common) {
+  std::string text = fmt::format("<section class=\"{}\">\n<h3>{} {} {}<span class=\"points\">{}</span></h3>\n",
+                                 passed(test) ? "passed" : "failed", escaped(test.id), escaped(test.title),
+                                 test.hidden ? "(" + escaped(common.of("hidden")) + ")" : "",
+                                 escaped(common.fill("points", points_text(test.earned), points_text(test.points))));
+  for (const std::string& line : lines_on(result, test, common)) text += "<p>" + escaped(line) + "</p>\n";
+  return text + test.plot + "</section>\n";
+}
+
+}  // namespace
+
+std::string page_of(const Result& result, const Texts& common, const Texts& own, const std::string& charts) {
+  const std::string title =
+      escaped(common.fill("page.title", own.has("title") ? own.of("title") : result.assignment, result.submission));
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
+      "<title>{0}</title>\n{1}</head><body>\n<h1>{0}</h1>\n<p class=\"total\">{2}</p>\n<p>{3}</p>\n",
+      title, style, escaped(total_of(result, common)),
+      escaped(common.fill("page.lane", result.secret ? common.of("page.secret") : std::to_string(result.seed),
+                          result.sandbox)));
+  if (!result.complete) page += "<p class=\"remark\">" + escaped(common.of("page.not_done")) + "</p>\n";
+  for (const std::string& line : result.preflight) page += "<p class=\"remark\">" + escaped(line) + "</p>\n";
+  if (!charts.empty())
+    page += fmt::format("<p><a href=\"{}\">{}</a></p>\n", escaped(charts), escaped(common.of("page.charts")));
+  std::string part;
+  bool hidden = false;
+  for (const TestResult& test : result.tests) {
+    if (test.part != part || test.hidden != hidden) {
+      part = test.part, hidden = test.hidden;
+      const std::string key = part + ".title";
+      page += fmt::format("<h2>{}{}</h2>\n", escaped(own.has(key) ? own.of(key) : part),
+                          hidden ? " (" + escaped(common.of("hidden")) + ")" : "");
+    }
+    page += section_of(result, test, common);
+  }
+  return page + "</body></html>\n";
 }
 
 }  // namespace coursework

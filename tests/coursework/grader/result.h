@@ -1,4 +1,4 @@
-// What grading one submission gave; the formats are made of it.
+// What grading one submission gave, as JSON, as text for the terminal and as a page.
 #pragma once
 
 #include <optional>
@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "tests/coursework/check/judge.h"
+#include "tests/coursework/check/texts.h"
 
 namespace coursework {
+
+// What grading one submission gave; the formats are made of it.
 
 struct TestResult {
   std::string id, part, title;
@@ -23,7 +26,7 @@ struct TestResult {
 };
 
 struct Result {
-  std::string assignment, submission, lane;
+  std::string assignment, submission, sandbox;
   unsigned long long seed = 0;         // of the hidden tests
   bool secret = false;                 // the seed was made from the lecturer's secret: it must not be shown
   std::vector<std::string> preflight;  // lines: files missing, first errors of the compiler in plain words
@@ -40,5 +43,26 @@ bool passed(const TestResult& test);
 /// what was graded, and by what. Throws InputError that names the file.
 std::string to_json(const Result& result, const std::string& fingerprint = "");
 Result result_from_json(const std::string& text, const std::string& file, std::string* fingerprint = nullptr);
+
+// A result for people: plain text for the terminal, and a page.
+
+/// Plain text; `common` is check/common.LANGUAGE.txt.
+std::string text_of(const Result& result, const Texts& common);
+
+/// One self-contained page with the same words, and the plots. `own` names the parts.
+std::string page_of(const Result& result, const Texts& common, const Texts& own, const std::string& charts = "");
+
+/// "Total: 85 of 100 points", and where all public tests passed and hidden ones have still to run, how many.
+std::string total_of(const Result& result, const Texts& common);
+
+/// What is said of a test that was not passed, line by line; empty where it was.
+std::vector<std::string> lines_on(const Result& result, const TestResult& test, const Texts& common);
+
+/// One line without control characters: students' programs and archives may have put anything into what is said of
+/// them.
+std::string printable(std::string text);
+
+/// Points without needless digits.
+std::string points_text(double points);
 
 }  // namespace coursework

@@ -57,7 +57,7 @@ Answer ending(const End& end, const Limits& limits) {
   return {How::no_token, {}, {}};
 }
 
-/// As child_main.cpp cuts it; a line that somebody else wrote is cut here.
+/// As tests/coursework/check/child_main.cpp cuts it; a line that somebody else wrote is cut here.
 constexpr std::size_t longest_said = 400;
 
 /// "answer COUNT n1 n2 ..."; false where it is anything else.
@@ -114,8 +114,8 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
   return answers;
 }
 
-std::vector<Answer> run_calls(const Lane& lane, const std::filesystem::path& program, const std::vector<Case>& cases,
-                              const Limits& limits) {
+std::vector<Answer> run_calls(const Sandbox& sandbox, const std::filesystem::path& program,
+                              const std::vector<Case>& cases, const Limits& limits) {
   const std::string token = fresh_token();
   Job job{.command = {program.string()}, .readable = {program.parent_path()}, .input = token + "\n", .limits = limits};
   for (const Case& one : cases) {
@@ -123,7 +123,7 @@ std::vector<Answer> run_calls(const Lane& lane, const std::filesystem::path& pro
     for (const double value : one.in) job.input += fmt::format(" {:a}", value);
     job.input += '\n';
   }
-  return answers_of(lane.run(job), token, cases.size(), limits);
+  return answers_of(sandbox.run(job), token, cases.size(), limits);
 }
 
 }  // namespace coursework

@@ -6,16 +6,16 @@
 #include <vector>
 
 #include "tests/coursework/check/case.h"
-#include "tests/coursework/grader/lane.h"
+#include "tests/coursework/grader/sandbox.h"
 
 namespace coursework {
 
 /// An answer per case, whatever the program does. `token` is what it must say at the end.
-std::vector<Answer> run_calls(const Lane& lane, const std::filesystem::path& program, const std::vector<Case>& cases,
-                              const Limits& limits = {});
+std::vector<Answer> run_calls(const Sandbox& sandbox, const std::filesystem::path& program,
+                              const std::vector<Case>& cases, const Limits& limits = {});
 
 /// What the lines on descriptor 3 and the end of the process mean for each of `count` calls. Lines that are not of the
-/// form that check/child_main.cpp writes make all of them How::no_token.
+/// form that tests/coursework/check/child_main.cpp writes make all of them How::no_token.
 std::vector<Answer> answers_of(const End& end, const std::string& token, std::size_t count, const Limits& limits);
 
 }  // namespace coursework

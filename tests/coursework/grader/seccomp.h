@@ -1,4 +1,4 @@
-// The filter of system calls, the same for all lanes.
+// The filter of system calls, the same for all sandboxes.
 #pragma once
 
 #include <string>

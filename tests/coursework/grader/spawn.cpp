@@ -1,24 +1,210 @@
+// The supervisor, the pipes around it, and what the end of a process means.
 #include "tests/coursework/grader/spawn.h"
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <grp.h>
+#include <linux/seccomp.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <stdexcept>
-
-#include "tests/coursework/grader/supervise.h"
+#include <string_view>
 
 namespace coursework {
 namespace {
 
-constexpr std::size_t kept_chatter = 64 << 10;
+void close_from(int first) {
+  if (syscall(SYS_close_range, first, ~0u, 0) == 0) return;
+  rlimit files{};  // kernels before 5.9
+  getrlimit(RLIMIT_NOFILE, &files);
+  for (int fd = first; fd < static_cast<int>(files.rlim_cur); ++fd) close(fd);
+}
+
+bool become(unsigned user) {
+  return setgroups(0, nullptr) == 0 && setresgid(user, user, user) == 0 && setresuid(user, user, user) == 0;
+}
+
+void set_limit(int what, rlim_t soft, rlim_t hard) {
+  const rlimit both{soft, hard};
+  setrlimit(static_cast<__rlimit_resource>(what), &both);
+}
+
+[[noreturn]] void fail(const ChildSetup& setup, const char* what) {
+  ChildStatus report;
+  report.failed = what;
+  report.error = errno;
+  [[maybe_unused]] const ssize_t written = write(setup.report, &report, sizeof report);
+  _exit(127);
+}
+
+[[noreturn]] void exec_program(const ChildSetup& setup, pid_t parent) {
+  setsid();
+  umask(077);
+  set_limit(RLIMIT_CORE, 0, 0);
+  set_limit(RLIMIT_NOFILE, 256, 256);
+  set_limit(RLIMIT_STACK, 8 << 20, 8 << 20);
+  set_limit(RLIMIT_FSIZE, setup.file, setup.file);
+  set_limit(RLIMIT_NPROC, setup.processes, setup.processes);
+  set_limit(RLIMIT_CPU, setup.cpu, setup.cpu + 1);  // SIGXCPU, and a second later SIGKILL for those who swallow it
+  set_limit(RLIMIT_AS, setup.memory, setup.memory);
+  if (setup.user && !become(setup.user)) fail(setup, "change to another user");
+  if (chdir(setup.folder) != 0) fail(setup, "enter the folder it starts in");
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);
+  for (int number = 1; number < NSIG; ++number) signal(number, SIG_DFL);
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (setup.filter) {
+    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) fail(setup, "give up new privileges");
+    if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, setup.filter) != 0)
+      fail(setup, "install the filter of system calls");
+  }
+  // A thread of ours that forked while another wrote this program holds it open until it has closed what it inherited,
+  // and as long it cannot be started.
+  const timespec moment{0, 1000000};
+  for (int waited = 0; waited < 2000; ++waited) {
+    execve(setup.command[0], setup.command, setup.environment);
+    if (errno != ETXTBSY) break;
+    nanosleep(&moment, nullptr);
+  }
+  fail(setup, "start the program");
+}
+
+/// Kills the children that this process has by now: the program's orphans come to it.
+void kill_children() {
+  char text[4096];
+  const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
+  const ssize_t size = file < 0 ? 0 : read(file, text, sizeof text - 1);
+  if (file >= 0) close(file);
+  if (size <= 0) return;
+  text[size] = '\0';
+  char* at = text;
+  while (const pid_t child = static_cast<pid_t>(std::strtol(at, &at, 10))) {
+    if (*at == '\0') break;  // each number ends with a blank: this one was cut off
+    kill(child, SIGKILL);
+  }
+}
+
+/// The sum of all, since a program may leave its dead to us.
+void add_usage(rusage& sum, const rusage& more) {
+  timeradd(&sum.ru_utime, &more.ru_utime, &sum.ru_utime);
+  timeradd(&sum.ru_stime, &more.ru_stime, &sum.ru_stime);
+  if (sum.ru_maxrss < more.ru_maxrss) sum.ru_maxrss = more.ru_maxrss;
+}
+
+void kill_descendants(const ChildSetup& setup, rusage& used) {
+  for (;;) {
+    if (setup.user) {
+      const pid_t killer = fork();
+      if (killer == 0) {
+        if (become(setup.user)) kill(-1, SIGKILL);
+        _exit(0);
+      }
+      if (killer > 0) waitpid(killer, nullptr, 0);
+    }
+    kill_children();
+    pid_t ended;
+    rusage its{};
+    while ((ended = wait4(-1, nullptr, WNOHANG, &its)) > 0) add_usage(used, its);
+    if (ended < 0 && errno == ECHILD) return;
+    const timespec shortly{0, 1000000};
+    nanosleep(&shortly, nullptr);
+  }
+}
+
+}  // namespace
+
+void supervise(const ChildSetup& setup) {
+  // The descriptors were made above the numbers that they get here, so that none is overwritten before its turn.
+  for (int i = 0; i < setup.count; ++i) dup2(setup.descriptors[i], i);
+  ChildSetup own = setup;
+  own.report = dup2(setup.report, setup.count);
+  fcntl(own.report, F_SETFD, FD_CLOEXEC);
+  close_from(own.report + 1);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  sigset_t waited;
+  sigemptyset(&waited);
+  sigaddset(&waited, SIGTERM);
+  sigaddset(&waited, SIGCHLD);
+  const pid_t self = getpid();
+  const pid_t program = fork();
+  if (program < 0) fail(own, "start a process");
+  if (program == 0) exec_program(own, self);
+  ChildStatus report;
+  for (;;) {
+    rusage its{};
+    const pid_t ended = wait4(-1, &report.status, WNOHANG, &its);
+    if (ended > 0) add_usage(report.used, its);
+    if (ended == program) break;
+    if (ended > 0) continue;
+    siginfo_t what{};
+    if (sigwaitinfo(&waited, &what) == SIGTERM) kill(program, SIGKILL);
+  }
+  kill_descendants(own, report.used);
+  [[maybe_unused]] const ssize_t written = write(own.report, &report, sizeof report);
+  _exit(0);
+}
+
+namespace {
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+bool says_memory(const ProcessResult& ended) {
+  const std::string_view answers = ended.answers;
+  constexpr std::string_view word = "memory\n";
+  if (answers.ends_with(word) && (answers.size() == word.size() || answers[answers.size() - word.size() - 1] == '\n'))
+    return true;
+  for (const std::string_view phrase : {"bad_alloc", "out of memory", "memory exhausted"})
+    if (ended.captured_output.find(phrase) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace
+
+End classify(ProcessResult ended, const Limits& limits, bool shell) {
+  End end{End::How::exited, 0, std::move(ended.answers), std::move(ended.captured_output)};
+  ended.answers = end.answers;
+  ended.captured_output = end.captured_output;
+  int signal = WIFSIGNALED(ended.status) ? WTERMSIG(ended.status) : 0;
+  const int code = WIFEXITED(ended.status) ? WEXITSTATUS(ended.status) : 0;
+  if (shell && code > 128 && code < 128 + NSIG) signal = code - 128;
+  end.code = signal ? signal : code;
+  const double cpu = seconds(ended.used.ru_utime) + seconds(ended.used.ru_stime);
+  // ru_maxrss is in kB; what is mapped of the limit is more than what is resident, hence three quarters.
+  const bool full = static_cast<double>(ended.used.ru_maxrss) > 0.75 * 1024 * static_cast<double>(limits.memory);
+  if (ended.wall)
+    end.how = End::How::wall;
+  else if (ended.output || signal == SIGXFSZ)
+    end.how = End::How::output;
+  else if (signal == SIGXCPU || cpu > limits.cpu)
+    end.how = End::How::cpu;
+  else if ((end.code != 0 && says_memory(ended)) || (signal == SIGKILL && full))
+    end.how = End::How::memory;
+  else if (signal)
+    end.how = End::How::signal;
+  return end;
+}
+
+namespace {
+
+constexpr std::size_t most_captured = 64 << 10;
 constexpr int above = 32;  // ours lie above the numbers that the program's get
 
 class Descriptor {
@@ -54,13 +240,13 @@ struct Pipe {
 };
 
 /// Signals that would disturb this thread while it feeds and waits; as before at the end.
-class Quiet {
+class BlockedSignals {
  public:
-  Quiet() {
+  BlockedSignals() {
     for (const int number : {SIGPIPE, SIGTERM, SIGCHLD}) sigaddset(&ours_, number);
     pthread_sigmask(SIG_BLOCK, &ours_, &before_);
   }
-  ~Quiet() {
+  ~BlockedSignals() {
     sigset_t pipe{};
     sigaddset(&pipe, SIGPIPE);
     const timespec at_once{};
@@ -80,7 +266,7 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
 }
 
 /// What is there now, up to `most` in all kept. Returns false at the end of file.
-bool take(int fd, std::string& kept, std::size_t most, std::size_t& seen) {
+bool read_available(int fd, std::string& kept, std::size_t most, std::size_t& seen) {
   char block[65536];
   ssize_t got;
   while ((got = read(fd, block, sizeof block)) > 0) {
@@ -92,9 +278,9 @@ bool take(int fd, std::string& kept, std::size_t most, std::size_t& seen) {
 }
 
 /// Feeds, listens and watches the clock until the supervisor reports.
-Report attend(const Start& start, pid_t supervisor, Pipe& in, Pipe& answers, Pipe& chatter, Pipe& reports,
-              Ended& ended) {
-  for (Pipe* pipe : {&answers, &chatter, &reports}) {
+ChildStatus communicate(const SpawnOptions& start, pid_t supervisor, Pipe& in, Pipe& answers, Pipe& captured_output,
+                        Pipe& reports, ProcessResult& ended) {
+  for (Pipe* pipe : {&answers, &captured_output, &reports}) {
     pipe->to.reset();
     fcntl(pipe->from.get(), F_SETFL, O_NONBLOCK);
   }
@@ -103,14 +289,14 @@ Report attend(const Start& start, pid_t supervisor, Pipe& in, Pipe& answers, Pip
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(start.limits.wall);
   const auto most = static_cast<std::size_t>(start.limits.output) << 10;
-  std::size_t fed = 0, answered = 0, chattered = 0;
+  std::size_t fed = 0, answered = 0, captured = 0;
   bool stopped = false;
-  Report report;
+  ChildStatus report;
   for (;;) {
     if (fed == start.input.size()) in.to.reset();
     pollfd watched[] = {{reports.from.get(), POLLIN, 0},
                         {answers.from.get(), POLLIN, 0},
-                        {chatter.from.get(), POLLIN, 0},
+                        {captured_output.from.get(), POLLIN, 0},
                         {in.to.get(), POLLOUT, 0}};
     const double left = std::chrono::duration<double>(deadline - Clock::now()).count();
     poll(watched, std::size(watched), stopped ? -1 : std::max(0, static_cast<int>(std::ceil(left * 1e3))));
@@ -120,9 +306,10 @@ Report attend(const Start& start, pid_t supervisor, Pipe& in, Pipe& answers, Pip
     }
     // The report comes when nothing of the program runs any more: what it wrote is in the pipes by then.
     const bool reported = watched[0].revents;
-    if (!take(answers.from.get(), ended.answers, most, answered)) answers.from.reset();
-    if (!take(chatter.from.get(), ended.chatter, kept_chatter, chattered)) chatter.from.reset();
-    if (!ended.wall && (answered > most || chattered > most)) ended.output = true;
+    if (!read_available(answers.from.get(), ended.answers, most, answered)) answers.from.reset();
+    if (!read_available(captured_output.from.get(), ended.captured_output, most_captured, captured))
+      captured_output.from.reset();
+    if (!ended.wall && (answered > most || captured > most)) ended.output = true;
     if (reported) {
       if (read(reports.from.get(), &report, sizeof report) != sizeof report)
         report.failed = "watch over the program (its supervisor was killed)";
@@ -138,32 +325,32 @@ Report attend(const Start& start, pid_t supervisor, Pipe& in, Pipe& answers, Pip
 
 }  // namespace
 
-Ended spawn(const Start& start) {
+ProcessResult spawn(const SpawnOptions& start) {
   const auto command = pointers(start.command), environment = pointers(start.environment);
   const sock_fprog filter{static_cast<unsigned short>(start.filter.size() / sizeof(sock_filter)),
                           reinterpret_cast<sock_filter*>(const_cast<char*>(start.filter.data()))};
-  Pipe in, answers, chatter, reports;
-  std::vector<int> descriptors{in.from.get(), chatter.to.get(), chatter.to.get(), answers.to.get()};
+  Pipe in, answers, captured_output, reports;
+  std::vector<int> descriptors{in.from.get(), captured_output.to.get(), captured_output.to.get(), answers.to.get()};
   descriptors.insert(descriptors.end(), start.passed.begin(), start.passed.end());
   const std::string folder = start.folder.string();
-  const Plan plan{command.data(),
-                  environment.data(),
-                  folder.c_str(),
-                  start.user,
-                  start.filter.empty() ? nullptr : &filter,
-                  descriptors.data(),
-                  static_cast<int>(descriptors.size()),
-                  reports.to.get(),
-                  static_cast<rlim_t>(std::ceil(start.limits.cpu)),
-                  static_cast<rlim_t>(start.limits.memory) << 20,
-                  static_cast<rlim_t>(start.limits.file) << 20,
-                  static_cast<rlim_t>(start.processes)};
-  const Quiet quiet;
+  const ChildSetup setup{command.data(),
+                         environment.data(),
+                         folder.c_str(),
+                         start.user,
+                         start.filter.empty() ? nullptr : &filter,
+                         descriptors.data(),
+                         static_cast<int>(descriptors.size()),
+                         reports.to.get(),
+                         static_cast<rlim_t>(std::ceil(start.limits.cpu)),
+                         static_cast<rlim_t>(start.limits.memory) << 20,
+                         static_cast<rlim_t>(start.limits.file) << 20,
+                         static_cast<rlim_t>(start.processes)};
+  const BlockedSignals blocked;
   const pid_t supervisor = fork();
   if (supervisor < 0) throw std::runtime_error(fmt::format("cannot start a process: {}", std::strerror(errno)));
-  if (supervisor == 0) supervise(plan);
-  Ended ended;
-  const Report report = attend(start, supervisor, in, answers, chatter, reports, ended);
+  if (supervisor == 0) supervise(setup);
+  ProcessResult ended;
+  const ChildStatus report = communicate(start, supervisor, in, answers, captured_output, reports, ended);
   waitpid(supervisor, nullptr, 0);
   if (report.failed)
     throw std::runtime_error(fmt::format("{}: cannot {}: {}", start.command[0], report.failed,

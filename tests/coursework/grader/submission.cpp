@@ -1,5 +1,4 @@
-// Folders by the file system, archives by libarchive: a parser of untrusted zip and tar files that others have
-// hardened for years.
+// Reads folders by the file system and archives by libarchive, and matches the files that were asked for.
 #include "tests/coursework/grader/submission.h"
 
 #include <archive.h>
@@ -11,15 +10,98 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <memory>
 #include <new>
 #include <optional>
 
-#include "mysim/errors.h"
-#include "tests/coursework/grader/picker.h"
+#include "mysim/base/errors.h"
 
 namespace coursework {
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string base_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+}  // namespace
+
+bool is_cpp(const std::string& path) {
+  const std::string base = lower(base_of(path));
+  const std::size_t dot = base.rfind('.');
+  static constexpr const char* endings[] = {"h", "hpp", "hh", "hxx", "inl", "cpp", "cc", "cxx", "c++"};
+  return dot != std::string::npos &&
+         std::find(std::begin(endings), std::end(endings), base.substr(dot + 1)) != std::end(endings);
+}
+
+int depth_of(const std::string& path) {
+  int depth = 0;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = path.find('/', begin)) != std::string::npos; begin = end + 1)
+    depth += lower(path.substr(begin, end - begin)) != "src";
+  return depth;
+}
+
+std::string FileMatcher::match(const std::string& path) const {
+  // what macOS puts beside each file when it packs
+  if (path.rfind("__MACOSX/", 0) == 0) return "";
+  if (wanted_.empty()) return is_cpp(path) ? path : "";
+  if (depth_of(path) > 1) return "";
+  const std::string base = base_of(path);
+  for (const std::string& name : wanted_)
+    if (lower(name) == lower(base)) return name;
+  return "";
+}
+
+void FileMatcher::take(const std::string& path, std::string content) {
+  taken_ += content.size();
+  found_[match(path)].push_back({path, {}, std::move(content)});
+}
+
+std::optional<Remark> FileMatcher::too_large() const {
+  if (!wanted_.empty()) return {};
+  if (found_.size() > most_program_files) return Remark{"program.entries", {std::to_string(most_program_files)}};
+  if (taken_ > largest_program) return Remark{"program.size", {std::to_string(largest_program >> 20)}};
+  return {};
+}
+
+void FileMatcher::into(Submission& submission) const {
+  if (wanted_.empty())
+    for (const auto& [path, found] : found_) {
+      if (found.front().refused.empty())
+        submission.files[path] = found.front().content;
+      else
+        submission.remarks.push_back({found.front().refused, {path}});
+    }
+  for (const std::string& name : wanted_) {
+    const auto all = found_.find(name);
+    if (all == found_.end()) {
+      submission.missing[name] = {"file.missing", {name}};
+      continue;
+    }
+    // the shallowest first, and the name as it was asked for before one that differs in case
+    auto rank = [&](const Found& f) { return 2 * depth_of(f.path) + (base_of(f.path) != name); };
+    std::vector<Found> found = all->second;
+    std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) { return rank(a) < rank(b); });
+    const Found& best = found.front();
+    if (found.size() > 1 && rank(found[1]) == rank(best))
+      submission.missing[name] = {"file.twice", {name, best.path, found[1].path}};
+    else if (!best.refused.empty())
+      submission.missing[name] = {best.refused, {name}};
+    else
+      submission.files[name] = best.content;
+    if (submission.files.count(name) && base_of(best.path) != name)
+      submission.remarks.push_back({"file.case", {name, base_of(best.path)}});
+  }
+}
+
+// Folders by the file system, archives by libarchive: a parser of untrusted zip and tar files that others have
+// hardened for years.
+
 namespace fs = std::filesystem;
 namespace {
 
@@ -48,23 +130,23 @@ std::optional<std::string> content_of(const fs::path& file) {
   return content;
 }
 
-void read_folder(const fs::path& top, Picker& picker) {
+void read_folder(const fs::path& top, FileMatcher& matcher) {
   std::size_t entries = 0;
   const auto options = fs::directory_options::skip_permission_denied;  // links to folders are not followed
   for (auto at = fs::recursive_directory_iterator(top, options); at != fs::recursive_directory_iterator(); ++at) {
     if (++entries > most_entries) throw Refused{too_many()};
-    if (at.depth() >= picker.deepest()) at.disable_recursion_pending();
+    if (at.depth() >= matcher.deepest()) at.disable_recursion_pending();
     const std::string path = at->path().lexically_relative(top).generic_string();
     const fs::file_type type = at->symlink_status().type();
-    if (type == fs::file_type::directory || !picker.wants(path)) continue;
+    if (type == fs::file_type::directory || !matcher.wants(path)) continue;
     if (type != fs::file_type::regular) {
-      picker.refuse(path, "file.link");
+      matcher.refuse(path, "file.link");
     } else if (auto content = content_of(at->path())) {
-      picker.take(path, std::move(*content));
+      matcher.take(path, std::move(*content));
     } else {
-      picker.refuse(path, "file.large");
+      matcher.refuse(path, "file.large");
     }
-    if (const auto why = picker.too_large()) throw Refused{*why};
+    if (const auto why = matcher.too_large()) throw Refused{*why};
   }
 }
 
@@ -128,7 +210,7 @@ void require_whole_gzip(const fs::path& file) {
   }
 }
 
-void read_archive(const fs::path& file, Picker& picker) {
+void read_archive(const fs::path& file, FileMatcher& matcher) {
   const std::unique_ptr<archive, Free> from(archive_read_new());
   archive_read_support_format_zip(from.get());
   archive_read_support_format_tar(from.get());
@@ -150,14 +232,14 @@ void read_archive(const fs::path& file, Picker& picker) {
     const bool link = archive_entry_filetype(entry) != AE_IFREG || archive_entry_hardlink(entry);
     const bool folder = archive_entry_filetype(entry) == AE_IFDIR;
     std::string content = unpack(from.get(), total);
-    if (folder || !picker.wants(path)) continue;
+    if (folder || !matcher.wants(path)) continue;
     if (link)
-      picker.refuse(path, "file.link");
+      matcher.refuse(path, "file.link");
     else if (content.size() > largest_file)
-      picker.refuse(path, "file.large");
+      matcher.refuse(path, "file.large");
     else
-      picker.take(path, std::move(content));
-    if (const auto why = picker.too_large()) throw Refused{*why};
+      matcher.take(path, std::move(content));
+    if (const auto why = matcher.too_large()) throw Refused{*why};
   }
   if (archive_filter_code(from.get(), 0) == ARCHIVE_FILTER_GZIP) require_whole_gzip(file);
 }
@@ -167,12 +249,12 @@ void read_archive(const fs::path& file, Picker& picker) {
 Submission read_submission(const fs::path& path, const std::vector<std::string>& wanted) {
   Submission submission;
   submission.name = path.filename().empty() ? path.parent_path().filename().string() : path.filename().string();
-  Picker picker(wanted);
+  FileMatcher matcher(wanted);
   try {
     if (fs::is_directory(path)) {
-      read_folder(path, picker);
+      read_folder(path, matcher);
     } else if (fs::is_regular_file(path)) {
-      read_archive(path, picker);
+      read_archive(path, matcher);
     } else {
       throw crosscheck::InputError(fmt::format("{}: expected a folder, a zip or a tar archive", path.string()));
     }
@@ -181,7 +263,7 @@ Submission read_submission(const fs::path& path, const std::vector<std::string>&
     for (const std::string& name : wanted) submission.missing[name] = {"file.missing", {name}};
     return submission;
   }
-  picker.into(submission);
+  matcher.into(submission);
   return submission;
 }
 

@@ -10,7 +10,7 @@
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/grade.h"
 #include "tests/coursework/test/canaries.h"
-#include "tests/coursework/test/lanes.h"
+#include "tests/coursework/test/sandboxes.h"
 
 namespace coursework {
 namespace fs = std::filesystem;
@@ -164,7 +164,7 @@ const std::vector<Trick> tricks = {
 
 Result graded(const Assignment& assignment, const Submission& submission, GradeOptions& options) {
   options.common = Texts::read((fs::path(COURSEWORK_FOLDER) / "check/common.en.txt").string());
-  return grade(assignment, submission, *choose_lane("", false), options);
+  return grade(assignment, submission, *choose_sandbox("", false), options);
 }
 
 Assignment with_first_tests(const Assignment& all, std::vector<Test>& kept) {
@@ -180,7 +180,7 @@ TEST(ArchiveCheats, EarnNothingAndHarmNothing) {
   const Assignment few = with_first_tests(find_assignment("a1-steppers"), kept);
   for (const Trick& trick : tricks) {
     const Canaries canaries;
-    const OwnFolder inbox(0700);
+    const PrivateFolder inbox(0700);
     trick.make(inbox.path() / trick.name, canaries);
     const Submission submission = read_submission(inbox.path() / trick.name, files_asked_for(few));
     GradeOptions options;
@@ -200,7 +200,7 @@ TEST(ArchiveCheats, NamesLikeOptionsAreNames) {
   std::vector<coursework::Test> kept;
   const Assignment few = with_first_tests(find_assignment("a1-steppers"), kept);
   const Canaries canaries;
-  const OwnFolder inbox(0700);
+  const PrivateFolder inbox(0700);
   const fs::path folder = inbox.path() / "--no-sandbox";
   honest(folder, canaries);
   for (const char* name :

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "tests/coursework/grader/own_folder.h"
+#include "tests/coursework/grader/staging.h"
 
 namespace coursework {
 
@@ -23,7 +23,7 @@ class Canaries {
 
  private:
   std::map<std::string, std::string> state() const;
-  OwnFolder home_, results_, course_;
+  PrivateFolder home_, results_, course_;
   std::filesystem::path open_;  // a file of ours in a folder that is open to all
   std::map<std::string, std::string> before_;
 };

@@ -35,7 +35,7 @@ struct Failing {
 TEST(Classic, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
   const Assignment& whole = find_assignment("classic");
   const Short few(whole);
-  const auto lane = choose_lane("bare", true);
+  const auto sandbox = choose_sandbox("bare", true);
   const Submission solution = read_submission(whole.folder() / "solution", {});
   const Failing table[] = {
       {"a constructor that nobody can call",
@@ -51,7 +51,7 @@ TEST(Classic, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
     Submission submission = solution;
     for (const auto& [file, from, to] : one.changes)
       submission.files.at(file) = with_mistake(submission.files.at(file), {one.what, "cloth", from, to, {}});
-    const Result result = grade(few.assignment, submission, *lane, options_for(whole, 7));
+    const Result result = grade(few.assignment, submission, *sandbox, options_for(whole, 7));
     for (const TestResult& test : result.tests) {
       const bool failing = test.part == "cloth";
       EXPECT_EQ(test.earned, failing ? 0 : test.points) << one.what << ", " << test.id << ": " << test.said;
@@ -62,17 +62,17 @@ TEST(Classic, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
   }
 }
 
-TEST(Classic, ChatterAndAMissingFileCostNothingElse) {
+TEST(Classic, OutputAndAMissingFileCostNothingElse) {
   const Assignment& whole = find_assignment("classic");
   const Short few(whole);
-  const auto lane = choose_lane("bare", true);
+  const auto sandbox = choose_sandbox("bare", true);
   Submission submission = read_submission(whole.folder() / "solution", {});
   std::string& pendulum = submission.files.at("pendulumSystem.cpp");
   const std::string from = "evalF(vector<Vector3f> state) {", to = from + " std::cout << \"all passed\\n\";";
   pendulum = "#include <iostream>\n" + with_mistake(pendulum, {"chatter", "pendulum", from, to, {}});
   submission.files.erase("ClothSystem.cpp");
   submission.files.erase("ClothSystem.h");
-  const Result result = grade(few.assignment, submission, *lane, options_for(whole, 7));
+  const Result result = grade(few.assignment, submission, *sandbox, options_for(whole, 7));
   for (const TestResult& test : result.tests) {
     const bool missing = test.part == "cloth";
     EXPECT_EQ(test.earned, missing ? 0 : test.points) << test.id << ": " << test.said;

@@ -6,13 +6,12 @@
 #include <cstdlib>
 #include <set>
 
-#include "mysim/temporary_folder.h"
+#include "mysim/base/files.h"
 #include "tests/coursework/check/judge.h"
-#include "tests/coursework/grader/cause.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/run.h"
 #include "tests/coursework/test/helpers.h"
-#include "tests/coursework/test/recalling_lane.h"
+#include "tests/coursework/test/recalling_sandbox.h"
 
 namespace coursework {
 namespace {
@@ -27,8 +26,8 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
  protected:
   Corpus()
       : assignment_(*GetParam()),
-        lane_(std::make_unique<RecallingLane>(choose_lane("bare", true))),
-        builder_(builder_for(assignment_, *lane_, *lane_)),
+        sandbox_(std::make_unique<RecallingSandbox>(choose_sandbox("bare", true))),
+        builder_(builder_for(assignment_, *sandbox_, *sandbox_)),
         known_(mistakes_of(assignment_)),
         count_(static_cast<std::size_t>(number_from("CORPUS_MISTAKES", 3))),
         seeds_(number_from("CORPUS_SEEDS", 2)) {}
@@ -41,13 +40,13 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
   }
 
   /// All tests of a part, one process each as in grading: a mistake may keep something from call to call.
-  std::vector<Asked> ask(const std::string& part, const fs::path& program, int seed) const {
-    std::vector<Asked> asked;
+  std::vector<TestRun> ask(const std::string& part, const fs::path& program, int seed) const {
+    std::vector<TestRun> asked;
     for (const coursework::Test& test : assignment_.tests) {
       if (test.part != part) continue;
       Random random(seed == 0 ? public_seed(assignment_, test) : hidden_seed(static_cast<std::uint64_t>(seed), test));
-      Asked one{&test, test.cases(random), {}};
-      const std::vector<Answer> answers = run_calls(*lane_, program, one.cases);
+      TestRun one{&test, test.cases(random), {}};
+      const std::vector<Answer> answers = run_calls(*sandbox_, program, one.cases);
       for (std::size_t i = 0; i < answers.size(); ++i) one.answers.push_back(reduced(test, one.cases[i], answers[i]));
       asked.push_back(std::move(one));
     }
@@ -55,16 +54,16 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
   }
 
   /// Ids of the tests that are lost.
-  static std::set<std::string> lost(const std::vector<Asked>& asked) {
+  static std::set<std::string> lost(const std::vector<TestRun>& asked) {
     std::set<std::string> ids;
-    for (const Asked& one : asked)
+    for (const TestRun& one : asked)
       for (std::size_t i = 0; i < one.cases.size(); ++i)
         if (!judge(one.cases[i], one.answers[i]).right) ids.insert(std::string(one.test->id));
     return ids;
   }
 
-  std::string cause(const std::string& part, const std::vector<Asked>& asked) const {
-    return likely_cause(assignment_, part, asked, known_, *builder_, *lane_, 2);
+  std::string cause(const std::string& part, const std::vector<TestRun>& asked) const {
+    return likely_cause(assignment_, part, asked, known_, *builder_, *sandbox_, 2);
   }
 
   std::string solution(const std::string& part) const {
@@ -80,14 +79,14 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
   void expect_no_name(const std::string& part, const std::string& source, const std::string& what) const {
     const fs::path program = builder_->ours(part, source);
     for (int seed = 0; seed < seeds_; ++seed) {
-      const std::vector<Asked> asked = ask(part, program, seed);
+      const std::vector<TestRun> asked = ask(part, program, seed);
       EXPECT_FALSE(lost(asked).empty()) << what << ", seed " << seed;
       EXPECT_EQ(cause(part, asked), "") << what << ", seed " << seed;
     }
   }
 
   const Assignment& assignment_;
-  std::unique_ptr<RecallingLane> lane_;
+  std::unique_ptr<RecallingSandbox> sandbox_;
   std::unique_ptr<Builder> builder_;
   std::vector<Mistake> known_;
   std::size_t count_;
@@ -125,13 +124,13 @@ TEST_P(Corpus, KnownMistakesLoseExactlyTheirTestsAndAreNamed) {
   EXPECT_GE(known_.size(), 12u);
   const Texts texts = Texts::read((assignment_.folder() / "texts.en.txt").string());
   for (int seed = 0; seed < seeds_; ++seed) {
-    lane_->forget();
+    sandbox_->forget();
     for (std::size_t i = 0; i < std::min(count_, known_.size()); ++i) {
       // a few of them: spread over the parts
       const Mistake& mistake = known_[count_ < known_.size() ? i * known_.size() / count_ : i];
       EXPECT_TRUE(texts.has("mistake." + mistake.name)) << mistake.name;
       const fs::path program = builder_->ours(mistake.part, with_mistake(solution(mistake.part), mistake));
-      const std::vector<Asked> asked = ask(mistake.part, program, seed);
+      const std::vector<TestRun> asked = ask(mistake.part, program, seed);
       EXPECT_EQ(lost(asked), std::set<std::string>(mistake.loses.begin(), mistake.loses.end()))
           << mistake.name << ", seed " << seed;
       EXPECT_EQ(cause(mistake.part, asked), mistake.name) << "seed " << seed;

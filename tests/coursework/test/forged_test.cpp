@@ -6,7 +6,7 @@
 
 #include "tests/coursework/check/judge.h"
 #include "tests/coursework/classic/replay.h"
-#include "tests/coursework/grader/cause.h"
+#include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/run.h"
 #include "tests/coursework/test/helpers.h"
 
@@ -59,8 +59,8 @@ class Forged : public testing::TestWithParam<const char*> {
  protected:
   Forged()
       : assignment_(find_assignment("classic")),
-        lane_(choose_lane("bare", true)),
-        builder_(builder_for(assignment_, *lane_, *lane_)),
+        sandbox_(choose_sandbox("bare", true)),
+        builder_(builder_for(assignment_, *sandbox_, *sandbox_)),
         solution_(content_of_file(solution_of(assignment_, *builder_, GetParam()))),
         honest_(builder_->ours(GetParam(), solution_)) {
     for (const coursework::Test& test : assignment_.tests)
@@ -68,13 +68,13 @@ class Forged : public testing::TestWithParam<const char*> {
   }
 
   /// What the solution answers to every call about the part's systems with this seed.
-  std::map<std::string, Asked> recorded(int seed) const {
-    std::map<std::string, Asked> all;
+  std::map<std::string, TestRun> recorded(int seed) const {
+    std::map<std::string, TestRun> all;
     for (const coursework::Test& test : tests_) {
       Random random(1);
       for (Case one : test.cases(random)) {
         one.in.at(1) = seed;
-        all[one.call] = {&test, {one}, run_calls(*lane_, honest_, {one})};
+        all[one.call] = {&test, {one}, run_calls(*sandbox_, honest_, {one})};
       }
     }
     return all;
@@ -94,7 +94,7 @@ class Forged : public testing::TestWithParam<const char*> {
       std::vector<Case> cases = test.cases(random);
       for (Case& one : cases)
         if (asked_seed) one.in.at(1) = asked_seed;
-      const std::vector<Answer> answers = run_calls(*lane_, program, cases);
+      const std::vector<Answer> answers = run_calls(*sandbox_, program, cases);
       bool right = true;
       for (std::size_t i = 0; i < cases.size(); ++i)
         right = right && judge(cases[i], reduced(test, cases[i], answers[i])).right;
@@ -104,7 +104,7 @@ class Forged : public testing::TestWithParam<const char*> {
   }
 
   const Assignment& assignment_;
-  std::unique_ptr<Lane> lane_;
+  std::unique_ptr<Sandbox> sandbox_;
   std::unique_ptr<Builder> builder_;
   std::string solution_;
   std::filesystem::path honest_;

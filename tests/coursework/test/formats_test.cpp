@@ -2,10 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/coursework/grader/assignment.h"
-#include "tests/coursework/grader/formats/feedback.h"
-#include "tests/coursework/grader/formats/formats.h"
-#include "tests/coursework/test/schema.h"
-#include "tests/coursework/test/xml.h"
+#include "tests/coursework/grader/formats.h"
+#include "tests/coursework/test/format_readers.h"
 
 namespace coursework {
 namespace {
@@ -65,7 +63,7 @@ TestResult test(const std::string& id, const std::string& part, double points, d
 
 Result awkward() {
   Result r;
-  r.assignment = "a5-stiff", r.lane = "bwrap", r.seed = 18446744073709551615ull;
+  r.assignment = "a5-stiff", r.sandbox = "bwrap", r.seed = 18446744073709551615ull;
   r.preflight = {"limits.cpp does not compile: expected ';' before '}' \x80"};
   r.tests = {test("1.1", "linear", 3, 3),       test("1.2", "linear", 4, 0),       test("2.1", "limits", 5, 5),
              test("1.1", "linear", 3, 3, true), test("1.2", "linear", 4, 0, true), test("2.1", "limits", 6, 6, true)};

@@ -9,12 +9,11 @@
 #include <csignal>
 #include <sstream>
 
-#include "mysim/errors.h"
-#include "mysim/files.h"
-#include "mysim/temporary_folder.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 #include "tests/coursework/grader/build.h"
-#include "tests/coursework/grader/watched.h"
-#include "tests/coursework/grader/zip.h"
+#include "tests/coursework/grader/container.h"
+#include "tests/coursework/grader/pack.h"
 
 namespace coursework {
 namespace {
@@ -134,17 +133,17 @@ TEST(Zip, IsWholeOrNotThere) {
 }
 
 struct Ran {
-  Used used;
+  Usage used;
   std::string log;
 };
 Ran shell(const std::string& script, const Container& container) {
   const TemporaryFolder scratch("watched");
   const fs::path log = scratch.path / "log";
-  const Used used = run_watched({"/bin/sh", "-c", script}, {"PATH=/usr/bin:/bin"}, log, container);
+  const Usage used = run_in_container({"/bin/sh", "-c", script}, {"PATH=/usr/bin:/bin"}, log, container);
   return {used, content_of_file(log)};
 }
 
-TEST(RunWatched, ReportsStatusAndOutput) {
+TEST(RunInContainer, ReportsStatusAndOutput) {
   const Ran ran = shell("echo out; echo err >&2; exit 7", {});
   EXPECT_EQ(ran.used.status, 7);
   EXPECT_EQ(ran.log, "out\nerr\n");
@@ -152,7 +151,7 @@ TEST(RunWatched, ReportsStatusAndOutput) {
   EXPECT_EQ(shell("kill -SEGV $$", {}).used.status, 128 + 11);
 }
 
-TEST(RunWatched, StopsWhatTakesTooLongOrTooMuch) {
+TEST(RunInContainer, StopsWhatTakesTooLongOrTooMuch) {
   EXPECT_TRUE(shell("sleep 60 & sleep 60", {.time = 0.3}).used.too_late);
   // a pipe whose last command keeps 200 MB
   EXPECT_TRUE(
@@ -160,15 +159,15 @@ TEST(RunWatched, StopsWhatTakesTooLongOrTooMuch) {
           .used.too_large);
 }
 
-TEST(RunWatched, CountsTheWorkOfAllProcessesAtSoManyCpus) {
+TEST(RunInContainer, CountsTheWorkOfAllProcessesAtSoManyCpus) {
   // two shells that count, side by side, take as long as their work at a tenth of a CPU
   const std::string work = "i=0; while [ $i -lt 100000 ]; do i=$((i+1)); done";
-  const Used used = shell("(" + work + ") & (" + work + "); wait", {.cpus = 1e-3}).used;
-  const Used one = shell(work, {.cpus = 1e-3}).used;
+  const Usage used = shell("(" + work + ") & (" + work + "); wait", {.cpus = 1e-3}).used;
+  const Usage one = shell(work, {.cpus = 1e-3}).used;
   EXPECT_GT(used.time, 1.3 * one.time);
 }
 
-TEST(RunWatched, RefusesNewNamespaces) {
+TEST(RunInContainer, RefusesNewNamespaces) {
   EXPECT_NE(shell("unshare -U true", {}).used.status, 0);
   EXPECT_NE(shell("unshare -m true", {}).used.status, 0);
   EXPECT_EQ(shell("sh -c true; (true) & wait", {}).used.status, 0);  // other processes may be started

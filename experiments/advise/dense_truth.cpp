@@ -1,0 +1,141 @@
+// Places of the truth, and what lies between them.
+#include "experiments/advise/dense_truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "experiments/advise/advice.h"
+#include "mysim/model/system.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+constexpr double places_in_a_period = 8;
+constexpr double most_numbers = 6e7;  // places times coordinates: both routes of a converged truth then take 2 GB
+
+double fastest_gust(const WindSignal& wind_signal) {
+  double omega = 0;
+  if (wind_signal.gusts)
+    for (const Gust* gust : {&wind_signal.gusts->along, &wind_signal.gusts->across})
+      for (const Gust::Wave& wave : gust->waves) omega = std::max(omega, wave.omega);
+  return omega;
+}
+
+/// s, from one place to the next: what a scene without vibrations does is resolved by its own step.
+double first_spacing(const Scene& scene) {
+  const double interval = scene.duration / scene.samples, omega = fastest_motion(scene);
+  const bool led = scene.model.first_order() || scene.model.find<Constraints>();
+  const double own = led ? std::min(interval, scene.step) : interval;
+  return omega > 0 ? std::min(own, turn / omega / places_in_a_period) : own;
+}
+
+/// Places between two samples at that spacing; throws CannotGuarantee where memory would not hold them.
+int places_at(const Scene& scene, double spacing) {
+  const double places = std::ceil(scene.duration / scene.samples / spacing * (1 - 1e-9));
+  const double all = places * scene.samples * static_cast<double>(scene.start.x.size());
+  if (!(all <= most_numbers))
+    throw CannotGuarantee(
+        fmt::format("to see what lies between its samples, the truth of {} would be needed at {:.3g} times of {:.3g} "
+                    "numbers each; make its duration shorter",
+                    scene.name, places * scene.samples, static_cast<double>(scene.start.x.size())));
+  return std::max(1, static_cast<int>(places));
+}
+
+Truth truth_at_places(const Scene& dense) {
+  auto truth = truth_of(dense, default_run(dense));
+  if (!truth) throw CannotGuarantee("no truth is known for the scene: nothing to promise against");
+  return std::move(*truth);
+}
+
+}  // namespace
+
+double fastest_motion(const Scene& scene) {
+  const Model& model = scene.model;
+  double omega = model.first_order() ? 0 : highest_frequency(model, scene.start);
+  if (model.particles.move) omega = std::max(omega, turn * model.particles.move->frequency);
+  if (const auto* spheres = model.find<Spheres>())
+    for (const Sphere& sphere : spheres->list)
+      if (sphere.motion) omega = std::max(omega, turn * sphere.motion->frequency);
+  if (const auto* wind = model.find<Wind>()) omega = std::max(omega, fastest_gust(wind->acceleration));
+  if (const auto* air = model.find<Aerodynamics>()) omega = std::max(omega, fastest_gust(air->velocity));
+  return omega;
+}
+
+DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), exact_(exact_solution(scene)) {
+  double spacing = first_spacing(scene);
+  constexpr int most_doublings = 8;
+  for (int i = 0;; ++i, spacing /= 2) {
+    dense_.samples = scene.samples * places_at(scene, spacing);
+    truth_ = truth_at_places(dense_);
+    measure();
+    if (exact_) break;
+    const double lost = left_out();
+    bar_ += lost;
+    if (lost <= tolerance / 30) break;
+    if (i == most_doublings)
+      throw CannotGuarantee(fmt::format(
+          "between its samples the truth is known to {:.2g} m only, and {:.2g} m is asked", bar_, tolerance));
+  }
+  // an eighth of a period holds 0.79 rad
+  const double omega = fastest_motion(scene);
+  moment_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples;
+}
+
+void DenseTruth::measure() {
+  until_ = std::min({dense_.window, dense_.duration, truth_.until});
+  bar_ = motion_ = 0;
+  const Trajectory& path = truth_.trajectory;
+  for (int i = 0; i < path.frames() && path.t[i] <= until_ * (1 + 1e-9); ++i) {
+    bar_ = std::max(bar_, truth_.error_bars.empty() ? truth_.error_bar : truth_.error_bars[i]);
+    motion_ = std::max(motion_, rms_distance(path.x[i], path.x[0]));
+  }
+}
+
+/// Cubic between two places, with the speeds at both (Hermite); straight in a first-order scene, which has none.
+Points DenseTruth::between(int from, int to, double t) const {
+  const Trajectory& path = truth_.trajectory;
+  const double span = path.t[to] - path.t[from], s = (t - path.t[from]) / span;
+  const Points &a = path.x[from], &b = path.x[to];
+  if (path.v[from].cols() == 0) return a + s * (b - a);
+  const double left = 1 - s;
+  return left * left * (1 + 2 * s) * a + s * s * (3 - 2 * s) * b +
+         span * s * left * (left * path.v[from] - s * path.v[to]);
+}
+
+/// Twice the spacing leaves out 16 times as much of a smooth path, half of which is trusted; where a sphere is hit the
+/// speed jumps, and it is twice as much only.
+double DenseTruth::left_out() const {
+  const Trajectory& path = truth_.trajectory;
+  double most = 0;
+  for (int i = 1; i + 1 < path.frames() && path.t[i + 1] <= until_ * (1 + 1e-9); ++i)
+    most = std::max(most, rms_distance(between(i - 1, i + 1, path.t[i]), path.x[i]));
+  const bool smooth = !dense_.model.find<Spheres>() && path.v.front().cols() > 0;
+  return most / (smooth ? 8 : 2);
+}
+
+Points DenseTruth::at(double t) const {
+  if (exact_) return exact_->at(t).x;
+  const Trajectory& path = truth_.trajectory;
+  const auto after = std::upper_bound(path.t.begin(), path.t.end(), t);
+  const int to = std::clamp(static_cast<int>(after - path.t.begin()), 1, path.frames() - 1);
+  return between(to - 1, to, t);
+}
+
+Run observed_run(const Method& method, const Scene& scene, const DenseTruth& path) {
+  Run run = default_run(scene);
+  if (method.adaptive && !scene.model.find<Spheres>()) run.step = std::min(run.step, path.moment());
+  return run;
+}
+
+Verdict MaxErrorObserver::observe(const State& state, bool sample) {
+  if (state.t > path_.until() * (1 + 1e-9) || (!sample && state.t < last_ + path_.moment())) return Verdict::ok;
+  last_ = state.t;
+  distance_ = std::max(distance_, rms_distance(state.x, path_.at(state.t)));
+  return Verdict::ok;
+}
+
+}  // namespace crosscheck

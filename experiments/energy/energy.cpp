@@ -1,0 +1,212 @@
+// Experiment `energy`: where the energy goes in a hundred thousand steps, and what does not add up.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/energy/long_run.h"
+#include "experiments/estimate.h"
+#include "experiments/experiment.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr long all_steps = 100000;
+constexpr int samples = 200;
+/// Rules that solve the whole step are meant for longer ones: theirs is that many times the scene's.
+constexpr int longer = 10;
+
+/// Everything that takes or gives energy, in one small scene: a cloth held by two moved corners swings in gusts against
+/// a ball, with drag and with springs that damp.
+Scene everything() {
+  return parse_scene(
+      "question = \"Where does the energy go when everything acts at once?\"\n"
+      "parameters = \"5 x 5 particles, as soft as a step of 1 ms allows with room to spare\"\n"
+      "[time]\nduration = 5\nsamples = 100\nstep = 1e-3\nwindow = 5\ntolerance = 1e-3\nmethod = \"leapfrog\"\n"
+      "[grid]\nsize = [5, 5]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\nv = [0, -1, 0]\nmass = 0.25\n"
+      "dashpot = 0.01\n[grid.stiffness]\nstructural = 30\nshear = 30\nbend = 30\n"
+      "[pins]\nparticles = [0, 4]\n[pins.motion]\namplitude = [0, 0, 0.15]\nfrequency = 0.5\nramp = 0.5\n"
+      "[gravity]\nacceleration = [0, -9.81, 0]\n[drag]\ngamma = 0.5\n"
+      "[wind]\nacceleration = [0, 0, 2]\n[wind.gusts]\nvariation = 1\nside = [1, 0, 0]\nseed = 5\n"
+      "[sphere]\ncentre = [0, -0.8, 0.45]\nradius = 0.4\nmargin = 0.02\nfriction = 0.3\n",
+      "all-at-once");
+}
+
+bool solves_whole_step(const Method& method) {
+  if (method.stepper) return method.stepper->evaluations == 0;
+  return method.name.find("implicit") != std::string::npos;
+}
+
+/// Steps of the scene's step that each method's run is given, so that all cover the same time: as many as Bullet's
+/// explicit world, the dearer one of those with a step as short, takes in a budget. A full run's allows all
+/// on a cloth of 10 x 10.
+long steps_for(const Request& request, const Scene& scene) {
+  const double budget = request.full ? 2.5 : 0.9;  // s
+  const double of_all = estimated_seconds(find_method("bullet/deformable-explicit"), scene, all_steps);
+  return std::clamp(static_cast<long>(all_steps * budget / of_all) / samples * samples, 1000l, all_steps);
+}
+
+void long_run(const Request& request, const Scene& scene, const Method& method, Rows& rows) {
+  Table summary{"energy",
+                {{"scene", "1"},
+                 {"method", "1"},
+                 {"verdict", "1"},
+                 {"reason", "1"},
+                 {"end", "s"},
+                 {"step", "s"},
+                 {"steps", "1"},
+                 {"undamped", "1"},
+                 {"symplectic", "1"},
+                 {"closure claimed", "1"},
+                 {"energy turned over", "J"},
+                 {"largest residual", "J"},
+                 {"residual", "J"},
+                 {"drift", "J/s"},
+                 {"oscillation", "J"},
+                 {"growth of the residual", "1"},
+                 {"equivalent drag", "1/s"},
+                 {"kinetic at start", "J"},
+                 {"elastic at start", "J"},
+                 {"kinetic", "J"},
+                 {"elastic", "J"},
+                 {"gravity gave", "J"},
+                 {"drag took", "J"},
+                 {"dashpots took", "J"},
+                 {"contact took", "J"},
+                 {"contact inferred", "1"},
+                 {"wind gave", "J"},
+                 {"pins gave", "J"}},
+                {}};
+  Table table{scene.name + "-ledger",
+              {{"method", "1"},
+               {"t", "s"},
+               {"kinetic", "J"},
+               {"elastic", "J"},
+               {"gravitational", "J"},
+               {"drag", "J"},
+               {"dashpots", "J"},
+               {"contact loss", "J"},
+               {"wind work", "J"},
+               {"pin work", "J"},
+               {"residual", "J"},
+               {"largest residual", "J"}},
+              {}};
+  const long steps = steps_for(request, scene);
+  const double step = request.step > 0 ? request.step : scene.step;
+  Run run = default_run(scene);
+  run.duration = step * static_cast<double>(steps);
+  run.samples = samples;
+  run.timed = false;
+  run.step = request.step == 0 && solves_whole_step(method) ? longer * step : step;
+  if (steps < all_steps)
+    rows.notes.push_back(fmt::format("energy takes {} steps instead of {} on {}: its {} particles cost much{}", steps,
+                                     all_steps, scene.name, scene.model.particles.size(),
+                                     request.full ? "" : "; --full takes more"));
+
+  // how many steps an adaptive rule takes is its own choice: stiff springs ask for millions
+  if (const double seconds = method.adaptive ? estimated_as_it_begins(method, scene, run) : 0; seconds > 30) {
+    rows.notes.push_back(
+        fmt::format("energy leaves out {} on {}: as it begins, its {:.3g} s would cost about {:.0f} s of CPU time",
+                    method.name, scene.name, run.duration, seconds));
+    return;
+  }
+
+  // some ten thousand looks are enough to find the largest residual, and cost less than the steps
+  ThinnedLedger ledger(scene.model, method.contact, std::max(1l, steps / 20000));
+  const Outcome out = run_method(method, scene, run, {&ledger});
+  const auto& seen = ledger.rows();
+  const bool nothing = out.verdict == Verdict::unsupported || seen.empty();
+  if (nothing && out.verdict == Verdict::ok)
+    rows.notes.push_back(fmt::format("energy leaves out {} on {}: it gave no velocities", method.name, scene.name));
+  const Model& model = scene.model;
+  const bool undamped = !model.find<Drag>() && !model.find<Dashpots>() && !model.find<Spheres>();
+  const bool claimed = !ledger.contact_inferred();
+  const bool symplectic =
+      (method.stepper && method.stepper->symplectic) || (!method.stepper && method.rule == "symplectic-euler");
+  auto told = [&](double value) { return nothing ? Cell() : Cell(value); };
+  auto closed = [&](double value) { return nothing || !claimed ? Cell() : Cell(value); };
+  const LedgerRow none{};
+  const LedgerRow &start = nothing ? none : seen.front(), &end = nothing ? none : seen.back();
+  const ResidualStatistics all = nothing ? ResidualStatistics{} : residual_statistics(seen);
+  summary.add({scene.name,
+               method.name,
+               std::string(name_of(out.verdict)),
+               out.reason,
+               out.end,
+               out.step,
+               out.steps,
+               undamped ? 1l : 0l,
+               symplectic ? 1l : 0l,
+               claimed && !nothing ? 1l : 0l,
+               told(all.energy_scale),
+               closed(all.worst),
+               closed(all.final),
+               closed(all.drift),
+               closed(all.oscillation),
+               closed(all.growth),
+               closed(all.equivalent_drag),
+               told(start.energy.kinetic),
+               told(start.energy.elastic),
+               told(end.energy.kinetic),
+               told(end.energy.elastic),
+               told(start.energy.gravitational - end.energy.gravitational),
+               told(end.drag),
+               told(end.dashpots),
+               told(end.contact),
+               model.find<Spheres>() && !claimed ? 1l : 0l,
+               told(end.wind),
+               told(end.pins)});
+
+  double worst = 0, next = 0;
+  size_t kept = 0;
+  for (size_t i = 0; i < seen.size() && !nothing; ++i) {
+    const LedgerRow& row = seen[i];
+    const double residual = row.balance() - start.balance();
+    worst = std::max(worst, std::abs(residual));
+    // two hundred rows at equal times, and the first ones of each decade
+    const bool even = row.t >= next - 1e-9 * run.duration;
+    const bool first = i < 40 || static_cast<double>(i) >= 1.12 * static_cast<double>(kept);
+    if (!even && !first && i + 1 < seen.size()) continue;
+    if (even) next += run.duration / samples;
+    kept = i;
+    table.add({method.name, row.t, row.energy.kinetic, row.energy.elastic, row.energy.gravitational, row.drag,
+               row.dashpots, row.contact, row.wind, row.pins, closed(residual), closed(worst)});
+  }
+  rows.add(summary);
+  rows.add(table);
+}
+
+}  // namespace
+
+std::vector<Point> energy_points(const Request& request) {
+  std::vector<Scene> scenes = request.scenes;
+  scenes.push_back(everything());
+  std::vector<Point> points;
+  for (const Scene& scene : scenes) {
+    if (scene.model.first_order()) {
+      points.push_back({"energy: " + scene.name, content_of(request, scene), [name = scene.name](Rows& rows) {
+                          rows.notes.push_back(
+                              fmt::format("energy leaves out {}: a first-order system has no energy", name));
+                        }});
+      continue;
+    }
+    for (const Method& method : methods_of(request, scene)) {
+      Request alone = request;
+      alone.methods = {method};
+      points.push_back({fmt::format("energy: {} by {}", scene.name, method.name), content_of(alone, scene),
+                        [=](Rows& rows) { long_run(alone, scene, method, rows); }});
+    }
+  }
+  const Scene oscillator = undamped_oscillator();
+  for (const Method& method : methods_of(request, oscillator)) {
+    if (method.adaptive) continue;  // it has no step to be set
+    Request alone = request;
+    alone.methods = {method};
+    points.push_back({fmt::format("energy: numerical damping of {}", method.name), content_of(alone, oscillator),
+                      [=, full = request.full](Rows& rows) { add_damping(method, full, rows); }});
+  }
+  return points;
+}
+
+}  // namespace crosscheck

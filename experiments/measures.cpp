@@ -1,0 +1,195 @@
+// Rest by dynamic relaxation, and measures from runs that are looked at in every step.
+#include "experiments/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "experiments/metrics.h"
+#include "mysim/base/eigenvalues.h"
+#include "mysim/model/energy.h"
+#include "mysim/model/system.h"
+#include "reference/method.h"
+
+namespace crosscheck {
+namespace {
+
+bool has_rest(const Model& model) {
+  const auto* wind = model.find<Wind>();
+  const auto* air = model.find<Aerodynamics>();
+  return !model.first_order() && !model.find<Constraints>() && !model.find<Spheres>() && model.find<Springs>() &&
+         !(wind && wind->acceleration.gusts) && !(air && air->velocity.gusts) && !model.particles.move &&
+         !model.particles.pins.empty();
+}
+
+}  // namespace
+
+std::optional<State> rest_of(const Scene& scene) {
+  if (!has_rest(scene.model)) return std::nullopt;
+  Model model = scene.model;
+  std::erase_if(model.terms, [](const Term& t) { return std::holds_alternative<Drag>(t); });
+  System system(model);
+  State s = scene.start;
+  s.v.setZero();
+  Points a(3, s.x.cols());
+  const double omega = highest_frequency(model, s);
+  if (!(omega > 0)) return std::nullopt;
+  // 2 / omega is the limit at the start; a spring that stretches across the load only slows
+  double h = 0.8 / omega, before = 0, scale = 0;
+  constexpr int most_steps = 100000, check = 50;
+  // what rounding leaves where the scene starts at rest: the forces cancel to some ulps of what springs over the
+  // scene's size could do
+  const double rounding = 1e-13 * omega * omega * scene.size();
+  for (int i = 0; i < most_steps; ++i) {
+    system.acceleration(s, a);
+    if (i % check == 0) {
+      if (!a.allFinite()) return std::nullopt;
+      const double rms = a.norm();
+      scale = std::max(scale, rms);
+      if (rms <= std::max(rounding, 1e-5 * scale)) {
+        s.v.setZero();
+        return s;
+      }
+    }
+    s.v += h * a;
+    const double kinetic = (s.v.colwise().squaredNorm() * model.particles.mass).value();
+    if (kinetic < before) {
+      s.v.setZero();
+      before = 0;
+      continue;
+    }
+    before = kinetic;
+    s.x += h * s.v;
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+class StepObserver : public Observer {
+ public:
+  explicit StepObserver(std::function<void(const State&)> look) : look_(std::move(look)) {}
+  bool every_step() const override { return true; }
+  Verdict observe(const State& state, bool) override {
+    look_(state);
+    return Verdict::ok;
+  }
+
+ private:
+  std::function<void(const State&)> look_;
+};
+
+/// Runs the scene for so long; false when it failed. Leapfrog's relative error of a period is (h omega)^2 / 24: at 0.2
+/// two thousandths of the fastest one, and far less of the slow ones of a network.
+bool run_for(const Scene& scene, double duration, const std::function<void(const State&)>& look) {
+  const bool hard = scene.model.find<Constraints>() != nullptr;
+  const double omega = highest_frequency(scene.model, scene.start);
+  const double h_omega = scene.model.particles.size() < 50 ? 0.2 : 1;
+  double h = omega > 0 ? h_omega / omega : scene.step;
+  if (hard) h = std::min(h, scene.step);
+  StepObserver observer(look);
+  const Outcome out = run_method(find_method(hard ? "mysim/xpbd" : "mysim/leapfrog"), scene,
+                                 {std::min(h, duration / 20), duration, 1}, {&observer});
+  return out.verdict == Verdict::ok;
+}
+
+/// Times of the turning points of y(t), those that turn back by `least` or more, to the vertex of a parabola.
+std::vector<double> turning_points(const std::vector<double>& t, const std::vector<double>& y, double least) {
+  std::vector<double> out;
+  size_t extreme = 0;
+  int going = 0;  // 1 up, -1 down, 0 not known yet
+  size_t low = 0, high = 0;
+  for (size_t i = 1; i < y.size(); ++i) {
+    if (going == 0) {
+      if (y[i] < y[low]) low = i;
+      if (y[i] > y[high]) high = i;
+      if (y[high] - y[low] < least) continue;
+      going = high > low ? 1 : -1;
+      extreme = i;
+      continue;
+    }
+    if (going * (y[i] - y[extreme]) > 0) {
+      extreme = i;
+    } else if (going * (y[extreme] - y[i]) >= least) {
+      const size_t e = extreme;
+      const double left = y[e] - y[e - 1], right = y[e + 1] - y[e];
+      // equal steps: the vertex lies within half of one
+      const double shift = left == right ? 0 : 0.5 * (left + right) / (left - right);
+      out.push_back(t[e] + std::clamp(shift, -0.5, 0.5) * (t[e + 1] - t[e]));
+      going = -going;
+      extreme = i;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<double> sag_of(const Scene& scene) {
+  const auto* gravity = scene.model.find<Gravity>();
+  if (!gravity || gravity->acceleration.isZero(0)) return std::nullopt;
+  const auto rest = rest_of(scene);
+  if (!rest) return std::nullopt;
+  return (gravity->acceleration.normalized().transpose() * (rest->x - scene.start.x)).maxCoeff();
+}
+
+std::optional<double> period_of(const Scene& scene, double about) {
+  if (scene.model.first_order()) return std::nullopt;
+  for (const double periods : {4.5, 18., 72.}) {
+    std::vector<double> t;
+    std::vector<Vec3> path;
+    const bool held = run_for(scene, periods * about, [&](const State& s) {
+      t.push_back(s.t);
+      path.push_back(centre_of_mass(scene, s.x));
+    });
+    if (!held || path.empty()) return std::nullopt;
+    Vec3 mean = Vec3::Zero();
+    for (const Vec3& p : path) mean += p / static_cast<double>(path.size());
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Vec3& p : path) spread += (p - mean) * (p - mean).transpose();
+    const Vec3 along = symmetric_eigensystem(spread).vectors.col(2);
+    std::vector<double> y;
+    for (const Vec3& p : path) y.push_back(along.dot(p - mean));
+    const auto [low, high] = std::minmax_element(y.begin(), y.end());
+    if (!(*high > *low)) return std::nullopt;
+    const std::vector<double> turns = turning_points(t, y, 0.1 * (*high - *low));
+    if (turns.size() >= 3) return 2 * (turns.back() - turns.front()) / static_cast<double>(turns.size() - 1);
+  }
+  return std::nullopt;
+}
+
+std::optional<double> settle_time_of(const Scene& scene, double about) {
+  const auto rest = rest_of(scene);
+  if (!rest) return std::nullopt;
+  const double lowest = energy_of(scene.model, *rest).total();
+  std::vector<std::pair<double, double>> above;  // s, J
+  const double until = 1.5 * about;
+  const bool held = run_for(
+      scene, until, [&](const State& s) { above.emplace_back(s.t, energy_of(scene.model, s).total() - lowest); });
+  if (!held) return std::nullopt;
+  double largest = 0;
+  for (const auto& [t, e] : above) largest = std::max(largest, e);
+  if (!(largest > 0)) return std::nullopt;
+  const double goal = 1e-3 * largest;
+  size_t last = above.size();
+  while (last > 0 && above[last - 1].second <= goal) --last;
+  if (last == 0) return 0;
+  if (last == above.size()) return until * std::log(1e3) / std::max(1e-3, std::log(largest / above.back().second));
+  const auto [t0, e0] = above[last - 1];
+  const auto [t1, e1] = above[last];
+  return t0 + (t1 - t0) * (e0 - goal) / (e0 - e1);
+}
+
+std::optional<double> max_stretch_of(const Scene& scene) {
+  const auto* springs = scene.model.find<Springs>();
+  if (!springs) return std::nullopt;
+  double largest = -INFINITY;
+  const bool held = run_for(scene, scene.duration, [&](const State& s) {
+    for (const Spring& e : springs->list)
+      if (e.rest > 0) largest = std::max(largest, (s.x.col(e.a) - s.x.col(e.b)).norm() / e.rest - 1);
+  });
+  if (!held || !std::isfinite(largest)) return std::nullopt;
+  return largest;
+}
+
+}  // namespace crosscheck

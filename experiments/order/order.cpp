@@ -1,0 +1,133 @@
+// Experiment `order`: error against step, and the slope beside the declared order; and the distance of each run from
+// the same method's run at its smallest step, which tells who converges to something else.
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "experiments/experiment.h"
+#include "experiments/metrics.h"
+
+namespace crosscheck {
+namespace {
+
+struct ErrorAtStep {
+  double step, error;
+};
+
+/// One method at one step.
+struct Refinement {
+  Outcome outcome;
+  Trajectory trajectory;
+  bool ok() const { return outcome.verdict == Verdict::ok; }
+};
+
+struct Fit {
+  double order, from, to;  // slope, and the steps (s) between which it was fitted
+};
+
+/// The slope of the finest three points, if it is steady there: two successive slopes within 0.3 of each other.
+/// Elsewhere the error is not yet, or no longer, a power of the step, and no order can be read off.
+std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
+  if (points.size() < 3) return std::nullopt;
+  const ErrorAtStep *p = &points[points.size() - 3], *q = p + 1, *r = p + 2;
+  const auto slope = [](const ErrorAtStep* a, const ErrorAtStep* b) {
+    return std::log(a->error / b->error) / std::log(a->step / b->step);
+  };
+  if (!(std::abs(slope(p, q) - slope(q, r)) < 0.3)) return std::nullopt;
+  return Fit{slope(p, r), p->step, r->step};
+}
+
+/// Why a scene is left out, or nothing.
+std::string why_not(const Scene& scene) {
+  if (scene.model.find<Spheres>()) return "contact makes every rule first order, erratically after impacts";
+  if (scene.start.x.cols() > 50) return "its runs would cost much; speed-accuracy has its error over the step";
+  return "";
+}
+
+void order_on(const Request& request, const Scene& scene, Rows& rows) {
+  Table points{"order",
+               {{"scene", "1"},
+                {"method", "1"},
+                {"step", "s"},
+                {"error", "m"},
+                {"distance to own finest", "m"},
+                {"truth", "1"},
+                {"truth tier", "1"},
+                {"truth bar", "m"},
+                {"evaluations", "1"},
+                {"verdict", "1"}},
+               {}};
+  Table slopes{"order-slopes",
+               {{"scene", "1"},
+                {"method", "1"},
+                {"declared order", "1"},
+                {"measured order", "1"},
+                {"from step", "s"},
+                {"to step", "s"}},
+               {}};
+  std::set<std::string> adaptive;  // left out, said once
+  const int halvings = request.full ? 9 : 7;
+  if (const std::string why = why_not(scene); !why.empty()) {
+    rows.notes.push_back(fmt::format("order leaves out {}: {}", scene.name, why));
+    return;
+  }
+  const Run base = run_of(request, scene);
+  const auto truth = truth_of(scene, base);
+  if (!truth) {
+    rows.notes.push_back(fmt::format("order leaves out {}: no truth is known for it", scene.name));
+    return;
+  }
+  const double motion = motion_of(truth->trajectory);
+  for (const Method& method : methods_of(request, scene)) {
+    if (method.name.starts_with("truth/") || (method.stepper && method.name.find('+') != std::string::npos)) continue;
+    if (method.adaptive) {
+      adaptive.insert(method.name);
+      continue;
+    }
+    // engines of others cost ten times as much a step, and no order is promised for them
+    const int steps = method.stepper ? halvings : std::min(halvings, 5);
+    std::vector<Refinement> runs;
+    for (int i = 0; i < steps; ++i) {
+      Run run = base;
+      run.step = 4 * base.step / (1 << i);
+      Recorder recorder;
+      Outcome out = run_method(method, scene, run, {&recorder});
+      if (out.verdict == Verdict::unsupported) break;
+      runs.push_back({std::move(out), std::move(recorder.trajectory)});
+    }
+    if (runs.empty()) continue;
+    std::vector<ErrorAtStep> good;
+    for (const Refinement& r : runs) {
+      const Outcome& out = r.outcome;
+      const double error = largest_rms_distance(r.trajectory, truth->trajectory, scene.window);
+      const bool finest = &r == &runs.back();
+      points.add({scene.name, method.name, out.step, r.ok() ? Cell(error) : Cell(),
+                  r.ok() && runs.back().ok() && !finest
+                      ? Cell(largest_rms_distance(r.trajectory, runs.back().trajectory, scene.window))
+                      : Cell(),
+                  truth->how, std::string(name_of(truth->tier)), truth->error_bar, out.evaluations,
+                  std::string(name_of(out.verdict))});
+      // below 30 truth bars the bar, and below round-off the round-off, bends the slope by more than 0.05
+      if (r.ok() && error > 30 * truth->error_bar && error < 0.1 * motion) good.push_back({out.step, error});
+    }
+    if (!method.stepper) continue;
+    if (const auto fit = asymptotic_order(good))
+      slopes.add({scene.name, method.name, static_cast<long>(method.stepper->order), fit->order, fit->from, fit->to});
+    else
+      rows.notes.push_back(fmt::format("order sees no steady slope of {} on {}", method.name, scene.name));
+  }
+  if (!adaptive.empty())
+    rows.notes.push_back(fmt::format("order leaves out {}: steps that follow a tolerance", fmt::join(adaptive, ", ")));
+  rows.add(points);
+  rows.add(slopes);
+}
+
+}  // namespace
+
+std::vector<Point> order_points(const Request& request) { return one_point_per_scene(request, "order", order_on); }
+
+}  // namespace crosscheck

@@ -1,0 +1,129 @@
+// Selects the cases and runs one of them.
+#include "experiments/regress/cases.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/estimate.h"
+#include "experiments/observers.h"
+#include "experiments/scenes/ingredients.h"
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+
+namespace crosscheck {
+namespace {
+
+/// Estimates are those of release builds. Without optimisation each number that Eigen reads is a call of several
+/// functions: mysim's rules on cloth-hang, chain and spring take up to 350 times as long. Told by the assertions, as
+/// fmt's headers turn optimisation on for a while, after which g++ says that it is on.
+#ifdef NDEBUG
+constexpr double slower = 1;
+#else
+constexpr double slower = 350;
+#endif
+
+}  // namespace
+
+std::string Case::in_words() const {
+  return fmt::format("{} under {}{}", scene.name, method.name, without.empty() ? "" : " without " + without);
+}
+
+Run run_over_window(const Scene& scene) {
+  Run run = default_run(scene);
+  run.samples = std::max(1, static_cast<int>(std::lround(scene.samples * scene.window / scene.duration)));
+  run.duration = scene.duration / scene.samples * run.samples;
+  run.timed = false;
+  return run;
+}
+
+CaseRun run_case(const Case& test_case) {
+  const Scene& scene = test_case.scene;
+  const Run run = run_over_window(scene);
+  Recorder recorder;
+  Ledger ledger(scene.model, test_case.method.contact);
+  TimeoutObserver timeout(2 + 20 * slower * estimated_seconds(test_case.method, scene, run));
+  std::vector<Observer*> observers{&recorder, &timeout};
+  if (!scene.model.first_order()) observers.push_back(&ledger);
+  CaseRun case_run;
+  case_run.outcome = run_method(test_case.method, scene, run, observers);
+  case_run.trajectory = std::move(recorder.trajectory);
+  case_run.ledger = ledger.rows();
+  return case_run;
+}
+
+CaseRun comparable_part(const CaseRun& case_run) {
+  if (case_run.outcome.verdict == Verdict::ok) return case_run;
+  CaseRun half{case_run.outcome, {}, {}};
+  const Trajectory& path = case_run.trajectory;
+  for (int i = 0; i < path.frames() && path.t[i] <= case_run.outcome.end / 2; ++i)
+    half.trajectory.t.push_back(path.t[i]), half.trajectory.x.push_back(path.x[i]);
+  return half;
+}
+
+const Quantity* find(const std::vector<Quantity>& all, const std::string& name) {
+  const auto at = std::find_if(all.begin(), all.end(), [&](const Quantity& q) { return q.name == name; });
+  return at == all.end() ? nullptr : &*at;
+}
+
+namespace {
+
+constexpr double fast = 0.5, slowest = 20;  // s
+
+std::vector<Method> engines() {
+  std::vector<Method> methods;
+  for (Method& method : all_methods())
+    if (selected_by_default(method.name)) methods.push_back(std::move(method));
+  return methods;
+}
+
+double seconds(const Case& q) {
+  Run run = default_run(q.scene);
+  run.duration = q.scene.window, run.samples = 1;
+  // a program of its own has to start
+  return estimated_seconds(q.method, q.scene, run) + (q.method.name.starts_with("bullet32/") ? 0.2 : 0);
+}
+
+}  // namespace
+
+std::vector<std::string> scenes_of(const Selection& asked) {
+  if (!asked.scenes.empty()) return asked.scenes;
+  return {shipped_scenes().begin(), shipped_scenes().end()};
+}
+
+bool selected_by_default(const std::string& method) {
+  return method.starts_with("mysim/") || method.starts_with("bullet");
+}
+
+bool passes(const std::string& filter, const std::string& scene, const std::string& method) {
+  return filter.empty() || fnmatch(filter.c_str(), scene.c_str(), FNM_EXTMATCH) == 0 ||
+         fnmatch(filter.c_str(), (scene + "/" + method).c_str(), FNM_EXTMATCH) == 0;
+}
+
+std::vector<Case> cases(const Selection& asked) {
+  std::vector<Case> all;
+  const auto add = [&](Case q) {
+    const double cost = seconds(q);
+    q.slow = cost > fast;
+    if (passes(asked.filter, q.scene.name, q.method.name) && cost <= (asked.full ? slowest : fast))
+      all.push_back(std::move(q));
+  };
+  const std::vector<Method> methods = asked.methods.empty() ? engines() : asked.methods;
+  for (const std::string& name : scenes_of(asked)) {
+    const Scene scene = load_scene(name);
+    const std::string own = find_method(scene.method).name;
+    for (const Method& method : methods) {
+      add({scene, method, "", false, scene.hash});
+      if (method.name != own && asked.methods.empty()) continue;
+      for (const Ingredient& ingredient : ingredients_of(scene))
+        if (ingredient.name != "rotation")  // the whole of a first-order scene
+          add({without(scene, ingredient), method, ingredient.name, false, scene.hash});
+    }
+  }
+  if (all.empty()) throw InputError(fmt::format("--filter {}: no scene and method match", asked.filter));
+  return all;
+}
+
+}  // namespace crosscheck

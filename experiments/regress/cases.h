@@ -1,0 +1,95 @@
+// The cases of a regression run (a scene under a method, perhaps without an ingredient), and the run of each.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mysim/run/observers.h"
+#include "reference/method.h"
+
+namespace crosscheck {
+
+// What a method does with a scene, seen as a list of numbers: what regression tests compare.
+
+/// One scene under one method: what is asked. `dear`: in full runs only. `without` names the ingredient that was taken
+/// out; empty for the scene as it is.
+struct Case {
+  Scene scene;
+  Method method;
+  std::string without = {};
+  bool slow = false;
+  std::string hash = {};  // of the scene as it is, nothing taken out
+  /// "chain under mysim/rk4 without drag"
+  std::string in_words() const;
+};
+
+/// A number with its unit, or a word.
+struct Quantity {
+  std::string name, unit;
+  double value = 0;
+  std::string word = {};
+  bool count = false;    // a whole number that rounding cannot change
+  double size = 0;       // of the numbers that it is a difference of: its last digits are theirs
+  double error_bar = 0;  // what is not known of it whatever the engine does: the error bar of a truth
+  bool is_word() const { return !word.empty(); }
+};
+
+/// How quantities are called that others look for.
+inline constexpr const char *setting_prefix = "setting ", *time_of_failure = "time of failure",
+                            *error_quantity = "error against truth", *halving_quantity = "change at half the step",
+                            *contact_quantity = "energy lost in contact";
+
+/// One run over the scene's window, beyond which single places cannot be predicted.
+struct CaseRun {
+  Outcome outcome;
+  Trajectory trajectory;
+  std::vector<LedgerRow> ledger;  // empty in first-order scenes and without velocities
+};
+/// By run_over_window(). Runs that take more than 2 s and twenty times their
+/// estimate, which in builds with assertions is 350 times that of others, end with the verdict `timeout`.
+CaseRun run_case(const Case& test_case);
+
+/// The scene's own step and tolerance over its window, samples where its own lie.
+Run run_over_window(const Scene& scene);
+
+/// The quantities that this answer has, in a fixed order: the table of them is in quantities.cpp. A failed run has its
+/// verdict, when it failed, and what it did in the first half of the time until then.
+std::vector<Quantity> quantities_of(const Case& test_case, const CaseRun& case_run);
+
+/// The name of the quantity that is the offset of the particles from their start at time t (s), and of that of their
+/// places.
+std::string offset_at(double t);
+std::string places_at(double t);
+
+/// Null where there is none of that name.
+const Quantity* find(const std::vector<Quantity>& all, const std::string& name);
+
+/// What quantities are taken from: the answer, of a failed run the first half of the time until it failed, since there
+/// the motion is still the scene's.
+CaseRun comparable_part(const CaseRun& case_run);
+
+// What a regression run asks: which scenes under which methods, and which of them without one ingredient.
+
+struct Selection {
+  std::vector<std::string> scenes = {};  // names or files; empty: all shipped ones
+  bool full = false;                     // dear questions too
+  std::string filter;                    // glob on SCENE or SCENE/METHOD, with !(A|B) and @(A|B); empty: all
+  std::vector<Method> methods;           // empty: all of mysim and Bullet
+};
+
+/// The names or files of the scenes.
+std::vector<std::string> scenes_of(const Selection& asked);
+/// Whether all is asked that baselines of these scenes should have.
+inline bool covers_all(const Selection& asked) { return asked.filter.empty() && asked.methods.empty(); }
+/// Whether somebody here changes the engine; what stands beside them as a judge is not asked unless named.
+bool selected_by_default(const std::string& method);
+/// Whether the filter leaves this scene under this method.
+bool passes(const std::string& filter, const std::string& scene, const std::string& method);
+
+/// Every scene under every method, as far as its cost allows (0.5 s by the estimate of experiments/estimate.h, 20 s in
+/// full runs); and under its own method also without each of its ingredients, which tells causes apart. Methods that
+/// refuse a scene are asked too: a refusal is behaviour. Throws InputError where the filter leaves nothing.
+std::vector<Case> cases(const Selection& asked);
+
+}  // namespace crosscheck

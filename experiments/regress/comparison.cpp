@@ -1,0 +1,129 @@
+// Status and distance of each quantity.
+#include "experiments/regress/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace crosscheck {
+namespace {
+
+Status state_of(const Quantity& is, const QuantityWithTolerance& was) {
+  if (is.is_word() || was.quantity.is_word()) return is.word == was.quantity.word ? Status::same : Status::moved;
+  if (!std::isfinite(is.value)) return Status::not_finite;
+  return std::abs(is.value - was.quantity.value) <= was.tolerance ? Status::same : Status::moved;
+}
+
+Comparison about(const Case& test_case, const Quantity& quantity) {
+  Comparison row;
+  row.scene = test_case.scene.name, row.method = test_case.method.name, row.without = test_case.without;
+  row.quantity = quantity.name, row.unit = quantity.unit;
+  return row;
+}
+
+void set(std::optional<double>& number, std::string& word, const Quantity& quantity) {
+  if (quantity.is_word())
+    word = quantity.word;
+  else
+    number = quantity.value;
+}
+
+}  // namespace
+
+std::string_view name_of(Status state) {
+  // in the order of the states
+  constexpr std::string_view names[] = {"moved", "not finite", "gone", "missing", "stale", "unreadable", "new", "same"};
+  return names[static_cast<int>(state)];
+}
+
+double Comparison::off() const {
+  if (!was || !is || *was == *is) return 0;
+  return std::abs(*is - *was) / tolerance;
+}
+
+double Comparison::rank() const {
+  if (unit == "word") return INFINITY;
+  return std::isinf(off()) ? 0 : off();
+}
+
+std::vector<Comparison> worst_comparisons(const std::vector<Comparison>& rows) {
+  std::vector<Comparison> worst;
+  for (const Comparison& row : rows) {
+    if (!failed(row.state)) continue;
+    const auto same = std::find_if(worst.begin(), worst.end(), [&](const Comparison& w) {
+      return w.scene == row.scene && w.method == row.method && w.without == row.without && w.state == row.state;
+    });
+    if (same == worst.end())
+      worst.push_back(row);
+    else if (row.rank() > same->rank())
+      *same = row;
+  }
+  return worst;
+}
+
+std::vector<BaselineRow> baseline_rows_of(const Baseline& baseline, const Case& test_case) {
+  std::vector<BaselineRow> rows;
+  for (const BaselineRow& e : baseline.expected)
+    if (e.method == test_case.method.name && e.without == test_case.without) rows.push_back(e);
+  return rows;
+}
+
+std::vector<Comparison> compared(const Case& test_case, const std::vector<Quantity>& is,
+                                 const std::vector<BaselineRow>& expected) {
+  std::vector<Comparison> rows;
+  const auto same_name = [](const std::string& name) {
+    return [&name](const auto& each) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(each)>, BaselineRow>)
+        return each.what.quantity.name == name;
+      else
+        return each.name == name;
+    };
+  };
+  for (const Quantity& q : is) {
+    Comparison row = about(test_case, q);
+    set(row.is, row.is_word, q);
+    const auto was = std::find_if(expected.begin(), expected.end(), same_name(q.name));
+    if (was == expected.end()) {
+      row.state = !q.is_word() && !std::isfinite(q.value) ? Status::not_finite
+                  : expected.empty()                      ? Status::missing
+                                                          : Status::added;
+    } else {
+      set(row.was, row.was_word, was->what.quantity);
+      row.tolerance = was->what.tolerance;
+      row.state = state_of(q, was->what);
+    }
+    rows.push_back(row);
+  }
+  for (const BaselineRow& e : expected)
+    if (std::none_of(is.begin(), is.end(), same_name(e.what.quantity.name))) {
+      Comparison row = about(test_case, e.what.quantity);
+      set(row.was, row.was_word, e.what.quantity);
+      row.tolerance = e.what.tolerance;
+      row.state = Status::gone;
+      rows.push_back(row);
+    }
+  return rows;
+}
+
+namespace {
+
+double distance(const Comparison& row) { return row.was ? row.off() : std::numeric_limits<double>::infinity(); }
+
+}  // namespace
+
+Difference difference_of(std::span<const Comparison> rows) {
+  Difference close;
+  for (const Comparison& row : rows) {
+    const bool numbers = row.was && row.is, words = !row.was_word.empty() && !row.is_word.empty();
+    if (!numbers && !words) continue;
+    if (numbers ? *row.was == *row.is : row.was_word == row.is_word) {
+      ++close.identical;
+      continue;
+    }
+    ++close.differing;
+    if (!close.furthest || distance(row) > distance(*close.furthest)) close.furthest = row;
+  }
+  return close;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,118 @@
+// Shipped scenes: one line for each.
+#include "experiments/scenes/scenes.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/text.h"
+#include "mysim/scene/toml.h"
+#include "reference/method.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr const char* folder_of_disagreements = CROSSCHECK_SCENES "/disagreements";
+
+/// Of several cloths a quick run looks at one of each kind.
+constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-swing",   "cloth-wind",
+                                                  "flag",        "cloth-carried", "jelly"};
+
+}  // namespace
+
+std::span<const std::string_view> shipped_scenes() {
+  static constexpr std::string_view table[] = {
+      "circle",              //
+      "projectile",          //
+      "spring",              //
+      "normal-modes",        //
+      "pendulum",            //
+      "chain",               //
+      "chain-link",          //
+      "rod",                 //
+      "slide",               //
+      "bounce",              //
+      "cloth-student",       //
+      "cloth-hang",          //
+      "cloth-stiff",         //
+      "cloth-inextensible",  //
+      "cloth-swing",         //
+      "cloth-wind",          //
+      "flag",                //
+      "cloth-sphere",        //
+      "cloth-carried",       //
+      "jelly",
+  };
+  return table;
+}
+
+std::vector<std::string> quick_scenes() {
+  std::vector<std::string> quick;
+  for (const auto name : shipped_scenes())
+    if (std::find(std::begin(left_to_full_runs), std::end(left_to_full_runs), name) == std::end(left_to_full_runs))
+      quick.emplace_back(name);
+  return quick;
+}
+
+namespace {
+
+/// The scenes beside the shipped ones, each a file in a folder of their own.
+std::vector<std::string> scenes_of_disagreements() {
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(folder_of_disagreements))
+    if (file.path().extension() == ".toml") names.push_back(file.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Reads the file and makes sure that its default method is one.
+Scene checked(const std::filesystem::path& file) {
+  Scene scene = read_scene(file);
+  try {
+    find_method(scene.method);
+  } catch (const InputError& error) {
+    // the file again, for the line
+    TomlTable::parse_file(file).section("time").fail("method", fmt::format("a method that there is: {}", error.what()));
+  }
+  return scene;
+}
+
+}  // namespace
+
+std::filesystem::path file_of_disagreement(const std::string& name) {
+  return std::filesystem::path(folder_of_disagreements) / (name + ".toml");
+}
+
+Scene load_scene(const std::string& name) {
+  const auto shipped = shipped_scenes();
+  if (std::find(shipped.begin(), shipped.end(), name) != shipped.end())
+    return checked(std::filesystem::path(CROSSCHECK_SCENES) / (name + ".toml"));
+  const auto known = scenes_of_disagreements();
+  if (std::find(known.begin(), known.end(), name) != known.end()) return checked(file_of_disagreement(name));
+  std::error_code unreadable;  // then the path of a file is what was meant, and it is named when it is read
+  if (name.ends_with(".toml") || name.find('/') != std::string::npos || std::filesystem::exists(name, unreadable) ||
+      unreadable)
+    return checked(name);
+  std::vector<std::string> names(shipped.begin(), shipped.end());
+  names.insert(names.end(), known.begin(), known.end());
+  throw InputError(fmt::format("unknown scene '{}'; expected one of {}, or the path of a .toml file{}", name,
+                               fmt::join(shipped, ", "), did_you_mean(name, names)));
+}
+
+std::vector<Scene> load_scenes(const std::vector<std::string>& names) {
+  std::vector<Scene> scenes;
+  if (names.empty())
+    for (const auto name : shipped_scenes()) scenes.push_back(load_scene(std::string(name)));
+  for (const std::string& name : names) {
+    Scene scene = load_scene(name);
+    for (const Scene& other : scenes)
+      if (other.name == scene.name)
+        throw InputError(fmt::format("{}: expected scenes of different names, got '{}' twice", name, scene.name));
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+}  // namespace crosscheck

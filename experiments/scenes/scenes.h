@@ -1,0 +1,31 @@
+// The table of shipped scenes, and how a name or a path becomes a scene.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mysim/scene/scene.h"
+
+namespace crosscheck {
+
+/// Names of the shipped scenes, from simple to rich.
+std::span<const std::string_view> shipped_scenes();
+
+/// Those of them that a quick run looks at when nobody names any: each kind of scene once, and of several cloths one.
+std::vector<std::string> quick_scenes();
+
+/// A shipped scene by name, the scene of a known disagreement by name, or any TOML file by path. Throws InputError that
+/// lists what there is.
+Scene load_scene(const std::string& name_or_path);
+
+/// Where the scene of a known disagreement is.
+std::filesystem::path file_of_disagreement(const std::string& name);
+
+/// Several at once; none given: all shipped ones. Throws InputError when two have the same name, under which their rows
+/// and files could not be told apart.
+std::vector<Scene> load_scenes(const std::vector<std::string>& names);
+
+}  // namespace crosscheck

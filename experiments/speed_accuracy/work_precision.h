@@ -1,0 +1,55 @@
+// What follows from errors and costs: Pareto lines, and the cheapest method and engine within an accuracy.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/tables/table.h"
+#include "experiments/timing/timing.h"
+
+namespace crosscheck {
+
+// What follows from runs and their costs: the Pareto line, and who meets an accuracy at the least cost.
+
+/// One run: where it lies on a chart of error against cost.
+struct WorkPrecisionPoint {
+  std::string method, setting;  // setting: "step [s]" or "tolerance [1]"
+  double asked;                 // s or 1
+  bool ok;
+  std::optional<double> error;      // m; of runs that are ok
+  double cost;                      // evaluations, or s
+  std::optional<Timing> time = {};  // where the cost is time
+  double part = 1;                  // of the run that was timed; the rest is scaled
+};
+
+/// The runs that no cheaper run beats, from cheap to dear, each with a smaller error than the one before. An error
+/// below the floor (m) counts as the floor: among those below it nobody is better.
+std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> points, double floor);
+
+/// The cheapest run with an error of at most `bound`, of the methods whose name begins with `prefix`; null where there
+/// is none.
+const WorkPrecisionPoint* cheapest(const std::vector<WorkPrecisionPoint>& points, double bound,
+                                   const std::string& prefix = "");
+
+/// Other methods whose cheapest run within the bound cannot be told from the best one's by their times, given the noise
+/// (relative).
+std::vector<std::string> statistically_tied(const std::vector<WorkPrecisionPoint>& points,
+                                            const WorkPrecisionPoint& best, double bound, double noise);
+
+// The cheapest run of each engine within an accuracy, beside mysim's.
+
+/// "mysim" of "mysim/leapfrog": whose run it is.
+std::string engine_of(const std::string& method);
+
+/// The table "speed-accuracy-engines-cost", empty.
+Table engines_cost_table();
+
+/// Adds a row for each engine that has a timed run within `bound` (m), what the truth's bar takes off included: its
+/// cheapest, and how many times as long as mysim's cheapest it takes, from `low` to `high` the widest that both 90 %
+/// intervals allow; and which part of each was timed, the rest being scaled. Without a run of mysim within the bound no
+/// quotient is given.
+void add_by_engine(const std::string& scene, double part_of_motion, const std::string& measure, double bound,
+                   const std::vector<WorkPrecisionPoint>& points, Table& table);
+
+}  // namespace crosscheck

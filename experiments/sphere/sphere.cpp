@@ -1,0 +1,227 @@
+// Experiment `sphere`: how engines answer a ball. Probes with one known answer each, and draped cloths.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/experiment.h"
+#include "experiments/metrics.h"
+#include "experiments/sphere/probes.h"
+
+namespace crosscheck {
+namespace {
+
+void rebounds(const Request& request, const Method& method, Rows& rows) {
+  Table table{"sphere-rebound",
+              {{"method", "1"},
+               {"verdict", "1"},
+               {"reason", "1"},
+               {"step", "s"},
+               {"restitution", "1"},
+               {"rebound", "m"},
+               {"by theory", "m"}},
+              {}};
+  std::vector<double> parts = {0, 0.5, 0.9};
+  if (request.full) parts = {0, 0.25, 0.5, 0.75, 0.9, 1};
+  for (const double e : parts)
+    for (const double h : {1. / 60, 1. / 240, 1e-3, 1e-4}) {
+      Outcome out;
+      const auto height = rebound(method, drop_on_ball(e), h, out);
+      table.add({method.name, std::string(name_of(out.verdict)), out.reason, h, e, cell_of(height), 0.3 * e * e});
+    }
+  rows.add(table);
+}
+
+void leavings(const Request& request, const Method& method, Rows& rows) {
+  Table table{"sphere-leaving",
+              {{"method", "1"},
+               {"verdict", "1"},
+               {"reason", "1"},
+               {"step", "s"},
+               {"angle", "degrees"},
+               {"angle by theory", "degrees"},
+               {"speed", "m/s"},
+               {"speed by theory", "m/s"}},
+              {}};
+  const Leaving exact = leaving_by_theory();
+  std::vector<double> steps = {1. / 240, 1e-3, 1e-4};
+  if (request.full) steps = {1. / 60, 1. / 240, 1e-3, 2.5e-4, 1e-4, 1e-5};
+  for (const double h : steps) {
+    Outcome out;
+    const auto found = leaving(method, h, out);
+    table.add({method.name, std::string(name_of(out.verdict)), out.reason, h, found ? Cell(found->angle) : Cell(),
+               exact.angle, found ? Cell(found->speed) : Cell(), exact.speed});
+  }
+  rows.add(table);
+}
+
+void cones(const Request& request, const Method& method, Rows& rows) {
+  Table table{"sphere-cone",
+              {{"method", "1"},
+               {"verdict", "1"},
+               {"reason", "1"},
+               {"step", "s"},
+               {"angle", "degrees"},
+               {"friction", "1"},
+               {"way", "m"},
+               {"way by theory", "m"},
+               {"answer", "1"},
+               {"answer by theory", "1"}},
+              {}};
+  std::vector<double> steps = {1e-3};
+  if (request.full) steps = {1. / 60, 1. / 240, 1e-3};
+  for (const double h : steps)
+    for (const double degrees : {10., 20., 30., 40., 50.}) {
+      const double limit = std::tan(degrees * 0.017453292519943295);
+      std::vector<double> frictions = {0.95 * limit, 1.05 * limit};
+      for (int i = 0; i <= 12; ++i)
+        // where the answer is within a twentieth of the limit both are
+        if (std::abs(0.1 * i / limit - 1) > 0.05) frictions.push_back(0.1 * i);
+      std::sort(frictions.begin(), frictions.end());
+      for (const double mu : frictions) {
+        Outcome out;
+        const auto found = cone(method, degrees, mu, h, out);
+        const double asked = std::max(0.0, 9.81 * (std::sin(std::atan(limit)) - mu * std::cos(std::atan(limit))) / 8);
+        table.add({method.name, std::string(name_of(out.verdict)), out.reason, h, degrees, mu,
+                   found ? Cell(found->way) : Cell(), asked, found ? Cell(std::string(name_of(found->state))) : Cell(),
+                   std::string(name_of(mu < limit ? ContactState::slides : ContactState::sticks))});
+      }
+    }
+  rows.add(table);
+}
+
+/// One run of a scene with balls: how deep, how long, where it ends.
+void drape(const Scene& scene, const Method& method, double step, Rows& rows) {
+  Table summary{"sphere-drape",
+                {{"scene", "1"},
+                 {"method", "1"},
+                 {"verdict", "1"},
+                 {"reason", "1"},
+                 {"end", "s"},
+                 {"step", "s"},
+                 {"settled after", "s"},
+                 {"centre height", "m"},
+                 {"centre moved aside", "m"},
+                 {"clearance", "m"},
+                 {"creep", "m/s"},
+                 {"contact took", "J"},
+                 {"contact inferred", "1"},
+                 {"asymmetry", "m"}},
+                {}};
+  Table deep{"sphere-penetration",
+             {{"scene", "1"},
+              {"method", "1"},
+              {"verdict", "1"},
+              {"step", "s"},
+              {"radius", "m"},
+              {"particles", "%"},
+              {"triangles", "%"},
+              {"particles at end", "%"},
+              {"triangles at end", "%"}},
+             {}};
+  Table table{scene.name + "-drape",
+              {{"method", "1"},
+               {"step", "s"},
+               {"t", "s"},
+               {"centre height", "m"},
+               {"centre moved aside", "m"},
+               {"clearance", "m"},
+               {"triangles inside", "m"},
+               {"creep", "m/s"},
+               {"asymmetry", "m"}},
+              {}};
+  Run run = default_run(scene);
+  run.step = step;
+  Recorder recorder;
+  Ledger ledger(scene.model, method.contact);
+  const Outcome out = run_method(method, scene, run, {&recorder, &ledger});
+  const bool none = out.verdict == Verdict::unsupported || recorder.trajectory.frames() == 0;
+  const Trajectory path = none ? Trajectory{} : std::move(recorder.trajectory);
+  const auto mirror = MirrorSymmetry::of(scene);
+  const Vec3 start = centre_of_mass(scene, scene.start.x);
+  double radius = INFINITY;
+  for (const Sphere& s : scene.model.find<Spheres>()->list) radius = std::min(radius, s.contact_radius());
+
+  std::optional<double> nodes, triangles, last_gap, last_depth, last_creep, skew;
+  double settled = 0;
+  Vec3 centre = start;
+  for (int i = 0; i < path.frames(); ++i) {
+    const double t = path.t[i];
+    const Points& x = path.x[i];
+    if (!x.allFinite()) break;
+    centre = centre_of_mass(scene, x);
+    const Vec3 aside(centre.x() - start.x(), 0, centre.z() - start.z());
+    last_gap = clearance(scene, t, x);
+    last_depth = depth_of_triangles(scene, t, x);
+    last_creep = creep(scene, t, x, path.v[i]);
+    if (mirror) skew = mirror->asymmetry(x);
+    if (last_gap) nodes = std::max(nodes.value_or(-INFINITY), -*last_gap);
+    if (last_depth) triangles = std::max(triangles.value_or(-INFINITY), *last_depth);
+    // at rest, for a twentieth of the run at least: no more than a centimetre a second, in the root of the mean square
+    const auto count = static_cast<double>(x.cols());
+    if (path.v[i].cols() != x.cols() || std::sqrt(path.v[i].squaredNorm() / count) > 0.01)
+      settled = i + 1 < path.frames() ? path.t[i + 1] : INFINITY;
+    table.add({method.name, out.step, t, centre.y(), aside.norm(), cell_of(last_gap), cell_of(last_depth),
+               cell_of(last_creep), cell_of(skew)});
+  }
+  const bool ok = out.verdict == Verdict::ok && !none;
+  auto at_end = [&](const std::optional<double>& value) { return ok ? cell_of(value) : Cell(); };
+  auto share = [&](const std::optional<double>& depth) {
+    return ok && depth ? Cell(100 * std::max(0.0, *depth) / radius) : Cell();
+  };
+  const bool energies = ok && !ledger.rows().empty();
+  summary.add({scene.name, method.name, std::string(name_of(out.verdict)), out.reason, out.end, out.step,
+               ok && settled < 0.95 * out.end ? Cell(settled) : Cell(), ok ? Cell(centre.y()) : Cell(),
+               ok ? Cell(std::hypot(centre.x() - start.x(), centre.z() - start.z())) : Cell(), at_end(last_gap),
+               at_end(last_creep), energies ? Cell(ledger.rows().back().contact) : Cell(),
+               ledger.contact_inferred() ? 1l : 0l, at_end(skew)});
+  deep.add({scene.name, method.name, std::string(name_of(out.verdict)), out.step, radius, share(nodes),
+            share(triangles), share(last_gap ? std::optional(-*last_gap) : std::nullopt), share(last_depth)});
+  rows.add(summary);
+  rows.add(deep);
+  rows.add(table);
+}
+
+}  // namespace
+
+std::vector<Point> sphere_points(const Request& request) {
+  std::vector<Point> points;
+  const auto add = [&](const std::string& what, const Method& method, const Scene& scene, auto compute) {
+    Request alone = request;
+    alone.scenes.clear();
+    alone.methods = {method};
+    points.push_back({fmt::format("sphere: {} by {}", what, method.name), content_of(alone, scene),
+                      [=](Rows& rows) { compute(alone, method, rows); }});
+  };
+  const Scene centred = drop_centred(), aside = drop_aside();
+  for (const Scene& scene : {aside, centred})
+    for (const Method& method : methods_of(request, scene))
+      if (!request.scenes_only)
+        add(scene.name, method, scene, [scene](const Request& alone, const Method& m, Rows& rows) {
+          std::vector<double> steps = {2e-3, 1e-3};
+          if (alone.full) steps = {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4};
+          for (const double h : steps) drape(scene, m, h, rows);
+        });
+  for (const Scene& scene : request.scenes) {
+    if (!scene.model.find<Spheres>()) {
+      points.push_back({"sphere: " + scene.name, content_of(request, scene), [name = scene.name](Rows& rows) {
+                          rows.notes.push_back(fmt::format("sphere leaves out {}: it has none", name));
+                        }});
+      continue;
+    }
+    for (const Method& method : methods_of(request, scene))
+      add(scene.name, method, scene, [scene](const Request& alone, const Method& m, Rows& rows) {
+        drape(scene, m, run_of(alone, scene).step, rows);
+      });
+  }
+  if (request.scenes_only) return points;
+  for (const Method& method : methods_of(request, centred)) {
+    add("rebound", method, drop_on_ball(0), rebounds);
+    add("leaving", method, frictionless_slide(), leavings);
+    add("Coulomb cone", method, on_slope(0, 0), cones);
+  }
+  return points;
+}
+
+}  // namespace crosscheck

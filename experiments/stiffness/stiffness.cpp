@@ -1,0 +1,92 @@
+// Experiment `stiffness`: how many N/m a position-based link really has, against the formula that hands it over; and
+// where the formula stops holding in a network.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "experiments/experiment.h"
+
+namespace crosscheck {
+namespace {
+
+/// A chain of masses (kg) that hangs from a pin on links of k (N/m) and length 1 m, under g (m/s^2), with drag.
+Scene hanging_chain(int masses, double mass, double k, double g, double gamma, double duration, double h) {
+  std::string text = fmt::format(
+      "question = \"q\"\nparameters = \"p\"\n[time]\nduration = {}\nsamples = 1\nstep = {}\nwindow = {}\n"
+      "tolerance = 1e-6\nmethod = \"leapfrog\"\n",
+      duration, h, duration);
+  for (int i = 0; i <= masses; ++i) text += fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = {}\n", -i, mass);
+  for (int i = 0; i < masses; ++i)
+    text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\nrest = 1\n", i, i + 1, k);
+  text += fmt::format("[pins]\nparticles = [0]\n[gravity]\nacceleration = [0, {}, 0]\n", -g);
+  if (gamma > 0) text += fmt::format("[drag]\ngamma = {}\n", gamma);
+  return parse_scene(text, "hanging-chain");
+}
+
+/// How far its end sinks by the end of the run, m; the run must go on until it hangs still.
+double sag(const Scene& scene, const std::string& method) {
+  Recorder recorder;
+  const Outcome out = run_method(find_method(method), scene, default_run(scene), {&recorder});
+  if (out.verdict != Verdict::ok) return NAN;
+  const Points &first = recorder.trajectory.x.front(), &last = recorder.trajectory.x.back();
+  return first(1, first.cols() - 1) - last(1, last.cols() - 1);
+}
+
+/// One mass on one link, in every step let fall by g h^2 and pulled back: force over extension when it hangs still. It
+/// is let fall by 1e-4 of the link's length, where the link's law differs from Hooke's by 5e-5.
+Table single_links(bool full, double h) {
+  Table table{
+      "stiffness",
+      {{"kLST", "1"}, {"step", "s"}, {"iterations", "1"}, {"formula", "N/m"}, {"measured", "N/m"}, {"deviation", "1"}},
+      {}};
+  std::vector<double> shares = {0.02, 0.1, 0.5, 0.9};
+  if (full) shares = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9};
+  for (const int n : {1, 4, 10})
+    for (const double kLST : shares) {
+      if (std::pow(1 - kLST, -n) > 2000) continue;  // rigid to three digits already
+      const double mass = 1, k = mass / (h * h) * std::expm1(-n * std::log1p(-kLST)), K = k * h * h / mass,
+                   g = 1e-4 * k / mass / (1 + K);
+      // what is left after m steps is (1 + K)^(-m/2): 60 / ln(1 + K) steps leave 1e-13
+      const double steps = std::ceil(60 / std::log1p(K)) + 10;
+      const double measured =
+          mass * g / sag(hanging_chain(1, mass, k, g, 0, steps * h, h), fmt::format("bullet/pbd+n={}", n));
+      table.add({kLST, h, static_cast<long>(n), k, measured, measured / k - 1});
+    }
+  return table;
+}
+
+/// Three masses. Their sag against what is asked, over k h^2 / mu of the links between masses (mu = m / 2).
+Table networks(bool full, int n) {
+  Table table{
+      "stiffness-network",
+      {{"k h^2/mu", "1"}, {"step", "s"}, {"iterations", "1"}, {"sag asked", "m"}, {"sag", "m"}, {"deviation", "1"}},
+      {}};
+  const double mass = 0.1, k = 1000, g = 0.0981, asked = mass * g / k * 6;  // strain 3e-5 at most
+  std::vector<double> steps = {1. / 60, 1. / 120, 1. / 240, 1. / 480, 1. / 960, 1. / 1920};
+  if (full) steps.push_back(1. / 3840);
+  for (const double h : steps) {
+    // drag of 20/s: e^-20 of the sag is left after 2 s
+    const double found = sag(hanging_chain(3, mass, k, g, 20, 2, h), fmt::format("bullet/pbd+n={}", n));
+    table.add({k * h * h / (mass / 2), h, static_cast<long>(n), asked, found, found / asked - 1});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<Point> stiffness_points(const Request& request) {
+  if (request.scenes_only) return {};
+  const bool full = request.full;
+  const std::string content = full ? "full" : "quick";
+  std::vector<Point> points;
+  for (const double h : {1. / 60, 1. / 240, 1. / 1000})
+    points.push_back({fmt::format("stiffness: one link at {:.3g} s", h), content,
+                      [=](Rows& rows) { rows.add(single_links(full, h)); }});
+  for (const int n : {1, 10})
+    points.push_back(
+        {fmt::format("stiffness: chain, {} iterations", n), content, [=](Rows& rows) { rows.add(networks(full, n)); }});
+  return points;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,184 @@
+// CSV, written and read.
+#include "experiments/tables/table.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+
+namespace crosscheck {
+namespace {
+
+std::string text_of(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return csv_field(*text);
+  if (const auto* number = std::get_if<double>(&cell)) return exact_text(*number);
+  if (const auto* whole = std::get_if<long>(&cell)) return fmt::format("{}", *whole);
+  return "";
+}
+
+/// Line feeds would end the comment, and make a row of what follows.
+std::string in_one_line(const std::string& value) {
+  std::string out;
+  for (const char c : value) out += c == '\n' ? "\\n" : c == '\r' ? "\\r" : std::string(1, c);
+  return out;
+}
+
+}  // namespace
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string out = "\"";
+  for (char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
+
+void Table::add(std::vector<Cell> row) {
+  if (row.size() != columns.size())
+    throw std::logic_error(
+        fmt::format("table {}: a row of {} cells under {} columns", name, row.size(), columns.size()));
+  rows.push_back(std::move(row));
+}
+
+int Table::column(const std::string& wanted) const {
+  for (size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].name == wanted) return static_cast<int>(i);
+  throw std::out_of_range(fmt::format("table {} has no column {}", name, wanted));
+}
+
+std::string csv_row(const std::vector<Cell>& row) {
+  std::string out;
+  for (size_t i = 0; i < row.size(); ++i) out += (i ? "," : "") + text_of(row[i]);
+  return out;
+}
+
+std::string csv(const Table& table, const Provenance& provenance) {
+  std::string out;
+  for (const auto& [key, value] : provenance) out += fmt::format("# {}: {}\n", key, in_one_line(value));
+  for (size_t i = 0; i < table.columns.size(); ++i)
+    out += (i ? "," : "") + csv_field(fmt::format("{} [{}]", table.columns[i].name, table.columns[i].unit));
+  out += "\n";
+  for (const auto& row : table.rows) out += csv_row(row) + "\n";
+  return out;
+}
+
+void write_csv(const Table& table, const Provenance& provenance, const std::filesystem::path& folder) {
+  write_file(folder / (table.name + ".csv"), csv(table, provenance));
+}
+
+namespace {
+
+struct Field {
+  std::string text;
+  bool quoted = false;
+};
+
+/// One character after the other, with the line it stands in.
+class Reader {
+ public:
+  Reader(std::string text, std::filesystem::path file) : text_(std::move(text)), file_(std::move(file)) {}
+
+  bool at_end() const { return at_ == text_.size(); }
+  bool comment() const { return !at_end() && text_[at_] == '#'; }
+  void skip_line() {
+    while (!at_end() && text_[at_] != '\n') ++at_;
+    if (!at_end()) ++at_, ++line_;
+  }
+  std::vector<Field> record() {
+    std::vector<Field> fields(1);
+    for (; !at_end() && text_[at_] != '\n'; ++at_) {
+      if (text_[at_] == ',')
+        fields.emplace_back();
+      else if (text_[at_] == '"')
+        quoted(fields.back());
+      else
+        fields.back().text += text_[at_];
+    }
+    if (at_end()) fail("a line feed at the end of the row");
+    ++at_, ++line_;
+    return fields;
+  }
+  [[noreturn]] void fail(const std::string& expected) const {
+    throw InputError(fmt::format("{}:{}: expected {}", file_.string(), line_, expected));
+  }
+
+ private:
+  /// From an opening quote to the closing one.
+  void quoted(Field& field) {
+    field.quoted = true;
+    for (++at_;; ++at_) {
+      if (at_end()) fail("a closing quote");
+      if (text_[at_] == '"' && (at_ + 1 == text_.size() || text_[at_ + 1] != '"')) return;
+      if (text_[at_] == '"') ++at_;
+      if (text_[at_] == '\n') ++line_;
+      field.text += text_[at_];
+    }
+  }
+
+  std::string text_;
+  std::filesystem::path file_;
+  size_t at_ = 0;
+  int line_ = 1;
+};
+
+template <class Number>
+std::optional<Number> as(const std::string& text) {
+  Number number{};
+  const char* end = text.data() + text.size();
+  const auto [stopped, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stopped != end) return std::nullopt;
+  return number;
+}
+
+Column column_of(const Reader& reader, const std::string& head) {
+  const size_t open = head.rfind(" [");
+  if (open == std::string::npos || !head.ends_with("]")) reader.fail("columns as \"name [unit]\"");
+  return {head.substr(0, open), head.substr(open + 2, head.size() - open - 3)};
+}
+
+}  // namespace
+
+Table read_csv(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream bytes;
+  if (!in || !(bytes << in.rdbuf())) throw InputError(fmt::format("{}: expected a table", file.string()));
+  Reader reader(bytes.str(), file);
+  while (reader.comment()) reader.skip_line();
+  Table table{file.stem().string(), {}, {}};
+  for (const Field& head : reader.record()) table.columns.push_back(column_of(reader, head.text));
+  std::vector<std::vector<Field>> records;
+  std::vector<bool> text(table.columns.size(), false), any(text);
+  while (!reader.at_end()) {
+    records.push_back(reader.record());
+    const std::vector<Field>& record = records.back();
+    if (record.size() != table.columns.size()) reader.fail(fmt::format("{} cells in the row", table.columns.size()));
+    for (size_t i = 0; i < record.size(); ++i) any[i] = any[i] || !record[i].text.empty();
+    for (size_t i = 0; i < record.size(); ++i)
+      if (record[i].quoted || (!record[i].text.empty() && !as<double>(record[i].text))) text[i] = true;
+  }
+  for (const auto& record : records) {
+    std::vector<Cell> row;
+    for (size_t i = 0; i < record.size(); ++i) {
+      const std::string& cell = record[i].text;
+      if (text[i] || !any[i])
+        row.emplace_back(cell);
+      else if (const auto whole = cell == "-0" ? std::nullopt : as<long>(cell))
+        row.emplace_back(*whole);
+      else
+        row.push_back(cell_of(as<double>(cell)));
+    }
+    table.add(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace crosscheck

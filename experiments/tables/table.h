@@ -1,0 +1,93 @@
+// Tables: columns with units, rows of cells, read and written as CSV with their provenance.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace crosscheck {
+
+// Tables: columns with units, rows of cells, written as CSV with their provenance.
+
+/// Empty means not applicable. nan and inf are allowed in failed rows only.
+using Cell = std::variant<std::monostate, std::string, double, long>;
+inline Cell cell_of(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
+
+/// `# key: value` lines above a table: who made these numbers, from what, with what.
+using Provenance = std::vector<std::pair<std::string, std::string>>;
+
+struct Column {
+  std::string name, unit;  // unit "1" when dimensionless
+  bool operator==(const Column&) const = default;
+};
+
+struct Table {
+  std::string name;  // file name without .csv; names that end in -cost hold timings
+  std::vector<Column> columns;
+  std::vector<std::vector<Cell>> rows;
+
+  void add(std::vector<Cell> row);            // throws std::logic_error where it has not as many cells as columns
+  int column(const std::string& name) const;  // throws std::out_of_range with the name
+  const Cell& at(size_t row, const std::string& column) const { return rows[row][this->column(column)]; }
+};
+
+/// Text of a number: 17 significant digits, so that it reads back to the same bits.
+std::string exact_text(double value);
+
+/// A field of CSV, in quotes where it needs them.
+std::string csv_field(const std::string& text);
+
+/// A row of it, without the line feed.
+std::string csv_row(const std::vector<Cell>& row);
+
+/// RFC 4180: comma, LF, quotes where needed; one header row "name [unit]".
+std::string csv(const Table& table, const Provenance& provenance);
+void write_csv(const Table& table, const Provenance& provenance, const std::filesystem::path& folder);
+
+// What stands in a table's cells, for those who read tables: charts, sentences, conclusions.
+
+/// Throws std::bad_variant_access where it is no text.
+inline const std::string& text_at(const Table& table, size_t row, const std::string& column) {
+  return std::get<std::string>(table.at(row, column));
+}
+/// The text, or "" where the cell is empty.
+inline std::string text_or_none(const Table& table, size_t row, const std::string& column) {
+  const auto* text = std::get_if<std::string>(&table.at(row, column));
+  return text ? *text : "";
+}
+/// Whole numbers too; nothing where the cell is empty or text.
+inline std::optional<double> number_at(const Table& table, size_t row, const std::string& column) {
+  const Cell& cell = table.at(row, column);
+  if (const auto* number = std::get_if<double>(&cell)) return *number;
+  if (const auto* whole = std::get_if<long>(&cell)) return static_cast<double>(*whole);
+  return std::nullopt;
+}
+inline double number_at(const Table& table, size_t row, const std::string& column, double otherwise) {
+  return number_at(table, row, column).value_or(otherwise);
+}
+/// False where the cell is empty.
+inline bool flag_at(const Table& table, size_t row, const std::string& column) {
+  const auto* flag = std::get_if<long>(&table.at(row, column));
+  return flag && *flag != 0;
+}
+/// The texts of a column, each once, in the order in which they come first.
+inline std::vector<std::string> distinct(const Table& table, const std::string& column) {
+  std::vector<std::string> all;
+  for (size_t i = 0; i < table.rows.size(); ++i)
+    if (const std::string& text = text_at(table, i, column); std::find(all.begin(), all.end(), text) == all.end())
+      all.push_back(text);
+  return all;
+}
+
+// Tables read back from their files.
+
+/// A table as write_csv left it, its provenance left aside. A cell that reads as a whole number is one, other numbers
+/// are doubles; in columns that hold any other text, or nothing,
+/// all cells are text. Throws InputError: "FILE:LINE: expected ...".
+Table read_csv(const std::filesystem::path& file);
+
+}  // namespace crosscheck

@@ -1,0 +1,25 @@
+// Sets and restores CROSSCHECK_INSTRUCTIONS.
+#include "experiments/timing/instruction_sets.h"
+
+#include <cstdlib>
+
+namespace crosscheck {
+namespace {
+
+constexpr auto variable = "CROSSCHECK_INSTRUCTIONS";
+
+}  // namespace
+
+ScopedInstructionSet::ScopedInstructionSet(simd::InstructionSet isa) {
+  if (const char* value = std::getenv(variable)) before_ = value;
+  setenv(variable, std::string(simd::name_of(isa)).c_str(), 1);
+}
+
+ScopedInstructionSet::~ScopedInstructionSet() {
+  if (before_)
+    setenv(variable, before_->c_str(), 1);
+  else
+    unsetenv(variable);
+}
+
+}  // namespace crosscheck

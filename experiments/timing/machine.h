@@ -1,0 +1,45 @@
+// This machine: its processor, the cores that this process may use, and the lock that lets one process measure alone.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace crosscheck {
+
+// Processor cores: how many this process may use, and keeping to one of them.
+
+/// As the affinity mask says, which batch systems and `taskset` set.
+int cores_allowed();
+/// Keeps the calling process to the last core that it may use, so that its caches stay warm. Best effort.
+void pin_to_one_core();
+
+// Who may compute on this machine: many untimed points side by side, or one timed point alone, over all sweeps of this
+// user, so that shards on one machine do not spoil each other's timings.
+
+class MachineLock {
+ public:
+  enum class Mode { shared, exclusive };
+  /// Waits until it is had. The lock file is /tmp/crosscheck-UID.lock wherever TMPDIR points, since batch systems give
+  /// each job a TMPDIR of its own; jobs that also have a /tmp of their own do not see each other. CROSSCHECK_LOCK
+  /// names another file, as tests do, which wait for nobody but themselves. Where none can be made, nobody waits.
+  explicit MachineLock(Mode mode);
+  ~MachineLock();
+  MachineLock(const MachineLock&) = delete;
+  MachineLock& operator=(const MachineLock&) = delete;
+
+ private:
+  int handle_;
+};
+
+// What kind of processor this is: speeds are compared on one kind only.
+
+/// The processor in one line: its name, its family, model and stepping (which tell apart what providers of virtual
+/// machines sell under one name), its sizes of cache and its instruction sets for arithmetic. From Linux's `cpuinfo`
+/// (usually /proc/cpuinfo) and the folder of the first processor's caches (/sys/devices/system/cpu/cpu0/cache); what
+/// these do not tell is left out. Empty where the processor cannot be told from others.
+std::string processor_kind(const std::filesystem::path& cpuinfo, const std::filesystem::path& caches);
+
+/// This machine's.
+std::string processor_kind();
+
+}  // namespace crosscheck

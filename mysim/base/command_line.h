@@ -1,0 +1,47 @@
+// What is wrong with a command line, for the programs that read theirs with CLI11; mysim itself does not know it.
+#pragma once
+
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "mysim/base/text.h"
+
+namespace crosscheck {
+
+/// What CLI11 complains of, with the words that a person needs: first of all the options that nobody knows, since they
+/// are why others seem to be missing.
+inline std::string usage_error(const std::string& program, const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  const bool top = command == &app;
+  const std::string place = top ? "" : command->get_name() + ": ", help = top ? "" : command->get_name() + " ";
+  const auto names_of = [](const CLI::App* of) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : of->get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+      for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    }
+    return names;
+  };
+  for (const CLI::App* of : {command, &app})
+    for (const std::string& word : of->remaining()) {
+      const std::string option = word.substr(0, word.find('='));
+      if (!option.starts_with("-") || option == "-" || option == "--")
+        return fmt::format("{}one word too many: '{}' ({} {}--help shows what is expected)", place, word, program,
+                           help);
+      const std::vector<std::string> known = names_of(command);
+      if (std::find(known.begin(), known.end(), option) != known.end())
+        return fmt::format("{} stands before the command; expected {} {} ... {}", option, program, command->get_name(),
+                           option);
+      const std::string proposal = did_you_mean(option, known);
+      return fmt::format("{}unknown option '{}'{} expected {}: {}", place, option, proposal.empty() ? ";" : proposal,
+                         top ? "a command, or one of" : "one of", fmt::format("{}", fmt::join(known, ", ")));
+    }
+  return fmt::format("{}{} ({} {}--help shows what is expected)", place, error.what(), program, help);
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,78 @@
+// Messages of what was thrown.
+#include "mysim/base/errors.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <ios>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+#include "mysim/base/this_process.h"
+
+namespace crosscheck {
+namespace fs = std::filesystem;
+namespace {
+
+/// "/a/b: No space left on device; expected ..." from what would be "filesystem error: cannot ...: No space ...
+/// [/a/b]".
+std::string path_message(const fs::filesystem_error& error) {
+  const std::string reason = error.code().message();
+  std::string path = error.path1().string();
+  const char* temporary = std::getenv("TMPDIR");
+  if (temporary && *temporary && path == temporary)
+    return fmt::format("TMPDIR {}: {}; expected a folder for temporary files that can be written to", path, reason);
+  if (!error.path2().empty()) path += " -> " + error.path2().string();
+  const std::errc code = static_cast<std::errc>(error.code().value());
+  const char* expected = code == std::errc::no_space_on_device          ? "; expected more room on the disk"
+                         : code == std::errc::permission_denied         ? "; expected one that you may read and write"
+                         : code == std::errc::read_only_file_system     ? "; expected a place that can be written to"
+                         : code == std::errc::filename_too_long         ? "; expected a shorter name"
+                         : code == std::errc::not_a_directory           ? "; expected a folder"
+                         : code == std::errc::is_a_directory            ? "; expected a file"
+                         : code == std::errc::no_such_file_or_directory ? "; expected one that is there"
+                         : code == std::errc::too_many_symbolic_link_levels
+                             ? "; expected a path without a loop of links"
+                             : "";
+  return fmt::format("{}: {}{}", path, reason, expected);
+}
+
+}  // namespace
+
+std::string in_words(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const fs::filesystem_error& error) {
+    return path_message(error);
+  } catch (const std::bad_alloc&) {
+    return fmt::format("not enough memory: {} are free; expected fewer particles, samples or methods at a time",
+                       format_bytes(free_memory()));
+  } catch (const std::length_error&) {
+    return "something would be larger than any memory; expected fewer particles or samples";
+  } catch (const std::ios_base::failure&) {
+    return "a file cannot be read or written; expected files, no folders, that can be read, and room on the disk";
+  } catch (const std::system_error& error) {
+    return error.code().message();
+  } catch (const std::exception& error) {
+    // a library's own mark, "[json.exception.type_error.302] ", says nothing to a reader
+    std::string what = error.what();
+    if (what.starts_with("[json.exception."))
+      what = "a JSON file does not hold what was expected:" + what.substr(std::min(what.find(']') + 1, what.size()));
+    return what;
+  } catch (...) {
+    return "something unknown went wrong";
+  }
+}
+
+int run_reporting_errors(std::string_view program, const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (...) {
+    fmt::print(stderr, "{}: {}\n", program, in_words(std::current_exception()));
+    return 2;
+  }
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,39 @@
+// How a request is refused, and the one place where what was thrown becomes a message and an exit status.
+#pragma once
+
+#include <exception>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace crosscheck {
+
+// How a request is refused: bad input (exit 2), what a method lacks, and a solver that gave up (rows, not crashes).
+
+/// Bad use or bad input. what() is one line that names the file, the key and what was expected.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A method lacks an ingredient of the scene. what() is the reason, without the method's name.
+struct Unsupported : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A solver inside a step found no answer: the run ends with Verdict::solver. what() is the reason.
+struct SolverFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// The one place where what was thrown becomes a message and an exit status.
+
+/// What an exception says to people: one line that names the file or folder where one is concerned, without the words
+/// of the library that threw.
+std::string in_words(const std::exception_ptr& thrown);
+
+/// Runs a program's work and returns its exit status. What it throws is told on standard error in one line that begins
+/// with the program's name, and the status is 2: 1 is for answers that are no, which are returned, never thrown.
+int run_reporting_errors(std::string_view program, const std::function<int()>& work);
+
+}  // namespace crosscheck

@@ -1,0 +1,179 @@
+// Nameless files that get their name when they are whole, whole files, and temporary folders with an owner.
+#include "mysim/base/files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "mysim/base/errors.h"
+
+namespace crosscheck {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr auto no_room = "; expected a folder with write permission and free space";
+constexpr auto descriptors = "/proc/self/fd";
+
+}  // namespace
+
+StreamingFile::StreamingFile(fs::path file)
+    : file_(std::move(file)), temporary_(fs::path(file_) += fmt::format(".{}.part", getpid())) {
+  const fs::path folder = file_.has_parent_path() ? file_.parent_path() : ".";
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  constexpr mode_t mode = 0666;  // less what the user's mask takes away
+  int descriptor = -1;
+  if (access(descriptors, X_OK) == 0)  // by which it gets its name
+    descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode);
+  if (descriptor < 0) {
+    descriptor = open(temporary_.c_str(), O_CREAT | O_TRUNC | O_RDWR | O_CLOEXEC, mode);
+    named_ = descriptor >= 0;
+  }
+  if (descriptor < 0) fail(no_room);
+  out_.reset(fdopen(descriptor, "w"));
+  if (!out_) fail(no_room);
+}
+
+StreamingFile::~StreamingFile() {
+  if (named_) unlink(temporary_.c_str());
+}
+
+void StreamingFile::append(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), out_.get()) != bytes.size()) fail(no_room);
+}
+
+void StreamingFile::rewrite_beginning(std::string_view bytes) {
+  if (std::fseek(out_.get(), 0, SEEK_SET) != 0) fail(no_room);
+  append(bytes);
+  if (std::fseek(out_.get(), 0, SEEK_END) != 0) fail(no_room);
+}
+
+void StreamingFile::finish() {
+  if (std::fflush(out_.get()) != 0) fail(no_room);
+  if (!named_) {
+    // left behind by a process of the same number that died in between
+    unlink(temporary_.c_str());
+    const std::string self = fmt::format("{}/{}", descriptors, fileno(out_.get()));
+    if (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, temporary_.c_str(), AT_SYMLINK_FOLLOW) != 0)
+      fail(fmt::format(": {}", std::strerror(errno)));
+    named_ = true;
+  }
+  if (std::fclose(out_.release()) != 0) fail(no_room);
+  if (std::rename(temporary_.c_str(), file_.c_str()) != 0) fail(fmt::format(": {}", std::strerror(errno)));
+  named_ = false;
+}
+
+void StreamingFile::fail(const std::string& why) const {
+  throw InputError(fmt::format("{}: cannot be written{}", file_.string(), why));
+}
+
+namespace fs = std::filesystem;
+
+void write_file(const fs::path& file, std::string_view content) {
+  StreamingFile growing(file);
+  growing.append(content);
+  growing.finish();
+}
+
+std::string read_file(const fs::path& file, std::string_view expected) {
+  std::error_code unknown;
+  const bool folder = fs::is_directory(file, unknown);
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  std::stringstream text;
+  if (!folder && in && in.peek() == std::ifstream::traits_type::eof()) return "";  // << takes nothing for a failure
+  if (folder || !in || !(text << in.rdbuf()))
+    throw InputError(fmt::format("{}: cannot be read; expected {}{}", file.string(), expected,
+                                 folder       ? ", got a folder"
+                                 : errno != 0 ? fmt::format(" ({})", std::strerror(errno))
+                                              : ""));
+  return text.str();
+}
+
+void require_writable(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder) || access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(fmt::format("--out {}: expected a folder that can be made and written to", folder.string()));
+}
+
+std::string file_name_of(std::string_view text) {
+  std::string name(text);
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._=+-").find(c) == std::string_view::npos)
+      c = '-';
+  return name;
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+/// The start of a process in clock ticks since the boot; empty where there is none of that number.
+std::string start_of(const std::string& process) {
+  std::ifstream in("/proc/" + process + "/stat");
+  std::string text;
+  std::getline(in, text, '\0');
+  // the name, which may hold anything, stands in brackets; 19 fields lie between the state and the start
+  const size_t bracket = text.rfind(')');
+  if (bracket == std::string::npos) return "";
+  std::istringstream fields(text.substr(bracket + 1));
+  std::string field;
+  for (int i = 0; i < 20; ++i) fields >> field;
+  return field;
+}
+
+std::string process_namespace() {
+  std::error_code error;
+  std::string link = fs::read_symlink("/proc/self/ns/pid", error).string();  // "pid:[4026531836]"
+  std::erase_if(link, [](char c) { return c < '0' || c > '9'; });
+  return link.empty() ? "0" : link;
+}
+
+}  // namespace
+
+std::string temporary_name(std::string_view purpose) {
+  const std::string self = fmt::format("{}", getpid());
+  return (fs::temp_directory_path() /
+          fmt::format("crosscheck-{}-{}.{}.{}-XXXXXX", purpose, self, start_of(self), process_namespace()))
+      .string();
+}
+
+TemporaryFolder::TemporaryFolder(std::string_view purpose) {
+  std::string name = temporary_name(purpose);
+  if (!mkdtemp(name.data()))
+    throw InputError(fmt::format("{}: no folder can be made there; expected a place for temporary files", name));
+  path = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path, ignored);
+}
+
+void remove_stale_temporary_folders() {
+  static const std::regex ours(R"(crosscheck-[a-z]+-([0-9]+)\.([0-9]*)\.([0-9]+)-[A-Za-z0-9]{6})");
+  std::error_code error;
+  const fs::path place = fs::temp_directory_path(error);
+  const std::string here = process_namespace();
+  for (fs::directory_iterator at(place, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    std::smatch parts;
+    if (!name.starts_with("crosscheck-") || !std::regex_match(name, parts, ours) || parts[3] != here) continue;
+    if (start_of(parts[1]) == parts[2] && !parts[2].str().empty()) continue;
+    struct stat about {};
+    if (lstat(at->path().c_str(), &about) != 0 || !S_ISDIR(about.st_mode)) continue;
+    std::error_code ignored;
+    if (about.st_uid == geteuid() || geteuid() == 0) fs::remove_all(at->path(), ignored);
+  }
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,499 @@
+// A lock in the working folder, then an exchange of names, or a journal.
+#include "mysim/base/output_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <thread>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/manifest.h"
+#include "mysim/base/this_process.h"
+
+namespace crosscheck {
+namespace fs = std::filesystem;
+namespace {
+
+/// Only there can a folder not be renamed, though it and its parent are ours.
+bool is_mount_point(const fs::path& folder) {
+  struct statx about {};
+  if (statx(AT_FDCWD, folder.c_str(), AT_SYMLINK_NOFOLLOW, STATX_TYPE, &about) != 0) return false;
+  return (about.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) && (about.stx_attributes & STATX_ATTR_MOUNT_ROOT);
+}
+
+bool is_within(const fs::path& inner, const fs::path& outer) {
+  const fs::path relative = inner.lexically_relative(outer);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+struct Holder {
+  long process = 0;
+  std::string since, command;
+};
+
+Holder holder_in(int handle) {
+  char text[512];
+  const ssize_t size = pread(handle, text, sizeof text, 0);
+  Holder holder;
+  if (size <= 0) return holder;
+  const std::string all(text, static_cast<size_t>(size));
+  const size_t first = all.find('\n'), second = all.find('\n', first + 1);
+  if (first == std::string::npos || second == std::string::npos) return holder;
+  holder.process = std::strtol(all.c_str(), nullptr, 10);
+  holder.since = all.substr(first + 1, second - first - 1);
+  holder.command = all.substr(second + 1, all.find('\n', second + 1) - second - 1);
+  return holder;
+}
+
+bool same_file(int handle, const fs::path& file) {
+  struct stat opened {
+  }, named{};
+  return fstat(handle, &opened) == 0 && stat(file.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
+}
+
+}  // namespace
+
+OutputPlace::OutputPlace(const fs::path& given) : asked(given) {
+  try {
+    target = fs::weakly_canonical(fs::absolute(given));
+    if (!target.has_filename()) target = target.parent_path();
+    if (given.empty() || !target.has_filename() || (fs::exists(target) && !fs::is_directory(target))) refuse();
+  } catch (const fs::filesystem_error&) {
+    refuse();
+  }
+  beside = target.parent_path() / fmt::format(".{}.crosscheck", target.filename().string());
+  inside = target / inner_work_folder;
+}
+
+bool OutputPlace::writable_beside() const { return access(target.parent_path().c_str(), W_OK | X_OK) == 0; }
+
+bool OutputPlace::exchangeable() const {
+  if (!writable_beside()) return false;
+  std::error_code error;
+  if (!fs::exists(target, error)) return true;
+  // a shell that stands in it would be left in a folder without a name
+  const fs::path here = fs::current_path(error);
+  return !is_mount_point(target) && (error || !is_within(here, target));
+}
+
+void OutputPlace::refuse(const std::string& why) const {
+  throw InputError(fmt::format("--out {}: {}", asked.string(),
+                               why.empty() ? "expected a folder that can be made and written to" : why));
+}
+
+OutputLock::OutputLock(const OutputPlace& place, const std::string& command) : process_(getpid()) {
+  std::error_code error;
+  for (fs::path above = place.target.parent_path(); above.has_relative_path() && !fs::exists(above, error);
+       above = above.parent_path())
+    made_.push_back(above);
+  fs::create_directories(place.target.parent_path(), error);
+  work_ = place.writable_beside() ? place.beside : place.inside;
+  const fs::path file = work_ / "lock";
+  // one that was killed lets go when the processes that it had started are gone too, which is soon
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+  for (;; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
+    fs::create_directories(work_, error);
+    handle_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (handle_ < 0 && errno == ENOENT && std::chrono::steady_clock::now() < patience) continue;  // gone just now
+    if (handle_ < 0) place.refuse();
+    if (flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      const Holder holder = holder_in(handle_);
+      close(handle_);
+      const bool alive = holder.process > 0 && (kill(static_cast<pid_t>(holder.process), 0) == 0 || errno == EPERM);
+      if (!alive && std::chrono::steady_clock::now() < patience) continue;
+      place.refuse(holder.process > 0
+                       ? fmt::format("process {} (crosscheck {}) has been writing into it since {}; wait "
+                                     "for it, or give another folder",
+                                     holder.process, holder.command, holder.since)
+                       : "another process is writing into it; wait for it, or give another folder");
+    }
+    if (same_file(handle_, file)) break;
+    close(handle_);  // that of one who ended in between
+  }
+  const std::string text = fmt::format("{}\n{}\n{}\n", getpid(), utc_now(), command);
+  if (ftruncate(handle_, 0) != 0 || pwrite(handle_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
+    const int why = errno;
+    unlink(file.c_str());
+    close(handle_);
+    fs::remove(work_, error);
+    place.refuse(fmt::format("cannot be written to: {}", std::strerror(why)));
+  }
+}
+
+OutputLock::~OutputLock() {
+  if (own()) {
+    std::error_code ignored;
+    fs::remove(work_ / "lock", ignored);
+    fs::remove(work_, ignored);  // unless something is left in it
+    for (const fs::path& above : made_) fs::remove(above, ignored);
+  }
+  close(handle_);
+}
+
+bool OutputLock::own() const { return process_ == getpid(); }
+
+namespace fs = std::filesystem;
+namespace {
+
+constexpr auto new_result = "new", old_list = "old", journal = "journal";
+
+bool is_there(const fs::path& path) { return fs::exists(fs::symlink_status(path)); }
+bool is_folder(const fs::path& path) { return fs::is_directory(fs::symlink_status(path)); }
+
+/// Where something of the user's finds a place under a folder: its own path, or NAME.yours where that is taken, or
+/// where it is to have another one.
+fs::path free_path(const fs::path& root, const fs::path& path, bool other) {
+  fs::path at = root;
+  for (const fs::path& part : path.parent_path()) {
+    at /= part;
+    while (is_there(at) && !is_folder(at)) at += ".yours";
+  }
+  at /= path.filename();
+  if (!other && !is_there(at)) return at;
+  at += ".yours";
+  const fs::path first = at;
+  for (int n = 2; is_there(at); ++n) at = fs::path(first) += fmt::format("-{}", n);
+  return at;
+}
+
+void move_file(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to.parent_path());
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (!error) return;
+  fs::copy(from, to, fs::copy_options::copy_symlinks | fs::copy_options::recursive);  // another file system
+  fs::remove_all(from);
+}
+
+void keep_as_yours(const fs::path& root, const fs::path& path) { move_file(root / path, free_path(root, path, true)); }
+
+void link_or_copy(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::create_hard_link(from, to, error);
+  if (!error) return;
+  fs::copy(from, to, fs::copy_options::copy_symlinks);
+  if (fs::is_regular_file(fs::symlink_status(to))) fs::last_write_time(to, fs::last_write_time(from));
+}
+
+bool same_bytes(const fs::path& a, const fs::path& b) {
+  if (!fs::is_regular_file(fs::symlink_status(a)) || !fs::is_regular_file(fs::symlink_status(b))) return false;
+  if (fs::file_size(a) != fs::file_size(b)) return false;
+  std::ifstream one(a, std::ios::binary), other(b, std::ios::binary);
+  return std::equal(std::istreambuf_iterator<char>(one), {}, std::istreambuf_iterator<char>(other), {});
+}
+
+std::pair<dev_t, ino_t> identity(const fs::path& file) {
+  struct stat about {};
+  if (lstat(file.c_str(), &about) != 0) return {};
+  return {about.st_dev, about.st_ino};
+}
+
+/// Folders above a file that have become empty, up to the root.
+void remove_empty_above(const fs::path& root, const fs::path& path) {
+  std::error_code error;
+  for (fs::path at = path.parent_path(); !at.empty() && fs::remove(root / at, error); at = at.parent_path()) {
+  }
+}
+
+/// The user's files under `target` get a second name under `stage`, where a new result lies.
+void link_what_is_the_users(const fs::path& target, const std::optional<Manifest>& old, const fs::path& stage) {
+  const std::vector<std::string> paths = paths_in(target);
+  // those that change their names come last, so that they take nobody's
+  for (const bool changed : {false, true})
+    for (const std::string& path : paths) {
+      if (changed != (old && old->names(path)) || (changed && old->ours(target, path))) continue;
+      const bool folder = path.ends_with("/");
+      if (folder && is_folder(stage / path)) continue;
+      const fs::path to = free_path(stage, folder ? path.substr(0, path.size() - 1) : path, changed);
+      // folders on the way look like those they stand for
+      fs::path from_above = target, to_above = stage;
+      for (const fs::path& part : (folder ? to : to.parent_path()).lexically_relative(stage)) {
+        if (part == ".") continue;
+        from_above /= part, to_above /= part;
+        if (is_there(to_above)) continue;
+        if (is_folder(from_above))
+          fs::create_directory(to_above, from_above);
+        else
+          fs::create_directory(to_above);
+      }
+      if (!folder) link_or_copy(target / path, to);
+    }
+}
+
+/// Empties a folder that another has replaced: what is ours goes, and what of the user's is not in `target` moves
+/// there.
+void absorb(const fs::path& from, const fs::path& target) {
+  const std::optional<Manifest> old = read_manifest(from);
+  std::set<std::pair<dev_t, ino_t>> there;
+  for (const std::string& path : paths_in(target)) there.insert(identity(target / path));
+  for (const std::string& path : paths_in(from)) {
+    const fs::path file = from / path;
+    if (path.ends_with("/")) continue;
+    if ((old && old->ours(from, path)) || there.contains(identity(file)) || same_bytes(file, target / path) ||
+        same_bytes(file, (target / path) += ".yours"))
+      fs::remove(file);
+    else
+      move_file(file, free_path(target, path, old && old->names(path)));
+  }
+  fs::remove_all(from);
+}
+
+/// Moves a whole new result into the folder, file by file. However often it is interrupted, to begin again goes on.
+void follow_journal(const fs::path& work, const fs::path& target) {
+  const Manifest now = *read_manifest(work / journal);
+  const std::optional<Manifest> old = read_manifest(work / old_list);
+  const fs::path from = work / new_result;
+  fs::create_directories(target);
+  if (is_there(from / Manifest::file_name)) fs::rename(from / Manifest::file_name, target / Manifest::file_name);
+  if (old)
+    for (const auto& [path, about] : old->files) {
+      if (now.files.contains(path) || !is_there(target / path)) continue;
+      if (old->ours(target, path))
+        fs::remove(target / path);
+      else
+        keep_as_yours(target, path);
+      remove_empty_above(target, path);
+    }
+  for (const auto& [path, about] : now.files) {
+    if (!is_there(from / path)) continue;  // it is in its place
+    fs::path above;
+    for (const fs::path& part : fs::path(path).parent_path())
+      if (above /= part; is_there(target / above) && !is_folder(target / above)) keep_as_yours(target, above);
+    if (is_there(target / path) && !(old && old->ours(target, path))) keep_as_yours(target, path);
+    fs::create_directories((target / path).parent_path());
+    fs::rename(from / path, target / path);
+  }
+  fs::remove_all(work / journal);
+  fs::remove_all(work / old_list);
+  if (is_there(from)) absorb(from, target);
+}
+
+/// What an earlier process left in a working folder.
+void recover_from(const fs::path& work, const fs::path& target) {
+  std::error_code in_use;
+  if (is_there(work / journal / Manifest::file_name)) {
+    follow_journal(work, target);
+    fs::remove(work, in_use);
+    return;
+  }
+  const fs::path left = work / new_result;
+  if (is_there(left)) {
+    const std::optional<Manifest> manifest = read_manifest(left);
+    if (manifest && !manifest->finished)
+      fs::remove_all(left);  // half a result
+    else if (manifest && !is_there(target))
+      fs::rename(left, target);
+    else
+      absorb(left, target);
+  }
+  fs::remove_all(work / journal);
+  fs::remove_all(work / old_list);
+  fs::remove(work, in_use);
+}
+
+bool has_leftovers(const OutputPlace& place) { return is_there(place.beside) || is_there(place.inside); }
+
+/// Whether it lies in another folder of ours, inside of this one: the parts of a sweep do.
+bool is_of_another_result(const fs::path& target, const std::string& path) {
+  for (fs::path above = fs::path(path).parent_path(); !above.empty(); above = above.parent_path())
+    if (is_there(target / above / Manifest::file_name)) return true;
+  return false;
+}
+
+/// The manifest of a folder that may be written into; nothing where it is empty or not there.
+std::optional<Manifest> require_ours(const OutputPlace& place, const std::string& command) {
+  std::optional<Manifest> manifest = read_manifest(place.target);
+  if (manifest && manifest->command != command)
+    place.refuse(fmt::format("holds a result of crosscheck {}, and nothing in it was changed; give another folder",
+                             manifest->command));
+  if (manifest) return manifest;
+  std::vector<std::string> paths = paths_in(place.target);
+  std::erase_if(paths, [&](const std::string& path) { return is_of_another_result(place.target, path); });
+  if (paths.empty()) return manifest;
+  std::string foreign = paths[0];
+  manifest = adopt_version_0_1(place.target, command, foreign);
+  if (!manifest)
+    place.refuse(
+        fmt::format("holds files that are not of crosscheck {} ({}{}), and nothing in it was changed; give an "
+                    "empty or a new folder, or move them away",
+                    command, foreign, paths.size() > 1 ? fmt::format(" among {}", paths.size()) : ""));
+  return manifest;
+}
+
+/// Whatever the file system says becomes a word about --out.
+template <class F>
+auto with_output_errors(const OutputPlace& place, F work) {
+  try {
+    return work();
+  } catch (const fs::filesystem_error& error) {
+    const fs::path where = error.path2().empty() ? error.path1() : error.path2();
+    place.refuse(fmt::format("{}: {}", where.string(), error.code().message()));
+  }
+}
+
+OutputPlace checked(OutputPlace place, const std::string& command) {
+  // before anything is made: what is refused stays as it is
+  with_output_errors(place, [&] {
+    if (!has_leftovers(place)) require_ours(place, command);
+  });
+  return place;
+}
+
+/// With the lock: finishes, looks, and takes over what version 0.1 wrote.
+std::optional<Manifest> entered(const OutputPlace& place, const std::string& command) {
+  return with_output_errors(place, [&] {
+    for (const fs::path& work : {place.beside, place.inside}) recover_from(work, place.target);
+    std::optional<Manifest> manifest = require_ours(place, command);
+    if (manifest && !is_there(place.target / Manifest::file_name)) write_manifest(*manifest, place.target);
+    return manifest;
+  });
+}
+
+}  // namespace
+
+void recover_output(const fs::path& folder) {
+  const OutputPlace place(folder);
+  if (!has_leftovers(place)) return;
+  std::optional<OutputLock> lock;
+  try {
+    lock.emplace(place, "that finishes what another began");
+  } catch (const InputError&) {
+    return;  // somebody is at it
+  }
+  with_output_errors(place, [&] {
+    for (const fs::path& work : {place.beside, place.inside}) recover_from(work, place.target);
+  });
+}
+
+OutputFolder::OutputFolder(const fs::path& folder, const std::string& command)
+    : place_(checked(OutputPlace(folder), command)), lock_(place_, command), command_(command) {
+  entered(place_, command);
+  register_output(place_.target);
+  stage_ = (place_.exchangeable() ? place_.beside : place_.inside) / new_result;
+  with_output_errors(place_, [&] {
+    fs::create_directories(stage_);
+    write_manifest(Manifest::begun(command), stage_);
+  });
+}
+
+OutputFolder::~OutputFolder() {
+  if (!lock_.own() || finished_) return;
+  std::error_code ignored;
+  fs::remove_all(stage_, ignored);
+  fs::remove(place_.inside, ignored);
+}
+
+void OutputFolder::finish() {
+  with_output_errors(place_, [&] {
+    Manifest manifest = Manifest::begun(command_);
+    manifest.since = read_manifest(stage_).value_or(manifest).since;
+    for (const std::string& path : paths_in(stage_))
+      if (path.ends_with("/")) {
+        fs::remove(stage_ / path);
+        remove_empty_above(stage_, path.substr(0, path.size() - 1));
+      } else {
+        manifest.files[path] = file_entry(stage_ / path);
+      }
+    manifest.finished = true;
+    const std::optional<Manifest> old = read_manifest(place_.target);
+    const fs::path work = stage_.parent_path();
+    bool placed = false;
+    if (work == place_.beside) {
+      const bool first = !is_there(place_.target);
+      if (!first) {
+        link_what_is_the_users(place_.target, old, stage_);
+        fs::permissions(stage_, fs::status(place_.target).permissions());
+      }
+      write_manifest(manifest, stage_);
+      finished_ = placed = renameat2(AT_FDCWD, stage_.c_str(), AT_FDCWD, place_.target.c_str(),
+                                     first ? RENAME_NOREPLACE : RENAME_EXCHANGE) == 0;
+      if (placed && !first) absorb(stage_, place_.target);
+    } else {
+      write_manifest(manifest, stage_);
+    }
+    if (!placed) {
+      if (old) write_manifest(*old, work / old_list);
+      write_manifest(manifest, work / journal);
+      finished_ = true;  // from here on the new result is whole, and only to be moved
+      follow_journal(work, place_.target);
+    }
+    std::error_code in_use;
+    fs::remove(work, in_use);
+  });
+}
+
+ResumableOutput::ResumableOutput(const fs::path& folder, const std::string& command)
+    : place_(checked(OutputPlace(folder), command)), lock_(place_, command) {
+  register_output(place_.target);
+  const std::optional<Manifest> old = entered(place_, command);
+  manifest_ = Manifest::begun(command);
+  if (old) manifest_.files = old->files;
+  with_output_errors(place_, [&] {
+    fs::create_directories(place_.target);
+    write_manifest(manifest_, place_.target);
+  });
+}
+
+void ResumableOutput::forget(const std::string& inner) {
+  with_output_errors(place_, [&] {
+    for (const std::string& path : paths_in(place_.target)) {
+      if (!path.starts_with(inner + "/") || !manifest_.names(path)) continue;
+      if (manifest_.ours(place_.target, path))
+        fs::remove(place_.target / path);
+      else
+        keep_as_yours(place_.target, path);
+      remove_empty_above(place_.target, path);
+    }
+    std::erase_if(manifest_.files, [&](const auto& file) { return file.first.starts_with(inner + "/"); });
+    write_manifest(manifest_, place_.target);
+  });
+}
+
+void ResumableOutput::announce(const std::vector<std::string>& files) {
+  with_output_errors(place_, [&] {
+    for (const std::string& path : files) {
+      if (is_there(place_.target / path) && !manifest_.ours(place_.target, path)) keep_as_yours(place_.target, path);
+      manifest_.files[path] = now_[path] = {};
+    }
+    write_manifest(manifest_, place_.target);
+  });
+}
+
+void ResumableOutput::keep(const std::string& inner) {
+  for (const auto& [path, about] : manifest_.files)
+    if (path.starts_with(inner + "/")) now_.emplace(path, about);
+}
+
+void ResumableOutput::finish() {
+  with_output_errors(place_, [&] {
+    for (const std::string& path : paths_in(place_.target)) {
+      if (!manifest_.names(path) || now_.contains(path)) continue;
+      if (manifest_.ours(place_.target, path))
+        fs::remove(place_.target / path);
+      else
+        keep_as_yours(place_.target, path);
+      remove_empty_above(place_.target, path);
+    }
+    manifest_.files.clear();
+    for (auto& [path, about] : now_)
+      if (fs::is_regular_file(fs::symlink_status(place_.target / path)))
+        manifest_.files[path] = about.hash.empty() ? file_entry(place_.target / path) : about;
+    manifest_.finished = true;
+    write_manifest(manifest_, place_.target);
+  });
+}
+
+}  // namespace crosscheck

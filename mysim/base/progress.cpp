@@ -1,0 +1,152 @@
+// Progress on standard error.
+#include "mysim/base/progress.h"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace crosscheck {
+namespace {
+
+constexpr double silent = 2;  // s: what is shorter needs no progress
+
+}  // namespace
+
+std::string format_duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 100 * 60) return fmt::format("{:.0f} min", seconds / 60);
+  if (seconds < 48 * 3600) return fmt::format("{:.1f} h", seconds / 3600);
+  if (seconds < 1000 * 86400.) return fmt::format("{:.0f} days", seconds / 86400);
+  return fmt::format("{:.2g} years", seconds / (365.25 * 86400));
+}
+
+std::string progress_line(const ProgressSnapshot& seen) {
+  // of steps that are alike, as many as are behind, and a part of one; a hundredth is what an estimate needs
+  const bool known = seen.total >= seen.begun;
+  const double done = known ? (std::max(seen.begun - 1, 0) + seen.part) / seen.total : 0;
+  std::string left;
+  if (done > 0.01 && done < 1)
+    left = fmt::format(", about {} left", format_duration(seen.elapsed / done * (1 - done)));
+  else if (!known && seen.part > 0.01 && seen.part < 1)
+    left = fmt::format(", about {} left of this run", format_duration(seen.in_step / seen.part * (1 - seen.part)));
+  else if (seen.expected > seen.in_step && seen.part <= 0.01)
+    left = fmt::format(", about {} left{}", format_duration(seen.expected - seen.in_step),
+                       known && seen.begun == seen.total ? "" : " of this run");
+  const std::string number = known && seen.total > 1    ? fmt::format("[{}/{}] ", seen.begun, seen.total)
+                             : !known && seen.begun > 1 ? fmt::format("[{}] ", seen.begun)
+                                                        : "";
+  return fmt::format("{}{} ({}{}{})", number, seen.what,
+                     seen.part > 0.01 && seen.part < 1 ? fmt::format("{:.0f} %, ", 100 * seen.part) : "",
+                     format_duration(seen.elapsed), left);
+}
+
+struct Progress::Display {
+  using Clock = std::chrono::steady_clock;
+
+  std::mutex mutex;  // of all that follows, `part` excepted
+  std::condition_variable ended;
+  bool end = false, shown = false;  // shown: a line stands on the terminal
+  int total, begun = 0;
+  std::string what;
+  double expected = 0;
+  std::atomic<double> part = 0;
+  bool terminal = isatty(STDERR_FILENO) != 0;
+  Clock::time_point start = Clock::now(), step_start = start;
+  double last_line = 0;  // s, when a plain line was written
+  pid_t owner = getpid();
+  std::thread thread;
+
+  explicit Display(int steps) : total(steps) {
+    // signals are for the thread that works
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    thread = std::thread([this] { look(); });
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  }
+
+  static double since(Clock::time_point from) { return std::chrono::duration<double>(Clock::now() - from).count(); }
+
+  static void put(const std::string& text) {
+    // one call for each line: no buffer that a forked child could hold too
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+  }
+
+  void look() {
+    std::unique_lock lock(mutex);
+    while (!ended.wait_for(lock, std::chrono::milliseconds(250), [this] { return end; })) {
+      const double elapsed = since(start);
+      if (elapsed < silent || begun == 0 || what.empty()) continue;
+      // plain lines: the first after two seconds, then ever more seldom, a minute apart at most
+      if (!terminal && last_line > 0 && elapsed - last_line < std::clamp(elapsed / 4, 5., 60.)) continue;
+      std::string line = progress_line({begun, total, part, elapsed, expected, since(step_start), what});
+      if (terminal) {
+        winsize window{};
+        if (ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 4 && line.size() >= window.ws_col)
+          line = line.substr(0, window.ws_col - 4) + "...";
+        put("\r\033[K" + line);
+        shown = true;
+      } else {
+        put(line + "\n");
+        last_line = elapsed;
+      }
+    }
+  }
+
+  void wipe() {
+    if (terminal && shown) put("\r\033[K");
+    shown = false;
+  }
+};
+
+Progress::Progress(int total) : display_(std::make_unique<Display>(total)) {}
+
+Progress::~Progress() {
+  if (getpid() != display_->owner) {
+    // a forked child has no such thread, and may have been born while it held the lock
+    display_->thread.detach();
+    static_cast<void>(display_.release());
+    return;
+  }
+  {
+    const std::lock_guard lock(display_->mutex);
+    display_->end = true;
+    display_->wipe();
+  }
+  display_->ended.notify_all();
+  display_->thread.join();
+}
+
+void Progress::begin(const std::string& what, double seconds) {
+  const std::lock_guard lock(display_->mutex);
+  ++display_->begun;
+  display_->what = what;
+  display_->expected = seconds;
+  display_->part = 0;
+  display_->step_start = Display::Clock::now();
+}
+
+void Progress::part(double done) { display_->part.store(done, std::memory_order_relaxed); }
+
+void Progress::expect(int more) {
+  const std::lock_guard lock(display_->mutex);
+  display_->total += more;
+}
+
+void Progress::done() {
+  const std::lock_guard lock(display_->mutex);
+  display_->what.clear();
+  display_->wipe();
+}
+
+}  // namespace crosscheck

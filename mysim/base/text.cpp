@@ -1,0 +1,144 @@
+// Edit distances between words, and three ways of quoting for a shell.
+#include "mysim/base/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+namespace crosscheck {
+namespace {
+
+std::string folded_word(std::string_view word) {
+  std::string out;
+  for (const char c : word)
+    out += c == '_' || c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+/// Optimal string alignment: additions, omissions, exchanges and swaps of neighbours, each letter touched once.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+bool has_part(const std::string& name, const std::string& word) {
+  if (word.size() < 3) return name.starts_with(word) && !word.empty();
+  for (std::size_t at = name.find(word); at != std::string::npos; at = name.find(word, at + 1))
+    if (at == 0 || name[at - 1] == '-' || name[at - 1] == '/') return true;
+  return false;
+}
+
+}  // namespace
+
+std::string closest_match(std::string_view word, const std::vector<std::string>& names) {
+  const std::string asked = folded_word(word.substr(0, 100));
+  const std::string* best = nullptr;
+  std::size_t fewest = 0;
+  for (const std::string& name : names) {
+    const std::string candidate = folded_word(name);
+    const std::size_t longer = std::max(asked.size(), candidate.size()), letters = edit_distance(asked, candidate);
+    if (letters > std::max<std::size_t>(1, longer / 3) || letters >= std::min(asked.size(), candidate.size())) continue;
+    if (!best || letters < fewest) best = &name, fewest = letters;
+  }
+  if (!best)
+    for (const std::string& name : names)
+      if (has_part(folded_word(name), asked) && (!best || name.size() < best->size())) best = &name;
+  if (!best)
+    for (const std::string& name : names)
+      if (name.size() >= 4 && has_part(asked, folded_word(name)) && (!best || name.size() > best->size())) best = &name;
+  std::size_t longest = 4;  // letters of a beginning that are no chance
+  if (!best)
+    for (const std::string& name : names) {
+      const std::string candidate = folded_word(name);
+      const auto alike = static_cast<std::size_t>(
+          std::mismatch(asked.begin(), asked.end(), candidate.begin(), candidate.end()).first - asked.begin());
+      if (alike > longest) best = &name, longest = alike;
+    }
+  return best ? *best : "";
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
+  const std::string name = closest_match(word, names);
+  return name.empty() ? "" : "; did you mean '" + name + "'?";
+}
+
+namespace {
+
+bool is_control(unsigned char c) { return c < 32 || c == 127; }
+
+/// The length of the UTF-8 character that begins at `at`; 0 where none does.
+size_t utf8_length(std::string_view text, size_t at) {
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(at + i < text.size() ? text[at + i] : 0); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const size_t length = first >= 0xc2 && first < 0xe0   ? 2
+                        : first >= 0xe0 && first < 0xf0 ? 3
+                        : first >= 0xf0 && first < 0xf5 ? 4
+                                                        : 0;
+  for (size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  // overlong forms, surrogates, and what lies above the last character
+  if ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0) || (first == 0xf0 && byte(1) < 0x90) ||
+      (first == 0xf4 && byte(1) >= 0x90))
+    return 0;
+  return length;
+}
+
+std::string escaped(std::string_view word) {
+  std::string out = "$'";
+  for (size_t i = 0; i < word.size();) {
+    const auto c = static_cast<unsigned char>(word[i]);
+    const size_t length = utf8_length(word, i);
+    if (c == '\n')
+      out += "\\n";
+    else if (c == '\t')
+      out += "\\t";
+    else if (c == '\r')
+      out += "\\r";
+    else if (c == '\'' || c == '\\')
+      out += fmt::format("\\{}", word[i]);
+    else if (is_control(c) || length == 0)
+      out += fmt::format("\\{:03o}", c);  // three digits: the next character cannot run into it
+    else
+      out += word.substr(i, length);
+    i += std::max<size_t>(1, length);
+  }
+  return out + "'";
+}
+
+}  // namespace
+
+std::string shell_quote(const std::string& word) {
+  bool plain = !word.empty(), one_line = true;
+  for (size_t i = 0; i < word.size();) {
+    const auto c = static_cast<unsigned char>(word[i]);
+    const size_t length = utf8_length(word, i);
+    if (is_control(c) || length == 0) one_line = false;
+    if (c < 0x80 && !std::isalnum(c) && std::string_view("_-+=.,/:@%").find(word[i]) == std::string_view::npos)
+      plain = false;
+    i += std::max<size_t>(1, length);
+  }
+  if (!one_line) return escaped(word);
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
+
+std::string shell_join(std::span<const std::string> words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_quote(word);
+  return line;
+}
+
+}  // namespace crosscheck

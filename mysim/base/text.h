@@ -1,0 +1,32 @@
+// Words: the name that a misspelt one probably means, and words quoted for a shell.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace crosscheck {
+
+// The name that a misspelt word most probably means.
+
+/// The one of the names that is nearest to the word, or nothing where none is near: fewest letters added, left out,
+/// exchanged or swapped with their neighbour (Damerau and Levenshtein), at most one in three of the longer of both;
+/// capitals, '_' and '-' count as alike. Where none is that near, the shortest name that begins with the word, or has
+/// it as a part behind a hyphen or slash; else the longest that is such a part of the word, or its beginning ("rest"
+/// for "rest_length"); else the one that begins with the same five letters or more.
+std::string closest_match(std::string_view word, const std::vector<std::string>& names);
+
+/// The same as the end of a message: "; did you mean 'NAME'?", or nothing.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
+
+// Command lines as text that a shell reads back to the same words.
+
+/// The word as bash reads it, on one line whatever is in it: plain where it can be, otherwise in quotes, and with
+/// control characters and what is no UTF-8 as $'\n' or $'\377'.
+std::string shell_quote(const std::string& word);
+
+/// The words with blanks between them.
+std::string shell_join(std::span<const std::string> words);
+
+}  // namespace crosscheck

@@ -1,0 +1,50 @@
+// This process: its CPU time, the memory and disk left to it, and the parent that tidies up after it.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace crosscheck {
+
+// CPU time of the calling thread: what the work cost, whatever else the machine was doing.
+
+/// Adds up the thread's CPU time between start() and stop(); one that does not run says 0.
+class CpuClock {
+ public:
+  explicit CpuClock(bool runs = true) : runs_(runs) {}
+  void start();
+  void stop();
+  double seconds() const { return total_; }
+
+ private:
+  bool runs_;
+  double begin_ = 0, total_ = 0;
+};
+
+// How much memory and disk there is, and refusals of what does not fit.
+
+/// Bytes that this process can still take: what the system says is available (MemAvailable), less where a control group
+/// or a limit of the process's address space allows less. Infinite where nothing is known.
+double free_memory();
+
+/// Bytes that can be written into the folder, or into the nearest one above it that is there. Infinite where nothing is
+/// known.
+double free_disk(const std::filesystem::path& folder);
+
+/// For people: "3.2 GB", powers of ten.
+std::string format_bytes(double bytes);
+
+// A program in two processes: one works, the other sees to it that nothing is left when the first has ended, however.
+
+/// Does the work in a child process, hands SIGINT, SIGTERM and SIGHUP on to it, and returns its exit status, or ends as
+/// it ended. Before that all that descends from the child is ended too, temporary folders of processes that are gone
+/// are removed, and what they left of unfinished results (see register_output()). Nothing of this runs in a signal
+/// handler. A supervisor that is killed takes the child with it; what is left then, the next start removes. To be
+/// called first in main(). Where no process can be made, the work is done in this one.
+int run_supervised(const std::function<int()>& work);
+
+/// Names a folder for results that must be seen to where this process is killed. Nothing where there is no supervisor.
+void register_output(const std::string& folder);
+
+}  // namespace crosscheck

@@ -1,0 +1,197 @@
+// Linear solvers of implicit steps: conjugate gradients, alone or with a multigrid V-cycle on a cloth.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "mysim/forces.h"
+#include "mysim/implicit/multigrid/kernels.h"
+#include "mysim/model/model.h"
+#include "mysim/simd/cloth_grid/cloth_grid.h"
+#include "mysim/simd/instruction_sets.h"
+#include "mysim/types.h"
+
+namespace crosscheck {
+
+// Conjugate gradients for a symmetric matrix that is never formed, on N (3 x n) columns, with a preconditioner.
+
+struct CgResult {
+  int iterations = 0;
+  bool converged = false;
+  bool negative_curvature = false;  // a direction p with p . A p <= 0 was met: the matrix is not positive definite
+};
+
+/// Working memory, kept between solves.
+struct CgMemory {
+  Points r, z, p, q;
+};
+
+/// Solves A x = b from x = 0 until |b - A x| <= tolerance |b|. apply(p, q): q = A p. precondition(r, z): z = M^-1 r
+/// with M symmetric positive definite. Stops at once at negative curvature, with the x reached so far.
+template <class Apply, class Precondition>
+CgResult conjugate_gradients(Apply apply, Precondition precondition, const Points& b, double tolerance,
+                             int most_iterations, Points& x, CgMemory& m) {
+  CgResult result;
+  x.setZero(3, b.cols());
+  m.r = b;
+  const double goal = tolerance * b.norm();
+  precondition(m.r, m.z);
+  m.p = m.z;
+  double rz = dot(m.r, m.z);
+  while (!(result.converged = m.r.norm() <= goal) && result.iterations < most_iterations) {
+    apply(m.p, m.q);
+    const double curvature = dot(m.p, m.q);
+    ++result.iterations;
+    if (!(curvature > 0)) {
+      result.negative_curvature = true;
+      break;
+    }
+    const double length = rz / curvature;
+    x += length * m.p;
+    m.r -= length * m.q;
+    precondition(m.r, m.z);
+    const double before = std::exchange(rz, dot(m.r, m.z));
+    m.p = m.z + rz / before * m.p;
+  }
+  return result;
+}
+
+}  // namespace crosscheck
+
+namespace crosscheck::multigrid {
+
+// The functions of the room for each instruction set.
+
+Kernels kernels(simd::InstructionSet isa);
+
+// Where the particles of a sheet stand in lanes, and numbers of them put there and taken back.
+
+using simd::AlignedBuffer;
+using simd::GridTopology;
+
+struct Layout {
+  int rows, columns, blocks;
+
+  /// As many blocks as can be halved often, few of them empty.
+  static Layout of(const GridTopology& topology);
+  /// Every second row and column.
+  Layout coarsened() const { return {(rows + 1) / 2, (columns + 1) / 2, blocks / 2}; }
+  bool can_coarsen() const { return blocks % 2 == 0 && rows > 2; }
+
+  long all_lanes() const { return static_cast<long>(rows) * blocks * lanes; }
+  long row_length() const { return static_cast<long>(left_halo + blocks + right_halo) * 3 * lanes; }
+  template <class T>
+  AlignedBuffer<T> field() const {
+    return AlignedBuffer<T>(static_cast<size_t>(rows) * row_length());
+  }
+
+  /// take(index of the particle, place among rows x blocks x lanes, place of its first number in a field).
+  template <class Take>
+  void each(Take take) const {
+    for (int row = 0; row < rows; ++row)
+      for (int lane = 0, column = 0; column < columns; ++lane)
+        for (int block = 0; block < blocks && column < columns; ++block, ++column)
+          take(row * columns + column, (static_cast<long>(row) * blocks + block) * lanes + lane,
+               row * row_length() + static_cast<long>(left_halo + block) * 3 * lanes + lane);
+  }
+  /// Every second row and column of a field, without copies.
+  void inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& coarse) const;
+  /// Points into a field, without its copies.
+  void put(const Points& points, double factor, AlignedBuffer<double>& field) const;
+  void get(const AlignedBuffer<double>& field, double factor, Points& points) const;
+};
+
+// One of the sheets: its springs, its matrix and the vectors of the V-cycle on it.
+
+class Level {
+ public:
+  /// Springs `times_longer` than those of the weave, and as stiff.
+  Level(const Layout& layout, const GridTopology& topology, double times_longer);
+
+  const Layout& layout() const { return layout_; }
+  const Matrix<float>& matrix() const { return matrix_; }
+  const Matrix<double>& exact() const { return exact_; }
+
+  Eigen::ArrayXd inertia, free;          // of the particles: N/m; 1 or 0
+  AlignedBuffer<double> x;               // m, a field
+  AlignedBuffer<float> b, u, change, r;  // fields: right side and solution of the V-cycle, and working memory
+
+  void load_inertia();  // from `inertia` and `free`
+  /// Clamped stiffness at x, and the inverse blocks on the diagonal.
+  void linearise(const Kernels& f);
+  /// Stiffness as it is, in exact() alone.
+  void linearise_unclamped(const Kernels& f);
+
+ private:
+  Layout layout_;
+  SpringGeometry geometry_{};
+  AlignedBuffer<double> k_[directions], springs_[directions], inertia_, free_, blocks_, sums_, force_;
+  AlignedBuffer<float> single_springs_[directions], single_inertia_, single_free_, single_blocks_, single_force_;
+  double* spring_data_[directions] = {};
+  Matrix<float> matrix_{};
+  Matrix<double> exact_{};
+};
+
+// The matrix of a sheet, and the V-cycle over the coarser sheets under it.
+
+class VCycle {
+ public:
+  VCycle(const GridTopology& topology, const std::vector<int>& pins);
+
+  /// inertia: of each particle, N/m; x: positions, m (3 x n).
+  void set(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature);
+
+  const Kernels& kernels() const { return kernels_; }
+  const Layout& layout() const { return levels_.front().layout(); }
+  const Matrix<double>& exact() const { return levels_.front().exact(); }
+
+  /// Right side and solution of one V-cycle: fields.
+  AlignedBuffer<float>& b() { return levels_.front().b; }
+  const AlignedBuffer<float>& u() const { return levels_.front().u; }
+  void cycle() { cycle(0); }
+  /// Products that a cycle takes, those of coarse sheets by their number of particles.
+  double products() const;
+
+ private:
+  /// From a sheet to the next.
+  struct GridTransfer {
+    Transfer transfer{};
+    AlignedBuffer<float> right, left;
+  };
+  static GridTransfer grid_transfer(const Layout& fine, const Layout& coarse);
+  void set_inertia(const Eigen::ArrayXd& inertia);
+  void cycle(size_t level);
+
+  Kernels kernels_;
+  std::vector<Level> levels_;
+  std::vector<GridTransfer> transfers_;
+  Eigen::ArrayXd inertia_;  // of the particles, as last set
+};
+
+// Conjugate gradients for the systems of implicit steps on a sheet.
+
+class MultigridSolver {
+ public:
+  MultigridSolver(const GridTopology& topology, const std::vector<int>& pins);
+
+  /// Solves (inertia + K(x)) u = b for u (3 x n), until |b - A u| <= tolerance |b|. `inertia` (N/m) is of each
+  /// particle, x (m) and b (N) are 3 x n; pins do not move. As conjugate_gradients (mysim/implicit): what is left is
+  /// the recurrence's, and the solve stops at once at negative curvature. Gives up after 500 iterations, ten times what
+  /// sheets are known to take.
+  CgResult solve(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature, const Points& b, double tolerance,
+                 Points& u);
+
+  /// Products with the matrix that an iteration takes, those of coarse sheets by their size.
+  double products() const { return 1 + v_cycle_.products(); }
+
+ private:
+  VCycle v_cycle_;
+  AlignedBuffer<double> u_, r_, p_, q_;
+};
+
+/// Null unless the model is a sheet, large enough, whose springs alone have a stiffness.
+std::unique_ptr<MultigridSolver> make_multigrid_solver(const Model& model);
+
+}  // namespace crosscheck::multigrid

@@ -1,0 +1,66 @@
+// Energies and powers of a state.
+#include "mysim/model/energy.h"
+
+namespace crosscheck {
+namespace {
+
+/// Sum of f_i . v_i over the free particles, W.
+double free_power(const Particles& particles, const Points& f, const Points& v) {
+  double power = 0;
+  for (int i = 0; i < particles.size(); ++i)
+    if (!particles.pinned[i]) power += f.col(i).dot(v.col(i));
+  return power;
+}
+
+}  // namespace
+
+Energy energy_of(const Model& model, const State& state) {
+  const Particles& particles = model.particles;
+  Energy e;
+  for (int i = 0; i < state.v.cols(); ++i)
+    if (!particles.pinned[i]) e.kinetic += 0.5 * particles.mass[i] * state.v.col(i).squaredNorm();
+  const Overloaded add{
+      [&](const Springs& t) { e.elastic += potential_energy(t, particles, state); },
+      [&](const Gravity& t) { e.gravitational += potential_energy(t, particles, state); },
+      []<OneOf<Rotation, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres> T>(const T&) {
+        static_assert(!HasPotential<T>);
+      },
+  };
+  for (const Term& term : model.terms) std::visit(add, term);
+  return e;
+}
+
+Power power_of(const Model& model, const State& state, Forces& scratch) {
+  const Particles& particles = model.particles;
+  Power p;
+  auto force_of = [&](const auto& term) -> const Points& {
+    scratch.clear();
+    add_force(term, particles, state, scratch);
+    return scratch.f;
+  };
+  auto on_pins = [&](const Points& f) {
+    double power = 0;
+    for (int pin : particles.pins) power += f.col(pin).dot(state.v.col(pin));
+    return power;
+  };
+  const Overloaded add{
+      [&](const Drag& t) { p.drag -= free_power(particles, force_of(t), state.v); },
+      [&](const OneOf<Wind, Aerodynamics> auto& t) { p.wind += free_power(particles, force_of(t), state.v); },
+      [&](const Springs& t) {
+        if (particles.move) p.pins -= on_pins(force_of(t));
+      },
+      [&](const Dashpots& t) {
+        const Points& f = force_of(t);
+        const double given = particles.move ? -on_pins(f) : 0;
+        // pairs lose what free ends lose and what moved pins put in
+        p.dashpots += given - free_power(particles, f, state.v);
+        p.pins += given;
+      },
+      [](const Gravity&) {},                                     // its work is the change of its energy
+      [](const OneOf<Rotation, Constraints, Spheres> auto&) {},  // no forces
+  };
+  for (const Term& term : model.terms) std::visit(add, term);
+  return p;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,28 @@
+// Energies and powers of a state, by our own formulas, for every engine alike.
+#pragma once
+
+#include "mysim/model/model.h"
+
+namespace crosscheck {
+
+struct Energy {
+  double kinetic = 0;        // J, of the free particles
+  double elastic = 0;        // J, of the springs
+  double gravitational = 0;  // J, of the free particles, zero at the origin
+  double total() const { return kinetic + elastic + gravitational; }
+};
+
+/// What flows in and out of a state each second.
+struct Power {
+  double drag = 0;      // W, taken by drag (not negative)
+  double dashpots = 0;  // W, taken by dashpots (not negative)
+  double wind = 0;      // W, given by the wind, uniform or on triangles
+  double pins = 0;  // W, given by moved pins: minus the force of springs and dashpots on each pin times its velocity
+  double dissipated() const { return drag + dashpots; }
+};
+
+Energy energy_of(const Model& model, const State& state);
+/// scratch is working memory of the size of the state, so that nothing is allocated per step.
+Power power_of(const Model& model, const State& state, Forces& scratch);
+
+}  // namespace crosscheck

@@ -1,0 +1,88 @@
+// The constant part of a scene: particles and the terms that act on them. The variant below is the table of terms:
+// a new term is a file in terms/, one line here, and one line in the reader's table (mysim/scene/scene.cpp).
+//
+// What a term does is said by the functions its file declares, found by overload:
+//   add_force(term, particles, state, forces)         a force
+//   potential_energy(term, particles, state)          an energy whose negative gradient is that force
+//   add_tangent(term, particles, state, curvature, tangent)   what implicit methods need of a force
+//   add_velocity(term, state, rate)                   a first-order velocity field
+// Forces on moving particles (dashpots, air) also say `uses_velocity`: leapfrog then treats them by themselves, so that
+// its order survives. Spheres and constraints are no forces: contact acts on whole steps, constraints on methods.
+//
+// What must know every term (energies, hash, JSON, certificate, each engine) visits the variant with a function for
+// each and none for "the rest": a new term does not compile there until it is answered (tests/unit/new_term_test.cpp).
+#pragma once
+
+#include <concepts>
+#include <variant>
+#include <vector>
+
+#include "mysim/particles.h"
+#include "mysim/terms/aerodynamics.h"
+#include "mysim/terms/constraints.h"
+#include "mysim/terms/dashpots.h"
+#include "mysim/terms/drag.h"
+#include "mysim/terms/gravity.h"
+#include "mysim/terms/rotation.h"
+#include "mysim/terms/sphere.h"
+#include "mysim/terms/springs.h"
+#include "mysim/terms/wind.h"
+
+namespace crosscheck {
+
+using Term = std::variant<Rotation, Gravity, Springs, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres>;
+
+/// Several functions as one, to visit a term with: each alternative of Term must find its own.
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+/// For the terms that a visitor passes over, by name: [](const OneOf<Drag, Wind> auto&) {}.
+template <class T, class... Terms>
+concept OneOf = (std::same_as<T, Terms> || ...);
+
+template <class T>
+concept HasForce = requires(const T& term, const Particles& p, const State& s, Forces& f) {
+  add_force(term, p, s, f);
+};
+template <class T>
+concept HasPotential = requires(const T& term, const Particles& p, const State& s) {
+  potential_energy(term, p, s);
+};
+template <class T>
+concept HasTangent = requires(const T& term, const Particles& p, const State& s, Tangent& tangent) {
+  add_tangent(term, p, s, Curvature::exact, tangent);
+};
+template <class T>
+concept UsesVelocity = requires {
+  requires T::uses_velocity;
+};
+template <class T>
+concept HasVelocityField = requires(const T& term, const State& s, Points& rate) {
+  add_velocity(term, s, rate);
+};
+
+struct Model {
+  Particles particles;
+  std::vector<Term> terms;  // the scene's ingredients; nothing else is evaluated
+
+  /// The term of that type, or null.
+  template <class T>
+  const T* find() const {
+    for (const Term& term : terms)
+      if (const T* found = std::get_if<T>(&term)) return found;
+    return nullptr;
+  }
+  template <class T>
+  T* find() {
+    return const_cast<T*>(static_cast<const Model*>(this)->find<T>());
+  }
+
+  bool first_order() const { return find<Rotation>() != nullptr; }
+};
+
+inline std::string_view name_of(const Term& term) {
+  return std::visit([](const auto& t) { return std::decay_t<decltype(t)>::name; }, term);
+}
+
+}  // namespace crosscheck

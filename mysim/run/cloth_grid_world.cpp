@@ -1,0 +1,240 @@
+// A cloth stepped by the fused step: the kicks of a rule, pins, contacts, and the state in scene order.
+#include "mysim/run/cloth_grid_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mysim/simd/cloth_grid/cloth_grid.h"
+#include "mysim/simd/instruction_sets.h"
+
+namespace crosscheck::simd {
+namespace {
+
+/// One kick: when forces are taken (s, after the beginning of the step), and how far positions drift after it, before
+/// contacts and behind them (s).
+struct Kick {
+  double at, drift_before, drift_after;
+};
+
+/// What leaves the general engine its work.
+bool has_only_supported_terms(const Model& model) {
+  for (const Term& term : model.terms)
+    if (!std::holds_alternative<Springs>(term) && !std::holds_alternative<Gravity>(term) &&
+        !std::holds_alternative<Drag>(term) && !std::holds_alternative<Wind>(term) &&
+        !std::holds_alternative<Spheres>(term))
+      return false;
+  return true;
+}
+
+template <class T>
+class FusedStepWorld : public ClothGridWorld {
+ public:
+  FusedStepWorld(const KickDriftComposition& composition, const GridTopology& topology, const Scene& scene, double h,
+                 Kernel<T> kernel, int threads, bool record_contact_loss)
+      : scene_(scene),
+        kernel_(kernel),
+        slabs_(topology, threads),
+        slab_results_(slabs_.all().size()),
+        spheres_(scene.model.find<Spheres>()),
+        record_contact_loss_(record_contact_loss),
+        s_(scene.start) {
+    double begin = 0;
+    for (size_t i = 0; i < composition.fractions.size(); ++i) {
+      const double part = composition.fractions[i] * h,
+                   next = composition.fractions[(i + 1) % composition.fractions.size()] * h;
+      kicks_.push_back(composition.kick_first ? Kick{begin, part, 0} : Kick{begin + part / 2, part / 2, next / 2});
+      begin += part;
+    }
+    set_factors(composition, h);
+    slabs_.put(s_.x + kicks_.back().drift_after * s_.v, s_.v);
+  }
+
+  void step(double t, double t_next) override {
+    began_ = true;
+    t_ = t, t_next_ = t_next;
+    update_bounding_spheres();
+    for (SlabResult& result : slab_results_) result.lost.clear();
+    for (size_t i = 0; i < kicks_.size(); ++i) {
+      const Kick& kick = kicks_[i];
+      const Vec3 uniform_acceleration = uniform_acceleration_at(t + kick.at), shift = pin_displacement_at(t + kick.at);
+      const KickDrift<T> stride{{T(uniform_acceleration[0]), T(uniform_acceleration[1]), T(uniform_acceleration[2])},
+                                T(kick.drift_before),
+                                T(kick.drift_after),
+                                bounding_spheres_.data(),
+                                static_cast<int>(bounding_spheres_.size()),
+                                &FusedStepWorld::contact_tile,
+                                nullptr};
+      slabs_.fused_step([&](Slab& slab) { fused_step(slab, i, stride, shift); });
+    }
+  }
+
+  const State& state(double t) override {
+    s_.t = t;
+    if (!began_) return s_;
+    slabs_.get(s_.x, s_.v);
+    s_.x -= kicks_.back().drift_after * s_.v;
+    scene_.model.particles.place_pins(s_);
+    return s_;
+  }
+
+  void report_contact(Observer& observer) override {
+    bool any = false;
+    double sum = 0;  // one after the other: the same bits, however many bands there are
+    for (const SlabResult& result : slab_results_)
+      for (const double lost : result.lost) sum += lost, any = true;
+    if (any) observer.contact(sum);
+  }
+
+  long evaluations() const override { return evaluations_; }
+  long degenerate_springs() const override {
+    long sum = 0;
+    for (const SlabResult& result : slab_results_) sum += result.degenerate_springs;
+    return sum;
+  }
+  double worker_seconds() const override { return slabs_.worker_seconds(); }
+
+ private:
+  using Slab = typename Slabs<T>::Slab;
+  /// What the thread of a band has come by.
+  struct SlabResult {
+    long degenerate_springs = 0;
+    std::vector<double> lost;  // J, in contact, by each particle of its own that touched in the step
+  };
+  /// Whom the sweep of a band asks.
+  struct ContactContext {
+    FusedStepWorld* world;
+    Slab* slab;
+    SlabResult* result;
+  };
+
+  /// Drag, mass and length of each kick as factors of velocity, force and fall; one line of each part.
+  void set_factors(const KickDriftComposition& composition, double h) {
+    const Particles& particles = scene_.model.particles;
+    const Eigen::ArrayXd mass = particles.mass.array();
+    Eigen::ArrayXd gamma = Eigen::ArrayXd::Zero(particles.size());
+    if (const auto* drag = scene_.model.find<Drag>()) gamma = drag->c.array() / mass;
+    const bool alike = (mass == mass[0]).all() && (gamma == gamma[0]).all();
+    stride_ = alike ? 0 : lanes<T>;
+    for (Slab& slab : slabs_.all()) {
+      const int first = alike ? 0 : slab.first, count = alike ? 1 : slab.body.size();
+      const Eigen::ArrayXd m = mass.segment(first, count), c = gamma.segment(first, count);
+      for (const double fraction : composition.fractions) {
+        const double part = fraction * h;
+        const Eigen::ArrayXd half = part / 2 * c;
+        // drag: at the old velocity, or averaged over old and new
+        const Eigen::ArrayXd damping =
+            composition.kick_first ? Eigen::ArrayXd(part * c) : Eigen::ArrayXd(part * c / (1 + half));
+        const Eigen::ArrayXd dt =
+            composition.kick_first ? Eigen::ArrayXd::Constant(count, part) : Eigen::ArrayXd(part / (1 + half));
+        slab.factors.push_back({slab.body.spread(damping), slab.body.spread(dt / m), slab.body.spread(dt)});
+      }
+    }
+  }
+
+  void fused_step(Slab& slab, size_t kick, KickDrift<T> stride, const Vec3& shift) {
+    const Particles& particles = scene_.model.particles;
+    for (size_t i = 0; i < particles.pins.size(); ++i)
+      if (const int here = slab.here(particles.pins[i]); here >= 0)
+        slab.body.place(here, particles.pin_home.col(static_cast<int>(i)) + shift);
+    ClothGrid<T>& grid = slab.body.grid();
+    const auto& factors = slab.factors[kick];
+    grid.damping = factors.damping.data(), grid.inverse_mass_dt = factors.inverse_mass_dt.data(),
+    grid.dt = factors.dt.data();
+    grid.stride = stride_;
+    ContactContext context{this, &slab, &slab_results_[slab.which]};
+    stride.user_data = &context;
+    context.result->degenerate_springs += kernel_.fused_step(grid, stride);
+    if (slab.which == 0) ++evaluations_;
+  }
+
+  Vec3 pin_displacement_at(double t) const {
+    const auto& move = scene_.model.particles.move;
+    return move ? displacement_at(*move, t) : Vec3::Zero();
+  }
+
+  Vec3 uniform_acceleration_at(double t) const {
+    Vec3 uniform_acceleration = Vec3::Zero();
+    if (const auto* gravity = scene_.model.find<Gravity>()) uniform_acceleration += gravity->acceleration;
+    if (const auto* wind = scene_.model.find<Wind>()) uniform_acceleration += wind->acceleration.at(t);
+    return uniform_acceleration;
+  }
+
+  void update_bounding_spheres() {
+    if (!spheres_) return;
+    bounding_spheres_.clear();
+    for (const Sphere& sphere : spheres_->list) {
+      const Vec3 centre = sphere.centre_at(t_next_);
+      // a little more than the radius: who is asked decides, this only asks
+      const double radius = sphere.contact_radius() * (1 + 1e-6);
+      bounding_spheres_.push_back({{centre[0], centre[1], centre[2]}, radius * radius});
+    }
+  }
+
+  static void contact_tile(void* user_data, int row, int tile, T* x, T* v) {
+    const ContactContext& context = *static_cast<ContactContext*>(user_data);
+    for (int lane = 0; lane < lanes<T>; ++lane)
+      if (const int here = context.slab->body.particle(row, tile, lane); here >= 0)
+        context.world->contact_particle(*context.slab, *context.result, here, x + lane, v + lane);
+  }
+
+  /// The contact rule; coordinates stand a line apart.
+  void contact_particle(const Slab& slab, SlabResult& result, int here, T* x, T* v) {
+    const int i = slab.first + here;
+    if (scene_.model.particles.pinned[i]) return;
+    const auto at = [](const T* p) { return Vec3(p[0], p[lanes<T>], p[2 * lanes<T>]); };
+    Vec3 place = at(x), speed = at(v);
+    // where it was and how fast when the step began
+    const Vec3 v_n = slab.body.velocity(here), x_n = slab.body.position(here) - kicks_.back().drift_after * v_n;
+    const auto lost = resolve_spheres(*spheres_, resolve_contact, t_, t_next_, x_n, v_n, place, speed);
+    if (!lost) return;
+    if (record_contact_loss_) result.lost.push_back(scene_.model.particles.mass[i] * *lost);
+    for (int c = 0; c < 3; ++c) x[c * lanes<T>] = static_cast<T>(place[c]), v[c * lanes<T>] = static_cast<T>(speed[c]);
+  }
+
+  const Scene& scene_;
+  Kernel<T> kernel_;
+  Slabs<T> slabs_;
+  std::vector<SlabResult> slab_results_;
+  const Spheres* spheres_;
+  bool record_contact_loss_;
+  std::vector<Kick> kicks_;
+  std::vector<BoundingSphere> bounding_spheres_;
+  int stride_ = 0;
+  State s_;
+  bool began_ = false;
+  double t_ = 0, t_next_ = 0;  // s, of the step under way
+  long evaluations_ = 0;
+};
+
+/// Fewer particles than this are not worth a thread of their own.
+constexpr int particles_per_thread = 4096;
+
+template <class T>
+std::unique_ptr<ClothGridWorld> make_world(const GridTopology& topology, const KickDriftComposition& composition,
+                                           const Scene& scene, double h, bool fast, int threads,
+                                           const Observer& observer) {
+  if (!fits<T>(topology)) return nullptr;
+  const int useful_threads = std::clamp(scene.model.particles.size() / particles_per_thread, 1, threads);
+  return std::make_unique<FusedStepWorld<T>>(composition, topology, scene, h, kernel<T>(active_instruction_set(), fast),
+                                             useful_threads, observer.every_step());
+}
+
+}  // namespace
+
+std::unique_ptr<ClothGridWorld> make_cloth_grid_world(const Stepper& stepper, ContactRule contact, const Scene& scene,
+                                                      double h, const Execution& execution, const Observer& observer) {
+  const Model& model = scene.model;
+  const auto* springs = model.find<Springs>();
+  if (execution.precision == Precision::plain || !stepper.composition || !springs || !has_only_supported_terms(model))
+    return nullptr;
+  const KickDriftComposition composition = stepper.composition();
+  if (model.find<Spheres>() && (contact != ContactRule::coulomb || composition.fractions.size() > 1)) return nullptr;
+  const auto topology = find_grid_topology(*springs, model.particles.size());
+  if (!topology) return nullptr;
+  if (execution.precision == Precision::single)
+    return make_world<float>(*topology, composition, scene, h, true, execution.threads, observer);
+  const bool fast = execution.precision == Precision::fastest;
+  return make_world<double>(*topology, composition, scene, h, fast, execution.threads, observer);
+}
+
+}  // namespace crosscheck::simd

@@ -1,0 +1,56 @@
+// Spheres act one after the other on each particle.
+#include "mysim/run/contacts.h"
+
+namespace crosscheck {
+
+std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction act, double t_n, double t,
+                                      const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) {
+  bool touched = false;
+  const Vec3 change = v - v_n;    // by all other forces, m/s
+  Vec3 friction = Vec3::Zero();   // of contacts that last, m/s
+  double impacts = 0, given = 0;  // m^2/s^2; by moving spheres, times the step
+  for (const Sphere& sphere : spheres.list) {
+    const Vec3 centre = sphere.centre_at(t), way = centre - sphere.centre_at(t_n);
+    const Vec3 velocity = sphere.motion ? velocity_at(*sphere.motion, t) : Vec3::Zero();
+    const Vec3 x_before = x, v_before = v;
+    Vec3 relative = v - velocity;
+    if (!(act(sphere, centre, x_n + way, x, relative) > 0)) continue;
+    touched = true;
+    v = relative + velocity;
+
+    const Vec3 impulse = v - v_before;
+    const Vec3 seen = sphere.motion ? Vec3(change - velocity + velocity_at(*sphere.motion, t_n)) : change;
+    if (impulse.norm() > 3 * (1 + sphere.restitution) * seen.norm()) {
+      impacts += change.dot(x - x_before) / (t - t_n) - impulse.dot(v_before + v) / 2;
+      continue;
+    }
+    const Vec3 normal = (x - centre).normalized();
+    const Vec3 along = impulse.dot(normal) * normal;
+    friction += impulse - along;
+    given += along.dot(way);
+  }
+  if (!touched) return std::nullopt;
+  return impacts - (friction.dot(x - x_n) + given) / (t - t_n);
+}
+
+Contacts::Contacts(const Model& model, ContactRule rule)
+    : particles_(model.particles), spheres_(model.find<Spheres>()), rule_(rule) {}
+
+void Contacts::begin(const State& s) {
+  if (spheres_) before_ = s;
+}
+
+bool Contacts::resolve(State& s) {
+  lost_.reset();
+  if (!spheres_) return false;
+  const ContactFunction act = rule_ == ContactRule::sticky ? resolve_contact_sticky : resolve_contact;
+  for (int i = 0; i < particles_.size(); ++i) {
+    if (particles_.pinned[i]) continue;
+    const auto lost =
+        resolve_spheres(*spheres_, act, before_.t, s.t, before_.x.col(i), before_.v.col(i), s.x.col(i), s.v.col(i));
+    if (lost) lost_ = lost_.value_or(0) + particles_.mass[i] * *lost;
+  }
+  return lost_.has_value();
+}
+
+}  // namespace crosscheck

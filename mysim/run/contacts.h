@@ -1,0 +1,53 @@
+// Contact of all particles with the scene's spheres, after a step; and the energy that it takes.
+//
+// Per kilogram of a particle, with J the change of its velocity by a sphere and a = (v* - v_n) / h the acceleration by
+// all other forces, where x_n, v_n are the start of the step, x*, v* what the stepper proposed, x', v' what contact
+// made of it:
+//   An impact is where |J| > 3 (1 + e) |a| h: what came in faster than those forces explain. It lies at one moment and
+//   takes -J . (v* + v') / 2 + a . (x' - x*), the kinetic energy with which the particle met the surface, which lies
+//   x' - x* before the end of its way.
+//   Any other contact lasted through the step. Its normal part does no work but what a moving sphere does by its way s
+//   in the step; friction works over the particle's way: -(J_t . (x' - x_n) + J_n . s) / h.
+// Hence 0 for what rests on a sphere at rest, whatever the stepper proposes in each step. What the free step and the
+// push out of the sphere do to the energy of a particle that touches is an error of the method, not a loss, and is left
+// to the balance. The 3: explicit Euler holds a resting particle in every other step, by |J| = 2 |a| h.
+#pragma once
+
+#include <optional>
+
+#include "mysim/model/model.h"
+#include "mysim/run/run.h"
+
+namespace crosscheck {
+
+enum class ContactRule { coulomb, sticky };  // sticky: the assignment's sphere, kept to be shown failing
+
+/// What a rule does to one particle that touches a sphere: as resolve_contact.
+using ContactFunction = double (*)(const Sphere&, const Vec3& centre, const Vec3& x_n, Eigen::Ref<Vec3> x,
+                                   Eigen::Ref<Vec3> v);
+
+/// Lets every sphere act, each in its own frame, on a particle that was at x_n with v_n at time t_n and would be at x
+/// with v at t. What the contacts took, J per kilogram of the particle; nothing where none touched.
+std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction act, double t_n, double t,
+                                      const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v);
+
+class Contacts {
+ public:
+  Contacts(const Model& model, ContactRule rule);
+  bool any() const { return spheres_ != nullptr; }
+  /// Remembers where the step begins.
+  void begin(const State& s);
+  /// Lets every sphere act on the whole step of every free particle; true when one touched.
+  bool resolve(State& s);
+  /// What the last resolve() took, J; nothing where nothing touched.
+  const std::optional<double>& lost() const { return lost_; }
+
+ private:
+  const Particles& particles_;
+  const Spheres* spheres_;
+  ContactRule rule_;
+  State before_;  // where the step began
+  std::optional<double> lost_;
+};
+
+}  // namespace crosscheck

@@ -1,0 +1,291 @@
+// The energy ledger; the verdict on a run from its positions, and the true motion that it is held against.
+#include "mysim/run/observers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mysim/base/errors.h"
+#include "mysim/model/system.h"
+#include "mysim/run/engine.h"
+#include "mysim/steppers/steppers.h"
+
+namespace crosscheck {
+
+double rms_distance(const Points& a, const Points& b) { return (a - b).norm() / std::sqrt(double(a.cols())); }
+
+double largest_rms_distance(const Trajectory& a, const Trajectory& b, double until) {
+  double largest = 0;
+  for (int i = 0; i < std::min(a.frames(), b.frames()) && a.t[i] <= until * (1 + 1e-9); ++i)
+    largest = std::max(largest, rms_distance(a.x[i], b.x[i]));
+  return largest;
+}
+
+void Integral::add(double value, double h) {
+  last_ = {value, last_[0], last_[1], last_[2]};
+  const auto& [p0, p1, p2, p3] = last_;
+  switch (count_++) {
+    case 0:
+      break;
+    case 1:
+      value_ = h / 2 * (p1 + p0);
+      break;
+    case 2:
+      value_ = h / 3 * (p2 + 4 * p1 + p0);
+      break;
+    case 3:
+      value_ = 3 * h / 8 * (p3 + 3 * p2 + 3 * p1 + p0);
+      break;
+    default:
+      value_ += h / 24 * (9 * p0 + 19 * p1 - 5 * p2 + p3);
+  }
+}
+
+Ledger::Ledger(const Model& model, ContactLoss contact)
+    : model_(model), inferred_(contact != ContactLoss::reported && model.find<Spheres>() != nullptr) {
+  estimated_ = contact == ContactLoss::sampled && (model.find<Drag>() || model.find<Dashpots>() || model.find<Wind>() ||
+                                                   model.find<Aerodynamics>() || model.particles.move);
+  scratch_.f = Points::Zero(3, model.particles.size());
+}
+
+LedgerRow Ledger::now(const State& state) const {
+  return {state.t, energy_of(model_, state), drag_.value(), dashpots_.value(), contact_, wind_.value(), pins_.value()};
+}
+
+Verdict Ledger::observe(const State& state, bool sample) {
+  if (state.v.cols() != state.x.cols()) return Verdict::ok;
+  const Power power = power_of(model_, state, scratch_);
+  const double h = state.t - last_t_;
+  drag_.add(power.drag, h);
+  dashpots_.add(power.dashpots, h);
+  wind_.add(power.wind, h);
+  pins_.add(power.pins, h);
+  last_t_ = state.t;
+  if (sample) {
+    rows_.push_back(now(state));
+    if (inferred_) rows_.back().contact = rows_.front().balance() - rows_.back().balance();
+  }
+  return Verdict::ok;
+}
+
+namespace {
+
+class MotionBoundsObserver : public Observer {
+ public:
+  explicit MotionBoundsObserver(const Scene& scene) : scene_(scene) {}
+  bool every_step() const override { return true; }
+  Verdict observe(const State& state, bool) override {
+    if (!state.x.allFinite() || !state.v.allFinite()) return Verdict::nan;
+    const Particles& particles = scene_.model.particles;
+    for (int i = 0; i < particles.size(); ++i)
+      if (!particles.pinned[i]) bounds.speed = std::max(bounds.speed, state.v.col(i).norm());
+    bounds.stretch = std::max(bounds.stretch, largest_stretch(scene_.model, scene_.start, state.x));
+    return Verdict::ok;
+  }
+  MotionBounds bounds;
+
+ private:
+  const Scene& scene_;
+};
+
+/// The fastest decay that drag and dashpots can give, 1/s, by the largest row sum (S. Gershgorin, 1931).
+double fastest_decay(const Model& model) {
+  const Particles& particles = model.particles;
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(particles.size());
+  if (const auto* drag = model.find<Drag>()) rate += Eigen::VectorXd(drag->c).cwiseQuotient(particles.mass);
+  if (const auto* dashpots = model.find<Dashpots>())
+    for (const auto& d : dashpots->list)
+      for (const auto& [a, b] : {std::pair{d.a, d.b}, std::pair{d.b, d.a}})
+        rate[a] += d.c / particles.mass[a] +
+                   (particles.pinned[b] ? 0 : d.c / std::sqrt(particles.mass[a] * particles.mass[b]));
+  for (const int pin : particles.pins) rate[pin] = 0;
+  return rate.size() > 0 ? rate.maxCoeff() : 0;
+}
+
+}  // namespace
+
+double largest_stretch(const Model& model, const State& start, const Points& x) {
+  const auto* springs = model.find<Springs>();
+  double most = 0;
+  if (springs)
+    for (const Spring& s : springs->list) {
+      const double rest = s.rest > 0 ? s.rest : (start.x.col(s.a) - start.x.col(s.b)).norm();
+      if (rest > 0) most = std::max(most, (x.col(s.a) - x.col(s.b)).norm() / rest);
+    }
+  return most;
+}
+
+std::optional<MotionBounds> motion_bounds_of(const Scene& scene, const Run& run) {
+  const auto rules = steppers();
+  const Stepper& rule =
+      *std::find_if(rules.begin(), rules.end(), [](const Stepper& s) { return s.name == "leapfrog"; });
+  const double omega = highest_frequency_bound(scene.model, scene.start), decay = fastest_decay(scene.model),
+               limit = std::min(rule.limit(omega, 0), rule.limit(omega, decay));
+  const double sampling = run.duration / run.samples;
+  const Run fine{std::min(std::isfinite(limit) ? limit / 4 : sampling, sampling / 4), run.duration, run.samples, 1e-6,
+                 false};
+  MotionBoundsObserver observer(scene);
+  try {
+    if (simulate(rule, ContactRule::coulomb, scene, fine, observer).verdict != Verdict::ok) return std::nullopt;
+  } catch (const Unsupported&) {
+    return std::nullopt;
+  } catch (const InputError&) {  // more steps than a run may have
+    return std::nullopt;
+  }
+  return observer.bounds;
+}
+
+DivergenceMonitor::DivergenceMonitor(const Scene& scene, const Run& run, MotionBoundsFunction bounds)
+    : DivergenceMonitor(scene.model, &scene.start) {
+  true_motion_bounds_ = [&scene, &run, bounds = std::move(bounds)] { return bounds(scene, run); };
+}
+
+DivergenceMonitor::DivergenceMonitor(const Model& model, const State* start) : model_(model) {
+  if (start) start_ = *start;
+  if (const auto* spheres = model.find<Spheres>())
+    for (const Sphere& s : spheres->list)
+      if (s.motion) {
+        // a particle leaves at (1 + e) times the sphere's speed at most; as much energy again may go into springs
+        const double speed = (1 + s.restitution) * max_speed(*s.motion);
+        moving_spheres_ += model.particles.mass.sum() * speed * speed;
+      }
+  // an engine that pushes a resting particle out of a contact hands it a little speed: that of a fall by a millimetre
+  if (const auto* gravity = model.find<Gravity>(); gravity && model.find<Spheres>()) {
+    contact_ = 1e-3 * model.particles.mass.sum() * gravity->acceleration.norm();
+    slowest_ = std::sqrt(2e-3 * gravity->acceleration.norm());
+  }
+  if (model.find<Wind>() || model.find<Aerodynamics>() || model.particles.move)
+    ledger_.emplace(model, ContactLoss::reported);
+}
+
+void DivergenceMonitor::begin(const State& state) {
+  begun_ = true;
+  if (!start_) start_ = state;
+  if (start_->v.cols() != start_->x.cols()) start_->v = Points::Zero(3, start_->x.cols());
+  State& start = *start_;
+  const Particles& particles = model_.particles;
+  const Energy energy = energy_of(model_, start);
+  given_ = energy.kinetic + energy.elastic + moving_spheres_ + contact_;
+  weight_0_ = energy.gravitational;
+  System system(model_);
+  Points a(3, start.x.cols());
+  system.acceleration(start, a);
+  // engines in single precision know a position to 6e-8 of its coordinates, and five such roundings in two steps are
+  // no motion
+  const double known = rounded_ = 5 * 6e-8 * start.x.cwiseAbs().maxCoeff();
+  for (int i = 0; i < particles.size(); ++i)
+    if (!particles.pinned[i]) {
+      pull_ += particles.mass[i] * a.col(i).squaredNorm();
+      rounding_ += particles.mass[i] / 2 * 3 * known * known;
+    }
+  at_start_ = std::max(1., largest_stretch(model_, start, start.x));
+  if (ledger_) ledger_->observe(start, false);
+}
+
+bool DivergenceMonitor::frozen(const State& state) {
+  const State start = std::move(*first_);
+  first_.reset();
+  asked_ = true;
+  if (model_.find<Constraints>()) return false;
+  for (int i = 0; i < start.x.cols(); ++i)
+    if (!model_.particles.pinned[i] && (state.x.col(i) != start.x.col(i) || state.v.col(i) != start.v.col(i)))
+      return false;
+  System system(model_);
+  State stage = start;
+  Points a(3, stage.x.cols());
+  system.acceleration(stage, a);
+  const auto* spheres = model_.find<Spheres>();
+  // what moves must be seen in the last bit: a way of 1e-12 of the coordinates, well above their rounding
+  const double seen = 1e-12 * (1 + start.x.cwiseAbs().maxCoeff()), t = state.t - start.t;
+  for (int i = 0; i < start.x.cols(); ++i)
+    if (!model_.particles.pinned[i] && (start.v.col(i) * t + a.col(i) * (t * t / 2)).norm() > seen &&
+        !(spheres && clearance_from(*spheres, start.t, start.x.col(i)) < 1e-6))
+      return true;
+  return false;
+}
+
+Verdict DivergenceMonitor::moves_too_fast(const State& state) {
+  const Particles& particles = model_.particles;
+  const double span = state.t - before_.t, h = span / 2;
+  double kinetic = 0, furthest = 0;
+  for (int i = 0; i < particles.size(); ++i)
+    if (!particles.pinned[i]) {
+      const double square = (state.x.col(i) - before_.x.col(i)).squaredNorm();
+      kinetic += particles.mass[i] / 2 * square, furthest = std::max(furthest, square);
+    }
+  kinetic /= span * span;
+  fastest_ = std::max(fastest_, (std::sqrt(furthest) - rounded_) / span);
+  if (const auto* gravity = model_.find<Gravity>())
+    sunk_ = std::max(sunk_, std::abs(potential_energy(*gravity, particles, state) - weight_0_));
+  if (ledger_) {
+    State middle{last_.t, last_.x, (state.x - before_.x) / span};
+    particles.place_pins(middle);
+    ledger_->observe(middle, false);
+    const LedgerRow row = ledger_->now(middle);
+    worked_ = std::max(worked_, std::abs(row.wind + row.pins));
+  }
+  const double had = given_ + sunk_ + worked_ + 2 * h * h * pull_ + rounding_ / (span * span);
+  if (!std::isfinite(kinetic) || !std::isfinite(had)) return Verdict::nan;
+  if (had > 0) most_ = std::max(most_, kinetic / had);
+  if (kinetic > (true_motion_bounds_ ? blown_up : suspect) * had) return Verdict::energy;
+  return bounds_ && beyond_bounds() == Verdict::energy ? Verdict::energy : Verdict::ok;
+}
+
+Verdict DivergenceMonitor::beyond_bounds() const {
+  if (fastest_ > allowed * std::max(bounds_->speed, slowest_)) return Verdict::energy;
+  return longest_ > allowed * std::max(bounds_->stretch, 1.) ? Verdict::stretch : Verdict::ok;
+}
+
+Verdict DivergenceMonitor::goes_too_far(const State& state) {
+  longest_ = std::max(longest_, largest_stretch(model_, *start_, state.x));
+  if (true_motion_bounds_ && !bounds_ && (most_ > in_order || longest_ > longer * at_start_)) {
+    bounds_ = true_motion_bounds_();
+    if (!bounds_) true_motion_bounds_ = nullptr;
+  }
+  if (bounds_) return beyond_bounds();
+  if (true_motion_bounds_) return Verdict::ok;
+  // nobody to ask
+  if (most_ > suspect) return Verdict::energy;
+  return longest_ > allowed * longer * at_start_ ? Verdict::stretch : Verdict::ok;
+}
+
+void DivergenceMonitor::earlier(const State& state) {
+  if (every_step()) return;
+  before_.t = state.t, before_.x = state.x;
+  paired_ = true;
+}
+
+Verdict DivergenceMonitor::observe(const State& state, bool sample) {
+  if (!state.x.allFinite() || !state.v.allFinite()) return Verdict::nan;
+  if (model_.first_order()) return Verdict::ok;  // no energy to judge by
+  if (!begun_) begin(state);
+  const Verdict moves = paired_ || seen_ >= 2 ? moves_too_fast(state) : Verdict::ok;
+  if (!paired_) {
+    std::swap(before_, last_);
+    last_.t = state.t, last_.x = state.x;
+    ++seen_;
+  }
+  paired_ = false;
+  if (!closely_ && !every_step() && most_ > in_order) closely_ = true, seen_ = 0;
+  if (!sample || moves != Verdict::ok) return moves;
+  if (state.v.cols() == state.x.cols()) {
+    if (!first_ && !asked_)
+      first_ = state;
+    else if (first_ && frozen(state))
+      return Verdict::frozen;
+  }
+  return goes_too_far(state);
+}
+
+Verdict DivergenceMonitor::later(const State& state) { return every_step() ? Verdict::ok : observe(state, false); }
+
+Verdict MonitoredObservers::observe(const State& state, bool sample) {
+  const Verdict others = others_.observe(state, sample);
+  const Verdict own = sample || monitor_.every_step() ? monitor_.observe(state, sample) : Verdict::ok;
+  return others == Verdict::ok ? own : others;
+}
+
+void MonitoredObservers::earlier(const State& state) { monitor_.earlier(state); }
+
+Verdict MonitoredObservers::later(const State& state) { return monitor_.later(state); }
+
+}  // namespace crosscheck

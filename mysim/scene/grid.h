@@ -1,0 +1,36 @@
+// Regular grids of particles with structural, shear and bend springs: cloth, and blocks of jelly.
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <array>
+
+#include "mysim/scene/toml.h"
+#include "mysim/terms/springs.h"
+
+namespace crosscheck {
+
+/// Particle (i, j, l) has index i + nu (j + nv l) and starts at origin + i/(nu-1) u + j/(nv-1) v + l/(nw-1) w.
+struct Grid {
+  int nu, nv, nw;        // nw = 1: cloth
+  Vec3 origin, u, v, w;  // m; u, v and w are the whole sides
+  double mass;           // kg, of the whole grid, shared equally
+  struct {
+    double structural, shear, bend;  // N/m; 0: the family is absent; infinite: it keeps its lengths
+  } stiffness;
+  double dashpot;  // N s/m along every spring; 0: none
+
+  int size() const { return nu * nv * nw; }
+};
+
+Grid read_grid(const TomlTable& s);
+Points grid_points(const Grid& grid);
+/// Pairs in the order of the particles: for each one, structural along the axes, both shear diagonals of each face of
+/// the cell that starts there, bend (skip one) along the axes. Rest lengths are the distances of the grid, the same
+/// number for all springs of a direction, to which the places that they start from are rounded; stiffness is infinite
+/// for the structural family of an inextensible grid.
+std::vector<Spring> grid_springs(const Grid& grid);
+/// The cloth, or the six faces of the block seen from outside.
+std::vector<std::array<int, 3>> grid_triangles(const Grid& grid);
+
+}  // namespace crosscheck

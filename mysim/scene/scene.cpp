@@ -1,0 +1,356 @@
+// Scene files: their expansion into particles, springs and terms, and the fingerprint of the result.
+#include "mysim/scene/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/hash.h"
+#include "mysim/base/text.h"
+#include "mysim/scene/grid.h"
+#include "mysim/scene/keys.h"
+
+namespace crosscheck {
+namespace {
+
+class Hash {
+ public:
+  void add(std::uint64_t word) {
+    for (int i = 0; i < 8; ++i) bytes_.add(static_cast<unsigned char>(word >> (8 * i)));
+  }
+  void add(int value) { add(static_cast<std::uint64_t>(static_cast<std::int64_t>(value))); }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(std::string_view text) {
+    for (char c : text) add(static_cast<int>(c));
+    add(-1);
+  }
+  template <class Derived>
+  void add(const Eigen::DenseBase<Derived>& values) {
+    add(static_cast<int>(values.size()));
+    for (int j = 0; j < values.cols(); ++j)
+      for (int i = 0; i < values.rows(); ++i) add(static_cast<double>(values(i, j)));
+  }
+
+  void term(const Rotation& t) { add(t.rate); }
+  void term(const Gravity& t) { add(t.acceleration); }
+  void term(const Springs& t) {
+    for (const Spring& s : t.list) add(s.a), add(s.b), add(s.k), add(s.rest);
+    if (t.law != SpringLaw::hooke) add(name_of(t.law));
+  }
+  void term(const Dashpots& t) {
+    for (const auto& [a, b, c] : t.list) add(a), add(b), add(c);
+  }
+  void term(const Constraints& t) {
+    for (const auto& [a, b, length] : t.list) add(a), add(b), add(length);
+  }
+  void term(const Drag& t) { add(t.c); }
+  void term(const Wind& t) { wind_signal(t.acceleration); }
+  void term(const Aerodynamics& t) {
+    add(t.density), add(t.coefficient), wind_signal(t.velocity);
+    for (const auto& triangle : t.triangles)
+      for (int corner : triangle) add(corner);
+  }
+  void term(const Spheres& t) {
+    for (const Sphere& s : t.list) {
+      add(s.centre), add(s.radius), add(s.margin), add(s.friction), add(s.restitution);
+      if (s.motion) motion(*s.motion);
+    }
+  }
+  void motion(const Motion& m) { add(m.amplitude), add(m.frequency), add(m.ramp); }
+
+  std::uint64_t value() const { return bytes_.value(); }
+
+ private:
+  void wind_signal(const WindSignal& b) {
+    add(b.mean);
+    if (b.gusts) add(b.gusts->variation), add(b.gusts->side), add(b.gusts->seed);
+  }
+
+  Fnv1a bytes_;
+};
+
+}  // namespace
+
+std::string hash_of(const Scene& scene) {
+  Hash h;
+  const Particles& p = scene.model.particles;
+  h.add(p.mass);
+  for (int pin : p.pins) h.add(pin);
+  h.add(-1);
+  if (p.move) h.motion(*p.move);
+  for (const Term& term : scene.model.terms) {
+    h.add(name_of(term));
+    std::visit([&](const auto& t) { h.term(t); }, term);
+  }
+  h.add(scene.start.x);
+  h.add(scene.start.v);
+  return fmt::format("{:016x}", h.value());
+}
+
+namespace {
+
+constexpr auto without_mass = "which makes the scene first-order: without mass and without forces";
+
+// the table of terms that have a section of their own; springs, dashpots and constraints come from [grid], [[spring]]
+// and [[constraint]]
+struct TermReader {
+  std::string_view key;
+  Term (*read)(const TomlTable&, const Scene&);
+};
+constexpr TermReader term_readers[] = {
+    {Rotation::name, [](const TomlTable& s, const Scene&) -> Term { return read_rotation(s); }},
+    {Gravity::name, [](const TomlTable& s, const Scene&) -> Term { return read_gravity(s); }},
+    {Drag::name, [](const TomlTable& s, const Scene& scene) -> Term { return read_drag(s, scene.model.particles); }},
+    {Wind::name, [](const TomlTable& s, const Scene&) -> Term { return read_wind(s); }},
+    {Aerodynamics::name,
+     [](const TomlTable& s, const Scene& scene) -> Term { return read_aerodynamics(s, scene.triangles); }},
+};
+
+/// Particles of [grid] first, then of [[particle]].
+void read_particles(const TomlTable& file, const std::optional<Grid>& grid, bool first_order, Scene& scene) {
+  const std::vector<TomlTable> single = file.sections("particle");
+  const int on_grid = grid ? grid->size() : 0;
+  const int n = on_grid + static_cast<int>(single.size());
+  if (n == 0) file.fail("particle", "at least one [[particle]] or a [grid]");
+  if (grid && first_order) file.fail("grid", fmt::format("single particles beside [rotation], {}", without_mass));
+  scene.start.x.resize(3, n);
+  scene.start.v = Points::Zero(3, first_order ? 0 : n);
+  scene.model.particles.mass = Eigen::VectorXd::Ones(n);
+  scene.model.particles.pinned.assign(n, 0);
+  if (grid) {
+    scene.start.x.leftCols(on_grid) = grid_points(*grid);
+    scene.model.particles.mass.head(on_grid).setConstant(grid->mass / on_grid);
+    scene.triangles = grid_triangles(*grid);
+  }
+  for (int i = on_grid; i < n; ++i) {
+    const TomlTable& p = single[i - on_grid];
+    scene.start.x.col(i) = p.vec3("position");
+    if (first_order) continue;  // a mass or a velocity is then refused
+    scene.model.particles.mass[i] = p.positive("mass");
+    if (p.has("velocity")) scene.start.v.col(i) = p.vec3("velocity");
+  }
+}
+
+/// The two particles of a [[spring]] or [[constraint]], and their distance at the start.
+struct Ends {
+  int a, b;
+  double distance;  // m
+};
+Ends read_ends(const TomlTable& s, const Scene& scene) {
+  const std::vector<int> ends = s.integers("ends");
+  const int n = scene.model.particles.size();
+  if (ends.size() != 2) s.fail("ends", fmt::format("two different particles, got {} numbers", ends.size()));
+  if (ends[0] == ends[1]) s.fail("ends", fmt::format("two different particles, got {} twice", ends[0]));
+  for (int i = 0; i < 2; ++i)
+    if (ends[i] >= n)
+      s.fail(fmt::format("ends[{}]", i),
+             fmt::format("a particle from 0 to {} (there are {}), got {}", n - 1, n, ends[i]));
+  return {ends[0], ends[1], (scene.start.x.col(ends[0]) - scene.start.x.col(ends[1])).norm()};
+}
+
+/// Springs, their dashpots and hard distances: of the grid first, then one by one.
+void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& scene) {
+  Springs springs;
+  Dashpots dashpots;
+  Constraints constraints;
+  if (grid) {
+    springs.list = grid_springs(*grid);
+    const auto hard = [](const Spring& s) { return std::isinf(s.k); };
+    for (const Spring& s : springs.list) {
+      if (hard(s))
+        constraints.list.push_back({s.a, s.b, s.rest});
+      else if (grid->dashpot > 0)
+        dashpots.list.push_back({s.a, s.b, grid->dashpot});
+    }
+    std::erase_if(springs.list, hard);
+  }
+  for (const TomlTable& s : file.sections("spring")) {
+    const auto [a, b, distance] = read_ends(s, scene);
+    const double rest = s.has("rest") ? s.not_negative("rest") : distance;
+    if (distance == 0 && rest > 0)
+      s.fail("ends",
+             fmt::format("ends that do not coincide at the start, as the rest length is above zero, got particles "
+                         "{} and {} at the same place",
+                         a, b));
+    springs.list.push_back({a, b, s.positive("stiffness"), rest, Family::single});
+    if (s.has("dashpot")) dashpots.list.push_back({a, b, s.positive("dashpot")});
+  }
+  for (const TomlTable& s : file.sections("constraint")) {
+    const auto [a, b, distance] = read_ends(s, scene);
+    const double length = s.has("length") ? s.positive("length") : distance;
+    // 1e-9: equal but for the rounding of a decimal number
+    if (!(std::abs(distance - length) <= 1e-9 * length) || distance == 0)
+      s.fail("ends", fmt::format("ends that are {:.6g} m apart at the start, as they must stay, got {:.6g} m", length,
+                                 distance));
+    constraints.list.push_back({a, b, length});
+  }
+  if (file.has("springs")) {
+    const TomlTable s = file.section("springs");
+    const std::string law = s.text("law");
+    if (law == name_of(SpringLaw::bullet_link))
+      springs.law = SpringLaw::bullet_link;
+    else if (law != name_of(SpringLaw::hooke)) {
+      const std::vector<std::string> laws{std::string(name_of(SpringLaw::hooke)),
+                                          std::string(name_of(SpringLaw::bullet_link))};
+      s.fail("law", fmt::format("\"{}\" or \"{}\", got \"{}\"{}", laws[0], laws[1], law, did_you_mean(law, laws)));
+    }
+    if (springs.list.empty()) s.fail("law", "springs that follow it");
+  }
+  if (!springs.list.empty()) scene.model.terms.emplace_back(std::move(springs));
+  if (!dashpots.list.empty()) scene.model.terms.emplace_back(std::move(dashpots));
+  if (!constraints.list.empty()) scene.model.terms.emplace_back(std::move(constraints));
+}
+
+void read_spheres(const TomlTable& file, Scene& scene) {
+  if (!file.has(Spheres::name)) return;
+  Spheres spheres;
+  const Particles& particles = scene.model.particles;
+  for (const TomlTable& s : file.one_or_more(Spheres::name)) {
+    const Sphere sphere = read_sphere(s);
+    for (int i = 0; i < particles.size(); ++i) {
+      const double distance = (scene.start.x.col(i) - sphere.centre).norm();
+      // 1e-9 of the radius: on the surface but for the rounding of a decimal number is not inside
+      if (!particles.pinned[i] && distance < (1 - 1e-9) * sphere.contact_radius())
+        s.fail("radius",
+               fmt::format("no particle inside radius + margin at the start, got particle {} at {:.6g} m of the "
+                           "centre, inside {:.6g} m",
+                           i, distance, sphere.contact_radius()));
+    }
+    spheres.list.push_back(sphere);
+  }
+  if (spheres.list.empty()) file.fail(Spheres::name, "a table [sphere] or tables [[sphere]]");
+  scene.model.terms.emplace_back(std::move(spheres));
+}
+
+void read_pins(const TomlTable& file, Scene& scene) {
+  if (!file.has("pins")) return;
+  const TomlTable s = file.section("pins");
+  Particles& particles = scene.model.particles;
+  particles.pins = s.integers("particles");
+  if (particles.pins.empty()) s.fail("particles", "at least one particle");
+  for (size_t i = 0; i < particles.pins.size(); ++i) {
+    const std::string entry = fmt::format("particles[{}]", i);
+    const int pin = particles.pins[i], n = particles.size();
+    if (pin >= n) s.fail(entry, fmt::format("a particle from 0 to {} (there are {}), got {}", n - 1, n, pin));
+    if (particles.pinned[pin]) s.fail(entry, fmt::format("each particle once, got {} twice", pin));
+    particles.pinned[pin] = 1;
+    if (!scene.start.v.col(pin).isZero(0))
+      s.fail(entry, fmt::format("pins that start at rest; particle {} has a velocity", pin));
+  }
+  std::sort(particles.pins.begin(), particles.pins.end());
+  particles.pin_home.resize(3, static_cast<int>(particles.pins.size()));
+  for (size_t i = 0; i < particles.pins.size(); ++i)
+    particles.pin_home.col(static_cast<int>(i)) = scene.start.x.col(particles.pins[i]);
+  // pins keep their distances by themselves
+  if (auto* constraints = scene.model.find<Constraints>())
+    std::erase_if(constraints->list, [&](const auto& c) { return particles.pinned[c.a] && particles.pinned[c.b]; });
+  if (static_cast<int>(particles.pins.size()) == particles.size())
+    s.fail("particles", fmt::format("at least one particle left free, got all {}", particles.size()));
+  if (s.has("motion")) {
+    if (scene.model.find<Constraints>())
+      s.fail("motion", "pins that stand still: the work of moved pins on hard distances is not modelled");
+    particles.move = read_motion(s.section("motion"));
+  }
+}
+
+void read_time(const TomlTable& file, Scene& scene) {
+  const TomlTable s = file.section("time");
+  scene.duration = s.positive("duration");
+  scene.samples = s.count("samples", most_samples);
+  scene.step = s.positive("step");
+  if (scene.step > scene.duration)
+    s.fail("step", fmt::format("a step not longer than the duration of {} s, got {} s", scene.duration, scene.step));
+  if (const double between = scene.duration / scene.samples / scene.step; between > 1e9)
+    s.fail("step", fmt::format("at most 1e9 steps between two samples, got {:.3g}", between));
+  scene.window = s.positive("window");
+  if (scene.window > scene.duration)
+    s.fail("window",
+           fmt::format("a window not longer than the duration of {} s, got {} s", scene.duration, scene.window));
+  scene.tolerance = s.positive("tolerance");
+  scene.method = s.text("method");
+}
+
+void read_wish(const TomlTable& file, Scene& scene) {
+  if (!file.has("wish")) return;
+  const TomlTable s = file.section("wish");
+  const auto wished = [&](std::string_view key) { return s.has(key) ? std::optional(s.positive(key)) : std::nullopt; };
+  scene.wish = {wished("sag"), wished("period"), wished("settle_time"), wished("max_stretch")};
+  if (scene.wish.count() == 0) file.fail("wish", "at least one of sag, period, settle_time and max_stretch");
+}
+
+Scene expand(const TomlTable& file, const std::string& name) {
+  Scene scene{};
+  scene.name = name;
+  scene.question = file.text("question");
+  scene.parameters = file.text("parameters");
+  scene.source = file.source();
+  read_time(file, scene);
+  read_wish(file, scene);
+
+  const bool first_order = file.has(Rotation::name);
+  std::optional<Grid> grid;
+  if (file.has("grid")) grid = read_grid(file.section("grid"));
+  read_particles(file, grid, first_order, scene);
+  if (!first_order) {
+    read_pairs(file, grid, scene);
+    read_pins(file, scene);
+  }
+  for (const TermReader& reader : term_readers)
+    if ((!first_order || reader.key == Rotation::name) && file.has(reader.key))
+      scene.model.terms.push_back(reader.read(file.section(reader.key), scene));
+  if (!first_order) read_spheres(file, scene);
+  if (scene.model.find<Wind>() && scene.model.find<Aerodynamics>())
+    file.fail(Wind::name, "one kind of wind, [wind] or [aerodynamics]");
+
+  if (file.has("camera")) {
+    const TomlTable s = file.section("camera");
+    scene.camera = Camera{s.vec3("eye"), s.vec3("target"), std::nullopt};
+    if (s.has("at")) scene.camera->at = s.not_negative("at");
+    if (scene.camera->at > scene.duration)
+      s.fail("at", fmt::format("a time not after the end of the run, {} s", scene.duration));
+    if (scene.camera->eye == scene.camera->target) s.fail("target", "a point other than the eye");
+  }
+  if (first_order) {
+    for (const std::string_view key :
+         {"spring", "constraint", "springs", "pins", "gravity", "drag", "wind", "aerodynamics", "sphere"})
+      if (file.has(key)) file.fail(key, fmt::format("no {} beside [rotation], {}", key, without_mass));
+    for (const TomlTable& p : file.sections("particle"))
+      for (const std::string_view key : {"mass", "velocity"})
+        if (p.has(key)) p.fail(key, fmt::format("no {} beside [rotation], {}", key, without_mass));
+  }
+  file.finish();
+  if (!first_order) scene.model.particles.place_pins(scene.start);
+  scene.hash = hash_of(scene);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) {
+  const std::string text = read_file(file, "a scene file (TOML)");
+  check_keys(text, file.string(), scene_keys());
+  return expand(TomlTable::parse_text(text, file.string()), file_name_of(file.stem().string()));
+}
+
+Scene parse_scene(std::string_view text, const std::string& name) {
+  check_keys(text, name, scene_keys());
+  return expand(TomlTable::parse_text(text, name), name);
+}
+
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
+double Scene::size() const {
+  const double diagonal = (start.x.rowwise().maxCoeff() - start.x.rowwise().minCoeff()).norm();
+  return diagonal > 0 ? diagonal : 1;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,75 @@
+// A scene: what is simulated and which question it answers. Read from TOML once, expanded once, used by every engine.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mysim/model/model.h"
+
+namespace crosscheck {
+
+/// From where the scene is seen: only the direction from target to eye counts, the distance is chosen to hold
+/// everything.
+struct Camera {
+  Vec3 eye, target;          // m
+  std::optional<double> at;  // s, when the picture is taken; none: at the end
+};
+
+/// What a scene is wished to do, in plain measures (experiments/measures.h): what unset parameters are fitted
+/// to.
+struct Wish {
+  std::optional<double> sag;          // m
+  std::optional<double> period;       // s
+  std::optional<double> settle_time;  // s
+  std::optional<double> max_stretch;  // 1
+
+  int count() const { return sag.has_value() + period.has_value() + settle_time.has_value() + max_stretch.has_value(); }
+};
+
+struct Scene {
+  std::string name;
+  std::string question;    // what the scene asks, one sentence for a reader
+  std::string parameters;  // how its parameters were chosen
+  Model model;
+  State start;
+
+  double duration;     // s
+  int samples;         // frames after the first; they lie at i duration / samples
+  double step;         // s, default step
+  double window;       // s, pointwise comparison is meant up to here (a 1e-10 m perturbation grows by less than 1e3)
+  double tolerance;    // m, what differs by less is the same to this scene's purpose
+  std::string method;  // default method
+
+  std::vector<std::array<int, 3>> triangles;  // surface of grids, for pictures
+  std::optional<Camera> camera;               // none: chosen so that everything is seen
+
+  Wish wish;  // nothing that engines see
+
+  std::string source;  // the TOML that it was read from; a scene changed in memory keeps it
+  std::string hash;    // 16 hexadecimal digits, of everything that engines see
+
+  // Compiled once, in scene.cpp: they instantiate the copies of every term.
+  Scene() = default;
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+
+  /// Length of the diagonal of the box around the start, m; 1 for a single particle. The scale of round-off.
+  double size() const;
+};
+
+/// Reads and expands a scene file; its name, made safe for file names, is the scene's. Throws InputError: "FILE:LINE:
+/// KEY: expected ...".
+Scene read_scene(const std::filesystem::path& file);
+/// The same from text; name stands in for the file in messages and is the scene's name.
+Scene parse_scene(std::string_view text, const std::string& name);
+
+/// Fingerprint of particles, springs, terms and start (FNV-1a over their exact bits).
+std::string hash_of(const Scene& scene);
+
+}  // namespace crosscheck

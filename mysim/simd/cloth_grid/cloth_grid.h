@@ -1,0 +1,154 @@
+// A cloth as a regular grid: found in a scene's springs, laid out in lanes, cut into slabs for threads.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "mysim/particles.h"
+#include "mysim/simd/cloth_grid/fused_step.h"
+#include "mysim/simd/thread_pool.h"
+#include "mysim/terms/springs.h"
+#include "mysim/types.h"
+
+namespace crosscheck::simd {
+
+// Finds the regular grid in a scene's springs, if there is one.
+
+/// All springs of a rows x columns grid whose particle (row, column) has the index row * columns + column: of each
+/// direction (fused_step.h) all that fit in or none, with one stiffness and one rest length.
+struct GridTopology {
+  struct Stiffness {
+    double k, rest;  // N/m, m
+  };
+  int rows, columns;
+  std::array<std::optional<Stiffness>, directions> families;
+};
+
+/// Empty where the springs are of another law, no such grid, or not all of one: such scenes are left to kernels for any
+/// network.
+std::optional<GridTopology> find_grid_topology(const Springs& springs, int particles);
+
+// The memory of a sheet: particles of a scene laid out in lanes, and back.
+
+/// Numbers that begin at a cache line, with a cache line to spare on either side.
+template <class T>
+class AlignedBuffer {
+ public:
+  AlignedBuffer() = default;
+  explicit AlignedBuffer(size_t count);
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  size_t size() const { return size_; }
+
+ private:
+  struct Free {
+    void operator()(T* memory) const;
+  };
+  std::unique_ptr<T, Free> memory_;
+  T* data_ = nullptr;
+  size_t size_ = 0;
+};
+
+/// Whether a grid is wide enough for its springs to reach across lanes in one direction only.
+template <class T>
+bool fits(const GridTopology& topology) {
+  return (topology.columns + lanes<T> - 1) / lanes<T> >= 3;
+}
+
+template <class T>
+class ClothGridMemory {
+ public:
+  explicit ClothGridMemory(const GridTopology& topology);
+
+  ClothGrid<T>& grid() { return grid_; }
+  int size() const { return rows_ * columns_; }  // particles
+  /// A row of positions, with the copies beside it: so many numbers.
+  T* row(int which) { return x_.data() + which * row_length(); }
+  long row_length() const { return static_cast<long>(left_halo + tiles_ + right_halo) * 3 * lanes<T>; }
+
+  /// All particles, and the copies beside the rows.
+  void put(const Eigen::Ref<const Points>& x, const Eigen::Ref<const Points>& v);
+  /// Some rows; the column of x and v of particle i is first + i.
+  void get(int row, int rows, int first, Points& x, Points& v) const;
+  /// One particle, with the copies of it: v is set to 0.
+  void place(int particle, const Vec3& x);
+  Vec3 position(int particle) const;
+  Vec3 velocity(int particle) const;
+  /// Numbers of each particle (or of all: one number), into lines of their own laid out as the kernel reads them; lanes
+  /// without a particle hold 0 where each has its own.
+  AlignedBuffer<T> spread(const Eigen::ArrayXd& values) const;
+  AlignedBuffer<T> memory_of_forces() const { return AlignedBuffer<T>(v_.size()); }
+  void get_forces(const AlignedBuffer<T>& buffer, Points& f) const;
+
+  /// The particle in a lane of a tile; -1 where there is none.
+  int particle(int row, int tile, int lane) const {
+    const int column = lane * tiles_ + tile;
+    return column < columns_ ? row * columns_ + column : -1;
+  }
+
+ private:
+  long x_at(int particle) const;  // of its first coordinate; the others are a line further
+  long v_at(int particle) const;
+
+  int rows_, columns_, tiles_;
+  AlignedBuffer<T> x_, v_, force_;
+  AlignedBuffer<T> k_[directions];
+  ClothGrid<T> grid_{};
+};
+
+// A sheet cut into bands of rows, one for each thread.
+
+/// Around its own rows a band has two of each neighbour: that is how far a spring reaches. Before a sweep it takes
+/// their positions from where the neighbour left them after the last one; two such places, used in turns, let all bands
+/// take and leave at the same time, so that they have to wait for each other once a sweep. Forces are summed in the
+/// order of a single band: the same bits, however many there are.
+template <class T>
+class Slabs {
+ public:
+  /// See KickDrift: of each particle, or one line for all.
+  struct KickFactors {
+    AlignedBuffer<T> damping, inverse_mass_dt, dt;
+  };
+  struct Slab {
+    int which;
+    ClothGridMemory<T> body;
+    int first;                          // particle that is 0 here
+    int leading_halo, own_rows;         // rows
+    AlignedBuffer<T> outgoing_halo[2];  // for the neighbours: two rows at the beginning of its own, two at the end
+    std::vector<KickFactors> factors;   // of each kick
+    /// The particle here that is i in the scene; -1 where it is none of this band's rows.
+    int here(int i) const { return i >= first && i - first < body.size() ? i - first : -1; }
+  };
+
+  /// As many bands as threads, or fewer where rows are few.
+  Slabs(const GridTopology& topology, int threads);
+
+  void put(const Points& x, const Points& v);
+  void get(Points& x, Points& v) const;
+  /// sweep(band) for each, on its own thread, with its neighbours' rows where they are now.
+  template <class Step>
+  void fused_step(Step one) {
+    const std::function<void(int)> work = [&](int which) {
+      receive_halo(which);
+      one(slabs_[which]);
+      send_halo(which, 1 - parity_);
+    };
+    pool_.all(work);
+    parity_ = 1 - parity_;
+  }
+  std::deque<Slab>& all() { return slabs_; }
+  double worker_seconds() const { return pool_.seconds(); }
+
+ private:
+  void receive_halo(int which);
+  void send_halo(int which, int parity);
+
+  int columns_;
+  std::deque<Slab> slabs_;
+  ThreadPool pool_;
+  int parity_ = 0;
+};
+
+}  // namespace crosscheck::simd

@@ -1,0 +1,241 @@
+// See fused_step.h. Compiled once for each instruction set, CROSSCHECK_ISA naming it.
+#include "mysim/simd/cloth_grid/fused_step.h"
+
+#include "mysim/simd/cloth_grid/rows.h"
+
+namespace crosscheck::simd {
+namespace {
+
+template <class T>
+using V = typename Lanes<T>::V;
+
+/// Three coordinates of as many particles as a register has lanes; in memory a cache line apart.
+template <class T>
+struct Three {
+  V<T> x, y, z;
+};
+template <class T>
+FORCE_INLINE Three<T> load(const T* p) {
+  using L = Lanes<T>;
+  return {L::load(p), L::load(p + lanes<T>), L::load(p + 2 * lanes<T>)};
+}
+template <class T>
+FORCE_INLINE void store(T* p, const Three<T>& a) {
+  using L = Lanes<T>;
+  L::store(p, a.x), L::store(p + lanes<T>, a.y), L::store(p + 2 * lanes<T>, a.z);
+}
+
+template <class T>
+inline constexpr int tile_size = 3 * lanes<T>;  // numbers of a tile
+
+/// m^2: nothing that is not 0 comes so close.
+template <class T>
+inline constexpr T min_squared_length = T(1e-30);
+
+template <class T>
+FORCE_INLINE long row_length(const ClothGrid<T>& s) {
+  return static_cast<long>(left_halo + s.tiles + right_halo) * tile_size<T>;
+}
+
+/// One spring for each lane: takes its force from the far end and gives it to the near one.
+template <class T, bool fast>
+FORCE_INLINE void spring(const Three<T>& near, Three<T>& force, const T* far, T* far_force, const T* k, V<T> rest,
+                         V<T>& least) {
+  using L = Lanes<T>;
+  const Three<T> q = load(far);
+  const V<T> dx = near.x - q.x, dy = near.y - q.y, dz = near.z - q.z;
+  V<T> s = L::fma(dz, dz, L::fma(dy, dy, dx * dx));
+  least = L::min(least, s);
+  // ends that met: a large number times a difference of 0
+  s = L::max(s, L::all(min_squared_length<T>));
+  const V<T> scale = L::load(k) * L::fma(rest, rsqrt<T, fast>(s), L::all(-1));
+  force.x = L::fma(scale, dx, force.x), force.y = L::fma(scale, dy, force.y), force.z = L::fma(scale, dz, force.z);
+  const Three<T> f = load(far_force);
+  store(far_force, Three<T>{L::fnma(scale, dx, f.x), L::fnma(scale, dy, f.y), L::fnma(scale, dz, f.z)});
+}
+
+/// A number known when this is compiled.
+template <int n>
+struct Number {
+  static constexpr int value = n;
+};
+
+template <class T>
+struct Rows {
+  const T* x[3];  // this row and the two below, at tile 0; the last ones of a sheet have no row below
+  T* f[3];
+};
+
+/// All springs that begin in a row. Six times the same, written as a fold so that each direction is known when this is
+/// compiled.
+template <class T, bool fast>
+FORCE_INLINE void springs_of_row(const ClothGrid<T>& s, const Rows<T>& rows, int rows_below, V<T>& least) {
+  using L = Lanes<T>;
+  for (int b = 0; b < s.tiles; ++b)
+    for (int lane = 0; lane < lanes<T>; lane += L::width) {
+      const long at = static_cast<long>(b) * tile_size<T> + lane;
+      const Three<T> near = load(rows.x[0] + at);
+      Three<T> force = load(rows.f[0] + at);
+      const auto take = [&](auto d) __attribute__((always_inline)) {
+        constexpr Direction to = direction[decltype(d)::value];
+        if (!s.k[decltype(d)::value] || to.down > rows_below) return;
+        const long there = at + static_cast<long>(to.right) * tile_size<T>;
+        spring<T, fast>(near, force, rows.x[to.down] + there, rows.f[to.down] + there,
+                        s.k[decltype(d)::value] + static_cast<long>(b) * lanes<T> + lane,
+                        L::all(s.rest[decltype(d)::value]), least);
+      };
+      take(Number<0>{}), take(Number<1>{}), take(Number<2>{}), take(Number<3>{}), take(Number<4>{}), take(Number<5>{});
+      store(rows.f[0] + at, force);
+    }
+}
+
+template <class T>
+FORCE_INLINE bool touches(const Three<T>& x, const BoundingSphere& sphere) {
+  using L = Lanes<T>;
+  const V<T> dx = x.x - L::all(T(sphere.centre[0])), dy = x.y - L::all(T(sphere.centre[1])),
+             dz = x.z - L::all(T(sphere.centre[2]));
+  return L::any_less(L::fma(dz, dz, L::fma(dy, dy, dx * dx)), L::all(T(sphere.squared_radius)));
+}
+
+/// Kick, contacts and drift of a row.
+template <class T>
+FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int row, T* x, const T* f) {
+  using L = Lanes<T>;
+  const V<T> drift_before = L::all(step.drift_before), drift_after = L::all(step.drift_after);
+  const V<T> fall_x = L::all(step.uniform_acceleration[0]), fall_y = L::all(step.uniform_acceleration[1]),
+             fall_z = L::all(step.uniform_acceleration[2]);
+  for (int b = 0; b < s.tiles; ++b) {
+    T *x_b = x + static_cast<long>(b) * tile_size<T>,
+      *v_b = s.v + (static_cast<long>(row) * s.tiles + b) * tile_size<T>;
+    alignas(64) T end[tile_size<T>], speed[tile_size<T>];
+    bool touched = false;
+    for (int lane = 0; lane < lanes<T>; lane += L::width) {
+      const long own = (static_cast<long>(row) * s.tiles + b) * s.stride + lane;
+      const V<T> damping = L::load(s.damping + own), inverse_mass_dt = L::load(s.inverse_mass_dt + own),
+                 dt = L::load(s.dt + own);
+      const Three<T> p = load(x_b + lane), u = load(v_b + lane),
+                     pull = load(f + static_cast<long>(b) * tile_size<T> + lane);
+      const Three<T> v{u.x + L::fnma(damping, u.x, L::fma(inverse_mass_dt, pull.x, dt * fall_x)),
+                       u.y + L::fnma(damping, u.y, L::fma(inverse_mass_dt, pull.y, dt * fall_y)),
+                       u.z + L::fnma(damping, u.z, L::fma(inverse_mass_dt, pull.z, dt * fall_z))};
+      const Three<T> e{L::fma(drift_before, v.x, p.x), L::fma(drift_before, v.y, p.y), L::fma(drift_before, v.z, p.z)};
+      if (step.bounding_sphere_count > 0) {
+        store(end + lane, e), store(speed + lane, v);
+        for (int i = 0; i < step.bounding_sphere_count; ++i) touched |= touches(e, step.bounding_spheres[i]);
+      } else {
+        store(v_b + lane, v);
+        store(x_b + lane,
+              Three<T>{L::fma(drift_after, v.x, e.x), L::fma(drift_after, v.y, e.y), L::fma(drift_after, v.z, e.z)});
+      }
+    }
+    if (step.bounding_sphere_count == 0) continue;
+    if (touched) step.on_contact(step.user_data, row, b, end, speed);
+    for (int lane = 0; lane < lanes<T>; lane += L::width) {
+      const Three<T> e = load(end + lane), v = load(speed + lane);
+      store(v_b + lane, v);
+      store(x_b + lane,
+            Three<T>{L::fma(drift_after, v.x, e.x), L::fma(drift_after, v.y, e.y), L::fma(drift_after, v.z, e.z)});
+    }
+  }
+  fill_halo<tile_size<T>>(x, s.tiles);
+}
+
+/// Springs that begin in a row and whose ends met, one by one; asked only where a length was 0.
+template <class T>
+[[gnu::noinline]] long count_degenerate_springs(const ClothGrid<T>& s, const Rows<T>& rows, int rows_below) {
+  long degenerate_springs = 0;
+  for (int d = 0; d < directions; ++d) {
+    if (!s.k[d] || direction[d].down > rows_below || !(s.rest[d] > 0)) continue;
+    for (int b = 0; b < s.tiles; ++b)
+      for (int lane = 0; lane < lanes<T>; ++lane) {
+        const long at = static_cast<long>(b) * tile_size<T> + lane;
+        const T *near = rows.x[0] + at, *far = rows.x[direction[d].down] + at + direction[d].right * tile_size<T>;
+        degenerate_springs += s.k[d][b * lanes<T> + lane] > 0 && near[0] == far[0] && near[lanes<T>] == far[lanes<T>] &&
+                              near[2 * lanes<T>] == far[2 * lanes<T>];
+      }
+  }
+  return degenerate_springs;
+}
+
+/// Goes over the rows from the first; `finished(row, x, f)` is told of each of its own whose forces are complete.
+/// Returns how many springs that begin in these had ends that met.
+template <class T, bool fast, class Finished>
+FORCE_INLINE long over_rows(const ClothGrid<T>& s, Finished finished) {
+  using L = Lanes<T>;
+  const long length = row_length(s), first = left_halo * tile_size<T>;
+  T* f[3] = {s.force + first, s.force + length + first, s.force + 2 * length + first};
+  for (T* row : f) clear(row - first, length);
+  long degenerate_springs = 0;
+  for (int r = 0; r < s.rows - s.trailing_halo; ++r) {
+    T* x = s.x + r * length + first;
+    const Rows<T> rows{{x, x + length, x + 2 * length}, {f[0], f[1], f[2]}};
+    V<T> least = L::all(T(1));
+    springs_of_row<T, fast>(s, rows, s.rows - 1 - r, least);
+    if (r >= s.leading_halo) {
+      if (L::any_less(least, L::all(min_squared_length<T>)))
+        degenerate_springs += count_degenerate_springs(s, rows, s.rows - 1 - r);
+      reduce_halo<tile_size<T>>(f[0], s.tiles);
+      finished(r, x, f[0]);
+    }
+    T* done = f[0];
+    clear(done - first, length);
+    f[0] = f[1], f[1] = f[2], f[2] = done;
+  }
+  return degenerate_springs;
+}
+
+template <class T, bool fast>
+long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
+  return over_rows<T, fast>(
+      s, [&](int row, T* x, const T* f) __attribute__((always_inline)) { move_row(s, step, row, x, f); });
+}
+
+template <class T, bool fast>
+long forces(const ClothGrid<T>& s, T* drift_before) {
+  return over_rows<T, fast>(
+      s, [&](int row, T*, const T* f) __attribute__((always_inline)) {
+        T* to = drift_before + static_cast<long>(row) * s.tiles * tile_size<T>;
+        for (long i = 0; i < static_cast<long>(s.tiles) * tile_size<T>; i += Lanes<T>::width)
+          Lanes<T>::store(to + i, Lanes<T>::load(f + i));
+      });
+}
+
+template <class T, bool fast>
+void rsqrt_array(const T* s, T* y, long count) {
+  using L = Lanes<T>;
+  for (long i = 0; i < count; i += L::width) L::store(y + i, rsqrt<T, fast>(L::load(s + i)));
+}
+
+template <class T>
+int multiply_and_add(long rounds, T* sum) {
+  using L = Lanes<T>;
+  constexpr int chains = 12;  // two pipes, each with four or five operations under way
+  V<T> y[chains];
+  for (int i = 0; i < chains; ++i) y[i] = L::all(T(1) / T(i + 1));
+  const V<T> half = L::all(T(0.5));  // a fixed point at 1: neither overflow nor denormal numbers, which are slow
+  for (long round = 0; round < rounds; ++round)
+    for (int i = 0; i < chains; ++i) y[i] = L::fma(y[i], half, half);
+  V<T> all = L::all(0);
+  for (int i = 0; i < chains; ++i) all = all + y[i];
+  alignas(64) T each[L::width];
+  L::store(each, all);
+  for (const T one : each) *sum += one;
+  return 2 * chains * L::width;
+}
+
+}  // namespace
+
+namespace CROSSCHECK_ISA {
+
+Kernel<double> double_kernel(bool fast) {
+  if (fast)
+    return {fused_step<double, true>, forces<double, true>, rsqrt_array<double, true>, multiply_and_add<double>};
+  return {fused_step<double, false>, forces<double, false>, rsqrt_array<double, false>, multiply_and_add<double>};
+}
+Kernel<float> float_kernel(bool fast) {
+  if (fast) return {fused_step<float, true>, forces<float, true>, rsqrt_array<float, true>, multiply_and_add<float>};
+  return {fused_step<float, false>, forces<float, false>, rsqrt_array<float, false>, multiply_and_add<float>};
+}
+
+}  // namespace CROSSCHECK_ISA
+}  // namespace crosscheck::simd

@@ -1,0 +1,62 @@
+// Which instruction sets this machine has, and which one was asked for.
+#include "mysim/simd/instruction_sets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "mysim/base/errors.h"
+
+namespace crosscheck::simd {
+
+// the tables of mysim/simd/cloth_grid/fused_step.cpp, compiled for each
+#define TABLES_OF(isa)                \
+  namespace isa {                     \
+  Kernel<double> double_kernel(bool); \
+  Kernel<float> float_kernel(bool);   \
+  }
+TABLES_OF(sse2)
+TABLES_OF(avx2)
+TABLES_OF(avx512)
+#undef TABLES_OF
+
+std::string_view name_of(InstructionSet isa) {
+  constexpr std::string_view names[] = {"sse2", "avx2", "avx512"};
+  return names[static_cast<int>(isa)];
+}
+
+std::vector<InstructionSet> supported_instruction_sets() {
+  std::vector<InstructionSet> all{InstructionSet::sse2};
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) all.push_back(InstructionSet::avx2);
+  if (all.size() > 1 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+    all.push_back(InstructionSet::avx512);
+  return all;
+}
+
+InstructionSet active_instruction_set() {
+  const std::vector<InstructionSet> all = supported_instruction_sets();
+  const char* named = std::getenv("CROSSCHECK_INSTRUCTIONS");
+  if (!named || !*named) return all.back();
+  for (const InstructionSet isa : all)
+    if (name_of(isa) == named) return isa;
+  throw InputError(
+      fmt::format("CROSSCHECK_INSTRUCTIONS={}: expected sse2, avx2 or avx512, and one that this machine has", named));
+}
+
+template <>
+Kernel<double> kernel(InstructionSet isa, bool fast) {
+  return isa == InstructionSet::avx512 ? avx512::double_kernel(fast)
+         : isa == InstructionSet::avx2 ? avx2::double_kernel(fast)
+                                       : sse2::double_kernel(fast);
+}
+
+template <>
+Kernel<float> kernel(InstructionSet isa, bool fast) {
+  return isa == InstructionSet::avx512 ? avx512::float_kernel(fast)
+         : isa == InstructionSet::avx2 ? avx2::float_kernel(fast)
+                                       : sse2::float_kernel(fast);
+}
+
+}  // namespace crosscheck::simd

@@ -1,0 +1,25 @@
+// Which instruction set runs the sweep, chosen when it is asked for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mysim/simd/cloth_grid/fused_step.h"
+
+namespace crosscheck::simd {
+
+enum class InstructionSet { sse2, avx2, avx512 };
+std::string_view name_of(InstructionSet isa);
+
+/// What this machine has, the best last.
+std::vector<InstructionSet> supported_instruction_sets();
+
+/// The best there is, or the one that CROSSCHECK_INSTRUCTIONS names (sse2, avx2, avx512). Throws InputError where it
+/// names none of them or one that this machine lacks.
+InstructionSet active_instruction_set();
+
+/// `fast`: inverse roots from the machine's own estimate; else the same bits on AVX2 and AVX-512.
+template <class T>
+Kernel<T> kernel(InstructionSet isa, bool fast);
+
+}  // namespace crosscheck::simd

@@ -1,0 +1,174 @@
+// Spring forces by offset and edge by edge (kernels.h), compiled once for each instruction set.
+#include "mysim/simd/spring_graph/kernels.h"
+
+#include "mysim/simd/spring_graph/law.h"
+
+namespace crosscheck::spring_graph {
+namespace {
+
+/// Registers that walk a tile together: they share the counting.
+inline constexpr int registers_per_group = L::width == tile ? 1 : 2;
+inline constexpr int group_size = registers_per_group * L::width;
+
+/// Three coordinates of the particles in `abreast` registers.
+struct Sums {
+  V f[3][registers_per_group];
+};
+
+FORCE_INLINE long ring_length(const Diagonal& diagonal) { return diagonal.mask + 1 + tile; }
+FORCE_INLINE long place(int b) { return static_cast<long>(b) * tile; }
+
+/// The springs that begin in a stretch of a tile.
+template <bool hooke>
+FORCE_INLINE Sums begin_at(const DiaSprings& s, int b, int lane, const int* coefficient_row, V& least) {
+  const long at = place(b) + lane;
+  const double *const x[3] = {s.x[0] + at, s.x[1] + at, s.x[2] + at}, *const coefficients = s.coefficients + lane;
+  V near[3][registers_per_group];
+  Sums sum;
+  for (int c = 0; c < 3; ++c)
+    for (int a = 0; a < registers_per_group; ++a) near[c][a] = L::load(x[c] + a * L::width), sum.f[c][a] = L::all(0);
+  for (const Diagonal *diagonal = s.diagonals, *last = diagonal + s.count; diagonal < last; ++diagonal) {
+    if (b < diagonal->first || b >= diagonal->last) continue;
+    const double* own = coefficients + 2L * tile * *coefficient_row++;
+    const long n = ring_length(*diagonal), r = at & diagonal->mask;
+    for (int a = 0; a < registers_per_group; ++a, own += L::width) {
+      V d[3];
+      for (int c = 0; c < 3; ++c) d[c] = near[c][a] - L::load(x[c] + a * L::width + diagonal->offset);
+      const V squared = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+      least = L::min(least, squared);
+      const V scale = scale_of<hooke>(squared, L::load(own), L::load(own + tile));
+      double* to = diagonal->ring + r + a * L::width;
+      for (int c = 0; c < 3; ++c) {
+        d[c] = scale * d[c];  // now the force
+        sum.f[c][a] = sum.f[c][a] + d[c];
+        L::store(to + c * n, d[c]);
+      }
+      if (r < tile)
+        for (int c = 0; c < 3; ++c) L::store(to + c * n + diagonal->mask + 1, d[c]);
+    }
+  }
+  return sum;
+}
+
+template <bool hooke>
+FORCE_INLINE void begin_tile(const DiaSprings& s, int b, const int*& coefficient_row, V& least) {
+  for (int lane = 0; lane < tile; lane += group_size) {
+    const Sums sum = begin_at<hooke>(s, b, lane, coefficient_row, least);
+    double* to = s.pulls + (b & 1) * 3 * tile + lane;
+    for (int c = 0; c < 3; ++c)
+      for (int a = 0; a < registers_per_group; ++a) L::store(to + c * tile + a * L::width, sum.f[c][a]);
+  }
+  for (int i = 0; i < s.count; ++i) coefficient_row += b >= s.diagonals[i].first && b < s.diagonals[i].last;
+}
+
+/// What all springs do to a tile, onto f.
+FORCE_INLINE void finish_tile(const DiaSprings& s, int b, double* f) {
+  alignas(64) double last[3 * tile];  // of the last tile, which may hold fewer particles
+  const int there = s.particles - b * tile;
+  double* to = f + 3 * place(b);
+  if (there < tile) {
+    for (int i = 0; i < 3 * tile; i += L::width) L::store(last + i, L::all(0));
+    for (int i = 0; i < 3 * there; ++i) last[i] = to[i];
+  }
+  double* onto = there < tile ? last : to;
+  for (int lane = 0; lane < tile; lane += group_size) {
+    Sums sum;
+    const double* pulls = s.pulls + (b & 1) * 3 * tile + lane;
+    for (int c = 0; c < 3; ++c)
+      for (int a = 0; a < registers_per_group; ++a) sum.f[c][a] = L::load(pulls + c * tile + a * L::width);
+    for (int i = 0; i < s.count; ++i) {
+      const Diagonal& diagonal = s.diagonals[i];
+      const long from = place(b) - diagonal.offset;
+      if (from + tile <= place(diagonal.first) || from >= place(diagonal.last)) continue;
+      const long n = ring_length(diagonal);
+      // a tile at most goes beyond the end of the ring, where it begins again
+      const double* pushes = diagonal.ring + (from & diagonal.mask) + lane;
+      for (int c = 0; c < 3; ++c)
+        for (int a = 0; a < registers_per_group; ++a)
+          sum.f[c][a] = sum.f[c][a] - L::load(pushes + c * n + a * L::width);
+    }
+    for (int a = 0; a < registers_per_group; ++a)
+      L::add_points(onto + 3 * (lane + a * L::width), sum.f[0][a], sum.f[1][a], sum.f[2][a]);
+  }
+  if (there < tile)
+    for (int i = 0; i < 3 * there; ++i) to[i] = last[i];
+}
+
+/// No forces in a tile of a ring: before the first springs and after the last ones.
+FORCE_INLINE void clear(const Diagonal& diagonal, int b) {
+  const long r = place(b) & diagonal.mask;
+  for (int c = 0; c < 3; ++c)
+    for (int i = 0; i < tile; ++i) {
+      double* ring = diagonal.ring + c * ring_length(diagonal) + i;
+      ring[r] = 0;
+      if (r == 0) ring[diagonal.mask + 1] = 0;
+    }
+}
+
+FORCE_INLINE void put(const DiaSprings& s, const double* x) {
+  for (int i = 0; i < s.particles; ++i)
+    for (int c = 0; c < 3; ++c) s.x[c][i] = x[3L * i + c];
+}
+
+template <bool hooke>
+bool diagonals(const DiaSprings& s, const double* x, double* f) {
+  put(s, x);
+  for (int i = 0; i < s.count; ++i) clear(s.diagonals[i], s.diagonals[i].first - 1);
+  const int* coefficient_row = s.coefficient_row;
+  V least = L::all(1);
+  for (int b = 0; b < s.tiles; ++b) {
+    for (int i = 0; i < s.count; ++i)
+      if (s.diagonals[i].last == b) clear(s.diagonals[i], b);
+    begin_tile<hooke>(s, b, coefficient_row, least);
+    if (b > 0) finish_tile(s, b - 1, f);
+  }
+  finish_tile(s, s.tiles - 1, f);
+  return L::any_less(least, L::all(min_squared_length));
+}
+
+}  // namespace
+
+namespace CROSSCHECK_ISA {
+
+bool hooke_dia(const DiaSprings& s, const double* x, double* f) { return diagonals<true>(s, x, f); }
+bool link_dia(const DiaSprings& s, const double* x, double* f) { return diagonals<false>(s, x, f); }
+
+}  // namespace CROSSCHECK_ISA
+namespace {
+
+FORCE_INLINE void put(const CooSprings& s, const double* x) {
+  for (int i = 0; i < s.particles; ++i)
+    for (int c = 0; c < 3; ++c) s.x[4L * i + c] = x[3L * i + c];
+  for (long i = 0; i < 4L * s.particles; i += 4) L::store_record(s.force + i, L::Record{});
+}
+
+template <bool hooke>
+bool pairs(const CooSprings& s, const double* x, double* f) {
+  put(s, x);
+  V least = L::all(1);
+  for (int i = 0; i < s.springs; i += L::width) {
+    const int* ends = s.ends + 2L * i;
+    const L::Records d = L::difference(s.x, ends);
+    const V squared = L::squared_norms(d);
+    least = L::min(least, squared);
+    const V scale = scale_of<hooke>(squared, L::load(s.k + i), L::load(s.rest + i));
+    L::each_scaled(
+        d, scale, [&](int spring, L::Record pull) __attribute__((always_inline)) {
+          double *a = s.force + ends[2 * spring], *b = s.force + ends[2 * spring + 1];
+          L::store_record(a, L::record(a) + pull);
+          L::store_record(b, L::record(b) - pull);
+        });
+  }
+  for (int i = 0; i < s.particles; ++i) L::add_point(f + 3L * i, L::record(s.force + 4L * i));
+  return L::any_less(least, L::all(min_squared_length));
+}
+
+}  // namespace
+
+namespace CROSSCHECK_ISA {
+
+bool hooke_coo(const CooSprings& s, const double* x, double* f) { return pairs<true>(s, x, f); }
+bool link_coo(const CooSprings& s, const double* x, double* f) { return pairs<false>(s, x, f); }
+
+}  // namespace CROSSCHECK_ISA
+}  // namespace crosscheck::spring_graph

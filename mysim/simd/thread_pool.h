@@ -1,0 +1,39 @@
+// Threads that stand by for the next piece of work, which comes many thousand times a second.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <thread>
+#include <vector>
+
+namespace crosscheck::simd {
+
+/// A thread that has nothing to do looks again and again for some microseconds, then lets others go first, and falls
+/// asleep when a millisecond has passed: waking up takes longer than a step of a small cloth.
+class ThreadPool {
+ public:
+  /// So many threads in all; the one that asks is the first.
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  int size() const { return static_cast<int>(workers_.size()) + 1; }
+  /// work(0) ... work(size() - 1), which must not throw, each on a thread of its own; returns when all are done.
+  void all(const std::function<void(int)>& work);
+  /// CPU time that the other threads have worked, s; without what they waited.
+  double seconds() const;
+
+ private:
+  struct Worker {
+    std::thread thread;
+    double seconds = 0;
+  };
+  void worker_loop(int which);
+
+  std::vector<Worker> workers_;
+  const std::function<void(int)>* work_ = nullptr;  // null: the end
+  std::atomic<long> begun_ = 0, done_ = 0;          // how many pieces; of all others together
+};
+
+}  // namespace crosscheck::simd

@@ -1,0 +1,232 @@
+// The table of steppers, and their stability limits: closed forms, or roots of |eigenvalue| = 1.
+#include "mysim/steppers/steppers.h"
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <span>
+
+namespace crosscheck::limits {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// First h at which `growth` (of a step of h) exceeds 1, found by walking and halving; `scale` is a step that is long
+/// beside what is looked for. 0 when even the shortest steps grow.
+template <class Growth>
+double first_exit(Growth growth, double scale) {
+  constexpr int walk = 4000;
+  // above 1 by more than rounding: neutral rules sit at 1 exactly
+  auto unstable = [&](double h) { return growth(h) > 1 + 1e-13; };
+  if (!std::isfinite(scale)) return infinity;
+  double low = 0;
+  for (int i = 1; i <= walk; ++i) {
+    double high = scale * i / walk;
+    if (!unstable(high)) {
+      low = high;
+      continue;
+    }
+    for (int bisection = 0; bisection < 60; ++bisection) {
+      const double middle = (low + high) / 2;
+      (unstable(middle) ? high : low) = middle;
+    }
+    // the walk begins at h > 0: a rule that fails at every step, slowly, is recognised where it first shows
+    return i == 1 ? 0 : low;
+  }
+  return infinity;
+}
+
+struct Eigenvalues {
+  std::complex<double> slow, fast;  // 1/s
+};
+Eigenvalues eigenvalues_of(double omega, double gamma) {
+  const std::complex<double> root = std::sqrt(std::complex<double>(gamma * gamma / 4 - omega * omega));
+  return {-gamma / 2 + root, -gamma / 2 - root};
+}
+
+/// A Runge-Kutta rule multiplies each mode by the polynomial R(h lambda), coefficients from the constant upwards.
+double runge_kutta(std::span<const double> coefficients, double omega, double gamma) {
+  const auto [slow, fast] = eigenvalues_of(omega, gamma);
+  auto size = [&](std::complex<double> z) {
+    std::complex<double> sum = 0;
+    for (size_t i = coefficients.size(); i-- > 0;) sum = sum * z + coefficients[i];
+    return std::abs(sum);
+  };
+  const double fastest = std::max(std::abs(slow), std::abs(fast));
+  if (fastest == 0) return infinity;
+  return first_exit([&, slow = slow, fast = fast](double h) { return std::max(size(h * slow), size(h * fast)); },
+                    8 / fastest);
+}
+
+/// The leapfrog step as a matrix on (u, v), h of either sign.
+Eigen::Matrix2d leapfrog_matrix(double omega, double gamma, double h) {
+  const double half = h * gamma / 2;
+  Eigen::Matrix2d drift, kick;
+  drift << 1, h / 2, 0, 1;
+  kick << 1, 0, -h * omega * omega / (1 + half), (1 - half) / (1 + half);
+  return drift * kick * drift;
+}
+
+double spectral_radius(const Eigen::Matrix2d& m) {
+  const std::complex<double> half = m.trace() / 2, root = std::sqrt(half * half - m.determinant());
+  return std::max(std::abs(half + root), std::abs(half - root));
+}
+
+}  // namespace
+
+double explicit_euler(double omega, double gamma) {
+  // |1 + h lambda| = 1: complex pair |lambda|^2 = omega^2, Re lambda = -gamma/2; real pair: the fast one alone
+  if (gamma < 2 * omega) return gamma / (omega * omega);
+  const double fast = (gamma + std::sqrt(gamma * gamma - 4 * omega * omega)) / 2;
+  return fast > 0 ? 2 / fast : infinity;
+}
+
+double trapezoidal(double omega, double gamma) {
+  if (gamma == 0) return omega > 0 ? 0 : infinity;  // |R|^2 = 1 + (h omega)^4 / 4
+  constexpr double r[] = {1, 1, 1. / 2};
+  return runge_kutta(r, omega, gamma);
+}
+
+double rk4(double omega, double gamma) {
+  constexpr double r[] = {1, 1, 1. / 2, 1. / 6, 1. / 24};
+  return runge_kutta(r, omega, gamma);
+}
+
+double dopri5(double omega, double gamma) {
+  constexpr double r[] = {1, 1, 1. / 2, 1. / 6, 1. / 24, 1. / 120, 1. / 600};
+  return runge_kutta(r, omega, gamma);
+}
+
+double symplectic_euler(double omega, double gamma) {
+  // trace 2 - h gamma - (h omega)^2, determinant 1 - h gamma: stable while trace > -1 - determinant
+  const double sum = gamma + std::sqrt(gamma * gamma + 4 * omega * omega);
+  return sum > 0 ? 4 / sum : infinity;
+}
+
+double leapfrog(double omega, double) { return omega > 0 ? 2 / omega : infinity; }
+
+double suzuki4(double omega, double gamma) {
+  const double p = 1 / (4 - std::cbrt(4.0)), fastest = std::max(omega, gamma);
+  if (fastest == 0) return infinity;
+  return first_exit(
+      [&](double h) {
+        const Eigen::Matrix2d outer = leapfrog_matrix(omega, gamma, p * h);
+        return spectral_radius(outer * outer * leapfrog_matrix(omega, gamma, (1 - 4 * p) * h) * outer * outer);
+      },
+      8 / fastest);
+}
+
+double none(double, double) { return infinity; }
+
+}  // namespace crosscheck::limits
+
+namespace crosscheck {
+
+std::span<const Stepper> steppers() {
+  static constexpr Stepper table[] = {
+      {.name = "explicit-euler",
+       .step = explicit_euler,
+       .order = 1,
+       .evaluations = 1,
+       .first_order = true,
+       .symplectic = false,
+       .limit = limits::explicit_euler,
+       .limit_formula = "h < gamma / omega^2 (2 / lambda_max when overdamped): none without drag",
+       .what = "forward Euler, kept as a warning"},
+      {.name = "trapezoidal",
+       .step = trapezoidal,
+       .order = 2,
+       .evaluations = 2,
+       .first_order = true,
+       .symplectic = false,
+       .limit = limits::trapezoidal,
+       .limit_formula = "|1 + z + z^2/2| < 1 at z = h lambda: none without drag",
+       .what = "explicit trapezoidal rule (Heun), the assignment's second"},
+      {.name = "rk4",
+       .step = rk4,
+       .order = 4,
+       .evaluations = 4,
+       .first_order = true,
+       .symplectic = false,
+       .limit = limits::rk4,
+       .limit_formula = "h omega < 2.83 without drag",
+       .what = "classic Runge-Kutta: accurate smooth motion, and the reference by step halving"},
+      {.name = "symplectic-euler",
+       .step = symplectic_euler,
+       .order = 1,
+       .evaluations = 1,
+       .first_order = false,
+       .symplectic = true,
+       .limit = limits::symplectic_euler,
+       .limit_formula = "h < 4 / (gamma + sqrt(gamma^2 + 4 omega^2)): h omega < 2 without drag",
+       .what = "kick, then drift; the rule of Bullet's explicit deformable world",
+       .composition = symplectic_euler_composition},
+      {.name = "leapfrog",
+       .step = leapfrog,
+       .order = 2,
+       .evaluations = 1,
+       .first_order = false,
+       .symplectic = true,
+       .limit = limits::leapfrog,
+       .limit_formula = "h omega < 2, whatever the drag",
+       .what = "half drift, kick, half drift; the best value for one evaluation a step",
+       .composition = leapfrog_composition},
+      {.name = "suzuki4",
+       .step = suzuki4,
+       .order = 4,
+       .evaluations = 5,
+       .first_order = false,
+       .symplectic = true,
+       .limit = limits::suzuki4,
+       .limit_formula = "h omega < 2.72 without drag; h gamma < 3.02 without springs",
+       .what = "five leapfrogs; more accurate than rk4 for the same work, and keeps energy for ever",
+       .composition = suzuki4_composition},
+      {.name = "dopri5",
+       .step = dopri5,
+       .order = 5,
+       .evaluations = 6,
+       .first_order = true,
+       .symplectic = false,
+       .limit = limits::dopri5,
+       .limit_formula = "its steps follow the tolerance; at a fixed step h omega < 1.0 without drag",
+       .what = "Dormand-Prince 5(4) with error control and dense output: give --tol, not --step; beside a sphere its "
+               "steps are at most the scene's own, since contact acts on whole steps",
+       .adaptive = true},
+      {.name = "implicit-euler",
+       .step = implicit_euler,
+       .order = 1,
+       .evaluations = 0,
+       .first_order = false,
+       .symplectic = false,
+       .limit = limits::none,
+       .limit_formula = "stable at every step",
+       .what = "Newton's method on the whole nonlinear step; stiff springs at long steps, at the price of damping; "
+               "+linear: one Newton step, the rule of Bullet's implicit world",
+       .linear = implicit_euler_linear},
+      {.name = "implicit-midpoint",
+       .step = implicit_midpoint,
+       .order = 2,
+       .evaluations = 0,
+       .first_order = false,
+       .symplectic = true,
+       .limit = limits::none,
+       .limit_formula = "stable at every step on linear springs",
+       .what = "symplectic and implicit: keeps the energy of linear springs at any step"},
+      {.name = "xpbd",
+       .step = xpbd,
+       .order = 1,
+       .evaluations = 2,
+       .first_order = false,
+       .symplectic = false,
+       .limit = limits::none,
+       .limit_formula = "stable at every step on one spring",
+       .what = "extended position-based dynamics, springs of compliance 1/k swept once a step; the one rule here that "
+               "keeps hard distances",
+       .hard_constraints = true},
+  };
+  return table;
+}
+
+}  // namespace crosscheck

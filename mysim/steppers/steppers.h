@@ -1,0 +1,161 @@
+// What a stepper is, the table of all of them, and what rules share: leapfrog, rk4, dopri5, stability limits.
+#pragma once
+
+#include <any>
+#include <array>
+#include <deque>
+#include <span>
+#include <string_view>
+
+#include "mysim/model/system.h"
+#include "mysim/types.h"
+
+namespace crosscheck {
+
+// What a stepper is, and the table of all of them. A new stepper is a function in a file of its own and one row.
+
+/// Working memory of a stepper, made at its first step and kept, so that no later step allocates.
+class Workspace {
+ public:
+  explicit Workspace(const State& like) : like_(like) {}
+  /// The i-th state of the size of the scene's, i = 0, 1, ...
+  State& operator[](int i) {
+    while (static_cast<int>(states_.size()) <= i) states_.push_back(like_);
+    return states_[i];
+  }
+  /// Memory of the stepper's own kind, made from `from` the first time it is asked for.
+  template <class T, class From>
+  T& own(From& from) {
+    if (!own_.has_value()) own_.emplace<T>(from);
+    return std::any_cast<T&>(own_);
+  }
+
+ private:
+  State like_;
+  std::deque<State> states_;  // a deque keeps references valid
+  std::any own_;
+};
+
+/// Advances state.x and state.v from state.t by h. The caller sets the new time, moves the pins and resolves contacts.
+/// Throws SolverFailure when an equation inside the step has no answer.
+using StepFunction = void (*)(System&, State&, double h, Workspace&);
+
+/// The largest stable step (s) on u'' = -omega^2 u - gamma u' (rad/s, 1/s); infinite where every step is stable, 0
+/// where none is. Without drag and without a spring (omega = 0) it says what drag alone allows.
+using StabilityLimit = double (*)(double omega, double gamma);
+
+/// A rule made of kicks v' = v + h F/m and drifts x' = x + h v' alone. Leapfrogs (half drift, kick, half drift) of
+/// these parts of the step, one after the other, with drag averaged over old and new velocity; or, `kick_first`, whole
+/// kicks and then whole drifts, with drag at the old velocity. Such rules have a fast path on cloth (mysim/strip/).
+struct KickDriftComposition {
+  std::vector<double> fractions;  // of the step; they add up to 1
+  bool kick_first = false;
+};
+
+struct Stepper {
+  std::string_view name;
+  StepFunction step;
+  int order;         // of the global error on smooth scenes, drag included
+  int evaluations;   // of the right-hand side, per step; 0: as many as the equations of the step take
+  bool first_order;  // takes first-order scenes
+  bool symplectic;   // without drag
+  StabilityLimit limit;
+  std::string_view limit_formula;  // the same for people; omega and gamma as above
+  std::string_view what;           // what it is meant for
+  bool adaptive = false;           // chooses its own steps to meet a tolerance; `step` is then its rule at a fixed step
+  bool hard_constraints = false;   // keeps fixed distances
+  StepFunction linear = nullptr;   // the rule behind the option +linear
+  KickDriftComposition (*composition)() = nullptr;  // where it is one
+};
+
+void explicit_euler(System& f, State& s, double h, Workspace& w);
+void trapezoidal(System& f, State& s, double h, Workspace& w);
+void rk4(System& f, State& s, double h, Workspace& w);
+void symplectic_euler(System& f, State& s, double h, Workspace& w);
+void leapfrog(System& f, State& s, double h, Workspace& w);
+void suzuki4(System& f, State& s, double h, Workspace& w);
+void dopri5(System& f, State& s, double h, Workspace& w);
+void implicit_euler(System& f, State& s, double h, Workspace& w);
+void implicit_euler_linear(System& f, State& s, double h, Workspace& w);
+void implicit_midpoint(System& f, State& s, double h, Workspace& w);
+void xpbd(System& f, State& s, double h, Workspace& w);
+
+KickDriftComposition symplectic_euler_composition();
+KickDriftComposition leapfrog_composition();
+KickDriftComposition suzuki4_composition();
+
+std::span<const Stepper> steppers();
+
+// The leapfrog step, for rules that are composed of it.
+
+/// Drift h/2, kick h, drift h/2, from state.t; h may be negative. Drag and the other forces on moving particles act at
+/// the mean of old and new velocity. Drag alone is solved for exactly; dashpots and air need the new velocity: it is
+/// found in `passes` passes, each of which adds a power of h to the accuracy and costs an evaluation. Two keep order 2.
+void leapfrog_step(System& f, State& s, double h, int passes, Workspace& w);
+
+// The classic fourth-order Runge-Kutta rule, for any right-hand side.
+
+/// Advances s.x and s.v from s.t by h. derivative(stage, rate) writes dX/dt; k holds the four rates.
+template <class Derivative>
+void rk4_step(Derivative derivative, State& s, double h, State* const (&k)[4], State& stage) {
+  auto at = [&](double c, const State& rate) -> State& {
+    stage.t = s.t + c * h;
+    stage.x = s.x + c * h * rate.x;
+    stage.v = s.v + c * h * rate.v;
+    return stage;
+  };
+  auto& [k1, k2, k3, k4] = k;
+  derivative(s, *k1);
+  derivative(at(0.5, *k1), *k2);
+  derivative(at(0.5, *k2), *k3);
+  derivative(at(1, *k3), *k4);
+  s.x += h / 6 * (k1->x + 2 * k2->x + 2 * k3->x + k4->x);
+  s.v += h / 6 * (k1->v + 2 * k2->v + 2 * k3->v + k4->v);
+}
+
+// The embedded pair of Dormand and Prince of orders 5(4), with its interpolant (J. R. Dormand and P. J. Prince,
+// J. Comput. Appl. Math. 6, 1980; interpolant of order 4: E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary
+// Differential Equations I, II.6).
+
+class DormandPrince {
+ public:
+  explicit DormandPrince(const State& like) : next_(like), stage_(like), k_{like, like, like, like, like, like, like} {}
+
+  /// Tries a step of h from s: fills next() and the error estimate. Six evaluations; seven at the first step and after
+  /// forget().
+  void attempt(System& f, State& s, double h);
+  const State& next() const { return next_; }
+  /// Estimated error of next() in positions (3 x n, m) and velocities (3 x n, m/s): order 5 against order 4.
+  const State& error();
+  /// Largest speed that the first stage alone would give in the attempted step, m/s.
+  double first_step_speed() const { return stage_.t * largest_column(k_[0].v); }
+  /// The last stage of an accepted step is the first of the next one.
+  void accept() { std::swap(k_[0], k_[6]); }
+  /// The state was changed from outside: the first stage is evaluated again.
+  void forget() { first_known_ = false; }
+  /// The state at s.t + theta h, 0 <= theta <= 1, of the step last attempted from s and not yet accepted.
+  void interpolate(const State& s, double h, double theta, State& out) const;
+
+ private:
+  State next_, stage_;
+  std::array<State, 7> k_;
+  bool first_known_ = false;
+};
+
+}  // namespace crosscheck
+
+namespace crosscheck::limits {
+
+// Largest stable steps on the damped oscillator u'' = -omega^2 u - gamma u', rule by rule (rad/s, 1/s -> s): the theory
+// beside which the steppers are tested. Sources: the eigenvalues of each rule's 2 x 2 step matrix.
+
+double explicit_euler(double omega, double gamma);
+double trapezoidal(double omega, double gamma);
+double rk4(double omega, double gamma);
+double dopri5(double omega, double gamma);  // of its rule at a fixed step
+double symplectic_euler(double omega, double gamma);
+double leapfrog(double omega, double gamma);
+double suzuki4(double omega, double gamma);
+double none(double omega, double gamma);  // infinite: stable at every step
+
+}  // namespace crosscheck::limits

@@ -1,0 +1,244 @@
+// Translates the expanded scene into nodes, links and spheres of Bullet, and reads them back.
+#include "reference/bullet/soft_body.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <numeric>
+
+#include "mysim/base/errors.h"
+
+namespace crosscheck::bullet {
+namespace {
+
+/// True when the springs join all particles into one network.
+bool connected(const Model& model) {
+  const int n = model.particles.size();
+  std::vector<int> parent(n);
+  std::iota(parent.begin(), parent.end(), 0);
+  auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  int pieces = n;
+  if (const auto* springs = model.find<Springs>())
+    for (const Spring& s : springs->list)
+      if (const int a = root(s.a), b = root(s.b); a != b) parent[a] = b, --pieces;
+  if (const auto* constraints = model.find<Constraints>())
+    for (const auto& c : constraints->list)
+      if (const int a = root(c.a), b = root(c.b); a != b) parent[a] = b, --pieces;
+  return pieces == 1;
+}
+
+}  // namespace
+
+void require_supported(const Scene& scene) {
+  const Model& model = scene.model;
+  if (model.first_order()) throw Unsupported("Bullet has no first-order systems: its bodies have mass and velocity");
+  const auto* spheres = model.find<Spheres>();
+  if (!spheres) return;
+  for (const Sphere& s : spheres->list) {
+    if (s.restitution > 0) throw Unsupported("Bullet's soft bodies have no restitution against an obstacle");
+    if (s.margin != spheres->list[0].margin)
+      throw Unsupported("a soft body of Bullet has one margin, the scene's spheres have several");
+  }
+  if (model.particles.size() > 1 && !connected(model))
+    throw Unsupported("Bullet's contact search hangs on a body whose springs do not join all particles");
+}
+
+SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDefaults& defaults)
+    : scene_(scene), defaults_(defaults), state_(scene.start) {
+  const Model& model = scene.model;
+  const Particles& particles = model.particles;
+  const auto* spheres = model.find<Spheres>();
+  const int n = particles.size();
+
+  // free particles first, pins last
+  node_of_.resize(n);
+  for (int pinned = 0; pinned < 2; ++pinned)
+    for (int i = 0; i < n; ++i)
+      if (particles.pinned[i] == pinned) {
+        node_of_[i] = static_cast<int>(particle_of_.size());
+        particle_of_.push_back(i);
+      }
+  std::vector<btVector3> x(n);
+  std::vector<btScalar> mass(n);
+  for (int node = 0; node < n; ++node) {
+    const int i = particle_of_[node];
+    x[node] = to_bullet(scene.start.x.col(i));
+    mass[node] = particles.pinned[i] ? 0 : static_cast<btScalar>(particles.mass[i]);
+  }
+  bt_body_ = std::make_unique<btSoftBody>(&info, n, x.data(), mass.data());
+
+  const auto* springs = model.find<Springs>();
+  if (springs)
+    for (const Spring& s : springs->list) bt_body_->appendLink(node_of_[s.a], node_of_[s.b], bt_body_->m_materials[0]);
+  const auto* constraints = model.find<Constraints>();
+  if (constraints)
+    for (const auto& [a, b, length] : constraints->list)
+      bt_body_->appendLink(node_of_[a], node_of_[b], bt_body_->m_materials[0]);
+  bt_body_->updateConstants();
+  restore_lengths();
+  if (spheres) bt_body_->initializeFaceTree();
+  bt_body_->m_bUpdateRtCst = defaults.rest;
+
+  for (int node = 0; node < n; ++node) {
+    const int i = particle_of_[node];
+    const btVector3 v = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(scene.start.v.col(i));
+    bt_body_->m_nodes[node].m_v = bt_body_->m_nodes[node].m_vn = v;
+  }
+  // without a sphere the margin only bounds speeds (box diagonal over step): large enough to bound nothing
+  if (!defaults.margin)
+    bt_body_->getCollisionShape()->setMargin(static_cast<btScalar>(spheres ? spheres->list[0].margin : 10.0));
+  bt_body_->updateBounds();  // of the constructor's margin until now: they bound the speeds of the first step
+  bt_body_->m_cfg.kDF = 1;
+  if (!defaults.sleep) bt_body_->setActivationState(DISABLE_DEACTIVATION);
+  built_ = read_state(0);
+  // the implicit world starts from m_vn, the explicit one from m_v: one velocity that both hold, or none
+  for (int node = 0; node < n; ++node)
+    if (!(bt_body_->m_nodes[node].m_v == bt_body_->m_nodes[node].m_vn))
+      built_.v.col(particle_of_[node]).setConstant(std::numeric_limits<double>::quiet_NaN());
+}
+
+void SoftBody::restore_lengths() {
+  int l = 0;
+  auto set = [&](double length) {
+    bt_body_->m_links[l].m_rl = static_cast<btScalar>(length);
+    bt_body_->m_links[l].m_c1 = bt_body_->m_links[l].m_rl * bt_body_->m_links[l].m_rl;
+    ++l;
+  };
+  if (const auto* springs = scene_.model.find<Springs>())
+    for (const Spring& s : springs->list) set(s.rest);
+  if (const auto* constraints = scene_.model.find<Constraints>())
+    for (const auto& c : constraints->list) set(c.length);
+  bt_body_->m_bUpdateRtCst = defaults_.rest;
+}
+
+void SoftBody::place_pins(double t) {
+  const Particles& particles = scene_.model.particles;
+  if (!particles.move) return;
+  const Vec3 shift = displacement_at(*particles.move, t);
+  for (size_t p = 0; p < particles.pins.size(); ++p) {
+    auto& node = bt_body_->m_nodes[node_of_[particles.pins[p]]];
+    node.m_x = node.m_q = to_bullet(particles.pin_home.col(static_cast<int>(p)) + shift);
+    node.m_v = node.m_vn = btVector3(0, 0, 0);
+  }
+}
+
+const State& SoftBody::read_state(double t) {
+  state_.t = t;
+  for (int node = 0; node < bt_body_->m_nodes.size(); ++node) {
+    state_.x.col(particle_of_[node]) = from_bullet(bt_body_->m_nodes[node].m_x);
+    state_.v.col(particle_of_[node]) = from_bullet(bt_body_->m_nodes[node].m_v);
+  }
+  // Bullet knows no velocity of prescribed pins; ours is exact
+  const Particles& particles = scene_.model.particles;
+  const Vec3 velocity = particles.move ? velocity_at(*particles.move, t) : Vec3::Zero();
+  for (int pin : particles.pins) state_.v.col(pin) = velocity;
+  return state_;
+}
+
+Readback SoftBody::read_back() const {
+  Readback r;
+  const int n = bt_body_->m_nodes.size();
+  r.mass.resize(n);
+  r.pinned.resize(n);
+  for (int i = 0; i < n; ++i) {
+    const double inverse = bt_body_->m_nodes[node_of_[i]].m_im;
+    r.pinned[i] = inverse == 0;
+    r.mass[i] = inverse == 0 ? 0 : 1 / inverse;
+  }
+  const btSoftBody::Node* first = n ? &bt_body_->m_nodes[0] : nullptr;
+  for (int l = 0; l < bt_body_->m_links.size(); ++l) {
+    const auto& link = bt_body_->m_links[l];
+    r.links.push_back({particle_of_[link.m_n[0] - first], particle_of_[link.m_n[1] - first], link.m_rl, std::nullopt});
+  }
+  r.start = built_;
+  r.precision = sizeof(btScalar) == sizeof(double) ? "double" : "single";
+  r.may_sleep = bt_body_->getActivationState() != DISABLE_DEACTIVATION;
+  return r;
+}
+
+double pair_mass(const Particles& particles, const Spring& spring) {
+  const double inverse = (particles.pinned[spring.a] ? 0 : 1 / particles.mass[spring.a]) +
+                         (particles.pinned[spring.b] ? 0 : 1 / particles.mass[spring.b]);
+  return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
+}
+
+namespace {
+
+btTransform at(const Vec3& place) {
+  btTransform transform;
+  transform.setIdentity();
+  transform.setOrigin(to_bullet(place));
+  return transform;
+}
+
+}  // namespace
+
+Obstacles::Obstacles(const Model& model) : spheres_(model.find<Spheres>()) {
+  if (!spheres_) return;
+  for (const Sphere& s : spheres_->list) {
+    Ball ball{std::make_unique<btSphereShape>(static_cast<btScalar>(s.radius)), nullptr};
+    btRigidBody::btRigidBodyConstructionInfo info(0, nullptr, ball.shape.get());
+    info.m_startWorldTransform = at(s.centre_at(0));
+    info.m_friction = static_cast<btScalar>(s.friction);  // multiplied by the body's kDF, which is set to 1
+    info.m_restitution = 0;
+    ball.body = std::make_unique<btRigidBody>(info);
+    if (s.motion) {
+      ball.body->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+      ball.body->setActivationState(DISABLE_DEACTIVATION);
+    }
+    balls_.push_back(std::move(ball));
+  }
+}
+
+void Obstacles::add_to_world(btDiscreteDynamicsWorld& world) {
+  for (const Ball& ball : balls_) {
+    world.addRigidBody(ball.body.get());
+    built_.push_back(from_bullet(ball.body->getWorldTransform().getOrigin()));
+  }
+}
+
+void Obstacles::remove_from_world(btDiscreteDynamicsWorld& world) {
+  for (const Ball& ball : balls_) world.removeRigidBody(ball.body.get());
+}
+
+void Obstacles::place(double t) {
+  for (size_t i = 0; i < balls_.size(); ++i)
+    if (spheres_->list[i].motion) balls_[i].body->setWorldTransform(at(spheres_->list[i].centre_at(t)));
+}
+
+std::vector<Vec3> Obstacles::centres_at(double t) {
+  std::vector<btTransform> now;
+  for (const Ball& ball : balls_) now.push_back(ball.body->getWorldTransform());
+  place(t);
+  std::vector<Vec3> centres;
+  for (size_t i = 0; i < balls_.size(); ++i) {
+    centres.push_back(from_bullet(balls_[i].body->getWorldTransform().getOrigin()));
+    balls_[i].body->setWorldTransform(now[i]);
+  }
+  return centres;
+}
+
+void Obstacles::read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const {
+  readback.margin = body.getCollisionShape()->getMargin();
+  readback.spheres.emplace();
+  const btCollisionObjectArray& objects = world.getCollisionObjectArray();
+  for (int i = 0; i < objects.size(); ++i)
+    if (const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape())) {
+      const size_t known = readback.spheres->size();  // one that nobody built here counts where it stands
+      readback.spheres->push_back(
+          {known < built_.size() ? built_[known] : from_bullet(objects[i]->getWorldTransform().getOrigin()),
+           ball->getRadius() + *readback.margin, objects[i]->getFriction() * body.m_cfg.kDF,
+           objects[i]->getRestitution()});
+    }
+}
+
+std::string normal_error_text(const Scene& scene, double voxel) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (const Sphere& s : scene.model.find<Spheres>()->list) radius = std::min(radius, s.contact_radius());
+  return fmt::format("{:.2g} mrad on voxels of a = {:.3g} mm", 1e3 * voxel / 2 / radius, 1e3 * voxel);
+}
+
+}  // namespace crosscheck::bullet

@@ -1,0 +1,226 @@
+// A scene as one soft body of Bullet among its obstacles: the part that all Bullet worlds share.
+#pragma once
+
+#include <BulletSoftBody/btSoftBody.h>
+#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mysim/model/system.h"
+#include "mysim/run/engine.h"
+
+namespace crosscheck::bullet {
+
+// A scene as one Bullet soft body: the part that all Bullet worlds share.
+//
+// Traps met here (all measured): pinned nodes go last, since the implicit world shifts its contact prediction by one
+// node for each pin before; the first step overwrites rest lengths unless the update flag is cleared; bodies slower
+// than 0.04 m/s fall asleep unless told not to; a disconnected network hangs the builder of the node tree; the body's
+// margin is 0.25 m unless set; the explicit world clamps speeds to the diagonal of the body's box over the step.
+
+/// Bullet's vector, in the precision that it was built with, from ours, and back.
+inline btVector3 to_bullet(const Vec3& v) { return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())}; }
+inline Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+/// What every world needs and what it leaves behind in the right order.
+struct CollisionPipeline {
+  btSoftBodyRigidBodyCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher{&configuration};
+  btDbvtBroadphase broadphase;
+};
+
+/// Throws Unsupported where Bullet would hang (a network in several pieces beside a sphere) or cannot follow
+/// (first-order scenes, restitution). To be asked before a world is built.
+void require_supported(const Scene& scene);
+
+/// What is left at Bullet's defaults, to be seen failing.
+struct BulletDefaults {
+  bool rest = false;    // the first step overwrites rest lengths with the lengths it finds
+  bool margin = false;  // 0.25 m
+  bool sleep = false;   // what is slower than 0.04 m/s for 2 s is put to sleep
+};
+
+class SoftBody {
+ public:
+  /// Nodes, links with rest lengths, start velocities, margin; no forces. The scene must be supported.
+  SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDefaults& defaults);
+
+  btSoftBody& body() { return *bt_body_; }
+  int node_of(int particle) const { return node_of_[particle]; }
+
+  /// Writes rest lengths and their squares into the links, springs first, then hard distances: Bullet overwrites them.
+  void restore_lengths();
+  /// Writes position and velocity of the pins at time t into the nodes. Bullet's forces read m_q.
+  void place_pins(double t);
+  /// Positions and velocities in the scene's numbering.
+  const State& read_state(double t);
+  /// Masses, pins, start, links with rest lengths, springs first; the world adds what it alone knows.
+  Readback read_back() const;
+
+ private:
+  const Scene& scene_;
+  BulletDefaults defaults_;
+  std::vector<int> node_of_, particle_of_;
+  std::unique_ptr<btSoftBody> bt_body_;
+  State state_, built_;  // now; as built
+};
+
+/// mu of the pair of ends, 1 / (1/m_a + 1/m_b) with pins of infinite mass, kg; infinite between two pins.
+double pair_mass(const Particles& particles, const Spring& spring);
+
+// A state into which a body is put for a moment, to ask its world for forces.
+
+/// Puts the nodes to 1.1 times the start, so that all springs pull, with velocities that are no rigid motion: x + P x
+/// (as m/s), P turning the coordinates by one place, under which every distance d grows, d . (d + P d) >= |d|^2 / 2.
+/// Puts all back when it goes.
+class ProbeState {
+ public:
+  ProbeState(const Scene& scene, SoftBody& body, double t) : body_(body) {
+    const Particles& particles = scene.model.particles;
+    const int n = particles.size();
+    probe_.t = t;
+    probe_.x = 1.1 * scene.start.x;
+    probe_.v.resize(3, n);
+    probe_.v << probe_.x.row(1), probe_.x.row(2), probe_.x.row(0);
+    probe_.v += probe_.x;
+    for (int i = 0; i < n; ++i) {
+      auto& node = body.body().m_nodes[body.node_of(i)];
+      saved_.push_back({node.m_x, node.m_q, node.m_v, node.m_f});
+      if (particles.pinned[i]) probe_.v.col(i) = particles.move ? velocity_at(*particles.move, t) : Vec3::Zero();
+      node.m_q = node.m_x = to_bullet(probe_.x.col(i));
+      node.m_v = particles.pinned[i] ? btVector3(0, 0, 0) : to_bullet(probe_.v.col(i));
+      node.m_f = btVector3(0, 0, 0);
+    }
+  }
+  ~ProbeState() {
+    for (size_t i = 0; i < saved_.size(); ++i) {
+      auto& node = body_.body().m_nodes[body_.node_of(static_cast<int>(i))];
+      node.m_x = saved_[i].x, node.m_q = saved_[i].q, node.m_v = saved_[i].v, node.m_f = saved_[i].f;
+    }
+  }
+  ProbeState(const ProbeState&) = delete;
+  ProbeState& operator=(const ProbeState&) = delete;
+
+  /// The nodes stay where they are, at rest.
+  void stop() {
+    for (int i = 0; i < body_.body().m_nodes.size(); ++i) body_.body().m_nodes[i].m_v = btVector3(0, 0, 0);
+  }
+
+  /// Forces by node, as the scene numbers the particles.
+  template <class Stack>
+  ForceProbe probe(const Stack& springs, const Stack& dashpots, const Stack& wind) const {
+    ForceProbe p = probe_;
+    p.springs = by_particle(springs), p.dashpots = by_particle(dashpots), p.wind = by_particle(wind);
+    return p;
+  }
+
+ private:
+  struct SavedNode {
+    btVector3 x, q, v, f;
+  };
+  template <class Stack>
+  Points by_particle(const Stack& by_node) const {
+    Points points(3, by_node.size());
+    for (int i = 0; i < by_node.size(); ++i) points.col(i) = from_bullet(by_node[body_.node_of(i)]);
+    return points;
+  }
+
+  SoftBody& body_;
+  ForceProbe probe_;
+  std::vector<SavedNode> saved_;  // by particle
+};
+
+// The scene's spheres as Bullet's rigid bodies: fixed, or moved along as kinematic bodies.
+
+class Obstacles {
+ public:
+  explicit Obstacles(const Model& model);
+
+  /// Enters them into the world, or takes them out of it.
+  void add_to_world(btDiscreteDynamicsWorld& world);
+  void remove_from_world(btDiscreteDynamicsWorld& world);
+  /// Puts the moving ones where they are at time t (s). To be called before each step with the step's end: Bullet takes
+  /// the speed of a kinematic body from the distance between two of its places.
+  void place(double t);
+  /// Where that is, m. All stands as before afterwards.
+  std::vector<Vec3> centres_at(double t);
+
+  /// What was built: places, radii, friction and restitution of the balls, and the soft body's margin.
+  void read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const;
+
+ private:
+  struct Ball {
+    std::unique_ptr<btSphereShape> shape;
+    std::unique_ptr<btRigidBody> body;
+  };
+  const Spheres* spheres_;  // null: none
+  std::vector<Ball> balls_;
+  std::vector<Vec3> built_;  // m, where they stood when they entered
+};
+
+/// "5 mrad on voxels of a = 10 mm": how far Bullet's normals may be off in each direction, on the scene's smallest
+/// ball. Inside a voxel the gradient of the grid of distances is constant along each axis, right in the middle and off
+/// by half a voxel's turn at its faces.
+std::string normal_error_text(const Scene& scene, double voxel);
+
+// What all Bullet worlds do alike: a body and its obstacles go in, states come out, and all is taken down in the right
+// order.
+
+/// BulletWorld: a soft-body world of Bullet. The derived class makes world_ and soft_body_, calls enter(), and calls
+/// remove_all() in its destructor, since its forces and solvers must outlive the world.
+template <class BulletWorld>
+class SoftBodyWorld : public World {
+ public:
+  explicit SoftBodyWorld(const Scene& scene, double h) : scene_(supported(scene)), h_(h), obstacles_(scene.model) {}
+  const State& state(double t) override { return soft_body_->read_state(t); }
+
+ protected:
+  btSoftBody& body() { return soft_body_->body(); }
+
+  void add_to_world() {
+    obstacles_.add_to_world(*world_);
+    world_->addSoftBody(&body());
+    world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the spheres are fixed or led
+  }
+
+  /// What a prescribed motion leads, at a time at which no round frequency has brought it back.
+  Readback::Places prescribed_places() {
+    const double t = 0.382 * scene_.duration;
+    std::optional<ProbeState> kept;  // puts the nodes back at the end
+    if (scene_.model.particles.move) kept.emplace(scene_, *soft_body_, t);
+    soft_body_->place_pins(t);
+    const std::vector<int>& pins = scene_.model.particles.pins;
+    Readback::Places places{t, Points(3, pins.size()), obstacles_.centres_at(t)};
+    for (size_t p = 0; p < pins.size(); ++p) {
+      const auto& node = body().m_nodes[soft_body_->node_of(pins[p])];
+      places.pins.col(static_cast<int>(p)) = from_bullet(node.m_x);
+    }
+    return places;
+  }
+
+  void remove_all() {
+    world_->removeSoftBody(&body());
+    soft_body_.reset();
+    obstacles_.remove_from_world(*world_);
+    world_->getWorldInfo().m_sparsesdf.Reset();
+    world_.reset();
+  }
+
+  const Scene& scene_;
+  double h_;  // s
+  CollisionPipeline collision_;
+  Obstacles obstacles_;
+  std::unique_ptr<BulletWorld> world_;
+  std::unique_ptr<SoftBody> soft_body_;
+
+ private:
+  static const Scene& supported(const Scene& scene) {
+    require_supported(scene);
+    return scene;
+  }
+};
+
+}  // namespace crosscheck::bullet

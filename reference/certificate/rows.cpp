@@ -1,0 +1,267 @@
+// The certificate's rows of each term: springs, hard distances, dashpots, gravity, drag, wind and spheres.
+#include "reference/certificate/rows.h"
+
+#include <algorithm>
+
+namespace crosscheck {
+namespace {
+
+/// Springs of one family: how many and between whom, rest lengths, stiffness.
+void certify_family(Family family, const Springs& springs, const Readback& r, CertificateWriter& w) {
+  const std::string name = family == Family::single ? "springs" : fmt::format("{} springs", name_of(family));
+  int count = 0, same = 0;
+  bool reported = true;
+  double rest = 0, stiffness = 0, shortest = 1e300, longest = 0, softest = 1e300, stiffest = 0;
+  for (size_t i = 0; i < springs.list.size(); ++i) {
+    const Spring& s = springs.list[i];
+    if (s.family != family) continue;
+    ++count;
+    shortest = std::min(shortest, s.rest), longest = std::max(longest, s.rest);
+    softest = std::min(softest, s.k), stiffest = std::max(stiffest, s.k);
+    if (i >= r.links.size() || r.links[i].a != s.a || r.links[i].b != s.b) continue;
+    ++same;
+    rest = max_or_nan(rest, std::abs(r.links[i].rest - s.rest));
+    reported = reported && r.links[i].stiffness;
+    if (r.links[i].stiffness) stiffness = max_or_nan(stiffness, std::abs(*r.links[i].stiffness - s.k) / s.k);
+  }
+  w.row(name, fmt::format("{}", count), fmt::format("{} with the same ends", same), same == count);
+  if (same != count) return;
+  w.deviation(name + ": rest lengths", range_of(shortest, longest, "m"), rest, std::max(longest, 1e-300));
+  const std::string range = range_of(softest, stiffest, "N/m");
+  if (reported)
+    // the inverse of a mapping by powers loses what 1 - kLST loses: k h^2/mu may be 1e-6, and eps / 1e-6 is left
+    w.row(name + ": stiffness", range, fmt::format("largest deviation {:.2g}", stiffness),
+          stiffness <= std::max(1e-8, w.tolerance()));
+  else if (!r.probe || r.probe->springs.size() == 0)  // otherwise the forces tell it, with the law
+    w.add_unattested(name + ": stiffness", range);
+}
+
+/// Forces that the engine computed at a known stretch and speed, against the scene's own.
+void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w) {
+  const Particles& particles = scene.model.particles;
+  const auto* springs = scene.model.find<Springs>();
+  const auto* dashpots = scene.model.find<Dashpots>();
+  State probed = scene.start;
+  if (r.probe) probed.x = r.probe->x;
+  /// Of how many pairs the known state says nothing, since there is no force there. Between two pins there need be
+  /// none.
+  auto count_force_free = [&](const auto& list, auto pulls) {
+    return std::count_if(list.begin(), list.end(), [&](const auto& pair) {
+      return !(particles.pinned[pair.a] && particles.pinned[pair.b]) && !pulls(pair);
+    });
+  };
+  auto compare = [&](const std::string& quantity, const std::string& asked, const auto& term, const Points& reported,
+                     long force_free) {
+    Forces ours{Points::Zero(3, particles.size()), 0};
+    add_force(term, particles, probed, ours);
+    Points others = reported;  // a force on a pin moves nothing, and some engines leave it out
+    for (const int pin : particles.pins) ours.f.col(pin).setZero(), others.col(pin).setZero();
+    const double scale = largest_column(ours.f), off = largest_column(ours.f - others);
+    const std::string found = fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off);
+    // forces are differences of lengths at a tenth of stretch: that costs a digit, sums of a dozen springs another
+    const bool same = off <= 100 * w.tolerance() * scale;
+    if (same && force_free > 0)
+      w.row(quantity, asked, fmt::format("{}; {} of {} have none there", found, force_free, term.list.size()),
+            Parity::unattested);
+    else
+      w.row(quantity, asked, found, same);
+  };
+  if (springs && !springs->list.empty() && r.probe && r.probe->springs.size() > 0) {
+    // a stretch by less than a thousandth tells no law: all laws are straight lines there
+    const long force_free = count_force_free(springs->list, [&](const Spring& s) {
+      return std::abs((probed.x.col(s.a) - probed.x.col(s.b)).norm() - s.rest) > 1e-3 * s.rest;
+    });
+    const auto [softest, stiffest] = std::ranges::minmax(springs->list, {}, &Spring::k);
+    compare("spring law and stiffness",
+            fmt::format("{}, {}", name_of(springs->law), range_of(softest.k, stiffest.k, "N/m")), *springs,
+            r.probe->springs, force_free);
+  } else if (springs && !w.has_different_law("springs")) {
+    w.add_unattested("spring law", std::string(name_of(springs->law)));
+  }
+  if (!dashpots) {
+    if (r.probe && r.probe->dashpots.size() > 0 && largest_column(r.probe->dashpots) > 0)
+      w.row("dashpots", "none", "some", false);
+    return;
+  }
+  double low = 1e300, high = 0;
+  for (const auto& d : dashpots->list) low = std::min(low, d.c), high = std::max(high, d.c);
+  const std::string asked = fmt::format("{} of {}", dashpots->list.size(), range_of(low, high, "N s/m"));
+  if (!r.probe || r.probe->dashpots.size() == 0) {
+    w.add_unattested("dashpots", asked);
+    return;
+  }
+  probed.v = r.probe->v;
+  const long force_free = count_force_free(dashpots->list, [&](const Dashpots::Dashpot& d) {
+    return (probed.v.col(d.a) - probed.v.col(d.b)).dot(probed.x.col(d.a) - probed.x.col(d.b)) != 0;
+  });
+  compare("dashpots", asked, *dashpots, r.probe->dashpots, force_free);
+}
+
+}  // namespace
+
+void certify_springs(const Scene& scene, const Readback& r, CertificateWriter& w) {
+  const auto* springs = scene.model.find<Springs>();
+  const auto* constraints = scene.model.find<Constraints>();
+  const size_t asked = springs ? springs->list.size() : 0, hard = constraints ? constraints->list.size() : 0;
+  if (r.links.size() != asked + hard) {
+    w.row("links", fmt::format("{}", asked + hard), fmt::format("{}", r.links.size()), false);
+    return;
+  }
+  if (hard > 0) {
+    bool ends = true;
+    double off = 0, scale = 0;
+    for (size_t i = 0; i < hard; ++i) {
+      const auto& [a, b, length] = constraints->list[i];
+      const Readback::Link& link = r.links[asked + i];
+      ends = ends && link.a == a && link.b == b;
+      off = max_or_nan(off, std::abs(link.rest - length));
+      scale = std::max(scale, length);
+    }
+    w.row("hard distances", fmt::format("{}", hard), fmt::format("{}, {}", hard, ends ? "same ends" : "other ends"),
+          ends);
+    w.deviation("their lengths", fmt::format("up to {:.6g} m", scale), off, scale);
+  }
+  if (springs)
+    for (const Family family : {Family::single, Family::structural, Family::shear, Family::bend})
+      if (std::any_of(springs->list.begin(), springs->list.end(), [&](const Spring& s) { return s.family == family; }))
+        certify_family(family, *springs, r, w);
+  certify_forces(scene, r, w);
+}
+
+namespace {
+
+void certify_spheres(const Spheres* spheres, const Readback& r, CertificateWriter& w) {
+  const size_t asked = spheres ? spheres->list.size() : 0;
+  if (!r.spheres) {
+    if (asked > 0) w.add_unattested("spheres", fmt::format("{}", asked));
+    return;
+  }
+  if (asked > 0 || !r.spheres->empty())
+    w.row("spheres", fmt::format("{}", asked), fmt::format("{}", r.spheres->size()), r.spheres->size() == asked);
+  if (r.spheres->size() != asked) return;
+  for (size_t i = 0; i < asked; ++i) {
+    const Sphere& s = spheres->list[i];
+    const Readback::Ball& ball = (*r.spheres)[i];
+    const std::string of = asked > 1 ? fmt::format(" of sphere {}", i + 1) : "";
+    auto vector = [](const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", v.x(), v.y(), v.z()); };
+    w.row("centre" + of, vector(s.centre), vector(ball.centre),
+          (ball.centre - s.centre).norm() <= w.tolerance() * (s.centre.norm() + s.radius));
+    auto number = [&](const std::string& what, double wanted, const std::optional<double>& reported, const char* unit,
+                      double scale) {
+      if (reported)
+        w.row(what + of, fmt::format("{:.6g}{}", wanted, unit), fmt::format("{:.6g}{}", *reported, unit),
+              std::abs(*reported - wanted) <= w.tolerance() * scale);
+      else
+        w.add_unattested(what + of, fmt::format("{:.6g}{}", wanted, unit));
+    };
+    number("contact radius", s.contact_radius(), ball.radius, " m", s.contact_radius());
+    number("friction", s.friction, ball.friction, "", 1);
+    number("restitution", s.restitution, ball.restitution, "", 1);
+    if (i == 0 && r.margin) number("margin", s.margin, r.margin, " m", s.contact_radius());
+  }
+}
+
+/// Both winds, by the forces that the engine computed at a known state with the particles at rest.
+void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
+  const auto* wind = scene.model.find<Wind>();
+  const auto* air = scene.model.find<Aerodynamics>();
+  const bool reported = r.probe && r.probe->wind.size() > 0;
+  if (!wind && !air) {
+    if (reported && largest_column(r.probe->wind) > 0) w.row("wind", "none", "some", false);
+    return;
+  }
+  const WindSignal& wind_signal = wind ? wind->acceleration : air->velocity;
+  const std::string asked = fmt::format("mean ({:.6g}, {:.6g}, {:.6g}) {}{}{}", wind_signal.mean.x(),
+                                        wind_signal.mean.y(), wind_signal.mean.z(), wind ? "m/s^2" : "m/s on triangles",
+                                        wind_signal.gusts ? ", gusts" : "", wind && air ? ", and on triangles" : "");
+  if (!reported) {
+    w.add_unattested("wind", asked);
+    return;
+  }
+  State probed = scene.start;
+  probed.t = r.probe->t, probed.x = r.probe->x;
+  probed.v.setZero();
+  for (const int pin : scene.model.particles.pins) probed.v.col(pin) = r.probe->v.col(pin);
+  Forces ours{Points::Zero(3, scene.model.particles.size()), 0};
+  if (wind) add_force(*wind, scene.model.particles, probed, ours);
+  if (air) add_force(*air, scene.model.particles, probed, ours);
+  Points reported_forces = r.probe->wind;
+  for (const int pin : scene.model.particles.pins) ours.f.col(pin).setZero(), reported_forces.col(pin).setZero();
+  const double scale = largest_column(ours.f), off = largest_column(ours.f - reported_forces);
+  // left over when the springs are taken from the sum: their forces' rounding
+  const double springs = r.probe->springs.size() > 0 ? largest_column(r.probe->springs) : 0;
+  w.row("wind", asked, fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off),
+        off <= 100 * w.tolerance() * (scale + springs));
+}
+
+std::string acceleration_text(const Vec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g}) m/s^2", v.x(), v.y(), v.z());
+}
+
+void certify_gravity(const Gravity& gravity, const Readback& r, CertificateWriter& w) {
+  const Vec3& g = gravity.acceleration;
+  if (r.gravity)
+    w.row("gravity", acceleration_text(g), acceleration_text(*r.gravity),
+          (*r.gravity - g).norm() <= w.tolerance() * g.norm());
+  else
+    w.add_unattested("gravity", acceleration_text(g));
+}
+
+void certify_drag(const Drag& drag, const Particles& particles, const Readback& r, CertificateWriter& w) {
+  const Eigen::ArrayXd rates = drag.c.array() / particles.mass.array();
+  const double low = rates.minCoeff(), high = rates.maxCoeff();
+  const std::string asked =
+      high - low < 1e-12 * high ? fmt::format("{:.6g} /s", high) : fmt::format("{:.6g} to {:.6g} /s", low, high);
+  if (!r.drag || static_cast<int>(r.drag->size()) != particles.size()) {
+    w.add_unattested("drag", asked);
+    return;
+  }
+  double worst = 0;
+  for (int i = 0; i < particles.size(); ++i)
+    if (!particles.pinned[i]) worst = max_or_nan(worst, std::abs((*r.drag)[i] - rates[i]));
+  // gamma comes back from 1 - exp(-gamma h): eps / (gamma h) is left
+  w.row("drag", asked, fmt::format("largest deviation {:.2g} /s", worst),
+        worst <= std::max(w.tolerance(), 1e-9) * high);
+}
+
+/// What the scene does not have must not be in the engine either; what the engine does not deny stands in one row.
+void certify_absent(const Model& model, const Readback& r, CertificateWriter& w) {
+  if (!model.find<Gravity>() && r.gravity && !r.gravity->isZero(0))
+    w.row("gravity", "none", acceleration_text(*r.gravity), false);
+  if (!model.find<Drag>() && r.drag && std::any_of(r.drag->begin(), r.drag->end(), [](double c) { return c != 0; }))
+    w.row("drag", "none", "some", false);
+  if (model.first_order()) return;
+
+  const auto* spheres = model.find<Spheres>();
+  const std::pair<const char*, bool> not_denied[] = {
+      {"gravity", !model.find<Gravity>() && !r.gravity},
+      {"drag", !model.find<Drag>() && !r.drag},
+      {"dashpots", !model.find<Dashpots>() && !(r.probe && r.probe->dashpots.size() > 0)},
+      {"wind", !model.find<Wind>() && !model.find<Aerodynamics>() && !(r.probe && r.probe->wind.size() > 0)},
+      {"spheres", !spheres && !r.spheres},
+      {"motion of pins", !model.particles.pins.empty() && !model.particles.move && !r.later},
+      {"motion of spheres", spheres && !spheres->moving() && !r.later},
+  };
+  std::string absent;
+  for (const auto& [what, silent] : not_denied)
+    if (silent) absent += fmt::format("{}no {}", absent.empty() ? "" : ", ", what);
+  if (!absent.empty()) w.add_unattested("nothing else", absent);
+}
+
+}  // namespace
+
+void certify_terms(const Scene& scene, const Readback& r, CertificateWriter& w) {
+  const Overloaded certify_term{
+      [&](const Gravity& t) { certify_gravity(t, r, w); },
+      [&](const Drag& t) { certify_drag(t, scene.model.particles, r, w); },
+      [&](const Rotation& t) { w.add_unattested("rotation", fmt::format("{:.6g} rad/s", t.rate)); },
+      [](const OneOf<Wind, Aerodynamics, Spheres> auto&) {},     // below: they may be in the engine alone
+      [](const OneOf<Springs, Dashpots, Constraints> auto&) {},  // rows.cpp
+  };
+  for (const Term& term : scene.model.terms) std::visit(certify_term, term);
+  certify_wind(scene, r, w);
+  certify_spheres(scene.model.find<Spheres>(), r, w);
+  certify_absent(scene.model, r, w);
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,63 @@
+// How rows of a certificate are written, and who writes which.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/certificate/certificate.h"
+
+namespace crosscheck {
+
+/// The larger one; nan where one is nan, so that a deviation that is no number never passes.
+inline double max_or_nan(double a, double b) { return std::isnan(b) || b > a ? b : a; }
+
+class CertificateWriter {
+ public:
+  /// The outcome must have a read-back.
+  CertificateWriter(Certificate& certificate, const Outcome& outcome)
+      : certificate_(certificate), outcome_(outcome), readback_(*outcome.readback) {}
+
+  void row(const std::string& quantity, std::string asked, std::string read_back, Parity parity) {
+    auto how = readback_.mapped.find(quantity);
+    if (how == readback_.mapped.end() && quantity.ends_with("stiffness")) how = readback_.mapped.find("stiffness");
+    if (how == readback_.mapped.end() && quantity == "wind") how = readback_.mapped.find("wind on triangles");
+    certificate_.rows.push_back({quantity, std::move(asked), how == readback_.mapped.end() ? "as it is" : how->second,
+                                 std::move(read_back), parity});
+  }
+  void row(const std::string& quantity, std::string asked, std::string read_back, bool same) {
+    row(quantity, std::move(asked), std::move(read_back), same ? Parity::match : Parity::mismatch);
+  }
+  void add_unattested(const std::string& quantity, std::string asked) {
+    row(quantity, std::move(asked), "not told", Parity::unattested);
+  }
+  /// A quantity compared by its largest deviation, relative to its scale.
+  void deviation(const std::string& quantity, std::string asked, double largest, double scale) {
+    row(quantity, std::move(asked), fmt::format("largest deviation {:.2g}", scale > 0 ? largest / scale : largest),
+        largest <= tolerance() * scale);
+  }
+  /// Whether the engine says by itself that it has the ingredient under another law: a row of its own says which.
+  bool has_different_law(std::string_view ingredient) const {
+    return std::any_of(outcome_.different_law.begin(), outcome_.different_law.end(), [&](const std::string& law) {
+      return law.starts_with(ingredient) && law.substr(ingredient.size()).starts_with(": ");
+    });
+  }
+  /// Rounding of an engine that computes in this precision, after a mapping and its inverse: some tens of ulps.
+  double tolerance() const { return readback_.precision == "single" ? 1e-5 : 1e-12; }
+
+ private:
+  Certificate& certificate_;
+  const Outcome& outcome_;
+  const Readback& readback_;
+};
+
+/// "200 N/m", or "75 to 300 N/m".
+inline std::string range_of(double low, double high, const char* unit) {
+  return low == high ? fmt::format("{:.6g} {}", low, unit) : fmt::format("{:.6g} to {:.6g} {}", low, high, unit);
+}
+
+void certify_springs(const Scene& scene, const Readback& r, CertificateWriter& w);
+void certify_terms(const Scene& scene, const Readback& r, CertificateWriter& w);
+
+}  // namespace crosscheck

@@ -1,0 +1,37 @@
+// Integrators of others on a right-hand side written apart from mysim's: methods like any other, and one route of
+// truth.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mysim/run/run.h"
+
+namespace crosscheck {
+
+// All of them throw Unsupported where there is contact. Those under error control keep the estimated error of each step
+// below R (scene size + |component|), with R = run.tolerance and numbers in SI units: odeint in every component,
+// SUNDIALS in the root mean square.
+
+/// odeint's classic Runge-Kutta rule at run.step.
+Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer);
+/// odeint's Dormand-Prince 5(4) to run.tolerance, with its own interpolant at the times that are looked at.
+Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer);
+/// odeint's extrapolation of the midpoint rule, of varying order (Bulirsch and Stoer), to run.tolerance; steps end at
+/// the times that are looked at. Its estimate compares answers of different numbers of stages, so that it also sees an
+/// error that comes from time alone: Fehlberg's 7(8) pair has the same weights there in both rules, and follows a moved
+/// pin 1e-9 of the scene's size wrong under a tolerance of 1e-13.
+Outcome run_odeint_bulirsch_stoer(const Scene& scene, const Run& run, Observer& observer);
+/// SUNDIALS ARKODE, explicit, Fehlberg 7(8), to run.tolerance; steps end at the samples. Throws Unsupported with the
+/// package's name where the suite was built without.
+Outcome run_arkode(const Scene& scene, const Run& run, Observer& observer);
+/// The same with ARKODE's default rule of order 4 (Zonneveld's 5 4 3).
+Outcome run_arkode_order4(const Scene& scene, const Run& run, Observer& observer);
+/// SUNDIALS CVODE, Adams' formulas of varying order with GMRES, to run.tolerance; steps end at the samples. Throws
+/// Unsupported likewise.
+Outcome run_cvode(const Scene& scene, const Run& run, Observer& observer);
+
+std::string odeint_version();                   // Boost's, e.g. "1.74"
+std::optional<std::string> sundials_version();  // none: the suite was built without
+
+}  // namespace crosscheck

@@ -1,0 +1,148 @@
+// Boost's odeint, behind the run loop that all engines share.
+
+#include <fmt/format.h>
+#include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/dense_output_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <boost/version.hpp>
+
+#include <algorithm>
+#include <functional>
+
+#include "mysim/base/errors.h"
+#include "mysim/run/engine.h"
+#include "reference/truth/independent/integrators.h"
+#include "reference/truth/independent/right_hand_side.h"
+
+namespace crosscheck {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+class OdeintWorld : public World {
+ public:
+  explicit OdeintWorld(const Scene& scene) : f_(scene), y_(f_.start()), state_(scene.start) {}
+  const State& state(double t) override {
+    f_.write_state(y_, t, state_);
+    return state_;
+  }
+  const RightHandSide& right_hand_side() const { return f_; }
+  long accepted() const { return accepted_; }
+
+ protected:
+  RightHandSide f_;
+  StateVector y_;
+  State state_;
+  long accepted_ = 0;
+};
+
+class Rk4World : public OdeintWorld {
+ public:
+  using OdeintWorld::OdeintWorld;
+  void step(double t, double t_next) override {
+    rule_.do_step(std::ref(f_), y_, t, t_next - t);
+    ++accepted_;
+  }
+
+ private:
+  odeint::runge_kutta4<StateVector> rule_;
+};
+
+void require_progress(double t, double h) {
+  if (!(h > 1e-14 * std::max(1.0, t)))
+    throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", t));
+}
+
+class Dopri5World : public OdeintWorld {
+ public:
+  Dopri5World(const Scene& scene, const Run& run)
+      : OdeintWorld(scene),
+        rule_(odeint::make_dense_output(run.tolerance * scene.size(), run.tolerance,
+                                        odeint::runge_kutta_dopri5<StateVector>())) {
+    rule_.initialize(y_, 0.0, std::min(run.step, run.duration));
+  }
+  void step(double, double t_next) override {
+    while (rule_.current_time() < t_next) {
+      require_progress(rule_.current_time(), rule_.current_time_step());
+      try {
+        rule_.do_step(std::ref(f_));
+      } catch (const odeint::step_adjustment_error& e) {
+        throw SolverFailure(e.what());
+      }
+      ++accepted_;
+    }
+  }
+  const State& state(double t) override {
+    if (accepted_ > 0) rule_.calc_state(t, y_);
+    return OdeintWorld::state(t);
+  }
+
+ private:
+  odeint::result_of::make_dense_output<odeint::runge_kutta_dopri5<StateVector>>::type rule_;
+};
+
+class BulirschStoerWorld : public OdeintWorld {
+ public:
+  BulirschStoerWorld(const Scene& scene, const Run& run)
+      : OdeintWorld(scene),
+        rule_(run.tolerance * scene.size(), run.tolerance),
+        h_(std::min(run.step, run.duration)),
+        ramp_end_(scene.model.particles.move ? scene.model.particles.move->ramp : 0) {}
+  void step(double t, double t_next) override {
+    // where a moved pin is at full swing its third derivative jumps: a step that ends there keeps its order
+    if (t < ramp_end_ && ramp_end_ < t_next) {
+      integrate_to(t, ramp_end_);
+      t = ramp_end_;
+    }
+    integrate_to(t, t_next);
+  }
+
+ private:
+  void integrate_to(double t, double t_next) {
+    while (t < t_next) {
+      // a step that would leave a sliver takes the whole way; one cut short says nothing against the one planned
+      const bool last = t + 1.01 * h_ >= t_next;
+      double h = last ? t_next - t : h_;
+      const double tried = h;
+      require_progress(t, h);
+      if (rule_.try_step(std::ref(f_), y_, t, h) == odeint::success) {
+        ++accepted_;
+        h_ = last ? std::max(h_, h) : h;
+        if (last) t = t_next;
+      } else {
+        h_ = std::min(h, 0.9 * tried);
+      }
+    }
+  }
+
+  odeint::bulirsch_stoer<StateVector> rule_;
+  double h_;
+  double ramp_end_;  // s
+};
+
+}  // namespace
+
+Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer) {
+  Rk4World world(scene);
+  Outcome out = run_loop(world, run, observer);
+  out.evaluations = world.right_hand_side().evaluations();
+  out.degenerate_springs = world.right_hand_side().degenerate_springs();
+  return out;
+}
+
+Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer) {
+  Dopri5World world(scene, run);
+  return run_adaptive_loop(world, run, observer);
+}
+
+Outcome run_odeint_bulirsch_stoer(const Scene& scene, const Run& run, Observer& observer) {
+  BulirschStoerWorld world(scene, run);
+  return run_adaptive_loop(world, run, observer);
+}
+
+std::string odeint_version() { return fmt::format("{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000); }
+
+}  // namespace crosscheck

@@ -1,0 +1,251 @@
+// What is taken from a scene, where everything is at a time, and the forces on flat arrays.
+#include "reference/truth/independent/right_hand_side.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mysim/base/errors.h"
+
+namespace crosscheck {
+namespace {
+
+void copy(const Vec3& from, double to[3]) { std::copy_n(from.data(), 3, to); }
+
+}  // namespace
+
+RightHandSide::Signal RightHandSide::signal_of(const WindSignal& wind_signal) {
+  Signal signal;
+  copy(wind_signal.mean, signal.mean);
+  if (wind_signal.gusts) {
+    copy(wind_signal.gusts->side, signal.side);
+    signal.variation = wind_signal.gusts->variation;
+    for (const auto& [weight, omega, phase] : wind_signal.gusts->along.waves)
+      signal.along.push_back({weight, omega, phase});
+    for (const auto& [weight, omega, phase] : wind_signal.gusts->across.waves)
+      signal.across.push_back({weight, omega, phase});
+  }
+  return signal;
+}
+
+void RightHandSide::Signal::at(double t, double out[3]) const {
+  double first = 0, second = 0;
+  for (const Sine& s : along) first += s.weight * std::sin(s.phase + s.omega * t);
+  for (const Sine& s : across) second += s.weight * std::sin(s.phase + s.omega * t);
+  for (int axis = 0; axis < 3; ++axis) out[axis] = mean[axis] + variation * first * mean[axis] + second * side[axis];
+}
+
+RightHandSide::RightHandSide(const Scene& scene) : n_(scene.model.particles.size()) {
+  const Particles& p = scene.model.particles;
+  mass_.assign(p.mass.data(), p.mass.data() + n_);
+  pinned_.assign(n_, 0);
+  for (int pin : p.pins) pinned_[pin] = 1;
+  start_position_.assign(scene.start.x.data(), scene.start.x.data() + 3 * n_);
+  for (size_t i = 0; i < p.pins.size(); ++i) copy(p.pin_home.col(static_cast<int>(i)), &start_position_[3 * p.pins[i]]);
+  for (int i = 0; i < n_; ++i)
+    if (!pinned_[i]) free_.push_back(i);
+  if (p.move) {
+    pins_move_ = true;
+    copy(p.move->amplitude, pin_amplitude_);
+    pin_omega_ = 2 * std::numbers::pi * p.move->frequency;
+    pin_ramp_ = p.move->ramp;
+  }
+  for (const Term& term : scene.model.terms) add_term(term);
+  x_ = start_position_;
+  v_.assign(3 * n_, 0);
+  f_.assign(3 * n_, 0);
+  for (int i : free_) start_.insert(start_.end(), scene.start.x.col(i).begin(), scene.start.x.col(i).end());
+  if (!first_order_)
+    for (int i : free_) start_.insert(start_.end(), scene.start.v.col(i).begin(), scene.start.v.col(i).end());
+}
+
+/// A term without a line here does not compile: nothing of a scene is left out silently.
+void RightHandSide::add_term(const Term& term) {
+  struct TermVisitor {
+    RightHandSide& f;
+    void operator()(const Rotation& t) const { f.first_order_ = true, f.rotation_rate_ += t.rate; }
+    void operator()(const Gravity& t) const {
+      for (int axis = 0; axis < 3; ++axis) f.gravity_[axis] += t.acceleration[axis];
+    }
+    void operator()(const Springs& t) const {
+      f.link_law_ = t.law == SpringLaw::bullet_link;
+      for (const Spring& s : t.list) f.pairs_.push_back({s.a, s.b, s.k, s.rest, 0});
+    }
+    void operator()(const Dashpots& t) const {
+      for (const auto& d : t.list) f.pairs_.push_back({d.a, d.b, 0, 0, d.c});
+    }
+    void operator()(const Constraints& t) const {
+      for (const auto& c : t.list) f.hard_distances_.push_back({c.a, c.b});
+    }
+    void operator()(const Drag& t) const { f.drag_.assign(t.c.data(), t.c.data() + t.c.size()); }
+    void operator()(const Wind& t) const { f.winds_.push_back(signal_of(t.acceleration)); }
+    void operator()(const Aerodynamics& t) const {
+      f.air_velocities_.push_back(signal_of(t.velocity));
+      f.rho_cd_ = t.density * t.coefficient;
+      for (const auto& triangle : t.triangles)
+        f.triangles_.insert(f.triangles_.end(), triangle.begin(), triangle.end());
+    }
+    void operator()(const Spheres&) const {
+      throw Unsupported("the scene has contact, which is no right-hand side: integrators of others cannot follow it");
+    }
+  };
+  std::visit(TermVisitor{*this}, term);
+}
+
+StateVector RightHandSide::start() const { return start_; }
+
+/// Positions and velocities of all particles at time t.
+void RightHandSide::set_state(const StateVector& y, double t) {
+  if (pins_move_) {
+    // s = 10 u^3 - 15 u^4 + 6 u^5 until u = t / ramp = 1
+    const double u = std::min(t / pin_ramp_, 1.0);
+    const double ramp_value = 10 * std::pow(u, 3) - 15 * std::pow(u, 4) + 6 * std::pow(u, 5);
+    const double ramp_rate = 30 * u * u * std::pow(1 - u, 2) / pin_ramp_;
+    const double sine = std::sin(pin_omega_ * t), cosine = std::cos(pin_omega_ * t);
+    for (int i = 0; i < n_; ++i)
+      for (int axis = 0; axis < 3 && pinned_[i]; ++axis) {
+        x_[3 * i + axis] = start_position_[3 * i + axis] + pin_amplitude_[axis] * ramp_value * sine;
+        v_[3 * i + axis] = pin_amplitude_[axis] * (ramp_rate * sine + ramp_value * pin_omega_ * cosine);
+      }
+  }
+  const size_t half = 3 * free_.size();
+  for (size_t m = 0; m < free_.size(); ++m)
+    for (int axis = 0; axis < 3; ++axis) {
+      x_[3 * free_[m] + axis] = y[3 * m + axis];
+      if (!first_order_) v_[3 * free_[m] + axis] = y[half + 3 * m + axis];
+    }
+}
+
+void RightHandSide::operator()(const StateVector& y, StateVector& rate, double t) {
+  ++evaluations_;
+  set_state(y, t);
+  if (first_order_) {
+    for (size_t m = 0; m < free_.size(); ++m) {
+      rate[3 * m] = -rotation_rate_ * y[3 * m + 1];
+      rate[3 * m + 1] = rotation_rate_ * y[3 * m];
+      rate[3 * m + 2] = 0;
+    }
+    return;
+  }
+  std::fill(f_.begin(), f_.end(), 0);
+  for (const SpringDashpot& pair : pairs_) add_pair_force(pair);
+  add_aerodynamic_forces(t);
+  double all[3] = {gravity_[0], gravity_[1], gravity_[2]};  // m/s^2, the same for every particle
+  for (const Signal& wind : winds_) {
+    double part[3];
+    wind.at(t, part);
+    for (int axis = 0; axis < 3; ++axis) all[axis] += part[axis];
+  }
+  for (int i = 0; i < n_; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      f_[3 * i + axis] += mass_[i] * all[axis] - (drag_.empty() ? 0 : drag_[i] * v_[3 * i + axis]);
+  if (!hard_distances_.empty()) add_constraint_forces();
+  const size_t half = 3 * free_.size();
+  for (size_t m = 0; m < free_.size(); ++m)
+    for (int axis = 0; axis < 3; ++axis) {
+      rate[3 * m + axis] = y[half + 3 * m + axis];
+      rate[half + 3 * m + axis] = f_[3 * free_[m] + axis] / mass_[free_[m]];
+    }
+}
+
+void RightHandSide::write_state(const StateVector& y, double t, State& state) {
+  set_state(y, t);
+  state.t = t;
+  state.x = Points::Map(x_.data(), 3, n_);
+  if (first_order_)
+    state.v.resize(3, 0);
+  else
+    state.v = Points::Map(v_.data(), 3, n_);
+}
+
+/// What a spring and a dashpot do to their ends: a factor times the vector from one to the other.
+void RightHandSide::add_pair_force(const SpringDashpot& p) {
+  const double* a = &x_[3 * p.a];
+  const double* b = &x_[3 * p.b];
+  const double difference[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  const double square = difference[0] * difference[0] + difference[1] * difference[1] + difference[2] * difference[2];
+  if (square == 0) {
+    degenerate_springs_ += p.rest > 0;
+    return;
+  }
+  double factor = 0;  // N/m, towards each other
+  if (p.k > 0)
+    factor = link_law_ ? p.k * (1 - 2 * p.rest * p.rest / (square + p.rest * p.rest))
+                       : p.k * (1 - p.rest / std::sqrt(square));
+  if (p.damping > 0) {
+    double parting = 0;  // half the rate of change of the square
+    for (int axis = 0; axis < 3; ++axis) parting += difference[axis] * (v_[3 * p.b + axis] - v_[3 * p.a + axis]);
+    factor += p.damping * parting / square;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    f_[3 * p.a + axis] += factor * difference[axis];
+    f_[3 * p.b + axis] -= factor * difference[axis];
+  }
+}
+
+/// Pressure of the air on the triangles, a third on each corner.
+void RightHandSide::add_aerodynamic_forces(double t) {
+  for (const Signal& air : air_velocities_) {
+    double wind[3];
+    air.at(t, wind);
+    for (size_t c = 0; c < triangles_.size(); c += 3) {
+      const int corner[3] = {3 * triangles_[c], 3 * triangles_[c + 1], 3 * triangles_[c + 2]};
+      double p[3], q[3], relative_wind[3];
+      for (int axis = 0; axis < 3; ++axis) {
+        p[axis] = x_[corner[1] + axis] - x_[corner[0] + axis];
+        q[axis] = x_[corner[2] + axis] - x_[corner[0] + axis];
+        relative_wind[axis] = wind[axis] - (v_[corner[0] + axis] + v_[corner[1] + axis] + v_[corner[2] + axis]) / 3;
+      }
+      // twice the area, along the normal
+      const double twice_area[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+      const double size = std::hypot(twice_area[0], twice_area[1], twice_area[2]),
+                   speed = std::hypot(relative_wind[0], relative_wind[1], relative_wind[2]);
+      if (size == 0) continue;
+      const double through =
+          relative_wind[0] * twice_area[0] + relative_wind[1] * twice_area[1] + relative_wind[2] * twice_area[2];
+      // 1/2 rho C |u| (u . n) (area n) / 3, with area n = twice / 2 and n = twice / size
+      const double factor = rho_cd_ * speed * through / (12 * size);
+      for (int each : corner)
+        for (int axis = 0; axis < 3; ++axis) f_[each + axis] += factor * twice_area[axis];
+    }
+  }
+}
+
+/// Adds the forces along the rods that make d . a + |u|^2 = 0 for each, with d and u the difference of its ends'
+/// positions and velocities.
+void RightHandSide::add_constraint_forces() {
+  const auto count = static_cast<int>(hard_distances_.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
+  Eigen::VectorXd residual(count);
+  auto difference = [&](const HardDistance& r) { return Vec3(Vec3::Map(&x_[3 * r.a]) - Vec3::Map(&x_[3 * r.b])); };
+  auto inverse_mass = [&](int i) { return pinned_[i] ? 0 : 1 / mass_[i]; };  // 1/kg
+  for (int i = 0; i < count; ++i) {
+    const HardDistance& r = hard_distances_[i];
+    const Vec3 d = difference(r);
+    const Vec3 u = Vec3::Map(&v_[3 * r.a]) - Vec3::Map(&v_[3 * r.b]);
+    const Vec3 a = inverse_mass(r.a) * Vec3::Map(&f_[3 * r.a]) - inverse_mass(r.b) * Vec3::Map(&f_[3 * r.b]);
+    residual[i] = -d.dot(a) - u.squaredNorm();
+    for (int j = 0; j <= i; ++j) {
+      const HardDistance& s = hard_distances_[j];
+      // what a unit of force along s does to the difference of the ends of r
+      const double coupling =
+          inverse_mass(r.a) * ((r.a == s.a) - (r.a == s.b)) - inverse_mass(r.b) * ((r.b == s.a) - (r.b == s.b));
+      if (coupling != 0) matrix(i, j) = coupling * d.dot(difference(s));
+    }
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(matrix);
+  // a dependent rod leaves a pivot at round-off: 1e-12 of the largest, and the factor holds its root
+  const auto pivots = factor.matrixLLT().diagonal();
+  if (factor.info() != Eigen::Success || !(pivots.minCoeff() > 1e-6 * pivots.maxCoeff()))
+    throw Unsupported("its hard distances depend on each other: their forces are not unique");
+  const Eigen::VectorXd force = factor.solve(residual);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 along = force[i] * difference(hard_distances_[i]);
+    Vec3::Map(&f_[3 * hard_distances_[i].a]) += along;
+    Vec3::Map(&f_[3 * hard_distances_[i].b]) -= along;
+  }
+}
+
+}  // namespace crosscheck

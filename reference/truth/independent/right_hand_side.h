@@ -1,0 +1,75 @@
+// The physics of a scene written a second time, apart from mysim's terms and steppers: what the integrators of others
+// (odeint, SUNDIALS) solve. Where both codes agree, neither has a slip of the pen.
+#pragma once
+
+#include <vector>
+
+#include "mysim/scene/scene.h"
+
+namespace crosscheck {
+
+/// The unknowns of the free particles, one after the other: 3 n positions (m), then 3 n velocities (m/s); of a
+/// first-order scene positions only. Pins are no unknowns: their place is a function of time.
+using StateVector = std::vector<double>;
+
+class RightHandSide {
+ public:
+  /// Takes what it needs of the scene's numbers; none of mysim's forces, motions or gusts is called. Throws Unsupported
+  /// where there is contact, which no right-hand side knows.
+  explicit RightHandSide(const Scene& scene);
+
+  StateVector start() const;
+  /// rate = dy/dt at time t (s). Under hard distances the forces that keep them are solved for, densely; throws
+  /// Unsupported when they are not unique.
+  void operator()(const StateVector& y, StateVector& rate, double t);
+  /// The state of all particles, pins included, in the scene's numbering.
+  void write_state(const StateVector& y, double t, State& state);
+
+  long evaluations() const { return evaluations_; }
+  long degenerate_springs() const { return degenerate_springs_; }  // springs met at zero length, over all evaluations
+
+ private:
+  struct SpringDashpot {
+    int a, b;
+    double k, rest, damping;  // N/m, m, N s/m; a spring without dashpot has damping 0, and the other way round
+  };
+  struct Signal {  // w(t) = mean (1 + variation g1(t)) + side g2(t), each g a sum of sines
+    struct Sine {
+      double weight, omega, phase;
+    };
+    double mean[3], side[3] = {0, 0, 0}, variation = 0;
+    std::vector<Sine> along, across;
+    void at(double t, double out[3]) const;
+  };
+  struct HardDistance {
+    int a, b;
+  };
+
+  static Signal signal_of(const WindSignal& wind_signal);
+  void add_term(const Term& term);
+  void set_state(const StateVector& y, double t);
+  void add_pair_force(const SpringDashpot& pair);
+  void add_aerodynamic_forces(double t);
+  void add_constraint_forces();
+
+  int n_;                  // particles
+  std::vector<int> free_;  // indices of the free particles
+  StateVector start_;
+  std::vector<double> mass_, drag_;     // n, kg and N s/m; drag_ is empty without drag
+  std::vector<double> start_position_;  // 3 n, m, positions at the start, of which the pins' count
+  std::vector<char> pinned_;            // n
+  bool pins_move_ = false;              // pins move
+  double pin_amplitude_[3] = {0, 0, 0}, pin_omega_ = 0, pin_ramp_ = 1;
+  bool first_order_ = false, link_law_ = false;
+  double rotation_rate_ = 0;       // rad/s, of the first-order field
+  double gravity_[3] = {0, 0, 0};  // m/s^2
+  std::vector<SpringDashpot> pairs_;
+  std::vector<HardDistance> hard_distances_;
+  std::vector<Signal> winds_, air_velocities_;  // m/s^2; m/s
+  std::vector<int> triangles_;                  // 3 per triangle
+  double rho_cd_ = 0;                           // density times coefficient, kg/m^3
+  std::vector<double> x_, v_, f_;               // 3 n, scratch: positions, velocities, forces
+  long evaluations_ = 0, degenerate_springs_ = 0;
+};
+
+}  // namespace crosscheck

@@ -1,0 +1,35 @@
+// Truth of scenes with hard distances, by a right-hand side of its own: Lagrange multipliers, no projection.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+
+#include "mysim/run/engine.h"
+
+namespace crosscheck {
+
+/// With g = (|d|^2 - L^2) / 2 for each distance d = x_a - x_b and J its derivatives, the accelerations are
+///   a = M^-1 (f + J^T lambda),  (J M^-1 J^T) lambda = -J M^-1 f - |d'|^2,
+/// so that g'' = 0 (index reduction; E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, VII.1).
+/// Integrated by rk4: the distances drift by its error of order 4 only. Forces are the terms' plain loops.
+class MultiplierWorld : public World {
+ public:
+  /// Throws Unsupported when the distances depend on each other (a straight row between two pins, a closed mesh of
+  /// them).
+  MultiplierWorld(const Scene& scene, double h);
+  void step(double t, double t_next) override;
+  const State& state(double) override { return s_; }
+
+  /// Velocities and accelerations at the stage; nothing in the world changes.
+  void derivative(const State& stage, State& rate);
+
+ private:
+  const Scene& scene_;
+  const Constraints& constraints_;
+  double h_;
+  State s_, stage_, k_[4];
+  Forces forces_;
+  Eigen::VectorXd inverse_mass_;  // 3 n, 0 at pins
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
+};
+
+}  // namespace crosscheck

@@ -1,0 +1,287 @@
+// Finds the truth of a scene: a closed form, two independent routes refined until they agree, or the converged contact
+// rule.
+#include "reference/truth/truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "mysim/base/errors.h"
+#include "mysim/model/system.h"
+#include "mysim/run/observers.h"
+#include "reference/method.h"
+#include "reference/truth/cache.h"
+#include "reference/truth/exact/exact.h"
+#include "reference/truth/independent/integrators.h"
+#include "reference/truth/multipliers.h"
+
+namespace crosscheck {
+namespace {
+
+Truth from_closed_form(const ExactSolution& exact, const Scene& scene, const Run& run) {
+  const TimeGrid steps = time_grid(run);
+  Truth truth{Tier::exact, "closed form: " + exact.formula, {}, 0};
+  double path = 0;
+  for (int sample = 0; sample <= steps.samples; ++sample) {
+    const State s = exact.at(steps.time(sample, 0));
+    if (sample > 0) path += (s.x - truth.trajectory.x.back()).norm();
+    truth.trajectory.t.push_back(s.t);
+    truth.trajectory.x.push_back(s.x);
+    truth.trajectory.v.push_back(s.v);
+  }
+  // an angle of many radians is known to eps times itself only: the round-off grows with the path
+  truth.error_bar = 1e-15 * (scene.size() + path);
+  return truth;
+}
+
+}  // namespace
+
+std::string_view name_of(Tier tier) {
+  switch (tier) {
+    case Tier::exact:
+      return "exact";
+    case Tier::exact_discrete:
+      return "exact for the discrete rule";
+    case Tier::converged:
+      return "converged";
+    case Tier::another_engine:
+      return "another engine";
+  }
+  return "unknown";
+}
+
+std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
+  if (const auto exact = exact_solution(scene)) return from_closed_form(*exact, scene, run);
+  const auto find = [&] {
+    return scene.model.find<Spheres>() ? contact_truth(scene, run) : converged_truth(scene, run);
+  };
+  const auto cache = TruthCache::from_environment();
+  return cache ? cache->find_or_compute(scene, run, find) : find();
+}
+
+namespace {
+
+/// Three runs of one kind, each refined by the same factor from the one before.
+struct RefinementStudy {
+  std::string how;
+  double step;   // s, of the fine run; the mean under error control
+  double ratio;  // by which one refinement lowers the error at best: what is seen beyond it is chance
+  Trajectory coarse, middle, fine;
+};
+
+/// What a route says of its own error, sample by sample: the differences of its last two refinements up to there.
+class RichardsonEstimate {
+ public:
+  explicit RichardsonEstimate(const RefinementStudy& study) : study_(study) {}
+  /// m, of the error up to sample i, to be asked in order. An order p divides the error by 2^p at each refinement (by
+  /// r, where it is the tolerance that is refined), so that the last difference over r - 1 is left; three times that,
+  /// for r is itself measured. Where the differences do not halve no order shows, and the whole difference stands.
+  double error_up_to(size_t i) {
+    before_ = std::max(before_, rms_distance(study_.coarse.x[i], study_.middle.x[i]));
+    last_ = std::max(last_, rms_distance(study_.middle.x[i], study_.fine.x[i]));
+    if (!std::isfinite(last_) || !std::isfinite(before_)) return INFINITY;
+    const double r = std::min(before_ / last_, study_.ratio);
+    return r >= 2 ? 3 * last_ / (r - 1) : last_;
+  }
+
+ private:
+  const RefinementStudy& study_;
+  double before_ = 0, last_ = 0;
+};
+
+bool few_particles(const Scene& scene) { return scene.model.particles.size() < 50; }
+
+/// Steps of the scene's own, whatever the run's: truth must not depend on what is compared with it.
+double first_step(const Scene& scene, bool constrained) {
+  // rk4 follows a vibration well below h omega = 0.7 and is stable up to 2.83: the first run is at most at 1.4
+  const double omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);
+  // a few particles cost little: there the bar is pushed down to where order can be seen; hard distances cost much
+  const double part = constrained ? 1 : few_particles(scene) ? 16 : 4;
+  return std::min(2 * scene.step / part, omega > 0 ? 1.4 / omega : scene.step);
+}
+
+/// mysim's run at one step, under a watch for failures; nothing if it failed. Throws Unsupported where the hard
+/// distances depend on each other.
+std::optional<Trajectory> run_rk4(const Scene& scene, const Run& run, bool constrained) {
+  Recorder recorder;
+  Outcome out;
+  if (constrained) {
+    DivergenceMonitor monitor(scene, run);
+    MonitoredObservers look(monitor, {&recorder});
+    MultiplierWorld world(scene, time_grid(run).h);
+    out = run_loop(world, run, look);
+  } else {
+    out = run_method(find_method("mysim/rk4"), scene, run, {&recorder});
+  }
+  if (out.verdict != Verdict::ok) return std::nullopt;
+  return std::move(recorder.trajectory);
+}
+
+/// Halves the step until that changes little; at least twice, so that an order can be seen.
+std::optional<RefinementStudy> refine_rk4(const Scene& scene, const Run& run) {
+  constexpr int most_halvings = 7;
+  const double enough = 1e-8 * scene.size();  // far below what any scene asks for; a few particles reach 1e-11 at once
+  const bool constrained = scene.model.find<Constraints>() != nullptr;
+  double h = first_step(scene, constrained);
+  const auto at = [&] { return run_rk4(scene, {h, run.duration, run.samples}, constrained); };
+  std::optional<Trajectory> coarse, middle = at();
+  double change = INFINITY;
+  for (int i = 0; i < most_halvings && middle; ++i) {
+    h /= 2;
+    auto fine = at();
+    if (!fine) return std::nullopt;
+    const double before = std::exchange(change, largest_rms_distance(*middle, *fine));
+    // where halving no longer helps, round-off or chaos is what is left
+    if (coarse && (change < enough || change > before / 2))
+      return RefinementStudy{fmt::format("mysim/rk4 at {:.3g} ms{}", 1e3 * h,
+                                         constrained ? ", with Lagrange multipliers for the hard distances" : ""),
+                             h,
+                             16,
+                             std::move(*coarse),
+                             std::move(*middle),
+                             std::move(*fine)};
+    coarse = std::move(middle);
+    middle = std::move(fine);
+  }
+  return std::nullopt;
+}
+
+std::optional<RefinementStudy> refine_bulirsch_stoer(const Scene& scene, const Run& run) {
+  // a step's error, of the scene's size; round-off is at 1e-16
+  const auto tolerances = few_particles(scene) ? std::array{1e-11, 1e-12, 1e-13} : std::array{1e-8, 1e-9, 1e-10};
+  RefinementStudy study{
+      fmt::format("odeint (Boost {}), Bulirsch and Stoer's extrapolation, on a right-hand side written apart",
+                  odeint_version()),
+      0,
+      tolerances[0] / tolerances[1],
+      {},
+      {},
+      {}};
+  Trajectory* const runs[] = {&study.coarse, &study.middle, &study.fine};
+  for (size_t i = 0; i < tolerances.size(); ++i) {
+    Recorder recorder;
+    const Run to{scene.step, run.duration, run.samples, tolerances[i]};
+    const Outcome out = run_odeint_bulirsch_stoer(scene, to, recorder);
+    if (out.verdict != Verdict::ok) return std::nullopt;
+    study.step = out.step;
+    *runs[i] = std::move(recorder.trajectory);
+  }
+  return study;
+}
+
+}  // namespace
+
+std::optional<Truth> converged_truth(const Scene& scene, const Run& run) try {
+  auto rk4_study = refine_rk4(scene, run);
+  if (!rk4_study) return std::nullopt;
+  const auto odeint_study = refine_bulirsch_stoer(scene, run);
+  if (!odeint_study) return std::nullopt;
+
+  Truth truth{Tier::converged, fmt::format("{}, against {}", rk4_study->how, odeint_study->how), rk4_study->fine, 0};
+  const auto& x = truth.trajectory.x;
+  RichardsonEstimate rk4_estimate(*rk4_study), odeint_estimate(*odeint_study);
+  // a rounding of each step's positions, adding up like a random walk
+  const double random_walk = 0.5 * std::numeric_limits<double>::epsilon() * std::sqrt(run.duration / rk4_study->step);
+  double motion = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    motion = std::max(motion, rms_distance(x[i], x[0]));
+    // and some units in the last place that each route has of its own, whatever it refines
+    const double place = x[i].norm() / std::sqrt(x[i].cols());
+    const double rounding = std::max(random_walk * place, 1e-15 * std::max(scene.size(), place));
+    // an error of the first route is what it is apart from the second, and what that one errs the same way
+    const double apart = rms_distance(x[i], odeint_study->fine.x[i]) + odeint_estimate.error_up_to(i),
+                 own = rk4_estimate.error_up_to(i);
+    const double error_bar = std::max(apart, own) + rounding;
+    truth.error_bar = std::isfinite(error_bar) ? std::max(truth.error_bar, error_bar) : INFINITY;
+    truth.error_bars.push_back(truth.error_bar);
+  }
+  if (!(truth.error_bar < 0.01 * motion)) return std::nullopt;
+  return truth;
+} catch (const Unsupported&) {
+  return std::nullopt;
+} catch (const SolverFailure&) {
+  return std::nullopt;
+}
+
+namespace {
+
+std::optional<Trajectory> run_leapfrog(const Scene& scene, const Run& run) {
+  Recorder recorder;
+  if (run_method(find_method("mysim/leapfrog"), scene, run, {&recorder}).verdict != Verdict::ok) return std::nullopt;
+  return std::move(recorder.trajectory);
+}
+
+bool in_contact(const Spheres& spheres, const Particles& particles, double t, const Points& x) {
+  for (int i = 0; i < x.cols(); ++i)
+    if (!particles.pinned[i] && clearance_from(spheres, t, x.col(i)) < 1e-9) return true;
+  return false;
+}
+
+/// The sample of the first touch and the last one up to which single positions are followed; none without a touch.
+struct SampleRange {
+  int touch, end;
+};
+std::optional<SampleRange> predictable_samples(const Scene& scene, const Trajectory& path) {
+  const auto& spheres = *scene.model.find<Spheres>();
+  const Particles& particles = scene.model.particles;
+  int touch = 0;
+  while (touch < path.frames() && !in_contact(spheres, particles, path.t[touch], path.x[touch])) ++touch;
+  if (touch == path.frames()) return std::nullopt;
+  const bool several = particles.size() - static_cast<int>(particles.pins.size()) > 1;
+  const double until = several ? std::min(scene.window, path.t[touch] + 0.3) : scene.window;
+  int end = 0;
+  while (end + 1 < path.frames() && path.t[end + 1] <= until * (1 + 1e-9)) ++end;
+  return SampleRange{touch, end};
+}
+
+}  // namespace
+
+std::optional<Truth> contact_truth(const Scene& scene, const Run& run) {
+  if (scene.model.find<Constraints>() || scene.model.first_order()) return std::nullopt;
+  const auto coarse_run = run_leapfrog(scene, {scene.step, run.duration, run.samples});
+  const auto span = coarse_run ? predictable_samples(scene, *coarse_run) : std::nullopt;
+  if (!span || span->end <= span->touch) return std::nullopt;
+  const int end = span->end;
+  std::optional<Trajectory> paths[3];
+  double h = scene.step / 4;
+  for (auto& path : paths) {
+    h /= 2;
+    if (!(path = run_leapfrog(scene, {h, run.duration * end / run.samples, end}))) return std::nullopt;
+  }
+  const auto& [coarse, middle, fine] = paths;
+
+  Truth truth{Tier::converged, "", {}, 1e-15 * scene.size()};
+  truth.under_contact_rule = true;
+  // a rounding of each step's positions at worst: what is below it tells nothing of the order
+  const double noise = std::numeric_limits<double>::epsilon() * scene.size() * run.duration / h;
+  double before = 0, last = 0, motion = 0, least = 4;
+  for (int i = 0; i <= end; ++i) {
+    before = std::max(before, rms_distance(coarse->x[i], middle->x[i]));
+    last = std::max(last, rms_distance(middle->x[i], fine->x[i]));
+    const double ratio = last > noise ? before / last : 2;
+    if (!(ratio >= 1.5)) break;
+    least = std::min(least, ratio);
+    motion = std::max(motion, rms_distance(fine->x[i], fine->x[0]));
+    truth.error_bar = std::max(truth.error_bar, last / (std::min(ratio, 2.0) - 1));
+    truth.error_bars.push_back(truth.error_bar);
+    truth.until = fine->t[i];
+  }
+  // what ends before anything was touched for a while tells nothing of contact
+  if (static_cast<int>(truth.error_bars.size()) <= span->touch + 1 || !(truth.error_bar < 0.01 * motion))
+    return std::nullopt;
+  truth.trajectory = std::move(*paths[2]);
+  truth.trajectory.t.resize(truth.error_bars.size());
+  truth.trajectory.x.resize(truth.error_bars.size());
+  truth.trajectory.v.resize(truth.error_bars.size());
+  truth.how = fmt::format(
+      "mysim/leapfrog at {:.3g} ms, converged in the step (to order {:.2g} at least) under the in-house contact rule; "
+      "other rules differ",
+      1e3 * h, std::log2(least));
+  return truth;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,58 @@
+// The best answer known for a scene, with its tier and its error bar, and how it is found.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "mysim/run/observers.h"
+
+namespace crosscheck {
+
+// The best answer known for a scene, with its tier and its error bar.
+
+enum class Tier { exact = 1, exact_discrete = 2, converged = 3, another_engine = 4 };
+std::string_view name_of(Tier tier);
+
+struct Truth {
+  Tier tier;
+  std::string how;  // one sentence
+  Trajectory trajectory;
+  double error_bar;                // m, error bar of the RMS position error, at any sample
+  std::vector<double> error_bars;  // m, the same up to each sample; empty where it is one and the same
+  // the answer of the in-house contact rule: what others are apart from it is a difference, and no error
+  bool under_contact_rule = false;
+  double until = INFINITY;  // s, holds up to here; the samples end with it
+};
+
+/// Exact where the scene has a closed form (bar: round-off, 1e-15 x scene size x (1 + radians turned)); otherwise
+/// converged on two independent routes (truth.h), found once and kept in a cache (cache.h). Of other
+/// scenes with contact only what the in-house contact rule converges to is known, for a while (truth.h).
+std::optional<Truth> truth_of(const Scene& scene, const Run& run);
+
+// Truth where no closed form is known: two independent routes, each refined, and what they differ by.
+
+/// One route is mysim's rk4, under hard distances that of MultiplierWorld: from half the scene's step (an eighth below
+/// 50 particles; at most h omega = 1.4 of its fastest vibration) the step is halved, twice at least, until that changes
+/// less than 1e-8 of the scene's size. The other is odeint's extrapolation under error control on the right-hand side
+/// written apart (reference/independent), at three tolerances: the same with and without SUNDIALS, so that a truth does
+/// not depend on what a machine has. The trajectory is that of the first at its last step. Its bar is the larger of the
+/// difference of the two routes, with the second one's estimate on top, and of the first one's estimate, RMS over the
+/// particles. An estimate is three times the last refinement's difference over 2^p - 1, with p as the last two
+/// refinements show it, and the whole difference where they show none. On top comes 1e-15 of the scene's size, or the
+/// random walk of a rounding in each step. None where a route fails or the bar exceeds a hundredth of the motion: known
+/// to less than that is not known. The scene must be free of contact.
+std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
+
+// What a scene with contact converges to in the step, under the in-house contact rule.
+
+/// mysim's leapfrog at 1/8, 1/16 and 1/32 of the scene's step. The answer holds as long as the last
+/// difference (RMS over the particles, largest so far) is at most 2/3 of the one before, as at order 0.6 or more: with
+/// contact every stepper is of first order on smooth motion. It ends 0.3 s after the first touch of a scene of several
+/// free particles, and with the scene's window; the samples of the truth end there too. The bar is the last difference
+/// over (its ratio - 1), what is left of a geometric series; at order 1 the difference itself. None where nothing
+/// is touched, where no order is seen from the first touch on (after a hard impact, say), or where the bar exceeds a
+/// hundredth of the motion.
+std::optional<Truth> contact_truth(const Scene& scene, const Run& run);
+
+}  // namespace crosscheck

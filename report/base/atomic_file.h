@@ -1,0 +1,25 @@
+// A file that others write: they are given a temporary name beside it, and it gets its own when it is whole.
+#pragma once
+
+#include <filesystem>
+
+namespace crosscheck::render {
+
+/// Opened before the work, so that a bad place is known at once; what is not whole in the end is taken away.
+class AtomicFile {
+ public:
+  /// Throws std::runtime_error that names the file when it cannot be written.
+  explicit AtomicFile(const std::filesystem::path& file);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  const std::filesystem::path& temporary() const { return temporary_; }
+  /// Gives it its name. Throws std::runtime_error that names the file.
+  void finish();
+
+ private:
+  std::filesystem::path file_, temporary_;
+};
+
+}  // namespace crosscheck::render

@@ -1,0 +1,19 @@
+// Who made these numbers: command, commit, compiler, machine, engines.
+#pragma once
+
+#include "experiments/tables/table.h"
+#include "mysim/scene/scene.h"
+
+namespace crosscheck {
+
+/// Everything but the scenes. `command` is the command line as given.
+Provenance provenance(const std::string& command);
+
+/// The same with the hash of the scene, and of each scene.
+Provenance with_scene(Provenance lines, const Scene& scene);
+Provenance with_scenes(Provenance lines, const std::vector<Scene>& scenes);
+
+/// The value of a line, or "".
+std::string value_of(const Provenance& lines, const std::string& key);
+
+}  // namespace crosscheck

@@ -1,0 +1,71 @@
+// What the bench found, line by line, as people read it: for the terminal and the figure.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/experiment.h"
+#include "experiments/tables/table.h"
+#include "report/figures/figure.h"
+
+namespace crosscheck {
+
+// What the bench found, line by line, as people read it: for the terminal and the figure.
+
+/// How many times somebody's time mysim's is, with its 90 % interval.
+struct BenchRatio {
+  double ratio, low, high;
+};
+
+struct BenchLine {
+  std::string group;                      // what is compared, a heading
+  std::string heading;                    // the same in few words, for the figure
+  std::string label;                      // with whom, at which accuracy
+  std::string detail;                     // times or rates behind the ratio; of the best path
+  std::optional<BenchRatio> best, plain;  // best instructions; SSE2 alone
+  std::string remark = {};                // why there is no ratio
+  bool representative = true;             // of several lines about one peer the one where it does best
+  bool wall = false;                      // the ratio is one of times on the wall, not of CPU times
+};
+
+/// From the tables of bench(). Kernels on the sheet in the middle of those asked; of the shipped scenes the one where
+/// the engine's own way gains least; all runs of all peers; two threads beside one.
+std::vector<BenchLine> bench_lines(const Rows& rows);
+
+/// The name of the best instructions in the tables: "avx512".
+std::string best_instruction_set(const Rows& rows);
+
+// What the files of bench_lines share.
+
+inline BenchRatio ratio_at(const Table& table, size_t row, const char* column) {
+  return {*number_at(table, row, column), *number_at(table, row, "ratio low"), *number_at(table, row, "ratio high")};
+}
+
+inline std::string nice_seconds(double seconds) {
+  if (seconds >= 0.1) return fmt::format("{:.2f} s", seconds);
+  if (seconds >= 1e-4) return fmt::format("{:.3g} ms", 1e3 * seconds);
+  return fmt::format("{:.3g} µs", 1e6 * seconds);
+}
+
+/// "sheet-32x32-two-stiffnesses" as "32 × 32, two stiffnesses".
+inline std::string size_text(const std::string& scene) {
+  std::string text = scene.substr(scene.find('-') + 1);
+  for (const auto& [from, to] : {std::pair{"x", " × "}, {"-", ", "}, {"-", " "}})
+    if (const size_t at = text.find(from); at != std::string::npos) text.replace(at, 1, to);
+  return text;
+}
+
+/// Lines from the tables of single steps: beside Bullet's, beside a factorisation, and on two threads.
+void add_same_step(const Table& table, std::vector<BenchLine>& lines);
+void add_implicit_steps(const Table& table, std::vector<BenchLine>& lines);
+void add_threads(const Table& table, std::vector<BenchLine>& lines);
+
+// The figure of `crosscheck bench`.
+
+/// All ratios, of each peer the one where it does best: best instructions and SSE2 alone as two markers.
+DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& instructions, const std::string& commit);
+
+}  // namespace crosscheck

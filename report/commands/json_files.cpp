@@ -1,0 +1,54 @@
+// One object with an entry per quantity; tables as lists of objects.
+#include "report/commands/json_files.h"
+
+#include "mysim/base/json.h"
+
+namespace crosscheck {
+
+std::string certificate_json(const Certificate& certificate) {
+  Json rows = Json::list();
+  for (const CertificateRow& r : certificate.rows)
+    rows.push({{"quantity", r.quantity},
+               {"asked", r.asked},
+               {"mapped", r.mapped},
+               {"read_back", r.read_back},
+               {"verdict", name_of(r.parity)}});
+  const Json json{{"scene", certificate.scene},
+                  {"method", certificate.method},
+                  {"verdict", certificate.mismatch()         ? "mismatch"
+                              : certificate.fully_attested() ? "match"
+                                                             : "not attested"},
+                  {"summary", summary_of(certificate)},
+                  {"rows", std::move(rows)}};
+  return json.dump(1) + "\n";
+}
+
+namespace {
+
+Json json_of(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* number = std::get_if<double>(&cell)) return *number;  // null where not finite
+  if (const auto* whole = std::get_if<long>(&cell)) return *whole;
+  return nullptr;
+}
+
+Json json_of(const Table& table) {
+  Json columns = Json::list(), rows = Json::list();
+  for (const Column& column : table.columns) columns.push({{"name", column.name}, {"unit", column.unit}});
+  for (const auto& row : table.rows) {
+    Json& object = rows.push(Json::object());
+    for (size_t i = 0; i < row.size(); ++i) object[table.columns[i].name] = json_of(row[i]);
+  }
+  return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
+}
+
+}  // namespace
+
+std::string tables_json(const Rows& rows, const Provenance& provenance) {
+  Json lines = Json::list(), tables = Json::object();
+  for (const auto& [key, value] : provenance) lines.push({{"key", key}, {"value", value}});
+  for (const Table& table : rows.tables) tables[table.name] = json_of(table);
+  return Json{{"provenance", lines}, {"notes", rows.notes}, {"tables", std::move(tables)}}.dump(1) + "\n";
+}
+
+}  // namespace crosscheck

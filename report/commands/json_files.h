@@ -1,0 +1,21 @@
+// Tables and parity certificates as JSON files, for programs.
+#pragma once
+
+#include <string>
+
+#include "experiments/experiment.h"
+#include "reference/certificate/certificate.h"
+
+namespace crosscheck {
+
+// Parity certificates as JSON.
+
+std::string certificate_json(const Certificate& certificate);
+
+// Tables as one JSON file, for programs.
+
+/// Provenance, notes, and of each table its columns with units and its rows as objects by column name: the same cells
+/// as in the CSV files. Empty cells and numbers that are not finite are null.
+std::string tables_json(const Rows& rows, const Provenance& provenance);
+
+}  // namespace crosscheck

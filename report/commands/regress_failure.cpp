@@ -1,0 +1,248 @@
+// Runs a failed question again and draws it.
+#include "report/commands/regress_failure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "experiments/metrics.h"
+#include "experiments/regress/baseline.h"
+#include "mysim/base/files.h"
+#include "report/base/provenance.h"
+#include "report/figures/figure.h"
+#include "report/findings/findings_text.h"
+#include "report/pictures/scene_picture.h"
+
+namespace crosscheck {
+namespace {
+
+const Comparison* row_named(const std::vector<Comparison>& rows, const std::string& name) {
+  const auto at = std::find_if(rows.begin(), rows.end(), [&](const Comparison& row) { return row.quantity == name; });
+  return at == rows.end() ? nullptr : &*at;
+}
+
+std::vector<double> times_of(const Case& test_case) {
+  const Run run = run_over_window(test_case.scene);
+  std::vector<double> times;
+  for (int i = 1; i <= run.samples; ++i) times.push_back(run.duration * i / run.samples);
+  return times;
+}
+
+Series offsets_of(const Trajectory& path) {
+  Series series;
+  for (int i = 0; i < path.frames(); ++i) series.emplace_back(path.t[i], rms_distance(path.x[i], path.x.front()));
+  return series;
+}
+
+Result answer_for_pictures(const Case& test_case, const CaseRun& case_run, const std::string& who) {
+  return {test_case.scene.name, who, case_run.outcome, case_run.trajectory};
+}
+
+bool owns(const Case& q) { return q.without.empty() && q.method.name == find_method(q.scene.method).name; }
+
+/// From the numbers that a baseline holds: eight times or fewer.
+void beside_baseline(FailureDetails& e, const Regression& regression) {
+  for (const double t : times_of(e.test_case)) {
+    const Comparison *offset = row_named(e.rows, offset_at(t)), *places = row_named(e.rows, places_at(t));
+    if (offset && offset->was) e.was.emplace_back(t, *offset->was);
+    // places tell apart what moves alike on the whole
+    if (!places || !places->was || !places->is || !std::isfinite(*places->is)) continue;
+    e.difference.emplace_back(t, std::abs(*places->is - *places->was));
+    e.tolerance.emplace_back(t, places->tolerance);
+    if (!e.first_divergence && e.difference.back().second > places->tolerance) e.first_divergence = t;
+  }
+  if (!owns(e.test_case) || !e.new_answer) return;
+  const auto shape = read_shape(regression.baselines, e.test_case.scene.name, e.test_case.scene.model.particles.size());
+  if (!shape) return;
+  e.old_answer = Result{e.test_case.scene.name, "was: " + e.test_case.method.name, {}, {}};
+  e.old_answer->trajectory.t = {shape->t};
+  e.old_answer->trajectory.x = {shape->x};
+}
+
+/// From both runs, at every sample; tolerances at those of the quantities.
+void beside_other(FailureDetails& e, const Method& against) {
+  Case old = e.test_case;
+  old.method = against;
+  const CaseRun case_run = comparable_part(run_case(old));
+  e.was = offsets_of(case_run.trajectory);
+  e.was_sampled = true;
+  if (!case_run.trajectory.x.empty()) e.old_answer = answer_for_pictures(old, case_run, "was: " + against.name);
+  for (const double t : times_of(e.test_case))
+    if (const Comparison* offset = row_named(e.rows, offset_at(t))) e.tolerance.emplace_back(t, offset->tolerance);
+  if (!e.new_answer || e.tolerance.empty()) return;
+  const Trajectory &now = e.new_answer->trajectory, &before = case_run.trajectory;
+  for (int i = 1; i < std::min(now.frames(), before.frames()); ++i) {
+    const double distance = rms_distance(now.x[i], before.x[i]);
+    // of the next time at which the tolerance is known
+    const auto known = std::find_if(e.tolerance.begin(), e.tolerance.end(),
+                                    [&](const auto& at) { return at.first >= now.t[i] * (1 - 1e-9); });
+    if (!std::isfinite(distance) || known == e.tolerance.end()) break;
+    e.difference.emplace_back(now.t[i], distance);
+    if (!e.first_divergence && distance > known->second) e.first_divergence = now.t[i];
+  }
+}
+
+}  // namespace
+
+FailureDetails failure_details(const Case& test_case, const std::vector<Comparison>& rows,
+                               const Regression& regression) {
+  FailureDetails e{test_case};
+  for (const Comparison& row : rows)
+    if (row.scene == test_case.scene.name && row.method == test_case.method.name && row.without == test_case.without)
+      e.rows.push_back(row);
+  std::stable_sort(e.rows.begin(), e.rows.end(),
+                   [](const Comparison& a, const Comparison& b) { return failed(a.state) && !failed(b.state); });
+  const CaseRun case_run = comparable_part(run_case(test_case));
+  e.is = offsets_of(case_run.trajectory);
+  if (!case_run.trajectory.x.empty())
+    e.new_answer = answer_for_pictures(test_case, case_run, "is: " + test_case.method.name);
+  if (regression.against)
+    beside_other(e, *regression.against);
+  else
+    beside_baseline(e, regression);
+  return e;
+}
+
+std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vector<Comparison>& rows, int most) {
+  struct Ranked {
+    const Case* test_case;
+    double off;
+  };
+  std::vector<Ranked> ranked;
+  for (const Comparison& row : worst_comparisons(rows)) {
+    const auto at = std::find_if(all.begin(), all.end(), [&](const Case& q) {
+      return q.scene.name == row.scene && q.method.name == row.method && q.without == row.without;
+    });
+    if (at == all.end() ||
+        std::any_of(ranked.begin(), ranked.end(), [&](const Ranked& r) { return r.test_case == &*at; }))
+      continue;
+    ranked.push_back({&*at, row.rank()});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
+    if (a.test_case->without.empty() != b.test_case->without.empty()) return a.test_case->without.empty();
+    if (owns(*a.test_case) != owns(*b.test_case)) return owns(*a.test_case);  // of these the old shape is kept
+    return a.off > b.off;
+  });
+  std::vector<Case> first, others;
+  std::set<std::string> scenes;
+  for (const Ranked& r : ranked)
+    (scenes.insert(r.test_case->scene.name).second ? first : others).push_back(*r.test_case);
+  first.insert(first.end(), others.begin(), others.end());
+  if (static_cast<int>(first.size()) > most) first.erase(first.begin() + most, first.end());
+  return first;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const MethodStyle old_style{"#5b6670", "2", 6}, new_style{"#d55e00", "1", 7}, tolerance_style{"#009e73", "3", 1};
+
+FigureInfo words_for(const FailureDetails& e, const std::string& what, const std::string& title,
+                     const Provenance& lines) {
+  FigureInfo words;
+  words.name = file_name_of(fmt::format("{} {} {}", e.test_case.scene.name, e.test_case.method.name,
+                                        e.test_case.without.empty() ? what : e.test_case.without + " " + what));
+  words.title = fmt::format("{}: {}", e.test_case.in_words(), title);
+  words.caption =
+      fmt::format("Scene {} ({}), commit {}.", e.test_case.scene.name, e.test_case.hash, value_of(lines, "commit"));
+  words.finding = describe_divergence(e);
+  return words;
+}
+
+std::optional<Figure> curves(const FailureDetails& e, const Provenance& lines) {
+  Figure f;
+  static_cast<FigureInfo&>(f) = words_for(e, "curve", "how far the particles are from their start", lines);
+  f.x = {"t / s"};
+  f.y = {"RMS distance from the start / m"};
+  if (!e.was.empty()) f.curves.push_back({"was", old_style, e.was, e.was_sampled, !e.was_sampled});
+  if (!e.is.empty()) f.curves.push_back({"is", new_style, e.is});
+  const auto finite = [](const Curve& c) {
+    return std::all_of(c.points.begin(), c.points.end(), [](const auto& p) { return std::isfinite(p.second); });
+  };
+  if (f.curves.empty() || !std::all_of(f.curves.begin(), f.curves.end(), finite)) return std::nullopt;
+  return f;
+}
+
+std::optional<Figure> difference(const FailureDetails& e, const Provenance& lines) {
+  double least = INFINITY;
+  for (const auto& [t, tolerance] : e.tolerance)
+    if (tolerance > 0) least = std::min(least, tolerance);
+  if (e.difference.empty() || !std::isfinite(least)) return std::nullopt;
+  const double floor = least / 10;
+  const auto above_floor = [floor](Series series) {
+    for (auto& [t, value] : series) value = std::max(value, floor);
+    return series;
+  };
+  Figure f;
+  static_cast<FigureInfo&>(f) = words_for(e, "difference", "how far is and was are apart", lines);
+  f.x = {"t / s"};
+  f.y = {e.was_sampled ? "RMS distance / m" : "difference of places / m", true};
+  f.curves.push_back({"difference", new_style, above_floor(e.difference), true, !e.was_sampled});
+  f.curves.push_back({"tolerance", tolerance_style, above_floor(e.tolerance)});
+  f.caption += fmt::format(" Drawn no lower than {}, a tenth of the smallest tolerance.", nice_length(floor));
+  if (!e.was_sampled) f.caption += " A baseline holds places along drawn directions at these times.";
+  return f;
+}
+
+/// Both shapes in one view, coloured by their distance where an eye could see it.
+std::optional<PageImage> shapes(const FailureDetails& e, const fs::path& folder) {
+  if (!e.new_answer || e.new_answer->trajectory.x.empty() || e.test_case.scene.model.first_order()) return std::nullopt;
+  Shot shot;
+  shot.quality = render::Quality::fast;
+  shot.width = 1120, shot.height = 420;
+  std::vector<const Result*> shown;
+  if (e.old_answer) {
+    shown.push_back(&*e.old_answer);
+    shot.at = std::min(e.old_answer->trajectory.t.back(), e.new_answer->trajectory.t.back());
+    const Points &was = e.old_answer->trajectory.x.back(), &is = e.new_answer->trajectory.x.back();
+    if (rms_distance(was, is) > 1e-4 * e.test_case.scene.size()) shot.mode = Mode::difference;
+  }
+  shown.push_back(&*e.new_answer);
+  PageImage image;
+  image.file = folder / (words_for(e, "shape", "", {}).name + ".png");
+  render::write_png(picture_of(e.test_case.scene, shown, shot), image.file);
+  image.alt = e.old_answer ? "the last shape as it was and as it is" : "the last shape as it is";
+  image.caption = e.old_answer ? "The last shape as it was and as it is."
+                               : "The last shape as it is. Of the old run no shape is kept (a baseline has that of the "
+                                 "scene's own method; with --against both are drawn).";
+  return image;
+}
+
+}  // namespace
+
+std::string describe_divergence(const FailureDetails& e) {
+  if (e.first_divergence) {
+    const auto before = std::find_if(e.difference.rbegin(), e.difference.rend(),
+                                     [&](const auto& at) { return at.first < *e.first_divergence * (1 - 1e-9); });
+    return fmt::format("They part by more than the tolerance between {:.4g} s and {:.4g} s.",
+                       before == e.difference.rend() ? 0 : before->first, *e.first_divergence);
+  }
+  return e.difference.empty() ? "There is no common time at which places could be compared."
+                              : "Places stay within their tolerance; what moved is in the table.";
+}
+
+std::vector<PageImage> failure_figures(const FailureDetails& e, const Provenance& lines, const fs::path& out,
+                                       std::vector<std::string>& problems) {
+  const fs::path folder = out / "figures";
+  std::vector<PageImage> images;
+  for (const auto& figure : {curves(e, lines), difference(e, lines)}) {
+    if (!figure) continue;
+    try {
+      draw(drawing_of(*figure), lines, folder);
+      images.push_back({folder / (figure->name + ".svg"), figure->finding, figure->caption});
+    } catch (const std::runtime_error& error) {
+      problems.push_back(error.what());
+    }
+  }
+  try {
+    if (auto image = shapes(e, folder)) images.push_back(*image);
+  } catch (const std::exception& error) {
+    problems.push_back(fmt::format("picture of {}: {}", e.test_case.in_words(), error.what()));
+  }
+  return images;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,376 @@
+// Writes the verdict of a regression run.
+#include "report/commands/regress_verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "experiments/regress/comparison.h"
+#include "mysim/base/files.h"
+#include "mysim/base/json.h"
+#include "report/commands/regress_failure.h"
+#include "report/page/inline_svg.h"
+#include "report/page/page.h"
+
+namespace crosscheck {
+namespace {
+
+bool was_compared(const SpeedComparison& row) { return row.change.repetitions > 0; }
+
+}  // namespace
+
+Table table_of(const Speeds& speeds) {
+  Table table{"speed-cost",
+              {{"scene", "1"},
+               {"method", "1"},
+               {"was", "1"},
+               {"is", "1"},
+               {"change", "1"},
+               {"change low", "1"},
+               {"change high", "1"},
+               {"noise", "1"},
+               {"measurements", "1"},
+               {"state", "1"},
+               {"sentence", "1"},
+               {"note", "1"}},
+              {}};
+  for (const SpeedComparison& row : speeds.rows) {
+    const auto where_compared = [&](double value) { return was_compared(row) ? Cell(value) : Cell(); };
+    table.add({row.scene, row.method, cell_of(row.was), row.is > 0 ? Cell(row.is) : Cell(),
+               where_compared(row.change.median), where_compared(row.change.low), where_compared(row.change.high),
+               where_compared(row.noise), static_cast<long>(row.seen), std::string(name_of(row.state)), row.sentence,
+               row.note});
+  }
+  return table;
+}
+
+void add_speeds(Json& verdict, const Speeds& speeds) {
+  verdict["speed"] = Json::list();
+  for (const SpeedComparison& row : speeds.rows) {
+    Json json{{"scene", row.scene}, {"method", row.method}, {"state", name_of(row.state)}};
+    if (row.was) json["was"] = *row.was;
+    if (row.state != SpeedStatus::gone) json["is"] = row.is;
+    if (was_compared(row))
+      json["change"] = row.change.median, json["change_low"] = row.change.low, json["change_high"] = row.change.high,
+      json["noise"] = row.noise, json["measurements"] = row.seen;
+    if (!row.sentence.empty()) json["sentence"] = row.sentence;
+    if (!row.note.empty()) json["note"] = row.note;
+    verdict["speed"].push(json);
+  }
+  verdict["speed_notes"] = speeds.notes;
+  verdict["speed_failures"] = Json::list();
+  for (const FailedPoint& f : speeds.failures) verdict["speed_failures"].push({{"what", f.name}, {"why", f.why}});
+}
+
+JUnitCases junit_cases(const Speeds& speeds) {
+  JUnitCases all;
+  for (const SpeedComparison& row : speeds.rows) {
+    if (!row.was) continue;
+    ++all.cases;
+    all.body += fmt::format("  <testcase classname=\"{}\" name=\"{}: speed\"", escaped(row.scene), escaped(row.method));
+    all.failures += failed(row.state);
+    all.body += failed(row.state) ? fmt::format("><failure message=\"{}\"/></testcase>\n",
+                                                escaped(row.state == SpeedStatus::gone ? row.note : row.sentence))
+                                  : "/>\n";
+  }
+  for (const FailedPoint& f : speeds.failures) {
+    ++all.cases, ++all.errors;
+    all.body += fmt::format("  <testcase classname=\"speed\" name=\"{}\"><error message=\"{}\"/></testcase>\n",
+                            escaped(f.name), escaped(f.why));
+  }
+  return all;
+}
+
+namespace {
+
+Cell cell(const std::optional<double>& value, const std::string& word) {
+  return value ? Cell(*value) : word.empty() ? Cell() : Cell(word);
+}
+
+Table table_of(const RegressionResult& result) {
+  Table table{"regress",
+              {{"scene", "1"},
+               {"method", "1"},
+               {"without", "1"},
+               {"quantity", "1"},
+               {"unit", "1"},
+               {"was", "unit"},
+               {"is", "unit"},
+               {"tolerance", "unit"},
+               {"tolerances off", "1"},
+               {"state", "1"},
+               {"note", "1"}},
+              {}};
+  for (const Comparison& row : result.rows)
+    table.add({row.scene, row.method, row.without, row.quantity, row.unit, cell(row.was, row.was_word),
+               cell(row.is, row.is_word), row.was && row.is ? Cell(row.tolerance) : Cell(),
+               row.was && row.is ? Cell(row.off()) : Cell(), std::string(name_of(row.state)), row.note});
+  return table;
+}
+
+Json number(double value) {
+  if (std::isfinite(value)) return value;
+  return std::isnan(value) ? "nan" : "inf";
+}
+
+Json json_of(const Comparison& row) {
+  Json json{{"scene", row.scene},       {"method", row.method}, {"without", row.without},
+            {"quantity", row.quantity}, {"unit", row.unit},     {"state", name_of(row.state)}};
+  if (row.was) json["was"] = number(*row.was);
+  if (!row.was_word.empty()) json["was"] = row.was_word;
+  if (row.is) json["is"] = number(*row.is);
+  if (!row.is_word.empty()) json["is"] = row.is_word;
+  if (row.was && row.is) json["tolerance"] = row.tolerance, json["tolerances_off"] = number(row.off());
+  if (!row.note.empty()) json["note"] = row.note;
+  return json;
+}
+
+std::string sentence(const Comparison& row) {
+  const auto shown = [](const std::optional<double>& value, const std::string& word) {
+    if (!word.empty() || !value) return word;
+    return std::isfinite(*value) ? Json(*value).dump() : std::isnan(*value) ? "nan" : "inf";
+  };
+  const std::pair<const char*, std::string> parts[] = {
+      {"was", shown(row.was, row.was_word)},
+      {"is", shown(row.is, row.is_word)},
+      {"tolerance", row.was && row.is ? Json(row.tolerance).dump() : ""},
+      {"note", row.note}};
+  std::string text = fmt::format("{}: {}", row.quantity, name_of(row.state));
+  for (const auto& [key, part] : parts)
+    if (!part.empty()) text += fmt::format(", {} {}", key, part);
+  return text;
+}
+
+std::string junit(const RegressionResult& result, const Speeds& speeds) {
+  struct Case {
+    int failures = 0;
+    std::string text;
+  };
+  std::map<std::pair<std::string, std::string>, Case> cases;
+  for (const Comparison& row : result.rows) {
+    std::string method = row.method.empty() ? "baseline" : row.method;
+    if (!row.without.empty()) method += " without " + row.without;
+    Case& one = cases[{row.scene, method}];
+    if (!failed(row.state)) continue;
+    ++one.failures;
+    one.text += sentence(row) + "\n";
+  }
+  size_t failures = 0;
+  std::string body;
+  for (const auto& [name, one] : cases) {
+    body += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(name.first), escaped(name.second));
+    failures += one.failures > 0;
+    body += one.failures == 0 ? "/>\n"
+                              : fmt::format("><failure message=\"{} quantities\">{}</failure></testcase>\n",
+                                            one.failures, escaped(one.text));
+  }
+  for (const FailedPoint& f : result.failures)
+    body += fmt::format("  <testcase classname=\"no answer\" name=\"{}\"><error message=\"{}\"/></testcase>\n",
+                        escaped(f.name), escaped(f.why));
+  const JUnitCases of_speed = junit_cases(speeds);
+  body += of_speed.body;
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"regress\" tests=\"{}\" "
+      "failures=\"{}\" errors=\"{}\">\n{}</testsuite>\n</testsuites>\n",
+      cases.size() + result.failures.size() + of_speed.cases, failures + of_speed.failures,
+      result.failures.size() + of_speed.errors, body);
+}
+
+}  // namespace
+
+void write_verdict(const RegressionResult& result, const Speeds& speeds, const std::string& cause,
+                   const Provenance& lines, const std::filesystem::path& folder) {
+  write_csv(table_of(result), lines, folder);
+  const Difference close = difference_of(result.rows);
+  Json json{{"passed", result.passed() && speeds.passed()},
+            {"cause", cause.empty() ? "not attributed" : cause},
+            {"quantities", result.rows.size()},
+            {"identical", close.identical},
+            {"differing", close.differing},
+            {"failures", Json::list()},
+            {"without_answer", Json::list()}};
+  if (close.furthest) json["furthest"] = json_of(*close.furthest);
+  for (const Comparison& row : result.rows)
+    if (failed(row.state)) json["failures"].push(json_of(row));
+  for (const FailedPoint& f : result.failures) json["without_answer"].push({{"question", f.name}, {"why", f.why}});
+  add_speeds(json, speeds);
+  write_file(folder / "regress.json", json.dump(1) + "\n");
+  write_file(folder / "junit.xml", junit(result, speeds));
+  if (!speeds.rows.empty()) write_csv(table_of(speeds), lines, folder);
+}
+
+namespace {
+
+std::string shown(const std::optional<double>& value, const std::string& word) {
+  return value ? fmt::format("{:.7g}", *value) : word.empty() ? "-" : word;
+}
+
+std::string off_in_words(const Comparison& row) {
+  if (!row.was || !row.is) return "";
+  return std::isinf(row.off()) ? "a count" : fmt::format("{:.3g}", row.off());
+}
+
+std::string where(const Comparison& row) {
+  std::string text = row.scene;
+  if (!row.method.empty()) text += " under " + row.method;
+  if (!row.without.empty()) text += " without " + row.without;
+  return text;
+}
+
+PageTable table_of(const std::string& caption, const std::vector<Comparison>& rows, bool with_question) {
+  PageTable table{caption, {"quantity", "was", "is", "unit", "tolerance", "tolerances off", "verdict"}, {}};
+  if (with_question) table.header.insert(table.header.begin(), "question");
+  for (const Comparison& row : rows) {
+    std::vector<std::string> cells{row.quantity,
+                                   shown(row.was, row.was_word),
+                                   row.note.empty() ? shown(row.is, row.is_word) : row.note,
+                                   row.unit == "word" ? "" : row.unit,
+                                   row.was && row.is ? fmt::format("{:.2g}", row.tolerance) : "",
+                                   off_in_words(row),
+                                   std::string(name_of(row.state))};
+    if (with_question) cells.insert(cells.begin(), where(row));
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+/// Those to look at first.
+std::vector<Comparison> by_size(std::vector<Comparison> rows, size_t most) {
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Comparison& a, const Comparison& b) { return a.rank() > b.rank(); });
+  if (rows.size() > most) rows.erase(rows.begin() + static_cast<long>(most), rows.end());
+  return rows;
+}
+
+/// "12 of 39 questions, those that are off most"
+std::string some_of(size_t shown, size_t all, const std::string& what) {
+  return shown < all ? fmt::format("{} of {} {}: those that are off most", shown, all, what)
+                     : fmt::format("{} {}", all, what);
+}
+
+std::string headline(const VerdictPage& page) {
+  const auto wrong = std::count_if(page.result.rows.begin(), page.result.rows.end(),
+                                   [](const auto& row) { return failed(row.state); });
+  if (!page.blessed.empty()) return fmt::format("{} quantities blessed: {}", page.result.rows.size(), page.blessed);
+  if (page.result.passed() && !page.speeds.passed()) return "The answers are the same, and something is slower";
+  if (page.result.passed()) return fmt::format("Nothing moved: {} quantities are the same", page.result.rows.size());
+  return fmt::format("{} of {} quantities failed", wrong, page.result.rows.size());
+}
+
+/// CPU times over those of a plain loop; empty where none was measured.
+std::string speed_section(const Speeds& speeds) {
+  if (speeds.rows.empty() && speeds.notes.empty()) return "";
+  PageTable table{fmt::format("Speed of {} runs: CPU time over that of a plain loop of springs and gravity, in turns",
+                              speeds.rows.size()),
+                  {"run", "was", "is", "is / was", "interval", "noise", "verdict", "at what price"},
+                  {}};
+  for (const SpeedComparison& row : speeds.rows)
+    table.rows.push_back({row.scene + " under " + row.method, row.was ? fmt::format("{:.3g}", *row.was) : "",
+                          fmt::format("{:.3g}", row.is), row.was ? fmt::format("{:.3f}", row.change.median) : "",
+                          row.was ? fmt::format("{:.3f} to {:.3f}", row.change.low, row.change.high) : "",
+                          row.was ? fmt::format("{:.0f} %", 100 * row.noise) : "", std::string(name_of(row.state)),
+                          row.sentence.empty() ? row.note : row.sentence});
+  std::string out = "<section class=\"chapter\"><h2>Speed beside accuracy</h2>\n";
+  for (const std::string& note : speeds.notes) out += fmt::format("<p class=\"note\">{}</p>\n", escaped(note));
+  return out + (table.rows.empty() ? "" : page_table_html(table, !speeds.explanations.empty())) + "</section>\n";
+}
+
+void first_screen(const VerdictPage& page, std::string& out) {
+  out += fmt::format(
+      "<header><h1>{}</h1></header>\n<main>\n<p class=\"question\">Beside {}.</p>\n<ul class=\"findings\">\n",
+      escaped(headline(page)), escaped(page.beside));
+  const auto say = [&out](const std::string& topic, const std::string& sentence) {
+    out += fmt::format("<li class=\"{}\">{}</li>\n", topic, escaped(sentence));
+  };
+  if (!page.result.passed() && page.blessed.empty())
+    say("failure", page.cause.empty() ? "Cause: not attributed. No single ingredient, rule or setting fits what moved "
+                                        "and what held."
+                                      : fmt::format("Cause: {}.", page.cause));
+  for (const std::string& trade : page.speeds.explanations) say("accuracy", fmt::format("Speed: {}.", trade));
+  for (const FailedPoint& f : page.result.failures) say("failure", fmt::format("No answer: {}: {}", f.name, f.why));
+  const auto added = std::count_if(page.result.rows.begin(), page.result.rows.end(),
+                                   [](const auto& row) { return row.state == Status::added; });
+  if (added > 0)
+    say("contact", fmt::format("New, with nothing to stand beside yet: {}.",
+                               added == 1 ? "one quantity" : fmt::format("{} quantities", added)));
+  out += "</ul>\n";
+  for (const std::string& problem : page.problems)
+    out += fmt::format("<p class=\"problem\">Missing: {}</p>\n", escaped(problem));
+}
+
+}  // namespace
+
+std::string describe_change(const Comparison& row) {
+  std::string text = fmt::format("was {}, is {}", shown(row.was, row.was_word), shown(row.is, row.is_word));
+  if (row.unit != "word" && row.unit != "1") text += " " + row.unit;
+  if (row.state == Status::moved && row.was)
+    text += fmt::format("; tolerance {:.2g}, {}{} off", row.tolerance, off_in_words(row),
+                        std::isinf(row.off()) ? "" : " tolerances");
+  return text;
+}
+
+std::vector<FailurePart> failure_parts(const std::vector<Case>& cases, const RegressionResult& result,
+                                       const Regression& regression, int most, const Provenance& lines,
+                                       std::vector<std::string>& problems) {
+  std::vector<FailurePart> parts;
+  for (const Case& q : failures_to_draw(cases, result.rows, most)) {
+    const FailureDetails details = failure_details(q, result.rows, regression);
+    FailurePart part;
+    part.scene = q.scene.name, part.heading = q.in_words();
+    part.text = describe_divergence(details);
+    part.images = failure_figures(details, lines, regression.out, problems);
+    std::vector<Comparison> wrong;
+    std::copy_if(details.rows.begin(), details.rows.end(), std::back_inserter(wrong),
+                 [](const Comparison& row) { return failed(row.state); });
+    const std::vector<Comparison> worst = by_size(wrong, 6);
+    part.table = table_of(some_of(worst.size(), wrong.size(), "quantities that failed"), worst, false);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+void write_verdict_page(VerdictPage& page, const std::vector<Case>& cases, const Regression& regression, int figures) {
+  page.parts = failure_parts(cases, page.result, regression, figures, page.lines, page.problems);
+  write_file(regression.out / "index.html", verdict_html(page));
+  for (const std::string& problem : page.problems) fmt::print(stderr, "crosscheck: missing: {}\n", problem);
+}
+
+std::string verdict_html(const VerdictPage& page) {
+  std::string out = page_head("Crosscheck: what moved");
+  first_screen(page, out);
+  const std::vector<Comparison> worst = worst_comparisons(page.result.rows);
+  if (!worst.empty())
+    out +=
+        "<section class=\"chapter\"><h2>What failed</h2>\n<p class=\"note\">Of each question the quantity that is off "
+        "most. All quantities: <code>regress.csv</code> beside this page.</p>\n" +
+        page_table_html(
+            table_of(some_of(std::min<size_t>(worst.size(), 15), worst.size(), "questions"), by_size(worst, 15), true),
+            true) +
+        "</section>\n";
+  out += speed_section(page.speeds);
+  if (!page.parts.empty() && page.parts.size() < worst.size())
+    out += fmt::format(
+        "<p class=\"note\">Drawn below: {} of {} questions, of each scene that which is off most first "
+        "(more with --figures N).</p>\n",
+        page.parts.size(), worst.size());
+  for (const FailurePart& part : page.parts) {
+    out += fmt::format("<section class=\"scene\"><h2>{}</h2>\n<p class=\"question\">{}</p>\n<div class=\"figures\">\n",
+                       escaped(part.heading), escaped(part.text));
+    for (const PageImage& image : part.images)
+      if (image.file.extension() == ".svg") out += image_html(image, "chart");
+    out += "</div>\n";
+    for (const PageImage& image : part.images)
+      if (image.file.extension() == ".png") out += image_html(image, "render");
+    out += "<div class=\"chapter\">" + page_table_html(part.table) + "</div></section>\n";
+  }
+  return deduplicate_markers(
+      out +
+      "<section class=\"made\"><h2>How this was made</h2>\n<p>A tolerance is what rounding can do to the "
+      "quantity in that engine, measured by moving the start a little; each row of a baseline says how. A "
+      "cause is named only where it alone fits all that moved and all that held.</p>\n" +
+      provenance_html(page.lines) + "</section>\n</main></body></html>\n");
+}
+
+}  // namespace crosscheck

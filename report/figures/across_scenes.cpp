@@ -1,0 +1,219 @@
+// Charts over all scenes: the error of every method, and who is fastest at 1 % error.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "experiments/tables/table.h"
+#include "report/figures/charts.h"
+#include "report/findings/findings_text.h"
+
+namespace crosscheck {
+
+std::vector<Chart> scoreboard_charts(const ChartInput& input) {
+  constexpr double top = 10;
+  Figure f;
+  f.name = "scoreboard";
+  f.title = "Error of each method at the scene's own step";
+  f.x = {"", false, -0.6, std::nullopt};
+  f.y = {"largest RMS error / motion of the scene", true, std::nullopt, top};
+  double x = 0, lowest = 1;
+  std::set<std::string> methods;
+  std::vector<std::string> cut;
+  for (const SceneData& scene : input.facts) {
+    if (scene.tier.empty() || !(scene.motion > 0)) continue;
+    f.categories.emplace_back(x, scene.scene);
+    // side by side, so that equal errors stay apart
+    const double apart = 0.7 / static_cast<double>(std::max<size_t>(1, scene.methods.size()));
+    double shift = -0.35;
+    for (const MethodData& m : scene.methods) {
+      auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == m.method; });
+      if (curve == f.curves.end())
+        curve = f.curves.insert(f.curves.end(), {m.method, style_of(m.method), {}, false, true});
+      if (m.ok() && m.error) {
+        const double y = std::max(*m.error, scene.error_bar) / scene.motion;
+        if (y > top) cut.push_back(fmt::format("{} on {} ({})", m.method, scene.scene, nice(y)));
+        curve->points.emplace_back(x + shift, std::min(y, top));
+        lowest = std::min(lowest, y);
+        methods.insert(m.method);
+      } else if (m.supported() && !m.ok()) {
+        methods.insert(m.method);
+        f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), x + shift, 3});
+      }
+      shift += apart;
+    }
+    x += 1;
+  }
+  if (f.categories.empty()) return {};
+  f.x.high = x - 0.4;
+  f.y.low = std::pow(10, std::floor(std::log10(lowest)));
+  f.caption = "All scenes with a known truth; errors below a truth's error bar are drawn at the bar; commit " +
+              input.commit + ".";
+  if (!cut.empty()) f.caption += fmt::format(" Drawn at {} times the motion, though larger: {}.", top, joined(cut));
+  f.tier = "the truth of each scene, exact or converged, as its part says";
+  f.finding = fmt::format("Error of {} methods on {} scenes in parts of the motion; runs that failed: {}.",
+                          methods.size(), f.categories.size(), f.failures.size());
+  return {{"", std::move(f)}};
+}
+
+// Who is fastest at an accuracy: on every scene the cheapest run of each engine within 1 % of the motion, beside
+// mysim's.
+
+namespace {
+
+/// How an engine is called, and whose look it has.
+struct EngineLook {
+  std::string name;
+  MethodStyle style;
+};
+EngineLook look_of(const std::string& engine) {
+  static const std::map<std::string, std::pair<std::string, std::string>> known = {
+      {"mysim", {"mysim", "mysim/symplectic-euler"}},
+      {"bullet", {"Bullet", "bullet/deformable-explicit"}},
+      {"bullet32", {"Bullet in single precision", "bullet32/deformable-explicit"}},
+      {"odeint", {"Boost odeint", "odeint/dopri5"}},
+      {"sundials", {"SUNDIALS", "sundials/arkode"}}};
+  const auto found = known.find(engine);
+  return found == known.end() ? EngineLook{engine, style_of(engine)}
+                              : EngineLook{found->second.first, style_of(found->second.second)};
+}
+
+/// Of how many quotients a time is not of the whole run; empty where of none.
+std::string scaled_text(const Table& t) {
+  int all = 0, scaled = 0;
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    if (number_at(t, i, "part of motion") != 0.01 || text_at(t, i, "measure") != "error" ||
+        text_at(t, i, "engine") == "mysim" || !number_at(t, i, "times mysim"))
+      continue;
+    ++all;
+    scaled += number_at(t, i, "part timed", 1) < 1 || number_at(t, i, "part timed of mysim", 1) < 1;
+  }
+  return scaled == 0
+             ? ""
+             : fmt::format("in {} of {} quotients a time is scaled from the first part of its run; ", scaled, all);
+}
+
+/// The engines that have a marker, mysim among them, as methods begin.
+std::vector<std::string> drawn_engines(const std::vector<std::string>& engines) {
+  std::vector<std::string> methods{"mysim/"};
+  for (const std::string& engine : engines) methods.push_back(engine + "/");
+  return methods;
+}
+
+/// The row at 1 % of the motion.
+std::optional<size_t> row_of(const Table& t, const std::string& scene, const std::string& engine) {
+  for (size_t i = 0; i < t.rows.size(); ++i)
+    if (text_at(t, i, "scene") == scene && number_at(t, i, "part of motion") == 0.01 &&
+        text_at(t, i, "engine") == engine)
+      return i;
+  return std::nullopt;
+}
+
+/// Every scene: the run of each engine within 1 % of the motion, and how many times as long as mysim's it takes.
+PageTable table_of(const Table& t, const std::vector<std::string>& engines) {
+  PageTable page{
+      "The cheapest run of each engine with an error of at most 1 % of the motion, with its step or tolerance; × how "
+      "many times the CPU time of mysim's it takes",
+      {"scene", "mysim", "CPU time"},
+      {}};
+  for (const std::string& engine : engines) {
+    page.header.push_back(look_of(engine).name);
+    page.header.emplace_back("×");
+  }
+  const auto run = [&](const std::optional<size_t>& row) {
+    if (!row) return std::string();
+    const std::string& method = text_at(t, *row, "method");  // whose it is, says the column
+    return fmt::format("{}, {}", method.substr(method.find('/') + 1),
+                       setting_text(text_at(t, *row, "setting"), *number_at(t, *row, "asked")));
+  };
+  for (const std::string& scene : distinct(t, "scene")) {
+    const auto ours = row_of(t, scene, "mysim");
+    std::vector<std::string> cells{scene, ours ? run(ours) : "none tried",
+                                   ours ? step_text(*number_at(t, *ours, "cpu")) : ""};
+    for (const std::string& engine : engines) {
+      const auto row = row_of(t, scene, engine);
+      const auto times = row ? number_at(t, *row, "times mysim") : std::nullopt;
+      cells.push_back(run(row));
+      cells.push_back(times ? times_text(*times) : "");
+    }
+    page.rows.push_back(std::move(cells));
+  }
+  page.open = true;
+  return page;
+}
+
+/// "Within 1 % of the motion mysim is the fastest on 10 of 11 scenes; Bullet takes 6.5 (rod) to 78 (spring) times its
+/// CPU time, Boost odeint 0.78 (rod) to 20 (cloth-hang)."
+std::string summary_of(const DotPlot& f) {
+  size_t first = 0;
+  for (size_t i = 0; i < f.names.size(); ++i)
+    first += std::none_of(f.series.begin(), f.series.end(),
+                          [i](const DotPlot::Series& s) { return s.dots[i] && s.dots[i]->low < 1; });
+  std::string others;
+  for (const DotPlot::Series& series : f.series) {
+    std::optional<size_t> least, most;
+    for (size_t i = 0; i < series.dots.size(); ++i) {
+      if (!series.dots[i]) continue;
+      if (!least || series.dots[i]->value < series.dots[*least]->value) least = i;
+      if (!most || series.dots[i]->value > series.dots[*most]->value) most = i;
+    }
+    const auto at = [&](size_t i) { return fmt::format("{} ({})", times_text(series.dots[i]->value), f.names[i]); };
+    others +=
+        fmt::format("{} {} takes {}{}{}", others.empty() ? ";" : ",", series.title,
+                    least == most ? "" : at(*least) + " to ", at(*most), others.empty() ? " times its CPU time" : "");
+  }
+  return fmt::format("Within 1 % of the motion mysim is the fastest, beyond the intervals, on {} of {} scenes{}.",
+                     first, f.names.size(), others);
+}
+
+}  // namespace
+
+std::vector<Chart> cheapest_charts(const ChartInput& input) {
+  const Table* t = input.result.table("speed-accuracy-engines-cost");
+  if (!t) return {};
+  std::vector<std::string> engines = distinct(*t, "engine");
+  std::erase(engines, "mysim");
+  std::ranges::stable_partition(engines, [](const std::string& engine) { return engine.starts_with("bullet"); });
+  DotPlot f;
+  f.name = "cheapest-1-percent-cost";
+  f.title = "CPU time for 1 % error, over mysim's";
+  f.label = "times mysim's CPU time";
+  f.from_costs = true;
+  for (const std::string& engine : engines) f.series.push_back({look_of(engine).name, look_of(engine).style, {}});
+  bool any = false;
+  for (const std::string& scene : distinct(*t, "scene")) {
+    std::vector<std::optional<DotPlot::Dot>> dots;
+    for (const std::string& engine : engines) {
+      const auto row = row_of(*t, scene, engine);
+      const auto times =
+          row && text_at(*t, *row, "measure") == "error" ? number_at(*t, *row, "times mysim") : std::nullopt;
+      dots.push_back(times ? std::optional(DotPlot::Dot{*times, *number_at(*t, *row, "times mysim low"),
+                                                        *number_at(*t, *row, "times mysim high")})
+                           : std::nullopt);
+    }
+    if (std::none_of(dots.begin(), dots.end(), [](const auto& dot) { return dot.has_value(); })) continue;
+    any = true;
+    f.names.push_back(scene);
+    for (size_t i = 0; i < engines.size(); ++i) f.series[i].dots.push_back(dots[i]);
+  }
+  if (!any) return {};
+  std::erase_if(f.series, [](const DotPlot::Series& s) {
+    return std::none_of(s.dots.begin(), s.dots.end(), [](const auto& dot) { return dot.has_value(); });
+  });
+  f.finding = summary_of(f);
+  f.caption = fmt::format(
+      "To the right of the line mysim is faster, to the left the other. Of each engine the cheapest of all runs tried, "
+      "whatever its method, step or tolerance: as none steps over a sampling interval, some are far nearer than asked "
+      "for; "
+      "thread CPU time on one core, medians, and the widest that both 90 % "
+      "intervals allow; {}a scene without a marker has no such run of that engine; {}; commit {}.",
+      scaled_text(*t), builds_text(drawn_engines(engines)), input.commit);
+  f.tier = "each scene's truth, its error bar taken off the 1 %";
+  return {{"", f, "speed-accuracy", "", "Who is fastest at 1 %?", {table_of(*t, engines)}}};
+}
+
+}  // namespace crosscheck

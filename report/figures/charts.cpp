@@ -1,0 +1,99 @@
+// The table of charts, and what their captions share.
+#include "report/figures/charts.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <concepts>
+#include <stdexcept>
+
+#include "report/findings/findings_text.h"
+
+namespace crosscheck {
+
+std::string builds_text(const std::vector<std::string>& methods) {
+  const auto there = [&](const char* engine) {
+    return std::any_of(methods.begin(), methods.end(), [&](const std::string& m) { return m.starts_with(engine); });
+  };
+  std::vector<std::string> own, debians, parts;
+  for (const auto& [begin, name] : {std::pair{"mysim/", "mysim"}, {"odeint/", "odeint"}})
+    if (there(begin)) own.emplace_back(name);
+  for (const auto& [begin, name] : {std::pair{"bullet/", "Bullet"}, {"sundials/", "SUNDIALS"}})
+    if (there(begin)) debians.emplace_back(name);
+  if (!own.empty())
+    parts.push_back(fmt::format("{} {} compiled in this build", joined(own), own.size() == 1 ? "is" : "are"));
+  if (!debians.empty())
+    parts.push_back(debians.size() == 1 ? debians[0] + " is Debian's generic x86-64 build"
+                                        : joined(debians) + " are Debian's generic x86-64 builds");
+  if (there("exec:") || there("bullet32/")) parts.emplace_back("programs of their own are as they were built");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+namespace {
+
+/// A figure that does not say what it rests on is not shown.
+void append_tier(Chart& chart) {
+  std::visit(
+      []<class F>(F& figure) {
+        if constexpr (std::derived_from<F, FigureInfo>) {
+          if (figure.tier.empty()) throw std::logic_error("figure " + figure.name + " does not say what it rests on");
+          figure.caption += (figure.tier.starts_with("measured") ? " It is " : " Against: ") + figure.tier + ".";
+        }
+      },
+      chart.figure);
+}
+
+}  // namespace
+
+std::vector<Chart> all_charts(const ChartInput& input) {
+  std::vector<Chart> all;
+  for (const auto make : {scoreboard_charts, order_charts, error_charts, agreement_charts, contact_charts,
+                          balance_charts, cheapest_charts, speed_accuracy_charts, stability_charts, energy_charts,
+                          sphere_charts, adequacy_charts, cost_charts, stiffness_charts, disagreement_charts})
+    for (Chart& chart : make(input)) append_tier(chart), all.push_back(std::move(chart));
+  return all;
+}
+
+const FigureInfo* figure_info(const Chart& chart) {
+  return std::visit(
+      [](const auto& figure) -> const FigureInfo* {
+        if constexpr (std::derived_from<std::decay_t<decltype(figure)>, FigureInfo>) return &figure;
+        return nullptr;
+      },
+      chart.figure);
+}
+
+void draw_figure(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder) {
+  std::visit(
+      [&]<class F>(const F& figure) {
+        if constexpr (std::derived_from<F, FigureInfo>) draw(drawing_of(figure), provenance, folder);
+      },
+      chart.figure);
+}
+
+std::vector<std::pair<double, double>> points_of(const Table& table, const std::string& method,
+                                                 const std::string& column, bool positive) {
+  std::vector<std::pair<double, double>> points;
+  for (size_t i = 0; i < table.rows.size(); ++i) {
+    if (std::get<std::string>(table.at(i, "method")) != method) continue;
+    if (const auto* y = std::get_if<double>(&table.at(i, column)); y && (!positive || *y > 0))
+      points.emplace_back(std::get<double>(table.at(i, "t")), *y);
+  }
+  return points;
+}
+
+std::string caption_of(const Scene& scene, const std::string& commit) {
+  return fmt::format("Scene {}; step {}; commit {}.", scene.name, own_step_text(scene), commit);
+}
+
+std::string tier_of(const SceneData& facts) {
+  return fmt::format("the {} truth, error bar {} ({})", facts.tier, nice_length(facts.error_bar), facts.truth);
+}
+
+std::string another_engine(const SceneData& facts) {
+  return "another engine, so that these are differences and no errors" +
+         (facts.round_off ? fmt::format("; round-off alone may make {}", nice_length(*facts.round_off)) : "");
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,102 @@
+// Charts: from the experiments' tables to figures.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "report/figures/figure.h"
+#include "report/findings/report_data.h"
+#include "report/pictures/scene_picture.h"
+
+namespace crosscheck {
+
+// What captions say of measured times: who built what, and which times are scaled.
+
+/// Of the methods in a chart, by name or "ENGINE/": "mysim and odeint are compiled in this build, Bullet is Debian's
+/// generic x86-64 build". Only engines that are there are named.
+std::string builds_text(const std::vector<std::string>& methods);
+
+/// The points of a chart whose time is that of a part of the run, scaled. A figure draws them as rings around the
+/// markers of their methods.
+inline constexpr auto scaled_times = "time scaled from a part of the run";
+
+// Charts: from the experiments' tables to figures. The table of charts is in charts.cpp; a new one is a function and a
+// row.
+
+struct ChartInput {
+  const std::vector<Scene>& scenes;
+  const std::vector<SceneData>& facts;  // one per scene
+  const Rows& result;
+  std::string commit;
+  bool all = true;  // scenes were named, or the run is a full one: each has charts of its own
+};
+
+/// A small table on the page, in words and numbers as people read them.
+struct PageTable {
+  std::string caption;
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+  bool open = false;  // also where it is long
+};
+
+/// A render that belongs to a chapter: runs of a scene side by side.
+struct Snapshot {
+  struct Panel {
+    std::string method;
+    Run run;
+  };
+  std::string name;     // of the file, without ending
+  std::string caption;  // and alternative text
+  Scene scene;
+  std::vector<Panel> panels;
+  Shot shot;
+};
+
+/// A piece of a scene's part, of a chapter, or of the front: a figure, a small table, renders, or several of these.
+struct Chart {
+  std::string scene;  // where it belongs; empty: the front of the report, or a chapter
+  std::variant<Figure, StackedBars, DotPlot, HeatMap, std::monostate>
+      figure;                // a new kind of figure is a struct and its drawing_of()
+  std::string chapter = {};  // of the report, by its id (report/page/contents.cpp); empty: none
+  std::string text = {};     // in a chapter: what it is about, before it
+  std::string heading = {};  // in a chapter; empty: the figure's title
+  std::vector<PageTable> tables = {};
+  std::vector<Snapshot> snapshots = {};
+};
+/// The words of its figure, or null.
+const FigureInfo* figure_info(const Chart& chart);
+/// Writes and draws its figure, if it has one, as draw() does.
+void draw_figure(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder);
+
+std::vector<Chart> scoreboard_charts(const ChartInput& input);  // error of every method on every scene
+std::vector<Chart> error_charts(const ChartInput& input);       // error over time, per scene with a truth
+std::vector<Chart> agreement_charts(const ChartInput& input);   // Bullet against the same rule of mysim, over time
+std::vector<Chart> contact_charts(const ChartInput& input);     // centres of mass, clearance, creep on a sphere
+std::vector<Chart> balance_charts(const ChartInput& input);     // balance error or contact loss over time
+std::vector<Chart> order_charts(const ChartInput& input);       // error against step
+
+std::vector<Chart> energy_charts(const ChartInput& input);          // where it went, drift, numerical damping
+std::vector<Chart> sphere_charts(const ChartInput& input);          // contact: friction, rebound, depth, drapes
+std::vector<Chart> stiffness_charts(const ChartInput& input);       // of position-based links
+std::vector<Chart> disagreement_charts(const ChartInput& input);    // where Bullet answers otherwise than it is asked
+std::vector<Chart> cheapest_charts(const ChartInput& input);        // who is fastest at an accuracy, over all scenes
+std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // error against cost, chapter of its own
+std::vector<Chart> cost_charts(const ChartInput& input);            // of a step
+std::vector<Chart> adequacy_charts(const ChartInput& input);        // what each ingredient and the grid are worth
+std::vector<Chart> stability_charts(const ChartInput& input);       // where methods break
+
+std::vector<Chart> all_charts(const ChartInput& input);
+
+/// x and y of one method's rows in a per-scene table; rows without the value, or not above zero where `positive`, left
+/// out.
+std::vector<std::pair<double, double>> points_of(const Table& table, const std::string& method,
+                                                 const std::string& column, bool positive);
+
+/// "Scene cloth-hang; step 500 µs; commit abc."
+std::string caption_of(const Scene& scene, const std::string& commit);
+/// Tiers of figures: the scene's truth with its error bar; differences from another engine.
+std::string tier_of(const SceneData& facts);
+std::string another_engine(const SceneData& facts);
+
+}  // namespace crosscheck

@@ -1,0 +1,191 @@
+// Figures by gnuplot (NAME.csv, NAME.gp, and from them NAME.svg, NAME.pdf, NAME.png): curves, bars, dots, heat maps.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "experiments/tables/table.h"
+
+namespace crosscheck {
+
+// Line charts by gnuplot: NAME.csv, NAME.gp and from them NAME.svg, NAME.pdf, NAME.png, all in one style.
+
+/// How a method looks, the same in every figure: colour, dash and marker, so that no meaning hangs on colour alone.
+struct MethodStyle {
+  std::string colour;  // "#RRGGBB"
+  std::string dash;    // gnuplot dash type
+  int marker;          // gnuplot point type
+};
+MethodStyle style_of(const std::string& method);
+
+/// What a marker or a cell is to hands on the page.
+struct Tooltip {
+  std::string words;     // to a pointer above it
+  std::string run = {};  // what a click plays (FigureInfo::runs): the method, a blank, the place among its runs
+};
+
+struct Curve {
+  std::string title;  // shown in the key
+  MethodStyle style;
+  std::vector<std::pair<double, double>> points;
+  bool line = true;                    // joined by a line
+  bool markers = false;                // a marker on every point; otherwise on a few
+  std::vector<Tooltip> tooltips = {};  // of each marker, or empty
+};
+
+/// A run that failed, drawn as a cross with its verdict.
+struct FailureMark {
+  std::string title;
+  MethodStyle style;
+  double x, y;
+  std::string kind = "failed";  // in the key, where the colour tells the method
+  int cross = 2;                // gnuplot point type, one for each kind
+  Tooltip tooltips = {};
+};
+
+struct Axis {
+  std::string label;  // "quantity / unit"
+  bool logarithmic = false;
+  std::optional<double> low, high;
+};
+
+/// How large a figure is on paper. What is in it is laid out for its width over its font.
+struct FigureSize {
+  double width = 17;   // cm
+  double font = 8.5;   // pt, on paper
+  bool titled = true;  // false: the caption beside it says what it shows
+  /// Its width where a font is 12 high.
+  double units() const { return width / 2.54 * 72 * 12 / font; }
+};
+
+/// What every figure has, whatever it draws.
+struct FigureInfo {
+  std::string name;         // file name without ending
+  std::string title;        // what it shows
+  std::string caption;      // scene, step, commit; all_charts() adds the tier
+  std::string tier;         // against what it is held, and how well that is known: "exact (Coulomb's law)"
+  std::string finding;      // what one sees in it, in a sentence: the alternative text
+  bool from_costs = false;  // drawn from timings: not the same in each run
+  FigureSize size = {};
+  std::string runs = {};  // the set of runs that its markers or cells play; empty: none
+};
+
+/// Curves, points and crosses over two axes.
+struct Figure : FigureInfo {
+  Axis x, y;
+  std::vector<Curve> curves;
+  std::vector<FailureMark> failures;
+  std::vector<std::pair<double, double>> pareto;           // thick stairs beneath the curves, from left to right
+  std::optional<std::pair<std::string, double>> floor;     // horizontal line: name, y
+  std::optional<std::pair<double, std::string>> window;    // grey from x on: x, why
+  std::vector<std::pair<double, std::string>> categories;  // tick texts on x instead of numbers
+};
+
+/// A figure made ready: its data, and the script that draws NAME.svg, NAME.pdf and NAME.png from NAME.csv.
+struct Drawing {
+  std::string name;
+  Table data;
+  std::string script;
+};
+/// Throws std::runtime_error that names the figure when there is nothing to draw or a number is not finite.
+Drawing drawing_of(const Figure& figure);
+/// What the markers of each element of its plot say, in the order of the script.
+std::vector<std::vector<Tooltip>> tooltips_of(const Figure& figure);
+
+/// gnuplot found no room for the letters of a figure.
+struct LabelsOverlap : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes and draws it into the folder (style.gp is put beside it); what gnuplot warns of is told on stderr. Throws
+/// std::runtime_error that names the figure when gnuplot fails, or a form of it is missing, empty or cut off.
+void draw(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
+
+/// The end of a script: the terminals for a figure so much taller than the usual one, each with the plot command.
+std::string terminals(const FigureInfo& figure, double tall, const std::string& plot);
+/// The same for a block that draws everything, reset and style included, so many units high.
+std::string terminals_of_block(const FigureInfo& figure, double height, const std::string& block);
+/// The command for its title, or none.
+std::string title_command(const FigureInfo& figure);
+/// Text in gnuplot's single quotes.
+std::string single_quoted(const std::string& text);
+/// Commands for label, scale and range of the axis x, y or cb.
+std::string axis_commands(const Axis& axis, const std::string& letter);
+
+// Figures whose letters must find room.
+
+/// Draws as draw() does, but throws LabelsOverlap, with no file written, where gnuplot finds no room for the letters.
+void draw_if_labels_fit(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
+
+// Stacked bars: one line per method, what came in to the left of zero, where it went to the right.
+
+struct StackedBars : FigureInfo {
+  struct Part {
+    std::string title;           // in the key
+    std::string colour;          // "#RRGGBB"
+    bool hatched;                // inferred, not measured
+    std::vector<double> height;  // of each bar; above zero stacked upwards, below zero downwards
+  };
+  std::string label;               // of the heights: "energy / J"
+  std::vector<std::string> names;  // of the bars
+  std::vector<Part> parts;         // from zero outwards
+};
+
+/// Throws std::runtime_error that names the figure when there is nothing to draw or a number is not finite.
+Drawing drawing_of(const StackedBars& bars);
+
+// DotPlot with intervals: one line per name, a marker for each series, over a logarithmic axis.
+
+struct DotPlot : FigureInfo {
+  struct Dot {
+    double value, low, high;  // all above zero
+  };
+  struct Series {
+    std::string title;                     // in the key
+    MethodStyle style;                     // its dash is not used
+    std::vector<std::optional<Dot>> dots;  // one for each line
+  };
+  std::string label;               // of the values
+  std::vector<std::string> names;  // of the lines, from above
+  /// Headings, each above the line of that index.
+  std::vector<std::pair<size_t, std::string>> headings;
+  std::vector<Series> series;
+};
+
+/// Throws std::runtime_error that names the figure when there is nothing to draw or a value is not above zero.
+Drawing drawing_of(const DotPlot& dots);
+
+// Heat maps: what became of each run over two logarithmic axes, in panels that share the axes, with lines of limits.
+
+/// A kind of cell: its name in the key, and its colour. Colours differ in lightness too.
+struct CellKind {
+  std::string title;
+  std::string colour;  // "#RRGGBB"
+};
+
+struct HeatMap : FigureInfo {
+  struct HeatCell {
+    double x, y;  // the middle, in the logarithm
+    int kind;     // of `kinds`
+    Tooltip tooltips = {};
+  };
+  struct Panel {
+    std::string title;
+    std::vector<HeatCell> cells;                       // of a full grid
+    std::vector<std::pair<double, double>> predicted;  // a dashed line
+    std::vector<std::pair<double, double>> measured;   // dots
+  };
+  std::string x_label, y_label;
+  std::vector<CellKind> kinds;
+  std::vector<Panel> panels;
+};
+
+/// Throws std::runtime_error that names the figure when there is nothing to draw or a value is not above zero.
+Drawing drawing_of(const HeatMap& map);
+/// What its cells say, in the order of the script.
+std::vector<Tooltip> tooltips_of(const HeatMap& map);
+
+}  // namespace crosscheck

@@ -1,0 +1,121 @@
+// Stiffness of position-based links: the formula over the measurement, and where it stops holding in a network.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "report/figures/charts.h"
+#include "report/findings/findings_text.h"
+
+namespace crosscheck {
+namespace {
+
+const MethodStyle by_iterations[] = {
+    {"#7A3B00", "1", 7}, {"#0072B2", "(6,3)", 5}, {"#009E73", "(2,2)", 9}, {"#CC79A7", "(10,3,2,3)", 13}};
+
+std::string iterations_text(long n) { return n == 1 ? "1 iteration" : fmt::format("{} iterations", n); }
+
+/// The numbers of iterations, ascending.
+std::set<long> iterations_of(const Table& table) {
+  std::set<long> all;
+  for (size_t i = 0; i < table.rows.size(); ++i) all.insert(std::get<long>(table.at(i, "iterations")));
+  return all;
+}
+
+/// The values of a column, ascending.
+std::set<double> column_values(const Table& table, const char* column) {
+  std::set<double> all;
+  for (size_t i = 0; i < table.rows.size(); ++i) all.insert(std::get<double>(table.at(i, column)));
+  return all;
+}
+
+Chart single_links(const Table& table, const std::string& commit) {
+  Figure f;
+  f.name = "stiffness";
+  f.title = "Stiffness of one position-based link";
+  f.x = {"kLST", true, std::nullopt, std::nullopt};
+  f.y = {"k h² / μ", true, std::nullopt, std::nullopt};
+  size_t style = 0;
+  double worst = 0;
+  for (const long n : iterations_of(table)) {
+    MethodStyle plain = by_iterations[style];
+    plain.marker = -1;  // markers are measurements
+    Curve formula{iterations_text(n) + ", formula", plain, {}},
+        measured{iterations_text(n) + ", measured", by_iterations[style], {}, false, true};
+    double low = 1, high = 0;
+    for (size_t i = 0; i < table.rows.size(); ++i) {
+      if (std::get<long>(table.at(i, "iterations")) != n) continue;
+      const double h = std::get<double>(table.at(i, "step")), kLST = std::get<double>(table.at(i, "kLST"));
+      measured.points.emplace_back(kLST, std::get<double>(table.at(i, "measured")) * h * h);  // of 1 kg: μ = 1 kg
+      worst = std::max(worst, std::abs(std::get<double>(table.at(i, "deviation"))));
+      low = std::min(low, kLST), high = std::max(high, kLST);
+    }
+    for (int i = 0; i <= 40; ++i) {
+      const double kLST = low * std::pow(high / low, i / 40.);
+      formula.points.emplace_back(kLST, std::expm1(-static_cast<double>(n) * std::log1p(-kLST)));
+    }
+    f.curves.push_back(std::move(formula));
+    f.curves.push_back(std::move(measured));
+    style = std::min(style + 1, std::size(by_iterations) - 1);
+  }
+  std::vector<std::string> steps;
+  for (const double h : column_values(table, "step")) steps.push_back(fmt::format("1/{:g}", std::round(1 / h)));
+  f.finding = fmt::format(
+      "By the formula one link has a stiffness of k = μ / h² ((1 - kLST)⁻ⁿ - 1). At steps of {} s force over extension "
+      "is off by {:.2g} % at most.",
+      joined(steps), 100 * worst);
+  f.caption = fmt::format("One mass on one link at rest, strain at most 1e-4; commit {}.", commit);
+  f.tier = "exact for the discrete rule (the formula above), to strains of second order";
+  return {
+      "", std::move(f), "stiffness",
+      "Bullet's position-based links have no stiffness in N/m. Relaxed n times in a step of h, a link between masses "
+      "of reduced mass μ acts like a spring in an implicit Euler step; this is how the suite hands stiffness over."};
+}
+
+Chart networks(const Table& table, const std::string& commit) {
+  Figure f;
+  f.name = "stiffness-network";
+  f.title = "Sag of a chain of three position-based links";
+  f.x = {"k h² / μ", true, std::nullopt, std::nullopt};
+  f.y = {"sag above what is asked / %", true, std::nullopt, std::nullopt};
+  size_t style = 0;
+  double holds = 0;
+  std::vector<std::string> most;
+  for (const long n : iterations_of(table)) {
+    Curve curve{iterations_text(n), by_iterations[style++], {}, true, true};
+    std::set<double> good, bad;  // k h² / μ
+    double worst = 0;
+    for (size_t i = 0; i < table.rows.size(); ++i) {
+      if (std::get<long>(table.at(i, "iterations")) != n) continue;
+      const double x = std::get<double>(table.at(i, "k h^2/mu")), off = std::get<double>(table.at(i, "deviation"));
+      if (off > 0) curve.points.emplace_back(x, 100 * off);
+      worst = std::max(worst, off);
+      if (n == 1) (std::abs(off) < 0.01 ? good : bad).insert(x);
+    }
+    for (const double x : good)
+      if (bad.empty() || x < *bad.begin()) holds = x;
+    if (worst > 0) most.push_back(fmt::format("{:.0f} % with {}", 100 * worst, iterations_text(n)));
+    f.curves.push_back(std::move(curve));
+  }
+  f.finding = holds > 0
+                  ? fmt::format("In a chain solved once in a step the map holds to 1 % up to k h² / μ = {:.2g}.", holds)
+                  : "In a chain the map holds to 1 % at none of these steps.";
+  if (!most.empty()) f.finding += fmt::format(" The chain sags too far by up to {}.", joined(most));
+  f.caption = fmt::format("Three masses on links of 1000 N/m, at rest; commit {}.", commit);
+  f.tier = "exact (Hooke's springs at rest)";
+  return {"", std::move(f), "stiffness",
+          "In a network each link is solved in its turn and spoilt by its neighbours, so that the map of single links "
+          "holds for short steps only."};
+}
+
+}  // namespace
+
+std::vector<Chart> stiffness_charts(const ChartInput& input) {
+  std::vector<Chart> charts;
+  if (const Table* table = input.result.table("stiffness")) charts.push_back(single_links(*table, input.commit));
+  if (const Table* table = input.result.table("stiffness-network")) charts.push_back(networks(*table, input.commit));
+  return charts;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,118 @@
+// What single tables say, in words that a finding and a figure share.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/adequacy/resolution.h"
+#include "experiments/experiment.h"
+#include "experiments/tables/table.h"
+#include "report/findings/report_data.h"
+
+namespace crosscheck {
+
+// What becomes of the energy that does not add up in a long run, in words that a finding and a figure share.
+
+inline constexpr auto residual_bounded = "bounded", residual_none = "zero to round-off";
+
+/// Of a row of table `energy` whose closure is claimed; of a run that failed, the word for its failure.
+inline std::string residual_class(const Table& energy, size_t row) {
+  const double worst = number_at(energy, row, "largest residual", 0),
+               turned = number_at(energy, row, "energy turned over", 0),
+               growth = number_at(energy, row, "growth of the residual", 0),
+               last = number_at(energy, row, "residual", 0);
+  if (const std::string& verdict = text_at(energy, row, "verdict"); verdict != "ok") return failure_class(verdict);
+  // a hundred thousand roundings of the energies that are added up
+  if (worst < 1e-11 * turned) return residual_none;
+  if (worst > 0.3 * turned) return last < 0 ? "takes much of the energy" : "makes much energy";
+  // half a decade more than in the first tenth: in proportion to time it is a whole one
+  if (growth > 0.5) return last < 0 ? "drifts down" : "drifts up";
+  return residual_bounded;
+}
+inline bool is_bounded(const std::string& word) { return word == residual_bounded || word == residual_none; }
+
+// What experiment `adequacy` says of grids, in powers of the number of cells: words that a finding and a figure share.
+
+inline constexpr auto motion_against_cells = "error of the motion against cells along a side",
+                      stiffness_for_sag = "stiffness of all springs for the same sag",
+                      stiffness_for_droop = "stiffness of bend springs for the same droop";
+
+/// The fitted power of a quantity from table `adequacy-scaling`; `scene` is empty for bend springs.
+std::optional<PowerLaw> power_of(const Rows& rows, const std::string& scene, const std::string& quantity);
+/// "4.24 ± 0.03"
+std::string power_text(const PowerLaw& power);
+
+/// How bend springs must stiffen, beside the derived 4, and what of the difference is explained: the derivation counts
+/// as many bend springs as cells, and a line has half a one less, as none reaches over the free end. Empty where
+/// nothing was fitted.
+std::string bend_sentence(const Rows& rows);
+
+// How little of a scene's model is enough, from table `adequacy-least`: shared by findings and the table of scenes.
+
+/// The least model that was found within one tolerance.
+struct LeastModel {
+  std::string tolerance;  // "the scene's own", "1 % of its motion", "10 % of its motion"
+  std::string left_out;   // "shear springs, bend springs"; empty: nothing
+  bool holds;             // from starts that the search had not seen, too
+  int failing, starts;    // of these starts, how many are beyond the tolerance, of how many
+  double cost;            // of the full model's
+  bool of_motion(int percent) const { return tolerance.starts_with(std::to_string(percent) + " %"); }
+};
+/// From the strictest tolerance of the table on, in its order; empty where the scene was not asked.
+std::vector<LeastModel> least_models_of(const Rows& rows, const std::string& scene);
+
+/// What stays of the scene's ingredients (table `adequacy`) when those are left out.
+std::vector<std::string> kept_without(const Rows& rows, const std::string& scene, const std::string& left_out);
+
+// How far from the exact angle particles leave a ball, in words that a finding and a figure share.
+
+/// Of table `sphere-leaving`: mysim's rules together, every other method by itself, at the finest step and beside the
+/// longest. Empty where no particle leaves.
+std::string leaving_sentence(const Table& leaving);
+
+// Where the cloth of scene drop-aside, which should slide off its ball, is in the end: shared by a finding and a
+// figure.
+
+/// A method's last state, at the finest step of mysim/symplectic-euler.
+struct DrapeEnd {
+  std::string method;
+  double height, end;           // m, of the centre; s
+  std::optional<double> creep;  // m/s, of the particles that touch; empty where none does
+  /// "still touches it, sliding at 1.95 mm/s"
+  std::string contact_text() const;
+};
+
+/// Of table `sphere-drape`: mysim/symplectic-euler first, then those of Bullet and the sticky sphere, as far as they
+/// came to the end. Empty where mysim/symplectic-euler did not.
+std::vector<DrapeEnd> drape_ends(const Table& drapes);
+/// "At 1.6 s it is off the ball with a and b; with c it still touches it, frozen."
+std::string drape_end_sentence(const std::vector<DrapeEnd>& ends);
+
+// What table `stability` says of theory: row by row, and in sentences for findings and charts alike.
+
+/// A largest stable step by theory beside the one measured.
+struct StepLimitComparison {
+  enum Kind {
+    agrees,  // within 1 %, or both say that no step, or every step, is stable
+    coarse,  // further off, but the search ended with theory's limit between what held and what failed
+    apart
+  } kind = agrees;
+  std::optional<double> off;  // measured over predicted, less 1; where both are steps
+  std::string how;            // of `apart`: "47 times as long", "holds at every step tried, by theory up to 1.2 ms"
+};
+/// Nothing where there is no theory, the method does not take the scene, or theory's limit lies beyond what was tried.
+std::optional<StepLimitComparison> compare_step_limit(const Table& stability, size_t row);
+
+/// A sentence on the limits of all scenes that can rest, and one on those that theory looks at from their start.
+struct StepLimitSummary {
+  std::string sentence;
+  bool at_rest, theory_holds;  // theory holds where no row is `apart`
+};
+std::vector<StepLimitSummary> step_limit_summaries(const Table& stability);
+
+/// "-0.12 %", "47 times as long": of measured over predicted, less 1; "within ±0.07 %" where it is less than what the
+/// search can tell, `finest`.
+std::string deviation_text(double off, double finest = 0);
+
+}  // namespace crosscheck

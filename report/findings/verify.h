@@ -1,0 +1,38 @@
+// A report held against its own data, and against an earlier report.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "report/findings/evidence.h"
+
+namespace crosscheck {
+
+// Whether a report's sentences still follow from its data.
+
+struct Verification {
+  int findings = 0;                     // in report.json
+  int rows = 0;                         // of all tables
+  std::vector<std::string> mismatches;  // for people, one a line
+};
+
+/// Reads DIR/report.json, DIR/data/*.csv and DIR/data/scenes/*.toml, computes every finding anew from these tables, and
+/// holds it against what report.json says: sentence, tier, and the fingerprints of the rows that it rests on. A row
+/// that no finding rests on is held against its table's fingerprint. Throws InputError where a file is missing or
+/// cannot be read.
+Verification verify_report(const std::filesystem::path& folder);
+
+// What a report says otherwise than an earlier one.
+
+struct Change {
+  std::string scene;        // or empty: of all
+  std::string before, now;  // sentences; empty where there was none, or is none any more
+  bool timed = false;       // rests on timings, which are never the same twice
+};
+
+/// Findings of OLD/report.json beside these, those of one rule and scene in their order; what stayed is left out.
+/// Throws InputError where OLD holds no finished report.
+std::vector<Change> changes_since(const std::filesystem::path& old, const AllFindings& now);
+
+}  // namespace crosscheck

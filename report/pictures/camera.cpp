@@ -1,0 +1,227 @@
+// Camera and light matrices, light samples, and the nearest view that holds everything.
+#include "report/pictures/camera.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace crosscheck::render {
+namespace {
+
+/// Rigid motion that puts `eye` at the origin, looking along -z at the frame's origin.
+Eigen::Matrix4f look_at_origin(const Eigen::Vector3f& eye) {
+  const Eigen::Vector3f back = eye.normalized();
+  // straight from above the viewer's side is the lower edge of the picture
+  const Eigen::Vector3f up = std::abs(back.y()) > 0.9999f ? Eigen::Vector3f(0, 0, -1) : Eigen::Vector3f(0, 1, 0);
+  const Eigen::Vector3f right = up.cross(back).normalized();
+  Eigen::Matrix4f m = Eigen::Matrix4f::Identity();
+  m.block<1, 3>(0, 0) = right.transpose();
+  m.block<1, 3>(1, 0) = back.cross(right).transpose();
+  m.block<1, 3>(2, 0) = back.transpose();
+  m.block<3, 1>(0, 3) = -m.block<3, 3>(0, 0) * eye;
+  return m;
+}
+
+Eigen::Matrix4f perspective(float tan_half, float aspect, float near, float far) {
+  Eigen::Matrix4f m = Eigen::Matrix4f::Zero();
+  m(0, 0) = 1 / (tan_half * aspect);
+  m(1, 1) = 1 / tan_half;
+  m(2, 2) = -(far + near) / (far - near);
+  m(2, 3) = -2 * far * near / (far - near);
+  m(3, 2) = -1;
+  return m;
+}
+
+}  // namespace
+
+Eigen::Matrix3d upright_axes(const Vec3& towards_eye, const Vec3& up) {
+  const Vec3 y = up.normalized();
+  Vec3 z = towards_eye - y * y.dot(towards_eye);
+  if (z.norm() < 1e-6 * towards_eye.norm()) {
+    Vec3::Index least;
+    y.cwiseAbs().minCoeff(&least);
+    z = Vec3::Unit(least) - y * y[least];
+  }
+  z.normalize();
+  Eigen::Matrix3d axes;
+  axes << y.cross(z).transpose(), y.transpose(), z.transpose();
+  return axes;
+}
+
+Frame frame_of(const View& view, double aspect) {
+  const Vec3 towards = view.eye - view.target;
+  const bool usable = view.eye.allFinite() && view.target.allFinite() && view.up.allFinite() && view.up.norm() > 0 &&
+                      towards.norm() > 0 && view.field_of_view > 0 && view.field_of_view < 170;
+  if (!usable) throw std::runtime_error("render: the view has no finite eye, target, up and field of view");
+
+  Frame frame;
+  const double tan_half = std::tan(view.field_of_view * std::numbers::pi / 360);
+  frame.axes = upright_axes(towards, view.up);
+  frame.origin = view.target;
+  frame.size = 2 * towards.norm() * tan_half;
+  frame.eye = frame.place(view.eye);
+  const float distance = frame.eye.norm();
+  frame.to_clip =
+      perspective(float(tan_half), float(aspect), 0.02f * distance, 40 * distance) * look_at_origin(frame.eye);
+  if (view.floor) {
+    frame.floor = float((*view.floor - view.up.normalized().dot(view.target)) / frame.size);
+  }
+  return frame;
+}
+
+Eigen::Vector3f key_direction() { return Eigen::Vector3f(-0.30f, 1, 0.44f).normalized(); }
+
+Eigen::Matrix4f light_matrix(const Eigen::Vector3f& direction, const Eigen::Vector3f& centre, float radius) {
+  const Eigen::Vector3f side = (std::abs(direction.y()) > 0.99f ? Eigen::Vector3f(1, 0, 0) : Eigen::Vector3f(0, 1, 0));
+  const Eigen::Vector3f x = side.cross(direction).normalized(), y = direction.cross(x);
+  Eigen::Matrix4f m = Eigen::Matrix4f::Identity();
+  m.block<1, 3>(0, 0) = x.transpose() / radius;
+  m.block<1, 3>(1, 0) = y.transpose() / radius;
+  m.block<1, 3>(2, 0) = -direction.transpose() / radius;
+  m.block<3, 1>(0, 3) = -m.block<3, 3>(0, 0) * centre;
+  return m;
+}
+
+namespace {
+
+constexpr float key_light_radius = 0.13f;  // of its distance: the width of the penumbra
+constexpr float pixel_width = 1.3f;        // of the box filter, pixels
+
+float radical_inverse(int base, int i) {
+  double inverse = 0, digit = 1.0 / base;
+  for (; i > 0; i /= base, digit /= base) inverse += digit * (i % base);
+  return float(inverse);
+}
+
+float fraction(float x) { return x - std::floor(x); }
+
+}  // namespace
+
+std::vector<Sample> light_samples(int passes) {
+  const Eigen::Vector3f key = key_direction();
+  const Eigen::Vector3f across = Eigen::Vector3f::UnitX().cross(key).normalized(), along = key.cross(across);
+  std::vector<Sample> samples;
+  for (int i = 0; i < passes; ++i) {
+    Sample sample;
+    sample.pixel = pixel_width * Eigen::Vector2f(radical_inverse(2, i + 1) - 0.5f, radical_inverse(3, i + 1) - 0.5f);
+
+    // uniform over a hemisphere: the height is uniform
+    const float height = (float(i) + 0.5f) / float(passes);
+    const float angle = 2 * std::numbers::pi_v<float> * radical_inverse(2, i);
+    const float flat = std::sqrt(1 - height * height);
+    sample.sky = {flat * std::cos(angle), height, flat * std::sin(angle)};
+
+    // uniform over a disc, shifted so that it does not go in step with the pixel
+    const float radius = key_light_radius * std::sqrt(fraction(radical_inverse(3, i + 1) + 0.37f));
+    const float turn = 2 * std::numbers::pi_v<float> * radical_inverse(5, i + 1);
+    sample.key = (key + radius * (std::cos(turn) * across + std::sin(turn) * along)).normalized();
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+// Finds the nearest camera in a given direction whose view holds everything.
+//
+// In camera axes (a to the right, b up, c towards the eye) a point is inside the left and right edges if
+// |a - A| <= s (C - c), with the eye at (A, B, C) and s the tangent of half the horizontal field of view. All these
+// conditions are linear in A and C, so the smallest C comes from the extremes of a + s c and -a + s c; likewise for b.
+
+namespace {
+
+constexpr double body_part = 1 - 2 * 0.06;  // of the view that bodies and balls may fill: a margin of 6 % on each side
+constexpr double shadow_part = 1 - 2 * 0.015;  // of the view that shadows may fill
+constexpr double clearance = 0.08;             // of the size: height of the lowest point above the ground
+
+/// Conditions from both sides along one axis of the picture, for one slope.
+struct Wedge {
+  double slope;
+  double upper = -std::numeric_limits<double>::infinity();  // greatest of  a + slope c
+  double lower = -std::numeric_limits<double>::infinity();  // greatest of -a + slope c
+
+  void hold(double a, double c, double radius) {
+    const double reach = radius * std::sqrt(1 + slope * slope);  // a sphere touches the slanted plane
+    upper = std::max(upper, a + slope * c + reach);
+    lower = std::max(lower, -a + slope * c + reach);
+  }
+  double least_distance(const Wedge& other) const { return (upper + other.lower) / (slope + other.slope); }
+};
+
+/// Bodies and shadows along one axis of the picture.
+struct Axis {
+  Wedge body, shadow;
+  /// Half the width of the view at distance 1 along this axis, and what beads may stick out beyond their middle.
+  Axis(double tangent, double bead) : body{tangent * body_part - bead}, shadow{tangent * shadow_part} {}
+
+  double least_distance() const {
+    return std::max({body.least_distance(body), body.least_distance(shadow), shadow.least_distance(body),
+                     shadow.least_distance(shadow)});
+  }
+  /// Where to put the eye at a distance: bodies in the middle if the shadows allow it.
+  double middle(double distance) const {
+    const double least = std::max(body.upper - body.slope * distance, shadow.upper - shadow.slope * distance);
+    const double most = std::min(body.slope * distance - body.lower, shadow.slope * distance - shadow.lower);
+    const double wanted = (body.upper - body.lower) / 2;
+    return least < most ? std::clamp(wanted, least, most) : (least + most) / 2;
+  }
+};
+
+}  // namespace
+
+View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls, const Vec3& direction, double aspect,
+              const Vec3& up) {
+  View view;
+  view.up = up.normalized();
+  std::vector<Ball> all = balls;
+  for (const Points& set : points) {
+    for (Eigen::Index i = 0; i < set.cols(); ++i) all.push_back({set.col(i), 0});
+  }
+  std::erase_if(all, [](const Ball& b) { return !b.centre.allFinite() || !std::isfinite(b.radius); });
+  if (all.empty()) all.push_back({Vec3::Zero(), 0.5});
+
+  Eigen::AlignedBox3d box;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Ball& b : all) {
+    box.extend(b.centre - Vec3::Constant(b.radius)), box.extend(b.centre + Vec3::Constant(b.radius));
+    lowest = std::min(lowest, view.up.dot(b.centre) - b.radius);
+  }
+  double size = box.diagonal().norm();
+  if (!(size > 0)) {  // a single point: show it in a view of 1 m
+    size = 1;
+    all.push_back({box.center(), 0.5});
+  }
+  view.floor = lowest - clearance * size;
+
+  const Vec3 back = direction.norm() > 0 ? direction.normalized() : Vec3(0, 0, 1);
+  const Eigen::Matrix3d upright = upright_axes(back, view.up);
+  const Vec3 right = upright.row(0).transpose(), top = back.cross(right);
+  const Vec3 key = upright.transpose() * key_direction().cast<double>();
+
+  const double tangent = std::tan(view.field_of_view * std::numbers::pi / 360);
+  Axis horizontal(tangent * (aspect > 0 ? aspect : 1), 0.03 * tangent), vertical(tangent, 0.03 * tangent);
+  const Vec3 origin = box.center();
+  for (const Ball& b : all) {
+    const Vec3 x = b.centre - origin;
+    horizontal.body.hold(right.dot(x), back.dot(x), b.radius);
+    vertical.body.hold(top.dot(x), back.dot(x), b.radius);
+
+    // its shadow on the ground: a point, or a circle of a few points
+    const Vec3 foot = x - key * ((view.up.dot(b.centre) - *view.floor) / view.up.dot(key));
+    for (int i = 0; i < (b.radius > 0 ? 8 : 1); ++i) {
+      const double angle = i * std::numbers::pi / 4;
+      const Vec3 rim =
+          foot + 1.1 * b.radius * (std::cos(angle) * upright.row(0) + std::sin(angle) * upright.row(2)).transpose();
+      horizontal.shadow.hold(right.dot(rim), back.dot(rim), 0);
+      vertical.shadow.hold(top.dot(rim), back.dot(rim), 0);
+    }
+  }
+  const double distance = std::max(horizontal.least_distance(), vertical.least_distance());
+  view.eye = origin + right * horizontal.middle(distance) + top * vertical.middle(distance) + back * distance;
+  view.target = view.eye - back * distance;
+  return view;
+}
+
+}  // namespace crosscheck::render

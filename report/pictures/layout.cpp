@@ -1,0 +1,247 @@
+// Shares the picture out between panels and letters; fonts shrink until no text can touch its neighbour.
+#include "report/pictures/layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include "mysim/base/errors.h"
+#include "report/pictures/picture.h"
+
+namespace crosscheck::render {
+namespace {
+
+// hundredths of the font size, from ' ' to '~'
+// clang-format off
+constexpr std::array<unsigned char, 95> regular = {
+    32, 40, 46, 84, 64, 95, 78, 27, 39, 39, 50, 84, 32, 36, 32, 34, 64, 64, 64, 64, 64, 64, 64, 64, 64, 64, 34, 34, 84, 84,
+    84, 53, 100, 68, 69, 70, 77, 63, 58, 77, 75, 29, 29, 66, 56, 86, 75, 79, 60, 79, 69, 63, 61, 73, 68, 99, 69, 61, 69, 39,
+    34, 39, 84, 50, 50, 61, 63, 55, 63, 62, 35, 63, 63, 28, 28, 58, 28, 97, 63, 61, 63, 63, 41, 52, 39, 63, 59, 82, 59, 59,
+    52, 64, 34, 64, 84};
+constexpr std::array<unsigned char, 95> heavy = {
+    35, 46, 52, 84, 70, 100, 87, 31, 46, 46, 52, 84, 38, 42, 38, 37, 70, 70, 70, 70, 70, 70, 70, 70, 70, 70, 40, 40, 84, 84,
+    84, 58, 100, 77, 76, 73, 83, 68, 68, 82, 84, 37, 37, 77, 64, 100, 84, 85, 73, 85, 77, 72, 68, 81, 77, 110, 77, 72, 73,
+    46, 37, 46, 84, 50, 50, 67, 72, 59, 72, 68, 44, 72, 71, 34, 34, 67, 34, 104, 71, 69, 72, 72, 49, 60, 48, 71, 65, 92, 65,
+    65, 58, 71, 37, 71, 84};
+// clang-format on
+constexpr int other = 84;
+
+}  // namespace
+
+double text_width(const std::string& text, bool bold) {
+  int sum = 0;
+  for (const char letter : text) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (byte >= 0x80 && byte < 0xC0) continue;  // the rest of a letter of several bytes
+    const bool printable = byte >= 32 && byte < 127;
+    sum += printable ? (bold ? heavy : regular)[byte - 32u] : other;
+  }
+  return sum / 100.0;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines(1);
+  for (const char letter : text)
+    if (letter == '\n')
+      lines.emplace_back();
+    else
+      lines.back() += letter;
+  return lines;
+}
+
+std::string wrapped(const std::string& text, bool bold, double room) {
+  std::vector<std::string> pieces(1);
+  for (const char letter : text) {
+    const std::string& last = pieces.back();
+    if (last.ends_with('/') || last.ends_with(", ") || (letter == '+' && !last.empty())) pieces.emplace_back();
+    pieces.back() += letter;
+  }
+  std::string line, all;
+  for (const std::string& piece : pieces) {
+    if (!line.empty() && text_width(line + piece, bold) > room) {
+      while (line.ends_with(' ')) line.pop_back();
+      all += line + "\n", line.clear();
+    }
+    line += piece;
+  }
+  return all + line;
+}
+
+namespace {
+
+constexpr double fill = 0.92;  // of the room that a text may take
+
+std::size_t columns_of(const Picture& picture) {
+  std::size_t columns = 0;
+  for (const auto& row : picture.rows) columns = std::max(columns, row.size());
+  return columns;
+}
+
+/// Lines that the row needs for such a text, 0 where no panel has one.
+int lines_in(const std::vector<Panel>& row, std::string Panel::*text) {
+  std::size_t most = 0;
+  for (const Panel& p : row)
+    if (!(p.*text).empty()) most = std::max(most, lines_of(p.*text).size());
+  return int(most);
+}
+
+/// Height of so many lines, the first of this height.
+double height_of(int lines, double first, double font) { return lines ? first + (lines - 1) * line_height * font : 0; }
+
+/// The font size not above `wanted` with which the text fits.
+double fitting(double wanted, const std::string& text, bool bold, double room) {
+  for (const std::string& line : lines_of(text))
+    wanted = std::min(wanted, room / std::max(text_width(line, bold), 1e-3));
+  return wanted;
+}
+
+std::vector<std::vector<int>> legend_lines(const Legend& legend, double font, double room) {
+  std::vector<std::vector<int>> lines;
+  double used = room;
+  for (int i = 0; i < int(legend.size()); ++i) {
+    const double width = legend_entry_width(legend[std::size_t(i)], font);
+    if (used + width > room) lines.emplace_back(), used = 0;
+    lines.back().push_back(i);
+    used += width;
+  }
+  return lines;
+}
+
+}  // namespace
+
+bool is_strip(const std::vector<Panel>& row) {
+  if (row.size() < 2 || row[0].title.empty()) return false;
+  return std::all_of(row.begin() + 1, row.end(), [](const Panel& p) { return p.title.empty(); });
+}
+
+double legend_entry_width(const std::string& name, double font) { return (text_width(name, false) + 3.4) * font; }
+
+namespace {
+
+double title_line(const Layout& layout) { return 1.75 * layout.title; }
+double subtitle_line(const Layout& layout) { return 1.5 * layout.text; }
+
+/// Height of what stands below the panels: legend, then bar with its ticks and label.
+double footer_of(const Picture& picture, const Layout& layout) {
+  double footer = 0;
+  if (!picture.legend.empty()) footer += (1.7 * double(layout.legend.size()) + 0.6) * layout.text;
+  if (picture.scale) footer += 4.6 * layout.text;
+  return footer;
+}
+
+/// Height of the titles above each row of panels.
+std::vector<double> bands_of(const Picture& picture, const Layout& layout) {
+  std::vector<double> bands;
+  for (const auto& row : picture.rows) {
+    const double above = bands.empty() ? 0.5 * layout.title : 0;
+    bands.push_back(above + height_of(lines_in(row, &Panel::title), title_line(layout), layout.title) +
+                    height_of(lines_in(row, &Panel::subtitle), subtitle_line(layout), layout.text));
+  }
+  return bands;
+}
+
+/// Fonts, columns and legend, which do not depend on the height where the picture says how large its letters are.
+Layout columns_and_fonts(const Picture& picture) {
+  const std::size_t columns = columns_of(picture);
+  if (columns == 0) throw std::runtime_error("render: the picture has no panels");
+  if (picture.width > 16384 || picture.height > 16384) throw std::runtime_error("render: the picture is too large");
+  const double unit = std::sqrt(double(picture.width) * picture.height) / 960;  // 1 at 1280 x 720
+  Layout layout;
+  layout.title = picture.text > 0 ? picture.text : std::max(22 * unit, 8.0);
+  layout.text = picture.text > 0 ? picture.text : std::max(16 * unit, 7.0);
+  layout.panel_width = picture.width / int(columns);
+  layout.left = (picture.width - layout.panel_width * int(columns)) / 2;
+  layout.legend = legend_lines(picture.legend, layout.text, fill * picture.width);
+  return layout;
+}
+
+}  // namespace
+
+int height_for(const Picture& picture, double aspect) {
+  const Layout layout = columns_and_fonts(picture);
+  double height = footer_of(picture, layout) + double(picture.rows.size()) * layout.panel_width / aspect;
+  for (const double band : bands_of(picture, layout)) height += band;
+  return int(std::ceil(height));
+}
+
+Layout layout_of(const Picture& picture) {
+  Layout layout = columns_and_fonts(picture);
+  // the rows share what titles and footer leave
+  const std::vector<double> band = bands_of(picture, layout);
+  double left = picture.height - footer_of(picture, layout);
+  for (const double height : band) left -= height;
+  layout.panel_height = int(left / double(picture.rows.size()));
+  if (layout.panel_width < 16 || layout.panel_height < 16) {
+    throw InputError(fmt::format("{} x {} pixels leave no room for {} x {} panels; expected a larger --size",
+                                 picture.width, picture.height, columns_of(picture), picture.rows.size()));
+  }
+
+  double top = 0;
+  for (std::size_t r = 0; r < picture.rows.size(); ++r) {
+    const auto& row = picture.rows[r];
+    const double subtitle_top =
+        top + band[r] - height_of(lines_in(row, &Panel::subtitle), subtitle_line(layout), layout.text);
+    layout.title_y.push_back(subtitle_top - 0.5 * title_line(layout));
+    layout.subtitle_y.push_back(subtitle_top + 0.4 * subtitle_line(layout));
+    top += band[r];
+    layout.panel_top.push_back(int(top));
+    top += layout.panel_height;
+  }
+  layout.legend_y = top + 0.9 * layout.text;
+  layout.bar_top = picture.height - 4.0 * layout.text;
+  layout.bar_height = std::round(0.95 * layout.text);
+  layout.bar_width = std::min(0.6 * picture.width, 27 * layout.text);
+  layout.bar_left = (picture.width - layout.bar_width) / 2;
+
+  layout.subtitle = layout.text;
+  for (const auto& row : picture.rows) {
+    for (const Panel& panel : row) {
+      const double room = fill * (is_strip(row) ? picture.width : layout.panel_width);
+      layout.title = fitting(layout.title, panel.title, true, room);
+      layout.subtitle = fitting(layout.subtitle, panel.subtitle, false, fill * layout.panel_width);
+    }
+  }
+  return layout;
+}
+
+double panel_aspect(const Picture& picture) {
+  const Layout layout = layout_of(picture);
+  return double(layout.panel_width) / layout.panel_height;
+}
+
+namespace {
+
+constexpr double panel_share = 0.92;  // of a panel's width that letters may take
+
+/// Whether all titles fit into panels of this width (in units of the font size) when they are wrapped.
+bool titles_fit(const std::vector<Panel>& panels, double room) {
+  return std::all_of(panels.begin(), panels.end(), [room](const Panel& panel) {
+    const auto lines = lines_of(wrapped(panel.title, true, room));
+    return std::all_of(lines.begin(), lines.end(), [&](const auto& line) { return text_width(line, true) <= room; });
+  });
+}
+
+}  // namespace
+
+void arrange(Picture& picture, double aspect) {
+  std::vector<Panel> panels = std::move(picture.rows[0]);
+  const double width = panel_share * picture.width / picture.text;
+  std::size_t columns = panels.size();
+  while (columns > 1 && !titles_fit(panels, width / double(columns))) --columns;
+  // as many in each row as can be, so that few places stay empty
+  const std::size_t rows = (panels.size() + columns - 1) / columns;
+  columns = (panels.size() + rows - 1) / rows;
+  picture.rows.clear();
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    if (i % columns == 0) picture.rows.emplace_back();
+    panels[i].title = wrapped(panels[i].title, true, width / double(columns));
+    panels[i].subtitle = wrapped(panels[i].subtitle, false, width / double(columns));
+    picture.rows.back().push_back(std::move(panels[i]));
+  }
+  picture.height = height_for(picture, aspect);
+}
+
+}  // namespace crosscheck::render

@@ -1,0 +1,49 @@
+// Where panels, titles, colour bar and legend go in the picture, in pixels from the top left, and how wide texts are.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/pictures/picture.h"
+
+namespace crosscheck::render {
+
+// How wide a text will be, so that it can be made to fit before it is set.
+
+/// Width of a UTF-8 text in DejaVu Sans (or its bold), in units of the font size; letters outside ASCII are guessed.
+double text_width(const std::string& text, bool bold);
+
+inline constexpr double line_height = 1.25;  // from one line of a text to the next, in units of the font size
+
+/// A text with line feeds, line by line; at least one.
+std::vector<std::string> lines_of(const std::string& text);
+
+/// The text with line feeds where a line would be wider than the room (in units of the font size): after a slash, a
+/// comma with its space, or before a plus.
+std::string wrapped(const std::string& text, bool bold, double room);
+
+// Where panels, titles, colour bar and legend go in the picture, in pixels from the top left.
+
+struct Layout {
+  double title = 0, text = 0;  // font sizes, pixels
+  double subtitle = 0;         // font size of the subtitles, pixels
+  int panel_width = 0, panel_height = 0;
+  int left = 0;                          // of the first column
+  std::vector<int> panel_top;            // one per row
+  std::vector<double> title_y;           // middle of the title's last line, one per row
+  std::vector<double> subtitle_y;        // middle of the subtitle's first line, one per row
+  std::vector<std::vector<int>> legend;  // entries of each line of the legend
+  double legend_y = 0;                   // middle of its first line
+  double bar_top = 0, bar_height = 0, bar_left = 0, bar_width = 0;
+};
+
+/// A row whose only title stands in its first column is a strip: the title heads the whole row.
+bool is_strip(const std::vector<Panel>& row);
+
+/// Width of a legend entry with its swatch and the gap after it, in pixels.
+double legend_entry_width(const std::string& name, double font);
+
+/// Throws std::runtime_error if the picture has no panels, InputError where its size has no room for them.
+Layout layout_of(const Picture& picture);
+
+}  // namespace crosscheck::render

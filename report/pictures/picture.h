@@ -1,0 +1,128 @@
+// What a picture shows, without a word about how it is drawn: panels of bodies in one common view.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mysim/types.h"
+
+namespace crosscheck::render {
+
+/// A solid ball: an obstacle of the scene, drawn at its true radius.
+struct Ball {
+  Vec3 centre;    // m
+  double radius;  // m
+};
+
+/// A bead radius chosen from the size of the view, so that a scene of a few particles is clearly visible.
+inline constexpr double by_view = -1;
+
+/// One body: the particles of one method at one instant.
+struct Body {
+  Points x;                                   // N (3 x n), m
+  std::vector<std::array<int, 3>> triangles;  // surface; empty for bodies that are only particles and springs
+  std::vector<std::array<int, 2>> threads;    // springs that follow the surface's grid, drawn as fine lines on it
+  std::vector<std::array<int, 2>> tubes;      // springs drawn as solid tubes
+  std::vector<double> tube_value;             // one per tube: coloured by the scale; empty: plain
+  std::vector<int> tube_colour;               // one per tube: index into the palette; empty: plain
+  std::vector<double> value;                  // one per particle: coloured by the scale; empty: plain cloth
+  std::vector<int> pinned;                    // particles drawn as pins
+  double tube_radius = 0;                     // m; 0: chosen from the size of the view
+  double bead_radius = 0;                     // m; particles drawn as balls; 0: not drawn; by_view: as the view needs
+  std::vector<Vec3> trail;                    // path of one particle until now, drawn as a thin fading line
+};
+
+struct Panel {
+  std::string title;     // e.g. "mysim/leapfrog"; like the subtitle of several lines, with line feeds, or empty
+  std::string subtitle;  // e.g. "t = 2.5 s"
+  std::string note;      // e.g. "not finite from t = 0.4 s", written inside the panel at its foot; may be empty
+  std::vector<Body> bodies;
+  std::vector<Ball> balls;
+};
+
+/// One camera for all panels, so that what looks different is different.
+struct View {
+  Vec3 eye, target;             // m
+  Vec3 up{0, 1, 0};             // unit vector; the ground is perpendicular to it
+  double field_of_view = 25;    // degrees, vertical
+  std::optional<double> floor;  // height along up of the shadow-catching ground, m; none: no ground
+};
+
+/// Maps a value to a colour; drawn as a bar below the panels.
+struct Scale {
+  std::string label;  // "stretch / %"
+  double low, high;   // in the unit of the label
+  bool diverging = false;
+};
+
+/// Names of the palette entries used by tube_colour, drawn as a legend below the panels.
+using Legend = std::vector<std::string>;  // at most 7
+
+enum class Quality { fast, still };
+
+struct Picture {
+  std::vector<std::vector<Panel>> rows;  // rows of panels, all of one size
+  View view;
+  std::optional<Scale> scale;
+  Legend legend;
+  int width = 1280, height = 720;  // pixels, of the whole picture
+  double text = 0;                 // height of all letters, pixels; 0: as the size needs them, titles larger
+  Quality quality = Quality::still;
+};
+
+/// Pixels, rows from top to bottom, 3 bytes each, sRGB.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<unsigned char> rgb;  // 3 * width * height
+};
+
+/// Background alone.
+Image blank(int width, int height);
+
+/// Draws the panels (no letters) with OSMesa. Same input, same bytes. Throws std::runtime_error with the cause.
+Image draw(const Picture& picture);
+
+/// Draws like draw(), but keeps the OpenGL context and its compiled shaders for the next picture (of the same size,
+/// quality and kind of scale): for animations, where compiling takes longer than drawing. To be used in one thread.
+class OffscreenRenderer {
+ public:
+  OffscreenRenderer();
+  ~OffscreenRenderer();
+  Image draw(const Picture& picture);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// draw(), then titles, colour bar and legend by gnuplot, written to file (PNG) under a temporary name and renamed.
+/// Throws std::runtime_error with the cause (nothing to be seen, gnuplot missing, its picture not whole, file
+/// not writable).
+void write_png(const Picture& picture, const std::filesystem::path& file);
+void write_png(const Picture& picture, const std::filesystem::path& file, OffscreenRenderer& renderer);
+
+/// The same as PNG and as PDF for a page on which so many pixels make an inch; on that page letters are letters.
+void write_print(const Picture& picture, double pixels_per_inch, const std::filesystem::path& png,
+                 const std::filesystem::path& pdf);
+
+/// Width / height of one panel after room for the letters is taken away: the aspect to give to fit_view. Depends
+/// on the size, the rows, whether there are titles, subtitles, a scale and a legend, and not on bodies or view.
+double panel_aspect(const Picture& picture);
+
+/// The height at which panels are so much wider than high, pixels; for pictures that say how large their letters are.
+int height_for(const Picture& picture, double aspect);
+
+/// Puts the panels of a picture of one row, that says how large its letters are, into as many rows as their titles need
+/// to keep that size, wraps titles and subtitles, and chooses the height.
+void arrange(Picture& picture, double aspect);
+
+/// A view that holds all the points (and balls) given and their shadow, seen from the direction (from the target to the
+/// eye, need not be of unit length). Points that are not finite are left out; the floor is put below the lowest point.
+View fit_view(const std::vector<Points>& points, const std::vector<Ball>& balls, const Vec3& direction, double aspect,
+              const Vec3& up = {0, 1, 0});
+
+}  // namespace crosscheck::render

@@ -1,0 +1,18 @@
+// PNG files as gnuplot writes them: read back, and told how large they are in print.
+#pragma once
+
+#include <filesystem>
+
+#include "report/pictures/picture.h"
+
+namespace crosscheck::render {
+
+/// Throws std::runtime_error that names the file.
+Image read_png(const std::filesystem::path& file);
+
+/// Says in the file how many of its pixels make an inch (chunk pHYs). Throws std::runtime_error that names the file.
+void set_resolution(const std::filesystem::path& file, double pixels_per_inch);
+/// Packs the same pixels as small as zlib can: a report holds a dozen of them. Throws as set_resolution().
+void pack_tightly(const std::filesystem::path& file);
+
+}  // namespace crosscheck::render

@@ -1,0 +1,359 @@
+// Strain of springs, bodies, views and scales of pictures.
+#include "report/pictures/scene_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/text.h"
+#include "report/findings/report_data.h"
+
+namespace crosscheck {
+
+double extension(const Points& x, int a, int b, double rest) {
+  return rest > 0 ? std::max(0.0, (x.col(a) - x.col(b)).norm() / rest - 1) * 100 : 0;
+}
+
+std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<double>* per_spring) {
+  std::vector<double> sum(x.cols(), 0), count(x.cols(), 0);
+  if (const auto* springs = scene.model.find<Springs>())
+    for (const Spring& s : springs->list) {
+      const double strain = extension(x, s.a, s.b, s.rest);
+      if (per_spring) per_spring->push_back(strain);
+      if (s.family == Family::shear || s.family == Family::bend) continue;
+      for (int end : {s.a, s.b}) sum[end] += strain, count[end] += 1;
+    }
+  if (const auto* constraints = scene.model.find<Constraints>())
+    for (const auto& [a, b, length] : constraints->list)
+      for (int end : {a, b}) {
+        sum[end] += extension(x, a, b, length);
+        count[end] += 1;
+      }
+  for (size_t i = 0; i < sum.size(); ++i) sum[i] /= std::max(1.0, count[i]);
+  return sum;
+}
+
+double round_up(double value) {
+  if (!(value > 0)) return 1;
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (double step : {1.0, 2.0, 5.0, 10.0})
+    if (value <= step * power * (1 + 1e-9)) return step * power;
+  return value;
+}
+
+namespace {
+
+bool is_thread(const Spring& s) { return s.family == Family::structural; }
+
+}  // namespace
+
+render::Body body_of(const Scene& scene, const Result& answer, int frame, Mode mode, const Points* base) {
+  render::Body body;
+  body.x = answer.trajectory.x[frame];
+  body.pinned = scene.model.particles.pins;
+  const auto* springs = scene.model.find<Springs>();
+  const auto* constraints = scene.model.find<Constraints>();
+  const bool surface = !scene.triangles.empty() && mode != Mode::springs;
+  if (surface) {
+    body.triangles = scene.triangles;
+    if (springs)
+      for (const Spring& s : springs->list)
+        if (is_thread(s)) body.threads.push_back({s.a, s.b});
+    if (constraints)
+      for (const auto& [a, b, length] : constraints->list) body.threads.push_back({a, b});
+  } else {
+    if (scene.triangles.empty()) body.bead_radius = render::by_view;
+    std::vector<double> strain;
+    if (mode == Mode::stretch) stretch_of(scene, body.x, &strain);
+    if (springs)
+      for (size_t i = 0; i < springs->list.size(); ++i) {
+        const Spring& s = springs->list[i];
+        body.tubes.push_back({s.a, s.b});
+        if (mode == Mode::stretch) body.tube_value.push_back(strain[i]);
+      }
+    if (constraints)
+      for (const auto& [a, b, length] : constraints->list) {
+        body.tubes.push_back({a, b});
+        if (mode == Mode::stretch) body.tube_value.push_back(extension(body.x, a, b, length));
+      }
+  }
+  if (surface && mode == Mode::stretch) body.value = stretch_of(scene, body.x);
+  if (mode == Mode::difference && base) {
+    body.value.resize(body.x.cols());
+    for (int i = 0; i < body.x.cols(); ++i) body.value[i] = 1000 * (body.x.col(i) - base->col(i)).norm();
+  }
+  // the last particle of a scene without cloth draws its path
+  if (scene.triangles.empty())
+    for (int i = 0; i <= frame; ++i) body.trail.push_back(answer.trajectory.x[i].col(body.x.cols() - 1));
+  return body;
+}
+
+std::vector<Family> families_of(const Scene& scene) {
+  std::vector<Family> present;
+  if (!scene.model.find<Springs>()) return present;
+  for (const Family family : {Family::structural, Family::shear, Family::bend, Family::single})
+    for (const Spring& s : scene.model.find<Springs>()->list)
+      if (s.family == family) {
+        present.push_back(family);
+        break;
+      }
+  return present;
+}
+
+std::vector<render::Body> tubes_of(const Scene& scene, const Points& x, const Vec3& towards_eye) {
+  const auto& springs = scene.model.find<Springs>()->list;
+  double spacing = 1e300;
+  for (const Spring& s : springs)
+    if (s.rest > 0) spacing = std::min(spacing, s.rest);
+  std::vector<render::Body> bodies;
+  for (const Family family : families_of(scene)) {
+    render::Body body;
+    body.x = x;
+    if (family == Family::bend) body.x.colwise() += 0.12 * spacing * towards_eye;
+    if (bodies.empty()) body.pinned = scene.model.particles.pins;
+    body.tube_radius = spacing * (family == Family::bend ? 0.035 : family == Family::shear ? 0.045 : 0.11);
+    for (const Spring& s : springs)
+      if (s.family == family) body.tubes.push_back({s.a, s.b});
+    body.tube_colour.assign(body.tubes.size(), static_cast<int>(bodies.size()));
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
+std::vector<render::Ball> balls_of(const Scene& scene, double t) {
+  std::vector<render::Ball> balls;
+  if (const auto* spheres = scene.model.find<Spheres>())
+    for (const Sphere& s : spheres->list) balls.push_back({s.centre_at(t), s.radius});
+  return balls;
+}
+
+namespace {
+
+constexpr int strip_columns = 5;
+constexpr double panel_in_print = 1.2;  // width over height
+
+/// Index of the sample nearest to t, or the last one for negative t.
+int frame_at(const Trajectory& path, double t) {
+  if (t < 0) return path.frames() - 1;
+  const auto nearest = std::min_element(path.t.begin(), path.t.end(),
+                                        [t](double a, double b) { return std::abs(a - t) < std::abs(b - t); });
+  return static_cast<int>(nearest - path.t.begin());
+}
+
+/// The last frame up to `frame` that can be drawn: finite, and within a hundred scene sizes.
+int drawable(const Scene& scene, const Trajectory& path, int frame) {
+  const double far = 100 * scene.size();
+  while (frame > 0 && !(path.x[frame].allFinite() && (path.x[frame] - path.x[0]).cwiseAbs().maxCoeff() < far)) --frame;
+  return frame;
+}
+
+/// Whether all that is shown lies in one plane that faces the viewer, so that no ground belongs below it.
+bool is_flat(const Scene& scene, const std::vector<Points>& shown) {
+  double depth = 0;
+  for (const Points& x : shown) depth = std::max(depth, x.row(2).maxCoeff() - x.row(2).minCoeff());
+  return scene.triangles.empty() && depth < 1e-9;
+}
+
+/// The scene's camera says from where; how far away is chosen so that panels of every shape hold everything.
+Vec3 towards_eye(const Scene& scene, bool flat) {
+  if (scene.camera) return scene.camera->eye - scene.camera->target;
+  return flat ? Vec3(0, 0, 1) : Vec3(0.55, 0.35, 1);
+}
+
+/// The scene's camera, or one that holds everything that the panels show.
+render::View view_of(const Scene& scene, const std::vector<Points>& shown, const std::vector<render::Ball>& balls,
+                     double aspect) {
+  const bool flat = is_flat(scene, shown);
+  render::View view = render::fit_view(shown, balls, towards_eye(scene, flat), aspect);
+  if (flat) view.floor.reset();
+  return view;
+}
+
+/// The method, and its step where another picture is of the same method.
+std::string title_of(const Result& answer, const std::vector<const Result*>& all) {
+  const auto same = std::ranges::count(all, answer.method, &Result::method);
+  return same > 1 ? fmt::format("{}, step {}", answer.method, step_text(answer.outcome.step)) : answer.method;
+}
+
+/// In a clip of steady width, and without word of a failure that is still to come.
+std::string time_text(const Result& answer, int frame, const Shot& shot) {
+  const double time = answer.trajectory.t[frame];
+  const std::string t = shot.in_clip ? fmt::format("t = {:.2f} s", time) : fmt::format("t = {:.3g} s", time);
+  const bool to_come = shot.in_clip && frame_at(answer.trajectory, shot.at) + 1 < answer.trajectory.frames();
+  return answer.outcome.verdict == Verdict::ok || to_come
+             ? t
+             : fmt::format("{}, {} at {:.3g} s", t, failure_class(std::string(name_of(answer.outcome.verdict))),
+                           answer.outcome.end);
+}
+
+std::vector<const Result*> usable_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot) {
+  std::vector<const Result*> usable;
+  for (const Result* a : answers)
+    if (a->trajectory.frames() > 0) usable.push_back(a);
+  if (usable.empty())
+    throw InputError(
+        fmt::format("{}: none of the methods gives a picture; expected one that can run the scene", scene.name));
+  if (shot.mode == Mode::difference && usable.size() < 2)
+    throw InputError(fmt::format("{}: --mode difference: expected two methods that can run the scene", scene.name));
+  return usable;
+}
+
+std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Shot& shot) {
+  if (shot.mode != Mode::strip) return {drawable(scene, path, frame_at(path, shot.at))};
+  std::vector<int> frames;
+  for (int c = 0; c < strip_columns; ++c)
+    frames.push_back(drawable(scene, path, frame_at(path, scene.duration * c / (strip_columns - 1))));
+  return frames;
+}
+
+/// What view and scale must have room for. A run that blew up would leave neither room nor colour for the others.
+struct Seen {
+  std::vector<Points> healthy, all, trails;
+  std::vector<render::Ball> balls;
+  double most = 0, most_of_failed = 0;
+
+  void add(const render::Panel& panel, bool ok) {
+    const render::Body& body = panel.bodies[0];
+    balls.insert(balls.end(), panel.balls.begin(), panel.balls.end());
+    double& top = ok ? most : most_of_failed;
+    for (const double v : body.value) top = std::max(top, v);
+    for (const double v : body.tube_value) top = std::max(top, v);
+    all.push_back(body.x);
+    if (!ok) return;
+    healthy.push_back(body.x);
+    if (body.trail.empty()) return;
+    trails.emplace_back(3, body.trail.size());
+    for (size_t i = 0; i < body.trail.size(); ++i) trails.back().col(static_cast<Eigen::Index>(i)) = body.trail[i];
+  }
+  std::vector<Points> shown() const {
+    std::vector<Points> points = healthy.empty() ? all : healthy;
+    points.insert(points.end(), trails.begin(), trails.end());
+    return points;
+  }
+};
+
+/// The picture but for its view and the top of its scale.
+render::Picture panels_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot, Seen& seen) {
+  const std::vector<const Result*> usable = usable_of(scene, answers, shot);
+  render::Picture picture;
+  picture.width = shot.width;
+  picture.height = shot.height;
+  picture.quality = shot.quality;
+  picture.text = shot.text;
+  const bool strip = shot.mode == Mode::strip;
+  // without springs there is no stretch to colour by
+  const bool no_stretch =
+      shot.mode == Mode::stretch && !scene.model.find<Springs>() && !scene.model.find<Constraints>();
+  const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
+  Shot when = shot;
+  for (const Result* a : usable)
+    if (shot.at_first_failure && a->outcome.verdict != Verdict::ok)
+      when.at = when.at < 0 ? a->outcome.end : std::min(when.at, a->outcome.end);
+  const auto base_frames = frames_of(scene, usable[0]->trajectory, when);
+  seen.trails.clear();  // a later time's hold those of earlier ones
+  if (!strip) picture.rows.emplace_back();
+  for (const Result* a : usable) {
+    if (strip) picture.rows.emplace_back();
+    const std::vector<int> frames = frames_of(scene, a->trajectory, when);
+    for (size_t c = 0; c < frames.size(); ++c) {
+      const Points& base = usable[0]->trajectory.x[base_frames[c]];
+      render::Panel panel;
+      panel.title = !strip || c == 0 ? title_of(*a, answers) : "";
+      panel.subtitle = time_text(*a, frames[c], when);
+      panel.balls = balls_of(scene, a->trajectory.t[frames[c]]);
+      panel.bodies.push_back(body_of(scene, *a, frames[c], mode, &base));
+      seen.add(panel, a->outcome.verdict == Verdict::ok);
+      picture.rows.back().push_back(std::move(panel));
+    }
+  }
+  if (mode == Mode::stretch) picture.scale = render::Scale{"stretch / %", 0, 1};
+  if (mode == Mode::difference) picture.scale = render::Scale{"distance from " + usable[0]->method + " / mm", 0, 1};
+  if (mode == Mode::springs && !scene.triangles.empty())
+    for (const Family family : families_of(scene)) picture.legend.emplace_back(name_of(family));
+  if (shot.text > 0 && !strip) render::arrange(picture, panel_in_print);
+  return picture;
+}
+
+}  // namespace
+
+CameraPlacement camera_placement(const Scene& scene, const std::vector<Points>& shown,
+                                 const std::vector<double>& times) {
+  std::vector<render::Ball> balls;
+  for (const double t : times)
+    for (const render::Ball& ball : balls_of(scene, t)) balls.push_back(ball);
+  return {towards_eye(scene, is_flat(scene, shown)), view_of(scene, shown, balls, 1).floor};
+}
+
+int frame_shown(const Scene& scene, const Result& answer, const Shot& shot) {
+  return drawable(scene, answer.trajectory, frame_at(answer.trajectory, shot.at));
+}
+
+Mode mode_named(const std::string& name) {
+  constexpr std::pair<const char*, Mode> table[] = {{"shaded", Mode::shaded},
+                                                    {"stretch", Mode::stretch},
+                                                    {"springs", Mode::springs},
+                                                    {"difference", Mode::difference},
+                                                    {"strip", Mode::strip}};
+  for (const auto& [known, mode] : table)
+    if (name == known) return mode;
+  std::vector<std::string> names;
+  for (const auto& [known, mode] : table) names.emplace_back(known);
+  throw InputError(fmt::format("--mode {}: expected shaded, stretch, springs, difference or strip{}", name,
+                               did_you_mean(name, names)));
+}
+
+std::vector<std::string> pictured_methods(const Scene& scene) {
+  if (scene.model.first_order()) return {"mysim/explicit-euler", "mysim/trapezoidal", "mysim/rk4"};
+  if (scene.model.find<Constraints>()) return {"mysim/xpbd", "bullet/pbd"};
+  std::vector<std::string> names{"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd"};
+  // what is meant for long steps first, and what fails there beside it
+  if (scene.method.find("implicit") != std::string::npos)
+    names = {"mysim/" + scene.method, "mysim/implicit-midpoint", "mysim/symplectic-euler"};
+  if (scene.model.find<Spheres>()) names.push_back("mysim/symplectic-euler+sticky");
+  return names;
+}
+
+Shot usual_shot(const Scene& scene, bool full) {
+  Shot shot;
+  shot.at = scene.camera && scene.camera->at ? *scene.camera->at : -1;
+  // soft light is worth its seconds on cloth; a few beads look the same without
+  shot.quality = full || !scene.triangles.empty() ? render::Quality::still : render::Quality::fast;
+  shot.mode = scene.triangles.empty() ? Mode::shaded : Mode::stretch;
+  shot.width = 1440;
+  shot.height = 560;
+  return shot;
+}
+
+CommonView common_view(const Scene& scene, const std::vector<const Result*>& answers, const std::vector<Shot>& shots) {
+  Seen seen;
+  render::Picture last;
+  bool failures_count = false;
+  for (const Shot& shot : shots) {
+    last = panels_of(scene, answers, shot, seen);
+    failures_count |= shot.at_first_failure;
+  }
+  failures_count |= seen.healthy.empty();
+  const double most = failures_count ? std::max(seen.most, seen.most_of_failed) : seen.most;
+  return {view_of(scene, seen.shown(), seen.balls, render::panel_aspect(last)), round_up(most)};
+}
+
+render::Picture picture_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot,
+                           const CommonView& common) {
+  Seen unused;
+  render::Picture picture = panels_of(scene, answers, shot, unused);
+  picture.view = common.view;
+  if (picture.scale) picture.scale->high = common.top;
+  if (!picture.legend.empty())
+    for (auto& row : picture.rows)
+      for (render::Panel& panel : row)
+        panel.bodies = tubes_of(scene, panel.bodies[0].x, (common.view.eye - common.view.target).normalized());
+  return picture;
+}
+
+render::Picture picture_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot) {
+  return picture_of(scene, answers, shot, common_view(scene, answers, {shot}));
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,209 @@
+// GLSL: places of corners, light, shadow and the colours of cloth, solids and ground.
+#include "report/pictures/shaders.h"
+
+namespace crosscheck::render {
+
+std::string vertex_text() {
+  return R"(
+uniform mat4 to_clip;
+uniform vec3 eye;
+uniform float lift;    // depth that flat cloth may dip into a ball
+uniform vec4 ground;   // centre x, height, centre z, half width
+
+#if defined(CLOTH)
+layout(location = 0) in vec3 corner;
+layout(location = 1) in vec3 corner_normal;
+layout(location = 2) in vec3 corner_rim;
+layout(location = 3) in vec2 corner_value;
+out vec3 rim;
+out vec2 value;
+#elif defined(SPHERE)
+layout(location = 0) in vec4 corner;
+layout(location = 1) in vec4 centre_radius;
+layout(location = 2) in vec3 own_colour;
+#elif defined(ROD) || defined(TRAIL)
+layout(location = 0) in vec4 corner;
+layout(location = 1) in vec4 start_radius;
+layout(location = 2) in vec3 end;
+layout(location = 3) in vec3 own_colour;
+#endif
+out vec3 place, normal, colour;
+
+void main() {
+  place = normal = colour = vec3(0);
+#if defined(SUM)
+  gl_Position = vec4(gl_VertexID % 2 * 4 - 1, gl_VertexID / 2 * 4 - 1, 0, 1);
+  return;
+#elif defined(CLOTH)
+  place = corner;
+  normal = corner_normal;
+  rim = corner_rim;
+  value = corner_value;
+#elif defined(SPHERE)
+  normal = corner.xyz;
+  place = centre_radius.xyz + centre_radius.w * normal;
+  colour = own_colour;
+#elif defined(ROD) || defined(TRAIL)
+  vec3 axis = end - start_radius.xyz;
+  float size = length(axis);
+  axis = size > 1e-9 ? axis / size : vec3(0, 1, 0);
+  vec3 side = normalize(abs(axis.y) < 0.9 ? cross(axis, vec3(0, 1, 0)) : cross(axis, vec3(1, 0, 0)));
+  normal = corner.x * side + corner.y * cross(axis, side) + corner.z * axis;
+  place = mix(start_radius.xyz, end, corner.w) + start_radius.w * normal;
+  colour = own_colour;
+#elif defined(GROUND)
+  place = vec3(ground.x, ground.y, ground.z) + ground.w * vec3(gl_VertexID % 2 * 2 - 1, 0, 1 - gl_VertexID / 2 * 2);
+  normal = vec3(0, 1, 0);
+#endif
+
+  vec3 shown = place;
+#if defined(CLOTH) && !defined(SHADOW)
+  // towards the eye: the place on the screen stays, only the depth changes
+  vec3 to_eye = normalize(eye - place);
+  shown += to_eye * lift / max(abs(dot(to_eye, normal)), 0.25);
+#endif
+  gl_Position = to_clip * vec4(shown, 1);
+}
+)";
+}
+
+namespace {
+
+// key light and sky: one sample each per pass, or (FAST) filtered maps seen from the key light and from straight above
+const char* const light_text = R"(
+uniform vec3 eye, key, sky;          // directions are towards the light
+uniform mat4 to_key, to_sky;         // frame to the shadow maps, 0..1
+uniform sampler2DShadow key_map, sky_map;
+uniform float key_texel, sky_texel;  // size of a texel in the frame
+uniform float lift;
+in vec3 place, normal, colour;
+out vec4 result;
+
+const vec3 key_colour = KEY_LIGHT * vec3(1.035, 1.0, 0.955);
+const vec3 sky_colour = SKY_LIGHT * vec3(0.965, 0.99, 1.045);
+const vec3 bounce_colour = vec3(0.215, 0.213, 0.21);
+
+#if defined(FAST) && defined(GROUND)
+const int taps = 7;
+const vec2 disc[7] = vec2[](vec2(0), vec2(-0.30, 0.28), vec2(0.05, -0.58), vec2(0.43, 0.56), vec2(-0.80, -0.14),
+                            vec2(0.77, -0.49), vec2(-0.26, 0.97));
+#elif defined(FAST) || defined(GROUND)
+const int taps = 4;
+const vec2 disc[4] = vec2[](vec2(0.25, 0.75), vec2(-0.75, 0.25), vec2(-0.25, -0.75), vec2(0.75, -0.25));
+#endif
+
+// `spread` is the radius of the filter as a part of the map; the taps follow the plane through p with normal n, as a wide
+// filter of one depth would shade a slope by itself
+float lit(sampler2DShadow map, mat4 to_map, vec3 p, vec3 n, float spread) {
+  vec3 q = (to_map * vec4(p, 1)).xyz;
+  q.z = min(q.z, 1);
+#if defined(FAST) || defined(GROUND)
+  float sum = 0;
+#ifdef FAST
+  vec3 m = transpose(inverse(mat3(to_map))) * n;
+  vec2 slope = clamp(-m.xy / (abs(m.z) > 1e-4 ? m.z : 1e-4), -3, 3);
+#else
+  vec2 slope = vec2(0);
+#endif
+  for (int i = 0; i < taps; ++i)
+    sum += textureLod(map, vec3(q.xy + spread * disc[i], min(q.z + spread * dot(slope, disc[i]), 1)), 0);
+  return sum / float(taps);
+#else
+  return textureLod(map, q, 0);
+#endif
+}
+
+// light falling on a surface; `through` is the part of the key light that passes from the other side
+vec3 light_on(vec3 n, float through) {
+  float facing = dot(n, key);
+  float side = facing < 0 && through > 0 ? -1 : 1;
+  float direct = facing > 0 ? facing : -through * facing;
+  direct *= lit(key_map, to_key, place + side * n * (2.0 * key_texel + lift), n, 0.0045);
+  vec3 bounce = bounce_colour * (0.62 - 0.38 * n.y);
+#ifdef FAST
+  float open = lit(sky_map, to_sky, place + n * (3.0 * sky_texel + lift), n, 0.035);
+  vec3 from_sky = sky_colour * (0.5 + 0.5 * n.y) * mix(0.35, 1.0, open);
+#else
+  float up = 2 * max(dot(n, sky), 0) * lit(sky_map, to_sky, place + n * (2.0 * sky_texel + lift), n, 0);
+  vec3 from_sky = sky_colour * up;
+#endif
+  return key_colour * direct + from_sky + bounce;
+}
+)";
+
+const char* const cloth_text = R"(
+uniform sampler2D scale_map;
+uniform vec3 plain, no_value;
+in vec3 rim;
+in vec2 value;
+
+void main() {
+  vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+#ifdef VALUES
+  vec3 base = value.y > 0.001 ? no_value : texture(scale_map, vec2(value.x * (255.0 / 256) + 0.5 / 256, 0.5)).rgb;
+#else
+  vec3 base = plain;
+#endif
+  if (!gl_FrontFacing) base *= 0.86;
+
+  // threads: a line of one half width, at least a pixel wide, fading where they would crowd
+  vec3 pixel = max(fwidth(rim), vec3(1e-6));
+  vec3 line = clamp((max(vec3(1), 0.5 * pixel) - rim) / pixel + 0.5, 0, 1) * smoothstep(vec3(16), vec3(6), pixel);
+  base *= mix(vec3(1), vec3(0.40, 0.385, 0.385), max(line.x, max(line.y, line.z)));
+  result = vec4(base * light_on(n, 0.22), 1);
+}
+)";
+
+const char* const solid_text = R"(
+void main() {
+#ifdef TRAIL
+  result = vec4(colour, 1);
+#else
+  vec3 n = normalize(normal);
+  vec3 to_eye = normalize(eye - place);
+  vec3 light = light_on(n, 0);
+  float gloss = 0.16 * pow(max(dot(n, normalize(key + to_eye)), 0), 40) * step(0.5, light.r);
+  result = vec4(colour * light + gloss, 1);
+#endif
+}
+)";
+
+// the ground is the background, darkened by what it loses of the light: without shadow it cannot be seen
+const char* const ground_text = R"(
+uniform vec3 background;
+uniform float unoccluded;  // mean light on the open ground
+uniform vec4 ground;
+uniform vec3 panel;        // width, height, pixels
+
+void main() {
+#ifdef FAST
+  float key_lost = KEY_LIGHT * key.y * (1 - lit(key_map, to_key, place, vec3(0, 1, 0), 0.0045));
+  float sky_lost = SKY_LIGHT * 0.55 * (1 - lit(sky_map, to_sky, place, vec3(0, 1, 0), 0.05));
+#else
+  float key_lost = KEY_LIGHT * key.y * (1 - lit(key_map, to_key, place, vec3(0, 1, 0), 0.007));
+  float sky_lost = SKY_LIGHT * 2 * sky.y * (1 - lit(sky_map, to_sky, place, vec3(0, 1, 0), 0.012));
+#endif
+  // both fade far away and before the panel ends: the faint wide shadow of the sky early, the clear one late
+  float away = length(place.xz - ground.xz) / ground.w;
+  vec2 border = min(gl_FragCoord.xy / panel.xy, 1 - gl_FragCoord.xy / panel.xy);
+  vec2 sky_fade = smoothstep(vec2(0), vec2(0.25), border), key_fade = smoothstep(vec2(0), vec2(0.06), border);
+  float lost = key_lost * key_fade.x * key_fade.y + sky_lost * sky_fade.x * sky_fade.y;
+  result = vec4(background * (1 - 0.9 * (1 - smoothstep(0.4, 1.0, away)) * lost / unoccluded), 1);
+}
+)";
+
+const char* const sum_text = R"(
+uniform sampler2D pass;
+out vec4 result;
+void main() { result = texelFetch(pass, ivec2(gl_FragCoord.xy), 0); }
+)";
+
+}  // namespace
+
+std::string fragment_text() {
+  return std::string("#if defined(SHADOW)\nvoid main() {}\n#elif defined(SUM)\n") + sum_text + "#else\n" + light_text +
+         "#if defined(CLOTH)\n" + cloth_text + "#elif defined(GROUND)\n" + ground_text + "#else\n" + solid_text +
+         "#endif\n#endif\n";
+}
+
+}  // namespace crosscheck::render

@@ -1,0 +1,279 @@
+// Runs a build plan in a sandbox, finds the parts in the whole program, and says what is wrong.
+#include "tests/coursework/classic/whole_program.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <fstream>
+#include <sstream>
+
+#include "mysim/base/files.h"
+#include "mysim/base/hash.h"
+#include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/parallel.h"
+
+namespace coursework::classic {
+namespace fs = std::filesystem;
+namespace {
+
+bool there(const fs::path& file) { return fs::symlink_status(file).type() == fs::file_type::regular; }
+
+/// What of ours is compiled around a student's classes, as a folder like tests/coursework.
+void copy_ours(const fs::path& coursework, const fs::path& to) {
+  fs::create_directories(to / "classic");
+  for (const char* folder : {"base", "probe", "stubs"})
+    fs::copy(coursework / "classic" / folder, to / "classic" / folder, fs::copy_options::recursive);
+  for (const auto& entry : fs::directory_iterator(coursework / "classic"))
+    if (entry.path().filename().string().starts_with("calls_")) fs::copy(entry.path(), to / "classic");
+  fs::create_directories(to / "check");
+  for (const auto& entry : fs::directory_iterator(coursework / "check"))
+    if (entry.path().extension() == ".h") fs::copy(entry.path(), to / "check");
+}
+
+/// The sandbox may run the compiler as another user, who must get to all of it.
+void show(const fs::path& folder) {
+  fs::permissions(folder, fs::perms(0755));
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    fs::permissions(entry.path(), fs::perms(entry.is_directory() ? 0755 : 0644));
+}
+
+class StepRunner {
+ public:
+  StepRunner(const Sandbox& sandbox, const Toolchain& tools, const fs::path& tree)
+      : sandbox_(sandbox), tools_(tools), tree_(tree) {
+    if (tools.cache.empty()) return;
+    for (const auto& [path, content] : files_below(tree_ / "in"))
+      if (is_header(path)) headers_ += path + "\n" + content;
+  }
+
+  /// What was said; empty where the file was made.
+  std::string operator()(const BuildStep& step) {
+    const fs::path kept = step.source.empty() || tools_.cache.empty() ? fs::path() : tools_.cache / (key(step) + ".o");
+    if (!kept.empty() && there(kept)) {
+      fs::copy_file(kept, step.makes);
+      return "";
+    }
+    std::vector<std::string> command = step.archive ? std::vector{tools_.ar.string()} : tools_.compiler;
+    command.insert(command.end(), step.words.begin(), step.words.end());
+    // in a folder of its own: side by side with others, and what others made stays as it is
+    const fs::path work = tree_ / "work" / step.makes.filename(), made = work / step.makes.filename();
+    fs::create_directories(work);
+    show(work);
+    std::replace(command.begin(), command.end(), step.makes.string(), made.string());
+    Limits limits = compile_limits;
+    limits.wall = std::min(limits.wall, tools_.seconds - spent_);
+    if (!(limits.wall > 0)) return std::string(too_long);
+    const auto begin = std::chrono::steady_clock::now();
+    const End end = sandbox_.run(
+        {.command = command, .readable = {tree_ / "in", tree_ / "out"}, .writable = work, .limits = limits});
+    spent_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (end.how == End::How::cpu || end.how == End::How::wall) return std::string(too_long);
+    if (end.how != End::How::exited || end.code != 0 || !there(made))
+      return end.captured_output.empty() ? "it ended and said nothing" : end.captured_output;
+    fs::rename(made, step.makes);
+    if (!kept.empty()) {
+      // the tree's own name is everybody's; its folder's is nobody else's
+      const fs::path temporary = kept.string() + "." + tree_.parent_path().filename().string();
+      fs::copy_file(step.makes, temporary, fs::copy_options::overwrite_existing);
+      fs::rename(temporary, kept);
+    }
+    return "";
+  }
+
+ private:
+  /// Of the command, the source and every header; the tree's own name counts for nothing.
+  std::string key(const BuildStep& step) const {
+    std::string text = headers_;
+    for (const std::string& word : tools_.compiler) text += word + "\n";
+    for (std::string word : step.words) {
+      for (std::size_t at; (at = word.find(tree_.string())) != std::string::npos;)
+        word.replace(at, tree_.string().size(), "@");
+      text += word + "\n";
+    }
+    std::ifstream in(step.source, std::ios::binary);
+    std::stringstream content;
+    content << in.rdbuf();
+    text += content.str();
+    std::stringstream hex;
+    hex << std::hex << crosscheck::Fnv1a::of(text) << crosscheck::Fnv1a::of(text + "/");
+    return hex.str();
+  }
+
+  const Sandbox& sandbox_;
+  const Toolchain& tools_;
+  fs::path tree_;
+  std::string headers_;
+  std::atomic<double> spent_ = 0;  // s, by all that ran, side by side or not
+};
+
+}  // namespace
+
+std::string file_of_part(const std::string& part) {
+  if (part == "simple") return "simpleSystem.cpp";
+  if (part == "pendulum") return "pendulumSystem.cpp";
+  return part == "cloth" ? "ClothSystem.cpp" : "TimeStepper.cpp";
+}
+
+Files files_below(const fs::path& folder) {
+  Files files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    std::stringstream content;
+    content << in.rdbuf();
+    files[entry.path().lexically_relative(folder).generic_string()] = content.str();
+  }
+  return files;
+}
+
+Programs build_programs(const Files& files, const fs::path& tree, const fs::path& coursework, const Sandbox& sandbox,
+                        const Toolchain& tools, const std::vector<std::string>& wanted) {
+  const fs::path whole = fs::absolute(tree), ours = whole / "in" / "ours", child = whole / "in" / "child.o";
+  copy_ours(fs::absolute(coursework), ours);
+  fs::copy_file(tools.child, child);
+  const BuildPlan plan(files, whole, ours);
+  show(whole);
+  StepRunner run(sandbox, tools, whole);
+  std::vector<const PartBuild*> parts;
+  Programs made{{}, plan.notes()};
+  std::map<std::string, Program>& programs = made.of;
+  for (const PartBuild& part : plan.parts()) {
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), part.part) == wanted.end()) continue;
+    programs[part.part].missing = part.missing;
+    if (part.missing.empty()) parts.push_back(&part);
+  }
+  std::vector<const BuildStep*> steps;
+  for (const PartBuild* part : parts) steps.push_back(&part->calls);
+  for (const BuildStep& step : plan.objects()) steps.push_back(&step);
+  std::vector<std::string> said(steps.size());
+  parallel_for(steps.size(), tools.jobs, [&](std::size_t i) { said[i] = run(*steps[i]); });
+  for (const BuildStep& archive : plan.archives()) run(archive);
+
+  parallel_for(parts.size(), tools.jobs, [&](std::size_t i) {
+    Program& program = programs.at(parts[i]->part);
+    const BuildStep link = plan.link(*parts[i], child);
+    program.captured_output = said[i].empty() ? run(link) : said[i];
+    if (program.captured_output.empty()) {
+      program.file = link.makes;
+      return;
+    }
+    // a file of the student's that does not compile explains more than what is missing because of it
+    for (std::size_t k = 0; k < steps.size(); ++k)
+      if (!said[k].empty() && std::count(parts[i]->files.begin(), parts[i]->files.end(), steps[k]->file)) {
+        program.source = steps[k]->file;
+        program.captured_output = said[k];
+        return;
+      }
+  });
+  return made;
+}
+
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t most_notes = 20;
+
+/// The first file and line of the student's that a compiler's output names beside an error.
+std::string first_place(const std::string& said) {
+  std::istringstream lines(said);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find("/in/his/");
+    if (at != std::string::npos && line.find("error: ") != std::string::npos) return line.substr(at + 8, 300);
+  }
+  const std::size_t error = said.find("error: ");
+  const std::string from = said.substr(error == std::string::npos ? 0 : error + 7);
+  return from.substr(0, from.find('\n')).substr(0, 300);
+}
+
+Remark remark_on(const Program& program, const std::string& part) {
+  const std::string file = program.source.empty() ? file_of_part(part) : base_name(program.source);
+  if (program.captured_output == too_long) return {"build.time", {file}};
+  if (!program.source.empty() || program.captured_output.find("undefined reference to") != std::string::npos ||
+      program.captured_output.find("multiple definition of") != std::string::npos)
+    return first_error(file, program.captured_output);
+  return {"whole.interface", {file, first_place(program.captured_output)}};
+}
+
+class WholeBuilder : public Builder {
+ public:
+  WholeBuilder(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox)
+      : trusted_(trusted),
+        sandbox_(sandbox),
+        solution_(files_below(assignment.folder() / "solution")),
+        coursework_(folder_of_coursework()) {
+    for (const Part& part : assignment.parts) parts_.emplace_back(part.name);
+    surroundings_ = compiler_.fingerprint();
+    for (const char* folder : {"base", "probe", "stubs"})
+      for (const auto& [path, content] : files_below(assignment.folder() / folder)) surroundings_ += path + content;
+    for (const auto& entry : fs::directory_iterator(assignment.folder()))
+      if (entry.path().filename().string().starts_with("calls_")) surroundings_ += content_of_file(entry.path());
+    for (const auto& entry : fs::directory_iterator(coursework_ / "check"))
+      if (entry.path().extension() == ".h") surroundings_ += content_of_file(entry.path());
+    surroundings_ = key_of(surroundings_ + content_of_file(child_source()));
+  }
+
+  fs::path ours(const std::string& part, const std::string& source) const override {
+    Files files = solution_;
+    files[file_of(part)] = source;
+    std::string key = surroundings_ + part;
+    for (const auto& [path, content] : files) key += path + content;
+    return compiler_.cached(key_of(key), "", [&](const fs::path& made) {
+      const auto programs = build_programs(files, made.parent_path() / "tree", coursework_, trusted_,
+                                           tools(compiler_.cache(), 1), {part});
+      const Program& program = programs.of.at(part);
+      if (program.file.empty()) throw std::runtime_error("classic, " + part + ": " + program.captured_output);
+      fs::copy_file(program.file, made);
+    });
+  }
+
+  std::map<std::string, Built> theirs(const Submission& submission, const fs::path& folder,
+                                      unsigned jobs) const override {
+    std::map<std::string, Built> all;
+    const Programs programs =
+        build_programs(submission.files, folder / "tree", coursework_, sandbox_, tools({}, jobs), parts_);
+    for (const auto& [part, program] : programs.of) {
+      Built& one = all[part];
+      if (!program.missing.empty())
+        one = {{}, {"whole.missing", {program.missing}}, true};
+      else if (program.file.empty())
+        one = {{}, remark_on(program, part)};
+      else
+        one = {program.file};
+    }
+    // one part tells it for all; whoever reads more than a few has to tidy up first
+    std::vector<Remark>& notes = all.begin()->second.notes;
+    notes = programs.notes;
+    if (notes.size() > most_notes) notes.resize(most_notes);
+    return all;
+  }
+
+  std::string file_of(const std::string& part) const override { return file_of_part(part); }
+
+ private:
+  fs::path child_source() const { return coursework_ / "check" / "child_main.cpp"; }
+
+  Toolchain tools(const fs::path& cache, unsigned jobs) const {
+    const fs::path child = compiler_.cached(key_of(surroundings_ + "child"), ".o", [&](const fs::path& made) {
+      std::vector<std::string> command = compiler_.command();
+      command.insert(command.end(), {"-std=c++17", "-O1", "-c", child_source().string(), "-o", made.string()});
+      compile_ours(trusted_, command, made.parent_path(), "child_main.cpp");
+    });
+    return {compiler_.command(), "/usr/bin/ar", child, cache, jobs};
+  }
+
+  const Sandbox& trusted_;
+  const Sandbox& sandbox_;
+  const Compiler compiler_;
+  Files solution_;
+  fs::path coursework_;
+  std::vector<std::string> parts_;
+  std::string surroundings_;  // fingerprint of all that is compiled around a solution
+};
+
+}  // namespace
+
+std::unique_ptr<Builder> whole_builder(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox) {
+  return std::make_unique<WholeBuilder>(assignment, trusted, sandbox);
+}
+
+}  // namespace coursework::classic

@@ -1,0 +1,181 @@
+// grade, assignment and list.
+#include "tests/coursework/grader/commands.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <random>
+#include <thread>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/hash.h"
+#include "mysim/base/json.h"
+#include "mysim/base/output_folder.h"
+#include "mysim/base/progress.h"
+#include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/formats.h"
+#include "tests/coursework/grader/grade.h"
+#include "tests/coursework/grader/handout.h"
+#include "tests/coursework/grader/pack.h"
+#include "tests/coursework/grader/result.h"
+
+namespace coursework {
+namespace fs = std::filesystem;
+using crosscheck::InputError;
+namespace {
+
+std::uint64_t fresh_seed() { return std::random_device()() % 1000000000; }
+
+/// Seed of the hidden tests: as named, else from the lecturer's secret, else a fresh one that is printed.
+void choose_seed(const GradeCommand& command, GradeOptions& options) {
+  std::string secret;
+  if (const char* named = std::getenv("CROSSCHECK_SECRET")) secret = named;
+  if (!command.secret_file.empty()) secret = secret_in(command.secret_file);
+  if (command.seed) {
+    options.seed = *command.seed;
+  } else if (!secret.empty()) {
+    options.seed = crosscheck::Fnv1a::of(secret);
+    options.secret = true;
+  } else if (command.all) {
+    // all of a class, and a run that goes on with it, get the same
+    const fs::path kept = fs::path(command.out) / "seed.txt";
+    if (fs::exists(kept)) {
+      options.seed = std::strtoull(content_of_file(kept).c_str(), nullptr, 10);
+    } else {
+      options.seed = fresh_seed();
+      crosscheck::write_file(kept, fmt::format("{}\n", options.seed));
+    }
+  } else {
+    options.seed = fresh_seed();
+  }
+}
+
+Texts texts_of(const fs::path& folder, const std::string& name, const std::string& language) {
+  const fs::path file = folder / fmt::format("{}.{}.txt", name, language);
+  if (!fs::exists(file)) throw InputError(fmt::format("--lang {}: there is no {}", language, file.string()));
+  return Texts::read(file.string());
+}
+
+/// What must stay unseen is tried, not assumed: a sandbox that shares the file system keeps out what is private only.
+void require_hidden(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox) {
+  if (sandbox.name() == "bare") return;
+  std::vector<std::pair<fs::path, fs::path>> secrets;  // what must not be read, and the folder that would hide it
+  for (const char* secret : {"tests.cpp", "solution", "mistakes.txt"})
+    secrets.emplace_back(assignment.folder() / secret, folder_of_coursework());
+  if (!command.secret_file.empty())
+    secrets.emplace_back(command.secret_file, fs::absolute(command.secret_file).parent_path());
+  // other people's work
+  if (command.all) secrets.emplace_back(command.submission, command.submission);
+  for (const auto& [secret, folder] : secrets)
+    if (sees(sandbox, secret))
+      throw InputError(fmt::format("lane {}: a submission could read {}; make the folder private first: chmod 0700 {}",
+                                   sandbox.name(), secret.string(), folder.string()));
+}
+
+/// What comes next: the compilers, the tests one by one, and the causes of what went wrong.
+void tell(std::unique_ptr<crosscheck::Progress>& progress, const Result& result) {
+  if (result.complete) return;
+  const char* next = progress ? "testing the submission" : "compiling the submission";
+  if (!progress) progress = std::make_unique<crosscheck::Progress>(static_cast<int>(result.tests.size()) + 1);
+  progress->begin(next);
+}
+
+int grade_all(const Assignment& assignment, const GradeCommand& command, const Sandbox& sandbox,
+              const GradeOptions& options) {
+  const std::vector<GradedSubmission> all = grade_class(assignment, command.submission, sandbox, options, command.out);
+  crosscheck::write_file(fs::path(command.out) / "table.csv", class_csv(assignment, all));
+  crosscheck::write_file(fs::path(command.out) / "table.txt", class_text(assignment, all));
+  fmt::print("{}", class_text(assignment, all));
+  for (const GradedSubmission& one : all)
+    if (!one.failure.empty()) return 1;
+  return 0;
+}
+
+}  // namespace
+
+std::string secret_in(const std::string& file) {
+  std::string line = content_of_file(file);
+  line.erase(std::min(line.find('\n'), line.size()));
+  line.erase(line.find_last_not_of(" \t\r") + 1);
+  if (line.empty()) throw InputError(fmt::format("--secret {}: expected a line of text", file));
+  return line;
+}
+
+int grade_command(const GradeCommand& given) {
+  GradeCommand command = given;
+  const Assignment& assignment = find_assignment(command.assignment);
+  if (command.all && command.out.empty()) command.out = "out/grade/" + command.assignment;
+  GradeOptions options;
+  options.common = texts_of(folder_of_coursework() / "check", "common", command.language);
+  options.own = texts_of(assignment.folder(), "texts", command.language);
+  options.engines = command.engines;
+  options.jobs = std::max(1u, std::thread::hardware_concurrency());
+  const Format& format = find_format(command.format);
+  const Submission submission =
+      command.all ? Submission() : read_submission(command.submission, files_asked_for(assignment));
+  choose_seed(command, options);
+  const std::unique_ptr<Sandbox> sandbox = choose_sandbox(command.sandbox, command.no_sandbox);
+  fmt::print(stderr, "lane {}: {}\n", sandbox->name(), sandbox->says());
+  require_hidden(assignment, command, *sandbox);
+  umask(077);  // results are written while submissions run: nobody else reads them
+  if (command.all) return grade_all(assignment, command, *sandbox, options);
+
+  std::unique_ptr<crosscheck::Progress> progress;
+  options.on_progress = [&](const Result& result) {
+    tell(progress, result);
+    if (!command.out.empty()) crosscheck::write_file(command.out, format.write(result, options.common));
+    if (!command.report.empty())
+      crosscheck::write_file(command.report, page_of(result, options.common, options.own,
+                                                     fs::exists(command.engines) ? command.charts : ""));
+  };
+  const Result result = grade(assignment, submission, *sandbox, options);
+  progress.reset();
+  if (command.out.empty())
+    fmt::print("{}", format.write(result, options.common));
+  else
+    fmt::print("{}\n", total_of(result, options.common));
+  return 0;
+}
+
+int list_command(bool json) {
+  auto list = crosscheck::Json::list();
+  for (const Assignment& assignment : assignments()) {
+    if (json)
+      list.push({{"name", assignment.name}, {"what", assignment.title}});
+    else
+      fmt::print("{:<38} {}\n", assignment.name, assignment.title);
+  }
+  if (json) fmt::print("{}\n", list.dump(2));
+  return 0;
+}
+
+namespace {
+
+std::string secret_of(const AssignmentCommand& command) {
+  if (!command.secret_file.empty()) return secret_in(command.secret_file);
+  std::random_device device;
+  return fmt::format("{:08x}{:08x}{:08x}{:08x}", device(), device(), device(), device());
+}
+
+}  // namespace
+
+int assignment_command(const AssignmentCommand& command) {
+  const Assignment& assignment = find_assignment(command.assignment);
+  if (!command.check.empty()) return rehearse(assignment, command.check) ? 0 : 1;
+  if (command.out.empty()) throw crosscheck::InputError("assignment: expected --out FOLDER, or --check FILE.zip");
+  if (command.pack.empty()) {
+    crosscheck::OutputFolder folder(command.out, "assignment " + std::string(assignment.name));
+    write_handout(assignment, folder.path());
+    folder.finish();
+  } else {
+    write_package(assignment, secret_of(command), command.out);
+  }
+  fmt::print("{}: {}\n", command.out, assignment.title);
+  return 0;
+}
+
+}  // namespace coursework

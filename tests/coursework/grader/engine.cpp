@@ -1,0 +1,102 @@
+// engine: a student's part as a program of the engine protocol (reference/protocol/PROTOCOL.md), run in the sandbox.
+// What is in scene.json becomes the numbers of one call, and the answer the trajectory.
+#include "tests/coursework/grader/engine.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "mysim/base/files.h"
+#include "mysim/base/hash.h"
+#include "reference/protocol/crosscheck_engine.h"
+#include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/commands.h"
+#include "tests/coursework/grader/run.h"
+
+namespace coursework {
+namespace fs = std::filesystem;
+namespace {
+
+using crosscheck_engine::Scene;
+using crosscheck_engine::Vec;
+
+/// The charts' scenes have one particle that moves and take a second at most; there are a thousand runs of them, so
+/// that a loop without end must not wait for long.
+constexpr Limits engine_limits{.cpu = 10, .wall = 60, .memory = 1024, .processes = 0, .output = 1 << 18, .file = 1};
+
+Case call_of(const std::string& part, const Scene& scene) {
+  Case what;
+  what.call = "engine." + part;
+  const auto add = [&](auto... numbers) { (what.in.push_back(static_cast<double>(numbers)), ...); };
+  add(scene.step, scene.steps_per_sample, scene.samples, scene.x.size());
+  for (std::size_t i = 0; i < scene.x.size(); ++i) add(scene.mass[i], scene.drag[i], scene.pinned[i]);
+  add(scene.gravity[0], scene.gravity[1], scene.gravity[2], scene.springs.size());
+  for (const auto& s : scene.springs) add(s.a, s.b, s.stiffness, s.rest_length);
+  for (const auto* vectors : {&scene.x, &scene.v})
+    for (const Vec& v : *vectors) add(v[0], v[1], v[2]);
+  return what;
+}
+
+void require_known(const Scene& scene) {
+  scene.require_only({"springs", "drag", "gravity"});
+  if (scene.mass.empty()) crosscheck_engine::unsupported("no first-order scenes");
+  if (scene.pins_move) crosscheck_engine::unsupported("no pins that move");
+  if (scene.spring_law != "hooke") crosscheck_engine::unsupported("no springs but Hooke's");
+}
+
+/// As one word of a shell's, whatever is in it: reports may be named after files that anybody handed in.
+std::string shell_quote(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+}  // namespace
+
+int engine_command(const EngineCommand& command) {
+  const Scene scene = crosscheck_engine::read_scene(command.scene);
+  require_known(scene);
+  const auto sandbox = sandbox_named(command.sandbox);
+  const Answer answer = run_calls(*sandbox, command.program, {call_of(command.part, scene)}, engine_limits).at(0);
+  const std::size_t n = scene.x.size(), frames = static_cast<std::size_t>(scene.samples) + 1;
+  if (answer.how != How::answered)
+    throw std::runtime_error("the student's code did not answer" + (answer.detail.empty() ? "" : ": " + answer.detail));
+  if (answer.got.size() != 6 * n * frames + 2) throw std::runtime_error("the student's code answered something else");
+  std::vector<std::vector<Vec>> x(frames, std::vector<Vec>(n)), v = x;
+  for (std::size_t f = 0; f < frames; ++f)
+    for (std::size_t i = 0; i < 3 * n; ++i) {
+      x[f][i / 3][i % 3] = answer.got[6 * n * f + i];
+      v[f][i / 3][i % 3] = answer.got[6 * n * f + 3 * n + i];
+    }
+  crosscheck_engine::write_npy(command.folder + "/trajectory.npy", x);
+  crosscheck_engine::write_npy(command.folder + "/velocities.npy", v);
+  const double evaluations = answer.got[answer.got.size() - 2], seconds = answer.got.back();
+  if (!(evaluations >= 0 && evaluations < 1e15 && seconds >= 0))
+    throw std::runtime_error("the student's code answered something else");
+  crosscheck_engine::write_run_json(command.folder + "/run.json", seconds,
+                                    static_cast<long>(scene.samples) * scene.steps_per_sample,
+                                    static_cast<long>(evaluations));
+  return 0;
+}
+
+bool has_engine(const Assignment& assignment) { return fs::exists(assignment.folder() / "calls_engine.cpp"); }
+
+void keep_engine(const fs::path& program, const std::string& part, const Sandbox& sandbox, const fs::path& folder) {
+  fs::create_directories(folder);
+  const std::string name = "your-" + part;  // beside mysim's rule of the same name
+  const fs::path kept = folder / (name + ".program"), script = folder / name;
+  fs::copy_file(program, kept, fs::copy_options::overwrite_existing);
+  fs::permissions(kept, fs::perms(0755));
+  // one file that changes with the program, as those expect who keep results by it; the two may move together
+  crosscheck::write_file(
+      script,
+      fmt::format("#!/bin/sh\n# {:016x}\nexec {} engine \"$(dirname -- \"$0\")\"/{} {} \"$1\" \"$2\" --lane {}\n",
+                  crosscheck::Fnv1a::of(content_of_file(program)),
+                  shell_quote(fs::read_symlink("/proc/self/exe").string()), shell_quote(kept.filename().string()), part,
+                  sandbox.name()));
+  fs::permissions(script, fs::perms(0755));
+}
+
+}  // namespace coursework

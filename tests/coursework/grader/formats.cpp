@@ -1,0 +1,303 @@
+// The table of formats: text, Gradescope, JUnit, Autolab.
+#include "tests/coursework/grader/formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+#include "mysim/base/json.h"
+#include "mysim/base/text.h"
+#include "tests/coursework/grader/result.h"
+
+namespace coursework {
+namespace {
+
+/// Length of the UTF-8 sequence that begins at i; 0 where none does.
+size_t sequence(const std::string& text, size_t i) {
+  auto byte = [&](size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u; };
+  const unsigned first = byte(i);
+  const size_t length = first < 0x80                      ? 1
+                        : first >= 0xc2 && first < 0xe0   ? 2
+                        : first >= 0xe0 && first < 0xf0   ? 3
+                        : first >= 0xf0 && first <= 0xf4u ? 4
+                                                          : 0;
+  std::uint32_t code = length < 2 ? first : first & (0x7fu >> length);
+  for (size_t k = 1; k < length; ++k) {
+    if ((byte(i + k) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i + k) & 0x3f);
+  }
+  constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
+  const bool surrogate = code >= 0xd800 && code < 0xe000, never = code == 0xfffe || code == 0xffff;
+  return length > 0 && (code < least[length] || code > 0x10ffff || surrogate || never) ? 0 : length;
+}
+
+}  // namespace
+
+std::string clean(const std::string& text) {
+  std::string out;
+  for (size_t i = 0; i < text.size();) {
+    const size_t length = sequence(text, i);
+    const unsigned char c = static_cast<unsigned char>(text[i]);
+    if (length == 0 || (c < 0x20 && c != '\t' && c != '\n') || c == 0x7f)
+      out += "\xef\xbf\xbd";
+    else
+      out.append(text, i, length);
+    i += std::max<size_t>(length, 1);
+  }
+  return out;
+}
+
+std::string feedback_on(const Result& result, const TestResult& test, const Texts& common) {
+  std::string out;
+  for (const std::string& line : lines_on(result, test, common)) out += (out.empty() ? "" : "\n") + line;
+  return clean(out);
+}
+
+std::string summary_of(const Result& result, const Texts& common) {
+  int tests = 0, good = 0, hidden = 0;
+  double points = 0, earned = 0;
+  for (const TestResult& test : result.tests) {
+    if (test.hidden) {
+      ++hidden;
+      continue;
+    }
+    ++tests, good += passed(test);
+    points += test.points, earned += test.earned;
+  }
+  std::string out;
+  for (const std::string& line : result.preflight) out += line + "\n";
+  out += common.fill("total", points_text(earned), points_text(points)) + "\n";
+  const std::string later = std::to_string(hidden);
+  out += good == tests ? common.fill("public_done", later)
+                       : common.fill("public_now", std::to_string(good), std::to_string(tests), later);
+  if (!result.complete) out += "\n" + common.of("page.not_done");
+  return clean(out);
+}
+
+namespace {
+
+using crosscheck::Json;
+
+std::string base64(const std::string& bytes) {
+  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned three = 0;
+    for (size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (int k = 0; k < 4; ++k) out += digits[three >> (18 - 6 * k) & 63];
+  }
+  for (size_t k = 0; k < (3 - bytes.size() % 3) % 3; ++k) out[out.size() - 1 - k] = '=';
+  return out;
+}
+
+std::string html(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const std::string_view as = c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : "";
+    as.empty() ? out.push_back(c) : void(out += as);
+  }
+  return out;
+}
+
+/// With a plot the text is HTML; the plot is an image of its own there, which can neither run nor restyle anything.
+void put_output(Json& to, const TestResult& test, const std::string& text) {
+  to["output"] = test.plot.empty() ? text
+                                   : "<pre>" + html(text) + "</pre><img alt=\"your numbers and the right ones\" " +
+                                         "src=\"data:image/svg+xml;base64," + base64(test.plot) + "\">";
+  to["output_format"] = test.plot.empty() ? "text" : "html";
+}
+
+Json gradescope_test(const Result& result, const TestResult& test, const Texts& common) {
+  Json out{{"score", test.earned},
+           {"max_score", test.points},
+           {"status", passed(test) ? "passed" : "failed"},
+           {"name", clean(test.title + (test.hidden ? " (" + common.of("hidden") + ")" : ""))},
+           {"name_format", "text"},
+           {"number", test.id}};
+  put_output(out, test, feedback_on(result, test, common));
+  out["tags"] = test.concepts;
+  out["visibility"] = test.hidden ? "after_published" : "visible";
+  out["extra_data"] = {{"part", test.part}, {"hidden", test.hidden}, {"seconds", test.seconds}};
+  return out;
+}
+
+}  // namespace
+
+std::string gradescope(const Result& result, const Texts& common) {
+  double earned = 0, seconds = 0, shown = 0;
+  Json tests = Json::list();
+  for (const TestResult& test : result.tests) {
+    tests.push(gradescope_test(result, test, common));
+    earned += test.earned;
+    seconds += test.seconds;
+    if (!test.hidden) shown += test.earned;
+  }
+  const Json out{
+      {"score", earned},
+      {"execution_time", static_cast<long>(std::ceil(seconds))},
+      {"output", summary_of(result, common)},
+      {"output_format", "text"},
+      {"test_output_format", "text"},
+      {"test_name_format", "text"},
+      {"visibility", "visible"},
+      // the harness's own output; nothing of the student's program is in it, and it may name hidden tests
+      {"stdout_visibility", "hidden"},
+      {"extra_data",
+       {{"assignment", result.assignment},
+        {"seed", result.secret ? "secret" : std::to_string(result.seed)},
+        {"lane", result.sandbox},
+        {"complete", result.complete}}},
+      {"tests", std::move(tests)},
+      // public points alone: a leaderboard is seen before the grades are
+      {"leaderboard", Json::list(Json{{"name", "Public points"}, {"value", shown}, {"order", "desc"}})},
+  };
+  return out.dump(2) + "\n";
+}
+
+namespace {
+
+std::string xml(const std::string& text) {
+  std::string out;
+  for (const char c : clean(text)) switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\n':  // kept in attributes too
+        out += "&#10;";
+        break;
+      default:
+        out += c;
+    }
+  return out;
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+struct Suite {
+  std::string name, cases;
+  int tests = 0, failures = 0, errors = 0, skipped = 0;
+  double seconds = 0;
+  std::string counts() const {
+    return fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\"", tests, failures,
+                       errors, skipped, seconds);
+  }
+};
+
+void add_test(Suite& suite, const Result& result, const TestResult& test, const Texts& common) {
+  ++suite.tests;
+  std::string inside;
+  if (test.hidden) {
+    ++suite.skipped;
+    inside = fmt::format("<skipped message=\"{}\"/>", xml(common.of("hidden_later")));
+  } else if (!passed(test)) {
+    ++suite.failures;
+    inside = fmt::format("<failure type=\"wrong\" message=\"{}\">{}</failure>", xml(first_line(test.said)),
+                         xml(feedback_on(result, test, common)));
+  }
+  // the time of a hidden test may tell how it went
+  const double seconds = test.hidden ? 0 : test.seconds;
+  suite.seconds += seconds;
+  suite.cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{} {}{}\" time=\"{:.3f}\">{}</testcase>\n",
+                             xml(result.assignment), xml(test.part), xml(test.id), xml(test.title),
+                             test.hidden ? " (" + xml(common.of("hidden")) + ")" : "", seconds, inside);
+}
+
+/// Files and compiler, as a suite of one test.
+Suite preflight_of(const Result& result) {
+  Suite suite{"preflight", ""};
+  suite.tests = 1;
+  std::string inside, lines;
+  for (const std::string& line : result.preflight) lines += line + "\n";
+  if (!lines.empty()) {
+    suite.errors = 1;
+    inside = fmt::format("<error type=\"preflight\" message=\"{}\">{}</error>", xml(first_line(lines)), xml(lines));
+  }
+  suite.cases =
+      fmt::format("    <testcase classname=\"{}.preflight\" name=\"files and compiler\" time=\"0.000\">{}</testcase>\n",
+                  xml(result.assignment), inside);
+  return suite;
+}
+
+}  // namespace
+
+std::string junit(const Result& result, const Texts& common) {
+  std::vector<Suite> suites = {preflight_of(result)};
+  for (const TestResult& test : result.tests) {
+    auto suite = std::find_if(suites.begin() + 1, suites.end(), [&](const Suite& s) { return s.name == test.part; });
+    if (suite == suites.end()) suite = suites.insert(suite, {test.part, ""});
+    add_test(*suite, result, test, common);
+  }
+  Suite all;
+  std::string body;
+  for (const Suite& suite : suites) {
+    all.tests += suite.tests, all.failures += suite.failures, all.errors += suite.errors;
+    all.skipped += suite.skipped, all.seconds += suite.seconds;
+    body +=
+        fmt::format("  <testsuite name=\"{}\" {}>\n{}  </testsuite>\n", xml(suite.name), suite.counts(), suite.cases);
+  }
+  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"{}\" {}>\n{}</testsuites>\n",
+                     xml(result.assignment), all.counts(), body);
+}
+
+using crosscheck::Json;
+
+std::string autolab(const Result& result, const Texts& common) {
+  std::string text = summary_of(result, common) + "\n";
+  std::vector<std::pair<std::string, double>> problems;
+  double shown = 0, hidden = 0;
+  for (const TestResult& test : result.tests) {
+    if (test.hidden) {
+      hidden += test.earned;
+      continue;
+    }
+    shown += test.earned;
+    auto problem = std::find_if(problems.begin(), problems.end(), [&](const auto& p) { return p.first == test.part; });
+    if (problem == problems.end()) problem = problems.insert(problem, {test.part, 0});
+    problem->second += test.earned;
+    text += fmt::format("\n{} {}: {}\n", test.id, clean(test.title),
+                        common.fill("points", points_text(test.earned), points_text(test.points)));
+    if (!passed(test)) text += feedback_on(result, test, common) + "\n";
+  }
+  Json scores;
+  for (const auto& [problem, points] : problems) scores[problem] = points;
+  scores["hidden"] = hidden;
+  const Json line{{"scores", std::move(scores)}, {"scoreboard", Json::list(shown)}};
+  return text + "\n" + line.dump() + "\n";
+}
+
+std::span<const Format> formats() {
+  static constexpr Format table[] = {
+      {"text", "result.txt", text_of, "plain text for the terminal, hidden tests included"},
+      {"gradescope", "results.json", gradescope, "Gradescope's results.json"},
+      {"junit", "junit.xml", junit, "JUnit XML, for GitHub Classroom and continuous integration"},
+      {"autolab", "autolab.txt", autolab, "feedback, and Autolab's scores on the last line"},
+  };
+  return table;
+}
+
+const Format& find_format(const std::string& name) {
+  std::string there;
+  std::vector<std::string> names;
+  for (const Format& format : formats()) {
+    if (format.name == name) return format;
+    there += (there.empty() ? "" : ", ") + std::string(format.name);
+    names.emplace_back(format.name);
+  }
+  throw std::invalid_argument("unknown format '" + name + "'; expected one of: " + there +
+                              crosscheck::did_you_mean(name, names));
+}
+
+}  // namespace coursework

@@ -1,0 +1,261 @@
+// The table of sandboxes and the three of them: bubblewrap, another user, limits only.
+#include "tests/coursework/grader/sandbox.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/text.h"
+#include "tests/coursework/grader/seccomp.h"
+#include "tests/coursework/grader/spawn.h"
+#include "tests/coursework/grader/staging.h"
+
+namespace coursework {
+namespace {
+
+class BareSandbox final : public Sandbox {
+ public:
+  std::string_view name() const override { return "bare"; }
+  std::string_view says() const override {
+    return "time, memory, processes and output are limited; nothing else is kept out: it can read and change what you "
+           "can.";
+  }
+
+  End run(const Job& job) const override {
+    StagingFolder staging(job, 0);
+    SpawnOptions start;
+    start.command = job.command;
+    start.environment = {"PATH=/usr/bin:/bin", "LANG=C", "HOME=" + staging.own().string(),
+                         "TMPDIR=" + staging.own().string()};
+    start.folder = job.writable.empty() ? staging.own() : job.writable;
+    // The filter only bounds what it starts here: a limit on processes would count all that its user, you, runs.
+    start.filter = job.limits.processes > 0 ? std::string() : none_;
+    start.input = job.input;
+    start.limits = job.limits;
+    start.processes = -1;
+    End end = classify(spawn(start), job.limits, false);
+    staging.give_back();
+    return end;
+  }
+
+ private:
+  std::string none_ = filter_program({.creates = true});
+};
+
+}  // namespace
+
+std::unique_ptr<Sandbox> bare_sandbox() { return std::make_unique<BareSandbox>(); }
+
+namespace {
+
+constexpr const char* bwrap = "/usr/bin/bwrap";
+constexpr const char* system_folders[] = {"/usr", "/bin", "/lib", "/lib64", "/etc/alternatives"};
+
+/// A file in memory, under a number above those that the program gets.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::string& content) {
+    const int low = memfd_create("crosscheck", MFD_CLOEXEC);
+    fd_ = fcntl(low, F_DUPFD_CLOEXEC, 32);
+    close(low);
+    if (fd_ < 0 || pwrite(fd_, content.data(), content.size(), 0) != static_cast<ssize_t>(content.size()))
+      throw std::runtime_error(fmt::format("no memory file: {}", std::strerror(errno)));
+  }
+  ~MemoryFile() { close(fd_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  int get() const { return fd_; }
+  std::string content() const {
+    std::string text(4096, '\0');
+    const ssize_t got = pread(fd_, text.data(), text.size(), 0);
+    text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+    return text;
+  }
+
+ private:
+  int fd_;
+};
+
+std::vector<std::string> arguments(const Job& job, const StagingFolder& staging) {
+  std::vector<std::string> all{bwrap, "--unshare-all", "--die-with-parent", "--new-session", "--cap-drop",
+                               "ALL", "--hostname",    "sandbox",           "--clearenv"};
+  const auto add = [&all](std::initializer_list<std::string> more) { all.insert(all.end(), more); };
+  for (const char* folder : system_folders) add({"--ro-bind-try", folder, folder});
+  // bwrap's own first process runs inside under the same user and without the filter: who has /proc could write to its
+  // memory. Compilers are shown it, students' programs are not.
+  if (job.limits.processes > 0) add({"--proc", "/proc"});
+  // Four times what one file may have: several files, and yet an end.
+  add({"--dev", "/dev", "--size", std::to_string(4 * (job.limits.file << 20)), "--tmpfs", "/tmp"});
+  for (const auto& folder : job.readable) add({"--ro-bind", staging.of(folder).string(), folder.string()});
+  if (!job.writable.empty()) add({"--bind", staging.of(job.writable).string(), job.writable.string()});
+  add({"--remount-ro", "/dev", "--remount-ro", "/"});
+  add({"--setenv", "PATH", "/usr/bin:/bin", "--setenv", "LANG", "C", "--setenv", "HOME", "/tmp", "--setenv", "TMPDIR",
+       "/tmp"});
+  add({"--chdir", job.writable.empty() ? "/tmp" : job.writable.string()});
+  add({"--seccomp", "4", "--json-status-fd", "5", "--"});
+  all.insert(all.end(), job.command.begin(), job.command.end());
+  return all;
+}
+
+class BwrapSandbox final : public Sandbox {
+ public:
+  std::string_view name() const override { return "bwrap"; }
+  std::string_view says() const override {
+    return "no network, no files but the system's own, read only, its own /tmp, and no other process in sight.";
+  }
+
+  End run(const Job& job) const override {
+    if (access(bwrap, X_OK) != 0) throw std::runtime_error("bubblewrap is not installed");
+    // Root's own number would lift the limit on processes, and make of any leak a leak of everything.
+    std::optional<SandboxUser> user;
+    if (geteuid() == 0) user.emplace();
+    StagingFolder staging(job, user ? user->id() : 0);
+    const MemoryFile filter(job.limits.processes > 0 ? some_ : none_), status("");
+    SpawnOptions start;
+    start.command = arguments(job, staging);
+    start.folder = "/";
+    start.user = user ? user->id() : 0;
+    start.passed = {filter.get(), status.get()};
+    start.input = job.input;
+    start.limits = job.limits;
+    // bwrap itself, its first process inside, and the program. Without a user of its own all that its user, you, runs
+    // would count as well: then the clock and the end of the namespace are the limit.
+    start.processes = user ? job.limits.processes + 3 : -1;
+    ProcessResult ended = spawn(start);
+    const bool stopped = ended.wall || ended.output;
+    if (!stopped && status.content().find("exit-code") == std::string::npos && WIFEXITED(ended.status))
+      throw std::runtime_error(ended.captured_output.empty()
+                                   ? "bwrap does not run"
+                                   : ended.captured_output.substr(0, ended.captured_output.find('\n')));
+    staging.give_back();
+    return classify(std::move(ended), job.limits, true);
+  }
+
+ private:
+  std::string none_ = filter_program({.creates = true}), some_ = filter_program({.starts = true, .creates = true});
+};
+
+}  // namespace
+
+std::unique_ptr<Sandbox> bwrap_sandbox() { return std::make_unique<BwrapSandbox>(); }
+
+namespace {
+
+class UidSandbox final : public Sandbox {
+ public:
+  std::string_view name() const override { return "uid"; }
+  std::string_view says() const override {
+    return "each run is another user who reaches no folder of mode 0700 and no network, and of other processes no more "
+           "than how they were called; what is open to all on this machine it can read.";
+  }
+
+  End run(const Job& job) const override {
+    if (geteuid() != 0) throw std::runtime_error("it needs root, to become another user for each run");
+    const SandboxUser user;
+    StagingFolder staging(job, user.id());
+    SpawnOptions start;
+    start.command = staging.command();
+    start.environment = {"PATH=/usr/bin:/bin", "LANG=C", "HOME=" + staging.own().string(),
+                         "TMPDIR=" + staging.own().string()};
+    start.folder = job.writable.empty() ? staging.own() : staging.of(job.writable);
+    start.user = user.id();
+    // Nothing bounds what all its files hold together: without a folder of its own it makes none.
+    start.filter = filter_program({job.limits.processes > 0, !job.writable.empty()});
+    start.input = job.input;
+    start.limits = job.limits;
+    start.processes = job.limits.processes + 1;
+    End end = classify(spawn(start), job.limits, false);
+    staging.give_back();
+    return end;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Sandbox> uid_sandbox() { return std::make_unique<UidSandbox>(); }
+
+namespace {
+
+struct Row {
+  std::string_view name;
+  std::unique_ptr<Sandbox> (*make)();
+};
+
+// In the order in which they are tried. `bare` is never chosen by a probe.
+constexpr Row sandboxes[] = {{"bwrap", bwrap_sandbox}, {"uid", uid_sandbox}};
+
+constexpr std::string_view no_sandbox_means =
+    "With --no-sandbox submissions run as you: they can read and change whatever you can, the tests and the results "
+    "among it, and use the network; only time, memory, processes and output stay limited. Do that for code you trust, "
+    "or in a virtual machine that you throw away.";
+
+/// Runs a shell in the sandbox. Empty where it runs there, sees no secret of ours and cannot start a process; else what
+/// is wrong.
+std::string lacks(const Sandbox& sandbox) {
+  const PrivateFolder secret(0700);
+  try {
+    Job job;
+    job.command = {"/bin/sh", "-c",
+                   R"(if [ -r "$0" ]; then echo sees >&3; else echo blind >&3; fi; (true) && echo forks >&3)",
+                   secret.path().string()};
+    const End end = sandbox.run(job);
+    if (end.answers == "blind\n") return {};
+    if (end.answers.find("sees") == 0) return "a program in it still reads folders of mode 0700";
+    if (end.answers.find("forks") != std::string::npos) return "a program in it still starts others";
+    return end.captured_output.empty() ? "a shell does not run in it"
+                                       : end.captured_output.substr(0, end.captured_output.find('\n'));
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Sandbox> choose_sandbox(const std::string& named, bool unsafe) {
+  if (named == "bare" || (named.empty() && unsafe)) {
+    if (unsafe) return bare_sandbox();
+    throw std::runtime_error(fmt::format("lane bare needs --no-sandbox as well. {}", no_sandbox_means));
+  }
+  std::string reasons, names;
+  bool known = false;
+  for (const Row& row : sandboxes) {
+    names += fmt::format("{}, ", row.name);
+    if (!named.empty() && named != row.name) continue;
+    known = true;
+    auto sandbox = row.make();
+    const std::string why = lacks(*sandbox);
+    if (why.empty()) return sandbox;
+    reasons += fmt::format("  {}: {}\n", row.name, why);
+  }
+  if (!known)
+    throw crosscheck::InputError(fmt::format("--lane {}: there is no such lane; expected one of: {}bare{}", named,
+                                             names, crosscheck::did_you_mean(named, {"bwrap", "uid", "bare"})));
+  throw std::runtime_error(
+      fmt::format("Nothing here keeps a submission away from your files, so it is not run:\n{}"
+                  "Install bubblewrap where user namespaces are allowed, or run the grader as root.\n{}",
+                  reasons, no_sandbox_means));
+}
+
+std::unique_ptr<Sandbox> sandbox_named(const std::string& name) {
+  if (name == "bare") return bare_sandbox();
+  for (const Row& row : sandboxes)
+    if (row.name == name) return row.make();
+  throw crosscheck::InputError(fmt::format("--lane {}: there is no such lane; expected bwrap, uid or bare{}", name,
+                                           crosscheck::did_you_mean(name, {"bwrap", "uid", "bare"})));
+}
+
+bool sees(const Sandbox& sandbox, const std::filesystem::path& secret) {
+  Job job;
+  job.command = {"/bin/sh", "-c", R"([ -r "$0" ] && echo sees >&3)", std::filesystem::absolute(secret).string()};
+  return sandbox.run(job).answers == "sees\n";
+}
+
+}  // namespace coursework

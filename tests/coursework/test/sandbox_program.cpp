@@ -1,0 +1,145 @@
+// A program that does one thing up to a limit or beyond it, for sandbox_test: lane_program WHAT AMOUNT. It writes
+// `done` on descriptor 3 where it came to its end.
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <sys/ipc.h>
+#include <sys/mman.h>
+#include <sys/msg.h>
+#include <sys/prctl.h>
+#include <sys/ptrace.h>
+#include <sys/shm.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <functional>
+#include <map>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace {
+
+void say(const std::string& text) {
+  if (write(3, text.data(), text.size()) < 0) _exit(1);
+}
+
+int fill(int fd, long bytes) {
+  const std::string block(1024, 'x');
+  for (long left = bytes; left > 0; left -= 1024)
+    if (write(fd, block.data(), block.size()) < 0) return errno;
+  return 0;
+}
+
+void burn(double seconds) {
+  while (static_cast<double>(std::clock()) < seconds * CLOCKS_PER_SEC) {
+  }
+}
+
+/// As many sleepers as can be had, at most `count`.
+long sleepers(long count) {
+  for (long i = 0; i < count; ++i) {
+    const pid_t child = fork();
+    if (child < 0) return i;
+    if (child == 0) {
+      setsid();
+      pause();
+    }
+  }
+  return count;
+}
+
+void tell(const char* what, long result) {
+  if (result < 0)
+    say(std::string(what) + ": " + std::strerror(errno) + "\n");
+  else
+    say(std::string(what) + ": " + std::to_string(result) + "\n");
+}
+
+void reach_out() {
+  tell("socket", socket(AF_INET, SOCK_STREAM, 0));
+  tell("unix", socket(AF_UNIX, SOCK_STREAM, 0));
+  tell("ptrace", ptrace(PTRACE_ATTACH, getppid(), nullptr, nullptr));
+  char byte;
+  const iovec here{&byte, 1}, there{reinterpret_cast<void*>(0x1000), 1};
+  tell("process_vm_readv", syscall(SYS_process_vm_readv, getppid(), &here, 1, &there, 1, 0));
+  tell("unshare", syscall(SYS_unshare, 0x10000000));
+  tell("clone", syscall(SYS_clone, 0x10000000 | SIGCHLD, nullptr, nullptr, nullptr, 0L));
+  tell("clone3", syscall(SYS_clone3, nullptr, 0));
+  tell("keyctl", syscall(SYS_keyctl, 0, 0, 0, 0, 0));
+  tell("bpf", syscall(SYS_bpf, 0, nullptr, 0));
+  tell("perf_event_open", syscall(SYS_perf_event_open, nullptr, 0, 0, 0, 0));
+  tell("userfaultfd", syscall(SYS_userfaultfd, 0));
+  tell("io_uring_setup", syscall(SYS_io_uring_setup, 1, nullptr));
+  tell("shmget", shmget(IPC_PRIVATE, 4096, IPC_CREAT | 0600));
+  tell("msgget", msgget(IPC_PRIVATE, IPC_CREAT | 0600));
+  tell("memfd_create", memfd_create("x", 0));
+  tell("prctl", prctl(PR_SET_PDEATHSIG, 0));
+  tell("setuid", setuid(0));
+}
+
+const std::map<std::string, std::function<int(const char*)>> things = {
+    {"cpu", [](const char* amount) { return burn(std::atof(amount)), 0; }},
+    {"swallow", [](const char* amount) { return std::signal(SIGXCPU, SIG_IGN), burn(std::atof(amount)), 0; }},
+    {"sleep", [](const char* amount) { return usleep(static_cast<useconds_t>(1e6 * std::atof(amount))); }},
+    {"memory",
+     [](const char* amount) {
+       std::set_new_handler([] { say("memory\n"), _exit(1); });
+       std::vector<char> block(std::strtoul(amount, nullptr, 10) << 20);
+       return block[block.size() / 2] != 0 ? 1 : 0;
+     }},
+    {"throw", [](const char* amount) { return std::vector<char>(std::strtoul(amount, nullptr, 10) << 20)[0] + 0; }},
+    {"processes", [](const char* amount) { return sleepers(std::atol(amount)) == std::atol(amount) ? 0 : 1; }},
+    {"answers", [](const char* amount) { return fill(3, std::atol(amount) << 10); }},
+    {"chatter", [](const char* amount) { return fill(2, std::atol(amount) << 10); }},
+    {"file",
+     [](const char* amount) {
+       return fill(open((std::string(std::getenv("TMPDIR")) + "/big").c_str(), O_CREAT | O_WRONLY, 0600),
+                   std::atol(amount) << 10);
+     }},
+    {"files",
+     [](const char* amount) {
+       long full = 0;  // of 1000 kB each
+       for (long i = 0; i < std::atol(amount); ++i) {
+         const std::string name = std::string(std::getenv("TMPDIR")) + "/" + std::to_string(i);
+         const int file = open(name.c_str(), O_CREAT | O_WRONLY, 0600);
+         if (file >= 0 && fill(file, 1000 << 10) == 0) ++full;
+         if (file >= 0) close(file);
+       }
+       return say(std::to_string(full) + "\n"), 1;
+     }},
+    {"signal", [](const char* amount) { return std::raise(std::atoi(amount)); }},
+    {"exit", [](const char* amount) { return std::atoi(amount); }},
+    {"leave", [](const char*) { return sleepers(2), usleep(100000); }},
+    {"killall", [](const char*) { return kill(getppid(), SIGKILL), kill(-1, SIGKILL), usleep(100000); }},
+    {"reach", [](const char*) { return reach_out(), 0; }},
+    {"litter",
+     [](const char* amount) {
+       for (const char* place : {".", "/tmp", "/var/tmp", "/dev/shm", "/run/lock"}) {
+         const std::string name = std::string(place) + "/" + amount;
+         const int file = open(name.c_str(), O_CREAT | O_WRONLY, 0600);
+         if (file >= 0) say(name + "\n"), close(file);
+       }
+       return mkfifo("pipe", 0600) | symlink("/etc/passwd", "link");
+     }},
+};
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const auto thing = things.find(count == 3 ? arguments[1] : "");
+  if (thing == things.end()) return 2;
+  const int code = thing->second(arguments[2]);
+  if (code == 0) say("done\n");
+  return code;
+}

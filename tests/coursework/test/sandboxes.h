@@ -1,0 +1,65 @@
+// The sandboxes that can be had here, for tests that hold in each.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+
+#include "tests/coursework/grader/sandbox.h"
+#include "tests/coursework/grader/staging.h"
+
+namespace coursework {
+
+/// From now on what outlives a run becomes this process's child.
+void adopt_orphans();
+/// Names of what has outlived the runs since then; it is ended.
+std::set<std::string> leftover_processes();
+
+/// A test of each sandbox; skipped, with the sandbox's reason, where there is none.
+class SandboxTest : public testing::TestWithParam<std::string> {
+ protected:
+  SandboxTest() : open_(0711) {
+    adopt_orphans();
+    try {
+      sandbox_ = choose_sandbox(GetParam(), GetParam() == "bare");
+    } catch (const std::runtime_error& error) {
+      why_ = error.what();
+    }
+  }
+  void SetUp() override {
+    if (!sandbox_) GTEST_SKIP() << why_;
+  }
+
+  /// A folder that programs in all sandboxes can be shown; the programs of this build may lie where only we reach them.
+  std::filesystem::path open_folder(const std::string& name) const {
+    const auto folder = open_.path() / name;
+    std::filesystem::create_directory(folder);
+    std::filesystem::permissions(folder, std::filesystem::perms(0755));
+    return folder;
+  }
+  Job job(const std::string& what, const std::string& amount) const {
+    const auto folder = open_folder("program");
+    std::filesystem::copy_file(SANDBOX_PROGRAM, folder / "program", std::filesystem::copy_options::skip_existing);
+    Job made;
+    made.command = {(folder / "program").string(), what, amount};
+    made.readable = {folder};
+    return made;
+  }
+  Job shell(const std::string& script) const {
+    Job made;
+    made.command = {"/bin/sh", "-c", script};
+    return made;
+  }
+  const Sandbox& sandbox() const { return *sandbox_; }
+
+ private:
+  PrivateFolder open_;
+  std::unique_ptr<Sandbox> sandbox_;
+  std::string why_;
+};
+
+}  // namespace coursework

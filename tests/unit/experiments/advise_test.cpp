@@ -1,0 +1,250 @@
+// Measures with closed forms, parameters fitted to wishes, and advice on scenes of known order.
+
+#include <fmt/ranges.h>
+
+#include <numbers>
+
+#include "experiments/advise/advice.h"
+#include "experiments/advise/dense_truth.h"
+#include "experiments/advise/fit.h"
+#include "experiments/measures.h"
+#include "experiments/scenes/scenes.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+/// A mass on a vertical spring of 1 m that starts unstretched.
+std::string mass_on_spring(const std::string& mass, const std::string& k, const std::string& more = "") {
+  return scene_text("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0, -1, 0]\nmass = " +
+                        mass + "\n[[spring]]\nends = [0, 1]\nstiffness = " + k +
+                        "\nrest = 1\n[pins]\nparticles = [0]\n" + std::string(gravity_text) + more,
+                    2, 1e-2, 20);
+}
+
+TEST(Measures, OfASpringHaveClosedForms) {
+  const double m = 0.5, k = 80, gamma = 1.5;
+  const Scene free = parse_scene(mass_on_spring("0.5", "80"), "free"),
+              damped = parse_scene(mass_on_spring("0.5", "80", "[drag]\ngamma = 1.5\n"), "damped");
+  EXPECT_NEAR(*sag_of(free), m * 9.81 / k, 1e-4 * m * 9.81 / k);
+  const double period = 2 * std::numbers::pi * std::sqrt(m / k);
+  // leapfrog at h omega = 0.2 runs (h omega)^2 / 24 fast
+  for (const double about : {period, 3 * period, period / 10})
+    EXPECT_NEAR(*period_of(free, about), period, 2e-3 * period);
+  EXPECT_NEAR(*max_stretch_of(free), 2 * m * 9.81 / k, 5e-3 * 2 * m * 9.81 / k);
+  // the energy falls as exp(-gamma t), but for a ripple of gamma / omega
+  const double settle = std::log(1e3) / gamma, ripple = 1 / std::sqrt(k / m);
+  for (const double about : {settle, settle / 2, 3 * settle})
+    EXPECT_NEAR(*settle_time_of(damped, about), settle, ripple);
+  EXPECT_FALSE(sag_of(load_scene("circle")));
+  EXPECT_FALSE(period_of(load_scene("circle"), 1));
+  EXPECT_FALSE(period_of(load_scene("projectile"), 1));  // it does not swing
+}
+
+TEST(Fit, ReachesWishesWithinTwoPercent) {
+  const double g = 9.81;
+  const auto square = [](double x) { return x * x; };
+  struct Row {
+    std::string text, unknown;
+    double expected;
+  };
+  const Row table[] = {
+      {mass_on_spring("0.5", "\"fit\"", "[wish]\nsag = 0.05\n"), "stiffness", 0.5 * g / 0.05},
+      {mass_on_spring("\"fit\"", "80", "[wish]\nsag = 0.1\n"), "mass", 80 * 0.1 / g},
+      {mass_on_spring("0.5", "\"fit\"", "[wish]\nperiod = 0.7\n"), "stiffness",
+       0.5 * square(2 * std::numbers::pi / 0.7)},
+      {mass_on_spring("0.5", "\"fit\"", "[wish]\nmax_stretch = 0.2\n"), "stiffness", 2 * 0.5 * g / 0.2},
+      {mass_on_spring("0.5", "80", "[drag]\ngamma = \"fit\"\n[wish]\nsettle_time = 3\n"), "drag rate",
+       std::log(1e3) / 3},
+  };
+  for (const Row& row : table) {
+    SCOPED_TRACE(row.text);
+    const Fitted fitted = fit_to_wishes(row.text, "wish.toml");
+    ASSERT_EQ(fitted.unknowns.size(), 1u);
+    EXPECT_EQ(fitted.unknowns[0].name, row.unknown);
+    EXPECT_NEAR(fitted.wishes[0].reached, fitted.wishes[0].wished, 0.02 * fitted.wishes[0].wished);
+    // a stiffness goes with the square of a period; the ripple of a settle time is gamma / omega, 0.1 here
+    EXPECT_NEAR(fitted.unknowns[0].value, row.expected, (row.unknown == "drag rate" ? 0.1 : 0.04) * row.expected);
+    EXPECT_FALSE(has_unknowns(fitted.toml, "fitted"));
+    EXPECT_EQ(parse_scene(fitted.toml, "wish.toml").hash, fitted.scene.hash);
+    EXPECT_EQ(answer(fitted.scene.method, fitted.scene, default_run(fitted.scene)).outcome.verdict, Verdict::ok);
+  }
+}
+
+TEST(Fit, FindsTwoAtOnce) {
+  const Fitted f = fit_to_wishes(
+      mass_on_spring("0.5", "\"fit\"", "[drag]\ngamma = \"fit\"\n[wish]\nsag = 0.05\nsettle_time = 3\n"), "two.toml");
+  ASSERT_EQ(f.wishes.size(), 2u);
+  for (const Wished& w : f.wishes) EXPECT_NEAR(w.reached, w.wished, 0.02 * w.wished) << w.name;
+  const auto stiffness =
+      std::find_if(f.unknowns.begin(), f.unknowns.end(), [](const auto& u) { return u.name == "stiffness"; });
+  ASSERT_NE(stiffness, f.unknowns.end());
+  EXPECT_NEAR(stiffness->value, 0.5 * 9.81 / 0.05, 0.02 * 0.5 * 9.81 / 0.05);
+}
+
+TEST(Fit, RefusesWhatItCannotDo) {
+  // the reader sends such a file to advise
+  EXPECT_TRUE(contains(message_of(mass_on_spring("0.5", "\"fit\"")),
+                       "spring[0].stiffness: expected a number above zero; \"fit\" is for `crosscheck advise`"));
+  EXPECT_TRUE(contains(message_of(mass_on_spring("0.5", "80", "[wish]\n")), "expected at least one of sag, period"));
+  EXPECT_TRUE(
+      contains(message_of(mass_on_spring("0.5", "80", "[wish]\nsag = 0\n")), "wish.sag: expected a number above"));
+  EXPECT_TRUE(contains(message_of(mass_on_spring("0.5", "80", "[wish]\nsags = 1\n")), "wish"));
+  struct Row {
+    std::string text;
+    std::vector<std::string> expected;
+  };
+  const Row bad[] = {
+      {mass_on_spring("0.5", "\"fit\""), {"wish: expected as many wishes", "(1: stiffness), got 0"}},
+      {mass_on_spring("\"fit\"", "\"fit\"", "[wish]\nperiod = 1\n"), {"(2: ", "stiffness", "mass", "got 1"}},
+      {mass_on_spring("0.5", "80",
+                      "[drag]\ngamma = 1\n[sphere]\ncentre = [0, -9, 0]\nradius = \"fit\"\n[wish]\nsag = 1\n"),
+       {"sphere.radius: expected a value; only stiffness, mass, drag and dashpot can be fitted"}},
+  };
+  for (const Row& row : bad) try {
+      fit_to_wishes(row.text, "bad.toml");
+      ADD_FAILURE() << row.text;
+    } catch (const InputError& e) {
+      EXPECT_TRUE(begins(e.what(), "bad.toml: "));
+      for (const std::string& part : row.expected) EXPECT_TRUE(contains(e.what(), part));
+    }
+  const Row never[] = {
+      {mass_on_spring("0.5", "\"fit\"", "[sphere]\ncentre = [0, -9, 0]\nradius = 1\n[wish]\nsag = 0.05\n"),
+       {"sag cannot be measured in this scene"}},
+      // no drag changes what a spring sags by
+      {mass_on_spring("0.5", "80", "[drag]\ngamma = \"fit\"\n[wish]\nsag = 1\n"), {"sag = 1 m cannot be reached"}},
+  };
+  for (const Row& row : never) try {
+      fit_to_wishes(row.text, "never.toml");
+      ADD_FAILURE() << row.text;
+    } catch (const CannotGuarantee& e) {
+      for (const std::string& part : row.expected) EXPECT_TRUE(contains(e.what(), part));
+    }
+}
+
+TEST(TomlDocument, ChangesATomlFileKeyByKey) {
+  TomlDocument file("a = 1\n[b]\nc = \"fit\"\n[[d]]\ne = \"fit\"\nf = 2.5\n[[d]]\ne = 3\n", "doc");
+  EXPECT_EQ(file.where("fit"), (std::vector<std::string>{"b.c", "d[0].e"}));
+  file.set("b.c", 0.1);
+  file.set("d[0].e", 1. / 3);
+  file.set("b.new", std::vector<int>{1, 2});
+  file.erase("d[].f");
+  file.erase("nothing.there");
+  const TomlDocument again(file.text(), "again");
+  EXPECT_TRUE(again.where("fit").empty());
+  EXPECT_TRUE(again.has("b.new"));
+  EXPECT_FALSE(again.has("d[0].f"));
+  EXPECT_EQ(TomlTable::parse_text(file.text(), "again").sections("d")[0].number("e"), 1. / 3);
+  EXPECT_EQ(TomlTable::parse_text(file.text(), "again").section("b").integers("new"), (std::vector<int>{1, 2}));
+  try {
+    file.set("x.y", 1.);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "doc: x: no such table");
+  }
+}
+
+TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
+  for (const auto& [name, method] :
+       {std::pair{"spring", "leapfrog"}, {"spring", "symplectic-euler"}, {"circle", "rk4"}}) {
+    const Scene scene = load_scene(name);
+    for (const double tolerance : {1e-2, 1e-4}) {
+      SCOPED_TRACE(fmt::format("{} {} {}", name, method, tolerance));
+      const Advice a = advise(scene, tolerance, {find_method(method)});
+      const Trial& t = a.trials[a.chosen];
+      EXPECT_LE(*t.error + a.error_bar, tolerance);
+      EXPECT_NEAR(a.checked, *t.error, 1e-9 * tolerance + 1e-12);
+      // order 1 at least: twice the step errs by twice as much or nearly so, and steps are whole parts of a sample
+      const auto truth = truth_of(scene, default_run(scene));
+      crosscheck::Run twice = default_run(scene);
+      twice.step = 2 * t.step;
+      const double steps = scene.duration / scene.samples / t.step;
+      if (steps > 1.5) {
+        EXPECT_GT(sup_rms(answer(method, scene, twice).trajectory, truth->trajectory), tolerance);
+      }
+      EXPECT_EQ(parse_scene(a.toml, name).method, "mysim/" + std::string(method));
+    }
+  }
+}
+
+/// Half a kilogram pulled down by 0.1 m on a spring of 1 m, 300 N/m, without gravity, with `samples` samples in twelve
+/// of its periods; in a row of springs, where more are asked for.
+Scene sampled_spring(double samples_in_a_period, int springs = 1) {
+  const double period = 2 * std::numbers::pi * std::sqrt(0.5 / 300), duration = 12 * period;
+  std::string text = "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n";
+  for (int i = 1; i <= springs; ++i)
+    text += fmt::format(
+        "[[particle]]\nposition = [{}, {}, 0]\nmass = 0.5\n[[spring]]\nends = [{}, {}]\nstiffness = 300\nrest = 1\n",
+        springs > 1 && i == springs ? 0.2 : 0., -i - (i == springs ? 0.1 : 0.), i - 1, i);
+  text += "[pins]\nparticles = [0]\n";
+  return parse_scene(scene_text(text, duration, period / 200, static_cast<int>(std::lround(12 * samples_in_a_period))),
+                     "sampled");
+}
+
+TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
+  // a sample in each period sees nothing move, one in each half period sees turning points alone; a bent row of two
+  // springs has no closed form
+  for (const auto& [scene, truth_is] : {std::pair{sampled_spring(1), Tier::exact},
+                                        {sampled_spring(2), Tier::exact},
+                                        {sampled_spring(3), Tier::exact},
+                                        {sampled_spring(1, 2), Tier::converged}})
+    for (const double tolerance : {1e-2, 1e-3}) {
+      SCOPED_TRACE(fmt::format("{} samples, {} m", scene.samples, tolerance));
+      const Advice a =
+          advise(scene, tolerance, find_methods("leapfrog,symplectic-euler,rk4,dopri5,implicit-midpoint,suzuki4"));
+      EXPECT_EQ(a.tier, truth_is);
+      // beside the truth after every one of its steps, or at 1000 times where it chooses its steps itself
+      const Scene written = parse_scene(a.toml, "sampled");
+      crosscheck::Run run = default_run(written);
+      const Method method = find_method(written.method);
+      run.samples = method.adaptive ? 1000 : static_cast<int>(std::lround(run.duration / time_grid(run).h));
+      const Trajectory dense = answer(written.method, written, run).trajectory;
+      Scene finer = scene;
+      finer.step /= 4;
+      const auto truth = truth_of(finer, {finer.step, run.duration, run.samples});
+      ASSERT_TRUE(truth);
+      const double error = largest_rms_distance(dense, truth->trajectory, a.until);
+      EXPECT_LE(error, tolerance) << written.method;
+      EXPECT_GT(error, 0.02 * tolerance) << "and no more precise than it must be: " << written.method;
+    }
+}
+
+TEST(Advise, SeesTheFastestMotionOfAScene) {
+  EXPECT_NEAR(fastest_motion(sampled_spring(1)), std::sqrt(300 / 0.5), 1e-2);
+  EXPECT_EQ(fastest_motion(load_scene("projectile")), 0);
+  // what leads a pin may be faster than what hangs on it
+  const Scene led = parse_scene(
+      mass_on_spring("0.5", "80", "[pins.motion]\namplitude = [0, 0.01, 0]\nfrequency = 40\nramp = 0.1\n"), "led");
+  EXPECT_NEAR(fastest_motion(led), 80 * std::numbers::pi, 1e-9);
+}
+
+TEST(Advise, LeavesOutOfTheModelWhatTheToleranceAllows) {
+  const Scene scene = parse_scene(mass_on_spring("0.5", "80", "[wind]\nacceleration = [0, 1e-4, 0]\n"), "breath");
+  const Advice a = advise(scene, 1e-3, {find_method("leapfrog"), find_method("rk4")});
+  EXPECT_EQ(a.left_out, std::vector<std::string>{"wind"});
+  EXPECT_FALSE(parse_scene(a.toml, "less").model.find<Wind>());
+  EXPECT_TRUE(advise(scene, 1e-6, {find_method("leapfrog"), find_method("rk4")}).left_out.empty());
+  EXPECT_TRUE(a.second);
+}
+
+TEST(Advise, SaysWhyItCannotPromise) {
+  const auto why = [](const Scene& scene, double tolerance, const std::string& methods) -> std::string {
+    try {
+      advise(scene, tolerance, find_methods(methods));
+    } catch (const CannotGuarantee& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const Scene spring = load_scene("spring");
+  EXPECT_TRUE(contains(why(spring, 1e-17, "rk4"), "the truth is known to"));
+  EXPECT_TRUE(contains(why(spring, 10, "rk4"), "nothing in the scene moves by more than"));
+  EXPECT_TRUE(contains(why(load_scene("circle"), 1e-3, "leapfrog"), "no method that was tried comes within"));
+  EXPECT_EQ(why(spring, 1e-3, "rk4"), "");
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,140 @@
+// Bullet's position-based world: the stiffness of its links, the law its networks converge to, drag and added forces.
+
+#include "experiments/experiment.h"
+#include "experiments/scenes/scenes.h"
+#include "experiments/sweep/sweep.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+Rows stiffness() { return computed(find_experiment("stiffness").points({})); }
+double number(const Table& table, size_t row, const std::string& column) {
+  const Cell& cell = table.at(row, column);
+  return std::holds_alternative<long>(cell) ? static_cast<double>(std::get<long>(cell)) : std::get<double>(cell);
+}
+
+TEST(BulletPbdStiffness, OfOneLinkIsTheFormulas) {
+  const Rows result = stiffness();
+  const Table& table = *result.table("stiffness");
+  int asked = 0;
+  for (size_t row = 0; row < table.rows.size(); ++row) {
+    const double share = number(table, row, "kLST"), deviation = number(table, row, "deviation");
+    SCOPED_TRACE(
+        fmt::format("kLST {}, h {}, n {}", share, number(table, row, "step"), number(table, row, "iterations")));
+    asked += share == 0.1 || share == 0.5;
+    EXPECT_LT(std::abs(deviation), 2e-3);  // the bound
+    // the last sweep finds the strain 1e-4 / (1 - kLST) and removes more than Hooke's share by half of that
+    EXPECT_NEAR(deviation, 0.5e-4 / (1 - share), 0.02 * 0.5e-4 / (1 - share));
+  }
+  EXPECT_EQ(asked, 18);  // 2 shares, 3 steps, 3 iterations
+}
+
+TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
+  const Rows result = stiffness();
+  const Table& table = *result.table("stiffness-network");
+  for (const double n : {1., 10.}) {
+    double largest = 0, smallest = INFINITY, at_largest = 0, at_smallest = 0, before = 0, last_slope = 0;
+    for (size_t row = 0; row < table.rows.size(); ++row) {
+      if (number(table, row, "iterations") != n) continue;
+      const double K = number(table, row, "k h^2/mu"), deviation = number(table, row, "deviation");
+      if (before != 0) {
+        EXPECT_LT(deviation, 0.5 * before) << K;  // falls with every halving of the step
+      }
+      last_slope = before / deviation, before = deviation;
+      if (K > largest) largest = K, at_largest = deviation;
+      if (K < smallest) smallest = K, at_smallest = deviation;
+    }
+    EXPECT_GT(at_largest, 0.1);
+    EXPECT_LT(at_smallest, 0.01);
+    EXPECT_GT(at_smallest, 1e-4);     // and is more than round-off
+    EXPECT_NEAR(last_slope, 4, 0.2);  // as k h^2/mu, to first order
+  }
+}
+
+/// A soft cloth of 16 x 16, let go upright: its springs stretch by about a sixth.
+Scene soft_cloth() {
+  return small_scene(std::string("[grid]\nsize = [16, 16]\norigin = [0, 0, 0]\nu = [0.95, 0, 0]\nv = [0, -0.95, 0]\n"
+                                 "mass = 5\n[grid.stiffness]\nstructural = 200\nshear = 200\nbend = 20\n[pins]\n"
+                                 "particles = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15]\n"
+                                 "[drag]\ngamma = 2\n") +
+                         gravity_text,
+                     1, 1e-3, 30);
+}
+
+Trajectory with_law(Scene scene, SpringLaw law, const std::string& method, double step) {
+  scene.model.find<Springs>()->law = law;
+  const MethodRun a = answer(method, scene, {step, scene.duration, scene.samples});
+  EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
+  return a.trajectory;
+}
+
+TEST(BulletPbdNetwork, ConvergesToTheLinkLawAndNotToHookes) {
+  const Scene scene = soft_cloth();
+  const Trajectory link = with_law(scene, SpringLaw::bullet_link, "rk4", 2.5e-4),
+                   hooke = with_law(scene, SpringLaw::hooke, "rk4", 2.5e-4);
+  std::vector<double> from_link, from_hooke;
+  for (const double h : {1e-3, 5e-4, 2.5e-4}) {
+    const Trajectory pbd = with_law(scene, SpringLaw::hooke, "bullet/pbd", h);
+    from_link.push_back(sup_rms(pbd, link)), from_hooke.push_back(sup_rms(pbd, hooke));
+  }
+  fmt::print("soft cloth: {:.3g} to {:.3g} m from the link law, {:.3g} to {:.3g} m from Hooke's\n", from_link.front(),
+             from_link.back(), from_hooke.front(), from_hooke.back());
+  // first order: half the step, half the error; k h^2/mu = 0.02 adds its square at the largest step
+  for (size_t i = 1; i < from_link.size(); ++i) EXPECT_NEAR(slope(from_link[i - 1], from_link[i]), 1, 0.1);
+  EXPECT_LE(from_link.back(), from_link.front() / 4);  // the bound
+  EXPECT_GT(from_hooke.back(), from_hooke.front() / 2);
+  EXPECT_GT(from_hooke.back(), 5 * from_link.back());
+}
+
+TEST(BulletPbdDrag, OfAFreeParticleIsExact) {
+  for (const double gamma : {0.5, 4., 60.})
+    for (const double h : {1. / 60, 1e-3}) {
+      SCOPED_TRACE(fmt::format("gamma {}, h {}", gamma, h));
+      const Scene scene = small_scene(fmt::format(
+          "[[particle]]\nposition = [0, 0, 0]\nmass = 0.3\nvelocity = [1, -2, 0.5]\n[drag]\ngamma = {}\n", gamma));
+      const int steps = 60;
+      const Trajectory path = answer("bullet/pbd", scene, {h, steps * h, steps}).trajectory;
+      // velocities are differences of positions over h: each step rounds them by an ulp of the way over h
+      const double rounding = steps * eps * path.x.back().norm() / h;
+      for (int i = 0; i <= steps; ++i)
+        EXPECT_LE((path.v[i] - std::exp(-gamma * i * h) * scene.start.v).norm(), rounding) << i;
+    }
+}
+
+TEST(BulletPbdDashpot, ConvergesToTheDampedOscillatorAtFirstOrder) {
+  // strains of 1e-4, where the link law is Hooke's to 5e-5
+  const Scene scene = small_scene(
+      "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [0, -1.0001, 0]\nmass = 1\n[[spring]]\n"
+      "ends = [0, 1]\nstiffness = 100\nrest = 1\ndashpot = 3\n[pins]\nparticles = [0]\n");
+  const auto truth = truth_of(scene, {1e-3, 1, 20});
+  ASSERT_TRUE(truth && truth->tier == Tier::exact);
+  std::vector<double> error;
+  for (const double h : {2e-3, 1e-3, 5e-4, 2.5e-4})
+    error.push_back(sup_rms(answer("bullet/pbd", scene, {h, 1, 20}).trajectory, truth->trajectory));
+  for (size_t i = 1; i < error.size(); ++i) EXPECT_NEAR(slope(error[i - 1], error[i]), 1, 0.1) << i;
+  EXPECT_LT(error.back(), 2e-6);  // a fiftieth of the amplitude
+}
+
+TEST(BulletPbdForces, AddedToNodesConvergeToTheScenesSolution) {
+  Scene gusts = small_cloth(), air = small_cloth_in_air();
+  std::erase_if(air.model.terms, [](const Term& t) { return std::holds_alternative<Dashpots>(t); });
+  Scene dashpots = small_cloth_in_air();
+  std::erase_if(dashpots.model.terms, [](const Term& t) { return std::holds_alternative<Aerodynamics>(t); });
+  for (const auto& [what, scene] : {std::pair{"gusts", gusts}, {"air", air}, {"dashpots", dashpots}}) {
+    const Trajectory truth = with_law(scene, SpringLaw::bullet_link, "rk4", 5e-4);
+    std::vector<double> error;
+    for (const double h : {1e-3, 5e-4, 2.5e-4})
+      error.push_back(sup_rms(with_law(scene, SpringLaw::bullet_link, "bullet/pbd", h), truth));
+    fmt::print("{}: {:.3g}, {:.3g}, {:.3g} m\n", what, error[0], error[1], error[2]);
+    // first order; two-sided: what does not come with the step would stop the fall
+    EXPECT_NEAR(slope(error[1], error[2]), 1, 0.15) << what;
+    EXPECT_LT(error[2], 2e-3) << what;
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,106 @@
+// Contact: what the in-house rule converges to, for as long as an order is seen; and statistics where it is not.
+
+#include "experiments/experiment.h"
+#include "experiments/metrics.h"
+#include "experiments/scenes/scenes.h"
+#include "reference/truth/exact/exact.h"
+#include "reference/truth/truth.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+TEST(ContactTruth, FollowsADrapeFor300MillisecondsAndAFinerRunLiesWithinTheBar) {
+  const Scene scene = load_scene("cloth-sphere");
+  const auto truth = contact_truth(scene, default_run(scene));
+  ASSERT_TRUE(truth);
+  EXPECT_TRUE(truth->under_contact_rule);
+  EXPECT_EQ(truth->tier, Tier::converged);
+  EXPECT_NEAR(truth->until, scene.window, 1e-9);  // 0.3 s after the first touch
+  EXPECT_EQ(truth->trajectory.t.back(), truth->until);
+  EXPECT_EQ(truth->error_bars.size(), truth->trajectory.t.size());
+  EXPECT_TRUE(contains(truth->how, "under the in-house contact rule; other rules differ"));
+  EXPECT_LT(truth->error_bar, 1e-4);  // a fifth of the scene's tolerance
+  const Trajectory finer =
+      trajectory_of(stepper("leapfrog"), scene, {scene.step / 64, truth->until, truth->trajectory.frames() - 1});
+  const double off = sup_rms(truth->trajectory, finer);
+  fmt::print("drape: bar {:.2g} m, {:.2g} m from half the step\n", truth->error_bar, off);
+  EXPECT_LT(off, truth->error_bar);
+  EXPECT_GT(off, truth->error_bar / 40);
+}
+
+TEST(ContactTruth, OfOneParticleCoversTheExactSlide) {
+  const Scene scene = load_scene("slide");
+  const auto truth = contact_truth(scene, default_run(scene));
+  const auto exact = exact_solution(scene);
+  ASSERT_TRUE(truth && exact);
+  EXPECT_EQ(truth->until, scene.window);  // one particle is followed to the end
+  double error = 0;
+  for (int i = 0; i < truth->trajectory.frames(); ++i)
+    error = std::max(error, rms_distance(truth->trajectory.x[i], exact->at(truth->trajectory.t[i]).x));
+  EXPECT_LT(error, truth->error_bar);
+  EXPECT_GT(error, truth->error_bar / 40);
+}
+
+TEST(ContactTruth, IsNoneWhereNothingTouchesOrNoOrderIsSeen) {
+  const Scene drape = load_scene("cloth-sphere");
+  EXPECT_FALSE(contact_truth(drape, {1e-3, 0.1, 10}));  // it still falls
+  const Scene jelly = load_scene("jelly");
+  EXPECT_FALSE(contact_truth(jelly, default_run(jelly)));  // its corners hit the ball one after the other
+}
+
+TEST(ContactTruth, IsCalledADifferenceInTheTables) {
+  Request request;
+  request.scenes = {load_scene("cloth-carried")};
+  request.scenes[0].duration = 0.4;
+  request.scenes[0].samples = 20;
+  request.scenes[0].window = 0.4;
+  request.methods = find_methods("leapfrog,symplectic-euler");
+  Results answers;
+  Rows result;
+  engines_on(request, request.scenes[0], answers, result);
+  const Table& summary = *result.table("engines");
+  for (size_t i = 0; i < summary.rows.size(); ++i) {
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(summary.at(i, "largest error")));
+    EXPECT_GT(std::get<double>(summary.at(i, "largest difference from converged contact")), 0);
+    EXPECT_NEAR(std::get<double>(summary.at(i, "truth until")), 0.36, 1e-9);  // touches at 0.06 s
+    EXPECT_EQ(std::get<std::string>(summary.at(i, "truth tier")), "converged, in-house contact rule");
+  }
+  const Table& rows = *result.table("cloth-carried-engines");
+  for (size_t i = 0; i < rows.rows.size(); ++i) {
+    EXPECT_TRUE(std::holds_alternative<std::monostate>(rows.at(i, "error")));
+    EXPECT_EQ(std::holds_alternative<double>(rows.at(i, "difference from converged contact")),
+              std::get<double>(rows.at(i, "t")) < 0.361);
+  }
+}
+
+TEST(ContactStatistics, SpreadIsThatOfThePerturbationAndSeedsAreFixed) {
+  Scene scene = load_scene("jelly");
+  scene.duration = 1;
+  scene.samples = 20;
+  const Method method = find_method("symplectic-euler");
+  const crosscheck::Run run{1e-3, 1, 20};
+  const auto first = contact_statistics(method, scene, run), again = contact_statistics(method, scene, run);
+  ASSERT_EQ(first.size(), 4u);
+  const Trajectory plain = answer("symplectic-euler", scene, run).trajectory;
+  const double plain_values[] = {centre_of_mass(scene, plain.x.back()).y(), 0, 0, 0};
+  for (size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(first[i].mean, again[i].mean);
+    EXPECT_EQ(first[i].deviation, again[i].deviation);
+  }
+  EXPECT_EQ(first[0].quantity, "height of the centre of mass at the end");
+  // the motion is hardly sensitive: the mean is the plain run's, to the spread of 216 particles moved by 1e-6 m and
+  // what contact makes of it
+  EXPECT_NEAR(first[0].mean, plain_values[0], 1e-5);
+  EXPECT_GT(first[0].deviation, 1e-10);
+  EXPECT_LT(first[0].deviation, 1e-5);
+  EXPECT_GT(first[3].mean, 0.05);  // J; pressed by a weight of 49 N over some millimetres
+  // who does not take the scene has none
+  EXPECT_TRUE(contact_statistics(find_method("odeint/rk4"), scene, run).empty());
+}
+
+}  // namespace
+}  // namespace crosscheck

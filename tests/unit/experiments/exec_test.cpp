@@ -1,0 +1,259 @@
+// Programs that misbehave: each way is a verdict with a clear line, and never a crash of ours.
+
+#include <signal.h>
+
+#include "experiments/experiment.h"
+#include "experiments/metrics.h"
+#include "experiments/scenes/scenes.h"
+#include "experiments/sweep/sweep.h"
+#include "mysim/base/json.h"
+#include "mysim/base/process.h"
+#include "reference/certificate/certificate.h"
+#include "reference/protocol/exec_engine.h"
+#include "reference/protocol/trajectory_files.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+class Exec : public InFolder {
+ protected:
+  void SetUp() override {
+    InFolder::SetUp();
+    const Trajectory right = answer("symplectic-euler", scene_, run_).trajectory;
+    write("x.npy", npy_bytes(right.x));
+    write("v.npy", npy_bytes(right.v));
+    auto bad = right.x;
+    bad[3](1, 1) = NAN;
+    write("nan.npy", npy_bytes(bad));
+    bad = right.x;
+    bad[0](1, 1) += 0.01;
+    write("shifted.npy", npy_bytes(bad));
+    write("short.npy", npy_bytes(right.x).substr(0, 300));
+    write("few-frames.npy", npy_bytes({right.x.begin(), right.x.end() - 1}));
+    write("few-particles.npy", npy_bytes(std::vector<Points>(5, Points::Zero(3, 3))));
+  }
+  /// Shell command that delivers a file as the trajectory.
+  std::string deliver(const std::string& file, const std::string& as = "trajectory.npy") const {
+    return "cp '" + (folder_ / file).string() + "' \"$2/" + as + "\"\n";
+  }
+  MethodRun run(const std::string& text, const std::string& options = "") const {
+    return answer("exec:" + script("engine", text) + options, scene_, run_);
+  }
+  const Scene scene_ = load_scene("chain");
+  const crosscheck::Run run_{1e-3, 0.08, 4};
+};
+
+TEST_F(Exec, AReadbackWithoutProbeDoesNotAttestTheLaw) {
+  // an engine that has every number right and pulls by another law: nothing of what it tells is wrong
+  Json readback{{"precision", "double"}};
+  const Particles& p = scene_.model.particles;
+  readback["mass"] = std::vector<double>(p.mass.begin(), p.mass.end());
+  readback["pinned"] = std::vector<int>(p.pinned.begin(), p.pinned.end());
+  for (const Spring& s : scene_.model.find<Springs>()->list)
+    readback["links"].push({{"a", s.a}, {"b", s.b}, {"rest_length", s.rest}, {"stiffness", s.k}});
+  write("run.json", Json{{"readback", readback}}.dump());
+  const MethodRun answered = run(deliver("x.npy") + deliver("run.json", "run.json"));
+  ASSERT_EQ(answered.outcome.verdict, Verdict::ok) << answered.outcome.reason;
+  const Certificate c = certify("engine", scene_, answered.outcome);
+  EXPECT_FALSE(c.mismatch());
+  EXPECT_FALSE(c.fully_attested());
+  EXPECT_TRUE(contains(summary_of(c),
+                       "no mismatch; not attested: start, spring law, gravity, drag, nothing else, step, sleeping"));
+}
+
+TEST_F(Exec, EachMisbehaviourIsAVerdictWithAClearLine) {
+  const std::string good = deliver("x.npy");
+  const struct {
+    std::string what, text, options;
+    Verdict verdict;
+    std::string reason;
+  } cases[] = {
+      {"hangs, and ignores SIGTERM", "trap '' TERM\necho warming up >&2\nwhile :; do sleep 1; done\n", "+timeout=1",
+       Verdict::timeout, "did not end within 1 s and was killed; last line of its stderr: warming up"},
+      {"dies of a signal", "kill -SEGV $$\n", "", Verdict::crash, "was ended by signal 11 (Segmentation fault)"},
+      {"exits with a status", good + "echo no licence >&2\nexit 7\n", "", Verdict::crash,
+       "ended with exit status 7; last line of its stderr: no licence"},
+      {"delivers another shape", deliver("few-frames.npy"), "", Verdict::crash,
+       "trajectory.npy: expected shape (5, 4, 3): 5 frames of 4 particles, got (4, 4, 3)"},
+      {"delivers what is no number", deliver("nan.npy"), "", Verdict::nan, "failed at t = 0.06 s"},
+      {"delivers a short file", deliver("short.npy"), "", Verdict::crash, "shorter than its header says"},
+      {"delivers other particles", deliver("few-particles.npy"), "", Verdict::crash, "another number of particles"},
+      {"delivers nothing", "exit 0\n", "", Verdict::crash, "trajectory.npy: missing"},
+      {"dies and leaves a child that holds the pipe", "(trap '' TERM HUP; sleep 60) &\nexit 4\n", "", Verdict::crash,
+       "exit status 4"},
+      {"delivers a folder", "mkdir \"$2/trajectory.npy\"\n", "", Verdict::crash, "trajectory.npy: expected a file"},
+      {"starts from elsewhere", deliver("shifted.npy"), "", Verdict::crash, "got one that is 0.01 m off"},
+      {"delivers velocities of another shape", good + deliver("few-frames.npy", "velocities.npy"), "", Verdict::crash,
+       "velocities.npy: expected shape"},
+      {"writes no JSON", good + "echo '{' > \"$2/run.json\"\n", "", Verdict::crash,
+       "run.json: expected one JSON object"},
+      {"writes other JSON", good + "echo '{\"steps\": \"many\"}' > \"$2/run.json\"\n", "", Verdict::crash,
+       "run.json: steps: expected a number"},
+      {"says that its springs are too long",
+       good + "echo '{\"verdict\": \"stretch\", \"reason\": \"torn\"}' > \"$2/run.json\"\n", "", Verdict::stretch,
+       "torn"},
+      {"says that it failed", good + "echo '{\"verdict\": \"solver\", \"reason\": \"no root\"}' > \"$2/run.json\"\n",
+       "", Verdict::solver, "no root"},
+      {"lacks something", "echo ' warning'\necho 'no springs here' >&2\nexit 3\n", "", Verdict::unsupported,
+       "no springs here"},
+      {"lacks something in silence", "exit 3\n", "", Verdict::unsupported, "gives no reason"},
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.what);
+    const MethodRun a = run(c.text, c.options);
+    EXPECT_EQ(name_of(a.outcome.verdict), name_of(c.verdict));
+    EXPECT_TRUE(contains(a.outcome.reason, c.reason));
+    EXPECT_EQ(a.outcome.reason.find('\n'), std::string::npos) << "one line";
+    EXPECT_FALSE(a.outcome.readback);
+  }
+}
+
+TEST_F(Exec, NoiseIsARemarkOnAGoodRun) {
+  const std::string noise =
+      "i=0\nwhile [ $i -lt 3000 ]; do echo 'noise noise noise noise noise noise' >&2; i=$((i+1)); "
+      "done\nprintf 'bell \\007 and \\377 byte\\n\\n' >&2\n";
+  const MethodRun a = run(noise + deliver("x.npy"));
+  EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
+  EXPECT_EQ(a.outcome.remark, "it wrote on stderr, last: bell   and \xEF\xBF\xBD byte");
+  EXPECT_EQ(run(deliver("x.npy") + "echo fine\n").outcome.remark, "") << "stdout is nobody's business";
+}
+
+TEST_F(Exec, AChildThatStaysIsKilledAndSaid) {
+  const MethodRun a = run(deliver("x.npy") + "sleep 60 & echo $! > '" + (folder_ / "pid").string() + "'\n");
+  EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
+  EXPECT_TRUE(contains(a.outcome.remark, "left a process behind"));
+  const pid_t left = std::stoi(read(folder_ / "pid"));
+  for (int i = 0; i < 100 && kill(left, 0) == 0; ++i) {
+    // a killed orphan stays a zombie until init takes it
+    const std::string status = read("/proc/" + std::to_string(left) + "/stat");
+    if (status.find(") Z") != std::string::npos) return;
+    usleep(10000);
+  }
+  EXPECT_NE(kill(left, 0), 0);
+}
+
+TEST_F(Exec, SeesTheSceneAndIsSeenAsOtherMethodsAre) {
+  const MethodRun a = run(deliver("x.npy") + deliver("v.npy", "velocities.npy") + "cp \"$1\" '" + folder_.string() +
+                              "'\necho '{\"cpu_seconds\": 25, \"steps\": 80, "
+                              "\"force_evaluations\": 80, \"different_law\": [\"drag: none\"]}' > \"$2/run.json\"\n",
+                          "+fast+n=3+timeout=50");
+  ASSERT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
+  EXPECT_TRUE(identical(a.trajectory, answer("symplectic-euler", scene_, run_).trajectory));
+  EXPECT_TRUE(contains(read(folder_ / "scene.json"), "\"options\": [\"fast\",\"n=3\"]"));
+  EXPECT_TRUE(contains(read(folder_ / "scene.json"), scene_.hash));
+  EXPECT_EQ(a.outcome.cpu_seconds, 25);
+  EXPECT_EQ(a.outcome.steps, 80);
+  EXPECT_EQ(a.outcome.evaluations, 80);
+  EXPECT_EQ(a.outcome.step, 1e-3);
+  EXPECT_DOUBLE_EQ(a.outcome.end, 0.08);
+  EXPECT_GT(a.outcome.process_seconds, 0);
+  EXPECT_LT(a.outcome.process_seconds, 25);  // a shell's: its word on its own time is not ours
+  EXPECT_EQ(a.outcome.different_law, std::vector<std::string>{"drag: none"});
+}
+
+TEST_F(Exec, WithoutVelocitiesThereIsNoEnergy) {
+  Request request;
+  request.scenes = {scene_, load_scene("slide")};
+  for (Scene& scene : request.scenes) scene.duration = 0.08, scene.samples = 4;
+  write("slide.npy",
+        npy_bytes(answer("symplectic-euler", request.scenes[1], default_run(request.scenes[1])).trajectory.x));
+  const std::string which = "case $(cat \"$1\") in *'\"name\": \"slide\"'*) f=slide.npy;; *) f=x.npy;; esac\n";
+  const std::string engine = script("engine", which + "cp '" + folder_.string() + "'/$f \"$2/trajectory.npy\"\n");
+  request.methods = {find_method("symplectic-euler"), find_method("exec:" + engine)};
+  Rows result;
+  Results answers;
+  for (const Scene& scene : request.scenes) engines_on(request, scene, answers, result);
+  for (const Result& a : answers) {
+    EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
+    EXPECT_EQ(a.ledger.empty(), a.method != "mysim/symplectic-euler");
+  }
+  const Table& energies = *result.table("engines-energy");
+  EXPECT_EQ(energies.rows.size(), 2u);  // of mysim, on both scenes
+  bool said = false;
+  for (const std::string& note : result.notes) said |= note.find("gave no velocities") != std::string::npos;
+  EXPECT_TRUE(said);
+  const Table& engines = *result.table("engines");
+  for (size_t i = 0; i < engines.rows.size(); ++i)
+    if (std::get<std::string>(engines.at(i, "method")).starts_with("exec:")) {
+      EXPECT_TRUE(std::holds_alternative<std::monostate>(engines.at(i, "creep at end")));
+      EXPECT_EQ(std::get<double>(engines.at(i, "largest difference")), 0);
+    }
+  const Table& cost = *result.table("engines-cost");
+  for (size_t i = 0; i < cost.rows.size(); ++i) {
+    const bool outside = std::get<std::string>(cost.at(i, "method")).starts_with("exec:");
+    // the time of the process stands apart; its own time is empty, as it told none
+    EXPECT_EQ(std::holds_alternative<double>(cost.at(i, "cpu of process")), outside);
+    EXPECT_EQ(std::holds_alternative<double>(cost.at(i, "cpu")), !outside);
+  }
+}
+
+TEST_F(Exec, ClosureIsClaimedOnlyWhereEveryStepIsSeen) {
+  EXPECT_TRUE(Ledger(scene_.model, ContactLoss::sampled).contact_inferred());  // drag between samples is a guess
+  EXPECT_FALSE(Ledger(without_drag(scene_).model, ContactLoss::sampled).contact_inferred());
+  EXPECT_FALSE(Ledger(scene_.model, ContactLoss::inferred).contact_inferred());
+}
+
+TEST_F(Exec, NamesAreFilesFirstAndOptionsThen) {
+  const std::string plain = script("engine", ""), odd = script("engine+n=2", "");
+  EXPECT_EQ(find_program(plain).path, plain);
+  EXPECT_EQ(find_program(odd).path, odd);  // a file of the whole name exists
+  EXPECT_TRUE(find_program(odd).options.empty());
+  const Program more = find_program(odd + "+n=3+timeout=7.5+path=/a/b");
+  EXPECT_EQ(more.path, odd);
+  EXPECT_EQ(more.options, (std::vector<std::string>{"n=3", "path=/a/b"}));
+  EXPECT_EQ(more.timeout, 7.5);
+  EXPECT_EQ(find_program(plain).timeout, 600);
+  EXPECT_TRUE(find_program("sh").path.is_absolute());  // a bare word is looked up in PATH
+  EXPECT_EQ(find_method("exec:" + plain + "+n=3").name, "exec:" + plain + "+n=3");
+  EXPECT_EQ(find_methods("rk4,exec:" + plain).size(), 2u);
+  write("data", "");
+  const std::pair<std::string, std::string> cases[] = {
+      {(folder_ / "none").string(), "none: no such file; expected the path of a program"},
+      {(folder_ / "none+n=1").string(), "no such file"},
+      {folder_.string(), "is a folder; expected a program"},
+      {"", "no such file"},
+      {"no-such-program-anywhere", "no such file"},
+      {(folder_ / "data").string(), "is not executable"},
+      {plain + "+timeout=0", "timeout: expected seconds above zero, got '0'"},
+      {plain + "+timeout=soon", "got 'soon'"},
+      {plain + "+timeout=", "got ''"}};
+  for (const auto& [name, message] : cases) {
+    try {
+      find_method("exec:" + name);
+      ADD_FAILURE() << name;
+    } catch (const InputError& e) {
+      EXPECT_TRUE(contains(e.what(), message));
+      EXPECT_TRUE(begins(e.what(), "method exec:" + name));
+    }
+  }
+}
+
+TEST_F(Exec, WhatCannotBeStartedIsACrash) {
+  std::filesystem::permissions(write("text", "no program\n"), std::filesystem::perms::owner_all);
+  const Outcome out = answer("exec:" + (folder_ / "text").string(), scene_, run_).outcome;
+  EXPECT_EQ(out.verdict, Verdict::crash);
+  EXPECT_TRUE(contains(out.reason, "cannot be started: Exec format error"));
+}
+
+TEST_F(Exec, ATrajectoryFromAFileIsAMethod) {
+  const Method method = trajectory_method(folder_ / "x.npy", scene_, run_);
+  EXPECT_EQ(method.name, "file:x.npy");
+  Recorder r;
+  EXPECT_EQ(run_method(method, scene_, run_, {&r}).verdict, Verdict::ok);
+  EXPECT_EQ(r.trajectory.x, answer("symplectic-euler", scene_, run_).trajectory.x);
+  EXPECT_EQ(run_method(trajectory_method(folder_ / "nan.npy", scene_, run_), scene_, run_, {}).verdict, Verdict::nan);
+  try {
+    trajectory_method(folder_ / "few-frames.npy", scene_, run_);
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_TRUE(contains(e.what(), "expected shape (5, 4, 3)"));
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,79 @@
+// What tests of experiments share: shipped scenes at other sizes, and a method that refuses long steps.
+#pragma once
+
+#include <fmt/ranges.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+#include "reference/method.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+
+namespace crosscheck::testing_tools {
+
+// Shipped scenes at other sizes: grids with another number of particles, other scenes with other lengths.
+
+/// The text of a shipped scene.
+inline std::string text_of(const std::string& name) {
+  std::ifstream in(std::filesystem::path(CROSSCHECK_SOURCE) / "experiments/scenes" / (name + ".toml"));
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// A shipped scene of one sheet with n x n particles. Pins stay what they were: one edge, or two corners.
+inline Scene with_grid(const std::string& name, int n) {
+  const Scene shipped = load_scene(name);
+  std::string text = text_of(name);
+  text = std::regex_replace(text, std::regex(R"(\nsize = \[[^\]]*\])"), fmt::format("\nsize = [{}, {}]", n, n));
+  const std::vector<int>& old = shipped.model.particles.pins;
+  std::vector<int> pins{0, n - 1};
+  if (old.size() > 2) {
+    pins.resize(n);
+    for (int i = 0; i < n; ++i) pins[i] = old[1] == 1 ? i : i * n;  // along the first row, or down the first column
+  }
+  text = std::regex_replace(text, std::regex(R"(\nparticles = \[[^\]]*\])"),
+                            fmt::format("\nparticles = [{}]", fmt::join(pins, ", ")));
+  return parse_scene(text, fmt::format("{}-{}", name, n));
+}
+
+/// The scene with all its lengths multiplied.
+inline Scene with_lengths(Scene scene, double factor) {
+  scene.start.x *= factor;
+  scene.start.v *= factor;
+  scene.model.particles.pin_home *= factor;
+  if (scene.model.particles.move) scene.model.particles.move->amplitude *= factor;
+  if (auto* springs = scene.model.find<Springs>())
+    for (Spring& s : springs->list) s.rest *= factor;
+  return scene;
+}
+
+/// A shipped scene in three sizes: other numbers of particles in its grid, or other lengths.
+inline std::vector<Scene> three_sizes(const std::string& name) {
+  const Scene scene = load_scene(name);
+  if (scene.triangles.empty()) return {with_lengths(scene, 0.5), scene, with_lengths(scene, 2)};
+  std::vector<int> sizes{10, 15, 20};
+  if (name == "cloth-student") sizes = {4, 6, 8};  // finer ones are chaotic
+  if (name == "flag") sizes = {6, 9, 12};          // finer ones flutter
+  std::vector<Scene> scenes;
+  for (const int n : sizes) scenes.push_back(with_grid(name, n));
+  return scenes;
+}
+
+// A method that refuses some steps, as Bullet's clamped world does.
+
+/// Leapfrog that does not take longer steps.
+inline Method refusing_above(double step) {
+  Method method = find_method("leapfrog");
+  method.engine = [inner = method.engine, step](const Scene& scene, const crosscheck::Run& run, Observer& observer) {
+    if (time_grid(run).h > step) throw Unsupported("too long");
+    return inner(scene, run, observer);
+  };
+  return method;
+}
+
+}  // namespace crosscheck::testing_tools

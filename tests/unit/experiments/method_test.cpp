@@ -1,0 +1,174 @@
+// Methods: names, options and their messages; what a method lacks is a row; every method meets every shipped scene.
+
+#include <set>
+
+#include "experiments/metrics.h"
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+#include "reference/method.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+std::string refusal(const std::string& name) {
+  try {
+    find_method(name);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Methods, NamesAreUniqueAndFoundAgain) {
+  std::set<std::string> names;
+  for (const Method& m : all_methods()) {
+    SCOPED_TRACE(m.name);
+    EXPECT_TRUE(names.insert(m.name).second) << "twice";
+    EXPECT_EQ(find_method(m.name).name, m.name);
+    EXPECT_FALSE(m.what.empty());
+    EXPECT_TRUE(m.engine);
+  }
+  for (const Stepper& s : steppers()) EXPECT_TRUE(names.contains("mysim/" + std::string(s.name)));
+}
+
+TEST(Methods, ABareNameMeansMysimAndOptionsFollowAPlus) {
+  EXPECT_EQ(find_method("rk4").name, "mysim/rk4");
+  EXPECT_EQ(find_method("rk4").stepper, &stepper("rk4"));
+  EXPECT_EQ(find_method("leapfrog+sticky").name, "mysim/leapfrog+sticky");
+  EXPECT_EQ(find_method("bullet/pbd+n=10").name, "bullet/pbd+n=10");
+  // what must be equal where nothing touches: a contact rule changes nothing there, all else makes another rule
+  EXPECT_EQ(find_method("symplectic-euler").rule, find_method("bullet/deformable-explicit").rule);
+  EXPECT_EQ(find_method("symplectic-euler+sticky").rule, find_method("symplectic-euler").rule);
+  EXPECT_EQ(find_method("implicit-euler+linear").rule, find_method("bullet/deformable-implicit+tight").rule);
+  EXPECT_NE(find_method("implicit-euler+linear").rule, find_method("implicit-euler").rule);
+  for (const auto other : {"bullet/deformable-explicit+default-rest", "bullet/deformable-explicit+default-margin",
+                           "bullet/deformable-explicit+default-sleep", "bullet/deformable-implicit",
+                           "bullet/deformable-implicit+tight+shipped", "bullet/pbd"})
+    EXPECT_EQ(find_method(other).rule, "") << other;
+  const auto several = find_methods("rk4,bullet/pbd,truth/exact");
+  ASSERT_EQ(several.size(), 3u);
+  EXPECT_EQ(several[1].name, "bullet/pbd");
+}
+
+TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
+  EXPECT_TRUE(contains(refusal("rk5"), "unknown method 'rk5'; expected one of: "));
+  for (const Method& m : all_methods()) EXPECT_TRUE(contains(refusal("rk5"), m.name));
+  const std::pair<const char*, const char*> cases[] = {
+      {"leapfrog+threads=0",
+       "unknown option '+threads=0'; expected +sticky, +fast, +single, +plain, +threads=N or none"},
+      {"leapfrog+threads=2x", "unknown option '+threads=2x'"},
+      {"rk4+single", "method mysim/rk4: unknown option '+single'; expected +sticky or none"},
+      {"rk4+stick", "method mysim/rk4: unknown option '+stick'; expected +sticky or none"},
+      {"implicit-euler+x", "unknown option '+x'; expected +linear, +sticky or none"},
+      {"rk4+linear", "method mysim/rk4: unknown option '+linear'; expected +sticky or none"},
+      {"implicit-euler+line", "unknown option '+line'; expected +linear, +sticky or none"},
+      {"rk4+sticky=1", "unknown option '+sticky=1'"},
+      {"bullet/deformable-explicit+n=2",
+       "method bullet/deformable-explicit: unknown option '+n=2'; expected +default-rest, +default-margin, "
+       "+default-sleep, +voxel=0.0001 to +voxel=1 (m) or none"},
+      {"bullet/deformable-explicit+voxel=0", "unknown option '+voxel=0'"},
+      {"bullet/deformable-explicit+voxel=0.02m", "unknown option '+voxel=0.02m'"},
+      {"bullet/pbd+voxel=2", "unknown option '+voxel=2'"},
+      {"bullet/deformable-implicit+n=2",
+       "method bullet/deformable-implicit: unknown option '+n=2'; expected +tight, +shipped, +unprojected or none"},
+      {"bullet/deformable-implicit+tight=1", "'+tight=1'"},
+      {"bullet/deformable-explicit+tight", "'+tight'"},
+      {"bullet/pbd+demos", "'+demos'; expected +n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest, +def"},
+      {"bullet/pbd+", "'+'"},
+      {"bullet/pbd+n=0", "method bullet/pbd: unknown option '+n=0'; expected +n=1 to +n=1000"},
+      {"bullet/pbd+n=1001", "'+n=1001'"},
+      {"bullet/pbd+n=ten", "'+n=ten'"},
+      {"bullet/pbd+n=2x", "'+n=2x'"},
+      {"bullet/pbd+n=-1", "'+n=-1'"},
+      {"bullet/pbd+n", "'+n'"},
+      {"bullet/pbd+m=2", "'+m=2'"},
+      {"truth/exact-discrete",
+       "method truth/exact-discrete: no rule; expected one of the rules +explicit-euler, +trap"},
+      {"truth/exact-discrete+dopri5", "unknown option '+dopri5'; expected one of the rules +explicit-euler, "},
+      {"truth/exact-discrete+rk4=2", "unknown option '+rk4=2'; expected one of the rules +explicit-euler, "},
+      {"truth/exact-discrete+rk4+linear", "unknown option '+linear'; expected one of the rules +explicit-euler, "},
+      {"bullet32/pbd+n=0", "unknown option '+n=0'"},
+      {"truth/exact+sticky", "method truth/exact: unknown option '+sticky'"}};
+  for (const auto& [name, message] : cases) EXPECT_TRUE(contains(refusal(name), message));
+  for (const auto name : {"", "bullet/", "/rk4", "rk4 ", "RK4", "bullet/pbd/x"})
+    EXPECT_TRUE(contains(refusal(name), "unknown method")) << name;
+  EXPECT_THROW(find_methods("rk4,,leapfrog"), InputError);
+}
+
+TEST(Methods, WhatAMethodLacksIsARowAndNoCrash) {
+  const Scene circle = load_scene("circle");
+  Recorder r;
+  const Outcome out = run_method(find_method("leapfrog"), circle, {0.05, 1, 10}, {&r});
+  EXPECT_EQ(out.verdict, Verdict::unsupported);
+  EXPECT_TRUE(contains(out.reason, "first-order"));
+  EXPECT_EQ(r.trajectory.frames(), 0);
+}
+
+TEST(Methods, EveryOneMeetsEveryShippedScene) {
+  for (const auto& name : shipped_scenes()) {
+    const Scene scene = load_scene(std::string(name));
+    int answers = 0;
+    for (const Method& m : all_methods()) {
+      SCOPED_TRACE(fmt::format("{} {}", name, m.name));
+      Recorder r;
+      const Outcome out = run_method(m, scene, {scene.step, 0.05, 2}, {&r});
+      if (out.verdict == Verdict::unsupported) {
+        EXPECT_FALSE(out.reason.empty());
+        continue;
+      }
+      ++answers;
+      // adaptive methods follow their tolerance; their mean step is at most the run
+      EXPECT_LE(out.step, out.tolerance > 0 ? 0.05 : scene.step * (1 + 1e-9));
+      if (out.verdict != Verdict::ok) continue;  // explicit Euler on a stiff cloth: a row with its verdict
+      ASSERT_EQ(r.trajectory.frames(), 3);
+      EXPECT_NEAR(out.end, 0.05, 4 * eps);
+      for (const Points& x : r.trajectory.x) EXPECT_TRUE(x.allFinite());
+      // single precision holds the start rounded to 24 bits
+      const double rounding = m.name.starts_with("bullet32/") ? 6e-8 * largest_column(scene.start.x) : 0;
+      EXPECT_LE(largest_column(r.trajectory.x[0] - scene.start.x), rounding);
+    }
+    // every stepper that takes the scene, at least
+    for (const Stepper& s : steppers()) answers -= takes(s, scene);
+    EXPECT_GE(answers, 0);
+  }
+}
+
+TEST(Methods, EveryMethodAgreesWithTheTruthOnTheSpring) {
+  const Scene scene = load_scene("spring");
+  const crosscheck::Run run{1e-4, 1, 20};
+  Recorder exact;
+  ASSERT_EQ(run_method(find_method("truth/exact"), scene, run, {&exact}).verdict, Verdict::ok);
+  for (const Method& m : all_methods()) {
+    SCOPED_TRACE(m.name);
+    Recorder r;
+    const Outcome out = run_method(m, scene, run, {&r});
+    if (out.verdict == Verdict::unsupported || !out.different_law.empty()) continue;
+    // a rule of first order is off by at most the amplitude of 0.2 m times h omega^2 t / 2 = 5e-3
+    EXPECT_LT(sup_rms(r.trajectory, exact.trajectory), 1e-3);
+  }
+}
+
+TEST(Metrics, OfKnownStates) {
+  const Scene scene = small_scene(
+      "[[particle]]\nposition = [0, 0, 0]\nmass = 9\n[[particle]]\nposition = [2, 0, 0]\nmass = 1\n"
+      "[[particle]]\nposition = [0, 4, 0]\nmass = 3\n[pins]\nparticles = [0]\n[sphere]\n"
+      "centre = [2, -1.5, 0]\nradius = 1\nmargin = 0.25\n");
+  EXPECT_EQ(centre_of_mass(scene, scene.start.x), Vec3(0.5, 3, 0));  // pins left out
+  EXPECT_DOUBLE_EQ(*clearance(scene, 0, scene.start.x), 0.25);
+  EXPECT_FALSE(creep(scene, 0, scene.start.x, scene.start.v));  // nothing touches
+  Points x = scene.start.x, v = scene.start.v;
+  x.col(1) = Vec3(2, -0.25, 0);
+  v.col(1) = Vec3(0.3, 5, 0.4);
+  EXPECT_DOUBLE_EQ(*creep(scene, 0, x, v), 0.5);  // along the surface only
+  EXPECT_FALSE(clearance(small_cloth(), 0, small_cloth().start.x));
+  Trajectory t{{0, 1}, {scene.start.x, x}, {v, v}};
+  EXPECT_EQ(*first_contact(scene, t), 1);
+  EXPECT_DOUBLE_EQ(motion_of(t), 0.25 / std::sqrt(3.0));
+}
+
+}  // namespace
+}  // namespace crosscheck

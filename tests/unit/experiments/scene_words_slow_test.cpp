@@ -1,0 +1,327 @@
+// What scenes say of themselves is so: every number in the words of a scene file is one of its own values, or is
+// computed here from the scene; and what is said to grow is measured.
+
+#include <numbers>
+#include <regex>
+
+#include "experiments/metrics.h"
+#include "experiments/scenes/scenes.h"
+#include "mysim/model/system.h"
+#include "mysim/scene/toml.h"
+#include "reference/truth/exact/exact.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+constexpr double degree = std::numbers::pi / 180;
+
+double omega_of(const Scene& s) { return highest_frequency(s.model, s.start); }
+double part_of_limit(const Scene& s) { return s.step * omega_of(s) / 2; }  // leapfrog's limit is 2 / omega
+
+/// m above its start, of the closed form.
+double rise_of(const Scene& s) {
+  const auto exact = exact_solution(s);
+  double highest = 0;
+  for (int i = 0; i <= 4000; ++i) highest = std::max(highest, exact->at(s.duration * i / 4000).x(1, 0));
+  return highest - s.start.x(1, 0);
+}
+
+/// Degrees from the top at which the closed form leaves the ball.
+double leaving_angle(const Scene& s) {
+  const auto exact = exact_solution(s);
+  const Sphere& ball = s.model.find<Spheres>()->list.at(0);
+  double angle = 0;
+  for (int i = 0; i <= 20000; ++i) {
+    const Vec3 off = exact->at(s.duration * i / 20000).x.col(0) - ball.centre;
+    if (off.norm() > ball.contact_radius() * (1 + 1e-12)) break;  // what rounding leaves
+    angle = std::acos(off.y() / off.norm());
+  }
+  return angle / degree;
+}
+
+double growth_of_window(const Scene& s, double until) {
+  return perturbation_growth(find_method("symplectic-euler"), s, s.step, until);
+}
+double growth_over_run(const Scene& s) { return growth_of_window(s, s.duration); }
+
+/// s, of a whole swing to and fro: from the passages below the anchor, three half swings apart.
+double swing_of(const Scene& s) {
+  const Trajectory path =
+      answer("rk4", s, {s.step, s.duration, static_cast<int>(std::lround(s.duration / s.step))}).trajectory;
+  std::vector<double> passages;
+  for (int i = 1; i < path.frames(); ++i) {
+    const double before = path.x[i - 1](0, 1) - path.x[i - 1](0, 0), after = path.x[i](0, 1) - path.x[i](0, 0);
+    if (before * after < 0) passages.push_back(path.t[i - 1] + s.step * before / (before - after));
+  }
+  return 2 * (passages.back() - passages.front()) / static_cast<double>(passages.size() - 1);
+}
+
+/// The growth where the cloth is held at the two upper corners alone.
+double growth_at_two_corners(const Scene& s) {
+  TomlDocument file(s.source, s.name);
+  const std::vector<int>& pins = s.model.particles.pins;
+  file.set("pins.particles", std::vector<int>{pins.front(), pins.back()});
+  Scene corners = parse_scene(file.text(), s.name);
+  // the step of an animation would blow up under the rule that measures it
+  corners.step = std::min(corners.step, 1 / omega_of(corners));
+  return perturbation_growth(find_method("symplectic-euler"), corners, corners.step, corners.duration);
+}
+
+/// m/s^2, the largest acceleration of the first sphere.
+double largest_acceleration(const Scene& s) {
+  const Sphere& ball = s.model.find<Spheres>()->list.at(0);
+  const double dt = 1e-3;
+  double largest = 0;
+  for (double t = dt; t < s.duration; t += dt)
+    largest = std::max(largest,
+                       ((ball.centre_at(t + dt) - 2 * ball.centre_at(t) + ball.centre_at(t - dt)) / (dt * dt)).norm());
+  return largest;
+}
+
+double first_touch(const Scene& s) {
+  crosscheck::Run run = default_run(s);
+  run.samples = static_cast<int>(std::lround(run.duration / 1e-2));
+  return *first_contact(s, answer("leapfrog", s, run).trajectory);
+}
+
+/// How many times shorter than the scene's step the longest one is that a rule can take.
+double times_shorter(const char* rule, const Scene& s) {
+  return s.step / stepper(rule).limit(omega_of(s), *uniform_drag_rate(s.model));
+}
+
+/// A number in the words of a scene, and what it is: the words around it, with {} for the number.
+struct Told {
+  const char* scene;
+  const char* words;
+  double (*value)(const Scene&);
+};
+const Told told[] = {
+    {"projectile", "Thrown at {} m/s", [](const Scene& s) { return s.start.v.col(0).norm(); }},
+    {"projectile", "it rises {} m", rise_of},
+    {"slide", "it flies off at {} degrees", leaving_angle},
+    {"pendulum", "it swings in {} s", swing_of},
+    {"pendulum", "on a rigid rod it would in {} s",
+     [](const Scene& s) { return rigid_pendulum_period(s.model.find<Springs>()->list[0].rest, 9.81, 60 * degree); }},
+    {"pendulum", "let go at {} degrees",
+     [](const Scene& s) {
+       const Vec3 off = s.start.x.col(1) - s.start.x.col(0);
+       return std::acos(-off.y() / off.norm()) / degree;
+     }},
+    {"pendulum", "vibrates at {} rad/s", omega_of},
+    {"pendulum", "h omega is {},", [](const Scene& s) { return s.step * omega_of(s); }},
+    {"spring", "100 N/m: {} rad/s", omega_of},
+    {"spring", "period {} s", [](const Scene& s) { return 2 * std::numbers::pi / omega_of(s); }},
+    {"spring", "It starts {} m above",
+     [](const Scene& s) { return s.model.find<Springs>()->list[0].rest + s.start.x(1, 1) - s.start.x(1, 0); }},
+    {"spring", "h omega = {}", [](const Scene& s) { return s.step * omega_of(s); }},
+    {"normal-modes", "start with {} and 5 mm",
+     // what is left of each particle's start when the modes' sines are taken off is nothing
+     [](const Scene& s) {
+       double first = 0, left = 0;
+       const double apart = (s.start.x(0, 9) - s.start.x(0, 0)) / 9;
+       for (int i = 1; i <= 8; ++i) {
+         const double off = s.start.x(0, i) - i * apart, place = std::numbers::pi * i / 9;
+         first += off * std::sin(place) / 4.5;
+         left = std::max(left, std::abs(off - 0.01 * std::sin(place) - 0.005 * std::sin(3 * place)));
+       }
+       return left < 1e-5 ? 1e3 * first : NAN;
+     }},
+    {"normal-modes", "and {} mm along",
+     [](const Scene& s) {
+       double third = 0;
+       const double apart = (s.start.x(0, 9) - s.start.x(0, 0)) / 9;
+       for (int i = 1; i <= 8; ++i)
+         third += (s.start.x(0, i) - i * apart) * std::sin(3 * std::numbers::pi * i / 9) / 4.5;
+       return 1e3 * third;
+     }},
+    {"bounce", "each impact, {}-fold in the first second", [](const Scene& s) { return growth_of_window(s, 1); }},
+    {"cloth-hang", "s, {} of the limit 2 / omega_max", part_of_limit},
+    {"cloth-sphere", "s, {} of the limit 2 / omega_max", part_of_limit},
+    {"cloth-sphere", "0.48 s, {} s after first contact", [](const Scene& s) { return s.window - first_touch(s); }},
+    {"cloth-sphere", "until {} s after first contact", [](const Scene& s) { return s.window - first_touch(s); }},
+    {"cloth-sphere", "After the first {} s of contact", [](const Scene& s) { return s.window - first_touch(s); }},
+    {"cloth-sphere", "dropped {} m off the centre",
+     [](const Scene& s) {
+       const Vec3 off = centre_of_mass(s, s.start.x) - s.model.find<Spheres>()->list[0].centre;
+       return std::hypot(off.x(), off.z());
+     }},
+    {"cloth-carried", "every {} s",
+     [](const Scene& s) { return 1 / s.model.find<Spheres>()->list[0].motion->frequency; }},
+    {"cloth-carried", "It speeds up by {} m/s^2", largest_acceleration},
+    {"cloth-carried", "can hold against {}.",
+     [](const Scene& s) { return s.model.find<Spheres>()->list[0].friction * 9.81; }},
+    {"cloth-stiff", "steps of {} microseconds", [](const Scene& s) { return 1e6 * 2 / omega_of(s); }},
+    {"cloth-stiff", "The step of 1/{} s", [](const Scene& s) { return 1 / s.step; }},
+    {"cloth-stiff", "let go at {} degrees",
+     [](const Scene& s) {
+       const Vec3 down = s.start.x.col(s.start.x.cols() - 1) - s.start.x.col(9);
+       return std::atan2(down.z(), -down.y()) / degree;
+     }},
+    {"cloth-inextensible", "let go at {} degrees",
+     [](const Scene& s) {
+       const Vec3 down = s.start.x.col(s.start.x.cols() - 1) - s.start.x.col(7);
+       return std::atan2(down.z(), -down.y()) / degree;
+     }},
+    {"cloth-student", "particles of {} kg", [](const Scene& s) { return s.model.particles.mass[9]; }},
+    {"cloth-student", "wave turns by {} rad", [](const Scene& s) { return s.step * omega_of(s); }},
+    {"cloth-student", "a step {} times shorter, explicit",
+     [](const Scene& s) { return times_shorter("trapezoidal", s); }},
+    {"cloth-student", "one {} times shorter", [](const Scene& s) { return times_shorter("explicit-euler", s); }},
+    {"flag", "a wind of {} m/s", [](const Scene& s) { return s.model.find<Aerodynamics>()->velocity.mean.norm(); }},
+    {"jelly", "dropped by {} m",
+     [](const Scene& s) {
+       double lowest = INFINITY;
+       for (int i = 0; i < s.start.x.cols(); ++i)
+         lowest = std::min(lowest, clearance_from(*s.model.find<Spheres>(), 0, s.start.x.col(i)));
+       return lowest;
+     }},
+    {"cloth-wind", "varies by {} %",
+     [](const Scene& s) { return 100 * s.model.find<Wind>()->acceleration.gusts->variation; }},
+    // two dimensions of clocks and rulers that belong to no scene
+    {"", "a picture of {} pixels", [](const Scene&) { return 1000.; }},
+};
+
+/// What is said of growth in words.
+struct Grows {
+  const char* scene;
+  const char* words;
+  double (*growth)(const Scene&);
+  double low, high;
+};
+const Grows grows[] = {
+    {"cloth-carried", "grows less than a thousandfold over the whole run", growth_over_run, 100, 1000},
+    {"cloth-sphere", "a perturbation grows about a hundredfold",
+     [](const Scene& s) { return growth_of_window(s, s.window); }, 30, 300},
+    {"cloth-stiff", "would grow more than a thousandfold", growth_at_two_corners, 1e3, 1e4},
+    {"cloth-swing", "would grow ten thousandfold in 3 s", growth_at_two_corners, 3e3, 3e4},
+    {"cloth-swing", "it grows less than a hundredfold", growth_over_run, 0, 100},
+    {"cloth-wind", "would grow ten thousandfold in 3 s", growth_at_two_corners, 3e3, 3e4},
+    {"cloth-wind", "it grows less than a hundredfold", growth_over_run, 0, 100},
+};
+
+const std::vector<Scene>& all_scenes() {
+  static const std::vector<Scene> scenes = [] {
+    std::vector<Scene> list;
+    for (const std::string_view name : shipped_scenes()) list.push_back(load_scene(std::string(name)));
+    return list;
+  }();
+  return scenes;
+}
+
+/// The words of a scene file: what it says of its values, and its comments, each behind the value that it is of.
+std::string words_of(const Scene& s) {
+  std::string words = TomlTable::parse_text(s.source, s.name).text("parameters") + "\n";
+  std::istringstream in(s.source);
+  for (std::string line; std::getline(in, line);)
+    if (const size_t hash = line.find('#'); hash != std::string::npos && hash > 0 && line[0] != 'p') {
+      const size_t value = line.find("= ");
+      words +=
+          (value < hash ? std::regex_replace(line.substr(value + 2, hash - value - 2), std::regex(" +$"), "") : "") +
+          " " + line.substr(hash + 2) + "\n";
+    }
+  return words;
+}
+
+/// Every number among the values of the file, as a number.
+std::vector<double> values_of(const Scene& s) {
+  std::string values;
+  std::istringstream in(s.source);
+  for (std::string line; std::getline(in, line);)
+    if (line.find('"') == std::string::npos) values += line.substr(0, line.find('#')) + "\n";
+  std::vector<double> all;
+  static const std::regex number("\\b[0-9]+(\\.[0-9]+)?(e-?[0-9]+)?");
+  for (auto at = std::sregex_iterator(values.begin(), values.end(), number); at != std::sregex_iterator(); ++at)
+    all.push_back(std::stod(at->str()));
+  return all;
+}
+
+/// Half a unit of the last digit that is written and is no trailing zero.
+double half_digit(const std::string& number) {
+  const size_t point = number.find('.');
+  if (point != std::string::npos) return 0.5 * std::pow(10, -static_cast<double>(number.size() - point - 1));
+  return 0.5 * std::pow(10, static_cast<double>(number.size() - number.find_last_not_of('0') - 1));
+}
+
+/// Where the number of a sentence stands in a text, and how long it is; nothing where the text does not say it.
+std::optional<std::pair<size_t, size_t>> place_of(const Told& t, const std::string& text) {
+  const std::string words = t.words, before = words.substr(0, words.find("{}")),
+                    after = words.substr(before.size() + 2);
+  for (size_t at = text.find(before); at != std::string::npos; at = text.find(before, at + 1)) {
+    const size_t from = at + before.size();
+    size_t length = 0;
+    while (from + length < text.size() && (std::isdigit(text[from + length]) || text[from + length] == '.')) ++length;
+    for (; length > 0; --length)  // a full stop behind it is none of the number
+      if (text[from + length - 1] != '.' && text.compare(from + length, after.size(), after) == 0)
+        return std::pair{from, length};
+  }
+  return std::nullopt;
+}
+
+TEST(SceneWords, EveryComputedNumberIsWhatTheSceneDoes) {
+  for (const Told& t : told) {
+    int found = 0;
+    for (const Scene& s : all_scenes()) {
+      if (*t.scene && s.name != t.scene) continue;
+      const std::string text = words_of(s);
+      const auto place = place_of(t, text);
+      if (!place) continue;
+      ++found;
+      const std::string number = text.substr(place->first, place->second);
+      EXPECT_NEAR(std::stod(number), t.value(s), 1.02 * half_digit(number)) << s.name << ": " << t.words;
+    }
+    EXPECT_GT(found, 0) << "no scene says: " << t.words;
+  }
+}
+
+TEST(SceneWords, NoNumberIsLeftUnchecked) {
+  static const std::regex number("\\b[0-9]+(\\.[0-9]+)?(e-?[0-9]+)?");
+  for (const Scene& s : all_scenes()) {
+    std::string text = words_of(s);
+    for (const Told& t : told)
+      if (!*t.scene || s.name == t.scene)
+        if (const auto place = place_of(t, text)) text.replace(place->first, place->second, place->second, ' ');
+    text = std::regex_replace(text, std::regex("([0-9]) 000"), "$01000");
+    // what is written as a power, a unit or a part of a formula
+    text = std::regex_replace(text, std::regex("\\^[0-9]|1/s|10 Hz|1000 pixels|2 / omega|2 m/s\\^2 at|1/ "), " ");
+    std::vector<double> values = values_of(s);
+    for (const char* of : {"cloth-hang"})
+      if (contains(text, of)) {
+        const auto more = values_of(load_scene(of));
+        values.insert(values.end(), more.begin(), more.end());
+      }
+    for (auto at = std::sregex_iterator(text.begin(), text.end(), number); at != std::sregex_iterator(); ++at) {
+      const double told_value = std::stod(at->str());
+      EXPECT_TRUE(std::any_of(values.begin(), values.end(),
+                              [&](double v) { return std::abs(v - told_value) <= 1e-9 * std::abs(v); }))
+          << s.name << " says " << at->str() << ", which is none of its values and not computed: ..."
+          << text.substr(std::max<long>(0, at->position() - 30), 60);
+    }
+  }
+}
+
+TEST(SceneWords, WhatGrowsGrowsAsIsSaid) {
+  for (const Grows& g : grows) {
+    const Scene s = load_scene(g.scene);
+    EXPECT_TRUE(contains(words_of(s), g.words)) << g.scene << ": " << g.words;
+    const double growth = g.growth(s);
+    fmt::print("{}: {}: {:.3g}\n", g.scene, g.words, growth);
+    EXPECT_GE(growth, g.low) << g.scene << ": " << g.words;
+    EXPECT_LE(growth, g.high) << g.scene << ": " << g.words;
+  }
+  // no other file speaks of growth in words
+  for (const Scene& s : all_scenes()) {
+    std::string text = words_of(s);
+    for (const Grows& g : grows)
+      if (const size_t at = s.name == g.scene ? text.find(g.words) : std::string::npos; at != std::string::npos)
+        text.erase(at, std::string(g.words).size());
+    EXPECT_FALSE(contains(text, "undredfold") || contains(text, "thousandfold") || contains(text, "millionfold"))
+        << s.name;
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,163 @@
+// What the shipped scenes are for happens in them, and each of their ingredients changes the motion.
+
+#include "experiments/metrics.h"
+#include "experiments/scenes/ingredients.h"
+#include "experiments/scenes/scenes.h"
+#include "mysim/model/system.h"
+#include "mysim/run/observers.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+TEST(Scenes, EveryIngredientMattersWithinTheWindow) {
+  for (const auto& name : shipped_scenes()) {
+    const Scene scene = load_scene(std::string(name));
+    const Stepper& s = stepper(scene.method);  // shipped scenes name one of mysim's own
+    const int samples = std::max(1, static_cast<int>(scene.samples * scene.window / scene.duration));
+    const crosscheck::Run run{scene.step, scene.window, samples};
+    const Trajectory whole = trajectory_of(s, scene, run);
+    for (const Ingredient& ingredient : ingredients_of(scene)) {
+      SCOPED_TRACE(fmt::format("{} without {}", name, ingredient.name));
+      const Scene less = without(scene, ingredient);
+      // nothing is left to move a first-order scene: it cannot run, which is change enough
+      if (scene.model.first_order() && !less.model.first_order()) continue;
+      const double change = sup_rms(whole, trajectory_of(s, less, run));
+      fmt::print("{:12} without {:18} {:.3g} m (tolerance {:.3g} m)\n", name, ingredient.name, change, scene.tolerance);
+      EXPECT_GT(change, scene.tolerance);
+    }
+  }
+}
+
+}  // namespace
+
+// What the shipped scenes are for happens in them: jelly lands and rests, cloth is carried, rods keep their lengths,
+// long steps fail where theory says so.
+
+namespace {
+
+using namespace testing_tools;
+
+double kinetic(const Scene& scene, const Trajectory& t, int i) {
+  return energy_of(scene.model, {t.t[i], t.x[i], t.v[i]}).kinetic;
+}
+
+TEST(Jelly, LandsWobblesAndRests) {
+  const Scene scene = load_scene("jelly");
+  for (const auto name : {"leapfrog", "rk4", "implicit-midpoint"}) {
+    SCOPED_TRACE(name);
+    const MethodRun a = answer(name, scene, default_run(scene));
+    ASSERT_EQ(a.outcome.verdict, Verdict::ok);
+    const Trajectory& t = a.trajectory;
+    const auto landed = first_contact(scene, t);
+    ASSERT_TRUE(landed);
+    EXPECT_NEAR(*landed, std::sqrt(2 * 0.2 / 9.81), 0.02 + 1e-3);  // a fall of 0.2 m, seen at the next sample
+    // wobbles: after landing its height above the ball turns several times
+    int turns = 0;
+    double most = 0;
+    std::vector<double> height;
+    for (const Points& x : t.x) height.push_back(x.row(1).maxCoeff() - x.row(1).minCoeff());
+    for (int i = 1; i + 1 < t.frames(); ++i) {
+      turns += (height[i] - height[i - 1]) * (height[i + 1] - height[i]) < 0 && std::abs(height[i] - 0.5) > 5e-3;
+      most = std::max(most, kinetic(scene, t, i));
+    }
+    EXPECT_GE(turns, 4);
+    // rests: what moves is a millionth of what moved, and nothing creeps
+    const int last = t.frames() - 1;
+    EXPECT_LT(kinetic(scene, t, last), 1e-5 * most);
+    EXPECT_LT(rms_distance(t.x[last], t.x[last - 5]), 1e-4);
+    EXPECT_GT(centre_of_mass(scene, t.x[last]).y(), 1.1);  // on the ball still
+  }
+}
+
+TEST(ClothCarried, MovesWithItsSphereAndNotWithoutFriction) {
+  const Scene scene = load_scene("cloth-carried");
+  Scene slippery = scene;
+  slippery.model.find<Spheres>()->list[0].friction = 0;
+  const Sphere& ball = scene.model.find<Spheres>()->list[0];
+  for (const auto name : {"symplectic-euler", "leapfrog", "implicit-euler"}) {
+    SCOPED_TRACE(name);
+    const Trajectory held = answer(name, scene, default_run(scene)).trajectory;
+    ASSERT_GT(held.frames(), 100);
+    double worst = 0;
+    for (int i = 0; i < held.frames(); ++i)
+      worst = std::max(worst, std::abs(centre_of_mass(scene, held.x[i]).x() - ball.centre_at(held.t[i]).x()));
+    // it lands while the ball begins to move and slides by some millimetres until it lies on
+    EXPECT_LT(worst, 0.02);
+    EXPECT_LT(*creep(scene, held.t.back(), held.x.back(), held.v.back()), 1e-3);  // m/s as seen from the ball
+    const Trajectory free = answer(name, slippery, default_run(scene)).trajectory;
+    double left_behind = 0;
+    for (int i = 0; i < free.frames(); ++i)
+      left_behind =
+          std::max(left_behind, std::abs(centre_of_mass(scene, free.x[i]).x() - ball.centre_at(free.t[i]).x()));
+    EXPECT_GT(left_behind, 0.1);
+  }
+}
+
+TEST(Rods, StretchByLessThanAThousandth) {
+  for (const auto name : {"rod", "cloth-inextensible"}) {
+    const Scene scene = load_scene(name);
+    const MethodRun a = answer("xpbd", scene, default_run(scene));
+    ASSERT_EQ(a.outcome.verdict, Verdict::ok) << name;
+    double worst = 0;
+    for (const Points& x : a.trajectory.x)
+      worst = std::max(worst, largest_stretch(*scene.model.find<Constraints>(), x));
+    fmt::print("{}: stretched by {:.2g}\n", name, worst);
+    EXPECT_LT(worst, 1e-3);  // the bound
+    EXPECT_GT(motion_of(a.trajectory), 0.3);
+  }
+}
+
+TEST(ClothStudent, TheAssignmentsTwoRulesFailAndTheoryKnew) {
+  const Scene scene = load_scene("cloth-student");
+  const double omega = highest_frequency(scene.model, scene.start), gamma = *uniform_drag_rate(scene.model);
+  for (const Stepper& s : steppers()) {
+    if (s.adaptive) continue;
+    SCOPED_TRACE(s.name);
+    const Outcome out = answer(std::string(s.name), scene, default_run(scene)).outcome;
+    const bool predicted_stable = s.limit(omega, gamma) > scene.step;
+    EXPECT_EQ(out.verdict == Verdict::ok, predicted_stable) << in_words(out.verdict);
+    EXPECT_EQ(predicted_stable, s.name != "explicit-euler" && s.name != "trapezoidal");
+  }
+  // a step within the limit cures what the student saw
+  for (const auto name : {"explicit-euler", "trapezoidal"}) {
+    const double limit = stepper(name).limit(omega, gamma);
+    EXPECT_LT(limit, scene.step / 3);
+    EXPECT_EQ(answer(name, scene, {0.8 * limit, 0.5, 5}).outcome.verdict, Verdict::ok) << name;
+  }
+}
+
+TEST(ClothStiff, ExplicitRulesFailAtTheStepOfAnAnimationAndImplicitEulerHolds) {
+  const Scene scene = load_scene("cloth-stiff");
+  const double omega = highest_frequency(scene.model, scene.start);
+  for (const Stepper& s : steppers())
+    if (!s.adaptive && std::isfinite(s.limit(omega, 4)) && s.evaluations > 0) {
+      EXPECT_NE(answer(std::string(s.name), scene, default_run(scene)).outcome.verdict, Verdict::ok) << s.name;
+    }
+  const MethodRun a = answer("implicit-euler", scene, default_run(scene));
+  ASSERT_EQ(a.outcome.verdict, Verdict::ok);
+  const auto truth = truth_of(scene, default_run(scene));
+  ASSERT_TRUE(truth);
+  // numerical damping of the swing: half h omega^2 of the pendulum's 4 rad/s is 0.13 /s beside a drag of 4 /s
+  EXPECT_LT(sup_rms(a.trajectory, truth->trajectory, scene.window), 0.03);
+  EXPECT_EQ(answer("implicit-euler+linear", scene, default_run(scene)).outcome.verdict, Verdict::ok);
+}
+
+TEST(Flag, TurnsIntoTheWindAndStaysUp) {
+  const Scene scene = load_scene("flag");
+  Scene calm = scene;
+  std::erase_if(calm.model.terms, [](const Term& t) { return std::holds_alternative<Aerodynamics>(t); });
+  const Trajectory wind = answer("leapfrog", scene, default_run(scene)).trajectory,
+                   none = answer("leapfrog", calm, default_run(scene)).trajectory;
+  const Vec3 air = scene.model.find<Aerodynamics>()->velocity.mean, flown = centre_of_mass(scene, wind.x.back());
+  // streams along the air, to within what is left of the swing after 3 s
+  EXPECT_NEAR(std::atan2(flown.z(), flown.x()), std::atan2(air.z(), air.x()), 0.1);
+  EXPECT_GT(flown.y(), -0.5);                                           // hanging down it would be at -0.85 or so
+  EXPECT_LT(std::abs(centre_of_mass(scene, none.x.back()).z()), 1e-3);  // without air nothing turns it
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,330 @@
+// Experiment `speed-accuracy`: statistics of times, Pareto lines, the cheapest run, and what its rows say.
+
+#include "experiments/speed_accuracy/speed_accuracy.h"
+#include "experiments/estimate.h"
+#include "experiments/scenes/scenes.h"
+#include "experiments/speed_accuracy/work_precision.h"
+#include "experiments/sweep/sweep.h"
+#include "experiments/tables/speed_accuracy.h"
+#include "mysim/model/system.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+TEST(Timing, MedianAndItsIntervalFollowTheOrderOfTheTimes) {
+  // of n times the k-th from each end bound the median with 90 %: k = 1 from 5 on, 2 from 8 on, 3 from 11 on, 4 from 13
+  const std::vector<std::pair<int, int>> ranks = {{1, 1}, {3, 1}, {5, 1}, {7, 1}, {8, 2}, {10, 2}, {11, 3}, {13, 4}};
+  for (const auto& [n, k] : ranks) {
+    SCOPED_TRACE(n);
+    std::vector<double> times;
+    for (int i = n; i > 0; --i) times.push_back(i);  // 1 to n, backwards
+    const Timing t = timing_of(times);
+    EXPECT_DOUBLE_EQ(t.median, (n + 1) / 2.);
+    EXPECT_DOUBLE_EQ(t.low, k);
+    EXPECT_DOUBLE_EQ(t.high, n + 1 - k);
+    EXPECT_EQ(t.repetitions, n);
+  }
+  EXPECT_THROW(timing_of({}), std::invalid_argument);
+}
+
+TEST(Timing, OneSlowRepetitionMovesNothing) {
+  const Timing quiet = timing_of({1, 1, 1, 1, 1, 1, 1, 1, 1}), disturbed = timing_of({1, 1, 1, 1, 50, 1, 1, 1, 1});
+  EXPECT_EQ(quiet.median, disturbed.median);
+  EXPECT_EQ(quiet.high, disturbed.high);
+}
+
+TEST(Timing, RunsTakeTurnsAndShortOnesAreRepeated) {
+  std::string order;
+  const std::vector<std::function<double()>> runs = {[&] { return order += 'a', 1.; },
+                                                     [&] { return order += 'b', 0.4e-3; }};
+  const auto times = time_round_robin(runs, {.least = 2, .most = 4, .enough = 1.5, .resolution = 1e-3});
+  // once each to warm up, which a second of a's is enough for to count; then b thrice a turn, until it took 1 ms; a has
+  // had enough after two
+  EXPECT_EQ(order, "ababbbbbbbbbbbb");
+  EXPECT_EQ(times[0], (std::vector<double>{1, 1}));
+  ASSERT_EQ(times[1].size(), 4u);
+  EXPECT_DOUBLE_EQ(times[1][0], 0.4e-3);
+}
+
+TEST(Timing, ARunThatTakesNoTimeEnds) {
+  // a program without a clock, or a refusal: each is a process, and 1000 of them tell no more than one
+  int asked = 0;
+  const std::vector<std::function<double()>> runs = {[&] { return ++asked, 0.; }, [] { return 1.; }};
+  const auto times = time_round_robin(runs, {.least = 5, .most = 7});
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(times[0], std::vector<double>{0});
+  EXPECT_EQ(times[1].size(), 5u);
+}
+
+TEST(Timing, ADifferenceCountsAboveTheNoiseOnly) {
+  const Timing a{1, 0.98, 1.02, 9};
+  EXPECT_FALSE(differ(a, a.times(1.02), 0.01));  // intervals overlap
+  EXPECT_TRUE(differ(a, a.times(1.1), 0.05));
+  EXPECT_FALSE(differ(a, a.times(1.1), 0.15));
+  EXPECT_TRUE(differ(a.times(1.1), a, 0.05));
+}
+
+TEST(Timing, TheNoiseFloorIsWhatHalvesOfTheRepetitionsDifferBy) {
+  using Times = std::vector<std::vector<double>>;
+  EXPECT_DOUBLE_EQ(noise_floor(Times{{1, 1, 1, 1}}), 0.01);  // never less
+  EXPECT_NEAR(noise_floor(Times{{1, 1.2, 1, 1.2}}), 0.2 / 1.1, 1e-12);
+  EXPECT_DOUBLE_EQ(noise_floor(Times{{1}}), 0.01);  // one repetition tells nothing
+}
+
+/// A hand-made case: cost, error.
+std::vector<WorkPrecisionPoint> tiny() {
+  auto point = [](const char* method, double cost, std::optional<double> error) {
+    return WorkPrecisionPoint{
+        method, "step [s]", cost, error.has_value(), error, cost, Timing{cost, 0.99 * cost, 1.01 * cost, 5}};
+  };
+  return {point("mysim/a", 8, 0.001),   point("mysim/a", 4, 0.01),     point("mysim/a", 2, 0.1),
+          point("bullet/b", 5, 0.02),   point("bullet/b", 16, 0.0005), point("mysim/c", 1, {}),
+          point("mysim/d", 4.05, 0.01), point("mysim/d", 4, 0.5)};
+}
+
+TEST(SpeedAccuracy, TheParetoLineOfAHandMadeCase) {
+  std::vector<std::pair<double, double>> line;
+  for (const WorkPrecisionPoint& p : pareto_line(tiny(), 0)) line.emplace_back(p.cost, *p.error);
+  // the failed run is cheapest and stands for nothing; at the same cost the better run counts
+  EXPECT_EQ(line, (std::vector<std::pair<double, double>>{{2, 0.1}, {4, 0.01}, {8, 0.001}, {16, 0.0005}}));
+}
+
+TEST(SpeedAccuracy, BelowTheFloorNobodyIsBetter) {
+  const auto line = pareto_line(tiny(), 0.002);
+  ASSERT_EQ(line.size(), 3u);
+  EXPECT_EQ(line.back().cost, 8);
+  EXPECT_EQ(line.back().error, 0.002);
+}
+
+TEST(SpeedAccuracy, TheCheapestWithinABoundOnBothSidesOfIt) {
+  const auto points = tiny();
+  EXPECT_EQ(cheapest(points, 0.01)->cost, 4);
+  EXPECT_EQ(cheapest(points, 0.0099)->cost, 8);
+  EXPECT_EQ(cheapest(points, 0.02, "bullet/")->cost, 5);
+  EXPECT_EQ(cheapest(points, 0.0199, "bullet/")->cost, 16);
+  EXPECT_EQ(cheapest(points, 1e-4), nullptr);
+  // mysim/d at 4.05 overlaps 4; bullet/b does not meet the bound
+  EXPECT_EQ(statistically_tied(points, *cheapest(points, 0.01), 0.01, 0.01), std::vector<std::string>{"mysim/d"});
+}
+
+TEST(SpeedAccuracy, DistancesOverTimeAreLargestAndRms) {
+  Trajectory a{{0, 1, 2}, {}, {}}, b = a;
+  for (const double d : {0., 3., 4.}) {
+    a.x.push_back(Points::Zero(3, 1));
+    b.x.push_back(Points::Zero(3, 1));
+    b.x.back()(0, 0) = d;
+  }
+  EXPECT_DOUBLE_EQ(distance_over_time(a, b, 2).largest, 4);
+  EXPECT_DOUBLE_EQ(distance_over_time(a, b, 2).over_time, std::sqrt(25 / 3.));
+  EXPECT_DOUBLE_EQ(distance_over_time(a, b, 1.5).largest, 3);  // what lies beyond is not looked at
+}
+
+TEST(SpeedAccuracy, LaddersHalveTheStep) {
+  const Scene scene = load_scene("spring");
+  const crosscheck::Run run{1e-3, scene.duration, 10};
+  const auto limited = ladder(find_method("leapfrog"), scene, run, true),
+             unlimited = ladder(find_method("implicit-euler"), scene, run, true),
+             adaptive = ladder(find_method("dopri5"), scene, run, false);
+  // steps divide the sampling interval; at the limit of 2 / omega leapfrog fails, and one or two such runs are enough
+  const double limit = 2 / highest_frequency(scene.model, scene.start);
+  const auto beyond = std::count_if(limited.begin(), limited.end(), [&](const Setting& s) { return s.value > limit; });
+  EXPECT_GE(limited.front().value, std::min(limit, 64e-3 * 0.9));
+  EXPECT_LE(beyond, 2);
+  const auto stiff = ladder(find_method("explicit-euler"), scene, run, true);
+  EXPECT_NEAR(stiff.front().value, 8e-3, 1e-4) << "no step holds without drag: those of old are enough to see it";
+  EXPECT_NEAR(limited.back().value, 1e-3 / 16, 1e-6);
+  EXPECT_NEAR(unlimited.front().value, 64e-3, 5e-3);
+  ASSERT_EQ(adaptive.size(), 4u);
+  EXPECT_TRUE(adaptive.front().tolerance);
+  EXPECT_EQ(adaptive.front().applied_to(run).step, run.step);
+  int dropped = 0;
+  const auto cloth = load_scene("cloth-hang");
+  ladder(find_method("rk4"), cloth, default_run(cloth), false, &dropped);
+  EXPECT_GT(dropped, 0);
+}
+
+TEST(SpeedAccuracy, OneNewtonStepIsEstimatedLikeAnImplicitRule) {
+  const Scene scene = load_scene("cloth-hang");
+  const auto seconds = [&](const char* method) { return estimated_seconds(find_method(method), scene, 10); };
+  EXPECT_EQ(seconds("implicit-euler+linear"), seconds("implicit-euler"));
+  EXPECT_GT(seconds("implicit-euler+linear"), 10 * seconds("leapfrog"));
+  EXPECT_EQ(seconds("rk4+sticky"), seconds("rk4"));
+}
+
+TEST(SpeedAccuracy, OfLongRunsTheFirstPartIsTimed) {
+  const Scene cloth = load_scene("cloth-hang"), ball = load_scene("slide");
+  const Setting step{false, cloth.step}, tolerance{true, 1e-4};
+  const Method leapfrog = find_method("leapfrog");
+  const crosscheck::Run run = default_run(cloth);
+  const TimedPart part = part_of(leapfrog, cloth, run, step);
+  EXPECT_LT(part.share, 0.7);
+  EXPECT_NEAR(estimated_seconds(leapfrog, cloth, part.run), 0.02, 0.002);
+  EXPECT_DOUBLE_EQ(part.run.step, time_grid(step.applied_to(run)).h);
+  EXPECT_NEAR(part.run.duration, part.share * run.duration, 1e-9);
+  const TimedPart adaptive = part_of(find_method("dopri5"), cloth, run, tolerance);
+  EXPECT_LT(adaptive.share, 0.7);
+  EXPECT_NEAR(adaptive.run.duration / adaptive.run.samples, run.duration / run.samples, 1e-12);  // whole samples
+  // what may touch, and what runs elsewhere, is timed whole
+  EXPECT_EQ(part_of(leapfrog, ball, {1e-7, 1, 10}, {false, 1e-7}).share, 1);
+  Method outside = leapfrog;
+  outside.fingerprint = "a program";
+  EXPECT_EQ(part_of(outside, cloth, run, step).share, 1);
+}
+
+TEST(SpeedAccuracy, AMethodThatRefusesTheLongestStepIsTimedAtTheOthers) {
+  const Scene scene = load_scene("spring");
+  Request request;
+  request.methods = {find_method("leapfrog")};
+  request.methods[0].engine = [inner = request.methods[0].engine](const Scene& s, const crosscheck::Run& run,
+                                                                  Observer& observer) {
+    if (run.step > 5e-3) throw Unsupported("too long");
+    return inner(s, run, observer);
+  };
+  Rows rows;
+  speed_accuracy_on(request, scene, rows);
+  time_speed_accuracy(request, scene, rows);
+  const Table &errors = *rows.table("speed-accuracy"), &times = *rows.table("speed-accuracy-timing-cost");
+  const auto settings = ladder(request.methods[0], scene, default_run(scene), false);
+  const auto all = std::ssize(settings),
+             longer = std::ranges::count_if(settings, [](const Setting&s) { return s.value > 5e-3; });
+  ASSERT_GT(longer, 0);
+  EXPECT_EQ(std::ssize(errors.rows), all - longer);
+  EXPECT_EQ(std::ssize(times.rows), all - longer);
+  ASSERT_EQ(rows.notes.size(), 1u);
+  EXPECT_TRUE(contains(rows.notes[0], fmt::format("leaves out {} of {} runs of mysim/leapfrog", longer, all)));
+  EXPECT_TRUE(contains(rows.notes[0], "which it refuses: too long"));
+}
+
+TEST(SpeedAccuracy, ABoundIsMetWithTheTruthsOwnBar) {
+  Rows rows;
+  Table t = results_table();
+  // motion 1 m, bar 2 mm; errors of 7 and 9 mm at 20 and 10 evaluations
+  for (const auto& [step, evaluations, error] : {std::tuple{0.1, 10l, 9e-3}, std::tuple{0.05, 20l, 7e-3}})
+    t.add({std::string("s"), std::string("mysim/a"), std::string("step [s]"), step, step, evaluations, evaluations,
+           std::string("ok"), 1., error, error, Cell(), Cell(), Cell(), 1., 1., std::string("converged"), 2e-3,
+           std::string()});
+  rows.add(t);
+  conclude_speed_accuracy(rows);
+  const Table& best = *rows.table("speed-accuracy-cheapest");
+  EXPECT_EQ(std::get<double>(best.at(0, "distance")), 9e-3);  // 10 %
+  EXPECT_EQ(std::get<double>(best.at(1, "distance")), 7e-3);  // 1 %: 9 + 2 > 10
+  EXPECT_EQ(std::get<std::string>(best.at(2, "remark")), "below the error bar of the truth");
+}
+
+/// The rows of one scene and some methods; no times.
+Rows rows_of(const Scene& scene, const std::string& methods) {
+  Request request;
+  request.scenes = {scene};
+  request.methods = find_methods(methods);
+  auto points = speed_accuracy_points(request);
+  std::erase_if(points, [](const Point& p) { return p.timed; });
+  Rows rows = computed(points);
+  conclude_speed_accuracy(rows);
+  return rows;
+}
+
+/// The value in a row of a method; the row is the i-th of it.
+const Cell& cell(const Rows& rows, const std::string& method, int i, const std::string& column) {
+  const Table& t = *rows.table("speed-accuracy");
+  for (size_t row = 0; row < t.rows.size(); ++row)
+    if (std::get<std::string>(t.at(row, "method")) == method && i-- == 0) return t.at(row, column);
+  throw std::out_of_range(method);
+}
+
+TEST(SpeedAccuracy, RowsAreTheSameTwiceAndFailedRunsAreRows) {
+  const Scene spring = small_scene(
+      "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1.1, 0, 0]\nmass = 1\n[[spring]]\nends "
+      "= [0, 1]\n"
+      "stiffness = 400\nrest = 1\n[pins]\nparticles = [0]\n",
+      1, 0.04, 5);  // omega = 20/s: leapfrog holds to 0.1 s
+  const Rows once = rows_of(spring, "leapfrog,bullet/deformable-explicit"),
+             twice = rows_of(spring, "leapfrog,bullet/deformable-explicit");
+  ASSERT_FALSE(once.tables.empty());
+  for (const Table& t : once.tables) EXPECT_EQ(csv(t, {}), csv(*twice.table(t.name), {})) << t.name;
+
+  EXPECT_EQ(std::get<std::string>(cell(once, "mysim/leapfrog", 0, "verdict")), "energy");  // at 0.2 s
+  EXPECT_GT(std::get<long>(cell(once, "mysim/leapfrog", 0, "evaluations")), 0);
+  EXPECT_LT(std::get<double>(cell(once, "mysim/leapfrog", 0, "end")), 1);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(cell(once, "mysim/leapfrog", 0, "largest error")));
+  // the error falls with the square of the step, and so does the distance from the finest run
+  const double coarse = std::get<double>(cell(once, "mysim/leapfrog", 3, "largest error")),
+               fine = std::get<double>(cell(once, "mysim/leapfrog", 4, "largest error"));
+  EXPECT_NEAR(slope(coarse, fine), 2, 0.2);
+  EXPECT_NEAR(std::get<double>(cell(once, "mysim/leapfrog", 4, "distance to own finest")) / fine, 1, 0.1);
+
+  // Bullet follows symplectic Euler, of order 1: leapfrog needs fewer evaluations for the same error
+  const Table& best = *once.table("speed-accuracy-cheapest");
+  ASSERT_EQ(best.rows.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(std::get<std::string>(best.at(i, "measure")), "error");
+  EXPECT_EQ(std::get<std::string>(best.at(1, "method")), "mysim/leapfrog");
+  EXPECT_LE(std::get<double>(best.at(1, "distance")), std::get<double>(best.at(1, "bound")));
+  EXPECT_EQ(once.table("speed-accuracy-cost")->rows.size(), 0u);  // nothing was timed
+}
+
+TEST(SpeedAccuracy, FirstOrderScenesAreAnsweredByWhoTakesThem) {
+  const Rows rows = rows_of(load_scene("circle"), "rk4,leapfrog,explicit-euler,dopri5");
+  auto of_rk4 = [&](int i, const char* column) { return std::get<double>(cell(rows, "mysim/rk4", i, column)); };
+  // steps divide the sampling interval, and so are not quite halves; order 4
+  EXPECT_NEAR(std::log(of_rk4(2, "largest error") / of_rk4(3, "largest error")) /
+                  std::log(of_rk4(2, "step") / of_rk4(3, "step")),
+              4, 0.1);
+  EXPECT_THROW(cell(rows, "mysim/leapfrog", 0, "verdict"), std::out_of_range);  // it needs velocities
+  EXPECT_EQ(std::get<std::string>(cell(rows, "mysim/dopri5", 0, "setting")), "tolerance [1]");
+  EXPECT_GT(rows.table("speed-accuracy-pareto")->rows.size(), 2u);
+}
+
+TEST(SpeedAccuracy, WhereNothingMovesNothingIsCompared) {
+  const Scene still = small_scene(
+      "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1, 0, 0]\nmass = 1\n"
+      "[[spring]]\nends = [0, 1]\nstiffness = 10\nrest = 1\n");
+  const Rows rows = rows_of(still, "leapfrog");
+  EXPECT_EQ(rows.table("speed-accuracy"), nullptr);
+  ASSERT_EQ(rows.notes.size(), 1u);
+  EXPECT_TRUE(contains(rows.notes[0], "leaves out small: nothing moves there"));
+}
+
+TEST(SpeedAccuracy, FromTheContactRulesAnswerThereAreDifferencesOnly) {
+  // a particle that slides over a ball with drag: no closed form, and what the in-house rule converges to is no truth
+  const Scene scene = small_scene(
+      std::string("[[particle]]\nposition = [0, 1.02, 0]\nmass = 1\nvelocity = [1, 0, 0]\n[sphere]\ncentre = [0, 0, 0]"
+                  "\nradius = 1\nmargin = 0.02\nfriction = 0.2\n[drag]\ngamma = 0.5\n") +
+      gravity_text);
+  const Rows rows = rows_of(scene, "leapfrog");
+  const Table& t = *rows.table("speed-accuracy");
+  ASSERT_FALSE(t.rows.empty());
+  for (size_t i = 0; i < t.rows.size(); ++i) {
+    EXPECT_EQ(std::get<std::string>(t.at(i, "truth")), "converged, in-house contact rule");
+    for (const char* column : {"largest error", "error over time"})
+      EXPECT_TRUE(std::holds_alternative<std::monostate>(t.at(i, column))) << column;
+    EXPECT_GT(std::get<double>(t.at(i, "largest difference from converged contact")), 0);
+  }
+  const Table& best = *rows.table("speed-accuracy-cheapest");
+  ASSERT_EQ(best.rows.size(), 3u);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(std::get<std::string>(best.at(i, "measure")), "difference");
+}
+
+TEST(SpeedAccuracy, TimesAreScaledToTheWholeRun) {
+  Rows rows = rows_of(load_scene("spring"), "leapfrog");
+  const long evaluations = std::get<long>(cell(rows, "mysim/leapfrog", 3, "evaluations"));
+  Rows timed;
+  timed.add(*rows.table("speed-accuracy"));
+  // a tenth of the run took 2 s
+  Table t = timing_table();
+  t.add({std::string("spring"), std::string("mysim/leapfrog"), std::string("step [s]"),
+         cell(rows, "mysim/leapfrog", 3, "asked"), 0.1, evaluations / 10, 2., 1.9, 2.2, 5L, 0.03});
+  timed.add(t);
+  conclude_speed_accuracy(timed);
+  const Table& cost = *timed.table("speed-accuracy-cost");
+  ASSERT_EQ(cost.rows.size(), 1u);
+  const double factor = static_cast<double>(evaluations) / static_cast<double>(evaluations / 10);
+  EXPECT_DOUBLE_EQ(std::get<double>(cost.at(0, "cpu")), 2 * factor);
+  EXPECT_DOUBLE_EQ(std::get<double>(cost.at(0, "cpu high")), 2.2 * factor);
+  EXPECT_EQ(std::get<std::string>(cost.at(0, "build")), "this build");
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,222 @@
+// The lanes of the general spring kernel tested: diagonals and pairs against the plain edge loop, on every instruction
+// set.
+
+#include "experiments/timing/instruction_sets.h"
+#include "mysim/simd/spring_graph/plan.h"
+#include "mysim/simd/spring_graph/spring_kernel.h"
+#include "tests/unit/mysim/networks.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+using simd::InstructionSet;
+using spring_graph::Costs;
+
+struct Loose {
+  Springs springs;
+  Points x;
+};
+
+/// So dear a plain loop that none is taken; and diagonals that cost nothing, or too much.
+constexpr Costs into_diagonals{.coefficient_row = 0, .tile = 0, .pair = 1, .particle = 0, .plain = 1e9, .call = 0};
+constexpr Costs into_pairs{.coefficient_row = 1e9, .tile = 0, .pair = 1, .particle = 0, .plain = 1e9, .call = 0};
+
+/// As SpringKernel does it, but on instructions of our choice and sorted by other costs.
+struct Sorted {
+  spring_graph::SpringPartition partition;
+  spring_graph::Kernels run;
+  SpringLaw law;
+  std::optional<spring_graph::DiaStorage> diagonals;
+  std::optional<spring_graph::CooStorage> pairs;
+
+  Sorted(const Loose& net, InstructionSet isa, const Costs& costs)
+      : partition(spring_graph::partition_springs(net.springs.list, static_cast<int>(net.x.cols()), costs)),
+        run(spring_graph::kernels(isa, net.springs.law)),
+        law(net.springs.law) {
+    if (!partition.diagonals.empty()) diagonals.emplace(partition.diagonals, net.x.cols());
+    if (!partition.pairs.empty()) pairs.emplace(partition.pairs, net.x.cols());
+  }
+  Forces forces(const Points& x) {
+    Forces sum{Points::Zero(3, x.cols())};
+    if (diagonals && run.diagonals(diagonals->view(), x.data(), sum.f.data()))
+      sum.degenerate_springs += diagonals->degenerate_springs();
+    if (pairs && run.pairs(pairs->view(), x.data(), sum.f.data()))
+      sum.degenerate_springs += pairs->degenerate_springs();
+    add_force({partition.plain, law}, x, sum);
+    return sum;
+  }
+};
+
+Spring random_spring(Random& random, int a, int b) {
+  if (random.between(0, 1) < 0.5) std::swap(a, b);
+  const double k = std::pow(10, random.between(-1, 5)), rest = random.between(-0.3, 1);
+  return {a, b, k, std::max(0.0, rest), Family::single};
+}
+
+Loose random_points(Random& random, int particles, SpringLaw law) {
+  Loose net{{{}, law}, Points(3, particles)};
+  for (int i = 0; i < particles; ++i) net.x.col(i) = random.vector();
+  return net;
+}
+
+int whole(Random& random, int end) { return std::min(end - 1, static_cast<int>(random.between(0, end))); }
+
+/// So many springs between any two of few particles, of which the last has none: springs repeat, some lie between ends
+/// that meet.
+Loose tangle(unsigned seed, int springs, SpringLaw law) {
+  Random random(seed);
+  const int n = 3 + springs / 3;
+  Loose net = random_points(random, n, law);
+  net.x.col(1) = net.x.col(0);
+  while (static_cast<int>(net.springs.list.size()) < springs) {
+    const int a = whole(random, n - 1), b = whole(random, n - 1);
+    if (a != b) net.springs.list.push_back(random_spring(random, a, b));
+  }
+  return net;
+}
+
+/// Particles with 1, 2, 3 ... 40 springs to others of many.
+Loose hubs(unsigned seed, SpringLaw law) {
+  Random random(seed);
+  const int n = 200;
+  Loose net = random_points(random, n, law);
+  for (int hub = 0; hub < 40; ++hub)
+    for (int i = 0; i <= hub; ++i)
+      net.springs.list.push_back(random_spring(random, hub, 40 + (hub * 13 + i * 7) % 160));
+  return net;
+}
+
+/// Springs of the given offsets, one in five left out, one in twenty twice; the last offset begins late and ends early.
+/// Some neighbours meet.
+Loose strands(unsigned seed, int particles, const std::vector<int>& offsets, SpringLaw law) {
+  Random random(seed);
+  Loose net = random_points(random, particles, law);
+  for (int i = 5; i + 1 < particles; i += 17) net.x.col(i + 1) = net.x.col(i);
+  for (const int offset : offsets)
+    for (int i = 0; i + offset < particles; ++i) {
+      if (offset == offsets.back() && (i < particles / 4 || i > particles / 2)) continue;
+      if (random.between(0, 1) < 0.2) continue;
+      const Spring s = random_spring(random, i, i + offset);
+      net.springs.list.push_back(s);
+      if (random.between(0, 1) < 0.05) net.springs.list.push_back(s);
+    }
+  return net;
+}
+
+std::vector<std::pair<std::string, Loose>> networks(SpringLaw law) {
+  std::vector<std::pair<std::string, Loose>> all;
+  for (int springs = 0; springs <= 70; ++springs)
+    all.emplace_back(fmt::format("tangle of {}", springs), tangle(springs + 1, springs, law));
+  all.emplace_back("tangle of 1000", tangle(7, 1000, law));
+  for (unsigned seed = 1; seed <= 5; ++seed) all.emplace_back(fmt::format("hubs {}", seed), hubs(seed, law));
+  for (int particles = 2; particles <= 70; ++particles)
+    all.emplace_back(fmt::format("strands of {}", particles), strands(particles, particles, {1, 2, 3, 8, 21}, law));
+  // rings that are just long enough, and offsets around tiles
+  for (unsigned seed = 1; seed <= 5; ++seed)
+    all.emplace_back(fmt::format("strands far apart {}", seed),
+                     strands(seed, 700, {1, 7, 8, 9, 39, 40, 41, 103, 104, 232, 233, 5}, law));
+  return all;
+}
+
+/// Each spring's force is the plain loop's to the last bit. Sums are rounded once for each spring, in either order.
+void expect_close(const Loose& net, const Forces& fast, const Forces& plain) {
+  const int n = static_cast<int>(net.x.cols());
+  Eigen::ArrayXd sizes = Eigen::ArrayXd::Zero(n);
+  Eigen::ArrayXi springs = Eigen::ArrayXi::Zero(n);
+  for (const Spring& s : net.springs.list) {
+    const double size = std::abs(tension_of(s, net.springs.law, (net.x.col(s.a) - net.x.col(s.b)).norm()).force);
+    for (const int end : {s.a, s.b})
+      if (std::isfinite(size)) sizes[end] += size, ++springs[end];
+  }
+  EXPECT_EQ(fast.degenerate_springs, plain.degenerate_springs);
+  for (int i = 0; i < n; ++i) {
+    if (springs[i] <= 1) {
+      EXPECT_EQ(fast.f.col(i), plain.f.col(i)) << i;
+    }
+    EXPECT_LE((fast.f.col(i) - plain.f.col(i)).norm(), springs[i] * eps * sizes[i]) << i;
+  }
+}
+
+TEST(Network, DiagonalsAndPairsAreTheEdgeLoopButForTheOrderOfTheSum) {
+  long degenerate_springs = 0;
+  for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
+    for (const auto& [name, net] : networks(law)) {
+      Forces plain{Points::Zero(3, net.x.cols())};
+      add_force(net.springs, net.x, plain);
+      degenerate_springs += plain.degenerate_springs;
+      for (const InstructionSet isa : simd::supported_instruction_sets())
+        for (const Costs& costs : {into_diagonals, into_pairs}) {
+          SCOPED_TRACE(fmt::format("{}, {}, {}", name_of(law), name, name_of(isa)));
+          Sorted sorted(net, isa, costs);
+          EXPECT_TRUE(sorted.partition.plain.empty());
+          const Forces fast = sorted.forces(net.x);
+          expect_close(net, fast, plain);
+          EXPECT_EQ(sorted.forces(net.x).f, fast.f) << "asked again";
+          // elsewhere and back: nothing of one evaluation is left for the next
+          sorted.forces(2 * net.x.rowwise().reverse());
+          EXPECT_EQ(sorted.forces(net.x).f, fast.f);
+        }
+    }
+  EXPECT_GE(degenerate_springs, 100);  // ends that meet were tried
+}
+
+TEST(Network, InstructionsGiveTheSameBits) {
+  for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
+    for (const auto& [name, net] : networks(law))
+      for (const Costs& costs : {into_diagonals, into_pairs, spring_graph::costs(InstructionSet::avx512)})
+        for (const InstructionSet isa : simd::supported_instruction_sets()) {
+          Sorted least(net, InstructionSet::sse2, costs), other(net, isa, costs);
+          EXPECT_EQ(least.forces(net.x).f, other.forces(net.x).f)
+              << name_of(law) << ", " << name << ", " << name_of(isa);
+        }
+  // so that springs go the same ways on both
+  EXPECT_EQ(spring_graph::costs(InstructionSet::avx2).coefficient_row,
+            spring_graph::costs(InstructionSet::avx512).coefficient_row);
+}
+
+/// A force near the rest length is the small difference of large numbers: at rest it is 0, not the rounding of these.
+TEST(Network, SpringsAtRestPullAtNothing) {
+  Random random(3);
+  Loose net = random_points(random, 100, SpringLaw::hooke);
+  for (const int offset : {1, 3, 10})
+    for (int i = 0; i + offset < 100; ++i)
+      net.springs.list.push_back({i, i + offset, 1e9, (net.x.col(i) - net.x.col(i + offset)).norm(), Family::single});
+  for (const InstructionSet isa : simd::supported_instruction_sets())
+    for (const Costs& costs : {into_diagonals, into_pairs})
+      EXPECT_TRUE(Sorted(net, isa, costs).forces(net.x).f.isZero(0)) << name_of(isa);
+}
+
+TEST(Network, SortsCheaply) {
+  Random random(4);
+  const auto partition = [](const Loose& net) {
+    return spring_graph::partition_springs(net.springs.list, static_cast<int>(net.x.cols()),
+                                           spring_graph::costs(InstructionSet::avx2));
+  };
+  // a pendulum and a short chain are not worth lanes
+  EXPECT_EQ(partition(strands(1, 2, {1}, SpringLaw::hooke)).plain.size(), 1u);
+  EXPECT_EQ(partition(strands(1, 8, {1}, SpringLaw::hooke)).diagonals.size(), 0u);
+  // what is numbered row by row is taken, but for springs that are there twice and a few across
+  Loose net = strands(1, 400, {1, 2, 20, 21, 19, 40}, SpringLaw::hooke);
+  net.springs.list.push_back({3, 350, 1, 1, Family::single});
+  const spring_graph::SpringPartition rows = partition(net);
+  EXPECT_EQ(rows.diagonals.size(), 6u);
+  EXPECT_LT(rows.plain.size() + rows.pairs.size(), net.springs.list.size() / 10);
+  EXPECT_EQ(partition(tangle(1, 1000, SpringLaw::hooke)).pairs.size(), 1000u);
+}
+
+TEST(Network, SpringKernelRunsOnTheInstructionsThatAreAskedFor) {
+  const Loose net = strands(9, 300, {1, 2, 17, 18, 34}, SpringLaw::hooke);
+  Forces plain{Points::Zero(3, 300)};
+  add_force(net.springs, net.x, plain);
+  for (const InstructionSet isa : simd::supported_instruction_sets()) {
+    const ScopedInstructionSet only(isa);
+    Forces fast{Points::Zero(3, 300)};
+    SpringKernel kernel(net.springs, 300);
+    kernel.add_force(net.x, fast);
+    expect_close(net, fast, plain);
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck

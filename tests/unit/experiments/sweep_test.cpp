@@ -1,0 +1,297 @@
+// Sweeps: points are computed once, wherever and in whatever order; what fails is named; parts join to the whole.
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "experiments/sweep/store.h"
+#include "experiments/sweep/sweep.h"
+#include "mysim/base/errors.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+namespace fs = std::filesystem;
+
+/// Whether the call throws an E whose message has the part.
+template <class E, class F>
+::testing::AssertionResult throws(F call, const std::string& part) {
+  try {
+    call();
+  } catch (const E& error) {
+    return contains(error.what(), part);
+  }
+  return ::testing::AssertionFailure() << "nothing was thrown";
+}
+
+class Sweep : public InFolder {
+ protected:
+  Point point(const std::string& name, double value) {
+    return {name, "content", [this, name, value](Rows& rows) {
+              note(name);
+              Table table{"values", {{"name", "1"}, {"value", "m"}}, {}};
+              table.add({name, value});
+              rows.add(table);
+            }};
+  }
+  std::vector<Point> several(int count) {
+    std::vector<Point> points;
+    for (int i = 0; i < count; ++i) points.push_back(point("p" + std::to_string(i), 1.0 / (i + 3)));
+    return points;
+  }
+  /// Points run in other processes: they say that they ran in a file.
+  void note(const std::string& name) const { std::ofstream(folder_ / "ran", std::ios::app) << name << "\n"; }
+  std::vector<std::string> ran() const {
+    std::ifstream in(folder_ / "ran");
+    std::vector<std::string> names;
+    for (std::string line; std::getline(in, line);) names.push_back(line);
+    return names;
+  }
+  std::vector<FailedPoint> run(const std::vector<Point>& points, const SweepOptions& options = {2, {}}) {
+    Progress progress(static_cast<int>(points.size()));
+    return run_points(points, options, store, progress);
+  }
+  static std::string text(const Rows& rows) { return rows_json(rows); }
+  Rows whole(const std::vector<Point>& points) { return joined(point_list_of({}, points, {}), {&store, 1}, missing); }
+
+  void SetUp() override {
+    InFolder::SetUp();
+    setenv("CROSSCHECK_LOCK", (folder_ / "lock").c_str(), 1);  // or another run on this machine is waited for
+    store = Store(folder_ / "points");
+  }
+  Store store{""};
+  std::vector<std::string> missing;
+};
+
+TEST_F(Sweep, RowsComeBackToTheSameBits) {
+  Table table{"t", {{"name", "1"}, {"x", "m"}, {"n", "1"}}, {}};
+  for (const double x : std::vector<double>{1, 0.1, -0.0, 5e-324, 1.7976931348623157e308, NAN, INFINITY, -INFINITY})
+    table.add({"a,\"b\"\n", x, 7l});
+  table.add({Cell(), Cell(), Cell()});
+  Rows rows;
+  rows.add(table);
+  rows.notes = {"left out"};
+  rows.certificates = {{"m", "s", {{"mass", "1 kg", "as asked", "1 kg", Parity::different_law}}}};
+  const Rows back = read_rows(rows_json(rows));
+  ASSERT_EQ(back.tables.size(), 1u);
+  EXPECT_EQ(csv(back.tables[0], {}), csv(table, {}));
+  for (size_t i = 0; i < table.rows.size(); ++i)
+    for (size_t j = 0; j < 3; ++j) EXPECT_EQ(back.tables[0].rows[i][j].index(), table.rows[i][j].index());
+  EXPECT_TRUE(std::signbit(std::get<double>(back.tables[0].rows[2][1])));
+  EXPECT_EQ(back.notes, rows.notes);
+  EXPECT_EQ(back.certificates[0].rows[0].parity, Parity::different_law);
+}
+
+TEST_F(Sweep, WhatIsNoRowsIsRefusedInWords) {
+  for (const char* text : {"", "{}", "[1]", "{\"tables\": [{\"name\": 1}]}"})
+    EXPECT_TRUE(throws<InputError>([&] { read_rows(text); }, "expected JSON of tables, certificates and notes"));
+}
+
+TEST_F(Sweep, RowsOfTheSameTableAreAppendedAndNotesSaidOnce) {
+  Rows all;
+  for (int i = 0; i < 3; ++i) {
+    Rows rows;
+    point("p", i).compute(rows);
+    rows.notes = {"the same"};
+    all.append(rows);
+  }
+  EXPECT_EQ(all.table("values")->rows.size(), 3u);
+  EXPECT_EQ(all.notes.size(), 1u);
+  EXPECT_TRUE(throws<std::logic_error>([&] { all.add({"values", {{"other", "1"}}, {}}); }, "columns differ"));
+}
+
+TEST_F(Sweep, ProcessesGiveWhatOneAfterTheOtherGives) {
+  const std::vector<Point> points = several(9);
+  EXPECT_TRUE(run(points, {3, {}}).empty());
+  EXPECT_EQ(text(whole(points)), text(computed(points)));
+  EXPECT_TRUE(missing.empty());
+}
+
+TEST_F(Sweep, NothingFinishedIsRepeatedUnlessItsFileIsDamaged) {
+  const std::vector<Point> points = several(5);
+  run(points);
+  EXPECT_EQ(ran().size(), 5u);
+  run(points);
+  EXPECT_EQ(ran().size(), 5u);
+  std::ofstream(store.folder() / (points[2].hash() + ".json")) << "{\"tables\"";
+  run(points);
+  EXPECT_EQ(ran().size(), 6u);
+  EXPECT_EQ(ran().back(), "p2");
+}
+
+TEST_F(Sweep, AnotherContentOrNameIsAnotherPoint) {
+  Point a = point("a", 1), b = a, c = a;
+  b.content += " step=2";
+  c.name = "b";
+  EXPECT_EQ(a.hash(), point("a", 2).hash());  // what is computed does not count, what it depends on does
+  EXPECT_NE(a.hash(), b.hash());
+  EXPECT_NE(a.hash(), c.hash());
+  EXPECT_EQ(a.hash().size(), 16u);
+}
+
+TEST_F(Sweep, WhatThrowsOrDiesIsNamedAndTheOthersGoOn) {
+  std::vector<Point> points = several(6);
+  points[1].compute = [](Rows&) { throw InputError("no such spring"); };
+  points[3].compute = [](Rows&) { raise(SIGKILL); };
+  points[4].compute = [](Rows&) { _exit(7); };
+  std::map<std::string, std::string> failed;
+  for (const FailedPoint& f : run(points)) failed[f.name] = f.why;
+  EXPECT_EQ(failed.size(), 3u);
+  EXPECT_EQ(failed["p1"], "no such spring");
+  EXPECT_TRUE(contains(failed["p3"], "signal 9"));
+  EXPECT_EQ(failed["p4"], "it ended early");
+  whole(points);
+  EXPECT_EQ(missing, (std::vector<std::string>{"p1", "p3", "p4"}));
+  // mended, they are computed, and no failure stays behind
+  EXPECT_TRUE(run(several(6)).empty());
+}
+
+TEST_F(Sweep, ARowOfAnotherLengthIsNoRow) {
+  Table table{"t", {{"a", "1"}, {"b", "1"}}, {}};
+  EXPECT_TRUE(throws<std::logic_error>([&] { table.add({1.}); }, "table t: a row of 1 cells under 2 columns"));
+  std::vector<Point> points = several(2);
+  points[1].compute = [table](Rows& rows) mutable { table.add({1.}), rows.add(table); };
+  const auto failed = run(points);
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_EQ(failed[0].name, "p1");
+}
+
+TEST_F(Sweep, WhatFailedBeforeAndDiesNowIsNamedOnce) {
+  std::vector<Point> points = several(1);
+  points[0].compute = [](Rows&) { throw InputError("no such spring"); };
+  EXPECT_EQ(run(points).at(0).why, "no such spring");
+  points[0].compute = [](Rows&) { raise(SIGKILL); };
+  const auto failed = run(points);
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_TRUE(contains(failed[0].why, "signal 9"));
+}
+
+TEST_F(Sweep, WhatIsNotThereAfterwardsIsNamedWhoeverLostIt) {
+  std::vector<Point> points = several(3);
+  points[2].compute = [this, lost = points[1].hash()](Rows&) { fs::remove(store.folder() / (lost + ".json")); };
+  const auto failed = run(points, {1, {}});
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_EQ(failed[0].name, "p1");
+}
+
+TEST_F(Sweep, EndsWhereChildrenAreIgnored) {
+  // as under a parent that ignores SIGCHLD: the system reaps the workers itself
+  const auto before = std::signal(SIGCHLD, SIG_IGN);
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);  // it would wait for ever
+    _exit(run(several(3)).empty() ? 0 : 1);
+  }
+  std::signal(SIGCHLD, before);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  EXPECT_EQ(ran().size(), 3u);
+}
+
+TEST_F(Sweep, KilledInTheMiddleItLosesNothingThatWasFinished) {
+  std::vector<Point> points = several(8);
+  points[5].compute = [this](Rows&) {
+    note("slow");
+    usleep(500000);
+    note("went on");
+  };
+  const pid_t child = fork();
+  if (child == 0) {
+    run(points, {1, {}});
+    _exit(0);
+  }
+  while (ran().size() < 6) usleep(1000);  // five points, and the slow one has begun
+  kill(child, SIGKILL);                   // the worker dies with it
+  waitpid(child, nullptr, 0);
+  usleep(700000);
+  run(several(8), {1, {}});
+  const std::vector<std::string> names = ran();
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 9u);
+  EXPECT_EQ(names.size(), 9u) << "nothing twice";
+  EXPECT_EQ(text(whole(several(8))), text(computed(several(8))));
+}
+
+TEST_F(Sweep, TimedPointsRunAfterAllOthersOneAtATime) {
+  std::vector<Point> points = several(8);
+  for (const int i : {0, 3, 4}) {
+    points[static_cast<size_t>(i)].timed = true;
+    points[static_cast<size_t>(i)].compute = [this, i](Rows&) {
+      note("begin " + std::to_string(i));
+      usleep(20000);
+      note("end " + std::to_string(i));
+    };
+  }
+  run(points, {4, {}});
+  const std::vector<std::string> names = ran(), timed(names.end() - 6, names.end());
+  EXPECT_EQ(timed, (std::vector<std::string>{"begin 0", "end 0", "begin 3", "end 3", "begin 4", "end 4"}));
+}
+
+TEST_F(Sweep, TimedPointsOfOneSweepWaitForThePointsOfAnother) {
+  std::vector<Point> others = several(3), timed = {point("timed", 1)};
+  for (Point& p : others)
+    p.compute = [this, name = p.name](Rows&) {
+      note("begin " + name);
+      usleep(50000);
+      note("end " + name);
+    };
+  timed[0].timed = true;
+  const pid_t child = fork();
+  if (child == 0) {
+    setenv("TMPDIR", folder_.c_str(), 1);  // as batch systems give each job one of its own
+    run(others, {3, {}});
+    _exit(0);
+  }
+  while (ran().size() < 3) usleep(1000);
+  Progress progress(1);
+  run_points(timed, {1, {}}, Store(folder_ / "timed"), progress);
+  waitpid(child, nullptr, 0);
+  ASSERT_EQ(ran().size(), 7u);
+  EXPECT_EQ(ran().back(), "timed");
+}
+
+TEST_F(Sweep, ShardsAreDisjointAndJoinToTheWhole) {
+  const std::vector<Point> points = several(7);
+  std::vector<Store> stores;
+  for (int i = 1; i <= 3; ++i) {
+    stores.emplace_back(folder_ / std::to_string(i));
+    Progress progress(7);
+    run_points(points, {2, {i, 3}}, stores.back(), progress);
+  }
+  EXPECT_EQ(ran().size(), 7u);
+  const PointList plan = point_list_of({}, points, {});
+  EXPECT_EQ(text(joined(plan, stores, missing)), text(computed(points)));
+  EXPECT_TRUE(missing.empty());
+  joined(plan, std::span(stores).first(2), missing);
+  EXPECT_EQ(missing, (std::vector<std::string>{"p2", "p5"}));
+}
+
+TEST_F(Sweep, ShardsAreReadFromTwoNumbers) {
+  const Shard shard = shard_from("2/8");
+  EXPECT_EQ(shard.index, 2);
+  EXPECT_EQ(shard.count, 8);
+  for (const char* text : {"", "2", "/", "0/2", "3/2", "-1/2", "1/2/3", "1/x", "1.5/2", " 1/2"})
+    EXPECT_TRUE(throws<InputError>([&] { shard_from(text); }, "expected I/N with 1 <= I <= N")) << text;
+}
+
+TEST_F(Sweep, PlansComeBackAndDamagedOnesAreRefused) {
+  const PointList plan = point_list_of({"order"}, several(3), {{"command", "c"}, {"date", "d"}});
+  write_point_list(plan, folder_);
+  const PointList back = read_point_list(folder_);
+  EXPECT_EQ(back.points, plan.points);
+  EXPECT_EQ(back.experiments, plan.experiments);
+  EXPECT_EQ(back.provenance, plan.provenance);
+  std::ofstream(folder_ / "plan.json") << "{}";
+  EXPECT_TRUE(throws<InputError>([&] { read_point_list(folder_); }, "expected experiments, provenance and points"));
+  EXPECT_TRUE(throws<InputError>([&] { read_point_list(folder_ / "none"); }, "expected the plan of a sweep"));
+}
+
+}  // namespace
+}  // namespace crosscheck

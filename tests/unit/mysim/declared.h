@@ -1,0 +1,121 @@
+// What a stepper's row declares, measured: order, stability on both sides of the limit, repeatability.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <complex>
+
+#include "mysim/base/eigenvalues.h"
+#include "tests/unit/helpers.h"
+
+namespace crosscheck::testing_tools {
+
+/// h omega of the coarser step: small enough for the leading error term, large enough to stay above round-off.
+inline double h_omega_for(int order) { return order == 1 ? 0.002 : order == 2 ? 0.04 : 0.3; }
+
+/// Measures the order of a stepper between a step of at most h and half of it, by the largest RMS error over time.
+inline double measured_order(const Stepper& s, const Scene& scene, const Trajectory& truth, double h, const Run& run) {
+  const double used = time_grid({h, run.duration, run.samples}).h;
+  const double coarse = sup_rms(trajectory_of(s, scene, {used, run.duration, run.samples}), truth);
+  const double fine = sup_rms(trajectory_of(s, scene, {used / 2, run.duration, run.samples}), truth);
+  EXPECT_GT(fine, 1e-13) << "error at round-off: the slope would be noise";
+  return slope(coarse, fine);
+}
+
+/// 1 kg that hangs still on a vertical spring of 1 m and omega^2 N/m (none: omega = 0, and no gravity), with drag.
+inline Scene hanging(double omega, double gamma) {
+  Scene scene = shipped_scene("spring");
+  std::erase_if(scene.model.terms, [&](const Term& t) {
+    return std::holds_alternative<Springs>(t) || (omega == 0 && std::holds_alternative<Gravity>(t));
+  });
+  if (omega > 0) {
+    scene.model.terms.emplace_back(Springs{{{0, 1, omega * omega, 1, Family::single}}});
+    scene.start.x(1, 1) = -(1 + 9.81 / (omega * omega));
+  }
+  return gamma > 0 ? with_drag(scene, gamma) : scene;
+}
+
+/// One step of the code as a matrix on (vertical offset, vertical velocity): exact but for round-off, since the spring
+/// is linear along its line. The offset is small beside the spring, so that nothing passes the anchor.
+inline Eigen::Matrix2d step_matrix(const Stepper& s, double omega, double gamma, double h) {
+  const Scene scene = hanging(omega, gamma);
+  auto stepped = [&](double offset, double velocity) {
+    System f(scene.model);
+    State state = scene.start;
+    state.x(1, 1) += offset;
+    state.v(1, 1) += velocity;
+    Workspace w(state);
+    s.step(f, state, h, w);
+    return Eigen::Vector2d(state.x(1, 1) - scene.start.x(1, 1), state.v(1, 1));
+  };
+  constexpr double unit = 1e-3;  // m
+  const double speed = unit * std::max({omega, gamma, 1.0});
+  const Eigen::Vector2d rest = stepped(0, 0);
+  Eigen::Matrix2d m;
+  m << (stepped(unit, 0) - rest) / unit, (stepped(0, speed) - rest) / speed;
+  return m;
+}
+
+/// Largest absolute eigenvalue, of the matrix in the unit of time 1/rate so that its entries are of one size.
+inline double spectral_radius(const Eigen::Matrix2d& m, double rate) {
+  Eigen::Matrix2d scaled = m;
+  scaled(0, 1) *= rate;
+  scaled(1, 0) /= rate;
+  return eigenvalues(scaled).cwiseAbs().maxCoeff();
+}
+
+/// The damped oscillators on which limits are tried, rad/s and 1/s.
+struct Oscillation {
+  double omega, gamma;
+};
+inline constexpr Oscillation oscillations[] = {{10, 0}, {10, 2}, {10, 15}, {10, 20}, {10, 50}, {3, 0.1}, {40, 7}};
+
+/// A step just above the limit: the worse one of two, since a composition with a part that goes backwards is unstable
+/// in a window only (1.2 % wide for suzuki4 at gamma = 5 omega). A fixed step where the limit is 0.
+inline double just_above(const Stepper& s, double omega, double gamma) {
+  const double limit = s.limit(omega, gamma);
+  auto radius = [&](double h) { return spectral_radius(step_matrix(s, omega, gamma, h), omega); };
+  if (limit == 0) return 0.2 / omega;
+  return radius(1.005 * limit) > radius(1.02 * limit) ? 1.005 * limit : 1.02 * limit;
+}
+
+/// What contradicts the row, one sentence for each, with the numbers; empty when all is as declared.
+inline std::string contradiction(const Stepper& row) {
+  const Stepper s = at_fixed_step(row);
+  std::string found;
+
+  // order, on the pendulum under drag; the next term of the error is smaller by h omega
+  const Scene pendulum = with_drag(shipped_scene("pendulum"), 2);
+  const double omega = std::sqrt(1000.0);
+  const Run run{0, 1, 20};
+  const Trajectory truth = trajectory_of(stepper("rk4"), pendulum, {0.005 / omega, run.duration, run.samples});
+  const double order = measured_order(s, pendulum, truth, h_omega_for(s.order) / omega, run);
+  if (!(std::abs(order - s.order) < 0.15))
+    found += fmt::format("order {} is declared, {:.2f} was measured. ", s.order, order);
+
+  // stability: the step matrix has eigenvalues of at most 1 just below the limit, and of more just above
+  for (const auto& [w, gamma] : oscillations) {
+    const double limit = s.limit(w, gamma);
+    auto radius = [&](double h) { return spectral_radius(step_matrix(s, w, gamma, h), w); };
+    // offsets of 1e-3 m are differences of lengths of about 1 m: some ulps of them, over the offset. A pair of
+    // eigenvalues that coincide is known to the root of that. Solvers stop at 1e-10 of the forces.
+    const double noise = s.evaluations == 0 ? 1e-6 : 1e-11;
+    const double below = limit == 0 ? 0 : std::isinf(limit) ? 100 / w : 0.98 * limit;
+    if (below > 0 && !(radius(below) <= 1 + noise))
+      found += fmt::format("omega = {}, gamma = {}: h = {:.4g} s is unstable, within the limit of {:.4g} s. ", w, gamma,
+                           below, limit);
+    if (std::isinf(limit)) continue;
+    const double above = just_above(s, w, gamma);
+    if (!(radius(above) > 1 + noise))
+      found += fmt::format("omega = {}, gamma = {}: h = {:.4g} s is stable, beyond the limit of {:.4g} s. ", w, gamma,
+                           above, limit);
+  }
+
+  // repeatability
+  const Run short_run{1e-3, 0.1, 10};
+  if (!identical(trajectory_of(row, pendulum, short_run), trajectory_of(row, pendulum, short_run)))
+    found += "two runs differ. ";
+  return found;
+}
+
+}  // namespace crosscheck::testing_tools

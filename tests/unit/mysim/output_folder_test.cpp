@@ -1,0 +1,403 @@
+// Folders of results and temporary folders: nothing of the user's is lost, a finished result stays until the next is
+// whole, what dead processes left goes.
+
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <random>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/output_folder.h"
+#include "mysim/base/this_process.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck {
+
+// Folders of results: nothing of the user's is lost, a finished result stays until the next is whole, and there is one
+// writer.
+
+namespace {
+
+using namespace testing_tools;
+namespace fs = std::filesystem;
+
+using Files = std::map<std::string, std::string>;
+
+/// With true, whoever writes stands in the folder, which then cannot change its name: the files go by a journal.
+class Output : public InFolder, public testing::WithParamInterface<bool> {
+ protected:
+  void SetUp() override {
+    InFolder::SetUp();
+    before_ = fs::current_path();
+    target_ = folder_ / "out";
+    if (!GetParam()) return;
+    fs::create_directory(target_);
+    fs::current_path(target_);
+  }
+  void TearDown() override {
+    fs::current_path(before_);
+    InFolder::TearDown();
+  }
+  void put(const Files& files, const std::string& command = "report") const {
+    OutputFolder folder(target_, command);
+    for (const auto& [path, text] : files) write_file(folder.path() / path, text);
+    folder.finish();
+  }
+  /// Everything below a folder, the manifest aside.
+  static Files in(const fs::path& folder) {
+    Files files;
+    for (const std::string& path : paths_in(folder)) files[path] = path.ends_with("/") ? "" : read(folder / path);
+    return files;
+  }
+  std::string refusal(const std::string& command = "report") const {
+    try {
+      OutputFolder folder(target_, command);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  void expect_no_working_folder() const {
+    EXPECT_FALSE(fs::exists(folder_ / ".out.crosscheck"));
+    EXPECT_FALSE(fs::exists(target_ / inner_work_folder));
+  }
+  fs::path target_, before_;
+};
+
+INSTANTIATE_TEST_SUITE_P(ExchangedAndMoved, Output, testing::Bool());
+
+TEST_P(Output, AResultIsListedWithItsHashes) {
+  put({{"index.html", "page"}, {"data/a.csv", "1"}});
+  EXPECT_EQ(in(target_), (Files{{"index.html", "page"}, {"data/a.csv", "1"}}));
+  const Manifest manifest = *read_manifest(target_);
+  EXPECT_EQ(manifest.command, "report");
+  EXPECT_TRUE(manifest.finished);
+  EXPECT_EQ(manifest.process, getpid());
+  EXPECT_EQ(manifest.files.at("data/a.csv").bytes, 1u);
+  EXPECT_EQ(manifest.files.at("data/a.csv").hash, "af63ac4c86019afc");  // FNV-1a of "1"
+  expect_no_working_folder();
+}
+
+TEST_P(Output, WhatIsTheUsersSurvives) {
+  put({{"index.html", "one"}, {"data/a.csv", "1"}, {"data/gone.csv", "1"}, {"old/b", "1"}});
+  const auto user = [&](const char* path, const char* text) {
+    fs::create_directories((target_ / path).parent_path());
+    std::ofstream(target_ / path) << text;
+  };
+  user("data/notes.txt", "mine");
+  user("mine/deep/er.txt", "mine");
+  user("data/a.csv", "1, and what I think of it");
+  user("data/gone.csv", "changed");
+  user("data/new.csv", "mine under a name of the next");
+  user("figures", "mine, where a folder will be");
+  fs::create_directories(target_ / "empty");
+  fs::create_symlink("nowhere", target_ / "link");
+  put({{"index.html", "two"}, {"data/a.csv", "2"}, {"data/new.csv", "2"}, {"figures/f.svg", "2"}});
+  Files now = in(target_);
+  EXPECT_TRUE(fs::is_symlink(target_ / "link"));
+  now.erase("link");
+  EXPECT_EQ(now, (Files{{"index.html", "two"},
+                        {"data/a.csv", "2"},
+                        {"data/a.csv.yours", "1, and what I think of it"},
+                        {"data/gone.csv.yours", "changed"},
+                        {"data/new.csv", "2"},
+                        {"data/new.csv.yours", "mine under a name of the next"},
+                        {"data/notes.txt", "mine"},
+                        {"mine/deep/er.txt", "mine"},
+                        {"figures/f.svg", "2"},
+                        {"figures.yours", "mine, where a folder will be"},
+                        {"empty/", ""}}));
+  user("data/a.csv", "again");
+  put({{"index.html", "three"}, {"data/a.csv", "3"}});
+  EXPECT_EQ(read(target_ / "data/a.csv.yours"), "1, and what I think of it");
+  EXPECT_EQ(read(target_ / "data/a.csv.yours-2"), "again");
+  EXPECT_EQ(read(target_ / "mine/deep/er.txt"), "mine");
+  EXPECT_FALSE(fs::exists(target_ / "figures")) << "nothing in it is anybody's";
+  expect_no_working_folder();
+}
+
+TEST_P(Output, AForeignFolderIsRefusedAndNothingInItChanges) {
+  for (const char* name : {"notes.txt", "report.json", "plan.json", "data.csv", "points/x.json", "crosscheck.txt"}) {
+    write_file(target_ / name, "mine");
+    const Files before = in(target_);
+    const auto time = fs::last_write_time(target_);
+    const std::string said = refusal();
+    EXPECT_TRUE(contains(said, "--out " + target_.string() + ": holds files that are not of crosscheck report"));
+    EXPECT_TRUE(contains(said, name));
+    EXPECT_TRUE(contains(said, "nothing in it was changed; give an empty or a new folder, or move them away"));
+    EXPECT_EQ(in(target_), before);
+    EXPECT_EQ(fs::last_write_time(target_), time);
+    expect_no_working_folder();
+    for (const auto& entry : fs::directory_iterator(target_)) fs::remove_all(entry);
+  }
+}
+
+TEST_P(Output, AnotherCommandsFolderAndADamagedManifestAreRefused) {
+  put({{"run.json", "{}"}}, "run");
+  EXPECT_TRUE(
+      contains(refusal(), "holds a result of crosscheck run, and nothing in it was changed; give another folder"));
+  EXPECT_EQ(refusal("run"), "");
+  for (const char* text : {"", "{}", "[1]", "{\"format\": 2}"}) {
+    std::ofstream(target_ / Manifest::file_name) << text;
+    EXPECT_TRUE(contains(refusal("run"), "crosscheck.json: expected what this version of crosscheck writes"));
+    EXPECT_EQ(read(target_ / "run.json"), "{}");
+  }
+}
+
+TEST_P(Output, AFileAndAPlaceThatCannotBeWrittenAreNoFolders) {
+  fs::current_path(before_);
+  write("file", "");
+  for (const fs::path& path : {folder_ / "file", folder_ / "file/below", fs::path("/proc/out"), fs::path("")}) {
+    target_ = path;
+    EXPECT_TRUE(contains(refusal(), "--out " + path.string() + ": expected a folder that can be made and written to"));
+  }
+}
+
+TEST_P(Output, TheSecondWriterIsToldWhoIsTheFirst) {
+  put({{"index.html", "one"}});
+  {
+    OutputFolder first(target_, "report");
+    const std::string said = refusal();
+    EXPECT_TRUE(
+        contains(said, fmt::format("process {} (crosscheck report) has been writing into it since 2", getpid())));
+    EXPECT_TRUE(contains(said, "wait for it, or give another folder"));
+    EXPECT_THROW(ResumableOutput(target_, "report"), InputError);
+    EXPECT_EQ(read(target_ / "index.html"), "one");
+  }
+  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(read(target_ / "index.html"), "one") << "what was not finished has changed nothing";
+  expect_no_working_folder();
+}
+
+/// Whatever it is that a process is at when it is killed, the one result is there or the other.
+TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
+  Files one, two;
+  for (int i = 0; i < 60; ++i) {
+    one[fmt::format("data/{}.csv", i)] = "one";
+    two[fmt::format("data/{}.csv", i + 20)] = "two";
+  }
+  const auto with_mine = [](Files files) {
+    files["data/mine.txt"] = "mine";
+    return files;
+  };
+  put(one);
+  std::ofstream(target_ / "data/mine.txt") << "mine";
+  std::mt19937 random(22);
+  int killed = 0, undisturbed = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const pid_t child = fork();
+    if (child == 0) {
+      put(two);
+      put(one);
+      _exit(0);
+    }
+    usleep(std::uniform_int_distribution<useconds_t>(0, 60000)(random));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    killed += WIFSIGNALED(status);
+    const Files at_once = in(target_);
+    const bool whole = at_once == with_mine(one) || at_once == with_mine(two);
+    if (!GetParam()) {
+      EXPECT_TRUE(whole) << trial;
+    }
+    undisturbed += whole;
+    recover_output(target_);
+    const Files now = in(target_);
+    EXPECT_TRUE(now == with_mine(one) || now == with_mine(two)) << trial << ": " << now.size() << " files";
+    expect_no_working_folder();
+  }
+  EXPECT_GT(killed, 10);
+  EXPECT_GT(undisturbed, 10);
+  put(two);
+  EXPECT_EQ(in(target_), with_mine(two));
+}
+
+TEST_P(Output, FoldersOfVersionOneAreTakenOverWhereAllInThemIsKnown) {
+  const Files known{{"report.json", "{\"findings\": [\"circle-error\"]}"},
+                    {"index.html", "<p>"},
+                    {"data/order.csv", "# command: crosscheck report\na [1]\n"},
+                    {"data/certificate-circle-rk4.json", "{}"},
+                    {"data/scenes/circle.toml", ""},
+                    {"data/circle-motions.json", "{}"},
+                    {"data/runs/circle-order/mysim-rk4.json", "{}"},
+                    {"points/0123456789abcdef.json", "{}"},
+                    {"figures/circle-error.csv", "# command: crosscheck report\na [1]\n"},
+                    {"figures/circle-error.svg", "<svg/>"},
+                    {"figures/circle-picture.png", ""}};
+  for (const auto& [path, text] : known) write_file(target_ / path, text);
+  for (const char* mine : {"figures/mine.png", "data/order2.csv", "notes.txt", "data/runs.txt"}) {
+    write_file(target_ / mine, "mine");
+    EXPECT_TRUE(contains(refusal(), mine));
+    EXPECT_FALSE(fs::exists(target_ / Manifest::file_name));
+    fs::remove(target_ / mine);
+  }
+  EXPECT_TRUE(contains(refusal("run"), "not of crosscheck run"));
+  put({{"index.html", "two"}});
+  EXPECT_EQ(in(target_), (Files{{"index.html", "two"}}));
+}
+
+TEST_P(Output, AResultGrowsInPlaceAndGoesOn) {
+  const auto grow = [&](bool resume, const std::vector<std::string>& points, const std::string& table, bool whole) {
+    ResumableOutput folder(target_, "experiment");
+    if (resume)
+      folder.keep("points");
+    else
+      folder.forget("points");
+    std::vector<std::string> names{"plan.json"};
+    for (const std::string& point : points) names.push_back("points/" + point);
+    folder.announce(names);
+    for (const std::string& name : names)
+      if (!fs::exists(target_ / name)) write_file(target_ / name, name);
+    if (!whole) return;
+    folder.announce({table});
+    write_file(target_ / table, table);
+    folder.finish();
+  };
+  grow(false, {"a", "b"}, "", false);  // interrupted: what is there is announced, no more
+  EXPECT_FALSE(read_manifest(target_)->finished);
+  std::ofstream(target_ / "points/mine") << "mine";
+  grow(true, {"a", "b", "c"}, "one.csv", true);
+  EXPECT_TRUE(read_manifest(target_)->finished);
+  EXPECT_EQ(read_manifest(target_)->files.size(), 5u);
+  std::ofstream(target_ / "two.csv") << "mine";
+  std::ofstream(target_ / "points/b") << "changed";
+  grow(false, {"d"}, "two.csv", true);
+  EXPECT_EQ(in(target_), (Files{{"plan.json", "plan.json"},
+                                {"points/d", "points/d"},
+                                {"points/mine", "mine"},
+                                {"points/b.yours", "changed"},
+                                {"two.csv", "two.csv"},
+                                {"two.csv.yours", "mine"}}));
+  expect_no_working_folder();
+}
+
+namespace fs = std::filesystem;
+
+class TemporaryFolders : public testing_tools::InFolder {
+ protected:
+  void SetUp() override {
+    InFolder::SetUp();
+    if (const char* now = std::getenv("TMPDIR")) before_ = now;
+    setenv("TMPDIR", folder_.c_str(), 1);
+  }
+  void TearDown() override {
+    if (before_)
+      setenv("TMPDIR", before_->c_str(), 1);
+    else
+      unsetenv("TMPDIR");
+    InFolder::TearDown();
+  }
+  long count() const { return std::distance(fs::directory_iterator(folder_), fs::directory_iterator()); }
+  void wait_for(long folders) const {
+    while (count() != folders) usleep(1000);
+  }
+  /// Does the work in a process of its own.
+  template <class F>
+  static pid_t in_child(F work) {
+    const pid_t child = fork();
+    if (child == 0) {
+      // who started the tests in the background may have had them ignored, and a program leaves that as it is
+      for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);
+      _exit(work());
+    }
+    return child;
+  }
+  static int end_of(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return status;
+  }
+  std::optional<std::string> before_;
+};
+
+/// A folder, and processes below that have one too: a worker, and one that has left its session.
+int work_with_children() {
+  const TemporaryFolder own("own");
+  for (const bool leaves : {false, true})
+    if (fork() == 0) {
+      if (leaves)
+        setsid();
+      else
+        prctl(PR_SET_PDEATHSIG, SIGKILL);  // as workers do
+      const TemporaryFolder folder("worker");
+      for (;;) pause();
+    }
+  for (;;) pause();
+}
+
+TEST_F(TemporaryFolders, ThoseOfKilledProcessesAreSweptAndNoOthers) {
+  const pid_t child = in_child([] {
+    const TemporaryFolder folder("killed");
+    for (;;) pause();
+    return 0;
+  });
+  wait_for(1);
+  const TemporaryFolder living("living");
+  fs::create_directory(folder_ / "crosscheck-mine-1.2.3-abcdef");  // of another system, as far as anybody can tell
+  fs::create_directory(folder_ / "crosscheck-notes");
+  remove_stale_temporary_folders();
+  EXPECT_EQ(count(), 4) << "it lives";
+  kill(child, SIGKILL);
+  end_of(child);
+  remove_stale_temporary_folders();
+  EXPECT_EQ(count(), 3);
+  EXPECT_TRUE(fs::exists(living.path));
+}
+
+TEST_F(TemporaryFolders, NothingIsLeftWhenASignalEndsTheProgram) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    const pid_t child = in_child([] { return run_supervised(work_with_children); });
+    wait_for(3);
+    kill(child, number);
+    const int status = end_of(child);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == number) << status;
+    EXPECT_EQ(count(), 0) << strsignal(number);
+  }
+}
+
+TEST_F(TemporaryFolders, WhatAKilledProgramLeavesTheNextStartRemoves) {
+  const pid_t child = in_child([] { return run_supervised(work_with_children); });
+  wait_for(3);
+  kill(child, SIGKILL);
+  end_of(child);
+  // its processes die with it, but nobody here can wait for them
+  const auto next = [] { return run_supervised([] { return 7; }); };
+  int status = 0;
+  for (int patience = 0; patience < 200; ++patience) {
+    status = end_of(in_child(next));
+    if (count() <= 1) break;
+    usleep(20000);
+  }
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  // one process had left its session and its parents: it was not ours to find
+  EXPECT_LE(count(), 1);
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    const std::string name = entry.path().filename();
+    kill(std::stoi(name.substr(name.find('-', 11) + 1)), SIGKILL);
+  }
+}
+
+TEST_F(TemporaryFolders, TheWorkersEndIsTheProgramsEnd) {
+  EXPECT_EQ(WEXITSTATUS(end_of(in_child([] { return run_supervised([] { return 3; }); }))), 3);
+  const int status = end_of(in_child([] {
+    return run_supervised([] {
+      const TemporaryFolder folder("crashed");
+      std::abort();
+      return 0;
+    });
+  }));
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT);
+  EXPECT_EQ(count(), 0);
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,38 @@
+// One more term, as somebody would write it who is about to add it: included before everything else (g++ -include), it
+// stands in the list of terms without a line of the source being changed. Used by new_term_test.cpp.
+#pragma once
+
+#include "mysim/forces.h"
+#include "mysim/particles.h"
+#include "mysim/terms/aerodynamics.h"
+#include "mysim/terms/constraints.h"
+#include "mysim/terms/dashpots.h"
+#include "mysim/terms/drag.h"
+#include "mysim/terms/gravity.h"
+#include "mysim/terms/rotation.h"
+#include "mysim/terms/sphere.h"
+#include "mysim/terms/springs.h"
+#include "mysim/terms/wind.h"
+
+namespace crosscheck {
+
+/// A pull towards the origin: a force with an energy, complete for mysim's own steppers.
+struct Tide {
+  static constexpr std::string_view name = "tide";
+  double stiffness;  // N/m
+};
+inline void add_force(const Tide& tide, const Particles&, const State& state, Forces& forces) {
+  forces.f -= tide.stiffness * state.x;
+}
+inline double potential_energy(const Tide& tide, const Particles&, const State& state) {
+  return tide.stiffness / 2 * state.x.squaredNorm();
+}
+
+}  // namespace crosscheck
+
+#define Spheres Spheres, Tide
+#include "mysim/model/model.h"
+#undef Spheres
+
+static_assert(std::is_same_v<std::variant_alternative_t<std::variant_size_v<crosscheck::Term> - 1, crosscheck::Term>,
+                             crosscheck::Tide>);

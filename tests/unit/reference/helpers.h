@@ -1,0 +1,35 @@
+// What some tests need and the suite does not: where it is missing they are skipped, and say which package would help.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "mysim/base/process.h"
+#include "reference/method.h"
+#include "reference/truth/independent/integrators.h"
+#include "reference/truth/truth.h"
+#include "tests/unit/helpers.h"
+
+// At the head of a test: skips it, with what is not tried then, where Debian's package is not there.
+#define NEEDS_PROGRAM(program, package, not_tried) \
+  if (!crosscheck::on_path(program)) GTEST_SKIP() << "package " package " is not installed: " not_tried
+#define NEEDS_FFMPEG NEEDS_PROGRAM("ffmpeg", "ffmpeg", "no clip is written and looked at")
+#define NEEDS_CHROMIUM NEEDS_PROGRAM("chromium", "chromium", "the page is not tried in a browser")
+#define NEEDS_SUNDIALS                 \
+  if (!crosscheck::sundials_version()) \
+  GTEST_SKIP() << "package libsundials-dev was not installed when this was built: its integrators are not tried"
+
+namespace crosscheck::testing_tools {
+
+/// Trajectory and outcome of a method by name, under its watch.
+struct MethodRun {
+  Trajectory trajectory;
+  Outcome outcome;
+};
+inline MethodRun answer(const std::string& method, const Scene& scene, const Run& run) {
+  Recorder r;
+  MethodRun a{{}, run_method(find_method(method), scene, run, {&r})};
+  a.trajectory = r.trajectory;
+  return a;
+}
+
+}  // namespace crosscheck::testing_tools

@@ -1,0 +1,62 @@
+// A new term of the physics must be answered wherever all terms must be known: until then these places do not compile.
+// The compiler itself is asked, on each file as it is, with one more term in the list (extra_term.h).
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "mysim/base/process.h"
+
+namespace crosscheck::testing_tools {
+namespace {
+
+ProgramResult compiled_with_a_new_term(const std::string& file) {
+  std::vector<std::string> command = {CROSSCHECK_CXX, "-std=c++20", "-fsyntax-only", "-include",
+                                      CROSSCHECK_SOURCE "/tests/unit/reference/extra_term.h"};
+  std::istringstream folders(CROSSCHECK_INCLUDES);
+  // the compiler's own folder is searched last, where it stands: named, its math.h is not found from cmath any more
+  for (std::string folder; std::getline(folders, folder, '|');)
+    if (folder != "/usr/include") command.insert(command.end(), {"-isystem", folder});
+  command.insert(command.end(), {"-I", CROSSCHECK_SOURCE, CROSSCHECK_SOURCE "/" + file});
+  return run_program(command, ".", {});
+}
+
+/// What the compiler's complaint must name: where a term is missing, and which.
+struct Place {
+  std::string file, where, what;
+};
+const std::vector<Place> places = {
+    {"mysim/model/energy.cpp", "energy_of", "Tide"},
+    {"mysim/model/energy.cpp", "power_of", "Tide"},
+    {"mysim/scene/scene.cpp", "Hash", "Tide"},
+    {"reference/certificate/rows.cpp", "certify_terms", "Tide"},
+    {"reference/truth/independent/right_hand_side.cpp", "RightHandSide::add_term", "Tide"},
+    {"reference/protocol/scene_json.cpp", "add(", "Tide"},
+    {"reference/protocol/scene_json.cpp", "term_readers", "std::variant_size_v<Term>"},
+    {"reference/bullet/deformable.cpp", "DeformableForces", "Tide"},
+    {"reference/bullet/pbd.cpp", "PbdWorld", "Tide"},
+};
+
+TEST(NewTerm, DoesNotCompileWhereItIsNotAnswered) {
+  std::string file;
+  ProgramResult end;
+  for (const Place& place : places) {
+    SCOPED_TRACE(place.file + ", " + place.where);
+    if (place.file != file) end = compiled_with_a_new_term(file = place.file);
+    EXPECT_NE(end.status, 0);
+    EXPECT_NE(end.err.find(place.file), std::string::npos) << end.err;
+    EXPECT_NE(end.err.find(place.where), std::string::npos) << end.err;
+    EXPECT_NE(end.err.find(place.what), std::string::npos) << end.err;
+  }
+}
+
+/// The other side: the term itself is in order, and who takes terms by their functions takes it.
+TEST(NewTerm, CompilesWhereTermsAreTakenByTheirFunctions) {
+  for (const char* file : {"mysim/model/system.cpp", "mysim/implicit/newton.cpp"}) {
+    const ProgramResult end = compiled_with_a_new_term(file);
+    EXPECT_EQ(end.status, 0) << file << ": " << end.err;
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck::testing_tools

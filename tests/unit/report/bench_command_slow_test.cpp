@@ -1,0 +1,146 @@
+// bench on the command line, and the whole of it on a plan that is over at once.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "experiments/bench/bench.h"
+#include "experiments/scenes/cloths.h"
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/json.h"
+#include "report/commands/bench.h"
+#include "report/commands/commands.h"
+#include "tests/unit/reference/helpers.h"
+#include "tests/unit/report/cli.h"
+
+namespace crosscheck::testing_tools {
+namespace {
+
+BenchSuite tiny_plan() {
+  const MicrobenchmarkOptions micro{3, 1e-4};
+  const TimedRunOptions turns{3, 1e-3};
+  return {{20, 40},
+          {"pendulum", "cloth-hang"},
+          {{20, {{"odeint/rk4", {1.2, 0.6}}, {"bullet/deformable-explicit", {0.9}}, {"bullet/pbd", {1}, true}}}},
+          {20, 0.02, turns},
+          {{24}, {60}, micro},
+          micro,
+          micro,
+          turns,
+          {{64, 96}, turns}};
+}
+
+class CliBench : public Cli {};
+
+TEST_F(CliBench, BadUseIsExitTwoWithAMessage) {
+  for (const auto& [words, said] :
+       std::vector<std::pair<std::vector<std::string>, std::string>>{{{"bench", "--quick", "--full"}, "--quick"},
+                                                                     {{"bench", "--rounds", "3"}, "--rounds"},
+                                                                     {{"bench", "cloth-hang"}, "cloth-hang"},
+                                                                     {{"bench", "--out"}, "--out"},
+                                                                     {{"bench", "--out", "taken/deeper"}, "taken"}}) {
+    write("taken", "a file");
+    const ProgramResult result = call(words);
+    EXPECT_EQ(result.status, 2) << result.out;
+    EXPECT_NE(result.err.find(said), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
+  const BenchSuite plan = tiny_plan();
+  int status = 1;
+  testing::internal::CaptureStdout();
+  EXPECT_NO_THROW(status = bench_command({false, folder_, "crosscheck bench"}, plan));
+  const std::string said = testing::internal::GetCapturedStdout();
+  ASSERT_EQ(status, 0) << said;
+
+  const JsonField json = JsonField::parse_file(folder_ / "bench.json");
+  std::set<std::string> names{"bench-equal-error-cost", "bench-own-runs-cost", "bench-same-step-cost"};
+  std::vector<std::string> lines{"odeint/rk4", "other model", "two stiffnesses: Bullet's force", "SSE2 alone"};
+  // where the suite was built without Google Benchmark it says so
+  if (json["notes"].dump().find("libbenchmark-dev") == std::string::npos) {
+    names.insert({"bench-kernels-cost", "bench-scenes-cost", "bench-implicit-step-cost"});
+    lines.insert(lines.end(), {"sweep, fastest, double", "beside the naive loop", "24 × 24, 60 steps a second"});
+  }
+  // nor is there a second core everywhere
+  if (json["notes"].dump().find("may use one core") == std::string::npos) {
+    names.insert("bench-threads-cost");
+    lines.insert(lines.end(), {"two threads beside one", "64 × 64, too small for a second", "% of two cores"});
+  }
+  std::set<std::string> found;
+  for (const auto& [name, table] : json["tables"].items()) {
+    found.insert(name);
+    const std::string csv = rows(folder_ / (name + ".csv"));
+    EXPECT_EQ(static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n')), table["rows"].size() + 1) << name;
+    std::string header;
+    for (const JsonField& column : table["columns"].elements())
+      header += fmt::format("{}{} [{}]", header.empty() ? "" : ",", column["name"].text(), column["unit"].text());
+    EXPECT_EQ(csv.substr(0, csv.find('\n')), header);
+    // 17 digits read back to the same bits
+    std::istringstream in(csv.substr(csv.find('\n') + 1));
+    for (const JsonField& row : table["rows"].elements()) {
+      std::string line, cell;
+      std::getline(in, line);
+      for (const JsonField& column : table["columns"].elements()) {
+        const JsonField value = row[column["name"].text()];
+        const bool quoted = line.starts_with('"');
+        const size_t end = quoted ? line.find('"', 1) + 1 : std::min(line.find(','), line.size());
+        cell = quoted ? line.substr(1, end - 2) : line.substr(0, end);
+        line.erase(0, std::min(end + 1, line.size()));
+        if (value.is_null())
+          EXPECT_EQ(cell, "");
+        else if (value.is_text())
+          EXPECT_EQ(cell, value.text());
+        else
+          EXPECT_EQ(std::stod(cell), value.number());
+      }
+    }
+  }
+  EXPECT_EQ(found, names);
+
+  std::string provenance;
+  for (const JsonField& line : json["provenance"].elements())
+    provenance += line["key"].text() + ": " + line["value"].text() + "\n";
+  for (const char* key : {"command: crosscheck bench", "build of mysim", "build of Bullet", "build of odeint", "cpu",
+                          "scene: sheet-20x20 ", "best instructions"})
+    EXPECT_NE(provenance.find(key), std::string::npos) << key;
+  for (const char* ending : {".svg", ".png", ".pdf", ".csv", ".gp"})
+    EXPECT_TRUE(fs::exists(folder_ / (std::string("bench-ratios") + ending))) << ending;
+  for (const std::string& words : lines) EXPECT_NE(said.find(words), std::string::npos) << words << "\n" << said;
+}
+
+TEST(BenchLines, OfAPeerOneIsTheChief) {
+  BenchSuite plan = tiny_plan();
+  plan.kernel_sides = {20};
+  const Rows rows = bench(plan);
+  const std::vector<BenchLine> lines = bench_lines(rows);
+  int chiefs = 0, all = 0;
+  for (const BenchLine& line : lines) {
+    EXPECT_TRUE(line.best.has_value() || !line.remark.empty()) << line.label;
+    if (line.group.starts_with("the same error")) chiefs += line.representative, ++all;
+  }
+  EXPECT_EQ(all, 4);
+  EXPECT_EQ(chiefs, 3);
+}
+
+TEST(BenchPlans, QuickAndFullAskWhatTheTablesPromise) {
+  for (const bool full : {false, true}) {
+    const BenchSuite plan = bench_suite(full);
+    EXPECT_EQ(plan.kernel_sides, (std::vector<int>{64, 128, 256}));
+    EXPECT_EQ(plan.scenes.size(), shipped_scenes().size());
+    std::set<int> sides;
+    for (const BenchSuite::PeerCloth& asked : plan.sheets) {
+      sides.insert(asked.side);
+      for (const Peer& peer : asked.peers) {
+        EXPECT_NO_THROW(find_method(peer.method));
+        // position-based links are held against their own law, or it is said
+        EXPECT_EQ(peer.other_model, peer.method.starts_with("bullet/pbd") && asked.of != hanging_cloth_of_links);
+      }
+    }
+    EXPECT_EQ(sides, full ? (std::set<int>{32, 64, 128}) : (std::set<int>{32, 64}));
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck::testing_tools

@@ -1,0 +1,358 @@
+// regress on the command line: what is blessed stays the same, what is changed is caught, speeds and builds.
+
+#include <algorithm>
+
+#include "tests/unit/report/cli.h"
+
+namespace crosscheck::testing_tools {
+
+// regress on the command line: what is blessed stays the same, what is changed is caught, and nobody blesses by
+// mistake.
+
+namespace {
+
+class CliRegress : public Cli {
+ protected:
+  /// In a shell where no CI runs, or in one where it does.
+  ProgramResult regress(std::vector<std::string> words, const std::string& ci = "") const {
+    words.insert(words.begin(), {CROSSCHECK_PROGRAM, "regress", "--no-speed", "--baselines", "mine"});
+    return run_program(words, folder_, {"ASAN_OPTIONS=detect_leaks=0", "CI=" + ci});
+  }
+  ProgramResult bless(const std::string& filter, const std::string& reason = "as it is today") const {
+    return regress({"--filter", filter, "--bless", "--reason", reason});
+  }
+};
+
+TEST_F(CliRegress, WhatIsBlessedIsTheSameAndTheFileStaysAsItIs) {
+  const ProgramResult missing = regress({"--filter", "pendulum"});
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_NE(missing.out.find("missing    pendulum: baseline"), std::string::npos) << missing.out;
+  ASSERT_EQ(bless("pendulum").status, 0);
+  const std::string file = read(folder_ / "mine/pendulum.csv");
+  const ProgramResult same = regress({"--filter", "pendulum"});
+  EXPECT_EQ(same.status, 0) << same.out;
+  EXPECT_NE(same.out.find("0 failed"), std::string::npos) << same.out;
+  const ProgramResult again = bless("pendulum");
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_NE(again.out.find("0 quantities blessed"), std::string::npos) << again.out;
+  EXPECT_EQ(read(folder_ / "mine/pendulum.csv"), file) << "nothing moved, so nobody's word is needed";
+}
+
+TEST_F(CliRegress, AChangedValueIsCaughtNamedAndBlessedByItself) {
+  ASSERT_EQ(bless("spring").status, 0);
+  const std::string good = read(folder_ / "mine/spring.csv");
+  std::string bad = good;
+  const size_t row = bad.find("mysim/rk4,,always,peak stretch");
+  ASSERT_NE(row, std::string::npos);
+  bad.replace(bad.find(",1,", row) + 3, 1, "7");  // the first digit of the value
+  write("mine/spring.csv", bad);
+  const ProgramResult caught = regress({"--filter", "spring"});
+  EXPECT_EQ(caught.status, 1);
+  EXPECT_NE(caught.out.find("moved      spring, mysim/rk4: peak stretch: was 7"), std::string::npos) << caught.out;
+  EXPECT_NE(caught.out.find("1 failed"), std::string::npos) << caught.out;
+  EXPECT_NE(read(folder_ / "out/regress/junit.xml").find("failures=\"1\""), std::string::npos);
+  EXPECT_NE(read(folder_ / "out/regress/regress.json").find("\"passed\": false"), std::string::npos);
+
+  const ProgramResult other = bless("spring/mysim/leapfrog", "another method");
+  EXPECT_EQ(other.status, 0) << other.err;
+  EXPECT_EQ(read(folder_ / "mine/spring.csv"), bad) << "a part that is the same changes nothing";
+  const ProgramResult blessed = bless("spring/mysim/rk4", "the digit was wrong");
+  EXPECT_EQ(blessed.status, 0) << blessed.err;
+  EXPECT_NE(blessed.out.find("was 7"), std::string::npos) << "before and after: " << blessed.out;
+  EXPECT_NE(read(folder_ / "mine/spring.csv").find("# blessing 2: "), std::string::npos);
+  EXPECT_NE(read(folder_ / "mine/spring.csv").find("| the digit was wrong"), std::string::npos);
+  EXPECT_EQ(regress({"--filter", "spring"}).status, 0);
+}
+
+TEST_F(CliRegress, StaleAndUnreadableBaselinesFail) {
+  ASSERT_EQ(bless("spring").status, 0);
+  const std::string good = read(folder_ / "mine/spring.csv");
+  std::string other = good;
+  other.replace(other.find("# hash: ") + 8, 16, "0123456789abcdef");
+  write("mine/spring.csv", other);
+  const ProgramResult stale = regress({"--filter", "spring"});
+  EXPECT_EQ(stale.status, 1);
+  EXPECT_NE(stale.out.find("stale      spring: baseline"), std::string::npos) << stale.out;
+  const ProgramResult part = bless("spring/mysim/rk4");
+  EXPECT_EQ(part.status, 2);
+  EXPECT_NE(part.err.find("expected the whole scene to be blessed"), std::string::npos) << part.err;
+  write("mine/spring.csv", good.substr(0, good.size() / 2));
+  const ProgramResult torn = regress({"--filter", "spring"});
+  EXPECT_EQ(torn.status, 1);
+  EXPECT_NE(torn.out.find("unreadable spring: baseline: "), std::string::npos) << torn.out;
+}
+
+TEST_F(CliRegress, BadUseIsNamed) {
+  const struct {
+    std::vector<std::string> words;
+    const char *ci, *says;
+  } cases[] = {
+      {{"--filter", "spring", "--bless"}, "", "expected --reason TEXT"},
+      {{"--filter", "spring", "--bless", "--reason", "x"}, "true", "CI never blesses"},
+      {{"--filter", "spring", "--bless", "--reason", "a | b"}, "", "expected a text without '|'"},
+      {{"--filter", "nothing-like-it"}, "", "no scene and method match"},
+      {{"--filter", "spring", "--against", "rk4"}, "", "--against: expected one --method"},
+      {{"--filter", "spring", "--method", "rk5"}, "", "unknown method 'rk5'"},
+  };
+  for (const auto& [words, ci, says] : cases) {
+    const ProgramResult result = regress(words, ci);
+    EXPECT_EQ(result.status, 2) << result.out;
+    EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+  }
+  const ProgramResult bisected = regress({"--filter", "spring", "--method", "rk5", "--bisect"});
+  EXPECT_EQ(bisected.status, 125) << "what git takes for: cannot be tested";
+  EXPECT_FALSE(fs::exists(folder_ / "mine"));
+}
+
+TEST_F(CliRegress, OneMethodBesideAnother) {
+  const ProgramResult same = regress({"--filter", "chain", "--method", "leapfrog", "--against", "leapfrog"});
+  EXPECT_EQ(same.status, 0) << same.out;
+  // the same rule in Bullet: other sums, within the rounding
+  const ProgramResult twins =
+      regress({"--filter", "spring", "--method", "bullet/deformable-explicit", "--against", "symplectic-euler"});
+  EXPECT_EQ(twins.status, 0) << twins.out;
+  const ProgramResult other = regress({"--filter", "spring", "--method", "symplectic-euler", "--against", "leapfrog"});
+  EXPECT_EQ(other.status, 1) << other.out;
+  EXPECT_NE(other.out.find("moved      spring, mysim/symplectic-euler"), std::string::npos) << other.out;
+  // another engine of the same rule, a program of its own: where nothing is in the way it falls as exactly
+  const ProgramResult outside =
+      regress({"--filter", "projectile", "--method", "exec:" CROSSCHECK_EXAMPLE, "--against", "symplectic-euler"});
+  EXPECT_EQ(outside.status, 0) << outside.out;
+  const ProgramResult precision = regress(
+      {"--filter", "chain", "--method", "bullet32/deformable-explicit", "--against", "bullet/deformable-explicit"});
+  EXPECT_EQ(precision.status, 1) << precision.out;
+}
+
+TEST_F(CliRegress, SettingsOfBulletAreToldApartAndNamed) {
+  const struct {
+    const char *scene, *is, *was, *cause;
+  } cases[] = {
+      {"chain", "bullet/pbd+n=10", "bullet/pbd", "cause: the setting iterations (was 1, is 10)"},
+      {"chain", "bullet32/deformable-explicit", "bullet/deformable-explicit",
+       "cause: the setting precision (was double, is single)"},
+      {"slide", "bullet/deformable-explicit+default-margin", "bullet/deformable-explicit", "cause: the setting margin"},
+      {"pendulum", "bullet/deformable-explicit+default-sleep", "bullet/deformable-explicit",
+       "cause: the setting sleeping (was off, is on)"},
+  };
+  for (const auto& [scene, is, was, cause] : cases) {
+    const ProgramResult result = regress({"--filter", scene, "--method", is, "--against", was, "--figures", "0"});
+    EXPECT_EQ(result.status, 1) << result.out;
+    EXPECT_NE(result.out.find(cause), std::string::npos) << result.out;
+  }
+}
+
+TEST_F(CliRegress, AFailureHasItsCurvesItsPicturesAndTheTimeAtWhichTheyPart) {
+  const ProgramResult result =
+      regress({"--filter", "chain", "--method", "symplectic-euler", "--against", "leapfrog", "--figures", "1"});
+  EXPECT_EQ(result.status, 1) << result.out;
+  const std::string page = read(folder_ / "out/regress/index.html");
+  EXPECT_NE(page.find("They part by more than the tolerance between 0 s and"), std::string::npos);
+  EXPECT_NE(page.find("quantities failed"), std::string::npos);
+  EXPECT_NE(page.find("data:image/png"), std::string::npos) << "a picture of both";
+  for (const char* figure : {"curve.svg", "difference.svg", "shape.png"})
+    EXPECT_TRUE(fs::exists(folder_ / "out/regress/figures" / (std::string("chain-mysim-symplectic-euler-") + figure)));
+  regress({"--filter", "chain", "--method", "symplectic-euler", "--against", "leapfrog", "--figures", "0"});
+  EXPECT_FALSE(fs::exists(folder_ / "out/regress/index.html"))
+      << "a page of an earlier run would be taken for this one's";
+}
+
+TEST_F(CliRegress, ABlessingKeepsAFigureOfWhatMovedAndTheShape) {
+  ASSERT_EQ(bless("spring/mysim/leapfrog").status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "mine/spring-shape.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "mine/spring-blessing-1.svg")) << "nothing was before";
+  std::string text = read(folder_ / "mine/spring.csv");
+  const size_t row = text.find("mysim/leapfrog,,always,sag");
+  ASSERT_NE(row, std::string::npos);
+  text.replace(text.find(",m,", row) + 3, 1, "7");
+  write("mine/spring.csv", text);
+  const ProgramResult blessed = bless("spring/mysim/leapfrog", "the digit was wrong");
+  EXPECT_EQ(blessed.status, 0) << blessed.err;
+  EXPECT_TRUE(fs::exists(folder_ / "mine/spring-blessing-2.svg")) << blessed.out;
+  EXPECT_NE(read(folder_ / "out/regress/index.html").find("1 quantities blessed: the digit was wrong"),
+            std::string::npos);
+}
+
+TEST_F(CliRegress, AUsersOwnSceneHasBaselinesToo) {
+  std::string scene = read(fs::path(CROSSCHECK_SOURCE) / "experiments/scenes/pendulum.toml");
+  write("my-swing.toml", scene);
+  const std::vector<std::string> ask{"my-swing.toml", "--method", "leapfrog"};
+  EXPECT_EQ(regress(ask).status, 1) << "nobody blessed it";
+  ASSERT_EQ(regress({"my-swing.toml", "--method", "leapfrog", "--bless", "--reason", "mine", "--full"}).status, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "mine/my-swing.csv"));
+  EXPECT_EQ(regress(ask).status, 0);
+  scene.replace(scene.find("-9.81"), 5, "-9.82");
+  write("my-swing.toml", scene);
+  const ProgramResult stale = regress(ask);
+  EXPECT_EQ(stale.status, 1);
+  EXPECT_NE(stale.out.find("stale      my-swing: baseline"), std::string::npos) << stale.out;
+}
+
+/// A method that is taken out of the suite takes its quantities with it; that must not look like success.
+TEST_F(CliRegress, WhatNobodyAsksAnyMoreIsSaid) {
+  ASSERT_EQ(regress({"projectile", "--bless", "--full", "--reason", "all of it"}).status, 0);
+  EXPECT_EQ(regress({"projectile"}).status, 0);
+  std::string text = read(folder_ / "mine/projectile.csv");
+  const size_t at = text.find("# rows: ");
+  const int rows = std::stoi(text.substr(at + 8));
+  text.replace(at + 8, std::to_string(rows).size(), std::to_string(rows + 1));
+  text += "mysim/forgotten,,always,verdict,word,ok,0,1,word\n";
+  write("mine/projectile.csv", text);
+  const ProgramResult rot = regress({"projectile"});
+  EXPECT_EQ(rot.status, 1);
+  EXPECT_NE(rot.out.find("gone       projectile, mysim/forgotten: all: nobody asks for it any more"), std::string::npos)
+      << rot.out;
+  EXPECT_EQ(regress({"projectile", "--method", "leapfrog"}).status, 0) << "a part of it was asked, and is there";
+  ASSERT_EQ(regress({"projectile", "--bless", "--full", "--reason", "it was taken out"}).status, 0);
+  EXPECT_EQ(regress({"projectile"}).status, 0);
+}
+
+/// Five of the wrong changes, each on one scene that shows it; all of them by `regress --prove`.
+TEST_F(CliRegress, MutantsAreCaughtAndTheOriginalIsNot) {
+  const struct {
+    const char *mutant, *scene;
+  } some[] = {{"spring-softer", "spring"},
+              {"leapfrog-drag", "chain"},
+              {"friction-of-velocities-off", "slide"},
+              {"restitution-sign", "bounce"},
+              {"suzuki4-coefficient", "normal-modes"}};
+  for (const auto& [mutant, scene] : some) {
+    SCOPED_TRACE(mutant);
+    ASSERT_EQ(bless(scene).status, 0);
+    const ProgramResult proof = regress({"--prove", "--filter", scene, "--mutant", mutant});
+    EXPECT_EQ(proof.status, 0) << proof.out << proof.err;
+    EXPECT_NE(proof.out.find(std::string("caught   ") + mutant), std::string::npos) << proof.out;
+    EXPECT_NE(proof.out.find("passed   (mysim as it is)"), std::string::npos) << proof.out;
+  }
+  const ProgramResult unknown = regress({"--prove", "--mutant", "no-such"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("no such mutation"), std::string::npos) << unknown.err;
+}
+
+class CliRegressBuilds : public Cli {
+ protected:
+  ProgramResult prove(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"regress", "--prove-builds", "--filter", "spring/mysim/*", "--out", "out"});
+    return call(words);
+  }
+};
+
+TEST_F(CliRegressBuilds, ABadNameIsNamedAndNothingIsBuilt) {
+  const ProgramResult unknown = prove({"--build", "gcc-O9"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_NE(unknown.err.find("--build gcc-O9: no such build; expected one of: gcc-O3, gcc-O2"), std::string::npos)
+      << unknown.err;
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  EXPECT_EQ(call({"regress", "--build", "gcc-O3"}).status, 2) << "a build of what is not asked for";
+  EXPECT_EQ(call({"regress", "--prove-builds", "--filter", "nothing-like-it"}).status, 2);
+}
+
+TEST_F(CliRegressBuilds, OtherVariantsOfTheLibraryPassAndAChangedBaselineDoesNot) {
+  const ProgramResult same = prove({"--build", "no-fma"});
+  if (same.out.starts_with("not here"))
+    GTEST_SKIP() << "this machine has no other variant of the C library: " << same.out;
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  EXPECT_TRUE(same.out.starts_with("passed       no-fma ")) << same.out;
+  EXPECT_NE(same.out.find(" quantities: 0 failed, "), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find(" identical, "), std::string::npos) << same.out;
+  EXPECT_NE(same.out.find("1 builds passed, 0 with a false alarm"), std::string::npos) << same.out;
+  EXPECT_NE(rows(folder_ / "out/builds.csv").find("no-fma,"), std::string::npos);
+  EXPECT_NE(rows(folder_ / "out/no-fma/regress.csv").find("tolerances off"), std::string::npos);
+
+  std::string bad = read(CROSSCHECK_SOURCE "/reference/baselines/spring.csv");
+  const size_t row = bad.find("mysim/rk4,,always,peak stretch");
+  ASSERT_NE(row, std::string::npos);
+  bad.replace(bad.find(",1,", row) + 3, 1, "7");  // the first digit of the value
+  fs::create_directories(folder_ / "mine");
+  write("mine/spring.csv", bad);
+  const ProgramResult caught = prove({"--build", "no-fma", "--baselines", "mine"});
+  EXPECT_EQ(caught.status, 1);
+  EXPECT_TRUE(caught.out.starts_with("FALSE ALARM  no-fma ")) << caught.out;
+  EXPECT_NE(caught.out.find("1 failed"), std::string::npos) << caught.out;
+  EXPECT_NE(caught.out.find("tolerances at most (spring, mysim/rk4: peak stretch)"), std::string::npos) << caught.out;
+}
+
+class CliSpeed : public Cli {
+ protected:
+  ProgramResult regress(std::vector<std::string> words) const {
+    words.insert(words.begin(), {CROSSCHECK_PROGRAM, "regress", "--baselines", "mine"});
+    return run_program(words, folder_, {"ASAN_OPTIONS=detect_leaks=0", "CI="});
+  }
+  std::string speeds() const { return read(folder_ / "mine/speed-cost.csv"); }
+  /// The file with the ratio of its only row multiplied.
+  void multiply_ratio(double factor) const {
+    std::string text = speeds();
+    const size_t begin = text.find(",mysim/leapfrog,") + std::string(",mysim/leapfrog,").size();
+    const size_t end = text.find(',', begin);
+    write("mine/speed-cost.csv",
+          text.replace(begin, end - begin, std::to_string(factor * std::stod(text.substr(begin, end - begin)))));
+  }
+};
+
+TEST_F(CliSpeed, IsBlessedAndComparedAndNamed) {
+  ASSERT_EQ(regress({"--filter", "spring", "--bless", "--reason", "today", "--no-speed"}).status, 0);
+  const ProgramResult none = regress({"--filter", "spring"});
+  EXPECT_EQ(none.status, 0) << none.out;
+  EXPECT_NE(none.out.find("speeds not compared: mine/speed-cost.csv: no such file"), std::string::npos) << none.out;
+  const ProgramResult blessed = regress({"--filter", "spring", "--bless", "--reason", "speed, too"});
+  EXPECT_EQ(blessed.status, 0) << blessed.err;
+  EXPECT_NE(blessed.out.find("1 speeds blessed"), std::string::npos) << blessed.out;
+  EXPECT_NE(speeds().find("| speed, too\n"), std::string::npos) << speeds();
+  const std::string good = speeds();
+
+  multiply_ratio(1. / 3);
+  const ProgramResult slower = regress({"--filter", "spring"});
+  EXPECT_EQ(slower.status, 1) << slower.out;
+  EXPECT_NE(slower.out.find("slower     spring, mysim/leapfrog: slower at the same answer: "), std::string::npos)
+      << slower.out;
+  EXPECT_NE(read(folder_ / "out/regress/regress.json").find("\"state\": \"slower\""), std::string::npos);
+  EXPECT_NE(read(folder_ / "out/regress/junit.xml").find("name=\"mysim/leapfrog: speed\"><failure"), std::string::npos);
+  EXPECT_NE(rows(folder_ / "out/regress/speed-cost.csv").find("slower at the same answer"), std::string::npos);
+  EXPECT_EQ(regress({"--filter", "spring", "--no-speed"}).status, 0);
+  EXPECT_EQ(regress({"--filter", "spring", "--bisect"}).status, 0) << "speed is not what is looked for";
+  EXPECT_EQ(regress({"--filter", "spring", "--bisect", "--speed"}).status, 1);
+
+  write("mine/speed-cost.csv", good);
+  multiply_ratio(3);
+  const ProgramResult faster = regress({"--filter", "spring"});
+  EXPECT_EQ(faster.status, 0) << faster.out;
+  EXPECT_NE(faster.out.find("faster at the same answer: "), std::string::npos) << faster.out;
+
+  std::string other = good;
+  other.replace(other.find("# machine 1: ") + 13, 1, "another ");
+  write("mine/speed-cost.csv", other);
+  multiply_ratio(1. / 3);
+  const ProgramResult elsewhere = regress({"--filter", "spring"});
+  EXPECT_EQ(elsewhere.status, 0) << elsewhere.out;
+  EXPECT_NE(elsewhere.out.find("1 of 1 speeds not compared: blessed on another processor (another "), std::string::npos)
+      << elsewhere.out;
+
+  write("mine/speed-cost.csv", good.substr(0, good.find("spring,")));
+  const ProgramResult damaged = regress({"--filter", "spring"});
+  EXPECT_EQ(damaged.status, 1);
+  EXPECT_NE(damaged.out.find("speed-cost.csv:"), std::string::npos) << damaged.out;
+}
+
+TEST_F(CliSpeed, TwoMethodsBesideEachOther) {
+  // four evaluations of the forces in each step, beside one
+  const ProgramResult slower = regress({"--method", "rk4", "--against", "leapfrog", "--filter", "cloth-hang"});
+  EXPECT_EQ(slower.status, 1);
+  EXPECT_NE(slower.out.find("slower     cloth-hang, mysim/rk4: "), std::string::npos) << slower.out;
+  const ProgramResult trade = regress({"--method", "leapfrog", "--against", "rk4", "--filter", "normal-modes"});
+  EXPECT_NE(trade.out.find("faster     normal-modes, mysim/leapfrog: buys speed with accuracy: "), std::string::npos)
+      << trade.out;
+  const ProgramResult outside =
+      regress({"--filter", "projectile", "--method", "exec:" CROSSCHECK_EXAMPLE, "--against", "symplectic-euler"});
+  EXPECT_EQ(outside.status, 0) << outside.out;
+  EXPECT_NE(outside.out.find("is no method inside this program"), std::string::npos) << outside.out;
+}
+
+TEST_F(CliSpeed, ABuildBesideItself) {
+  // whether there is an alarm is for the long form to say, on a machine that does nothing else
+  const ProgramResult proof = regress({"--prove-speed", "--filter", "spring", "--repetitions", "2"});
+  EXPECT_NE(proof.out.find("2 repetitions of 1 speeds: "), std::string::npos) << proof.out << proof.err;
+  EXPECT_EQ(regress({"--repetitions", "2"}).status, 2);
+  EXPECT_EQ(regress({"--prove-speed", "--bless"}).status, 2);
+}
+
+}  // namespace
+}  // namespace crosscheck::testing_tools

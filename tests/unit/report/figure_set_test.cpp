@@ -1,0 +1,208 @@
+// Sets of figures and PNG files: sizes as asked, words for text and LaTeX, drawings that gnuplot alone can make.
+
+#include "report/figures/figure_set.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/json.h"
+#include "mysim/base/process.h"
+#include "report/pictures/png_file.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/report/readers.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+std::string message_of(const std::string& set, const std::string& width) {
+  try {
+    figure_size(set, width);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FigureSize, IsThatOfTheSetOrAsAsked) {
+  EXPECT_EQ(figure_size("paper", "").width, 8.5);
+  EXPECT_EQ(figure_size("paper", "85mm").width, 8.5);
+  EXPECT_NEAR(figure_size("paper", "3.3in").width, 8.382, 1e-12);
+  EXPECT_EQ(figure_size("lecture", "").font, 20);
+  EXPECT_NEAR(FigureSize{}.units(), 680, 0.5);
+  for (const char* bad : {"8.5", "cm", "8.5 cm", "-8cm", "1cm", "200cm", "8.5pt", "nancm"})
+    EXPECT_TRUE(contains(message_of("paper", bad), "expected 4cm to 100cm, in cm, mm or in")) << bad;
+  EXPECT_TRUE(contains(message_of("poster", ""), "--set poster: expected paper or lecture"));
+}
+
+TEST(Latex, SpecialCharactersAreEscaped) {
+  EXPECT_EQ(latex("a_b & 5 % of #1 {x} ~ ^ \\ $"),
+            "a\\_b \\& 5 \\% of \\#1 \\{x\\} \\textasciitilde{} \\textasciicircum{} \\textbackslash{} \\$");
+  EXPECT_EQ(latex("< 3 µm ± 1, 2 × ω"), "$<$ 3 $\\mu$m $\\pm$ 1, 2 $\\times$ $\\omega$");
+}
+
+/// One chart of each kind.
+std::vector<Chart> charts() {
+  Figure lines;
+  lines.name = "lines", lines.title = "two lines", lines.caption = "Scene a_b.", lines.finding = "They cross.";
+  lines.x = {"t / s"}, lines.y = {"x / m"};
+  lines.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {{0, 1}, {1, 2}, {2, 0}}},
+                  {"bullet/pbd", style_of("bullet/pbd"), {{0, 2}, {1, 1}, {2, 3}}}};
+  StackedBars bars;
+  bars.name = "bars", bars.title = "bars", bars.label = "energy / J", bars.names = {"one", "two"};
+  bars.parts = {{"drag", "#0072B2", false, {1, -2}}};
+  HeatMap map;
+  map.name = "map", map.title = "a map", map.x_label = "step / s", map.y_label = "k",
+  map.kinds = {{"holds", "#D8E8F0"}};
+  for (const char* title : {"a", "b", "c", "d"})
+    map.panels.push_back({title, {{1, 1, 0}, {10, 1, 0}, {1, 10, 0}, {10, 10, 0}}, {}, {}});
+  return {{"a_b", lines}, {"", bars, "energy"}, {"", map, "stability"}};
+}
+
+class FigureSet : public InFolder {
+ protected:
+  void make(const FigureSize& size) {
+    all = charts();
+    for (Chart& chart : all) {
+      ASSERT_TRUE(resize(chart, size));
+      std::visit(
+          [&]<class F>(const F& figure) {
+            if constexpr (std::derived_from<F, FigureInfo>) draw(drawing_of(figure), {}, folder_);
+          },
+          chart.figure);
+    }
+  }
+  /// Of a PDF's page, points.
+  double width_of(const std::string& name) const { return page_of(read(folder_ / (name + ".pdf"))).first; }
+  std::vector<Chart> all;
+};
+
+TEST_F(FigureSet, EveryKindHasTheWidthThatWasAsked) {
+  for (const double width : {8.5, 12.0, 17.0}) {
+    make({width, 8, false});
+    // a point is 1/72 inch, and gnuplot's pages are whole ones
+    for (const char* name : {"lines", "bars", "map"}) EXPECT_NEAR(width_of(name), width / 2.54 * 72, 1.01) << name;
+  }
+}
+
+TEST_F(FigureSet, LettersOnThePageHaveTheSizeThatWasAsked) {
+  for (const double font : {8.0, 11.0}) {
+    make({12, font, false});
+    for (const char* name : {"lines", "map"}) {
+      const std::set<double> letters = letters_of(read(folder_ / (std::string(name) + ".pdf")));
+      // exponents are smaller, titles larger
+      const auto nearest = std::min_element(
+          letters.begin(), letters.end(), [&](double a, double b) { return std::abs(a - font) < std::abs(b - font); });
+      ASSERT_NE(nearest, letters.end()) << name;
+      EXPECT_NEAR(*nearest, font, 0.01) << name;
+      EXPECT_LT(*letters.rbegin(), 1.1 * font) << name;
+    }
+  }
+}
+
+TEST_F(FigureSet, LettersWithoutRoomAreSmallerAndSaySo) {
+  all = charts();
+  Figure& lines = std::get<Figure>(all[0].figure);
+  draw_in_size(all[0], {8.5, 8, false}, {}, folder_);
+  EXPECT_EQ(lines.size.font, 8);
+  // too long for a line of the key in letters of 8 pt
+  lines.curves[0].title = "mysim/symplectic-euler at a tenth of its step";
+  draw_in_size(all[0], {8.5, 8, false}, {}, folder_);
+  EXPECT_LT(lines.size.font, 8);
+  EXPECT_GE(lines.size.font, 5);
+  const std::set<double> letters = letters_of(read(folder_ / "lines.pdf"));
+  EXPECT_NEAR(*letters.rbegin(), lines.size.font, 0.01);
+  EXPECT_NEAR(width_of("lines"), 8.5 / 2.54 * 72, 1.01);
+  lines.curves[0].title = std::string(300, 'x');
+  // nothing helps: the figure is drawn in the smallest letters, and what gnuplot says of it is told
+  std::filesystem::remove(folder_ / "lines.pdf");
+  testing::internal::CaptureStderr();
+  draw_in_size(all[0], {8.5, 8, false}, {}, folder_);
+  EXPECT_TRUE(contains(testing::internal::GetCapturedStderr(), "crosscheck: figure lines: gnuplot warns: "));
+  EXPECT_NEAR(lines.size.font, 5, 0.4);
+  EXPECT_FALSE(read(folder_ / "lines.pdf").empty());
+}
+
+TEST_F(FigureSet, TitlesStandInLecturesOnly) {
+  make(figure_size("paper", ""));
+  for (const char* name : {"lines", "map"}) {
+    const std::string svg = read(folder_ / (std::string(name) + ".svg"));
+    EXPECT_EQ(svg.find(name == std::string("map") ? ">a map<" : ">two lines<"), std::string::npos) << name;
+  }
+  make(figure_size("lecture", ""));
+  EXPECT_TRUE(contains(read(folder_ / "lines.svg"), ">two lines<"));
+  EXPECT_TRUE(contains(read(folder_ / "map.svg"), ">a map<"));
+}
+
+TEST_F(FigureSet, GnuplotAloneDrawsTheSameAgain) {
+  make(figure_size("paper", ""));
+  for (const char* name : {"lines", "bars", "map"}) {
+    const std::string before = read(folder_ / (std::string(name) + ".svg"));
+    const std::string picture = read(folder_ / (std::string(name) + ".png"));
+    std::filesystem::remove(folder_ / (std::string(name) + ".svg"));
+    const ProgramResult drawn = run_program({"gnuplot", std::string(name) + ".gp"}, folder_);
+    EXPECT_EQ(drawn.status, 0) << drawn.err;
+    EXPECT_EQ(drawn.err, "");
+    EXPECT_EQ(read(folder_ / (std::string(name) + ".svg")), before) << name;
+    EXPECT_EQ(read(folder_ / (std::string(name) + ".png")), picture) << name;
+  }
+}
+
+TEST_F(FigureSet, WordsSayWhatEachShows) {
+  make(figure_size("paper", ""));
+  std::vector<FigureInSet> drawn;
+  for (const Chart& chart : all) {
+    drawn.push_back({*figure_info(chart), chart.scene, chart_endings});
+    write_captions(*figure_info(chart), folder_);
+  }
+  write_catalogue(drawn, {{"commit", "abc"}, {"date", "2026-11-22T10:00:00Z"}}, folder_);
+  EXPECT_EQ(read(folder_ / "lines.txt"), "two lines\nThey cross. Scene a_b.\n");
+  const std::string tex = read(folder_ / "lines.tex");
+  EXPECT_TRUE(contains(tex, "\\includegraphics[width=8.5cm]{lines.pdf}"));
+  EXPECT_TRUE(contains(tex, "\\caption{two lines. They cross. Scene a\\_b.}"));
+  const JsonField json = JsonField::parse_file(folder_ / "figures.json");
+  ASSERT_EQ(json["figures"].size(), 3u);
+  EXPECT_EQ(json["figures"][0]["finding"].text(), "They cross.");
+  EXPECT_EQ(json["figures"][0]["files"]["csv"].text(), "lines.csv");
+  EXPECT_EQ(json["provenance"]["commit"].text(), "abc");
+  EXPECT_TRUE(contains(read(folder_ / "CITATION.cff"), "version: \"abc\"\ndate-released: \"2026-11-22\""));
+}
+
+using namespace testing_tools;
+namespace fs = std::filesystem;
+
+class PngFile : public InFolder {};
+
+TEST_F(PngFile, PacksTightlyAndKeepsEveryPixel) {
+  int smaller = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(CROSSCHECK_SOURCE) / "tests/unit/report/golden")) {
+    if (entry.path().extension() != ".png") continue;
+    SCOPED_TRACE(entry.path().string());
+    const fs::path copy = folder_ / entry.path().filename();
+    fs::copy_file(entry.path(), copy);
+    render::set_resolution(copy, 300);
+    const auto size = fs::file_size(copy);
+    const std::string told = read(copy).substr(33, 21);
+    render::pack_tightly(copy);
+    EXPECT_LE(fs::file_size(copy), size);
+    smaller += fs::file_size(copy) < size;
+    EXPECT_EQ(render::read_png(copy).rgb, render::read_png(entry.path()).rgb);
+    EXPECT_EQ(read(copy).substr(33, 21), told) << "what else is in it stays";
+    const std::string once = read(copy);
+    render::pack_tightly(copy);
+    EXPECT_EQ(read(copy), once);
+  }
+  EXPECT_GT(smaller, 0);
+}
+
+TEST_F(PngFile, WhatIsNoneIsNamed) {
+  const fs::path file = write("none.png", "\x89PNG, but not further than that: no chunk of it is whole");
+  try {
+    render::pack_tightly(file);
+    FAIL() << "nothing is said";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), "cannot read " + file.string());
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,87 @@
+// What stands in a PDF as cairo writes it, and in the page's packed numbers: readers written apart from the writers.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cstdint>
+#include <regex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace crosscheck::testing_tools {
+
+// What stands in a PDF as cairo writes it: the size of its page and of its letters.
+
+/// Of a PDF's first page, points.
+inline std::pair<double, double> page_of(const std::string& pdf) {
+  std::smatch found;
+  EXPECT_TRUE(std::regex_search(pdf, found, std::regex("/MediaBox \\[ ?[0-9.]+ [0-9.]+ ([0-9.]+) ([0-9.]+)")));
+  return {std::stod(found[1]), std::stod(found[2])};
+}
+
+/// The heights of all letters on its pages, points.
+inline std::set<double> letters_of(const std::string& pdf) {
+  std::set<double> sizes;
+  const std::string begin = "stream\n";
+  for (size_t at = pdf.find(begin); at != std::string::npos; at = pdf.find(begin, at + 1)) {
+    std::string text(1 << 24, ' ');
+    uLongf size = text.size();
+    const size_t from = at + begin.size();
+    uLong rest = pdf.size() - from;
+    if (uncompress2(reinterpret_cast<Bytef*>(text.data()), &size, reinterpret_cast<const Bytef*>(pdf.data() + from),
+                    &rest) != Z_OK)
+      continue;
+    text.resize(size);
+    if (text.find(" Tm") == std::string::npos) continue;
+    const std::regex matrix("([-0-9.]+) ([-0-9.]+) [-0-9.]+ [-0-9.]+ [-0-9.]+ [-0-9.]+ Tm");
+    for (std::sregex_iterator i(text.begin(), text.end(), matrix), end; i != end; ++i)
+      sizes.insert(std::hypot(std::stod((*i)[1]), std::stod((*i)[2])));
+  }
+  return sizes;
+}
+
+// The page's way back from packed numbers, written apart from the way there.
+
+inline std::string bytes_of_base64(const std::string& text) {
+  static const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned word = 0;
+  int bits = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    word = word << 6 | static_cast<unsigned>(alphabet.find(c));
+    if ((bits += 6) >= 8) bytes += static_cast<char>(word >> (bits -= 8) & 255);
+  }
+  return bytes;
+}
+
+inline std::string gunzipped(std::string bytes, size_t length) {
+  std::string out(length, '\0');
+  z_stream stream{};
+  stream.next_in = reinterpret_cast<Bytef*>(bytes.data()), stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data()), stream.avail_out = static_cast<uInt>(length);
+  inflateInit2(&stream, 15 + 16);
+  const int status = inflate(&stream, Z_FINISH);
+  inflateEnd(&stream);
+  if (status != Z_STREAM_END || stream.total_out != length) throw std::runtime_error("not the gzip that was expected");
+  return out;
+}
+
+inline std::vector<std::uint16_t> unpacked(size_t count, size_t lag, int order, const std::string& data) {
+  const std::string planes = gunzipped(bytes_of_base64(data), 2 * count);
+  std::vector<std::uint16_t> numbers(count);
+  for (size_t i = 0; i < count; ++i) {
+    const unsigned low = static_cast<unsigned char>(planes[i]), high = static_cast<unsigned char>(planes[count + i]);
+    const unsigned zigzag = low | high << 8;
+    numbers[i] = static_cast<std::uint16_t>(zigzag % 2 ? -static_cast<int>((zigzag + 1) / 2) : zigzag / 2);
+  }
+  for (int k = order; k > 0; --k)
+    for (size_t i = static_cast<size_t>(k) * lag; i < count; ++i)
+      numbers[i] = static_cast<std::uint16_t>(numbers[i] + numbers[i - lag]);
+  return numbers;
+}
+
+}  // namespace crosscheck::testing_tools

@@ -1,0 +1,408 @@
+// Pictures: determinism, what must be seen and what must not crash, the view, and pictures as they looked last.
+
+#include <gtest/gtest.h>
+#include <png.h>
+#include <unistd.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "mysim/base/process.h"
+#include "render_helpers.h"
+#include "report/pictures/camera.h"
+#include "report/pictures/mesh.h"
+#include "report/pictures/picture.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Scratch {
+  fs::path path = fs::temp_directory_path() / ("render_test_" + std::to_string(getpid()));
+  Scratch() { fs::create_directories(path); }
+  ~Scratch() { fs::remove_all(path); }
+};
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Image read_png(const fs::path& file) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  EXPECT_TRUE(png_image_begin_read_from_file(&png, file.c_str())) << file;
+  png.format = PNG_FORMAT_RGB;
+  Image image{int(png.width), int(png.height), std::vector<unsigned char>(PNG_IMAGE_SIZE(png))};
+  png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr);
+  return image;
+}
+
+TEST(Render, SamePictureSameBytes) {
+  for (const Quality quality : {Quality::fast, Quality::still}) {
+    const Picture picture = small_picture(quality);
+    const Image first = draw(picture);
+    EXPECT_EQ(first.rgb, draw(picture).rgb);
+  }
+}
+
+TEST(Render, StudioKeepsNothingOfTheLastPicture) {
+  Picture picture = small_picture(), other = small_picture();
+  other.rows[0][0].balls.clear();
+  OffscreenRenderer renderer, another;
+  renderer.draw(other);
+  another.draw(picture);
+  EXPECT_EQ(renderer.draw(picture).rgb, draw(picture).rgb);
+}
+
+TEST(Render, IsNotBlankAndEndsInBackground) {
+  OffscreenRenderer renderer;
+  const Image image = renderer.draw(small_picture());
+  const auto [least, most] = std::minmax_element(image.rgb.begin(), image.rgb.end());
+  EXPECT_GT(*most - *least, 80);
+  // no seam: the rim of the picture is the background to the last bit
+  for (int x = 0; x < image.width; ++x) {
+    for (const int y : {0, image.height - 1}) {
+      const unsigned char* pixel = &image.rgb[3 * std::size_t(y * image.width + x)];
+      ASSERT_TRUE(pixel[0] == 0xF7 && pixel[1] == 0xF7 && pixel[2] == 0xF5) << x << ", " << y;
+    }
+  }
+}
+
+TEST(Render, BothQualitiesShowTheSameScene) {
+  OffscreenRenderer renderer;
+  // light and shadow differ, places do not: the difference stays far below that of a picture with nothing in it
+  Picture empty = small_picture();
+  empty.rows[0][0].bodies.clear(), empty.rows[0][0].balls.clear();
+  const Image fast = renderer.draw(small_picture(Quality::fast)), still = renderer.draw(small_picture(Quality::still));
+  double apart = 0, seen = 0;
+  const Image nothing = renderer.draw(empty);
+  for (std::size_t i = 0; i < fast.rgb.size(); ++i) {
+    apart += std::abs(fast.rgb[i] - still.rgb[i]);
+    seen += std::abs(fast.rgb[i] - nothing.rgb[i]);
+  }
+  EXPECT_LT(apart, 0.4 * seen);
+}
+
+TEST(Render, BallIsSeen) {
+  OffscreenRenderer renderer;
+  Picture without = small_picture();
+  without.rows[0][0].balls.clear();
+  EXPECT_GT(changed(renderer.draw(small_picture()), renderer.draw(without)), 0.03);
+}
+
+TEST(Render, APictureOfNothingIsAnError) {
+  Picture picture = small_picture();
+  picture.rows[0][0].balls.clear();
+  picture.rows[0][0].bodies.clear();
+  try {
+    write_png(picture, std::filesystem::temp_directory_path() / "crosscheck-nothing.png");
+    FAIL() << "a blank picture was written";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("crosscheck-nothing: nothing is to be seen"), std::string::npos);
+  }
+}
+
+TEST(Render, PenetrationIsSeen) {
+  OffscreenRenderer renderer;
+  // a cloth lying on the ball hides its top; the same cloth 2 cm inside the ball must not
+  Picture on_top = small_picture();
+  Body& body = body_of(on_top);
+  for (int i = 0; i < body.x.cols(); ++i)
+    body.x.col(i) = 0.352 * Vec3(2 * body.x(0, i), 1, 2 * body.x(2, i)).normalized();
+  Picture inside = on_top;
+  body_of(inside).x *= 0.33 / 0.352;
+  Picture bare = on_top;
+  bare.rows[0][0].bodies.clear();
+  // seen: ten times what a hidden cloth may change by the light it lets through
+  EXPECT_GT(changed(renderer.draw(on_top), renderer.draw(bare)), 0.02);
+  EXPECT_LT(changed(renderer.draw(inside), renderer.draw(bare)), 0.002);
+}
+
+TEST(Render, ShiftOfTwoPercentIsSeen) {
+  OffscreenRenderer renderer;
+  const Picture picture = small_picture();
+  Picture shifted = picture;
+  const double view_height = 2 * (picture.view.eye - picture.view.target).norm() *
+                             std::tan(picture.view.field_of_view * std::numbers::pi / 360);
+  body_of(shifted).x.row(0).array() += 0.02 * view_height;
+  EXPECT_GT(changed(renderer.draw(picture), renderer.draw(shifted)), 0.02);
+  EXPECT_EQ(changed(renderer.draw(picture), renderer.draw(picture)), 0);
+}
+
+TEST(Render, SceneOfAnyUnitLooksTheSame) {
+  OffscreenRenderer renderer;
+  // the same scene in millimetres: the frame takes the unit out, round-off aside
+  Picture scaled = small_picture();
+  body_of(scaled).x *= 1000, scaled.rows[0][0].balls[0].radius *= 1000;
+  scaled.view = fit_view({body_of(scaled).x}, scaled.rows[0][0].balls, {0.3, 0.4, 1}, panel_aspect(scaled));
+  EXPECT_LT(changed(renderer.draw(small_picture()), renderer.draw(scaled)), 0.002);
+}
+
+TEST(Render, BlownUpBodyIsLeftOut) {
+  OffscreenRenderer renderer;
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300, 1e30}) {
+    Picture picture = small_picture();
+    Body& body = body_of(picture);
+    body.tubes = {{0, 9}, {9, 18}};
+    body.bead_radius = by_view;
+    body.pinned = {9};
+    body.trail = {Vec3(0, 0, 0), Vec3::Constant(bad), Vec3(1, 0, 0)};
+    Picture all_bad = picture;
+    body.x.col(9).setConstant(bad);
+    body_of(all_bad).x.setConstant(bad);
+    EXPECT_GT(changed(renderer.draw(picture), renderer.draw(all_bad)), 0.05) << "the sound part is drawn, " << bad;
+  }
+}
+
+TEST(Render, WrongIndicesAndNumbersAreRefused) {
+  Picture picture = small_picture();
+  body_of(picture).tubes = {{0, 64}};
+  EXPECT_THROW(draw(picture), std::runtime_error);
+  picture = small_picture();
+  picture.scale = Scale{"stretch / %", 0, 5};
+  body_of(picture).value = {1, 2};
+  EXPECT_THROW(draw(picture), std::runtime_error);
+  EXPECT_THROW(draw(Picture{}), std::runtime_error);
+}
+
+TEST(Render, ScaleColoursLowAndHighApart) {
+  OffscreenRenderer renderer;
+  const auto with_value = [&](double value) {
+    Picture picture = small_picture();
+    picture.scale = Scale{"stretch / %", 0, 5};
+    body_of(picture).value.assign(64, value);
+    return renderer.draw(picture);
+  };
+  const Image low = with_value(0), high = with_value(5);
+  EXPECT_GT(changed(low, high), 0.02);
+  EXPECT_EQ(changed(high, with_value(50)), 0) << "out of range is the end of the scale";
+  EXPECT_GT(changed(high, with_value(std::nan(""))), 0.02) << "no value has a colour of its own";
+}
+
+TEST(Render, TubesTakePaletteColours) {
+  OffscreenRenderer renderer;
+  const auto with_colour = [&](int index) {
+    Picture picture = small_picture();
+    Body& body = body_of(picture);
+    body.triangles.clear(), std::swap(body.tubes, body.threads);
+    body.tube_colour.assign(body.tubes.size(), index);
+    return renderer.draw(picture);
+  };
+  EXPECT_GT(changed(with_colour(0), with_colour(1)), 0.02);
+}
+
+TEST(Render, PngHasLettersAndTheSameBytes) {
+  const Scratch scratch;
+  Picture picture = small_picture();
+  picture.width = 480, picture.height = 270;
+  picture.scale = Scale{"stretch / %", -5, 5, true};
+  picture.legend = {"structural", "shear", "bend"};
+  picture.rows[0][0].subtitle = "it's `ls` @t {x}_y^2 \\n \"5 %\"";
+  picture.rows[0].push_back(picture.rows[0][0]);
+  picture.rows[0][1].title = "bullet/deformable-explicit-with-a-long-name";
+  OffscreenRenderer renderer;
+  write_png(picture, scratch.path / "a.png", renderer);
+  write_png(picture, scratch.path / "b.png", renderer);
+  EXPECT_EQ(bytes_of(scratch.path / "a.png"), bytes_of(scratch.path / "b.png"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(scratch.path), fs::directory_iterator()), 2) << "temporary files";
+
+  const Image lettered = read_png(scratch.path / "a.png");
+  ASSERT_EQ(lettered.width, 480);
+  ASSERT_EQ(lettered.height, 270);
+  EXPECT_GT(changed(lettered, renderer.draw(picture)), 0.01);
+
+  // a long title shrinks all titles and stays in its panel: the column between the panels and the rims are clear
+  for (int y = 0; y < 28; ++y) {
+    for (const int x : {0, 1, 239, 240, 478, 479}) EXPECT_GT(lettered.rgb[3 * std::size_t(y * 480 + x)], 0xE0) << x;
+  }
+
+  picture.rows[0][1].note = "not finite from t = 0.4 s";
+  write_png(picture, scratch.path / "b.png", renderer);
+  EXPECT_GT(changed(lettered, read_png(scratch.path / "b.png")), 0.001);
+}
+
+TEST(Render, UnwritablePlaceIsNamed) {
+  const Scratch scratch;
+  for (const fs::path& file : {scratch.path / "missing" / "picture.png", scratch.path}) {
+    try {
+      write_png(small_picture(), file);
+      FAIL() << "wrote " << file;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(file.string()), std::string::npos) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line";
+    }
+  }
+}
+
+TEST(Render, ProgramsAreRunWithoutAShell) {
+  const Scratch scratch;
+  const ProgramResult echo = run_program({"printf", "%s", "$HOME `ls` 'x'"}, scratch.path);
+  EXPECT_EQ(echo.status, 0);
+  EXPECT_EQ(echo.out, "$HOME `ls` 'x'");
+  const ProgramResult where = run_program({"sh", "-c", "pwd; echo $A >&2; cat; exit 3"}, scratch.path, {"A=b"});
+  EXPECT_EQ(where.status, 3);
+  EXPECT_EQ(where.out, fs::canonical(scratch.path).string() + "\n");
+  EXPECT_EQ(where.err, "b\n");
+  EXPECT_THROW(run_program({"no-such-program-anywhere"}, scratch.path), std::runtime_error);
+}
+
+TEST(Render, SphereMeshIsRoundAndClosed) {
+  // the picture's balls: no flat piece may dip more than 0.1 % of the radius below the surface
+  const Mesh mesh = sphere_mesh(112);
+  ASSERT_EQ(mesh.index.size() % 3, 0u);
+  for (std::size_t i = 0; i < mesh.index.size(); i += 3) {
+    Eigen::Vector3f middle = Eigen::Vector3f::Zero();
+    for (std::size_t k = i; k < i + 3; ++k) middle += mesh.corner[mesh.index[k]].head<3>() / 3;
+    ASSERT_GT(middle.norm(), 0.999f);
+  }
+}
+
+TEST(Render, ViewHoldsEverythingTightly) {
+  const Points points = Points::Random(3, 50);
+  const std::vector<Ball> balls = {{{0.5, -0.2, 0.1}, 0.9}};
+  for (const double aspect : {0.4, 1.0, 2.5}) {
+    for (const Vec3& direction : {Vec3(0.3, 0.4, 1), Vec3(0, 0, 1), Vec3(-1, 0.2, 0), Vec3(0, 1, 0)}) {
+      const View view = fit_view({points}, balls, direction, aspect);
+      const Frame frame = frame_of(view, aspect);
+      Points all(3, 50 + 400);
+      all.leftCols(50) = points;
+      for (int i = 0; i < 400; ++i) {
+        all.col(50 + i) = balls[0].centre + balls[0].radius * Vec3::Random().normalized();
+      }
+      double reach = 0;
+      for (int i = 0; i < all.cols(); ++i) {
+        const Eigen::Vector4f clip = frame.to_clip * frame.place(all.col(i)).homogeneous();
+        reach = std::max({reach, double(std::abs(clip.x() / clip.w())), double(std::abs(clip.y() / clip.w()))});
+        EXPECT_GT(view.up.dot(all.col(i)), *view.floor);
+      }
+      EXPECT_LT(reach, 0.89) << "margin, aspect " << aspect;
+      EXPECT_GT(reach, 0.45) << "size, aspect " << aspect;
+    }
+  }
+}
+
+TEST(Render, ViewOfHardCasesIsUsable) {
+  Points line = Points::Zero(3, 2), bad = line;
+  line << 0, 0, 0, -1, 0, 0;
+  bad << 0, std::nan(""), 0, 1, 0, 1;
+  for (const View& view : {fit_view({line}, {}, {0, 0, 1}, 1), fit_view({bad}, {}, {0, 0, 1}, 1),
+                           fit_view({}, {}, {0, 0, 1}, 1), fit_view({line}, {}, {0, 0, 0}, 0)}) {
+    EXPECT_NO_THROW(frame_of(view, 1));
+  }
+}
+
+}  // namespace
+
+// Pictures as they looked when somebody last looked at them: tests/unit/report/golden/NAME.png, with letters and colour
+// bar.
+//
+// Mesa draws the same bytes on the same kind of processor; on others single channels differ by up to 4 (measured: 292
+// of 691200 with the oldest instructions). So a picture is the same where no channel differs by more than 8, and at
+// most one in 200 by more than 2. What is meant to change a picture changes these files: the test says where it left
+// the new one.
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path golden = fs::path(CROSSCHECK_SOURCE) / "tests/unit/report/golden";
+
+/// No pixels where it cannot be read.
+Image image_in(const fs::path& file) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_file(&png, file.c_str())) return {};
+  png.format = PNG_FORMAT_RGB;
+  Image image{int(png.width), int(png.height), std::vector<unsigned char>(PNG_IMAGE_SIZE(png))};
+  png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr);
+  return image;
+}
+
+bool look_the_same(const Image& a, const Image& b) {
+  if (a.width != b.width || a.height != b.height || a.rgb.empty()) return false;
+  std::size_t far = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+    const int apart = std::abs(a.rgb[i] - b.rgb[i]);
+    if (apart > 8) return false;
+    far += apart > 2;
+  }
+  return far <= a.rgb.size() / 200;
+}
+
+/// A cloth above its ball, coloured by a value, beside the same as springs.
+Picture drape(Quality quality) {
+  Picture picture = small_picture(quality);
+  picture.width = 480, picture.height = 270;
+  picture.scale = Scale{"stretch / %", 0, 5};
+  Panel& panel = picture.rows[0][0];
+  panel.title = "mysim/symplectic-euler", panel.subtitle = "t = 1.5 s";
+  Body& body = panel.bodies[0];
+  for (Eigen::Index i = 0; i < body.x.cols(); ++i) body.value.push_back(5 * body.x.col(i).norm());
+  picture.rows[0].push_back(panel);
+  Panel& other = picture.rows[0][1];
+  other.title = "bullet/pbd";
+  Body& springs = other.bodies[0];
+  springs.triangles.clear(), std::swap(springs.tubes, springs.threads);
+  for (const auto& [a, b] : springs.tubes) springs.tube_value.push_back((springs.value[a] + springs.value[b]) / 2);
+  picture.view = fit_view({body.x}, panel.balls, {0.3, 0.4, 1}, panel_aspect(picture));
+  return picture;
+}
+
+class GoldenPicture : public testing_tools::InFolder {
+ protected:
+  Image drawn(const Picture& picture) const {
+    write_png(picture, folder_ / "drawn.png");
+    return image_in(folder_ / "drawn.png");
+  }
+};
+
+TEST_F(GoldenPicture, LooksAsItDidAndChangesAreNoticed) {
+  for (const auto& [name, quality] :
+       {std::pair{"drape-fast.png", Quality::fast}, {"drape-still.png", Quality::still}}) {
+    SCOPED_TRACE(name);
+    const Image known = image_in(golden / name), now = drawn(drape(quality));
+    if (!look_the_same(known, now)) {
+      const fs::path kept = fs::temp_directory_path() / name;
+      fs::copy_file(folder_ / "drawn.png", kept, fs::copy_options::overwrite_existing);
+      ADD_FAILURE() << (known.rgb.empty() ? "there is no picture " : "not as in ") << golden / name
+                    << "; the new one is " << kept << ": look at both, and copy it where the change is meant";
+      continue;
+    }
+    const std::pair<const char*, std::function<void(Picture&)>> changes[] = {
+        {"a ball is missing", [](Picture& p) { p.rows[0][1].balls.clear(); }},
+        {"the cloth lies 2 % of the view further right",
+         [](Picture& p) {
+           const double high = 2 * (p.view.eye - p.view.target).norm() * std::tan(p.view.field_of_view * M_PI / 360);
+           p.rows[0][0].bodies[0].x.row(0).array() += 0.02 * high;
+         }},
+        {"the bar says 6 where it is 5",
+         [](Picture& p) {
+           p.scale->high = 6;
+           for (Panel& panel : p.rows[0]) {
+             for (double& v : panel.bodies[0].value) v *= 1.2;
+             for (double& v : panel.bodies[0].tube_value) v *= 1.2;
+           }
+         }},
+        {"the bar has other colours", [](Picture& p) { p.scale->diverging = true; }},
+        {"a title is another", [](Picture& p) { p.rows[0][1].title = "bullet/pdb"; }},
+    };
+    for (const auto& [what, change] : changes) {
+      Picture other = drape(quality);
+      change(other);
+      EXPECT_FALSE(look_the_same(known, drawn(other))) << what << ", and nobody notices";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck::render

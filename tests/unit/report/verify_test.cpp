@@ -1,0 +1,201 @@
+// Findings follow from the data: tables read back as they were written, every finding names its rule and its rows, and
+// a report whose data were changed does not pass.
+
+#include <fstream>
+
+#include "experiments/scenes/scenes.h"
+#include "experiments/tables/table.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "report/findings/evidence.h"
+#include "report/findings/verify.h"
+#include "report/page/page.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+class ReadCsv : public InFolder {
+ protected:
+  std::string message_of(const std::string& text) {
+    try {
+      read_csv(write("bad.csv", text));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(ReadCsv, RowsComeBackAsTheyWereWritten) {
+  Table t{"probe", {{"scene", "1"}, {"error", "m"}, {"steps", "1"}, {"note [odd], long", "1"}, {"none", "s"}}, {}};
+  t.add({std::string("a,b"), 0.1, 7L, std::string("plain"), {}});
+  t.add({std::string("say \"so\""), -0.0, -3L, {}, {}});
+  t.add({std::string("two\nlines"), 1e300, {}, std::string("12"), {}});
+  t.add({std::string("x"), NAN, 0L, {}, {}});
+  t.add({std::string("y"), -INFINITY, 0L, {}, {}});
+  write_csv(t, {{"command", "test"}}, folder_);
+  const Table back = read_csv(folder_ / "probe.csv");
+  EXPECT_EQ(back.name, "probe");
+  EXPECT_EQ(back.columns, t.columns);
+  ASSERT_EQ(back.rows.size(), t.rows.size());
+  for (size_t i = 0; i < t.rows.size(); ++i) EXPECT_EQ(csv_row(back.rows[i]), csv_row(t.rows[i]));
+  EXPECT_EQ(std::get<long>(back.at(0, "steps")), 7);
+  EXPECT_EQ(std::get<std::string>(back.at(2, "note [odd], long")), "12");  // a text among texts
+  EXPECT_TRUE(std::signbit(std::get<double>(back.at(1, "error"))));
+}
+
+TEST_F(ReadCsv, SaysWhatIsWrongAndWhere) {
+  EXPECT_TRUE(contains(message_of("# a: b\nscene [1],x [m]\nq,1\nq\n"), "bad.csv:5: expected 2 cells in the row"));
+  EXPECT_TRUE(contains(message_of("scene\n"), "bad.csv:2: expected columns as \"name [unit]\""));
+  EXPECT_TRUE(contains(message_of("scene [1]\n\"open\n"), "expected a closing quote"));
+  EXPECT_TRUE(contains(message_of("scene [1]\ntorn"), "expected a line feed at the end of the row"));
+  EXPECT_TRUE(contains(message_of("scene [1]"), "expected a line feed"));
+  try {
+    read_csv(folder_ / "absent.csv");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(contains(error.what(), "absent.csv: expected a table"));
+  }
+}
+
+TEST(FindingRules, EachNameOnceEachWithItsTables) {
+  std::set<std::string_view> names;
+  for (const FindingRule& rule : finding_rules()) {
+    EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
+    EXPECT_FALSE(rule.formula.empty()) << rule.name;
+    EXPECT_FALSE(rule.tables.empty()) << rule.name;
+  }
+  EXPECT_THROW(finding_rule("unheard-of"), std::logic_error);
+}
+
+/// A small report: two scenes under a few methods, their data and report.json alone.
+class Verify : public InFolder {
+ protected:
+  void SetUp() override {
+    InFolder::SetUp();
+    Request request;
+    request.scenes = load_scenes({"projectile", "chain"});
+    request.methods = find_methods("mysim/symplectic-euler,mysim/explicit-euler,bullet/deformable-explicit");
+    for (const Experiment& e : experiments())
+      if (e.name == std::string_view("engines"))
+        for (const Point& point : e.points(request)) point.compute(rows_);
+    PageContent page;
+    const AllFindings all = all_findings(request.scenes, rows_);
+    for (size_t i = 0; i < request.scenes.size(); ++i)
+      page.scenes.push_back({&request.scenes[i], &all.facts[i], {}, {}, {}, {}});
+    for (const Table& table : rows_.tables) write_csv(table, {}, folder_ / "data");
+    for (const Scene& scene : request.scenes)
+      write_file(folder_ / "data/scenes" / (scene.name + ".toml"), scene.source);
+    write_file(folder_ / "report.json", report_json(page, all, {}, rows_));
+    findings_ = all.overall.size() + all.of_scenes[0].size() + all.of_scenes[1].size();
+  }
+  /// Replaces the first place of a text in a file.
+  void replace(const std::string& file, const std::string& from, const std::string& to) {
+    std::string text = read(folder_ / file);
+    const size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write_file(folder_ / file, text.replace(at, from.size(), to));
+  }
+  std::string mismatches() const {
+    std::string all;
+    for (const std::string& m : verify_report(folder_).mismatches) all += m + "\n";
+    return all;
+  }
+  Rows rows_;
+  size_t findings_ = 0;
+};
+
+TEST_F(Verify, AReportFollowsFromItsData) {
+  const Verification found = verify_report(folder_);
+  EXPECT_TRUE(found.mismatches.empty()) << mismatches();
+  EXPECT_EQ(static_cast<size_t>(found.findings), findings_);
+  EXPECT_GT(found.findings, 4);
+  size_t rows = 0;
+  for (const Table& table : rows_.tables) rows += table.rows.size();
+  EXPECT_EQ(static_cast<size_t>(found.rows), rows);
+}
+
+TEST_F(Verify, EveryChangedRowIsNoticed) {
+  // each cell of the table that findings rest on, one after the other
+  const Table& engines = *rows_.table("engines");
+  const std::string whole = read(folder_ / "data/engines.csv");
+  for (size_t row = 0; row < engines.rows.size(); ++row)
+    for (size_t i = 0; i < engines.columns.size(); ++i) {
+      Table changed = engines;
+      Cell& cell = changed.rows[row][i];
+      if (auto* number = std::get_if<double>(&cell))
+        *number = std::nextafter(*number, INFINITY);
+      else if (auto* count = std::get_if<long>(&cell))
+        ++*count;
+      else
+        continue;
+      if (csv_row(changed.rows[row]) == csv_row(engines.rows[row])) continue;  // nan
+      write_csv(changed, {}, folder_ / "data");
+      EXPECT_FALSE(mismatches().empty()) << row << " " << engines.columns[i].name;
+    }
+  write_file(folder_ / "data/engines.csv", whole);
+  EXPECT_EQ(mismatches(), "");
+}
+
+TEST_F(Verify, WhatDiffersIsNamed) {
+  const std::string report = read(folder_ / "report.json");
+  replace("report.json", "At a step of 1 ms", "At a step of 9 ms");
+  EXPECT_TRUE(contains(mismatches(), "the data say \"At a step of 1 ms"));
+  write_file(folder_ / "report.json", report);
+  replace("report.json", "\"tier\": \"measured\"", "\"tier\": \"exact\"");
+  EXPECT_TRUE(contains(mismatches(), "it rests on \"measured\""));
+  write_file(folder_ / "report.json", report);
+  replace("data/scenes/chain.toml", "gamma = ", "gamma = 1");
+  EXPECT_TRUE(contains(mismatches(), "scene chain: not the one that was reported"));
+}
+
+TEST_F(Verify, MissingPartsAreErrors) {
+  std::filesystem::remove(folder_ / "data/engines.csv");
+  EXPECT_THROW(verify_report(folder_), InputError);
+  write_file(folder_ / "report.json", "{\"problems\": [\"the report was not finished\"]}");
+  try {
+    verify_report(folder_);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(contains(error.what(), "expected a finished report"));
+  }
+}
+
+using Changes = Verify;
+
+TEST_F(Changes, AreTheSentencesThatDiffer) {
+  const std::vector<Scene> scenes = load_scenes({"projectile", "chain"});
+  const AllFindings now = all_findings(scenes, rows_);
+  EXPECT_TRUE(changes_since(folder_, now).empty());
+  replace("report.json", "At a step of 1 ms", "At a step of 9 ms");
+  const std::vector<Change> changes = changes_since(folder_, now);
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes[0].scene, "chain");
+  EXPECT_TRUE(contains(changes[0].before, "At a step of 9 ms"));
+  EXPECT_TRUE(contains(changes[0].now, "At a step of 1 ms"));
+  EXPECT_FALSE(changes[0].timed);
+}
+
+TEST_F(Changes, NewAndGoneFindingsHaveOneSideOnly) {
+  AllFindings now = all_findings(load_scenes({"projectile", "chain"}), rows_);
+  const Finding gone = now.overall.front();
+  now.overall.erase(now.overall.begin());
+  now.overall.push_back({"", "cost", "A step costs more.", "measured", "size-cost"});
+  const std::vector<Change> changes = changes_since(folder_, now);
+  ASSERT_EQ(changes.size(), 2u);
+  EXPECT_EQ(changes[0].before, "");
+  EXPECT_EQ(changes[0].now, "A step costs more.");
+  EXPECT_TRUE(changes[0].timed);
+  EXPECT_EQ(changes[1].before, gone.sentence);
+  EXPECT_EQ(changes[1].now, "");
+  write_file(folder_ / "report.json", "{}");
+  EXPECT_THROW(changes_since(folder_, now), InputError);
+}
+
+}  // namespace
+}  // namespace crosscheck
