@@ -11,6 +11,7 @@
 #include "experiments/scenes/cloths.h"
 #include "experiments/timing/instruction_sets.h"
 #include "experiments/timing/timing.h"
+#include "mysim/simd/cloth_grid/cloth_grid.h"
 
 namespace crosscheck {
 namespace {

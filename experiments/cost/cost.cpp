@@ -14,7 +14,7 @@
 #include "experiments/tables/table.h"
 #include "experiments/timing/timing.h"
 #include "mysim/base/this_process.h"
-#include "mysim/simd/instruction_sets.h"
+#include "mysim/simd/cloth_grid/cloth_grid.h"
 #include "mysim/simd/spring_graph/spring_kernel.h"
 
 namespace crosscheck {

@@ -1,10 +1,8 @@
-// Which instruction set runs the sweep, chosen when it is asked for.
+// Which instruction set the kernels run on, chosen when it is asked for.
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <vector>
-
-#include "mysim/simd/cloth_grid/fused_step.h"
 
 namespace crosscheck::simd {
 
@@ -17,9 +15,5 @@ std::vector<InstructionSet> supported_instruction_sets();
 /// The best there is, or the one that CROSSCHECK_INSTRUCTIONS names (sse2, avx2, avx512). Throws InputError where it
 /// names none of them or one that this machine lacks.
 InstructionSet active_instruction_set();
-
-/// `fast`: inverse roots from the machine's own estimate; else the same bits on AVX2 and AVX-512.
-template <class T>
-Kernel<T> kernel(InstructionSet isa, bool fast);
 
 }  // namespace crosscheck::simd

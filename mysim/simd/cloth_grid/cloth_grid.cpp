@@ -5,10 +5,35 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 #include <vector>
 
 namespace crosscheck::simd {
+
+// of fused_step.cpp, compiled for each
+#define TABLES_OF(isa)                \
+  namespace isa {                     \
+  Kernel<double> double_kernel(bool); \
+  Kernel<float> float_kernel(bool);   \
+  }
+TABLES_OF(sse2)
+TABLES_OF(avx2)
+TABLES_OF(avx512)
+#undef TABLES_OF
+
+template <>
+Kernel<double> kernel(InstructionSet isa, bool fast) {
+  return isa == InstructionSet::avx512 ? avx512::double_kernel(fast)
+         : isa == InstructionSet::avx2 ? avx2::double_kernel(fast)
+                                       : sse2::double_kernel(fast);
+}
+
+template <>
+Kernel<float> kernel(InstructionSet isa, bool fast) {
+  return isa == InstructionSet::avx512 ? avx512::float_kernel(fast)
+         : isa == InstructionSet::avx2 ? avx2::float_kernel(fast)
+                                       : sse2::float_kernel(fast);
+}
+
 namespace {
 
 /// What the largest difference of indices says: the springs that have it lead two rows on, or to the next row.
@@ -74,26 +99,10 @@ std::optional<GridTopology> find_grid_topology(const Springs& springs, int parti
 
 namespace {
 
-constexpr size_t line_bytes = 64;
-
 template <class T>
 constexpr int tile_size = 3 * lanes<T>;
 
 }  // namespace
-
-template <class T>
-void AlignedBuffer<T>::Free::operator()(T* memory) const {
-  std::free(memory);
-}
-
-template <class T>
-AlignedBuffer<T>::AlignedBuffer(size_t count) : size_(count) {
-  const size_t bytes = (count * sizeof(T) + line_bytes - 1) / line_bytes * line_bytes + 2 * line_bytes;
-  memory_.reset(static_cast<T*>(std::aligned_alloc(line_bytes, bytes)));
-  if (!memory_) throw std::bad_alloc();
-  std::fill_n(memory_.get(), bytes / sizeof(T), T(0));
-  data_ = memory_.get() + line_bytes / sizeof(T);
-}
 
 template <class T>
 ClothGridMemory<T>::ClothGridMemory(const GridTopology& topology)
@@ -195,8 +204,6 @@ void ClothGridMemory<T>::get_forces(const AlignedBuffer<T>& buffer, Points& f) c
     for (int c = 0; c < 3; ++c) f(c, i) = static_cast<double>(buffer.data()[v_at(i) + c * lanes<T>]);
 }
 
-template class AlignedBuffer<double>;
-template class AlignedBuffer<float>;
 template class ClothGridMemory<double>;
 template class ClothGridMemory<float>;
 

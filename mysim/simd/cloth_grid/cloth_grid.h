@@ -3,16 +3,21 @@
 
 #include <array>
 #include <deque>
-#include <memory>
 #include <optional>
 
-#include "mysim/particles.h"
+#include "mysim/simd/aligned_buffer.h"
 #include "mysim/simd/cloth_grid/fused_step.h"
+#include "mysim/simd/instruction_sets.h"
 #include "mysim/simd/thread_pool.h"
 #include "mysim/terms/springs.h"
 #include "mysim/types.h"
 
 namespace crosscheck::simd {
+
+/// The functions of the fused step (fused_step.h). `fast`: inverse roots from the machine's own estimate; else the same
+/// bits on AVX2 and AVX-512.
+template <class T>
+Kernel<T> kernel(InstructionSet isa, bool fast);
 
 // Finds the regular grid in a scene's springs, if there is one.
 
@@ -31,25 +36,6 @@ struct GridTopology {
 std::optional<GridTopology> find_grid_topology(const Springs& springs, int particles);
 
 // The memory of a sheet: particles of a scene laid out in lanes, and back.
-
-/// Numbers that begin at a cache line, with a cache line to spare on either side.
-template <class T>
-class AlignedBuffer {
- public:
-  AlignedBuffer() = default;
-  explicit AlignedBuffer(size_t count);
-  T* data() { return data_; }
-  const T* data() const { return data_; }
-  size_t size() const { return size_; }
-
- private:
-  struct Free {
-    void operator()(T* memory) const;
-  };
-  std::unique_ptr<T, Free> memory_;
-  T* data_ = nullptr;
-  size_t size_ = 0;
-};
 
 /// Whether a grid is wide enough for its springs to reach across lanes in one direction only.
 template <class T>

@@ -1,7 +1,7 @@
 // Which springs take which kernel, and the memory in which the kernels read them.
 #pragma once
 
-#include "mysim/simd/cloth_grid/cloth_grid.h"
+#include "mysim/simd/aligned_buffer.h"
 #include "mysim/simd/instruction_sets.h"
 #include "mysim/simd/spring_graph/kernels.h"
 #include "mysim/terms/springs.h"
