@@ -81,6 +81,7 @@ std::vector<Method> find_methods(const std::string& list) {
   return methods;
 }
 
+/// Of mysim: simulate(), mysim/run/engine.cpp.
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds) {
   DivergenceMonitor monitor(scene, run, bounds);

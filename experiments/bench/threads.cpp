@@ -45,14 +45,14 @@ class TimedCloth {
     return wall / steps;
   }
   /// How many are at work.
-  int threads() const { return world_->worker_seconds() > 0 ? 2 : 1; }
+  int threads() const { return world_->work().worker_seconds > 0 ? 2 : 1; }
   /// Of the time of as many cores.
   double share() const { return timing_of(share_).median; }
 
  private:
   Observers no_observers_{{}};
   double h_;
-  std::unique_ptr<simd::ClothGridWorld> world_;
+  std::unique_ptr<World> world_;
   long taken_ = 0;
   std::vector<double> share_;
 };

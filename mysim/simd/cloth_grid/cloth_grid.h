@@ -113,15 +113,15 @@ class Slabs {
 
   void put(const Points& x, const Points& v);
   void get(Points& x, Points& v) const;
-  /// sweep(band) for each, on its own thread, with its neighbours' rows where they are now.
-  template <class Step>
-  void fused_step(Step one) {
-    const std::function<void(int)> work = [&](int which) {
+  /// work(slab) for each, on its own thread, with its neighbours' rows where they are now.
+  template <class Work>
+  void for_each(Work work) {
+    const std::function<void(int)> exchange_and_work = [&](int which) {
       receive_halo(which);
-      one(slabs_[which]);
+      work(slabs_[which]);
       send_halo(which, 1 - parity_);
     };
-    pool_.all(work);
+    pool_.all(exchange_and_work);
     parity_ = 1 - parity_;
   }
   std::deque<Slab>& all() { return slabs_; }
