@@ -6,31 +6,9 @@
 
 namespace crosscheck::multigrid {
 
-#define KERNELS_OF(isa)         \
-  namespace isa {               \
-  void set_products(Kernels&);  \
-  void set_shapes(Kernels&);    \
-  void set_transfers(Kernels&); \
-  void set_vectors(Kernels&);   \
-  inline Kernels kernels() {    \
-    Kernels f{};                \
-    set_products(f);            \
-    set_shapes(f);              \
-    set_transfers(f);           \
-    set_vectors(f);             \
-    return f;                   \
-  }                             \
-  }
-KERNELS_OF(sse2)
-KERNELS_OF(avx2)
-KERNELS_OF(avx512)
-#undef KERNELS_OF
+COMPILED_FOR_EACH_INSTRUCTION_SET(Kernels kernels_of())
 
-Kernels kernels(simd::InstructionSet isa) {
-  return isa == simd::InstructionSet::avx512 ? avx512::kernels()
-         : isa == simd::InstructionSet::avx2 ? avx2::kernels()
-                                             : sse2::kernels();
-}
+Kernels kernels(simd::InstructionSet isa) { return SELECT_COMPILED(isa, kernels_of)(); }
 
 Layout Layout::of(const GridTopology& topology) {
   // down to one block or three; the rest are empty lanes, a third of them at most

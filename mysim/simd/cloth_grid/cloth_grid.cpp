@@ -9,29 +9,16 @@
 
 namespace crosscheck::simd {
 
-// of fused_step.cpp, compiled for each
-#define TABLES_OF(isa)                \
-  namespace isa {                     \
-  Kernel<double> double_kernel(bool); \
-  Kernel<float> float_kernel(bool);   \
-  }
-TABLES_OF(sse2)
-TABLES_OF(avx2)
-TABLES_OF(avx512)
-#undef TABLES_OF
+COMPILED_FOR_EACH_INSTRUCTION_SET(Kernel<double> double_kernel(bool fast); Kernel<float> float_kernel(bool fast))
 
 template <>
 Kernel<double> kernel(InstructionSet isa, bool fast) {
-  return isa == InstructionSet::avx512 ? avx512::double_kernel(fast)
-         : isa == InstructionSet::avx2 ? avx2::double_kernel(fast)
-                                       : sse2::double_kernel(fast);
+  return SELECT_COMPILED(isa, double_kernel)(fast);
 }
 
 template <>
 Kernel<float> kernel(InstructionSet isa, bool fast) {
-  return isa == InstructionSet::avx512 ? avx512::float_kernel(fast)
-         : isa == InstructionSet::avx2 ? avx2::float_kernel(fast)
-                                       : sse2::float_kernel(fast);
+  return SELECT_COMPILED(isa, float_kernel)(fast);
 }
 
 namespace {

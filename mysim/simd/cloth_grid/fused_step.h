@@ -7,8 +7,7 @@
 //   x_i' = x_i* + drift_after v_i'
 // with dt = h / (1 + h gamma / 2), inverse_mass_dt = dt / m and damping = dt gamma (symplectic Euler: dt = h). Leapfrog
 // keeps x half a step ahead: drift_before = h / 2 ends this step and drift_after = h / 2 begins the next. The
-// definition is steppers/leapfrog.cpp and steppers/symplectic_euler.cpp, from which this differs by the order of sums
-// alone.
+// definition is steppers/leapfrog.cpp and steppers/symplectic_euler.cpp, from which this differs by round-off alone.
 //
 // A cloth is a regular grid of rows x columns. Column c of a row stands in lane c / tiles of tile c % tiles, so that
 // neighbours in a row are whole tiles side by side and nothing is gathered; a tile is one cache line of each

@@ -9,27 +9,10 @@
 
 namespace crosscheck::spring_graph {
 
-#define KERNELS_OF(isa)                                          \
-  namespace isa {                                                \
-  bool hooke_dia(const DiaSprings&, const double* x, double* f); \
-  bool link_dia(const DiaSprings&, const double* x, double* f);  \
-  bool hooke_coo(const CooSprings&, const double* x, double* f); \
-  bool link_coo(const CooSprings&, const double* x, double* f);  \
-  inline Kernels kernels(bool hooke) {                           \
-    if (hooke) return {hooke_dia, hooke_coo};                    \
-    return {link_dia, link_coo};                                 \
-  }                                                              \
-  }
-KERNELS_OF(sse2)
-KERNELS_OF(avx2)
-KERNELS_OF(avx512)
-#undef KERNELS_OF
+COMPILED_FOR_EACH_INSTRUCTION_SET(Kernels kernels_of(bool hooke))
 
 Kernels kernels(simd::InstructionSet isa, SpringLaw law) {
-  const bool hooke = law == SpringLaw::hooke;
-  return isa == simd::InstructionSet::avx512 ? avx512::kernels(hooke)
-         : isa == simd::InstructionSet::avx2 ? avx2::kernels(hooke)
-                                             : sse2::kernels(hooke);
+  return SELECT_COMPILED(isa, kernels_of)(law == SpringLaw::hooke);
 }
 
 Costs costs(simd::InstructionSet isa) {
@@ -151,7 +134,7 @@ Spring oriented(Spring s) {
 
 bool by_first_end(const Spring& p, const Spring& q) { return p.a < q.a; }
 
-/// Blocks from the first to the last that springs in this order begin in.
+/// Tiles from the first to the last that springs in this order begin in.
 int tiles_of(const std::vector<Spring>& springs, const std::vector<int>& order) {
   return oriented(springs[order.back()]).a / tile + 1 - oriented(springs[order.front()]).a / tile;
 }
