@@ -101,11 +101,10 @@ struct ChebyshevSmoother {
   int rounds;
   double lowest, highest = 2;
 };
-// the next sheet holds waves of four of this one's springs and longer, whose eigenvalues are below about a fifth of 2;
-// by trial on hanging sheets of 24 to 128 columns at 60 and 240 steps a second one to four rounds take the same time
+// the next grid holds waves of four of this one's springs and longer, whose eigenvalues are below about a fifth of 2;
+// by trial on hanging cloths of 24 to 128 columns at 60 and 240 steps a second one to four rounds take the same time
 constexpr ChebyshevSmoother level_smoother{2, 0.4};
-/// On the coarsest sheet there is no next one: as many rounds as a pull needs to walk through it, which reduce by ten
-/// what is above the lowest.
+/// On the coarsest grid: as many rounds as a pull needs to cross it, which reduce by ten what is above the lowest.
 ChebyshevSmoother coarsest_smoother(const Layout& layout) {
   const int rounds = std::clamp(std::max(layout.rows, layout.columns), 16, 64);
   return {rounds, 2 * (1.6 / rounds) * (1.6 / rounds)};
@@ -163,7 +162,7 @@ void VCycle::set_inertia(const Eigen::ArrayXd& inertia) {
   levels_.front().load_inertia();
   for (size_t l = 1; l < levels_.size(); ++l) {
     const Layout &fine = levels_[l - 1].layout(), &coarse = levels_[l].layout();
-    // each particle's, given to the coarse ones that it hangs on
+    // of each particle, given to the coarse ones that it is joined to
     Eigen::ArrayXd& sum = levels_[l].inertia.setZero();
     for (int row = 0; row < fine.rows; ++row)
       for (int column = 0; column < fine.columns; ++column)
@@ -182,7 +181,7 @@ void VCycle::set(const Eigen::ArrayXd& inertia, const Points& x, Curvature curva
       level.layout().put(x, 1, level.x);
     else
       levels_[l - 1].layout().inject(levels_[l - 1].x, level.x);
-    // what relaxation and coarse sheets do must be positive definite, even where the matrix is not
+    // what relaxation and coarse grids do must be positive definite, even where the matrix is not
     level.linearise(kernels_);
     if (l == 0 && curvature == Curvature::exact) level.linearise_unclamped(kernels_);
   }

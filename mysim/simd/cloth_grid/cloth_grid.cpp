@@ -185,18 +185,12 @@ AlignedBuffer<T> ClothGridMemory<T>::spread(const Eigen::ArrayXd& values) const 
   return buffer;
 }
 
-template <class T>
-void ClothGridMemory<T>::get_forces(const AlignedBuffer<T>& buffer, Points& f) const {
-  for (int i = 0; i < f.cols(); ++i)
-    for (int c = 0; c < 3; ++c) f(c, i) = static_cast<double>(buffer.data()[v_at(i) + c * lanes<T>]);
-}
-
 template class ClothGridMemory<double>;
 template class ClothGridMemory<float>;
 
 namespace {
 
-constexpr int halo_rows = 2;  // rows
+constexpr int halo_rows = 2;
 
 /// Slabs of rows that are at least twice as many as their neighbours take.
 int slab_count(int rows, int threads) { return std::clamp(rows / (2 * halo_rows), 1, std::max(threads, 1)); }

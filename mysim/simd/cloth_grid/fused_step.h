@@ -73,14 +73,12 @@ struct KickDrift {
 /// The functions of one instruction set.
 template <class T>
 struct Kernel {
-  /// Both return how many springs of some rest length had ends that met, which pull at nothing.
+  /// Returns how many springs of some rest length had ends that met, which pull at nothing.
   long (*fused_step)(const ClothGrid<T>&, const KickDrift<T>&);
-  /// Forces of the springs alone, into `force` (N, laid out as v).
-  long (*forces)(const ClothGrid<T>&, T* force);
   /// 1 / sqrt of each, as the springs take it: `count` is a multiple of the lanes.
   void (*rsqrt_array)(const T* s, T* y, long count);
-  /// What the machine can do at most: so many rounds of multiplications and additions in registers that wait for
-  /// nobody. `sum` takes something that hangs on all of them. Returns how many operations a round has.
+  /// What the machine can do at most: so many rounds of multiplications and additions in registers, independent of
+  /// each other. `sum` takes something that depends on all of them. Returns how many operations a round has.
   int (*multiply_and_add)(long rounds, T* sum);
 };
 
