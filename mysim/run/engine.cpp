@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <memory>
 
@@ -46,6 +47,7 @@ Outcome run_loop(World& world, const Run& asked, Observer& observer) {
   Run run = asked;
   if (world.chooses_steps() && !every_step) run.step = run.duration / run.samples;
   const TimeGrid grid = time_grid(run);
+  assert(grid.h > 0 && grid.steps_per_sample >= 1 && grid.samples >= 1);
   const PairSchedule pairs(observer, grid.steps_per_sample);
   CpuClock clock(run.timed);
   Outcome out;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -20,6 +22,7 @@ class AlignedBuffer {
     if (!memory_) throw std::bad_alloc();
     std::fill_n(memory_.get(), bytes / sizeof(T), T(0));
     data_ = memory_.get() + line_bytes / sizeof(T);
+    assert(reinterpret_cast<std::uintptr_t>(data_) % line_bytes == 0);
   }
   T* data() { return data_; }
   const T* data() const { return data_; }

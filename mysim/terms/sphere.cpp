@@ -2,6 +2,7 @@
 #include "mysim/terms/sphere.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace crosscheck {
@@ -32,6 +33,7 @@ double resolve_contact(const Sphere& sphere, const Vec3& centre, const Vec3& x_n
                        Eigen::Ref<Vec3> v) {
   const double distance = (x - centre).norm();
   const double radius = sphere.contact_radius();
+  assert(radius > 0 && 0 <= sphere.restitution && sphere.restitution <= 1);
   if (!(distance < radius)) return 0;
 
   // put the particle on the surface

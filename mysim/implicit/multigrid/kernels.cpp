@@ -1,6 +1,8 @@
 // Stiffness, products, grid transfers and vectors of the V-cycle, compiled once for each instruction set.
 #include "mysim/implicit/multigrid/kernels.h"
 
+#include <cassert>
+
 #include "mysim/simd/cloth_grid/rows.h"
 
 namespace crosscheck::multigrid {
@@ -123,6 +125,7 @@ void linearise(const SpringGeometry& s, double* const* springs, double* blocks) 
 
 /// By cofactors: symmetric as the blocks are.
 void invert(double* blocks, const double* inertia, const double* free, long count) {
+  assert(count >= 0);
   for (long i = 0; i < count; ++i, blocks += tile_size<6>, inertia += lanes, free += lanes)
     for (int lane = 0; lane < lanes; lane += D::width) {
       double* at = blocks + lane;
@@ -343,6 +346,7 @@ FORCE_INLINE void spread(const Transfer& t, const float* coarse, float one, floa
 }
 
 void prolong_and_add(const Transfer& t, const float* coarse, const float* free, float* x) {
+  assert(t.coarse_rows == (t.fine_rows + 1) / 2);
   const int fine_blocks = 2 * t.coarse_blocks;
   for (int row = 0; row < t.fine_rows; ++row) {
     const float* from = row_of(coarse, t.coarse_blocks, row / 2);

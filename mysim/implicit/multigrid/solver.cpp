@@ -2,6 +2,7 @@
 #include "mysim/implicit/multigrid/solver.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace crosscheck::multigrid {
@@ -11,6 +12,7 @@ COMPILED_FOR_EACH_INSTRUCTION_SET(Kernels kernels_of())
 Kernels kernels(simd::InstructionSet isa) { return SELECT_COMPILED(isa, kernels_of)(); }
 
 Layout Layout::of(const GridTopology& topology) {
+  assert(topology.rows > 0 && topology.columns > 0);
   // down to one block or three; the rest are empty lanes, a third of them at most
   int blocks = (topology.columns + lanes - 1) / lanes, times = 1;
   for (; blocks > 3; blocks = (blocks + 1) / 2) times *= 2;
@@ -19,6 +21,8 @@ Layout Layout::of(const GridTopology& topology) {
 
 void Layout::inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& coarse) const {
   const Layout to = coarsened();
+  assert(fine.size() == static_cast<size_t>(rows * row_length()));
+  assert(coarse.size() == static_cast<size_t>(to.rows * to.row_length()));
   for (int row = 0; row < to.rows; ++row)
     for (int block = 0; block < to.blocks; ++block)
       std::copy_n(fine.data() + 2 * row * row_length() + static_cast<long>(left_halo + 2 * block) * 3 * lanes,
@@ -26,6 +30,7 @@ void Layout::inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& co
 }
 
 void Layout::put(const Points& points, double factor, AlignedBuffer<double>& field) const {
+  assert(points.cols() == static_cast<Eigen::Index>(rows) * columns);
   each([&](int i, long, long at) {
     for (int c = 0; c < 3; ++c) field.data()[at + c * lanes] = factor * points(c, i);
   });
@@ -111,6 +116,7 @@ ChebyshevSmoother coarsest_smoother(const Layout& layout) {
 }
 
 void smooth(const Kernels& f, Level& level, const ChebyshevSmoother& r, bool from_zero) {
+  assert(r.rounds > 0 && 0 < r.lowest && r.lowest < r.highest);
   const double middle = (r.highest + r.lowest) / 2, half = (r.highest - r.lowest) / 2;
   double ratio = half / middle;
   for (int i = 0; i < r.rounds; ++i) {
@@ -174,6 +180,7 @@ void VCycle::set_inertia(const Eigen::ArrayXd& inertia) {
 }
 
 void VCycle::set(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature) {
+  assert(inertia.size() == x.cols() && (inertia > 0).all());
   set_inertia(inertia);
   for (size_t l = 0; l < levels_.size(); ++l) {
     Level& level = levels_[l];
@@ -199,6 +206,7 @@ double VCycle::products() const {
 }
 
 void VCycle::cycle(size_t l) {
+  assert(l < levels_.size() && transfers_.size() + 1 == levels_.size());
   Level& level = levels_[l];
   if (l + 1 == levels_.size()) return smooth(kernels_, level, coarsest_smoother(level.layout()), true);
   Level& coarse = levels_[l + 1];
@@ -227,6 +235,7 @@ MultigridSolver::MultigridSolver(const GridTopology& topology, const std::vector
 
 CgResult MultigridSolver::solve(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature, const Points& b,
                                 double tolerance, Points& u) {
+  assert(b.cols() == x.cols() && tolerance > 0);
   const Kernels& f = v_cycle_.kernels();
   v_cycle_.set(inertia, x, curvature);
   const Matrix<double>& a = v_cycle_.exact();

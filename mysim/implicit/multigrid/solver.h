@@ -1,6 +1,7 @@
 // Linear solvers of implicit steps: conjugate gradients, alone or with a multigrid V-cycle on a cloth.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -33,6 +34,7 @@ struct CgMemory {
 template <class Apply, class Precondition>
 CgResult conjugate_gradients(Apply apply, Precondition precondition, const Points& b, double tolerance,
                              int most_iterations, Points& x, CgMemory& m) {
+  assert(tolerance > 0 && most_iterations > 0);
   CgResult result;
   x.setZero(3, b.cols());
   m.r = b;

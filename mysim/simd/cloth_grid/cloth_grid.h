@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <deque>
 #include <optional>
 
@@ -51,7 +52,10 @@ class ClothGridMemory {
   ClothGrid<T>& grid() { return grid_; }
   int size() const { return rows_ * columns_; }  // particles
   /// A row of positions with its halo: row_length() numbers.
-  T* row(int which) { return x_.data() + which * row_length(); }
+  T* row(int which) {
+    assert(0 <= which && which < rows_);
+    return x_.data() + which * row_length();
+  }
   long row_length() const { return static_cast<long>(left_halo + tiles_ + right_halo) * 3 * lanes<T>; }
 
   /// All particles, and the halos of the rows.
@@ -68,6 +72,7 @@ class ClothGridMemory {
 
   /// The particle in a lane of a tile; -1 where there is none.
   int particle(int row, int tile, int lane) const {
+    assert(0 <= row && row < rows_ && 0 <= tile && tile < tiles_ && 0 <= lane && lane < lanes<T>);
     const int column = lane * tiles_ + tile;
     return column < columns_ ? row * columns_ + column : -1;
   }

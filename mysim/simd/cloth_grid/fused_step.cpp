@@ -1,6 +1,8 @@
 // See fused_step.h. Compiled once for each instruction set, CROSSCHECK_ISA naming it.
 #include "mysim/simd/cloth_grid/fused_step.h"
 
+#include <cassert>
+
 #include "mysim/simd/cloth_grid/rows.h"
 
 namespace crosscheck::simd {
@@ -160,6 +162,10 @@ template <class T>
 /// Returns how many springs that begin in the rows of its own had ends that met.
 template <class T, bool fast>
 long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
+  assert(s.tiles >= 3);  // fits()
+  assert(s.leading_halo >= 0 && s.trailing_halo >= 0 && s.rows > s.leading_halo + s.trailing_halo);
+  assert(s.damping && s.inverse_mass_dt && s.dt && (s.stride == 0 || s.stride == lanes<T>));
+  assert(step.bounding_sphere_count == 0 || (step.bounding_spheres && step.on_contact));
   using L = Lanes<T>;
   const long length = row_length(s), first = left_halo * tile_size<T>;
   T* f[3] = {s.force + first, s.force + length + first, s.force + 2 * length + first};
@@ -185,6 +191,7 @@ long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
 
 template <class T, bool fast>
 void rsqrt_array(const T* s, T* y, long count) {
+  assert(count % Lanes<T>::width == 0);
   using L = Lanes<T>;
   for (long i = 0; i < count; i += L::width) L::store(y + i, rsqrt<T, fast>(L::load(s + i)));
 }

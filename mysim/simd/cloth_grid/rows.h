@@ -2,6 +2,8 @@
 // simd/lanes.h, included only where code is compiled for each instruction set.
 #pragma once
 
+#include <cassert>
+
 #include "mysim/simd/cloth_grid/fused_step.h"
 #include "mysim/simd/lanes.h"
 
@@ -10,6 +12,7 @@ namespace {
 
 template <class T>
 FORCE_INLINE void clear(T* row, long numbers) {
+  assert(numbers % Lanes<T>::width == 0);
   for (long i = 0; i < numbers; i += Lanes<T>::width) Lanes<T>::store(row + i, Lanes<T>::all(0));
 }
 
@@ -17,6 +20,7 @@ FORCE_INLINE void clear(T* row, long numbers) {
 /// that has no original holds 0, so that what it is added to, which lies beyond, stays as it is.
 template <int tile_size, class T>
 FORCE_INLINE void reduce_halo(T* row, int tiles) {
+  assert(tiles >= 1);
   using L = Lanes<T>;
   const auto give = [](T * to, const T* from) __attribute__((always_inline)) {
     for (int i = 0; i < tile_size; i += L::width) L::store(to + i, L::load(to + i) + L::load(from + i));
@@ -30,6 +34,7 @@ FORCE_INLINE void reduce_halo(T* row, int tiles) {
 /// reaches it.
 template <int tile_size, class T>
 FORCE_INLINE void fill_halo(T* row, int tiles) {
+  assert(tiles >= 1);
   using L = Lanes<T>;
   const auto copy = [](T * to, const T* from) __attribute__((always_inline)) {
     for (int i = 0; i < tile_size; i += L::width) L::store(to + i, L::load(from + i));

@@ -1,6 +1,8 @@
 // Spring forces by offset and edge by edge (kernels.h), compiled once for each instruction set.
 #include "mysim/simd/spring_graph/kernels.h"
 
+#include <cassert>
+
 #include "mysim/simd/lanes.h"
 
 namespace crosscheck::spring_graph {
@@ -137,6 +139,11 @@ FORCE_INLINE void put(const DiaSprings& s, const double* x) {
 
 template <bool hooke>
 bool diagonals(const DiaSprings& s, const double* x, double* f) {
+  for (int i = 0; i < s.count; ++i) {
+    [[maybe_unused]] const Diagonal& diagonal = s.diagonals[i];
+    assert((diagonal.mask & (diagonal.mask + 1)) == 0 && diagonal.mask + 1 >= diagonal.offset + 3 * tile);
+    assert(diagonal.offset > 0 && 0 <= diagonal.first && diagonal.first < diagonal.last && diagonal.last <= s.tiles);
+  }
   put(s, x);
   for (int i = 0; i < s.count; ++i) clear(s.diagonals[i], s.diagonals[i].first - 1);
   const int* coefficient_row = s.coefficient_row;
@@ -159,6 +166,7 @@ FORCE_INLINE void put(const CooSprings& s, const double* x) {
 
 template <bool hooke>
 bool pairs(const CooSprings& s, const double* x, double* f) {
+  assert(s.springs % tile == 0);
   put(s, x);
   V least = L::all(1);
   for (int i = 0; i < s.springs; i += L::width) {

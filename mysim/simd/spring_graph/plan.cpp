@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <map>
 
@@ -31,6 +32,7 @@ double padding_position(long i) { return 1e6 + 17 * static_cast<double>(i); }
 DiaStorage::DiaStorage(const std::vector<OrientedSprings>& diagonals, int particles) {
   const int tiles = (particles + tile - 1) / tile;
   for (const OrientedSprings& diagonal : diagonals) {
+    assert(!diagonal.empty() && diagonal.front().a < diagonal.front().b && diagonal.back().b < particles);
     const int offset = diagonal.front().b - diagonal.front().a;
     // the springs of a tile, of the one before, which is finished then, and what their loads go beyond
     const long places = std::bit_ceil(static_cast<unsigned long>(offset + 3 * tile));
@@ -101,6 +103,7 @@ CooStorage::CooStorage(const OrientedSprings& springs, int particles) {
   rest_ = AlignedBuffer<double>(padded);
   for (size_t i = 0; i < padded; ++i) {
     const Spring& s = i < count ? springs[i] : Spring{particles, particles + 1, 0, 0, Family::single};
+    assert(0 <= s.a && s.a < s.b && s.b <= particles + 1);
     ends_.insert(ends_.end(), {4 * s.a, 4 * s.b});
     k_.data()[i] = s.k;
     rest_.data()[i] = s.rest;
@@ -191,6 +194,8 @@ SpringPartition partition_springs(const std::vector<Spring>& springs, int partic
   }
   for (Spring& s : partition.pairs) s = oriented(s);
   std::stable_sort(partition.pairs.begin(), partition.pairs.end(), by_first_end);
+  assert(static_cast<size_t>(std::count(taken.begin(), taken.end(), false)) ==
+         partition.pairs.size() + partition.plain.size());
   return partition;
 }
 

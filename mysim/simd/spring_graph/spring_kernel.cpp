@@ -1,6 +1,7 @@
 // Springs go the ways that simd/spring_graph/plan.h sorts them into.
 #include "mysim/simd/spring_graph/spring_kernel.h"
 
+#include <cassert>
 #include <optional>
 
 #include "mysim/simd/spring_graph/plan.h"
@@ -29,6 +30,7 @@ SpringKernel::SpringKernel(SpringKernel&&) noexcept = default;
 SpringKernel::~SpringKernel() = default;
 
 void SpringKernel::add_force(const Points& x, Forces& forces) {
+  assert(x.cols() == forces.f.cols());
   if (impl_) {
     auto& [run, diagonals, pairs] = *impl_;
     if (diagonals && run.diagonals(diagonals->view(), x.data(), forces.f.data()))
