@@ -73,11 +73,6 @@ Kernel triad_kernel(double bytes) {
 
 namespace {
 
-class NullObserver : public Observer {
- public:
-  Verdict observe(const State&, bool) override { return Verdict::ok; }
-};
-
 /// A run of so many steps, without a look in between.
 Run steps_of(const Scene& scene, long steps) { return {scene.step, scene.step * static_cast<double>(steps), 1}; }
 

@@ -54,8 +54,9 @@ struct RegressionResult {
   bool passed() const;
 };
 
-/// Asks all questions and compares. What a baseline expects and nobody asks (dear rows in a quick run, other methods)
-/// is left alone; a row that is asked and has no baseline, or one of another scene, fails.
+/// Runs all selected cases and compares. What a baseline expects and is not selected (slow rows in a quick run, other
+/// methods) is left alone. A scene that has no baseline, or one of another scene, fails; a quantity or a method that
+/// its baseline does not know is new, and fails nothing.
 RegressionResult regress(const Regression& regression, Progress& progress);
 
 struct BlessResult {

@@ -90,11 +90,6 @@ bool ends_well(const Method& method, const SpeedCase& q) {
   return run_method(method, q.scene, q.run, {&timeout}).verdict == Verdict::ok;
 }
 
-class NullObserver : public Observer {
- public:
-  Verdict observe(const State&, bool) override { return Verdict::ok; }
-};
-
 double mean_seconds(double resolution, const std::function<double()>& run) {
   double sum = 0;
   int count = 0;

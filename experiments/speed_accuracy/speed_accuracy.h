@@ -50,10 +50,6 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows);
 /// each evaluation of a scene without contact costs the same.
 void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows);
 
-/// Adds what follows from both: `speed-accuracy-cost`, the Pareto lines and the cheapest methods (see
-/// work_precision.cpp).
-void conclude_speed_accuracy(Rows& rows);
-
 /// Who compiled the code whose time is measured.
 std::string build_of(const std::string& method);
 

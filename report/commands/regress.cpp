@@ -99,6 +99,8 @@ int told(const RegressionResult& result, const std::string& cause, const std::fi
   const std::vector<Comparison> worst = worst_comparisons(result.rows);
   for (const Comparison& row : worst) print_row(row);
   for (const FailedPoint& f : result.failures) fmt::print("no answer  {}: {}\n", f.name, f.why);
+  for (const NewMethod& m : new_methods(result.rows))
+    fmt::print("{:<10} {}: {}; bless with --filter '*/{}'\n", name_of(Status::added), m.method, describe(m), m.method);
   const long added = count_of(result.rows, Status::added), same = count_of(result.rows, Status::same);
   long wrong = 0;
   for (const Comparison& row : result.rows) wrong += failed(row.state);
