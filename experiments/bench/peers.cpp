@@ -147,7 +147,7 @@ std::vector<WorkPrecisionPoint> points_of(const std::vector<PeerRun>& own, const
   std::vector<WorkPrecisionPoint> points;
   for (const PeerRun& run : own)
     if (run.ok())
-      points.push_back({run.method.name, "step [s]", run.asked, true, run.error,
+      points.push_back({run.method.name, SettingKind::step, run.asked, true, run.error,
                         time_of(run, times.per_evaluation.at(run.method.name)).median});
   return points;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/experiment.h"
+#include "experiments/tables/speed_accuracy.h"
 #include "reference/method.h"
 
 namespace crosscheck {
@@ -14,6 +15,7 @@ namespace crosscheck {
 struct Setting {
   bool tolerance;  // else a step
   double value;    // s; tolerances 1
+  SettingKind kind() const { return tolerance ? SettingKind::tolerance : SettingKind::step; }
   /// The run at this setting.
   Run applied_to(Run run) const;
 };
