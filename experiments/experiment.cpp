@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "experiments/scenes/scenes.h"
-#include "experiments/speed_accuracy/speed_accuracy.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/text.h"

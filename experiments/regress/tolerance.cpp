@@ -119,7 +119,7 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
   const auto moved_by = [&](double size, unsigned seed) {
     Case other = test_case;
     other.scene = pushed(perturbed(test_case.scene, size, seed), size, static_cast<int>(seed) - 1);
-    // asked as before: where a closed form is left by the move, the error from the one of the unmoved scene counts
+    // computed as before: where a closed form is left by the move, the error from the one of the unmoved scene counts
     return quantities_of(test_case, run_case(other));
   };
   std::vector<std::vector<Quantity>> moved;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/tables/table.h"
+#include "experiments/tables/speed_accuracy.h"
 #include "experiments/timing/timing.h"
 
 namespace crosscheck {
@@ -14,8 +14,9 @@ namespace crosscheck {
 
 /// One run: where it lies on a chart of error against cost.
 struct WorkPrecisionPoint {
-  std::string method, setting;  // setting: "step [s]" or "tolerance [1]"
-  double asked;                 // s or 1
+  std::string method;
+  SettingKind setting;
+  double asked;  // s or 1
   bool ok;
   std::optional<double> error;      // m; of runs that are ok
   double cost;                      // evaluations, or s
@@ -42,14 +43,11 @@ std::vector<std::string> statistically_tied(const std::vector<WorkPrecisionPoint
 /// "mysim" of "mysim/leapfrog": whose run it is.
 std::string engine_of(const std::string& method);
 
-/// The table "speed-accuracy-engines-cost", empty.
-Table engines_cost_table();
-
-/// Adds a row for each engine that has a timed run within `bound` (m), what the truth's bar takes off included: its
-/// cheapest, and how many times as long as mysim's cheapest it takes, from `low` to `high` the widest that both 90 %
-/// intervals allow; and which part of each was timed, the rest being scaled. Without a run of mysim within the bound no
-/// quotient is given.
-void add_by_engine(const std::string& scene, double part_of_motion, const std::string& measure, double bound,
+/// Adds an EngineSpeedRow for each engine that has a timed run within `bound` (m), what the truth's bar takes off
+/// included: its cheapest, and how many times as long as mysim's cheapest it takes, from `low` to `high` the widest
+/// that both 90 % intervals allow; and which part of each was timed, the rest being scaled. Without a run of mysim
+/// within the bound no quotient is given.
+void add_by_engine(const std::string& scene, double part_of_motion, Measure measure, double bound,
                    const std::vector<WorkPrecisionPoint>& points, Table& table);
 
 }  // namespace crosscheck

@@ -11,6 +11,7 @@
 
 #include "experiments/tables/table.h"
 #include "mysim/base/errors.h"
+#include "mysim/run/run.h"
 
 namespace crosscheck {
 
@@ -32,6 +33,10 @@ constexpr ColumnOf<Row, T> column(std::string_view name, std::string_view unit, 
 /// each.
 template <class Enum>
 struct EnumRange;  // static constexpr Enum first, last;
+template <>
+struct EnumRange<Verdict> {
+  static constexpr Verdict first = Verdict::ok, last = Verdict::unsupported;
+};
 
 template <class T>
 struct CellOf;
