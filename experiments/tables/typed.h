@@ -12,6 +12,7 @@
 #include "experiments/tables/table.h"
 #include "mysim/base/errors.h"
 #include "mysim/run/run.h"
+#include "reference/truth/truth.h"
 
 namespace crosscheck {
 
@@ -36,6 +37,10 @@ struct EnumRange;  // static constexpr Enum first, last;
 template <>
 struct EnumRange<Verdict> {
   static constexpr Verdict first = Verdict::ok, last = Verdict::unsupported;
+};
+template <>
+struct EnumRange<Tier> {
+  static constexpr Tier first = Tier::exact, last = Tier::another_engine;
 };
 
 template <class T>

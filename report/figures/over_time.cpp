@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/tables/engines.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 
@@ -161,12 +162,10 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
 namespace {
 
 /// Largest energy turned over by any method that held, J: the scale of the balance error.
-double turned_over(const Table& summary, const std::string& scene) {
+double turned_over(const std::vector<EngineEnergyRow>& rows, const std::string& scene) {
   double most = 0;
-  for (size_t i = 0; i < summary.rows.size(); ++i)
-    if (std::get<std::string>(summary.at(i, "scene")) == scene &&
-        std::get<std::string>(summary.at(i, "verdict")) == "ok")
-      most = std::max(most, std::get<double>(summary.at(i, "energy turned over")));
+  for (const EngineEnergyRow& row : rows)
+    if (row.scene == scene && row.verdict == Verdict::ok) most = std::max(most, row.turned_over);
   return most;
 }
 
@@ -250,11 +249,11 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
 
 std::vector<Chart> balance_charts(const ChartInput& input) {
   std::vector<Chart> charts;
-  const Table* summary = input.result.table("engines-energy");
-  for (size_t i = 0; i < input.scenes.size() && summary; ++i) {
+  const auto energies = rows_of<EngineEnergyRow>(input.result);
+  for (size_t i = 0; i < input.scenes.size(); ++i) {
     const Scene& scene = input.scenes[i];
     const Table* table = input.result.table(scene.name + "-energy");
-    const double scale = turned_over(*summary, scene.name);
+    const double scale = turned_over(energies, scene.name);
     if (!table || !(scale > 0)) continue;
     Figure f = input.facts[i].touched() ? contact_figure(scene, input.facts[i], *table)
                                         : balance_figure(scene, input.facts[i], *table, scale);

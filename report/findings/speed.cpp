@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "experiments/speed_accuracy/work_precision.h"
-#include "experiments/tables/table.h"
+#include "experiments/tables/engines.h"
 #include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 
@@ -39,10 +39,8 @@ std::optional<std::string> factors_of_evaluations(const Rows& result) {
 
 /// Whether the method takes the scene, as far as experiment `engines` asked.
 bool takes(const Rows& result, const std::string& scene, const std::string& method) {
-  const Table* t = result.table("engines");
-  for (size_t i = 0; t && i < t->rows.size(); ++i)
-    if (text_at(*t, i, "scene") == scene && text_at(*t, i, "method") == method)
-      return text_at(*t, i, "verdict") != "unsupported";
+  for (const EngineRow& run : rows_of<EngineRow>(result))
+    if (run.scene == scene && run.method == method) return run.verdict != Verdict::unsupported;
   return false;
 }
 

@@ -28,9 +28,9 @@ std::string verdict_cell(const MethodData& m, const SceneData& facts) {
                        prose(percent(*m.error, facts.motion)));
   if (m.ok()) return "<td class=\"ok\">ok</td>";
   if (!m.supported()) return fmt::format("<td class=\"unsupported\">unsupported: {}</td>", escaped(m.reason));
-  const std::string what = m.verdict == "energy" ? "ten times too fast"
-                           : m.verdict == "nan"  ? "not a number"
-                                                 : m.failure();
+  const std::string what = m.verdict == Verdict::energy ? "ten times too fast"
+                           : m.verdict == Verdict::nan  ? "not a number"
+                                                        : m.failure();
   return fmt::format("<td class=\"failed\" title=\"{}\">{} at {:.3g} s</td>", what, m.failure(), m.end);
 }
 
