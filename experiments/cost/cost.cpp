@@ -193,8 +193,7 @@ Timing minus(const Timing& a, const Timing& b) {
 
 }  // namespace
 
-void cost_of_phases(const Request& request, int n, Rows& rows) {
-  const Scene plain = sized_cloth(n), above = sized_cloth(n, true);
+Table phases_table(int n, const std::vector<std::string>& methods, const std::vector<Timing>& times) {
   Table table{"phases-cost",
               {{"method", "1"},
                {"side", "1"},
@@ -205,6 +204,24 @@ void cost_of_phases(const Request& request, int n, Rows& rows) {
                {"share", "1"},
                {"how", "1"}},
               {}};
+  auto add = [&](size_t method, const char* phase, const Timing& time, double all, const char* how) {
+    table.add({methods.at(method), static_cast<long>(n), std::string(phase), time.median, time.low, time.high,
+               time.median / all, std::string(how)});
+  };
+  const double whole = times.at(3).median;
+  add(0, "springs", times[0], whole, "the spring kernel alone");
+  add(0, "other forces", minus(times[1], times[0]), whole, "all forces at a position, less the springs");
+  add(0, "integration and loop", minus(times[2], times[1]), whole, "a step without sphere, less its forces");
+  add(0, "contact", minus(times[3], times[2]), whole, "a step with the sphere, less one without");
+  add(0, "whole step", times[3], whole, "with the sphere");
+  for (size_t i = 1; i < methods.size(); ++i)
+    add(i, "whole step", times.at(3 + i), times[3 + i].median,
+        i == 1 ? "all in one pass over memory" : "what it does inside cannot be told from outside");
+  return table;
+}
+
+void cost_of_phases(const Request& request, int n, Rows& rows) {
+  const Scene plain = sized_cloth(n), above = sized_cloth(n, true);
   // the sweep has no phases
   const Method ours = find_method("mysim/leapfrog+plain"), fused = find_method("mysim/leapfrog");
   std::vector<Method> others;
@@ -214,23 +231,22 @@ void cost_of_phases(const Request& request, int n, Rows& rows) {
   const long steps = steps_to_time(ours, above);
   std::vector<std::function<double()>> runs{springs_alone(plain), forces_alone(plain), step_of(ours, plain, steps),
                                             step_of(ours, above, steps), step_of(fused, above, steps)};
-  for (const Method& m : others) runs.push_back(step_of(m, above, steps_to_time(m, above)));
+  std::vector<std::string> names{ours.name, fused.name};
+  for (const Method& m : others) {
+    runs.push_back(step_of(m, above, steps_to_time(m, above)));
+    names.push_back(m.name);
+  }
   std::vector<Timing> t;
   for (const auto& times : steps_timed(runs, request.full)) t.push_back(timing_of(times));
-  const double whole = t[3].median;
-  auto add = [&](const std::string& method, const char* phase, const Timing& time, double all, const char* how) {
-    table.add({method, static_cast<long>(n), std::string(phase), time.median, time.low, time.high, time.median / all,
-               std::string(how)});
-  };
-  add(ours.name, "springs", t[0], whole, "the spring kernel alone");
-  add(ours.name, "other forces", minus(t[1], t[0]), whole, "all forces at a position, less the springs");
-  add(ours.name, "integration and loop", minus(t[2], t[1]), whole, "a step without sphere, less its forces");
-  add(ours.name, "contact", minus(t[3], t[2]), whole, "a step with the sphere, less one without");
-  add(ours.name, "whole step", t[3], whole, "with the sphere");
-  add(fused.name, "whole step", t[4], t[4].median, "all in one pass over memory");
-  for (size_t i = 0; i < others.size(); ++i)
-    add(others[i].name, "whole step", t[5 + i], t[5 + i].median, "what it does inside cannot be told from outside");
-  rows.add(table);
+  rows.add(phases_table(n, names, t));
+}
+
+std::optional<std::string> doubt_about_peak(double peak, double triad) {
+  if (!(peak < triad)) return std::nullopt;
+  return fmt::format(
+      "cost: the loop for the peak did {:.2g} billion operations a second, fewer than a = b + s c in the cache "
+      "({:.2g}): the peak of the machine is higher than shown",
+      peak / 1e9, triad / 1e9);
 }
 
 void cost_against_roofline(bool full, Rows& rows) {
@@ -276,12 +292,8 @@ void cost_against_roofline(bool full, Rows& rows) {
     table.add({what[i].name, what[i].flop, what[i].bytes, moves ? Cell(what[i].flop / what[i].bytes) : Cell(), t.median,
                t.low, t.high, what[i].flop / t.median, moves ? Cell(what[i].bytes / t.median) : Cell()});
   }
-  // a peak below what another loop reaches is none
-  if (const double peak = *number_at(table, 0, "rate"), triad = *number_at(table, 1, "rate"); peak < triad)
-    rows.notes.push_back(fmt::format(
-        "cost: the loop for the peak did {:.2g} billion operations a second, fewer than a = b + s c in the cache "
-        "({:.2g}): the peak of the machine is higher than shown",
-        peak / 1e9, triad / 1e9));
+  if (const auto doubt = doubt_about_peak(*number_at(table, 0, "rate"), *number_at(table, 1, "rate")))
+    rows.notes.push_back(*doubt);
   rows.add(table);
 }
 
