@@ -184,9 +184,25 @@ Timing minus(const Timing& a, const Timing& b) {
 
 }  // namespace
 
+Table phases_table(int n, const std::vector<std::string>& methods, const std::vector<Timing>& times) {
+  Table table = table_of<PhaseCostRow>();
+  const auto add_phase = [&](size_t method, const char* phase, const Timing& time, double all, const char* how) {
+    add(table, PhaseCostRow{methods.at(method), n, phase, time.median, time.low, time.high, time.median / all, how});
+  };
+  const double whole = times.at(3).median;
+  add_phase(0, "springs", times[0], whole, "the spring kernel alone");
+  add_phase(0, "other forces", minus(times[1], times[0]), whole, "all forces at a position, less the springs");
+  add_phase(0, "integration and loop", minus(times[2], times[1]), whole, "a step without sphere, less its forces");
+  add_phase(0, "contact", minus(times[3], times[2]), whole, "a step with the sphere, less one without");
+  add_phase(0, "whole step", times[3], whole, "with the sphere");
+  for (size_t i = 1; i < methods.size(); ++i)
+    add_phase(i, "whole step", times.at(3 + i), times[3 + i].median,
+              i == 1 ? "all in one pass over memory" : "what it does inside cannot be told from outside");
+  return table;
+}
+
 void cost_of_phases(const Request& request, int n, Rows& rows) {
   const Scene plain = sized_cloth(n), above = sized_cloth(n, true);
-  Table table = table_of<PhaseCostRow>();
   // the sweep has no phases
   const Method ours = find_method("mysim/leapfrog+plain"), fused = find_method("mysim/leapfrog");
   std::vector<Method> others;
@@ -196,24 +212,22 @@ void cost_of_phases(const Request& request, int n, Rows& rows) {
   const long steps = steps_to_time(ours, above);
   std::vector<std::function<double()>> runs{springs_alone(plain), forces_alone(plain), step_of(ours, plain, steps),
                                             step_of(ours, above, steps), step_of(fused, above, steps)};
-  for (const Method& m : others) runs.push_back(step_of(m, above, steps_to_time(m, above)));
+  std::vector<std::string> names{ours.name, fused.name};
+  for (const Method& m : others) {
+    runs.push_back(step_of(m, above, steps_to_time(m, above)));
+    names.push_back(m.name);
+  }
   std::vector<Timing> t;
   for (const auto& times : steps_timed(runs, request.full)) t.push_back(timing_of(times));
-  const double whole = t[3].median;
-  const auto add_phase = [&](const std::string& method, const char* phase, const Timing& time, double all,
-                             const char* how) {
-    add(table, PhaseCostRow{method, n, phase, time.median, time.low, time.high, time.median / all, how});
-  };
-  add_phase(ours.name, "springs", t[0], whole, "the spring kernel alone");
-  add_phase(ours.name, "other forces", minus(t[1], t[0]), whole, "all forces at a position, less the springs");
-  add_phase(ours.name, "integration and loop", minus(t[2], t[1]), whole, "a step without sphere, less its forces");
-  add_phase(ours.name, "contact", minus(t[3], t[2]), whole, "a step with the sphere, less one without");
-  add_phase(ours.name, "whole step", t[3], whole, "with the sphere");
-  add_phase(fused.name, "whole step", t[4], t[4].median, "all in one pass over memory");
-  for (size_t i = 0; i < others.size(); ++i)
-    add_phase(others[i].name, "whole step", t[5 + i], t[5 + i].median,
-              "what it does inside cannot be told from outside");
-  rows.add(table);
+  rows.add(phases_table(n, names, t));
+}
+
+std::optional<std::string> doubt_about_peak(double peak, double triad) {
+  if (!(peak < triad)) return std::nullopt;
+  return fmt::format(
+      "cost: the loop for the peak did {:.2g} billion operations a second, fewer than a = b + s c in the cache "
+      "({:.2g}): the peak of the machine is higher than shown",
+      peak / 1e9, triad / 1e9);
 }
 
 void cost_against_roofline(bool full, Rows& rows) {
@@ -248,12 +262,7 @@ void cost_against_roofline(bool full, Rows& rows) {
     if (row.bytes > 0) row.intensity = row.work / row.bytes, row.bandwidth = row.bytes / t.median;
     add(table, row);
   }
-  // a peak below what another loop reaches is none
-  if (const double peak = loops[0].rate, triad = loops[1].rate; peak < triad)
-    rows.notes.push_back(fmt::format(
-        "cost: the loop for the peak did {:.2g} billion operations a second, fewer than a = b + s c in the cache "
-        "({:.2g}): the peak of the machine is higher than shown",
-        peak / 1e9, triad / 1e9));
+  if (const auto doubt = doubt_about_peak(loops[0].rate, loops[1].rate)) rows.notes.push_back(*doubt);
   rows.add(table);
 }
 

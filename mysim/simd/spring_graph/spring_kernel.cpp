@@ -15,7 +15,7 @@ struct SpringKernel::Impl {
 };
 
 SpringKernel::SpringKernel(const Springs& springs, int particles) {
-  const simd::InstructionSet isa = simd::active_instruction_set();
+  const simd::InstructionSet isa = isa_ = simd::active_instruction_set();
   const SpringLaw law = springs.law;
   spring_graph::SpringPartition partition =
       spring_graph::partition_springs(springs.list, particles, spring_graph::costs(isa));
