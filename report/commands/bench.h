@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "report/figures/figure.h"
 
 namespace crosscheck {
+
+struct BenchSuite;
 
 // What the bench found, line by line, as people read it: for the terminal and the figure.
 
@@ -67,5 +70,13 @@ void add_threads(const Table& table, std::vector<BenchLine>& lines);
 
 /// All ratios, of each peer the one where it does best: best instructions and SSE2 alone as two markers.
 DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& instructions, const std::string& commit);
+
+struct BenchOptions {
+  bool full = false;
+  std::filesystem::path out = "out/bench";
+  std::string command_line;
+};
+/// The short plan, the long one, or one of one's own.
+int bench_command(const BenchOptions& options, const BenchSuite& plan);
 
 }  // namespace crosscheck

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -97,6 +98,11 @@ int grader_command(const std::vector<std::string>& words) {
   std::fflush(nullptr);
   execve(program.c_str(), pointers(all).data(), pointers(environment).data());
   throw std::runtime_error(fmt::format("{}: {}", program.string(), std::strerror(errno)));
+}
+
+void add_grader(CLI::App& app, Invocation&) {
+  app.add_subcommand("grade", "grades coursework: a submission, or a class with --all");
+  app.add_subcommand("assignment", "writes the hand-out of an assignment, or the package of a grading service");
 }
 
 }  // namespace crosscheck
