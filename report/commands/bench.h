@@ -16,8 +16,6 @@ namespace crosscheck {
 
 struct BenchSuite;
 
-// What the bench found, line by line, as people read it: for the terminal and the figure.
-
 /// How many times somebody's time mysim's is, with its 90 % interval.
 struct BenchRatio {
   double ratio, low, high;
@@ -41,8 +39,6 @@ std::vector<BenchLine> bench_lines(const Rows& rows);
 /// The name of the best instructions in the tables: "avx512".
 std::string best_instruction_set(const Rows& rows);
 
-// What the files of bench_lines share.
-
 inline BenchRatio ratio_at(const Table& table, size_t row, const char* column) {
   return {*number_at(table, row, column), *number_at(table, row, "ratio low"), *number_at(table, row, "ratio high")};
 }
@@ -65,8 +61,6 @@ inline std::string size_text(const std::string& scene) {
 void add_same_step(const Table& table, std::vector<BenchLine>& lines);
 void add_implicit_steps(const Table& table, std::vector<BenchLine>& lines);
 void add_threads(const Table& table, std::vector<BenchLine>& lines);
-
-// The figure of `crosscheck bench`.
 
 /// All ratios, of each peer the one where it does best: best instructions and SSE2 alone as two markers.
 DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& instructions, const std::string& commit);

@@ -11,8 +11,6 @@
 
 namespace crosscheck {
 
-// The numbers of a scene, picked from the experiments' tables for sentences, charts and the page.
-
 /// "blew up", "solver gave up", "froze": what a verdict other than ok says of a run, as the table writes it.
 std::string failure_class(const std::string& verdict);
 /// "cannot" where the method does not take the scene, else the word for its failure.
