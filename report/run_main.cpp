@@ -7,14 +7,15 @@
 
 using namespace crosscheck;
 
+namespace {
+
+constexpr AddCommand commands[] = {add_validate, add_run};
+
+}  // namespace
+
 int main(int argc, char** argv) {
   return run_supervised([&] {
-    return run_reporting_errors("crosscheck", [&] {
-      CLI::App app{"Crosscheck's single runs."};
-      app.require_subcommand(1);
-      int status = 0;
-      add_single_run(app, command_line(argc, argv), status);
-      return parse(app, argc, argv, status);
-    });
+    return run_reporting_errors(
+        "crosscheck", [&] { return run_command_line("Crosscheck's single runs.", "", commands, argc, argv); });
   });
 }

@@ -42,6 +42,13 @@ std::vector<std::string> program_environment(const std::vector<std::string>& ext
   return all;
 }
 
+std::vector<char*> c_strings(const std::vector<std::string>& texts) {
+  std::vector<char*> all;
+  for (const std::string& text : texts) all.push_back(const_cast<char*>(text.c_str()));
+  all.push_back(nullptr);
+  return all;
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -106,13 +113,6 @@ class Child {
   pid_t pid_;
 };
 
-std::vector<char*> c_strings(const std::vector<std::string>& texts) {
-  std::vector<char*> all;
-  for (const std::string& text : texts) all.push_back(const_cast<char*>(text.c_str()));
-  all.push_back(nullptr);
-  return all;
-}
-
 double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
 }  // namespace
@@ -162,22 +162,11 @@ ProcessResult run_process(const std::vector<std::string>& words, double timeout)
   return end;
 }
 
-namespace {
-
-std::vector<char*> pointers(const std::vector<std::string>& strings) {
-  std::vector<char*> list;
-  for (const std::string& s : strings) list.push_back(const_cast<char*>(s.c_str()));
-  list.push_back(nullptr);
-  return list;
-}
-
-}  // namespace
-
 pid_t spawn(const std::vector<std::string>& argv, const FileActions& actions,
             const std::vector<std::string>& extra_env) {
   pid_t child = 0;
-  const int failed = posix_spawnp(&child, argv[0].c_str(), &actions.list, nullptr, pointers(argv).data(),
-                                  pointers(program_environment(extra_env)).data());
+  const int failed = posix_spawnp(&child, argv[0].c_str(), &actions.list, nullptr, c_strings(argv).data(),
+                                  c_strings(program_environment(extra_env)).data());
   if (failed) throw std::runtime_error("cannot start " + argv[0] + ": " + std::strerror(failed));
   return child;
 }

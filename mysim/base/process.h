@@ -22,6 +22,9 @@ namespace crosscheck {
 /// what it writes does not depend on whose terminal or job it was started from. `extra` wins over both.
 std::vector<std::string> program_environment(const std::vector<std::string>& extra = {});
 
+/// The texts as exec and its kin take them, a null at the end; good as long as these texts.
+std::vector<char*> c_strings(const std::vector<std::string>& texts);
+
 // The two ends of a pipe, closed however the scope is left and never handed on to other programs.
 
 struct Pipe {

@@ -7,13 +7,9 @@
 
 namespace crosscheck {
 
-// The date that gnuplot's cairo writes into a PDF.
-
 /// Sets the one date in a PDF that Debian's cairo writes (it knows no SOURCE_DATE_EPOCH) to 1970, so that two runs
 /// write the same bytes; its length stays, and with it all offsets. Throws InputError when the file cannot be written.
 void erase_pdf_date(const std::filesystem::path& pdf);
-
-// gnuplot, and whether what it wrote is whole.
 
 /// Runs gnuplot, without anybody's own settings, on a script in `folder`, which must leave these files there. Returns
 /// what it warned of; a warning is no failure. Throws std::runtime_error that begins with `what` when gnuplot fails, or

@@ -1,11 +1,12 @@
 // advise: fits what is unset to the scene's wishes, then finds the cheapest model, method and step for a tolerance.
-#include "report/commands/advise.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "experiments/advise/advice.h"
 #include "experiments/advise/fit.h"
@@ -16,11 +17,24 @@
 #include "mysim/base/json.h"
 #include "mysim/base/output_folder.h"
 #include "report/base/provenance.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
+#include "report/figures/figure.h"
 #include "report/findings/report_data.h"
 
 namespace crosscheck {
+namespace fs = std::filesystem;
+namespace {
 
+struct AdviseOptions {
+  std::string scene, methods;
+  double tolerance = 0;  // m; 0: only parameters are fitted
+  std::filesystem::path out = "out/advise";
+  std::string command_line;
+};
+
+/// Error against cost of everything that was tried, the asked tolerance as a line, the advised run marked; failed runs
+/// as crosses at the cost they had spent.
 Figure advice_figure(const Advice& a, const std::string& commit) {
   Figure f;
   f.name = a.scene.name + "-advice";
@@ -65,9 +79,6 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
                           nice_length(a.error_bar), a.truth, commit);
   return f;
 }
-
-namespace fs = std::filesystem;
-namespace {
 
 Table trials_table(const Advice& a) {
   Table table{"advice",
@@ -221,8 +232,6 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
   return 0;
 }
 
-}  // namespace
-
 int advise_command(const AdviseOptions& options) {
   OutputFolder folder(options.out, "advise");
   try {
@@ -236,6 +245,23 @@ int advise_command(const AdviseOptions& options) {
     fmt::print(stderr, "crosscheck: cannot promise on {}: {}\n", options.scene, why.what());
     return 1;
   }
+}
+
+}  // namespace
+
+void add_advise(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<AdviseOptions>();
+  auto* advise = app.add_subcommand("advise", "cheapest model, method and step that meet a tolerance, with the proof");
+  advise->add_option("SCENE", options->scene, "a shipped scene or a TOML file; \"fit\" values follow its [wish]")
+      ->required();
+  advise->add_option("--tolerance", options->tolerance, "m, RMS over the particles; may be left out when fitting")
+      ->check(above_zero());
+  advise->add_option("--methods", options->methods, "A,B,... (default: all of mysim)");
+  advise->add_option("--out", options->out, "folder (out/advise)");
+  advise->callback([options, &call] {
+    options->command_line = call.line;
+    call.status = advise_command(*options);
+  });
 }
 
 }  // namespace crosscheck

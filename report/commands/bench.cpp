@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "experiments/bench/bench.h"
 #include "experiments/scenes/scenes.h"
@@ -13,6 +15,7 @@
 #include "mysim/base/output_folder.h"
 #include "reference/truth/independent/integrators.h"
 #include "report/base/provenance.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
 #include "report/commands/json_files.h"
 #include "report/findings/report_data.h"
@@ -275,8 +278,6 @@ void print(const std::vector<BenchLine>& lines, const std::string& instructions)
 
 }  // namespace
 
-int bench_command(const BenchOptions& options) { return bench_command(options, bench_suite(options.full)); }
-
 int bench_command(const BenchOptions& options, const BenchSuite& plan) {
   OutputFolder folder(options.out, "bench");
   const Rows rows = bench(plan);
@@ -299,6 +300,17 @@ int bench_command(const BenchOptions& options, const BenchSuite& plan) {
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
   fmt::print("\n{}\n", (options.out / "bench.json").string());
   return 0;
+}
+
+void add_bench(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<BenchOptions>();
+  auto* bench = app.add_subcommand("bench", "speed, as ratios against the peers, in one run");
+  bench->add_option("--out", options->out, "folder (out/bench)");
+  add_quick_and_full(*bench, options->full);
+  bench->callback([options, &call] {
+    options->command_line = call.line;
+    call.status = bench_command(*options, bench_suite(options->full));
+  });
 }
 
 }  // namespace crosscheck

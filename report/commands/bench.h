@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@
 
 namespace crosscheck {
 
-// What the bench found, line by line, as people read it: for the terminal and the figure.
+struct BenchSuite;
 
 /// How many times somebody's time mysim's is, with its 90 % interval.
 struct BenchRatio {
@@ -38,8 +39,6 @@ std::vector<BenchLine> bench_lines(const Rows& rows);
 /// The name of the best instructions in the tables: "avx512".
 std::string best_instruction_set(const Rows& rows);
 
-// What the files of bench_lines share.
-
 inline std::string nice_seconds(double seconds) {
   if (seconds >= 0.1) return fmt::format("{:.2f} s", seconds);
   if (seconds >= 1e-4) return fmt::format("{:.3g} ms", 1e3 * seconds);
@@ -54,9 +53,15 @@ inline std::string size_text(const std::string& scene) {
   return text;
 }
 
-// The figure of `crosscheck bench`.
-
 /// All ratios, of each peer the one where it does best: best instructions and SSE2 alone as two markers.
 DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& instructions, const std::string& commit);
+
+struct BenchOptions {
+  bool full = false;
+  std::filesystem::path out = "out/bench";
+  std::string command_line;
+};
+/// The short plan, the long one, or one of one's own.
+int bench_command(const BenchOptions& options, const BenchSuite& plan);
 
 }  // namespace crosscheck

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
+#include <memory>
 
 #include "experiments/estimate.h"
 #include "experiments/experiment.h"
@@ -14,12 +16,21 @@
 #include "mysim/base/output_folder.h"
 #include "reference/certificate/certificate.h"
 #include "report/base/provenance.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
 #include "report/commands/json_files.h"
 #include "report/findings/report_data.h"
 
 namespace crosscheck {
 namespace {
+
+struct CompareOptions {
+  std::string scene, methods;
+  double step = 0;
+  std::filesystem::path trajectory;  // may be empty
+  std::filesystem::path out = "out/compare";
+  std::string command_line;
+};
 
 void print(const Certificate& certificate) {
   fmt::print("\nparity of {} with the scene {}\n", certificate.method, certificate.scene);
@@ -60,8 +71,6 @@ bool equal_rules_differ(const Request& request, const Scene& scene, Results& ans
     }
   return differ;
 }
-
-}  // namespace
 
 int compare_command(const CompareOptions& options) {
   Request request;
@@ -133,6 +142,22 @@ int compare_command(const CompareOptions& options) {
   const bool differ = equal_rules_differ(request, scene, answers);
   fmt::print("\n{}\n", options.out.string());
   return differ ? 1 : 0;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<CompareOptions>();
+  auto* compare = app.add_subcommand("compare", "parity certificate, then methods side by side");
+  compare->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
+  compare->add_option("--methods", options->methods, "A,B,...");
+  compare->add_option("--step", options->step, "s")->check(above_zero());
+  compare->add_option("--trajectory", options->trajectory, "FILE.npy of an engine that cannot be driven");
+  compare->add_option("--out", options->out, "folder (out/compare)");
+  compare->callback([options, &call] {
+    options->command_line = call.line;
+    call.status = compare_command(*options);
+  });
 }
 
 }  // namespace crosscheck

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <thread>
 
@@ -18,6 +20,11 @@
 namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
+
+struct EngineOptions {
+  std::string what;
+  fs::path prefix, program;
+};
 
 /// Throws InputError unless the folder holds what the adapter's CMakeLists.txt looks for.
 void require_bullet(const fs::path& prefix) {
@@ -51,8 +58,6 @@ void install(const fs::path& program, const fs::path& as) {
                           fs::perms::others_exec);
 }
 
-}  // namespace
-
 int engine_command(const EngineOptions& options) {
   if (options.what != "bullet") throw InputError(fmt::format("engine {}: expected bullet", options.what));
   require_bullet(options.prefix);
@@ -81,6 +86,17 @@ int engine_command(const EngineOptions& options) {
   install(build / "bullet_engine", options.program);
   fmt::print("{}\n", options.program.string());
   return 0;
+}
+
+}  // namespace
+
+void add_engine(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<EngineOptions>();
+  auto* engine = app.add_subcommand("engine", "builds the Bullet adapter against another Bullet tree, for exec:");
+  engine->add_option("NAME", options->what, "bullet")->required();
+  engine->add_option("--prefix", options->prefix, "an installation or a source tree of Bullet")->required();
+  engine->add_option("-o", options->program, "PROG")->required();
+  engine->callback([options, &call] { call.status = engine_command(*options); });
 }
 
 }  // namespace crosscheck

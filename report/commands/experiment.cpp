@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 
 #include "experiments/estimate.h"
 #include "experiments/experiment.h"
@@ -13,11 +15,27 @@
 #include "mysim/base/files.h"
 #include "mysim/base/output_folder.h"
 #include "report/base/provenance.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
 #include "report/commands/json_files.h"
 
 namespace crosscheck {
 namespace {
+
+struct ExperimentOptions {
+  std::vector<std::string> names;  // of experiments, then of scenes
+  std::string methods;
+  bool full = false, resume = false;
+  std::string shard;  // I/N, or empty: all
+  int jobs = 0;       // processes at a time; 0: one per core
+  std::filesystem::path out = "out/experiment";
+  std::string command_line;
+};
+
+struct MergeOptions {
+  std::vector<std::filesystem::path> folders;
+  std::filesystem::path out;
+};
 
 std::string file_of(const Certificate& c) {
   return fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method));
@@ -54,8 +72,6 @@ void announce(ResumableOutput& folder, const PointList& plan, const Store& store
     folder.forget(points);
   folder.announce(files);
 }
-
-}  // namespace
 
 int experiment_command(const ExperimentOptions& options) {
   std::vector<const Experiment*> chosen;
@@ -131,6 +147,35 @@ int merge_command(const MergeOptions& options) {
   folder.finish();
   print_tables(rows, options.out);
   return 0;
+}
+
+}  // namespace
+
+void add_experiment(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<ExperimentOptions>();
+  auto* experiment = app.add_subcommand("experiment", "runs experiments and writes their tables");
+  experiment
+      ->add_option("NAME", options->names,
+                   "experiments, then scenes (default: those that stand for the others; all with --full)")
+      ->required();
+  experiment->add_option("--methods", options->methods, "A,B,...");
+  experiment->add_option("--out", options->out, "folder (out/experiment)");
+  experiment->add_option("--shard", options->shard, "I/N: only this part of the points; join with merge");
+  experiment->add_flag("--resume", options->resume, "keep the points that an earlier run finished");
+  experiment->add_option("--jobs", options->jobs, "processes at a time (one per core)")->check(CLI::Range(1, 256));
+  add_quick_and_full(*experiment, options->full);
+  experiment->callback([options, &call] {
+    options->command_line = call.line;
+    call.status = experiment_command(*options);
+  });
+}
+
+void add_merge(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<MergeOptions>();
+  auto* merge = app.add_subcommand("merge", "joins the shards of an experiment into its tables");
+  merge->add_option("DIR", options->folders, "output folders of `experiment --shard`")->required();
+  merge->add_option("--out", options->out, "folder")->required();
+  merge->callback([options, &call] { call.status = merge_command(*options); });
 }
 
 }  // namespace crosscheck

@@ -1,10 +1,11 @@
 // figures: a set of figures fit to print, made from the experiments that they need and no others.
-#include "report/commands/figures.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 
 #include "experiments/estimate.h"
 #include "experiments/scenes/scenes.h"
@@ -14,12 +15,32 @@
 #include "mysim/base/output_folder.h"
 #include "mysim/base/text.h"
 #include "report/base/provenance.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
 #include "report/figures/figure_set.h"
 #include "report/findings/evidence.h"
 
 namespace crosscheck {
 namespace {
+
+struct FiguresOptions {
+  std::vector<std::string> names;   // of experiments; empty: all
+  std::vector<std::string> scenes;  // empty: those that stand for the others
+  std::string set = "paper", width;
+  bool full = false;
+  std::filesystem::path out = "out/figures";
+  std::string command_line;
+};
+
+struct PictureRequest {
+  Scene scene;
+  std::string given;  // the scene's name or file, as somebody typed it
+};
+
+struct FigureSelection {
+  std::vector<const Experiment*> experiments;
+  std::vector<PictureRequest> pictures;
+};
 
 constexpr std::string_view picture_suffix = "-picture";
 
@@ -60,8 +81,9 @@ PictureRequest picture_named(const std::string& name, const FiguresOptions& opti
                                fmt::join(known, ", "), did_you_mean(name, known)));
 }
 
-}  // namespace
-
+/// Names are experiments, or SCENE-picture of a scene that --scene names or that comes with Crosscheck; no names are
+/// all experiments, and pictures of the named scenes or of those that stand for the others. Throws InputError that
+/// lists what there is.
 FigureSelection select_figures(const FiguresOptions& options) {
   FigureSelection asked;
   if (options.names.empty()) {
@@ -81,8 +103,6 @@ FigureSelection select_figures(const FiguresOptions& options) {
   }
   return asked;
 }
-
-namespace {
 
 /// Everything that there is to compute, and what it is of.
 struct Work {
@@ -157,8 +177,6 @@ class Problems {
   bool any_ = false;
 };
 
-}  // namespace
-
 int figures_command(const FiguresOptions& asked_for) {
   FiguresOptions options = asked_for;
   const FigureSize size = figure_size(options.set, options.width);
@@ -225,6 +243,24 @@ int figures_command(const FiguresOptions& asked_for) {
              smaller ? fmt::format(" (smaller in {} that have no room for them)", smaller) : "",
              (asked_for.out / "figures.json").string());
   return problems.any() ? 1 : 0;
+}
+
+}  // namespace
+
+void add_figures(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<FiguresOptions>();
+  auto* figures =
+      app.add_subcommand("figures", "charts and pictures fit to print, with captions, for a paper or a lecture");
+  figures->add_option("NAME", options->names, "experiments whose charts are asked for, or SCENE-picture; default: all");
+  figures->add_option("--scene", options->scenes, "a shipped scene or a TOML file; again for more");
+  figures->add_option("--set", options->set, "paper (8.5 cm, 8 pt) or lecture (24 cm, 20 pt)");
+  figures->add_option("--width", options->width, "8.5cm, 85mm, 3.3in");
+  figures->add_option("--out", options->out, "folder (out/figures)");
+  add_quick_and_full(*figures, options->full);
+  figures->callback([options, &call] {
+    options->command_line = call.line;
+    call.status = figures_command(*options);
+  });
 }
 
 }  // namespace crosscheck

@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -29,13 +28,6 @@ fs::path grader() {
   return program;
 }
 
-std::vector<char*> pointers(std::vector<std::string>& words) {
-  std::vector<char*> all;
-  for (std::string& word : words) all.push_back(word.data());
-  all.push_back(nullptr);
-  return all;
-}
-
 /// What stands behind an option, or behind its =; empty where it is not given.
 std::string option_value(const std::vector<std::string>& words, const std::string& option) {
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -43,20 +35,6 @@ std::string option_value(const std::vector<std::string>& words, const std::strin
     if (words[i].starts_with(option + "=")) return words[i].substr(option.size() + 1);
   }
   return "";
-}
-
-int exit_status_of(const fs::path& program, std::vector<std::string> words) {
-  words.insert(words.begin(), program.string());
-  std::vector<std::string> environment = program_environment();
-  std::fflush(nullptr);
-  pid_t child = 0;
-  if (const int why =
-          posix_spawn(&child, program.c_str(), nullptr, nullptr, pointers(words).data(), pointers(environment).data()))
-    throw std::runtime_error(fmt::format("{}: {}", program.string(), std::strerror(why)));
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 /// Grades, then sets the parts that are steppers beside other engines; the page links to it.
@@ -67,7 +45,10 @@ int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   const std::vector<std::string> more = {"--engines", engines.string(), "--charts",
                                          charts.filename().string() + "/index.html"};
   words.insert(words.end(), more.begin(), more.end());
-  if (const int status = exit_status_of(grader(), words); status != 0 || !fs::exists(engines)) return status;
+  std::vector<std::string> command{grader().string()};
+  command.insert(command.end(), words.begin(), words.end());
+  std::fflush(nullptr);
+  if (const int status = wait_for(spawn(command, {})); status != 0 || !fs::exists(engines)) return status;
   ReportOptions options;
   options.scenes = {"spring", "pendulum"};
   options.experiments = {"engines", "speed-accuracy", "stability"};
@@ -95,8 +76,13 @@ int grader_command(const std::vector<std::string>& words) {
   all.insert(all.begin(), program.string());
   std::vector<std::string> environment = program_environment();
   std::fflush(nullptr);
-  execve(program.c_str(), pointers(all).data(), pointers(environment).data());
+  execve(program.c_str(), c_strings(all).data(), c_strings(environment).data());
   throw std::runtime_error(fmt::format("{}: {}", program.string(), std::strerror(errno)));
+}
+
+void add_grader(CLI::App& app, Invocation&) {
+  app.add_subcommand("grade", "grades coursework: a submission, or a class with --all");
+  app.add_subcommand("assignment", "writes the hand-out of an assignment, or the package of a grading service");
 }
 
 }  // namespace crosscheck

@@ -8,11 +8,7 @@
 
 namespace crosscheck {
 
-// Parity certificates as JSON.
-
 std::string certificate_json(const Certificate& certificate);
-
-// Tables as one JSON file, for programs.
 
 /// Provenance, notes, and of each table its columns with units and its rows as objects by column name: the same cells
 /// as in the CSV files. Empty cells and numbers that are not finite are null.

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 
 #include "experiments/disagreements/disagreements.h"
 #include "experiments/experiment.h"
@@ -26,8 +28,6 @@ std::vector<std::pair<std::string, std::string>> method_rows(bool json) {
     rows.emplace_back("exec:PATH", "any program that speaks the engine protocol (reference/protocol/PROTOCOL.md)");
   return rows;
 }
-
-}  // namespace
 
 int list_command(const std::string& what, bool json) {
   std::vector<std::pair<std::string, std::string>> rows;
@@ -54,16 +54,12 @@ int list_command(const std::string& what, bool json) {
   return 0;
 }
 
-namespace {
-
 struct Tool {
   const char* name;
   const char* package;  // Debian's
   const char* purpose;
   bool required;
 };
-
-}  // namespace
 
 int doctor_command() {
   fmt::print("built with: {}\n", CROSSCHECK_COMPILER);
@@ -98,6 +94,26 @@ int doctor_command() {
   }
   fmt::print("\n{}\n", complete ? "all that is required is here" : "something required is missing");
   return complete ? 0 : 1;
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, Invocation& call) {
+  struct Options {
+    std::string what;
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
+  auto* list = app.add_subcommand("list", "what there is: scenes, methods, experiments, assignments");
+  list->add_option("WHAT", options->what, "scenes, methods, experiments or assignments")->required();
+  list->add_flag("--json", options->json, "for programs");
+  list->callback([options, &call] { call.status = list_command(options->what, options->json); });
+}
+
+void add_doctor(CLI::App& app, Invocation& call) {
+  app.add_subcommand("doctor", "what is installed, what is missing, what each is for")->callback([&call] {
+    call.status = doctor_command();
+  });
 }
 
 }  // namespace crosscheck

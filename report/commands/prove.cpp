@@ -1,5 +1,4 @@
 // regress --prove, --prove-builds, --prove-speed: regress tried on wrong changes, other builds, and itself.
-#include "report/commands/prove.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,12 +17,22 @@
 #include "mysim/base/process.h"
 #include "mysim/base/text.h"
 #include "report/base/provenance.h"
-#include "report/commands/commands.h"
 #include "report/commands/regress.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
+
+/// A build of Crosscheck in which nothing may be found to have moved, as nothing has but the rounding.
+struct Build {
+  std::string name;
+  std::string compiler, package;  // Debian's package; both empty: the program as it is, in another environment
+  std::string type, flags;        // as CMake has them
+  std::string environment;        // NAME=value, or empty
+  std::string filter = {};        // what it is asked where nobody says; empty: all
+  bool fused = false;             // needs a processor with AVX2 and fused multiply-adds
+  bool compiled() const { return !compiler.empty(); }
+};
 
 /// The C library as it is from 2.33 on, whose variants of sin, exp and pow can be chosen from outside.
 bool library_obeys() {
@@ -41,8 +50,6 @@ bool fused_here() {
   return false;
 #endif
 }
-
-}  // namespace
 
 const std::vector<Build>& builds() {
   // without optimisation everything takes up to 350 times as long: all scenes would be an hour
@@ -63,6 +70,7 @@ const std::vector<Build>& builds() {
   return table;
 }
 
+/// "clang++ (package clang)"; empty where nothing is missing.
 std::string missing_for(const Build& build) {
   if (build.compiled() && !on_path(build.compiler))
     return fmt::format("{} (package {})", build.compiler, build.package);
@@ -71,6 +79,12 @@ std::string missing_for(const Build& build) {
   return "";
 }
 
+struct Built {
+  std::filesystem::path program;
+  std::string said;  // the last lines of a build that failed; empty where it went well
+};
+
+/// Configures and builds the program, and the engine that it starts, in build/builds/NAME of the source tree.
 Built built(const Build& build) {
   const fs::path source = fs::path(CROSSCHECK_SOURCE_DIR).parent_path(), folder = source / "build/builds" / build.name;
   std::string type = build.type;
@@ -86,8 +100,6 @@ Built built(const Build& build) {
   }
   return {folder / "crosscheck", ""};
 }
-
-namespace {
 
 struct Proof {
   bool caught = false, wrongly_named = false;
@@ -161,7 +173,6 @@ int prove_command(const RegressOptions& asked) {
   return escaped == 0 && wrongly_named == 0 && !unchanged.caught ? 0 : 1;
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 struct BuildFinding {

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <set>
 
 #include "experiments/regress/attribution.h"
@@ -16,6 +18,7 @@
 #include "mysim/base/files.h"
 #include "mysim/base/output_folder.h"
 #include "report/base/provenance.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
 #include "report/commands/regress_verdict.h"
 
@@ -204,8 +207,7 @@ int regressed(const RegressOptions& options) {
   return speeds.passed() ? status : 1;
 }
 
-}  // namespace
-
+/// 0 all the same; 1 something moved; with `bisect` 125 where nothing can be said.
 int regress_command(const RegressOptions& options) {
   try {
     return regressed(options);
@@ -215,6 +217,51 @@ int regress_command(const RegressOptions& options) {
     fmt::print(stderr, "crosscheck: cannot be tested: {}\n", error.what());
     return 125;
   }
+}
+
+}  // namespace
+
+void add_regress(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<RegressOptions>();
+  auto* regress = app.add_subcommand("regress", "what moved since somebody last said that it is right");
+  regress->add_option("scenes", options->scenes, "names or files (default: all that come with Crosscheck)");
+  regress->add_option("--filter", options->filter, "GLOB on SCENE or SCENE/METHOD");
+  regress->add_option("--method", options->methods, "A,B,... (default: all of mysim and Bullet)");
+  auto* against =
+      regress->add_option("--against", options->against, "a method to set --method beside, instead of baselines");
+  regress->add_option("--baselines", options->baselines, "folder (default: those that come with Crosscheck)");
+  auto* bless = regress->add_flag("--bless", options->bless, "makes today's answers the baseline");
+  regress->add_option("--reason", options->reason, "why they are right")->needs(bless);
+  regress->add_option("--figures", options->figures, "of so many failed questions (6); 0: no page")
+      ->check(CLI::Range(0, 100));
+  regress->add_flag("--bisect", options->bisect, "exit 125 where nothing can be said, for git bisect run");
+  auto* prove =
+      regress->add_flag("--prove", options->prove, "runs wrong changes to mysim: all must be caught")->excludes(bless);
+  regress->add_option("--mutant", options->mutant, "only this one of them")->needs(prove);
+  auto* no_speed = regress->add_flag("--no-speed", options->no_speed, "answers only");
+  regress->add_flag("--speed", options->speed, "with --bisect: speeds too")->excludes(no_speed);
+  auto* prove_speed = regress->add_flag("--prove-speed", options->prove_speed,
+                                        "measures this program's speeds beside its own: none should differ");
+  prove_speed->excludes(bless)->excludes(prove)->excludes(no_speed);
+  regress->add_option("--repetitions", options->repetitions, "how often (200)")
+      ->needs(prove_speed)
+      ->check(CLI::Range(1, 100000));
+  auto* prove_builds = regress
+                           ->add_flag("--prove-builds", options->prove_builds,
+                                      "builds with other compilers and options, and runs each: all must pass")
+                           ->excludes(bless)
+                           ->excludes(prove)
+                           ->excludes(against);
+  regress->add_option("--build", options->build, "only this one of the builds")->needs(prove_builds);
+  regress->add_option("--out", options->out, "folder (out/regress)");
+  add_quick_and_full(*regress, options->full);
+  regress->callback([options, &call] {
+    options->command_line = call.line;
+    call.status = options->prove          ? prove_command(*options)
+                  : options->prove_speed  ? prove_speed_command(*options)
+                  : options->prove_builds ? prove_builds_command(*options)
+                                          : regress_command(*options);
+  });
 }
 
 }  // namespace crosscheck

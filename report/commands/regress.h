@@ -1,14 +1,35 @@
-// regress: the speed of methods, on the terminal.
+// regress: its options, the proofs that it can be trusted, and the speed of methods on the terminal.
 #pragma once
 
 #include "experiments/regress/regress.h"
 #include "experiments/regress/speed_regression.h"
 #include "report/base/provenance.h"
-#include "report/commands/commands.h"
 
 namespace crosscheck {
 
-bool speed_is_asked(const RegressOptions& options);
+struct RegressOptions {
+  std::string filter, methods, against, reason;
+  std::filesystem::path baselines;  // empty: the shipped ones
+  bool full = false, bless = false, bisect = false, prove = false, prove_builds = false;
+  std::vector<std::string> scenes;       // names or files; empty: all shipped ones
+  int figures = 6;                       // of so many failed questions
+  std::string mutant;                    // with `prove`, one of the wrong changes; empty: all
+  std::string build;                     // with `prove_builds`, one of the builds; empty: all
+  bool no_speed = false, speed = false;  // speed is measured too, when bisecting only where it is asked for
+  bool prove_speed = false;
+  int repetitions = 200;  // of `prove_speed`
+  std::filesystem::path out = "out/regress";
+  std::string command_line;
+};
+
+/// Runs the mutants against the baselines and says which were caught. 1 where one escaped, where a cause was named
+/// wrongly, or where mysim as it is was caught.
+int prove_command(const RegressOptions& options);
+/// Measures the speeds of this program beside its own, again and again. 1 where any of them raised an alarm.
+int prove_speed_command(const RegressOptions& options);
+/// Builds Crosscheck in other ways and runs each against the baselines: none of them has anything to say. 1 where one
+/// has, or could not be built; InputError where there is no such build.
+int prove_builds_command(const RegressOptions& options);
 
 /// This machine and this program.
 Machine machine_of(const Provenance& lines);

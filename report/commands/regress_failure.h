@@ -13,8 +13,6 @@
 
 namespace crosscheck {
 
-// What is known of a failed question beyond its numbers: both runs over time, and where they part.
-
 using Series = std::vector<std::pair<double, double>>;  // over time, s
 
 struct FailureDetails {

@@ -2,19 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
+#include <memory>
 
 #include "experiments/estimate.h"
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/text.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
 #include "report/pictures/clip.h"
 #include "report/pictures/scene_picture.h"
 
 namespace crosscheck {
 namespace {
+
+struct RenderOptions {
+  std::string scene, methods, mode = "shaded", size = "1280x720";
+  std::string quality;  // empty: still, of clips fast
+  double at = -1;       // s; negative: the end
+  std::filesystem::path file;
+};
 
 void read_size(const std::string& text, Shot& shot) {
   int end = 0;
@@ -62,8 +72,6 @@ std::vector<Result> answers_of(const Scene& scene, const std::vector<Method>& me
   return answers;
 }
 
-}  // namespace
-
 int render_command(const RenderOptions& options) {
   const Scene scene = load_scene(options.scene);
   const bool clip = options.file.extension() == ".mp4";
@@ -95,6 +103,21 @@ int render_command(const RenderOptions& options) {
   progress.done();
   fmt::print("{}\n", options.file.string());
   return 0;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<RenderOptions>();
+  auto* render = app.add_subcommand("render", "a picture of a scene, or a clip of its run, methods side by side");
+  render->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
+  render->add_option("--methods", options->methods, "A,B,...");
+  render->add_option("--mode", options->mode, "shaded (default), stretch, springs, difference or strip");
+  render->add_option("--at", options->at, "s (default: the end)")->check(not_below_zero());
+  render->add_option("--quality", options->quality, "fast or still (default: still; of clips fast)");
+  render->add_option("--size", options->size, "WxH, pixels (1280x720)");
+  render->add_option("-o", options->file, "FILE.png, or FILE.mp4: 30 frames for each second of the scene")->required();
+  render->callback([options, &call] { call.status = render_command(*options); });
 }
 
 }  // namespace crosscheck

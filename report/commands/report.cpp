@@ -2,7 +2,9 @@
 
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
 
 #include "experiments/estimate.h"
 #include "experiments/scenes/scenes.h"
@@ -12,6 +14,7 @@
 #include "mysim/base/files.h"
 #include "mysim/base/output_folder.h"
 #include "report/base/provenance.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
 #include "report/commands/json_files.h"
 #include "report/findings/findings_text.h"
@@ -285,8 +288,7 @@ class Builder {
   PageContent page_;
 };
 
-}  // namespace
-
+/// Whether all findings of a report follow from its data.
 int verify_command(const fs::path& folder) {
   recover_output(folder);
   const Verification found = verify_report(folder);
@@ -297,10 +299,7 @@ int verify_command(const fs::path& folder) {
   return found.mismatches.empty() ? 0 : 1;
 }
 
-int report_command(const ReportOptions& options) {
-  OutputFolder folder(options.out, "report");
-  return report_command(options, folder);
-}
+}  // namespace
 
 int report_command(const ReportOptions& options, OutputFolder& folder) {
   Request request;
@@ -316,6 +315,30 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
       throw InputError("--against: expected another folder than that of --out, which is written anew");
   }
   return Builder(options, std::move(request), folder).build();
+}
+
+void add_report(CLI::App& app, Invocation& call) {
+  struct Options : ReportOptions {
+    fs::path verified;
+  };
+  const auto options = std::make_shared<Options>();
+  auto* report = app.add_subcommand("report", "the main job: a page with findings, figures, pictures and data");
+  report->add_option("SCENE", options->scenes, "default: those that stand for the others; all with --full");
+  report->add_option("--methods", options->methods, "A,B,...");
+  report->add_option("--out", options->out, "folder (out/report)");
+  add_quick_and_full(*report, options->full);
+  report->add_option("--against", options->against, "an earlier report: the page says what changed since");
+  report->add_option("--verify", options->verified,
+                     "DIR: recomputes every finding of the report in it from its data, no more");
+  report->callback([options, &call] {
+    options->command_line = call.line;
+    if (!options->verified.empty()) {
+      call.status = verify_command(options->verified);
+    } else {
+      OutputFolder folder(options->out, "report");
+      call.status = report_command(*options, folder);
+    }
+  });
 }
 
 }  // namespace crosscheck

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+#include <memory>
+
 #include "experiments/estimate.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/stability/margin.h"
@@ -12,10 +15,18 @@
 #include "mysim/base/output_folder.h"
 #include "reference/protocol/trajectory_files.h"
 #include "report/base/provenance.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
 
 namespace crosscheck {
 namespace {
+
+struct RunOptions {
+  std::string scene, method;
+  double step = 0, tolerance = 0, duration = 0;  // 0: the scene's own
+  std::filesystem::path out = "out/run";
+  std::string command_line;
+};
 
 std::string run_json(const Scene& scene, const Method& method, const Outcome& out, const std::vector<double>& times) {
   Json json{{"scene", scene.name},
@@ -36,8 +47,6 @@ std::string run_json(const Scene& scene, const Method& method, const Outcome& ou
             {"different_law", out.different_law}};
   return json.dump(1) + "\n";
 }
-
-}  // namespace
 
 int run_command(const RunOptions& options) {
   const Scene scene = load_scene(options.scene);
@@ -94,6 +103,23 @@ int run_command(const RunOptions& options) {
     fmt::print("  springs met at zero length {} times and got no force there\n", out.degenerate_springs);
   fmt::print("  {}\n", options.out.string());
   return 0;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<RunOptions>();
+  auto* run = app.add_subcommand("run", "one run: trajectory, energies, verdict");
+  run->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
+  run->add_option("--method", options->method, "default: the scene's own");
+  run->add_option("--step", options->step, "s, of fixed-step methods")->check(above_zero());
+  run->add_option("--tol", options->tolerance, "relative, of adaptive methods")->check(above_zero());
+  run->add_option("--duration", options->duration, "s")->check(above_zero());
+  run->add_option("--out", options->out, "folder (out/run)");
+  run->callback([options, &call] {
+    options->command_line = call.line;
+    call.status = run_command(*options);
+  });
 }
 
 }  // namespace crosscheck

@@ -9,7 +9,7 @@
 
 #include "experiments/scenes/scenes.h"
 #include "experiments/tables/table.h"
-#include "report/figures/chapter_parts.h"
+#include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
 
@@ -188,8 +188,7 @@ std::optional<Chart> scaling(const Table& t, const Rows& rows, const std::string
       "of cells, where these are many. With one stiffness on all grids a finer sheet folds more freely."};
 }
 
-}  // namespace
-
+/// The same cloth on other grids, and how stiffness must follow the grid.
 std::vector<Chart> grid_charts(const Rows& rows, const std::string& commit) {
   const Table* t = rows.table("adequacy-resolution");
   if (!t || t->rows.empty()) return {};
@@ -197,8 +196,6 @@ std::vector<Chart> grid_charts(const Rows& rows, const std::string& commit) {
   if (auto chart = scaling(*t, rows, commit)) charts.push_back(std::move(*chart));
   return charts;
 }
-
-namespace {
 
 /// The last of "a, b, c".
 std::string last_of(const std::string& list) {

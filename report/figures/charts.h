@@ -21,8 +21,7 @@ std::string builds_text(const std::vector<std::string>& methods);
 /// markers of their methods.
 inline constexpr auto scaled_times = "time scaled from a part of the run";
 
-// Charts: from the experiments' tables to figures. The table of charts is in charts.cpp; a new one is a function and a
-// row.
+// The table of charts is in charts.cpp; a new one is a function and a row.
 
 struct ChartInput {
   const std::vector<Scene>& scenes;

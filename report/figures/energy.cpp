@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "experiments/tables/table.h"
-#include "report/figures/chapter_parts.h"
+#include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
 
@@ -28,8 +28,18 @@ std::vector<StackedBars::Part> parts_for(size_t bars) {
   return parts;
 }
 
-}  // namespace
+/// The longest time and its steps, of any run of the scene: "100 s, up to 100000 steps of 0.001 s".
+std::string length_text(const Table& table, const std::string& scene) {
+  double end = 0, step = 0;
+  long steps = 0;
+  for (size_t i = 0; i < table.rows.size(); ++i)
+    if (text_at(table, i, "scene") == scene && number_at(table, i, "end", 0) >= end)
+      if (const long n = std::get<long>(table.at(i, "steps")); n >= steps)
+        steps = n, step = number_at(table, i, "step", 0), end = number_at(table, i, "end", 0);
+  return fmt::format("{:.4g} s, up to {} steps of {}", end, steps, step_text(step));
+}
 
+/// StackedBars of a scene in which something takes or gives energy; empty of others.
 std::optional<Chart> budget_chart(const Table& table, const std::string& scene, const std::string& commit) {
   std::vector<size_t> shown;
   std::string failed;
@@ -87,15 +97,12 @@ std::optional<Chart> budget_chart(const Table& table, const std::string& scene, 
   return Chart{"", std::move(bars), "energy", about + failed};
 }
 
-namespace {
-
 std::string capital(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
   return text;
 }
 
-}  // namespace
-
+/// The residual over time on a scene that nothing damps.
 Chart drift_chart(const Table& table, const Table& rows, const std::string& scene, const std::string& commit) {
   Figure f;
   f.name = scene + "-energy-drift";
@@ -161,6 +168,7 @@ Chart drift_chart(const Table& table, const Table& rows, const std::string& scen
   return chart;
 }
 
+/// The drag that rules add by themselves.
 Chart damping_chart(const Table& table, const std::string& commit) {
   Figure f;
   f.name = "energy-damping";
@@ -215,15 +223,7 @@ Chart damping_chart(const Table& table, const std::string& commit) {
 }
 
 /// The longest time and its steps, of any run of the scene: "100 s, 100000 steps of 0.001 s".
-std::string length_text(const Table& table, const std::string& scene) {
-  double end = 0, step = 0;
-  long steps = 0;
-  for (size_t i = 0; i < table.rows.size(); ++i)
-    if (text_at(table, i, "scene") == scene && number_at(table, i, "end", 0) >= end)
-      if (const long n = std::get<long>(table.at(i, "steps")); n >= steps)
-        steps = n, step = number_at(table, i, "step", 0), end = number_at(table, i, "end", 0);
-  return fmt::format("{:.4g} s, up to {} steps of {}", end, steps, step_text(step));
-}
+}  // namespace
 
 std::vector<Chart> energy_charts(const ChartInput& input) {
   std::vector<Chart> charts;

@@ -11,8 +11,6 @@
 
 namespace crosscheck {
 
-// Line charts by gnuplot: NAME.csv, NAME.gp and from them NAME.svg, NAME.pdf, NAME.png, all in one style.
-
 /// How a method looks, the same in every figure: colour, dash and marker, so that no meaning hangs on colour alone.
 struct MethodStyle {
   std::string colour;  // "#RRGGBB"

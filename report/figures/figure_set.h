@@ -12,8 +12,6 @@
 
 namespace crosscheck {
 
-// A set of figures fit to print: sizes in centimetres, and beside each figure the words that belong to it.
-
 /// "paper" (8.5 cm, 8 pt, no titles) or "lecture" (24 cm, 20 pt); `width` as "8.5cm", "85mm" or "3.3in", or empty: the
 /// set's own. Throws InputError that says what was expected.
 FigureSize figure_size(const std::string& set, const std::string& width);

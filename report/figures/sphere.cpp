@@ -18,8 +18,7 @@ namespace {
 /// In %; what rounding makes of a particle on the surface is none.
 std::string depth_text(double percent) { return percent < 1e-9 ? "0" : nice(percent); }
 
-}  // namespace
-
+/// Deepest particle and deepest triangle of a scene, by method and step; empty where nothing was inside.
 std::optional<Chart> depth_chart(const Table& table, const std::string& scene, const std::string& commit) {
   Figure f;
   f.name = scene + "-penetration";
@@ -88,6 +87,7 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
   return chart;
 }
 
+/// How a scene with a draped body ends, by method and step.
 PageTable drape_table(const Table& table, const std::string& scene) {
   PageTable page{scene + ": how it ends",
                  {"method", "step", "settled after / s", "centre height / m", "moved aside / mm", "creep / (mm/s)",
@@ -117,6 +117,7 @@ PageTable drape_table(const Table& table, const std::string& scene) {
   return page;
 }
 
+/// The cloth that slides off, by four that answer differently.
 Chart drape_snapshot(const Table& table) {
   Snapshot s;
   s.name = "sphere-drop-aside";
@@ -137,8 +138,6 @@ Chart drape_snapshot(const Table& table) {
   if (!s.panels.empty()) chart.snapshots.push_back(std::move(s));
   return chart;
 }
-
-namespace {
 
 struct Course {
   const char *column, *name, *title, *label;

@@ -117,8 +117,8 @@ Figure deviations(const Table& table, const std::string& commit) {
   return f;
 }
 
-}  // namespace
-
+/// The limits of all scenes: size of the deviation from theory as a figure, where there is one, and a table for each
+/// scene. Empty where the table has no rows.
 std::vector<Chart> limit_charts(const Table& stability, const std::string& commit) {
   if (stability.rows.empty()) return {};
   Figure f = deviations(stability, commit);
@@ -137,8 +137,6 @@ std::vector<Chart> limit_charts(const Table& stability, const std::string& commi
   if (!f.curves.empty()) chart.figure = std::move(f);
   return {std::move(chart)};
 }
-
-namespace {
 
 constexpr auto chapter = "stability";
 

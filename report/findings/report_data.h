@@ -12,8 +12,6 @@
 
 namespace crosscheck {
 
-// The numbers of a scene, picked from the experiments' tables for sentences, charts and the page.
-
 /// The rows of the table Row::table; none where it is not there.
 template <class Row>
 std::vector<Row> rows_of(const Rows& rows) {
@@ -49,13 +47,13 @@ struct MethodData {
     return static_cast<double>(evaluations) * step / scene.duration < 1.5;
   }
   /// The rows of the table Row::table; none where it is not there.
-template <class Row>
-std::vector<Row> rows_of(const Rows& rows) {
-  const Table* table = rows.table(std::string(Row::table));
-  return table ? rows_of<Row>(*table) : std::vector<Row>();
-}
+  template <class Row>
+  std::vector<Row> rows_of(const Rows& rows) {
+    const Table* table = rows.table(std::string(Row::table));
+    return table ? rows_of<Row>(*table) : std::vector<Row>();
+  }
 
-/// "blew up", "solver gave up" and so on, of a run that failed.
+  /// "blew up", "solver gave up" and so on, of a run that failed.
   std::string failure() const { return failure_class(verdict); }
 };
 

@@ -12,7 +12,7 @@
 
 namespace crosscheck {
 
-// What becomes of the energy that does not add up in a long run, in words that a finding and a figure share.
+// The relative energy residual of a long run.
 
 inline constexpr auto residual_bounded = "bounded", residual_none = "zero to round-off";
 
@@ -32,7 +32,7 @@ inline std::string residual_class(const Table& energy, size_t row) {
 }
 inline bool is_bounded(const std::string& word) { return word == residual_bounded || word == residual_none; }
 
-// What experiment `adequacy` says of grids, in powers of the number of cells: words that a finding and a figure share.
+// Grids, from experiment `adequacy`: powers of the number of cells.
 
 inline constexpr auto motion_against_cells = "error of the motion against cells along a side",
                       stiffness_for_sag = "stiffness of all springs for the same sag",
@@ -48,7 +48,7 @@ std::string power_text(const PowerLaw& power);
 /// nothing was fitted.
 std::string bend_sentence(const Rows& rows);
 
-// How little of a scene's model is enough, from table `adequacy-least`: shared by findings and the table of scenes.
+// How little of a scene's model is enough, from table `adequacy-least`.
 
 /// The least model that was found within one tolerance.
 struct LeastModel {
@@ -65,14 +65,13 @@ std::vector<LeastModel> least_models_of(const Rows& rows, const std::string& sce
 /// What stays of the scene's ingredients (table `adequacy`) when those are left out.
 std::vector<std::string> kept_without(const Rows& rows, const std::string& scene, const std::string& left_out);
 
-// How far from the exact angle particles leave a ball, in words that a finding and a figure share.
+// How far from the exact angle particles leave a ball.
 
 /// Of table `sphere-leaving`: mysim's rules together, every other method by itself, at the finest step and beside the
 /// longest. Empty where no particle leaves.
 std::string leaving_sentence(const Table& leaving);
 
-// Where the cloth of scene drop-aside, which should slide off its ball, is in the end: shared by a finding and a
-// figure.
+// Where the cloth of scene drop-aside, which should slide off its ball, is in the end.
 
 /// A method's last state, at the finest step of mysim/symplectic-euler.
 struct DrapeEnd {
@@ -89,7 +88,7 @@ std::vector<DrapeEnd> drape_ends(const Table& drapes);
 /// "At 1.6 s it is off the ball with a and b; with c it still touches it, frozen."
 std::string drape_end_sentence(const std::vector<DrapeEnd>& ends);
 
-// What table `stability` says of theory: row by row, and in sentences for findings and charts alike.
+// Measured stability limits beside theory, from table `stability`.
 
 /// A largest stable step by theory beside the one measured.
 struct StepLimitComparison {

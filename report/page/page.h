@@ -14,8 +14,6 @@
 
 namespace crosscheck {
 
-// The page: one self-contained HTML file that opens with the answer.
-
 /// A picture or a figure already on disk.
 struct PageImage {
   std::filesystem::path file;  // .png or .svg

@@ -1,5 +1,4 @@
-// What hands can do with the page beyond reading it. Without it everything is still there: figures are drawings, tables
-// are tables.
+// What the page does beyond being read. Without it everything is still there: figures are drawings, tables are tables.
 (() => {
   'use strict';
 

@@ -10,8 +10,6 @@
 
 namespace crosscheck {
 
-// The player's part of the page: a poster, the data, and the element that plays them.
-
 /// Styles and script of all players of a page, for its head.
 std::string player_head();
 

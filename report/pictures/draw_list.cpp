@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -12,6 +13,24 @@
 
 namespace crosscheck::render {
 namespace {
+
+/// A body's particles in the frame, with the knowledge of which are fit to be drawn.
+struct TransformedBody {
+  const Body& body;
+  const Scale* scale;              // null: nothing is coloured by value
+  std::vector<Eigen::Vector3f> x;  // in the frame
+  std::vector<bool> valid;         // finite and not absurdly far away
+
+  bool is_valid(int i) const { return valid[std::size_t(i)]; }
+  const Eigen::Vector3f& at(int i) const { return x[std::size_t(i)]; }
+  bool coloured() const { return scale && !body.value.empty(); }
+
+  /// Place on the scale of a particle's value; 0 if the body has no values.
+  float position(int i) const { return coloured() ? scale_position(*scale, body.value[std::size_t(i)]) : 0; }
+
+  /// Median length of those of the edges given that are sound; 0 if there are none.
+  float median_length(const std::vector<std::array<int, 2>>& edges) const;
+};
 
 constexpr float absurd = 200;  // heights of the view: a particle beyond this counts as blown up
 
@@ -35,8 +54,7 @@ void check(const Body& body) {
   as_many(body.tube_colour.size(), body.tubes.size(), "tube colours");
 }
 
-}  // namespace
-
+/// Throws std::runtime_error for an index that no particle has, or for values whose number does not fit.
 TransformedBody transform_body(const Body& body, const Frame& frame, const Scale* scale) {
   check(body);
   TransformedBody placed{body, scale, {}, {}};
@@ -57,8 +75,6 @@ float TransformedBody::median_length(const std::vector<std::array<int, 2>>& edge
   std::nth_element(lengths.begin(), middle, lengths.end());
   return *middle;
 }
-
-namespace {
 
 using Edge = std::array<int, 2>;
 
@@ -124,8 +140,7 @@ void add_curved(const std::array<ClothVertex, 3>& corner, int pieces, DrawList& 
   }
 }
 
-}  // namespace
-
+/// Adds the body's triangles to the list; returns the threads that are not an edge of any triangle.
 std::vector<Edge> add_cloth(const TransformedBody& placed, DrawList& list) {
   std::set<Edge> threads;
   for (const auto& [i, j] : placed.body.threads) threads.insert(sorted(i, j));
@@ -159,15 +174,11 @@ std::vector<Edge> add_cloth(const TransformedBody& placed, DrawList& list) {
   return {apart.begin(), apart.end()};
 }
 
-// Turns the bodies of a panel into what the painter draws.
-//
 // A cloth triangle is flat, a ball is not: with all three corners exactly on a ball of radius R, the middle of an edge
 // of length l dips l^2 / (8 R) into it and the middle of the triangle l^2 / (6 R): the ball would poke through although
-// no particle is inside. The cloth is therefore drawn as a curved surface through the particles (draw_list.cpp); `lift`
+// no particle is inside. The cloth is therefore drawn as a curved surface through the particles; `lift`
 // is the depth that its smaller flat pieces may still dip. The painter moves the cloth towards the eye by as much, in
 // depth only, and takes its shadows from there. Whatever is deeper inside than `lift` is seen inside.
-
-namespace {
 
 // sizes chosen by the view, in heights of the view
 constexpr float few_tubes_radius = 0.0075f, bead_radius = 0.027f, pin_radius = 0.0085f, trail_radius = 0.0032f;

@@ -22,8 +22,6 @@ std::vector<std::string> lines_of(const std::string& text);
 /// comma with its space, or before a plus.
 std::string wrapped(const std::string& text, bool bold, double room);
 
-// Where panels, titles, colour bar and legend go in the picture, in pixels from the top left.
-
 struct Layout {
   double title = 0, text = 0;  // font sizes, pixels
   double subtitle = 0;         // font size of the subtitles, pixels

@@ -27,7 +27,29 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-}  // namespace
+/// Letters, boxes and lines as gnuplot commands, at places in pixels from the top left of a page.
+class GnuplotPage {
+ public:
+  GnuplotPage(int width, int height, const PageFormat& paper, const std::string& output);
+
+  void line(const std::string& command) { text_ += command + "\n"; }
+  /// Text with the middle of its first line at height y, further ones (after line feeds) below; `side` is left, center
+  /// or right. Size in pixels.
+  void label(double x, double y, const char* side, const std::string& text, double size, bool bold, unsigned colour);
+  void box(double left, double top, double right, double bottom, unsigned colour);
+  void stroke(double x0, double y0, double x1, double y1, unsigned colour, double width);
+  /// Ends the page: below all of it the raw pixels in this file, or nothing.
+  void finish(const std::string& pixels);
+
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string at(double x, double y) const;
+
+  int width_, height_;
+  double points_;  // of a pixel
+  std::string text_;
+};
 
 GnuplotPage::GnuplotPage(int width, int height, const PageFormat& paper, const std::string& output)
     : width_(width), height_(height), points_(72 / paper.pixels_per_inch) {
@@ -76,8 +98,6 @@ void GnuplotPage::finish(const std::string& pixels) {
 std::string GnuplotPage::at(double x, double y) const {
   return fmt::format("screen {:.6f}, screen {:.6f}", x / width_, 1 - y / height_);
 }
-
-namespace {
 
 constexpr unsigned title_ink = 0x111111, ink = 0x333333, subtitle_ink = 0x666666, note_ink = 0x9A1F2E;
 

@@ -21,8 +21,6 @@ std::vector<double> stretch_of(const Scene& scene, const Points& x, std::vector<
 /// A round number not below the value: 1, 2 or 5 times a power of ten.
 double round_up(double value);
 
-// From scenes and answers to pictures: what is drawn in which mode, and from where it is seen.
-
 enum class Mode { shaded, stretch, springs, difference, strip };
 /// Throws InputError that lists the modes.
 Mode mode_named(const std::string& name);
@@ -69,8 +67,6 @@ int frame_shown(const Scene& scene, const Result& answer, const Shot& shot);
 
 /// The methods that a picture of the scene shows when nobody names any.
 std::vector<std::string> pictured_methods(const Scene& scene);
-
-// What of a scene is drawn, and as which shapes.
 
 /// What the answer looks like at one of its frames; in mode difference coloured by the distance from `base`.
 render::Body body_of(const Scene& scene, const Result& answer, int frame, Mode mode, const Points* base);

@@ -15,7 +15,7 @@
 
 namespace crosscheck::render {
 
-// Raw pixels go to ffmpeg's stdin; no image is kept. One thread and no tags: the same images give the same bytes on
+// No image is kept. One thread and no tags: the same images give the same bytes on
 // machines of any number of cores.
 
 namespace {

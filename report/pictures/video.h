@@ -11,8 +11,6 @@
 
 namespace crosscheck::render {
 
-// Images one after the other as a clip that every browser and every slide program plays: H.264 in MP4, by ffmpeg.
-
 /// Throws Unsupported that names the package where ffmpeg is absent.
 void require_encoder();
 

@@ -13,8 +13,6 @@
 
 namespace crosscheck {
 
-// Places and colour values as small whole numbers: as fine as a picture can show, and no finer.
-
 /// Places on a lattice of 2^14 points along each axis of the box around them.
 struct QuantisedPositions {
   Vec3 low, unit;  // m: place = low + unit * number, axis by axis

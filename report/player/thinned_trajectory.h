@@ -12,8 +12,6 @@
 
 namespace crosscheck {
 
-// The motions that a player shows, thinned to the frames of the page.
-
 /// The path of one method, or of the truth.
 struct ThinnedTrajectory {
   const Result* answer = nullptr;  // none: the truth
@@ -56,8 +54,6 @@ ColourValues distance_values(const std::vector<ThinnedTrajectory>& all, const Th
 /// Total energy in each frame, J; of a first-order scene the RMS distance from the truth, mm. Empty where unknown.
 std::vector<std::optional<double>> plotted_values(const Scene& scene, const ThinnedTrajectory& shown,
                                                   const ThinnedTrajectory* truth);
-
-// What the player says of a motion.
 
 /// Name, looks and what became of it: "name", "colour", "dash", "stops" (s), "failed" (s or null), "failure", "reason",
 /// "note" (of different laws), "end", and "known": whether it is the truth.

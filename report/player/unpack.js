@@ -22,7 +22,7 @@ async function unpack({count, lag, order, data}) {
   return values;
 }
 
-/** A place of a lattice from the number that wrapped at 2^16 (quantised.h). */
+/** A place of a lattice from the number that wrapped at 2^16 (packed_numbers.h). */
 const wrapped = number => ((number + 24576) & 0xffff) - 24576;
 
 /** Numbers that were packed less those of another motion; it stays at its last frame. */
