@@ -4,11 +4,15 @@
 #include <algorithm>
 
 #include "experiments/tables/adequacy.h"
+#include "experiments/tables/bench.h"
+#include "experiments/tables/cost.h"
 #include "experiments/tables/disagreements.h"
 #include "experiments/tables/energy.h"
 #include "experiments/tables/engines.h"
 #include "experiments/tables/order.h"
+#include "experiments/tables/speed_accuracy.h"
 #include "experiments/tables/sphere.h"
+#include "experiments/tables/stability.h"
 #include "experiments/tables/stiffness.h"
 
 namespace crosscheck {
@@ -21,7 +25,13 @@ using AllRows = std::tuple<                                                   //
     AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,              //
     OrderRow, OrderSlopeRow,                                                  //
     LinkStiffnessRow, NetworkStiffnessRow,                                    //
-    DisagreementRow, DisagreementCurveRow, ContactAngleRow>;
+    DisagreementRow, DisagreementCurveRow, ContactAngleRow,                   //
+    SpeedAccuracyRow, SpeedAccuracyTimingRow, SpeedAccuracyCostRow, ParetoRow<Cost::evaluations>,
+    ParetoRow<Cost::cpu>,                                                    //
+    CheapestRow<Cost::evaluations>, CheapestRow<Cost::cpu>, EngineSpeedRow,  //
+    LimitRow, GrowthRow, MapRow, MapLimitRow, MapCheckRow,                   //
+    SizeCostRow, PhaseCostRow, RooflineRow,                                  //
+    KernelRow, SceneKernelRow, EqualErrorRow, OwnRunRow, SameStepRow, ImplicitStepRow, ThreadsRow>;
 
 struct DictionaryRow {
   std::string table_name, column_name, unit, type, description;
