@@ -1,4 +1,4 @@
-// Edit distances between words, and three ways of quoting for a shell.
+// Edit distances between words, three ways of quoting for a shell, and Base64.
 #include "mysim/base/text.h"
 
 #include <fmt/format.h>
@@ -139,6 +139,19 @@ std::string shell_join(std::span<const std::string> words) {
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_quote(word);
   return line;
+}
+
+std::string base64(std::string_view bytes) {
+  static constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const size_t left = std::min<size_t>(3, bytes.size() - i);
+    unsigned word = 0;
+    for (size_t j = 0; j < 3; ++j) word = word << 8 | (j < left ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (size_t j = 0; j < 4; ++j) out += j <= left ? alphabet[word >> (18 - 6 * j) & 63] : '=';
+  }
+  return out;
 }
 
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Words: the name that a misspelt one probably means, and words quoted for a shell.
+// Words: the name that a misspelt one probably means, and words quoted for a shell; bytes as Base64.
 #pragma once
 
 #include <span>
@@ -28,5 +28,8 @@ std::string shell_quote(const std::string& word);
 
 /// The words with blanks between them.
 std::string shell_join(std::span<const std::string> words);
+
+/// RFC 4648, with padding, in one line.
+std::string base64(std::string_view bytes);
 
 }  // namespace crosscheck
