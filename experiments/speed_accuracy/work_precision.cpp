@@ -24,10 +24,11 @@ std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> poin
 }
 
 const WorkPrecisionPoint* cheapest(const std::vector<WorkPrecisionPoint>& points, double bound,
-                                   const std::string& prefix) {
+                                   bool (MethodFamily::*asked)() const) {
   const WorkPrecisionPoint* best = nullptr;
   for (const WorkPrecisionPoint& p : points)
-    if (p.ok && p.error && *p.error <= bound && p.method.starts_with(prefix) && (!best || p.cost < best->cost))
+    if (p.ok && p.error && *p.error <= bound && (!asked || (family_of(p.method).*asked)()) &&
+        (!best || p.cost < best->cost))
       best = &p;
   return best;
 }
@@ -111,8 +112,9 @@ void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& poi
     // the truth may err as well: what is met is met whatever the truth is within its bar
     const double bound = part * s.motion, left = bound - *s.error_bar;
     std::vector<Cell> row{s.scene, part, bound, std::string(s.difference ? "difference" : "error")};
-    const WorkPrecisionPoint *best = cheapest(points, left), *bullet = cheapest(points, left, "bullet/"),
-                             *ours = cheapest(points, left, "mysim/");
+    const WorkPrecisionPoint *best = cheapest(points, left),
+                             *bullet = cheapest(points, left, &MethodFamily::is_default_peer),
+                             *ours = cheapest(points, left, &MethodFamily::is_subject);
     for (const WorkPrecisionPoint* p : {best, bullet}) {
       row.push_back(p ? Cell(p->method) : Cell());
       row.push_back(p ? Cell(p->setting) : Cell());
@@ -233,7 +235,7 @@ void add_by_engine(const std::string& scene, double part_of_motion, const std::s
     if (const std::string engine = engine_of(p.method);
         std::find(engines.begin(), engines.end(), engine) == engines.end())
       engines.push_back(engine);
-  const WorkPrecisionPoint* ours = cheapest(points, bound, "mysim/");
+  const WorkPrecisionPoint* ours = cheapest(points, bound, &MethodFamily::is_subject);
   for (const std::string& engine : engines) {
     std::vector<WorkPrecisionPoint> its = points;
     std::erase_if(its, [&](const WorkPrecisionPoint& p) { return !p.time || engine_of(p.method) != engine; });
