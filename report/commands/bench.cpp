@@ -166,7 +166,7 @@ void add_equal_error(const Table& table, std::vector<BenchLine>& lines) {
       subject.push_back(scene + " " + peer);
       if (const auto own = number_at(table, i, "cpu of mysim"))
         line.detail = fmt::format("{} : {} {}", nice_seconds(*number_at(table, i, "cpu")), nice_seconds(*own),
-                                  text_at(table, i, "mysim").substr(6));
+                                  short_name(text_at(table, i, "mysim")));
     }
     if (!number_at(table, i, "ratio")) continue;
     (text_at(table, i, "path of mysim") == "best" ? lines.back().best : lines.back().plain) =

@@ -126,7 +126,7 @@ void accuracy(const Scene& scene, const SceneData& facts, std::vector<Finding>& 
 void converged_contact(const Scene& scene, const SceneData& facts, std::vector<Finding>& out) {
   if (!facts.contact_until) return;
   std::string parts;
-  for (const char* name : {ours, "mysim/leapfrog", theirs})
+  for (const std::string& name : {ours, std::string("mysim/leapfrog"), theirs})
     if (const MethodData* m = facts.find(name); m && m->ok() && m->from_contact)
       parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", name, nice_length(*m->from_contact));
   if (!parts.empty())
@@ -171,7 +171,7 @@ std::string depth(double clearance) {
 void contact(const Scene& scene, const SceneData& facts, std::vector<Finding>& out) {
   if (!facts.touched()) return;
   std::string parts;
-  for (const char* name : {ours, theirs, position_based})
+  for (const std::string& name : {ours, theirs, position_based})
     if (const MethodData* m = facts.find(name); m && m->ok() && m->clearance)
       parts += fmt::format("{}{}: {}{}", parts.empty() ? "" : "; ", name, depth(*m->clearance),
                            !m->creep           ? ""
