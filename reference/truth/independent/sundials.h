@@ -1,0 +1,58 @@
+// What SUNDIALS' integrators share: the scene's equations on its vectors, behind the run loop of all engines.
+#pragma once
+
+#include <nvector/nvector_serial.h>
+
+#include <exception>
+#include <memory>
+
+#include "mysim/run/engine.h"
+#include "reference/truth/independent/right_hand_side.h"
+
+namespace crosscheck {
+
+/// Throws SolverFailure that names the call where SUNDIALS returned an error.
+void check_flag(int flag, const char* what);
+
+/// A scene under one of SUNDIALS' integrators, which a derived class makes, on `now()`, with `rate` and `this` as a
+/// SundialsWorld* for its user data.
+class SundialsWorld : public World {
+ public:
+  SundialsWorld(const Scene& scene, const Run& run);
+
+  /// One step of the integrator after the other, ending at samples; between samples its interpolant answers.
+  void step(double, double t_next) override;
+  const State& state(double t) override;
+
+  const RightHandSide& right_hand_side() const { return f_; }
+  virtual long accepted() const = 0;  // steps
+
+ protected:
+  SUNContext context() const { return context_.get(); }
+  N_Vector solution() const { return solution_.get(); }
+  static int rate(realtype t, N_Vector y, N_Vector out, void* self);
+
+ private:
+  /// Takes one step, which ends at `stop` (s) at the latest, and sets t; returns SUNDIALS' flag.
+  virtual int one_step(double stop, double& t) = 0;
+  /// The interpolant at a time within the last step.
+  virtual int interpolate(double t, N_Vector out) = 0;
+
+  struct FreeContext {
+    void operator()(SUNContext c) const { SUNContext_Free(&c); }
+  };
+  struct FreeVector {
+    void operator()(N_Vector v) const { N_VDestroy(v); }
+  };
+
+  RightHandSide f_;
+  StateVector y_, rate_;
+  State state_;
+  double interval_, t_ = 0;  // s, between samples; reached
+  std::exception_ptr thrown_;
+  // freed in the opposite order
+  std::unique_ptr<std::remove_pointer_t<SUNContext>, FreeContext> context_;
+  std::unique_ptr<std::remove_pointer_t<N_Vector>, FreeVector> solution_, interpolant_;
+};
+
+}  // namespace crosscheck
