@@ -107,7 +107,7 @@ void cost_of_size(const Request& request, int n, Rows& rows) {
   const Scene scene = sized_cloth(n);
   std::vector<Method> methods, asked = methods_of(request, scene);
   // beside engines that know networks only: the same rule without the kernel for regular cloths
-  if (request.methods.empty()) asked.push_back(find_method("mysim/symplectic-euler+plain"));
+  if (request.methods.empty()) asked.push_back(find_method(std::string(subject().representative) + "+plain"));
   for (Method& method : asked) {
     if (method.adaptive) continue;  // how long its steps are is its own choice
     if (run_method(method, scene, steps_of(scene, 1), {}).verdict != Verdict::unsupported)
@@ -207,7 +207,7 @@ void cost_of_phases(const Request& request, int n, Rows& rows) {
   const Method ours = find_method("mysim/leapfrog+plain"), fused = find_method("mysim/leapfrog");
   std::vector<Method> others;
   for (Method& m : methods_of(request, above))
-    if (m.name.starts_with("bullet/") && run_method(m, above, steps_of(above, 1), {}).verdict != Verdict::unsupported)
+    if (m.family().is_default_peer() && run_method(m, above, steps_of(above, 1), {}).verdict != Verdict::unsupported)
       others.push_back(std::move(m));
   const long steps = steps_to_time(ours, above);
   std::vector<std::function<double()>> runs{springs_alone(plain), forces_alone(plain), step_of(ours, plain, steps),

@@ -34,11 +34,6 @@ Scene everything() {
       "all-at-once");
 }
 
-bool solves_whole_step(const Method& method) {
-  if (method.stepper) return method.stepper->evaluations == 0;
-  return method.name.find("implicit") != std::string::npos;
-}
-
 /// Steps of the scene's step that each method's run is given, so that all cover the same time: as many as Bullet's
 /// explicit world, the dearer one of those with a step as short, takes in a budget. A full run's allows all
 /// on a cloth of 10 x 10.
@@ -57,7 +52,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
   run.duration = step * static_cast<double>(steps);
   run.samples = samples;
   run.timed = false;
-  run.step = request.step == 0 && solves_whole_step(method) ? longer * step : step;
+  run.step = request.step == 0 && method.implicit ? longer * step : step;
   if (steps < all_steps)
     rows.notes.push_back(fmt::format("energy takes {} steps instead of {} on {}: its {} particles cost much{}", steps,
                                      all_steps, scene.name, scene.model.particles.size(),

@@ -73,12 +73,8 @@ std::optional<double> gain(const std::string& rule, double y) {
 }
 
 /// The rule that a method follows on one linear spring.
-std::string rule_on_one_spring(const Method& method) {
-  // one spring swept once, and a link let fall and pulled back, are backward Euler; so is one Newton step
-  if (method.name.starts_with("mysim/xpbd") || method.name.starts_with("bullet/pbd") ||
-      method.name.starts_with("bullet/deformable-implicit") || method.rule == "implicit-euler+linear")
-    return "implicit-euler";
-  return method.rule;
+const std::string& rule_on_one_spring(const Method& method) {
+  return method.on_one_spring.empty() ? method.rule : method.on_one_spring;
 }
 
 }  // namespace

@@ -19,9 +19,6 @@ namespace crosscheck {
 
 namespace {
 
-/// The method that the others are set against: the rule that Bullet's explicit world follows.
-constexpr auto reference_rule = "mysim/symplectic-euler";
-
 /// Nothing when the trajectories have no common time.
 std::optional<double> largest(const std::vector<EngineTimeRow>& rows, std::optional<double> EngineTimeRow::*member,
                               double until) {
@@ -43,14 +40,16 @@ std::optional<double> predicted_limit(const Method& method, const Scene& scene, 
 /// Table SCENE-statistics: what perturbed runs have in common.
 void add_statistics(const Request& request, const Scene& scene, const Run& run, Results& answers, Rows& rows) {
   Table table = table_of<StatisticRow>(scene.name + "-statistics");
-  // the rules that stand for the two engines: sixteen runs of every method would tell no more
-  for (const char* name : {reference_rule, "bullet/deformable-explicit"}) {
+  // the rules that stand for the engines: sixteen runs of every method would tell no more
+  for (const MethodFamily& family : method_families()) {
+    if (!family.by_default()) continue;
     const auto methods = methods_of(request, scene);
-    const auto asked = std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
+    const auto asked =
+        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == family.representative; });
     if (asked == methods.end()) continue;
     if (!request.full && estimated_seconds(*asked, scene, run) > 0.3) {
-      rows.notes.push_back(
-          fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them", name, scene.name));
+      rows.notes.push_back(fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them",
+                                       family.representative, scene.name));
       continue;
     }
     // who cannot take the scene, or failed on it, has no statistics
@@ -72,9 +71,9 @@ void engines_on(const Request& request, const Scene& scene, Results& answers, Ro
   Table table = table_of<EngineTimeRow>(scene.name + "-engines");
   const auto truth = truth_of(scene, run);
   // differences from a run that failed would tell nothing
-  const Result& by_rule = result_of(request, scene, find_method(reference_rule), answers);
+  const Result& by_rule = result_of(request, scene, find_method(std::string(subject().representative)), answers);
   const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
-  const Method probe = find_method(reference.frames() > 0 ? reference_rule : scene.method);
+  const Method probe = find_method(reference.frames() > 0 ? std::string(subject().representative) : scene.method);
   const Growth growing = growth_of(probe, scene, run, reference.frames() > 0 ? &reference : nullptr);
   const double growth = growing.until(scene.window);
   const double omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);

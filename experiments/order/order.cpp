@@ -66,7 +66,7 @@ void order_on(const Request& request, const Scene& scene, Rows& rows) {
   }
   const double motion = motion_of(truth->trajectory);
   for (const Method& method : methods_of(request, scene)) {
-    if (method.name.starts_with("truth/") || (method.stepper && method.name.find('+') != std::string::npos)) continue;
+    if (method.family().role == Role::truth || (method.stepper && method.name.find('+') != std::string::npos)) continue;
     if (method.adaptive) {
       adaptive.insert(method.name);
       continue;

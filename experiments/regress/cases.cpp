@@ -83,7 +83,7 @@ double seconds(const Case& q) {
   Run run = default_run(q.scene);
   run.duration = q.scene.window, run.samples = 1;
   // a program of its own has to start
-  return estimated_seconds(q.method, q.scene, run) + (q.method.name.starts_with("bullet32/") ? 0.2 : 0);
+  return estimated_seconds(q.method, q.scene, run) + q.method.family().start;
 }
 
 }  // namespace
@@ -93,9 +93,7 @@ std::vector<std::string> scenes_of(const Selection& selection) {
   return {shipped_scenes().begin(), shipped_scenes().end()};
 }
 
-bool selected_by_default(const std::string& method) {
-  return method.starts_with("mysim/") || method.starts_with("bullet");
-}
+bool selected_by_default(const std::string& method) { return family_of(method).is_engine(); }
 
 bool passes(const std::string& filter, const std::string& scene, const std::string& method) {
   return filter.empty() || fnmatch(filter.c_str(), scene.c_str(), FNM_EXTMATCH) == 0 ||

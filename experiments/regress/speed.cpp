@@ -71,10 +71,6 @@ namespace {
 
 constexpr double long_enough = 5e-3;  // s of CPU time by the estimate: a round of all cases takes half a second
 
-bool in_process(const Method& method) {
-  return method.name.starts_with("mysim/") || method.name.starts_with("bullet/");
-}
-
 /// From the start up to the end of the window, as far as that is not long; the same on every machine.
 Run first_steps(const Scene& scene, const Method& method) {
   Run run = default_run(scene);
@@ -150,14 +146,14 @@ std::string SpeedCase::in_words() const { return fmt::format("{} under {}", scen
 
 std::vector<SpeedCase> speed_cases(const Selection& selection, const std::optional<Method>& against) {
   std::vector<Method> methods = selection.methods.empty() ? all_methods() : selection.methods;
-  std::erase_if(methods, [](const Method& method) { return !in_process(method); });
+  std::erase_if(methods, [](const Method& method) { return !method.family().in_process(); });
   std::vector<SpeedCase> all;
   const auto add = [&](const Scene& scene, const Method& method) {
     SpeedCase q{scene, method, against};
     q.run = first_steps(scene, method);
     if (passes(selection.filter, scene.name, method.name)) all.push_back(std::move(q));
   };
-  if (against && !in_process(*against)) return all;
+  if (against && !against->family().in_process()) return all;
   for (const std::string& name : scenes_of(selection)) {
     const Scene scene = load_scene(name);
     const std::string own = find_method(scene.method).name;

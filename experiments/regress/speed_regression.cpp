@@ -228,7 +228,7 @@ std::string nothing_selected(const SpeedRun& run) {
   std::vector<Method> methods = run.selection.methods;
   if (run.against) methods.push_back(*run.against);
   for (const Method& method : methods)
-    if (!method.name.starts_with("mysim/") && !method.name.starts_with("bullet/")) outside = method.name;
+    if (!method.family().in_process()) outside = method.name;
   return outside.empty()
              ? "no speed: none is asked of what the filter leaves"
              : fmt::format("no speed: {} is no method inside this program, and has a clock of its own", outside);

@@ -15,14 +15,11 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-bool solves(const Method& method) {
-  const Stepper* rule = stepper_of(method);
-  return (rule && rule->evaluations == 0) || method.name.starts_with("bullet/deformable-implicit");
-}
+bool solves(const Method& method) { return method.implicit && !method.family().single_precision; }
 
 bool single(const Method& method, const CaseRun& case_run) {
   if (case_run.outcome.readback) return case_run.outcome.readback->precision == "single";
-  return method.name.starts_with("bullet32/");
+  return method.family().single_precision;
 }
 
 /// To two digits, which is all that a tolerance means.

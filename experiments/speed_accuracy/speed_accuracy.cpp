@@ -142,7 +142,7 @@ std::vector<Method> methods_for(const Request& request, const Scene& scene) {
   if (!request.methods.empty()) return methods;
   // multistep formulas take hundreds of times as long on springs without damping: `bench` says so on one scene
   for (Method& method : all_methods())
-    if (method.name.starts_with("odeint/") || method.name == "sundials/arkode") methods.push_back(std::move(method));
+    if (method.family().role == Role::integrator && !method.multistep) methods.push_back(std::move(method));
   return methods;
 }
 
@@ -269,14 +269,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
   rows.add(table);
 }
 
-std::string build_of(const std::string& method) {
-  if (method.starts_with("mysim/")) return "this build";
-  if (method.starts_with("bullet/")) return "Debian's library (generic x86-64, -O2), called from this build";
-  if (method.starts_with("odeint/")) return "headers of the library, compiled in this build";
-  if (method.starts_with("sundials/"))
-    return "Debian's library (generic x86-64, -O2), on a right-hand side of this build";
-  return "a program of its own";
-}
+std::string build_of(const std::string& method) { return std::string(family_of(method).build_text); }
 
 std::vector<Point> speed_accuracy_points(const Request& request) {
   std::vector<Point> points = one_point_per_scene(request, "speed-accuracy", speed_accuracy_on);

@@ -23,10 +23,11 @@ std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> poin
 }
 
 const WorkPrecisionPoint* cheapest(const std::vector<WorkPrecisionPoint>& points, double bound,
-                                   const std::string& prefix) {
+                                   bool (MethodFamily::*asked)() const) {
   const WorkPrecisionPoint* best = nullptr;
   for (const WorkPrecisionPoint& p : points)
-    if (p.ok && p.error && *p.error <= bound && p.method.starts_with(prefix) && (!best || p.cost < best->cost))
+    if (p.ok && p.error && *p.error <= bound && (!asked || (family_of(p.method).*asked)()) &&
+        (!best || p.cost < best->cost))
       best = &p;
   return best;
 }
@@ -115,8 +116,9 @@ void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& poi
     // the truth may err as well: what is met is met whatever the truth is within its bar
     const double bound = part * s.motion, left = bound - *s.error_bar;
     CheapestRow<kind> row{.scene = s.scene, .part_of_motion = part, .bound = bound, .measure = s.measure};
-    const WorkPrecisionPoint *best = cheapest(points, left), *bullet = cheapest(points, left, "bullet/"),
-                             *ours = cheapest(points, left, "mysim/");
+    const WorkPrecisionPoint *best = cheapest(points, left),
+                             *bullet = cheapest(points, left, &MethodFamily::is_default_peer),
+                             *ours = cheapest(points, left, &MethodFamily::is_subject);
     if (best) {
       row.method = best->method, row.setting = best->setting, row.asked = best->asked, row.cost = best->cost;
       row.distance = best->error;
@@ -176,7 +178,7 @@ void add_by_engine(const std::string& scene, double part_of_motion, Measure meas
     if (const std::string engine = engine_of(p.method);
         std::find(engines.begin(), engines.end(), engine) == engines.end())
       engines.push_back(engine);
-  const WorkPrecisionPoint* ours = cheapest(points, bound, "mysim/");
+  const WorkPrecisionPoint* ours = cheapest(points, bound, &MethodFamily::is_subject);
   for (const std::string& engine : engines) {
     std::vector<WorkPrecisionPoint> its = points;
     std::erase_if(its, [&](const WorkPrecisionPoint& p) { return !p.time || engine_of(p.method) != engine; });

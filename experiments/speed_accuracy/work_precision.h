@@ -7,6 +7,7 @@
 
 #include "experiments/tables/speed_accuracy.h"
 #include "experiments/timing/timing.h"
+#include "reference/method.h"
 
 namespace crosscheck {
 
@@ -28,10 +29,9 @@ struct WorkPrecisionPoint {
 /// below the floor (m) counts as the floor: among those below it nobody is better.
 std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> points, double floor);
 
-/// The cheapest run with an error of at most `bound`, of the methods whose name begins with `prefix`; null where there
-/// is none.
+/// The cheapest run with an error of at most `bound`, of the families asked for; null where there is none.
 const WorkPrecisionPoint* cheapest(const std::vector<WorkPrecisionPoint>& points, double bound,
-                                   const std::string& prefix = "");
+                                   bool (MethodFamily::*asked)() const = nullptr);
 
 /// Other methods whose cheapest run within the bound cannot be told from the best one's by their times, given the noise
 /// (relative).

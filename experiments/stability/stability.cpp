@@ -60,7 +60,7 @@ void add_growth(const Method& method, const Stepper& rule, const BaseState& base
 
 /// Why a method is not asked, or nothing.
 std::string why_not(const Method& method) {
-  if (method.name.starts_with("truth/")) return "truth takes no steps";
+  if (method.family().role == Role::truth) return "truth takes no steps";
   if (method.adaptive) return "steps that follow a tolerance";
   if (method.name.ends_with("+sticky")) return "its contact rule changes no limit";
   return "";
@@ -72,13 +72,12 @@ bool is_dear(const Method& method, const Scene& scene) {
   return !is_small(scene) && (!rule || std::isinf(rule->limit(1, 0)));
 }
 
-/// The methods whose maps are drawn: the explicit rules that differ, and Bullet's worlds.
+/// The methods whose maps are drawn: the explicit rules that differ, and the peers' methods.
 bool mapped(const Request& request, const Method& method) {
   if (!request.methods.empty() || request.full) return true;
-  for (const char* name : {"mysim/explicit-euler", "mysim/rk4", "mysim/symplectic-euler", "bullet/deformable-explicit",
-                           "bullet/deformable-implicit", "bullet/pbd"})
-    if (method.name == name) return true;
-  return false;
+  if (!method.family().is_subject()) return method.family().by_default();
+  const std::string rule = short_name(method.name);
+  return rule == "explicit-euler" || rule == "rk4" || rule == "symplectic-euler";
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <string_view>
 
+#include "mysim/base/errors.h"
+
 namespace crosscheck {
 namespace {
 
@@ -70,6 +72,23 @@ std::string closest_match(std::string_view word, const std::vector<std::string>&
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
   const std::string name = closest_match(word, names);
   return name.empty() ? "" : "; did you mean '" + name + "'?";
+}
+
+void refuse_option(const std::string& method, const std::string& option, const std::string& known) {
+  std::vector<std::string> options;
+  for (size_t at = known.find('+'); at != std::string::npos; at = known.find('+', at + 1))
+    options.push_back(known.substr(at + 1, known.find_first_of(" ,;", at) - at - 1));
+  throw InputError(fmt::format("method {}: unknown option '+{}'; expected {}{}", method, option, known,
+                               did_you_mean(option, options)));
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  size_t begin = 0;
+  for (size_t end; (end = text.find(separator, begin)) != std::string_view::npos; begin = end + 1)
+    parts.emplace_back(text.substr(begin, end - begin));
+  parts.emplace_back(text.substr(begin));
+  return parts;
 }
 
 namespace {

@@ -170,7 +170,7 @@ void add_equal_error(const Rows& rows, std::vector<BenchLine>& lines) {
       subject.push_back(row.scene + " " + row.peer);
       if (row.mysim_cpu)
         line.detail =
-            fmt::format("{} : {} {}", nice_seconds(*row.cpu), nice_seconds(*row.mysim_cpu), row.mysim->substr(6));
+            fmt::format("{} : {} {}", nice_seconds(*row.cpu), nice_seconds(*row.mysim_cpu), short_name(*row.mysim));
     }
     if (!row.ratio) continue;
     (row.path == "best" ? lines.back().best : lines.back().plain) =

@@ -71,7 +71,7 @@ std::vector<Chart> agreement_charts(const ChartInput& input) {
     f.x = {"t / s", false, 0.0, scene.duration};
     f.y = {"RMS difference / m", true, 1e-17, std::nullopt};  // below round-off nothing is told
     for (const MethodData& m : facts.methods) {
-      if (!m.ok() || m.method.starts_with("mysim/")) continue;
+      if (!m.ok() || family_of(m.method).is_subject()) continue;
       Curve curve{m.method, style_of(m.method), points_of(*table, m.method, "difference", true)};
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }
@@ -225,7 +225,7 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
                                 : fmt::format("{} ({} at {:.3g} s)", m.method, m.failure(), m.end));
       continue;
     }
-    const bool inferred = !m.method.starts_with("mysim/");
+    const bool inferred = !family_of(m.method).is_subject();
     Curve curve{m.method + (inferred ? " (inferred)" : ""), style_of(m.method),
                 points_of(table, m.method, "contact loss", false)};
     if (curve.points.empty()) continue;

@@ -81,10 +81,10 @@ SceneData scene_data(const std::string& scene, const Rows& result) {
   return facts;
 }
 
-const MethodData* most_accurate(const SceneData& scene, std::string_view engine) {
+const MethodData* most_accurate(const SceneData& scene, bool (MethodFamily::*asked)() const) {
   const MethodData* best = nullptr;
   for (const MethodData& m : scene.methods)
-    if (m.judged() && m.method.starts_with(engine) && (!best || *m.error < *best->error)) best = &m;
+    if (m.judged() && (!asked || (family_of(m.method).*asked)()) && (!best || *m.error < *best->error)) best = &m;
   return best;
 }
 
@@ -93,8 +93,8 @@ bool ties_with(const MethodData& run, const MethodData& other, const SceneData& 
 }
 
 bool is_adaptive(const std::string& method) {
-  const auto all = all_methods();
-  return std::ranges::any_of(all, [&](const Method& m) { return m.name == method && m.adaptive; });
+  const Method* m = builtin_method(method);
+  return m && m->adaptive;
 }
 
 std::string nice(double value) {

@@ -9,6 +9,7 @@
 #include "experiments/experiment.h"
 #include "experiments/tables/typed.h"
 #include "mysim/scene/scene.h"
+#include "reference/method.h"
 
 namespace crosscheck {
 
@@ -41,7 +42,7 @@ struct MethodData {
   bool supported() const { return verdict != Verdict::unsupported; }
   bool ok() const { return verdict == Verdict::ok; }
   /// Whether it came to its end and is no truth itself, and how far it is from the truth is known.
-  bool judged() const { return ok() && error && !method.starts_with("truth/"); }
+  bool judged() const { return ok() && error && family_of(method).role != Role::truth; }
   /// Whether it takes one force evaluation a step.
   bool single_evaluation(const Scene& scene) const {
     return static_cast<double>(evaluations) * step / scene.duration < 1.5;
@@ -73,8 +74,8 @@ struct SceneData {
   bool touched() const;
 };
 
-/// The run nearest to the truth of the methods whose names begin so, or null.
-const MethodData* most_accurate(const SceneData& scene, std::string_view engine);
+/// The run nearest to the truth of the families asked for, or null.
+const MethodData* most_accurate(const SceneData& scene, bool (MethodFamily::*asked)() const = nullptr);
 /// Whether a run is as near to the truth as another: errs by at most 5 % more, or below the truth's error bar.
 bool ties_with(const MethodData& run, const MethodData& other, const SceneData& scene);
 

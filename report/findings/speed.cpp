@@ -18,7 +18,7 @@ namespace {
 bool tried_bullet(const Rows& result, const std::string& scene) {
   const Table* runs = result.table("speed-accuracy");
   for (size_t i = 0; runs && i < runs->rows.size(); ++i)
-    if (text_at(*runs, i, "scene") == scene && text_at(*runs, i, "method").starts_with("bullet/") &&
+    if (text_at(*runs, i, "scene") == scene && family_of(text_at(*runs, i, "method")).is_default_peer() &&
         text_at(*runs, i, "verdict") != "unsupported")
       return true;
   return false;
@@ -151,7 +151,7 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
 void step_of_both(const Rows& result, std::vector<Finding>& out) {
   const Table* t = result.table("size-cost");
   if (!t) return;
-  const std::string plain = std::string(ours) + "+plain";
+  const std::string plain = ours + "+plain";
   std::map<long, std::map<std::string, double>> per_side;  // s per step
   for (size_t i = 0; i < t->rows.size(); ++i)
     per_side[std::get<long>(t->at(i, "side"))][text_at(*t, i, "method")] = number_at(*t, i, "cpu per step", 0);

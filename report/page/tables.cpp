@@ -227,7 +227,7 @@ std::string methods_html() {
       "class=\"methods\"><thead><tr><th>method</th><th>what it is</th><th>order</th><th>force evaluations a step</th>"
       "<th>stable while (ω: fastest vibration, γ: drag, h: step)</th></tr></thead><tbody>\n";
   for (const Method& method : all_methods())
-    if (!method.name.starts_with("truth/")) out += row_of(method);
+    if (method.family().role != Role::truth) out += row_of(method);
   return out + "</tbody></table></div>\n";
 }
 

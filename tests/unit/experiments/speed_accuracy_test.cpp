@@ -104,8 +104,8 @@ TEST(SpeedAccuracy, TheCheapestWithinABoundOnBothSidesOfIt) {
   const auto points = tiny();
   EXPECT_EQ(cheapest(points, 0.01)->cost, 4);
   EXPECT_EQ(cheapest(points, 0.0099)->cost, 8);
-  EXPECT_EQ(cheapest(points, 0.02, "bullet/")->cost, 5);
-  EXPECT_EQ(cheapest(points, 0.0199, "bullet/")->cost, 16);
+  EXPECT_EQ(cheapest(points, 0.02, &MethodFamily::is_default_peer)->cost, 5);
+  EXPECT_EQ(cheapest(points, 0.0199, &MethodFamily::is_default_peer)->cost, 16);
   EXPECT_EQ(cheapest(points, 1e-4), nullptr);
   // mysim/d at 4.05 overlaps 4; bullet/b does not meet the bound
   EXPECT_EQ(statistically_tied(points, *cheapest(points, 0.01), 0.01, 0.01), std::vector<std::string>{"mysim/d"});
