@@ -9,6 +9,7 @@
 #include "experiments/advise/fit.h"
 #include "experiments/measures.h"
 #include "experiments/scenes/scenes.h"
+#include "mysim/scene/toml.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
 

@@ -186,7 +186,7 @@ TEST(SharedWords, TheDrapeSaysWhoLeftTheBallAndWhoTouchesIt) {
   t.add({"drop-aside", ours, "ok", 2e-3, 1.6, -0.7, Cell()});
   t.add({"drop-aside", ours, "ok", 1e-3, 1.6, -0.7, Cell()});
   t.add({"drop-aside", theirs, "energy", 1e-3, 0.3, Cell(), Cell()});
-  t.add({"drop-aside", position_based, "ok", 1e-3, 1.6, 0.3, 0.0208});
+  t.add({"drop-aside", position_based(), "ok", 1e-3, 1.6, 0.3, 0.0208});
   t.add({"drop-aside", sticky_sphere, "ok", 1e-3, 1.6, 0.3, 0.});
   EXPECT_EQ(drape_end_sentence(drape_ends(t)),
             "At 1.6 s it is off the ball with mysim/symplectic-euler; with bullet/pbd it still touches it, sliding at "
