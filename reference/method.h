@@ -103,7 +103,7 @@ const Stepper* stepper_of(const Method& method);
 /// Splits "a,b,c" and finds each.
 std::vector<Method> find_methods(const std::string& list);
 
-/// Runs the method under a watch for failures (mysim/run/observers.h), which may ask `reach`; Unsupported becomes an
+/// Runs the method under a DivergenceMonitor (mysim/run/observers.h), which may ask `bounds`; Unsupported becomes an
 /// outcome with that verdict.
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds = motion_bounds_of);

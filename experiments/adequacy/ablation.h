@@ -39,10 +39,10 @@ struct AblatedModel {
 /// least error. It ends where the next step errs by more than `most` (m), that step included, or nothing is left.
 std::vector<AblatedModel> ablations_of(const Scene& scene, const ReferenceSolution& reference, double most);
 
-/// The rung that leaves out the most within the tolerance (m); the full model where nothing can be left out.
+/// The model that leaves out the most within the tolerance (m); the full model where nothing can be left out.
 const AblatedModel& least_model(const std::vector<AblatedModel>& ladder, double tolerance);
 
-/// The error of a model of the scene, m: its distance from `truth` over time by the yardstick's rule; empty where the
+/// The error of a model of the scene, m: its distance from `truth` over time by the reference's rule; empty where the
 /// run failed.
 std::optional<double> model_error(const Scene& model, const ReferenceSolution& reference, const Trajectory& truth,
                                   Outcome& outcome);

@@ -30,8 +30,9 @@ struct BenchSuite {
 /// quick: within 90 s on a quiet machine of two cores; full: the largest sheet and every peer on each.
 BenchSuite bench_suite(bool full);
 
-/// The tables of threads.h, and then those of kernels.h, kernels.h, peers.h, peers.h and implicit_step.h,
-/// measured on one core, which the process keeps to from then on. Notes say what was left out and why.
+/// The tables bench-*-cost: threads first, and then kernels, scenes, peers at the same error and at the same step, and
+/// the implicit step, measured on one core, which the process keeps to from then on. Notes say what was left out and
+/// why.
 Rows bench(const BenchSuite& plan);
 
 }  // namespace crosscheck

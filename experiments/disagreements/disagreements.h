@@ -25,8 +25,8 @@ struct DirectionError {
 std::vector<DirectionError> direction_errors(const std::string& method, Scene scene, const std::vector<double>& angles);
 
 // Known disagreements: where Bullet's worlds answer otherwise than the scene asks, each in the smallest scene that
-// shows it, with its cause and the measured size of its effect. The table is in experiments/tables/table.cpp; a new one
-// is a scene file in scenes/disagreements/ and a row.
+// shows it, with its cause and the measured size of its effect. The table is in experiments/disagreements/table.cpp; a
+// new one is a scene file in scenes/disagreements/ and a row.
 
 /// One curve of the figure: a method at a step, perhaps on the scene with another spring law.
 struct Variant {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "experiments/stability/spectrum.h"
+#include "experiments/tables/stability.h"
 #include "reference/method.h"
 
 namespace crosscheck {
@@ -69,24 +70,15 @@ struct PerturbedRun {
   Verdict effective_verdict() const { return verdict == Verdict::ok && !held() ? Verdict::energy : verdict; }
 };
 
-/// Runs the method from the subject's state, kicked (or from the start, unkicked, where the scene has no rest).
+/// Runs the method from the base state, perturbed (or from the start, unperturbed, where the scene has no rest).
 /// Further observers see the run too.
 PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps,
                            const Perturbation& perturbation, std::vector<Observer*> observers = {});
-/// The run of such a trial.
+/// The run that run_perturbed() makes.
 Run run_of_perturbed(double h, long steps);
-/// The subject's scene with the kick in its start.
+/// The base scene with the perturbation in its start.
 Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation);
 
-struct MeasuredLimit {
-  enum Kind { found, no_step, every_step, refused_above, unsupported } kind = found;
-  double held = 0, failed = 0;  // s: the bracket; 0 where there is none
-  std::string reason;           // of what was refused
-  /// s, the bracket's geometric middle.
-  double limit() const { return kind == found ? std::sqrt(held * failed) : 0; }
-  /// The bracket's width over its lower end; 0 where there is none.
-  double precision() const { return kind == found ? failed / held - 1 : 0; }
-};
 /// The largest step that `holds`: doubled and halved from `first` until one holds and one fails, then halved in the
 /// logarithm until failed / held - 1 <= precision. Not below `lowest`, not above `highest`; from `fine_above` to five
 /// times that upwards in tenths.

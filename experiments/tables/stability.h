@@ -1,7 +1,8 @@
 // The tables of experiment `stability`.
 #pragma once
 
-#include "experiments/stability/limit.h"
+#include <cmath>
+
 #include "experiments/tables/typed.h"
 
 namespace crosscheck {
@@ -23,6 +24,17 @@ inline std::string_view name_of(PredictionKind kind) {
 template <>
 struct EnumRange<PredictionKind> {
   static constexpr PredictionKind first = PredictionKind::limit, last = PredictionKind::none;
+};
+
+/// What runs say of the largest step that holds.
+struct MeasuredLimit {
+  enum Kind { found, no_step, every_step, refused_above, unsupported } kind = found;
+  double held = 0, failed = 0;  // s: the bracket; 0 where there is none
+  std::string reason;           // of what was refused
+  /// s, the bracket's geometric middle.
+  double limit() const { return kind == found ? std::sqrt(held * failed) : 0; }
+  /// The bracket's width over its lower end; 0 where there is none.
+  double precision() const { return kind == found ? failed / held - 1 : 0; }
 };
 
 inline std::string_view name_of(MeasuredLimit::Kind kind) {

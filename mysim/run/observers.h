@@ -161,7 +161,7 @@ class MotionBoundsCache {
 /// asked of hard distances, whose own forces may balance, nor where no velocities are told.)
 class DivergenceMonitor : public StatePairObserver {
  public:
-  /// Of a run of the scene; both must outlive it. `reach` is asked how far the true motion goes.
+  /// Of a run of the scene; both must outlive it. `bounds` is asked how far the true motion goes.
   DivergenceMonitor(const Scene& scene, const Run& run, MotionBoundsFunction bounds = motion_bounds_of);
   /// Of a caller that knows no more than the model. The energy at the start is that of `start`, where engines may not
   /// tell velocities; else of the first state shown.

@@ -1,8 +1,8 @@
 // Springs. With d = x_a - x_b and L = |d|, the force on a is -T(L) d / L and on b the opposite; the law T is
 //   hooke         T = k (L - r), energy k (L - r)^2 / 2;
-//   bullet-link   T = k L (L^2 - r^2) / (L^2 + r^2), energy k/2 (L^2 - r^2 - 2 r^2 ln((L^2 + r^2) / (2 r^2))): what
-//   Bullet's
-//                 position-based links follow as the step goes to 0 (its projection per step, divided by h^2).
+//   bullet-link   T = k L (L^2 - r^2) / (L^2 + r^2), energy k/2 (L^2 - r^2 - 2 r^2 ln((L^2 + r^2) / (2 r^2))): this is
+//   what
+//                 Bullet's position-based links follow as the step goes to 0 (its projection per step over h^2).
 #pragma once
 
 #include <string_view>

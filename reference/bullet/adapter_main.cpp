@@ -1,7 +1,6 @@
 // Bullet as a program of the engine protocol: the same worlds in another precision, or built against another Bullet.
 //
-//   PROGRAM scene.json OUTDIR      options: world=deformable-explicit (default), world=pbd ...; further ones go to the
-//   world
+//   PROGRAM scene.json OUTDIR [world=deformable-explicit | world=pbd ...] [options of that world]
 
 #include <cstdio>
 #include <filesystem>

@@ -169,8 +169,8 @@ std::string normal_error_text(const Scene& scene, double voxel);
 // What all Bullet worlds do alike: a body and its obstacles go in, states come out, and all is taken down in the right
 // order.
 
-/// BulletWorld: a soft-body world of Bullet. The derived class makes world_ and soft_body_, calls enter(), and calls
-/// remove_all() in its destructor, since its forces and solvers must outlive the world.
+/// BulletWorld: a soft-body world of Bullet. The derived class makes world_ and soft_body_, calls add_to_world(), and
+/// calls remove_all() in its destructor, since its forces and solvers must outlive the world.
 template <class BulletWorld>
 class SoftBodyWorld : public World {
  public:

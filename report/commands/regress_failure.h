@@ -25,22 +25,22 @@ struct FailureDetails {
   std::optional<Result> old_answer, new_answer;  // for pictures; of a baseline the scene's own method only
 };
 
-/// Runs the question again, with --against under both methods. Everything may be empty: a refused run has no curve.
+/// Runs the case again, with --against under both methods. Everything may be empty: a refused run has no curve.
 FailureDetails failure_details(const Case& test_case, const std::vector<Comparison>& rows,
                                const Regression& regression);
 
-/// The failed questions that are worth a picture, at most `most`: of each scene one first, its own method before
+/// The failed cases that are worth a picture, at most `most`: of each scene one first, its own method before
 /// others, of scenes as they are before those without an ingredient, then those that are off most.
 std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vector<Comparison>& rows, int most);
 
-// Figures and pictures of a failed question.
+// Figures and pictures of a failed case.
 
-/// Draws into OUT/figures what the evidence has: both curves, the difference over time beside its tolerance, and both
+/// Draws into OUT/figures what the details have: both curves, the difference over time beside its tolerance, and both
 /// shapes side by side. What cannot be drawn is said in `problems`.
-std::vector<PageImage> failure_figures(const FailureDetails& evidence, const Provenance& lines,
+std::vector<PageImage> failure_figures(const FailureDetails& details, const Provenance& lines,
                                        const std::filesystem::path& out, std::vector<std::string>& problems);
 
 /// When and how the two part, in a sentence or two.
-std::string describe_divergence(const FailureDetails& evidence);
+std::string describe_divergence(const FailureDetails& details);
 
 }  // namespace crosscheck

@@ -47,13 +47,6 @@ struct MethodData {
   bool single_evaluation(const Scene& scene) const {
     return static_cast<double>(evaluations) * step / scene.duration < 1.5;
   }
-  /// The rows of the table Row::table; none where it is not there.
-  template <class Row>
-  std::vector<Row> rows_of(const Rows& rows) {
-    const Table* table = rows.table(std::string(Row::table));
-    return table ? rows_of<Row>(*table) : std::vector<Row>();
-  }
-
   /// "blew up", "solver gave up" and so on, of a run that failed.
   std::string failure() const { return failure_class(verdict); }
 };

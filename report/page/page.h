@@ -22,8 +22,7 @@ struct PageImage {
   std::string runs = {};   // which runs its markers or cells play: the key of PlayableRuns; empty: none
 };
 
-/// The runs of a figure, as the player has them: one file of JSON for each method (report/player/run_motions.h,
-/// report/player/run_motions.h).
+/// The runs of a figure, as the player has them: one file of JSON for each method (report/player/run_motions.h).
 struct PlayableRuns {
   std::string key;
   std::string scene;  // whose player's data they are added to

@@ -77,8 +77,8 @@ class DrivenMotion {
 
 // Scenes whose equations of motion are linear, split into modes that do not know each other.
 
-/// u'' = -w2 (u - sway d) - drag u' - dashpot (u' - sway d') + push, where d(t) is the displacement of moved pins along
-/// the line. The particles are displaced by u(t) times the shape.
+/// u'' = -omega2 (u - participation d) - drag u' - dashpot (u' - participation d') + forcing, where d(t) is the
+/// displacement of moved pins along the line. The particles are displaced by u(t) times the shape.
 struct Mode {
   double omega2;         // 1/s^2; 0 without springs
   double drag;           // 1/s
