@@ -5,9 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <thread>
 
 #include "mysim/base/errors.h"
@@ -50,10 +48,7 @@ bool cmake(const std::vector<std::string>& words, const std::string& what) {
 
 /// Under a temporary name first, so that no half program is ever started.
 void install(const fs::path& program, const fs::path& as) {
-  std::ifstream in(program, std::ios::binary);
-  std::stringstream content;
-  content << in.rdbuf();
-  write_file(as, content.str());
+  write_file(as, read_file(program, "the program that was built"));
   fs::permissions(as, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
                           fs::perms::others_exec);
 }
