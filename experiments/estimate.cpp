@@ -21,9 +21,7 @@ double seconds_of_evaluation(const Method& method, const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   const double elements =
       static_cast<double>(scene.start.x.cols()) + (springs ? static_cast<double>(springs->list.size()) : 0);
-  if (method.stepper) return 100e-9 + 5e-9 * elements;
-  if (!method.name.starts_with("bullet")) return 200e-9 + 12e-9 * elements;  // forces written apart, plainly
-  return 2e-6 + 40e-9 * elements;
+  return method.family().call + method.family().element * elements;
 }
 
 }  // namespace
@@ -37,7 +35,7 @@ double estimated_seconds(const Method& method, const Scene& scene, const Run& ru
     evaluations = rule->evaluations > 0  ? rule->evaluations
                   : cloth_grid_of(scene) ? 20 * std::pow(longer, 0.3)
                                          : 60 * std::sqrt(longer);
-  if (method.name.starts_with("bullet/deformable-implicit")) evaluations = 2.5 * std::pow(longer, 0.8);
+  if (method.implicit && !method.stepper && method.family().in_process()) evaluations = 2.5 * std::pow(longer, 0.8);
   if (method.adaptive) evaluations = 7;
   return evaluations * run.duration / time_grid(run).h * seconds_of_evaluation(method, scene);
 }

@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "experiments/scenes/scenes.h"
-#include "experiments/speed_accuracy/speed_accuracy.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/text.h"
@@ -131,8 +130,8 @@ std::vector<Method> methods_of(const Request& request, const Scene& scene) {
   // truth is what the others are held against, integrators of others are no engines, and single precision doubles the
   // work where few scenes ask about it: these run when they are named
   for (Method& method : all_methods())
-    if (method.name.starts_with("mysim/") || method.name.starts_with("bullet/")) methods.push_back(std::move(method));
-  if (scene.model.find<Spheres>()) methods.push_back(find_method("mysim/symplectic-euler+sticky"));
+    if (method.family().by_default()) methods.push_back(std::move(method));
+  if (scene.model.find<Spheres>()) methods.push_back(find_method(sticky_method()));
   return methods;
 }
 

@@ -105,6 +105,8 @@ std::vector<Point> speed_accuracy_points(const Request& request);
 std::vector<Point> cost_points(const Request& request);
 std::vector<Point> adequacy_points(const Request& request);
 void conclude_adequacy(Rows& rows);
+/// Adds what follows from the errors and the costs of all scenes (speed_accuracy/work_precision.cpp).
+void conclude_speed_accuracy(Rows& rows);
 
 std::span<const Experiment> experiments();
 /// Throws InputError that lists what there is.

@@ -1,6 +1,7 @@
 // Where the pins are at a time: the prescribed motion and its derivative.
 #include "mysim/particles.h"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -36,6 +37,7 @@ Vec3 velocity_at(const Motion& motion, double t) {
 
 void Particles::place_pins(State& state) const {
   if (pins.empty()) return;
+  assert(state.x.cols() == size() && pin_home.cols() == static_cast<Eigen::Index>(pins.size()));
   const Vec3 shift = move ? displacement_at(*move, state.t) : Vec3::Zero();
   for (size_t i = 0; i < pins.size(); ++i) state.x.col(pins[i]) = pin_home.col(static_cast<int>(i)) + shift;
   place_pin_velocities(state);

@@ -1,8 +1,10 @@
-// The table of methods, and how a name with options is read.
+// The table of the families, and how a name with options is read.
 #include "reference/method.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
@@ -11,46 +13,105 @@
 namespace crosscheck {
 namespace {
 
-/// The table: one family after the other.
-std::vector<MethodRow> table() {
+std::vector<MethodRow> all_rows() {
   std::vector<MethodRow> rows;
-  for (const auto family : {mysim_methods, bullet_methods, integrator_methods, truth_methods})
-    for (MethodRow& row : family()) rows.push_back(std::move(row));
+  for (const MethodFamily& family : method_families())
+    if (family.methods)
+      for (MethodRow& row : family.methods()) rows.push_back(std::move(row));
   return rows;
-}
-
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts;
-  size_t begin = 0;
-  for (size_t end; (end = text.find(at, begin)) != std::string::npos; begin = end + 1)
-    parts.push_back(text.substr(begin, end - begin));
-  parts.push_back(text.substr(begin));
-  return parts;
 }
 
 }  // namespace
 
-void refuse_option(const std::string& method, const std::string& option, const std::string& known) {
-  std::vector<std::string> options;  // of the sentence, all words behind a plus
-  for (size_t at = known.find('+'); at != std::string::npos; at = known.find('+', at + 1))
-    options.push_back(known.substr(at + 1, known.find_first_of(" ,;", at) - at - 1));
-  throw InputError(fmt::format("method {}: unknown option '+{}'; expected {}{}", method, option, known,
-                               did_you_mean(option, options)));
+std::span<const MethodFamily> method_families() {
+  static constexpr std::string_view clamped = "Bullet clamps speeds to the body's diagonal over the step";
+  static constexpr MethodFamily table[] = {
+      {.name = "mysim",
+       .title = "mysim",
+       .role = Role::subject,
+       .representative = "mysim/symplectic-euler",
+       .build = Build::here,
+       .build_text = "this build",
+       .call = 100e-9,
+       .element = 5e-9,
+       .methods = mysim_methods},
+      {.name = "bullet",
+       .title = "Bullet",
+       .role = Role::peer,
+       .representative = "bullet/deformable-explicit",
+       .build = Build::debian,
+       .build_text = "Debian's library (generic x86-64, -O2), called from this build",
+       .call = 2e-6,
+       .element = 40e-9,
+       .departure = clamped,
+       .methods = bullet_methods},
+      {.name = "bullet32",
+       .title = "Bullet in single precision",
+       .role = Role::peer,
+       .representative = "bullet32/deformable-explicit",
+       .variant_of = "bullet",
+       .build = Build::own_program,
+       .call = 2e-6,
+       .element = 40e-9,
+       .start = 0.2,
+       .single_precision = true,
+       .departure = clamped,
+       .methods = bullet32_methods},
+      {.name = "odeint",
+       .title = "Boost odeint",
+       .role = Role::integrator,
+       .representative = "odeint/dopri5",
+       .build = Build::here,
+       .build_text = "headers of the library, compiled in this build",
+       .methods = odeint_methods},
+      {.name = "sundials",
+       .title = "SUNDIALS",
+       .role = Role::integrator,
+       .representative = "sundials/arkode",
+       .build = Build::debian,
+       .build_text = "Debian's library (generic x86-64, -O2), on a right-hand side of this build",
+       .methods = sundials_methods},
+      {.name = "truth", .title = "truth", .role = Role::truth, .methods = truth_methods},
+      {.name = "file", .title = "a trajectory", .role = Role::outside},
+      {.name = "exec", .title = "a program", .role = Role::outside, .build = Build::own_program}};
+  return table;
+}
+
+const MethodFamily& subject() { return *std::ranges::find_if(method_families(), &MethodFamily::is_subject); }
+
+const MethodFamily& family_of(std::string_view name) {
+  const std::string_view prefix = name.substr(0, name.find_first_of("/:"));
+  const auto families = method_families();
+  const auto found = std::ranges::find(families, prefix, &MethodFamily::name);
+  return found == families.end() ? families.back() : *found;
+}
+
+std::string short_name(const std::string& method) {
+  return family_of(method).is_subject() ? method.substr(method.find('/') + 1) : method;
+}
+
+std::string sticky_method() { return std::string(subject().representative) + "+sticky"; }
+
+const Method* builtin_method(std::string_view name) {
+  static const std::vector<Method> all = all_methods();
+  const auto found = std::ranges::find(all, name, &Method::name);
+  return found == all.end() ? nullptr : &*found;
 }
 
 std::vector<Method> all_methods() {
   std::vector<Method> methods;
-  for (const MethodRow& row : table())
+  for (const MethodRow& row : all_rows())
     for (const std::string& name : row.full_names()) methods.push_back(find_method(name));
   return methods;
 }
 
 Method find_method(const std::string& text) {
-  if (text.starts_with("exec:")) return exec_method(text.substr(5));
+  if (text.starts_with(program_prefix)) return exec_method(text.substr(program_prefix.size()));
   const std::vector<std::string> parts = split(text, '+');
-  const std::string name = parts[0].find('/') == std::string::npos ? "mysim/" + parts[0] : parts[0];
+  const std::string name =
+      parts[0].find('/') == std::string::npos ? fmt::format("{}/{}", subject().name, parts[0]) : parts[0];
   std::vector<std::string> known;
-  for (const MethodRow& row : table()) {
+  for (const MethodRow& row : all_rows()) {
     if (row.name == name) {
       Method method = row.make({parts.begin() + 1, parts.end()});
       for (size_t i = 1; i < parts.size(); ++i) method.name += "+" + parts[i];
@@ -61,10 +122,9 @@ Method find_method(const std::string& text) {
   // "leapfrg" is nearer to the short name
   std::vector<std::string> names = known;
   if (parts[0].find('/') == std::string::npos)
-    for (std::string& full : names)
-      if (full.starts_with("mysim/")) full = full.substr(6);
-  throw InputError(fmt::format("unknown method '{}'; expected one of: {}, exec:PATH{}", text, fmt::join(known, ", "),
-                               did_you_mean(parts[0], names)));
+    for (std::string& full : names) full = short_name(full);
+  throw InputError(fmt::format("unknown method '{}'; expected one of: {}, {}PATH{}", text, fmt::join(known, ", "),
+                               program_prefix, did_you_mean(parts[0], names)));
 }
 
 const Stepper* stepper_of(const Method& method) {
@@ -81,6 +141,7 @@ std::vector<Method> find_methods(const std::string& list) {
   return methods;
 }
 
+/// Of mysim: simulate(), mysim/run/engine.cpp.
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds) {
   DivergenceMonitor monitor(scene, run, bounds);

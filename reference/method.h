@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mysim/run/observers.h"
@@ -12,7 +14,46 @@
 
 namespace crosscheck {
 
-// Methods: everything that answers a scene, by name. The families stand in one table (method.cpp).
+// The families of methods. Who reads a method's name asks its family, and no name: a further engine is a row.
+
+/// What a family is to the comparison: what is tested, engines beside it, others' integrators on the right-hand side
+/// written apart, the best answers known, programs and trajectories of the reader's.
+enum class Role { subject, peer, integrator, truth, outside };
+
+/// Who compiled it.
+enum class Build { unknown, here, debian, own_program };
+
+struct MethodRow;
+
+struct MethodFamily {
+  std::string_view name;   // what stands before '/' or ':' in the names of its methods
+  std::string_view title;  // for people
+  Role role;
+  std::string_view representative = {};  // the method that stands for it where one must
+  std::string_view variant_of = {};      // the same engine built otherwise: asked by `regress`, else only by name
+  Build build = Build::unknown;
+  std::string_view build_text = "a program of its own";
+  double call = 200e-9, element = 12e-9;  // s, an evaluation, and what it takes for each particle and spring
+  double start = 0;                       // s, of its program
+  bool single_precision = false;
+  std::string_view departure = {};                // why it may leave linear theory
+  std::vector<MethodRow> (*methods)() = nullptr;  // null: the reader names them
+
+  bool is_subject() const { return role == Role::subject; }
+  bool is_engine() const { return role == Role::subject || role == Role::peer; }
+  bool by_default() const { return is_engine() && variant_of.empty(); }
+  bool is_default_peer() const { return role == Role::peer && variant_of.empty(); }
+  bool in_process() const { return is_engine() && build != Build::own_program; }
+};
+
+/// The table (method.cpp). Exactly one family is the subject.
+std::span<const MethodFamily> method_families();
+const MethodFamily& subject();
+
+/// The family of a method's name, or of a family's; what has no other is a program's, of `exec:`.
+const MethodFamily& family_of(std::string_view name);
+
+// Methods: everything that answers a scene, by name.
 
 struct Method {
   std::string name;     // full, e.g. "mysim/leapfrog+sticky"
@@ -22,11 +63,30 @@ struct Method {
   ContactLoss contact;  // whether it reports what contacts took away
   const Stepper* stepper = nullptr;  // of mysim's methods
   bool adaptive = false;             // follows run.tolerance and not run.step
-  std::string fingerprint = {};      // of an outside program's or trajectory's file; empty for what is built in
+  bool implicit = false;             // solves an equation in each step
+  bool position_based = false;
+  bool multistep = false;
+  bool splits_dashpots = false;    // solves them after an explicit step
+  std::string on_one_spring = {};  // the rule that it is on one linear spring; empty: `rule`
+  std::string fingerprint = {};    // of an outside program's or trajectory's file; empty for what is built in
+
+  const MethodFamily& family() const { return family_of(name); }
 };
 
 /// Every method there is, without options.
 std::vector<Method> all_methods();
+
+/// The one of them with this name, or null: for readers of tables.
+const Method* builtin_method(std::string_view name);
+
+/// "leapfrog" of mysim's; of others the whole name.
+std::string short_name(const std::string& method);
+
+/// The subject's representative with the contact rule that puts a touching particle back.
+std::string sticky_method();
+
+/// What names of programs begin with.
+inline constexpr std::string_view program_prefix = "exec:";
 
 /// A method by name: "rk4" (short for "mysim/rk4"), "bullet/pbd+n=10", "exec:./program". Throws InputError that lists
 /// what there is.
@@ -48,7 +108,7 @@ std::vector<Method> find_methods(const std::string& list);
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds = motion_bounds_of);
 
-// The families of methods: each file beside this one makes the rows of one.
+// Who makes the methods of a family: the files in methods/.
 
 /// What stands behind the pluses of a name: "sticky", "n=10".
 using MethodOptions = std::vector<std::string>;
@@ -68,13 +128,12 @@ struct MethodRow {
 };
 
 std::vector<MethodRow> mysim_methods();
-std::vector<MethodRow> bullet_methods();  // in double and in single precision
-std::vector<MethodRow> integrator_methods();
+std::vector<MethodRow> bullet_methods();
+std::vector<MethodRow> bullet32_methods();  // in single precision, by a program of its own
+std::vector<MethodRow> odeint_methods();
+std::vector<MethodRow> sundials_methods();
 std::vector<MethodRow> truth_methods();
 /// An outside program: what stands behind "exec:".
 Method exec_method(const std::string& text);
-
-/// InputError: "method NAME: unknown option '+OPTION'; expected KNOWN".
-[[noreturn]] void refuse_option(const std::string& method, const std::string& option, const std::string& known);
 
 }  // namespace crosscheck

@@ -11,47 +11,13 @@
 #include "experiments/adequacy/resolution.h"
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
+#include "experiments/tables/adequacy.h"
 #include "mysim/base/errors.h"
 
 namespace crosscheck {
 namespace {
 
 constexpr unsigned unseen_starts = 3;
-
-Table ablations_table() {
-  return {"adequacy",
-          {{"scene", "1"},
-           {"rung", "1"},
-           {"left out", "1"},
-           {"kind", "1"},  // full, single or cumulative
-           {"error", "m"},
-           {"tolerance", "m"},
-           {"within", "1"},
-           {"motion", "m"},
-           {"truth bar", "m"},
-           {"truth", "1"},
-           {"verdict", "1"},
-           {"evaluations", "1"},
-           {"springs", "1"},
-           {"cost", "spring evaluations"}},
-          {}};
-}
-
-Table least_table() {
-  return {"adequacy-least",
-          {{"scene", "1"},
-           {"tolerance", "m"},
-           {"tolerance is", "1"},
-           {"least model", "1"},
-           {"left out", "1"},
-           {"error", "m"},
-           {"unseen error 1", "m"},
-           {"unseen error 2", "m"},
-           {"unseen error 3", "m"},
-           {"holds", "1"},
-           {"cost of full", "1"}},
-          {}};
-}
 
 /// RMS speed of the particles, its largest value over the run, m/s.
 double largest_speed(const Trajectory& t) {
@@ -93,7 +59,7 @@ std::string truth_text(const Truth& truth) {
 }
 
 void ladder_on(const Request&, const Scene& scene, Rows& rows) {
-  Table table = ablations_table(), least = least_table();
+  Table table = table_of<AdequacyRow>(), least = table_of<LeastModelRow>();
   try {
     const ReferenceSolution y = reference_solution_of(scene, scene.tolerance);
     Trajectory seen = y.truth.trajectory;
@@ -103,37 +69,48 @@ void ladder_on(const Request&, const Scene& scene, Rows& rows) {
     const std::vector<AblatedModel> ladder = ablations_of(scene, y, 0.3 * motion);
     const double full_cost = ladder.front().cost();
     for (const AblatedModel& r : ladder)
-      table.add({scene.name, r.name, fmt::format("{}", fmt::join(r.out, ", ")),
-                 r.out.empty() ? "full"
-                 : r.single    ? "single"
-                               : "cumulative",
-                 r.error ? Cell(*r.error) : Cell(), scene.tolerance, r.error && *r.error <= scene.tolerance ? 1l : 0l,
-                 motion, y.truth.error_bar, truth_text(y.truth), std::string(name_of(r.outcome.verdict)),
-                 r.outcome.evaluations, springs_of(r.scene.model), r.cost()});
+      add(table, AdequacyRow{.scene = scene.name,
+                             .rung = r.name,
+                             .left_out = fmt::format("{}", fmt::join(r.out, ", ")),
+                             .kind = r.out.empty() ? ModelKind::full
+                                     : r.single    ? ModelKind::single
+                                                   : ModelKind::cumulative,
+                             .error = r.error,
+                             .tolerance = scene.tolerance,
+                             .within = r.error && *r.error <= scene.tolerance,
+                             .motion = motion,
+                             .truth_bar = y.truth.error_bar,
+                             .truth = truth_text(y.truth),
+                             .verdict = r.outcome.verdict,
+                             .evaluations = r.outcome.evaluations,
+                             .springs = springs_of(r.scene.model),
+                             .cost = r.cost()});
     const double speed = 0.2 * largest_speed(y.truth.trajectory);
-    const std::pair<double, const char*> tolerances[] = {{scene.tolerance, "the scene's own"},
-                                                         {0.01 * motion, "1 % of its motion"},
-                                                         {0.1 * motion, "10 % of its motion"}};
+    const std::pair<double, ToleranceKind> tolerances[] = {{scene.tolerance, ToleranceKind::of_scene},
+                                                           {0.01 * motion, ToleranceKind::hundredth_of_motion},
+                                                           {0.1 * motion, ToleranceKind::tenth_of_motion}};
     std::map<std::vector<std::string>, std::vector<std::optional<double>>> unseen;  // by what is left out
     for (const auto& [tolerance, what] : tolerances) {
       const AblatedModel& l = least_model(ladder, tolerance);
-      std::vector<Cell> row{scene.name,
-                            tolerance,
-                            std::string(what),
-                            l.out.empty() ? "nothing can be left out" : l.name,
-                            fmt::format("{}", fmt::join(l.out, ", ")),
-                            l.error ? Cell(*l.error) : Cell()};
-      bool holds = true;
+      LeastModelRow row{.scene = scene.name,
+                        .tolerance = tolerance,
+                        .tolerance_is = what,
+                        .least_model = l.out.empty() ? "nothing can be left out" : l.name,
+                        .left_out = fmt::format("{}", fmt::join(l.out, ", ")),
+                        .error = l.error,
+                        .holds = true,
+                        .cost_of_full = full_cost > 0 ? l.cost() / full_cost : 1};
       auto& errors = unseen[l.out];
       for (unsigned seed = 1; errors.size() < unseen_starts; ++seed)
         errors.push_back(unseen_error(unseen_start(scene, speed, seed), y, l.out));
-      for (const auto& e : errors) {
-        row.push_back(e && std::isfinite(*e) ? Cell(*e) : Cell());
-        holds = holds && e && (l.out.empty() ? *e > tolerance : *e <= tolerance);
+      std::optional<double>* const cells[unseen_starts] = {&row.unseen_error_1, &row.unseen_error_2,
+                                                           &row.unseen_error_3};
+      for (size_t i = 0; i < errors.size(); ++i) {
+        const auto& e = errors[i];
+        if (e && std::isfinite(*e)) *cells[i] = e;
+        row.holds = row.holds && e && (l.out.empty() ? *e > tolerance : *e <= tolerance);
       }
-      row.push_back(holds ? 1l : 0l);
-      row.push_back(full_cost > 0 ? l.cost() / full_cost : 1);
-      least.add(std::move(row));
+      add(least, row);
     }
   } catch (const Unsupported& why) {
     rows.notes.push_back(fmt::format("adequacy leaves out {}: {}", scene.name, why.what()));
@@ -143,34 +120,28 @@ void ladder_on(const Request&, const Scene& scene, Rows& rows) {
 }
 
 void resolution_on(const Request& request, const Scene& scene, Rows& rows) {
-  Table table{"adequacy-resolution",
-              {{"scene", "1"},
-               {"particles along a side", "1"},
-               {"cells", "1"},
-               {"error against the finest", "m"},
-               {"sag", "m"},
-               {"stiffness factor for the finest's sag", "1"},
-               {"verdict", "1"},
-               {"evaluations", "1"},
-               {"springs", "1"},
-               {"cost", "spring evaluations"}},
-              {}};
+  Table table = table_of<GridRow>();
   std::vector<int> sizes{8, 12, 16, 24};
   if (request.full) sizes.insert(sizes.end(), {32, 48, 64, 96, 128});
   for (const GridResult& r : grid_convergence(scene, sizes))
-    table.add({scene.name, static_cast<long>(r.n), r.n - 1., r.error ? Cell(*r.error) : Cell(),
-               r.sag ? Cell(*r.sag) : Cell(), r.factor ? Cell(*r.factor) : Cell(), r.verdict, r.evaluations, r.springs,
-               static_cast<double>(r.evaluations) * static_cast<double>(r.springs)});
+    add(table, GridRow{.scene = scene.name,
+                       .particles = r.n,
+                       .cells = r.n - 1.,
+                       .error = r.error,
+                       .sag = r.sag,
+                       .stiffness_factor = r.factor,
+                       .verdict = r.verdict,
+                       .evaluations = r.evaluations,
+                       .springs = r.springs,
+                       .cost = static_cast<double>(r.evaluations) * static_cast<double>(r.springs)});
   rows.add(table);
 }
 
 void bending_on(const Request& request, Rows& rows) {
-  Table table{"adequacy-bending",
-              {{"particles along a line", "1"}, {"cells", "1"}, {"stiffness of bend springs", "N/m"}, {"droop", "m"}},
-              {}};
+  Table table = table_of<BendingRow>();
   std::vector<int> sizes{8, 10, 12, 16};
   if (request.full) sizes.insert(sizes.end(), {20, 24});
-  for (const Bending& b : bending_stiffness(sizes)) table.add({static_cast<long>(b.n), b.cells, b.stiffness, b.droop});
+  for (const Bending& b : bending_stiffness(sizes)) add(table, BendingRow{b.n, b.cells, b.stiffness, b.droop});
   rows.add(table);
 }
 
@@ -193,31 +164,31 @@ std::vector<Point> adequacy_points(const Request& request) {
 }
 
 void conclude_adequacy(Rows& rows) {
-  Table table{"adequacy-scaling",
-              {{"scene", "1"}, {"quantity", "1"}, {"exponent", "1"}, {"standard error", "1"}, {"derived", "1"}},
-              {}};
-  const auto fit = [&](const Table& t, const std::string& scene, const char* column, const char* what, Cell derived) {
-    std::vector<std::pair<double, double>> points;
-    for (size_t i = 0; i < t.rows.size(); ++i) {
-      if (!scene.empty() && std::get<std::string>(t.at(i, "scene")) != scene) continue;
-      if (const auto* y = std::get_if<double>(&t.at(i, column)); y && *y > 0)
-        points.emplace_back(std::get<double>(t.at(i, "cells")), *y);
-    }
-    if (const auto law = power_law(points))
-      table.add({scene, std::string(what), law->exponent, law->deviation, std::move(derived)});
+  Table table = table_of<ScalingRow>();
+  using Curve = std::vector<std::pair<double, double>>;
+  const auto fit = [&](const std::string& scene, ScalingQuantity what, const Curve& points,
+                       std::optional<double> derived = {}) {
+    if (const auto law = power_law(points)) add(table, ScalingRow{scene, what, law->exponent, law->deviation, derived});
   };
   if (const Table* grids = rows.table("adequacy-resolution")) {
-    std::vector<std::string> scenes;
-    for (size_t i = 0; i < grids->rows.size(); ++i)
-      if (const auto& s = std::get<std::string>(grids->at(i, "scene")); scenes.empty() || scenes.back() != s)
-        scenes.push_back(s);
-    for (const std::string& s : scenes) {
-      fit(*grids, s, "error against the finest", "error of the motion against cells along a side", Cell());
-      fit(*grids, s, "stiffness factor for the finest's sag", "stiffness of all springs for the same sag", Cell());
+    const auto all = rows_of<GridRow>(*grids);
+    for (size_t i = 0; i < all.size();) {
+      const std::string& scene = all[i].scene;
+      Curve errors, stiffnesses;
+      for (; i < all.size() && all[i].scene == scene; ++i) {
+        if (all[i].error && *all[i].error > 0) errors.emplace_back(all[i].cells, *all[i].error);
+        if (all[i].stiffness_factor && *all[i].stiffness_factor > 0)
+          stiffnesses.emplace_back(all[i].cells, *all[i].stiffness_factor);
+      }
+      fit(scene, ScalingQuantity::error, errors);
+      fit(scene, ScalingQuantity::stiffness_for_sag, stiffnesses);
     }
   }
-  if (const Table* bending = rows.table("adequacy-bending"))
-    fit(*bending, "", "stiffness of bend springs", "stiffness of bend springs for the same droop", 4.);
+  if (const Table* bending = rows.table("adequacy-bending")) {
+    Curve stiffnesses;
+    for (const BendingRow& row : rows_of<BendingRow>(*bending)) stiffnesses.emplace_back(row.cells, row.stiffness);
+    fit("", ScalingQuantity::bend_stiffness_for_droop, stiffnesses, 4.);
+  }
   if (!table.rows.empty()) rows.add(table);
 }
 

@@ -71,13 +71,8 @@ std::vector<GridResult> grid_convergence(const Scene& scene, const std::vector<i
     Trajectory surface = std::move(recorder.trajectory);
     for (Points& x : surface.x) x = at_material_points(x, grid.nu, grid.nv, material_points);
     const auto* springs = now.model.find<Springs>();
-    list.push_back({n,
-                    {},
-                    settle_and_sag(now),
-                    {},
-                    std::string(name_of(out.verdict)),
-                    out.evaluations,
-                    springs ? std::ssize(springs->list) : 0});
+    list.push_back(
+        {n, {}, settle_and_sag(now), {}, out.verdict, out.evaluations, springs ? std::ssize(springs->list) : 0});
     if (out.verdict != Verdict::ok) surface = {};
     surfaces.push_back(std::move(surface));
   }

@@ -14,7 +14,7 @@ struct GridResult {
   std::optional<double> error;   // m, largest RMS distance from the finest grid in the window, at 17 x 17 points
   std::optional<double> sag;     // m, how far the lowest point hangs below the highest one at rest
   std::optional<double> factor;  // 1, what all stiffnesses are to be multiplied by to sag as the finest grid does
-  std::string verdict;
+  Verdict verdict;
   long evaluations = 0, springs = 0;
 };
 

@@ -11,6 +11,7 @@
 #include "experiments/stability/limit.h"
 #include "mysim/base/errors.h"
 #include "mysim/model/system.h"
+#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 

@@ -13,6 +13,7 @@
 #include "experiments/measures.h"
 #include "mysim/base/errors.h"
 #include "mysim/model/system.h"
+#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 namespace {

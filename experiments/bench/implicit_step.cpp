@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "experiments/scenes/cloths.h"
+#include "experiments/tables/bench.h"
 #include "experiments/timing/instruction_sets.h"
 #include "experiments/timing/timing.h"
 #include "mysim/base/errors.h"
@@ -147,35 +148,30 @@ void beside_factorisation(const FallingCloth& falling, double rate, const Microb
     const Points mine = own[i]->step.solve_linear(from, h).x;
     const std::vector<double>& each = times.at(path.name);
     const Timing time = timing_of(each), ratio = timing_of(ratios_of_rounds(times.at("factorised"), each));
-    table.add({falling.scene.name, static_cast<long>(from.x.cols()), rate, largest_column(mine - end),
-               largest_column(mine - from.x), its.median, its.low, its.high, path.name,
-               std::string(name_of(path.instructions)), static_cast<long>(own[i]->step.iterations()), time.median,
-               time.low, time.high, ratio.median, ratio.low, ratio.high});
+    add(table, ImplicitStepRow{.scene = falling.scene.name,
+                               .particles = from.x.cols(),
+                               .rate = rate,
+                               .apart = largest_column(mine - end),
+                               .largest_move = largest_column(mine - from.x),
+                               .eigen_cpu = its.median,
+                               .eigen_low = its.low,
+                               .eigen_high = its.high,
+                               .path = path.name,
+                               .instructions = path.instructions,
+                               .iterations = own[i]->step.iterations(),
+                               .cpu = time.median,
+                               .low = time.low,
+                               .high = time.high,
+                               .ratio = ratio.median,
+                               .ratio_low = ratio.low,
+                               .ratio_high = ratio.high});
   }
 }
 
 }  // namespace
 
 void implicit_step(const ImplicitStepOptions& asked, Rows& rows, Progress& progress) {
-  Table table{"bench-implicit-step-cost",
-              {{"scene", "1"},
-               {"particles", "1"},
-               {"rate", "1/s"},
-               {"farthest particle", "m"},
-               {"largest move", "m"},
-               {"cpu per step of Eigen", "s"},
-               {"low of Eigen", "s"},
-               {"high of Eigen", "s"},
-               {"path of mysim", "1"},
-               {"instructions", "1"},
-               {"iterations", "1"},
-               {"cpu per step of mysim", "s"},
-               {"low of mysim", "s"},
-               {"high of mysim", "s"},
-               {"ratio", "1"},
-               {"ratio low", "1"},
-               {"ratio high", "1"}},
-              {}};
+  Table table = table_of<ImplicitStepRow>();
   for (const int side : asked.sides) {
     const FallingCloth falling(side);
     for (const double rate : asked.rates) {

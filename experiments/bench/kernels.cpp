@@ -9,8 +9,10 @@
 
 #include "experiments/cost/cost.h"
 #include "experiments/scenes/cloths.h"
+#include "experiments/tables/bench.h"
 #include "experiments/timing/instruction_sets.h"
 #include "experiments/timing/timing.h"
+#include "mysim/simd/cloth_grid/cloth_grid.h"
 
 namespace crosscheck {
 namespace {
@@ -28,22 +30,24 @@ Scene waving_cloth(int n) {
 }
 
 struct Row {
-  std::string kernel, instructions, precision;
+  std::string kernel;
+  InstructionSet instructions;
+  std::string precision;
   BenchmarkFunction once;
-  std::string name() const { return fmt::format("{}, {}, {}", kernel, instructions, precision); }
+  std::string name() const { return fmt::format("{}, {}, {}", kernel, name_of(instructions), precision); }
 };
 
 void add_fused_step(std::vector<Row>& rows, std::string kernel, InstructionSet isa, std::string precision,
                     std::optional<BenchmarkFunction> once) {
-  if (once) rows.push_back({std::move(kernel), std::string(name_of(isa)), std::move(precision), std::move(*once)});
+  if (once) rows.push_back({std::move(kernel), isa, std::move(precision), std::move(*once)});
 }
 
 std::vector<Row> rows_for(const Scene& scene) {
-  const std::string plainest(name_of(InstructionSet::sse2));  // what the suite is compiled for
+  const InstructionSet plainest = InstructionSet::sse2;  // what the suite is compiled for
   std::vector<Row> rows{{naive, plainest, double_precision, naive_loop(scene)},
                         {"plain loop", plainest, double_precision, plain_loop(scene)}};
   for (const InstructionSet isa : simd::supported_instruction_sets())
-    rows.push_back({"general kernel", std::string(name_of(isa)), double_precision, general_kernel(scene, isa)});
+    rows.push_back({"general kernel", isa, double_precision, general_kernel(scene, isa)});
   for (const InstructionSet isa : simd::supported_instruction_sets()) {
     add_fused_step(rows, "sweep, reproducible", isa, double_precision, fused_step<double>(scene, isa, false));
     // with SSE2 both are the same
@@ -96,29 +100,25 @@ Table kernels_table(int side, const MicrobenchmarkOptions& plan) {
   const auto times = run_microbenchmarks(micros, plan);
   std::map<std::string, double> rate_of;  // GFLOP/s
   for (const Peak& peak : most) rate_of[peak.name] = peak.operations / timing_of(times.at(peak.name)).median / 1e9;
-  Table table{"bench-kernels-cost",
-              {{"particles a side", "1"},
-               {"springs", "1"},
-               {"kernel", "1"},
-               {"instructions", "1"},
-               {"precision", "1"},
-               {"time per spring", "ns"},
-               {"low", "ns"},
-               {"high", "ns"},
-               {"times the naive loop", "1"},
-               {"ratio low", "1"},
-               {"ratio high", "1"},
-               {"rate", "GFLOP/s"},
-               {"share of peak", "1"}},
-              {}};
+  Table table = table_of<KernelRow>();
   for (const Row& row : rows) {
     const std::vector<double>& own = times.at(row.name());
     const Timing each = timing_of(own).times(1e9 / static_cast<double>(springs));
     const Timing ratio = timing_of(ratios_of_rounds(times.at(rows[0].name()), own));
     const double rate = flop_per_spring / each.median;
-    table.add({static_cast<long>(side), springs, row.kernel, row.instructions, row.precision, each.median, each.low,
-               each.high, ratio.median, ratio.low, ratio.high, rate,
-               rate / rate_of.at(peak_name(row.instructions, row.precision))});
+    add(table, KernelRow{.side = side,
+                         .springs = springs,
+                         .kernel = row.kernel,
+                         .instructions = row.instructions,
+                         .precision = row.precision,
+                         .time = each.median,
+                         .low = each.low,
+                         .high = each.high,
+                         .ratio = ratio.median,
+                         .ratio_low = ratio.low,
+                         .ratio_high = ratio.high,
+                         .rate = rate,
+                         .share_of_peak = rate / rate_of.at(peak_name(name_of(row.instructions), row.precision))});
   }
   return table;
 }
@@ -139,13 +139,14 @@ std::string naive_name(const Scene& scene) { return scene.name + ", naive loop";
 Table scenes_table(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& plan) {
   struct Way {
     const Scene* scene;
-    std::string kernel, instructions, name;
+    std::string kernel;
+    InstructionSet instructions;
+    std::string name;
   };
   std::vector<Way> ways;
   std::vector<Microbenchmark> micros;
-  const auto add = [&](const Scene& scene, const char* kernel, InstructionSet isa, BenchmarkFunction once) {
-    ways.push_back(
-        {&scene, kernel, std::string(name_of(isa)), fmt::format("{}, {}, {}", scene.name, kernel, name_of(isa))});
+  const auto add_way = [&](const Scene& scene, const char* kernel, InstructionSet isa, BenchmarkFunction once) {
+    ways.push_back({&scene, kernel, isa, fmt::format("{}, {}, {}", scene.name, kernel, name_of(isa))});
     micros.push_back({ways.back().name, std::move(once)});
   };
   for (const Scene& scene : scenes) {
@@ -153,31 +154,29 @@ Table scenes_table(const std::vector<Scene>& scenes, const MicrobenchmarkOptions
     micros.push_back({naive_name(scene), naive_loop(scene)});
     std::set<InstructionSet> sets;
     for (const CodePath& path : code_paths()) sets.insert(path.instructions);
-    for (const InstructionSet isa : sets) add(scene, "general kernel", isa, general_kernel(scene, isa));
+    for (const InstructionSet isa : sets) add_way(scene, "general kernel", isa, general_kernel(scene, isa));
     for (const InstructionSet isa : sets)
-      if (auto piece = fused_step<double>(scene, isa, false)) add(scene, "sweep, reproducible", isa, std::move(*piece));
+      if (auto piece = fused_step<double>(scene, isa, false))
+        add_way(scene, "sweep, reproducible", isa, std::move(*piece));
   }
   const auto times = run_microbenchmarks(micros, plan);
-  Table table{"bench-scenes-cost",
-              {{"scene", "1"},
-               {"particles", "1"},
-               {"springs", "1"},
-               {"kernel", "1"},
-               {"instructions", "1"},
-               {"time", "ns"},
-               {"low", "ns"},
-               {"high", "ns"},
-               {"naive loop", "ns"},
-               {"times the naive loop", "1"},
-               {"ratio low", "1"},
-               {"ratio high", "1"}},
-              {}};
+  Table table = table_of<SceneKernelRow>();
   for (const Way& way : ways) {
     const Scene& scene = *way.scene;
     const auto &own = times.at(way.name), &beside = times.at(naive_name(scene));
     const Timing each = timing_of(own).times(1e9), ratio = timing_of(ratios_of_rounds(beside, own));
-    table.add({scene.name, static_cast<long>(scene.start.x.cols()), springs_of(scene), way.kernel, way.instructions,
-               each.median, each.low, each.high, timing_of(beside).median * 1e9, ratio.median, ratio.low, ratio.high});
+    add(table, SceneKernelRow{.scene = scene.name,
+                              .particles = scene.start.x.cols(),
+                              .springs = springs_of(scene),
+                              .kernel = way.kernel,
+                              .instructions = way.instructions,
+                              .time = each.median,
+                              .low = each.low,
+                              .high = each.high,
+                              .naive = timing_of(beside).median * 1e9,
+                              .ratio = ratio.median,
+                              .ratio_low = ratio.low,
+                              .ratio_high = ratio.high});
   }
   return table;
 }

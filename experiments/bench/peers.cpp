@@ -147,52 +147,50 @@ std::vector<WorkPrecisionPoint> points_of(const std::vector<PeerRun>& own, const
   std::vector<WorkPrecisionPoint> points;
   for (const PeerRun& run : own)
     if (run.ok())
-      points.push_back({run.method.name, "step [s]", run.asked, true, run.error,
+      points.push_back({run.method.name, SettingKind::step, run.asked, true, run.error,
                         time_of(run, times.per_evaluation.at(run.method.name)).median});
   return points;
 }
 
-void append(std::vector<Cell>& cells, std::vector<Cell> more) {
-  cells.insert(cells.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-}
-
-/// What stands of the peer's run in each of its rows.
-std::vector<Cell> cells_of(const PeerRun& run, const std::string& scene, double error_bar,
-                           const EvaluationTimes& times) {
-  std::vector<Cell> cells{scene,
-                          run.method.name,
-                          std::string(run.other_model ? "other model" : "same"),
-                          std::string(run.method.adaptive ? "tolerance [1]" : "step [s]"),
-                          run.asked,
-                          std::string(name_of(run.outcome.verdict)),
-                          cell_of(run.error),
-                          error_bar,
-                          run.outcome.evaluations};
-  if (times.per_evaluation.empty()) {
-    cells.resize(cells.size() + 4);
-  } else {
+/// The row of a peer's run, without mysim's part.
+EqualErrorRow row_of(const PeerRun& run, const std::string& scene, double error_bar, const EvaluationTimes& times) {
+  EqualErrorRow row{.scene = scene,
+                    .peer = run.method.name,
+                    .model = run.other_model ? PeerModel::other : PeerModel::same,
+                    .setting = run.method.adaptive ? SettingKind::tolerance : SettingKind::step,
+                    .asked = run.asked,
+                    .verdict = run.outcome.verdict,
+                    .error = run.error,
+                    .truth_bar = error_bar,
+                    .evaluations = run.outcome.evaluations,
+                    .cpu_of_whole_run = run.outcome.cpu_seconds,
+                    .build = build_of(run.method.name)};
+  if (!times.per_evaluation.empty()) {
     const Timing t = time_of(run, times.per_evaluation);
-    append(cells, {t.median, t.low, t.high, times.share});
+    row.cpu = t.median, row.cpu_low = t.low, row.cpu_high = t.high, row.part_timed = times.share;
   }
-  append(cells, {run.outcome.cpu_seconds, build_of(run.method.name)});
-  return cells;
+  return row;
 }
 
-/// What stands of mysim in one of them.
-std::vector<Cell> beside(const PeerRun& peer, const EvaluationTimes& its, const std::vector<PeerRun>& own,
-                         const MysimTimes& times, double error_bar) {
-  std::vector<Cell> cells{times.path.name, std::string(name_of(times.path.instructions))};
-  const auto without = [&](const char* remark) {
-    cells.resize(cells.size() + 7);
-    cells.push_back(std::string(remark));
-    return cells;
-  };
-  if (!peer.ok() || its.per_evaluation.empty()) return without("the peer's run failed");
+/// Sets mysim's part of the row.
+void set_beside(EqualErrorRow& row, const PeerRun& peer, const EvaluationTimes& its, const std::vector<PeerRun>& own,
+                const MysimTimes& times, double error_bar) {
+  row.path = times.path.name, row.instructions = times.path.instructions;
+  if (!peer.ok() || its.per_evaluation.empty()) {
+    row.remark = "the peer's run failed";
+    return;
+  }
   const double left = *peer.error - 2 * error_bar;
-  if (left <= 0) return without("below the error bar of the truth");
+  if (left <= 0) {
+    row.remark = "below the error bar of the truth";
+    return;
+  }
   const std::vector<WorkPrecisionPoint> points = points_of(own, times);
   const WorkPrecisionPoint* best = cheapest(points, left);
-  if (!best) return without("no run of mysim that was tried errs as little");
+  if (!best) {
+    row.remark = "no run of mysim that was tried errs as little";
+    return;
+  }
   const auto run = std::find_if(own.begin(), own.end(), [&](const PeerRun& r) {
     return r.method.name == best->method && r.asked == best->asked;
   });
@@ -200,29 +198,27 @@ std::vector<Cell> beside(const PeerRun& peer, const EvaluationTimes& its, const 
       static_cast<double>(peer.outcome.evaluations) / static_cast<double>(run->outcome.evaluations);
   const Timing ratio =
       timing_of(ratios_of_rounds(its.per_evaluation, times.per_evaluation.at(best->method))).times(evaluations);
-  append(cells, {best->method, best->asked, *best->error, best->cost, ratio.median, ratio.low, ratio.high, Cell()});
-  return cells;
+  row.mysim = best->method, row.mysim_step = best->asked, row.mysim_error = best->error, row.mysim_cpu = best->cost;
+  row.ratio = ratio.median, row.ratio_low = ratio.low, row.ratio_high = ratio.high;
 }
 
 void add_own(const std::string& scene, const std::vector<PeerRun>& own, const MysimTimes& times, double error_bar,
              Table& table) {
   for (const PeerRun& run : own) {
-    std::vector<Cell> cells{scene,
-                            run.method.name,
-                            run.asked,
-                            std::string(name_of(run.outcome.verdict)),
-                            cell_of(run.error),
-                            error_bar,
-                            run.outcome.evaluations,
-                            times.path.name,
-                            std::string(name_of(times.path.instructions))};
+    OwnRunRow row{.scene = scene,
+                  .method = run.method.name,
+                  .step = run.asked,
+                  .verdict = run.outcome.verdict,
+                  .error = run.error,
+                  .truth_bar = error_bar,
+                  .evaluations = run.outcome.evaluations,
+                  .path = times.path.name,
+                  .instructions = times.path.instructions};
     if (run.ok()) {
       const Timing t = time_of(run, times.per_evaluation.at(run.method.name));
-      append(cells, {t.median, t.low, t.high});
-    } else {
-      cells.resize(cells.size() + 3);
+      row.cpu = t.median, row.cpu_low = t.low, row.cpu_high = t.high;
     }
-    table.add(std::move(cells));
+    add(table, row);
   }
 }
 
@@ -252,12 +248,12 @@ void equal_error(const EqualErrorOptions& asked, Rows& rows, Progress& progress)
 
   progress.begin(fmt::format("{}: all in turns", scene));
   const Times times = in_turns(asked, peers, own);
-  Table table = equal_error_table(), curve = own_runs_table();
+  Table table = table_of<EqualErrorRow>(), curve = table_of<OwnRunRow>();
   for (size_t i = 0; i < peers.size(); ++i)
     for (const MysimTimes& path : times.own) {
-      std::vector<Cell> row = cells_of(peers[i], scene, error_bar, times.peers[i]);
-      append(row, beside(peers[i], times.peers[i], own, path, error_bar));
-      table.add(std::move(row));
+      EqualErrorRow row = row_of(peers[i], scene, error_bar, times.peers[i]);
+      set_beside(row, peers[i], times.peers[i], own, path, error_bar);
+      add(table, row);
     }
   for (const MysimTimes& path : times.own) add_own(scene, own, path, error_bar, curve);
   rows.add(table);
@@ -299,35 +295,31 @@ void beside_bullet(const std::shared_ptr<const Scene>& scene, const SameStepOpti
     const std::vector<double>& mine = times[1 + i].per_evaluation;
     const Timing each = timing_of(mine), ratio = timing_of(ratios_of_rounds(times[0].per_evaluation, mine));
     const double apart = largest_column(end_of(own, *scene, run, path.instructions) - end);
-    table.add({scene->name, force, out.step, out.steps, apart, its.median, its.low, its.high, build_of(bullets),
-               path.name, std::string(name_of(path.instructions)), std::string(ours), each.median, each.low, each.high,
-               ratio.median, ratio.low, ratio.high});
+    add(table, SameStepRow{.scene = scene->name,
+                           .force = force,
+                           .step = out.step,
+                           .steps = out.steps,
+                           .apart = apart,
+                           .bullet_cpu = its.median,
+                           .bullet_low = its.low,
+                           .bullet_high = its.high,
+                           .build = build_of(bullets),
+                           .path = path.name,
+                           .instructions = path.instructions,
+                           .mysim = ours,
+                           .cpu = each.median,
+                           .low = each.low,
+                           .high = each.high,
+                           .ratio = ratio.median,
+                           .ratio_low = ratio.low,
+                           .ratio_high = ratio.high});
   }
 }
 
 }  // namespace
 
 void same_step(const SameStepOptions& asked, Rows& rows, Progress& progress) {
-  Table table{"bench-same-step-cost",
-              {{"scene", "1"},
-               {"force of Bullet", "1"},
-               {"step", "s"},
-               {"steps", "1"},
-               {"farthest particle", "m"},
-               {"cpu per step of Bullet", "s"},
-               {"low of Bullet", "s"},
-               {"high of Bullet", "s"},
-               {"build", "1"},
-               {"path of mysim", "1"},
-               {"instructions", "1"},
-               {"mysim", "1"},
-               {"cpu per step of mysim", "s"},
-               {"low of mysim", "s"},
-               {"high of mysim", "s"},
-               {"ratio", "1"},
-               {"ratio low", "1"},
-               {"ratio high", "1"}},
-              {}};
+  Table table = table_of<SameStepRow>();
   for (const Scene& scene : {hanging_cloth(asked.side), hanging_cloth_of_two_stiffnesses(asked.side)}) {
     progress.begin(fmt::format("{}: the same step in Bullet", scene.name));
     beside_bullet(std::make_shared<const Scene>(scene), asked, table, rows.notes);

@@ -79,9 +79,9 @@ std::optional<BenchmarkFunction> fused_step(const Scene& scene, simd::Instructio
   work->body.put(scene.start.x, scene.start.v);
   simd::ClothGrid<T>& grid = work->body.grid();
   grid.damping = work->damping.data(), grid.inverse_mass_dt = work->inverse_mass_dt.data(), grid.dt = work->dt.data();
-  const simd::KickDrift<T> stride{{0, 0, 0}, static_cast<T>(h / 2), static_cast<T>(h / 2), nullptr, 0, nullptr,
-                                  nullptr};
-  return [work, stride, kernel = simd::kernel<T>(isa, fast)] { kernel.fused_step(work->body.grid(), stride); };
+  const simd::KickDrift<T> kick_drift{{0, 0, 0}, static_cast<T>(h / 2), static_cast<T>(h / 2), nullptr, 0, nullptr,
+                                      nullptr};
+  return [work, kick_drift, kernel = simd::kernel<T>(isa, fast)] { kernel.fused_step(work->body.grid(), kick_drift); };
 }
 
 template std::optional<BenchmarkFunction> fused_step<double>(const Scene&, simd::InstructionSet, bool);

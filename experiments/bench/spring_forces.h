@@ -18,8 +18,8 @@ BenchmarkFunction naive_loop(const Scene& scene);
 BenchmarkFunction plain_loop(const Scene& scene);
 /// The engine's kernel for any network, with an instruction set that the machine has.
 BenchmarkFunction general_kernel(const Scene& scene, simd::InstructionSet isa);
-/// The engine's sweep: not the forces alone but a whole step of a sheet, kick and drift included. T: double or float;
-/// `fast` as of strip::kernel(). Nothing where the springs are no regular grid, or one too narrow.
+/// The engine's fused step: not the forces alone but a whole step of a cloth, kick and drift included. T: double or
+/// float; `fast` as of simd::kernel(). Nothing where the springs are no regular grid, or one too narrow.
 template <class T>
 std::optional<BenchmarkFunction> fused_step(const Scene& scene, simd::InstructionSet isa, bool fast);
 

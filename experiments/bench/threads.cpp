@@ -9,6 +9,7 @@
 #include <ctime>
 
 #include "experiments/scenes/cloths.h"
+#include "experiments/tables/bench.h"
 #include "experiments/timing/machine.h"
 #include "experiments/timing/timing.h"
 #include "mysim/run/cloth_grid_world.h"
@@ -45,14 +46,14 @@ class TimedCloth {
     return wall / steps;
   }
   /// How many are at work.
-  int threads() const { return world_->worker_seconds() > 0 ? 2 : 1; }
+  int threads() const { return world_->work().worker_seconds > 0 ? 2 : 1; }
   /// Of the time of as many cores.
   double share() const { return timing_of(share_).median; }
 
  private:
   Observers no_observers_{{}};
   double h_;
-  std::unique_ptr<simd::ClothGridWorld> world_;
+  std::unique_ptr<World> world_;
   long taken_ = 0;
   std::vector<double> share_;
 };
@@ -72,23 +73,7 @@ void two_threads(const ThreadsOptions& asked, Rows& rows, Progress& progress) {
     rows.notes.emplace_back("bench leaves out two threads: this process may use one core");
     return;
   }
-  Table table{"bench-threads-cost",
-              {{"scene", "1"},
-               {"method", "1"},
-               {"instructions", "1"},
-               {"threads at work", "1"},
-               {"steps timed", "1"},
-               {"wall per step of one", "s"},
-               {"low of one", "s"},
-               {"high of one", "s"},
-               {"wall per step of two", "s"},
-               {"low of two", "s"},
-               {"high of two", "s"},
-               {"share of the cores", "1"},
-               {"ratio", "1"},
-               {"ratio low", "1"},
-               {"ratio high", "1"}},
-              {}};
+  Table table = table_of<ThreadsRow>();
   for (const int side : asked.sides) {
     const Scene scene = hanging_cloth(side);
     progress.begin(fmt::format("{}: two threads", scene.name));
@@ -102,9 +87,21 @@ void two_threads(const ThreadsOptions& asked, Rows& rows, Progress& progress) {
                  ratio = timing_of(ratios_of_rounds(times[0], times[1]));
     const long at_work = two.threads();
     const double share = two.share();
-    table.add({scene.name, fmt::format("{}+threads=2", rule), std::string(name_of(simd::active_instruction_set())),
-               at_work, static_cast<long>(steps), a.median, a.low, a.high, b.median, b.low, b.high, share, ratio.median,
-               ratio.low, ratio.high});
+    add(table, ThreadsRow{.scene = scene.name,
+                          .method = fmt::format("{}+threads=2", rule),
+                          .instructions = simd::active_instruction_set(),
+                          .threads = at_work,
+                          .steps = steps,
+                          .one = a.median,
+                          .one_low = a.low,
+                          .one_high = a.high,
+                          .two = b.median,
+                          .two_low = b.low,
+                          .two_high = b.high,
+                          .share = share,
+                          .ratio = ratio.median,
+                          .ratio_low = ratio.low,
+                          .ratio_high = ratio.high});
     if (at_work > 1 && share < nearly_all)
       rows.notes.push_back(
           fmt::format("bench: two threads on {} got {:.0f} % of the time of two cores, as something else ran: their "

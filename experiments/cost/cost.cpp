@@ -11,10 +11,10 @@
 #include "experiments/estimate.h"
 #include "experiments/scenes/cloths.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
-#include "experiments/tables/table.h"
+#include "experiments/tables/cost.h"
 #include "experiments/timing/timing.h"
 #include "mysim/base/this_process.h"
-#include "mysim/simd/instruction_sets.h"
+#include "mysim/simd/cloth_grid/cloth_grid.h"
 #include "mysim/simd/spring_graph/spring_kernel.h"
 
 namespace crosscheck {
@@ -73,11 +73,6 @@ Kernel triad_kernel(double bytes) {
 
 namespace {
 
-class NullObserver : public Observer {
- public:
-  Verdict observe(const State&, bool) override { return Verdict::ok; }
-};
-
 /// A run of so many steps, without a look in between.
 Run steps_of(const Scene& scene, long steps) { return {scene.step, scene.step * static_cast<double>(steps), 1}; }
 
@@ -112,7 +107,7 @@ void cost_of_size(const Request& request, int n, Rows& rows) {
   const Scene scene = sized_cloth(n);
   std::vector<Method> methods, asked = methods_of(request, scene);
   // beside engines that know networks only: the same rule without the kernel for regular cloths
-  if (request.methods.empty()) asked.push_back(find_method("mysim/symplectic-euler+plain"));
+  if (request.methods.empty()) asked.push_back(find_method(std::string(subject().representative) + "+plain"));
   for (Method& method : asked) {
     if (method.adaptive) continue;  // how long its steps are is its own choice
     if (run_method(method, scene, steps_of(scene, 1), {}).verdict != Verdict::unsupported)
@@ -124,22 +119,7 @@ void cost_of_size(const Request& request, int n, Rows& rows) {
     runs.push_back(step_of(methods[i], scene, steps_to_time(methods[i], scene), &told[i]));
   const auto times = steps_timed(runs, request.full);
   const double noise = noise_floor(times);
-  Table table{"size-cost",
-              {{"method", "1"},
-               {"side", "1"},
-               {"particles", "1"},
-               {"springs", "1"},
-               {"step", "s"},
-               {"steps timed", "1"},
-               {"evaluations per step", "1"},
-               {"cpu per step", "s"},
-               {"cpu low", "s"},
-               {"cpu high", "s"},
-               {"cpu per step and particle", "s"},
-               {"repetitions", "1"},
-               {"noise", "1"},
-               {"build", "1"}},
-              {}};
+  Table table = table_of<SizeCostRow>();
   const auto particles = static_cast<long>(scene.start.x.cols());
   for (size_t i = 0; i < methods.size(); ++i) {
     const Timing t = timing_of(times[i]);
@@ -147,10 +127,21 @@ void cost_of_size(const Request& request, int n, Rows& rows) {
       rows.notes.push_back(fmt::format("{} does not tell what CPU time it took", methods[i].name));
       continue;
     }
-    table.add({methods[i].name, static_cast<long>(n), particles, springs_of(scene), scene.step, told[i].steps,
-               static_cast<double>(told[i].evaluations) / static_cast<double>(std::max(1L, told[i].steps)), t.median,
-               t.low, t.high, t.median / static_cast<double>(particles), t.repetitions, noise,
-               build_of(methods[i].name)});
+    add(table, SizeCostRow{.method = methods[i].name,
+                           .side = n,
+                           .particles = particles,
+                           .springs = springs_of(scene),
+                           .step = scene.step,
+                           .steps_timed = told[i].steps,
+                           .evaluations_per_step = static_cast<double>(told[i].evaluations) /
+                                                   static_cast<double>(std::max(1L, told[i].steps)),
+                           .cpu = t.median,
+                           .cpu_low = t.low,
+                           .cpu_high = t.high,
+                           .cpu_per_particle = t.median / static_cast<double>(particles),
+                           .repetitions = t.repetitions,
+                           .noise = noise,
+                           .build = build_of(methods[i].name)});
   }
   rows.add(table);
 }
@@ -193,44 +184,50 @@ Timing minus(const Timing& a, const Timing& b) {
 
 }  // namespace
 
+Table phases_table(int n, const std::vector<std::string>& methods, const std::vector<Timing>& times) {
+  Table table = table_of<PhaseCostRow>();
+  const auto add_phase = [&](size_t method, const char* phase, const Timing& time, double all, const char* how) {
+    add(table, PhaseCostRow{methods.at(method), n, phase, time.median, time.low, time.high, time.median / all, how});
+  };
+  const double whole = times.at(3).median;
+  add_phase(0, "springs", times[0], whole, "the spring kernel alone");
+  add_phase(0, "other forces", minus(times[1], times[0]), whole, "all forces at a position, less the springs");
+  add_phase(0, "integration and loop", minus(times[2], times[1]), whole, "a step without sphere, less its forces");
+  add_phase(0, "contact", minus(times[3], times[2]), whole, "a step with the sphere, less one without");
+  add_phase(0, "whole step", times[3], whole, "with the sphere");
+  for (size_t i = 1; i < methods.size(); ++i)
+    add_phase(i, "whole step", times.at(3 + i), times[3 + i].median,
+              i == 1 ? "all in one pass over memory" : "what it does inside cannot be told from outside");
+  return table;
+}
+
 void cost_of_phases(const Request& request, int n, Rows& rows) {
   const Scene plain = sized_cloth(n), above = sized_cloth(n, true);
-  Table table{"phases-cost",
-              {{"method", "1"},
-               {"side", "1"},
-               {"phase", "1"},
-               {"cpu per step", "s"},
-               {"cpu low", "s"},
-               {"cpu high", "s"},
-               {"share", "1"},
-               {"how", "1"}},
-              {}};
   // the sweep has no phases
   const Method ours = find_method("mysim/leapfrog+plain"), fused = find_method("mysim/leapfrog");
   std::vector<Method> others;
   for (Method& m : methods_of(request, above))
-    if (m.name.starts_with("bullet/") && run_method(m, above, steps_of(above, 1), {}).verdict != Verdict::unsupported)
+    if (m.family().is_default_peer() && run_method(m, above, steps_of(above, 1), {}).verdict != Verdict::unsupported)
       others.push_back(std::move(m));
   const long steps = steps_to_time(ours, above);
   std::vector<std::function<double()>> runs{springs_alone(plain), forces_alone(plain), step_of(ours, plain, steps),
                                             step_of(ours, above, steps), step_of(fused, above, steps)};
-  for (const Method& m : others) runs.push_back(step_of(m, above, steps_to_time(m, above)));
+  std::vector<std::string> names{ours.name, fused.name};
+  for (const Method& m : others) {
+    runs.push_back(step_of(m, above, steps_to_time(m, above)));
+    names.push_back(m.name);
+  }
   std::vector<Timing> t;
   for (const auto& times : steps_timed(runs, request.full)) t.push_back(timing_of(times));
-  const double whole = t[3].median;
-  auto add = [&](const std::string& method, const char* phase, const Timing& time, double all, const char* how) {
-    table.add({method, static_cast<long>(n), std::string(phase), time.median, time.low, time.high, time.median / all,
-               std::string(how)});
-  };
-  add(ours.name, "springs", t[0], whole, "the spring kernel alone");
-  add(ours.name, "other forces", minus(t[1], t[0]), whole, "all forces at a position, less the springs");
-  add(ours.name, "integration and loop", minus(t[2], t[1]), whole, "a step without sphere, less its forces");
-  add(ours.name, "contact", minus(t[3], t[2]), whole, "a step with the sphere, less one without");
-  add(ours.name, "whole step", t[3], whole, "with the sphere");
-  add(fused.name, "whole step", t[4], t[4].median, "all in one pass over memory");
-  for (size_t i = 0; i < others.size(); ++i)
-    add(others[i].name, "whole step", t[5 + i], t[5 + i].median, "what it does inside cannot be told from outside");
-  rows.add(table);
+  rows.add(phases_table(n, names, t));
+}
+
+std::optional<std::string> doubt_about_peak(double peak, double triad) {
+  if (!(peak < triad)) return std::nullopt;
+  return fmt::format(
+      "cost: the loop for the peak did {:.2g} billion operations a second, fewer than a = b + s c in the cache "
+      "({:.2g}): the peak of the machine is higher than shown",
+      peak / 1e9, triad / 1e9);
 }
 
 void cost_against_roofline(bool full, Rows& rows) {
@@ -238,50 +235,34 @@ void cost_against_roofline(bool full, Rows& rows) {
   if (full) sides.insert(sides.end(), {256, 512});
   std::vector<Scene> scenes;
   for (const int n : sides) scenes.push_back(sized_cloth(n));
-  struct Row {
-    std::string name;
-    double flop, bytes;
-  };
-  std::vector<Row> what;
+  std::vector<RooflineRow> loops;
   std::vector<std::function<double()>> runs;
-  const auto add = [&](const std::string& name, const Kernel& k) {
-    what.push_back({name, k.flop, k.bytes});
-    runs.push_back(k.run);
+  const auto add_loop = [&](const std::string& name, double flop, double bytes, std::function<double()> run) {
+    loops.push_back({.what = name, .work = flop, .bytes = bytes});
+    runs.push_back(std::move(run));
   };
-  add("peak of multiplications and additions", multiply_add_kernel());
-  add("bandwidth, 24 kB", triad_kernel(24e3));
-  add("bandwidth, 1 MB", triad_kernel(1e6));
-  add("bandwidth, 96 MB", triad_kernel(96e6));
+  const auto add_kernel = [&](const std::string& name, const Kernel& k) { add_loop(name, k.flop, k.bytes, k.run); };
+  add_kernel("peak of multiplications and additions", multiply_add_kernel());
+  add_kernel("bandwidth, 24 kB", triad_kernel(24e3));
+  add_kernel("bandwidth, 1 MB", triad_kernel(1e6));
+  add_kernel("bandwidth, 96 MB", triad_kernel(96e6));
   for (size_t i = 0; i < scenes.size(); ++i) {
     const auto springs = static_cast<double>(springs_of(scenes[i]));
-    what.push_back({fmt::format("springs, {0} x {0}", sides[i]), flop_per_spring * springs,
-                    bytes_per_spring * springs + bytes_per_particle * static_cast<double>(scenes[i].start.x.cols())});
-    runs.push_back(springs_alone(scenes[i]));
+    add_loop(fmt::format("springs, {0} x {0}", sides[i]), flop_per_spring * springs,
+             bytes_per_spring * springs + bytes_per_particle * static_cast<double>(scenes[i].start.x.cols()),
+             springs_alone(scenes[i]));
   }
-  Table table{"roofline-cost",
-              {{"what", "1"},
-               {"work", "flop"},
-               {"bytes", "B"},
-               {"intensity", "flop/B"},
-               {"cpu", "s"},
-               {"cpu low", "s"},
-               {"cpu high", "s"},
-               {"rate", "flop/s"},
-               {"bandwidth", "B/s"}},
-              {}};
   const auto times = steps_timed(runs, full);
-  for (size_t i = 0; i < what.size(); ++i) {
+  Table table = table_of<RooflineRow>();
+  for (size_t i = 0; i < loops.size(); ++i) {
     const Timing t = timing_of(times[i]);
-    const bool moves = what[i].bytes > 0;
-    table.add({what[i].name, what[i].flop, what[i].bytes, moves ? Cell(what[i].flop / what[i].bytes) : Cell(), t.median,
-               t.low, t.high, what[i].flop / t.median, moves ? Cell(what[i].bytes / t.median) : Cell()});
+    RooflineRow& row = loops[i];
+    row.cpu = t.median, row.cpu_low = t.low, row.cpu_high = t.high;
+    row.rate = row.work / t.median;
+    if (row.bytes > 0) row.intensity = row.work / row.bytes, row.bandwidth = row.bytes / t.median;
+    add(table, row);
   }
-  // a peak below what another loop reaches is none
-  if (const double peak = *number_at(table, 0, "rate"), triad = *number_at(table, 1, "rate"); peak < triad)
-    rows.notes.push_back(fmt::format(
-        "cost: the loop for the peak did {:.2g} billion operations a second, fewer than a = b + s c in the cache "
-        "({:.2g}): the peak of the machine is higher than shown",
-        peak / 1e9, triad / 1e9));
+  if (const auto doubt = doubt_about_peak(loops[0].rate, loops[1].rate)) rows.notes.push_back(*doubt);
   rows.add(table);
 }
 

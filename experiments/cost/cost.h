@@ -2,8 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "experiments/experiment.h"
+#include "experiments/timing/timing.h"
 
 namespace crosscheck {
 
@@ -31,8 +35,13 @@ void cost_of_size(const Request& request, int n, Rows& rows);
 /// contact and the rest of the step take, and the whole step in the sweep, which does all of it in one pass; of
 /// Bullet's worlds the whole step, since what they do inside cannot be told from outside.
 void cost_of_phases(const Request& request, int n, Rows& rows);
+/// The same from measured times, s: springs, all forces, a step without the sphere and a step with it (of methods[0]);
+/// then whole steps, of methods[1] and on.
+Table phases_table(int n, const std::vector<std::string>& methods, const std::vector<Timing>& times);
 /// `roofline-cost`: the machine's peaks and the spring kernel at several sizes.
 void cost_against_roofline(bool full, Rows& rows);
+/// What must be said beside a measured peak below the rate of another loop, flop/s; nothing where there is none.
+std::optional<std::string> doubt_about_peak(double peak, double triad);
 
 /// Work of the spring kernel per spring, in floating-point operations: 3 differences, 5 for the squared length, 1
 /// difference and 1 product for the tension, 3 products, 6 to add the force to both ends; a root and a quotient count

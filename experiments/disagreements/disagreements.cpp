@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "experiments/scenes/scenes.h"
+#include "experiments/tables/disagreements.h"
 #include "mysim/run/observers.h"
 #include "reference/method.h"
 
@@ -66,32 +67,26 @@ std::vector<Point> disagreements_points(const Request& request) {
   if (request.scenes_only) return {};
   std::vector<Point> points;
   for (const Disagreement& d : disagreements())
-    points.push_back(
-        {"disagreement: " + d.name, scene_of(d).hash, [d](Rows& rows) {
-           const Scene scene = scene_of(d);
-           const std::vector<Series> all = run_variants(d, scene);
-           Table table{
-               d.name + "-disagreement",
-               {{"curve", "1"}, {"method", "1"}, {"step", "s"}, {"verdict", "1"}, {"t", "s"}, {d.quantity, d.unit}},
-               {}};
-           for (const Series& s : all)
-             for (const auto& [t, value] : s.points)
-               table.add({s.variant.label, s.variant.method, s.outcome.step, std::string(name_of(s.outcome.verdict)), t,
-                          value});
-           Table summary{
-               "disagreements",
-               {{"name", "1"}, {"world", "1"}, {"what", "1"}, {"cause", "1"}, {"effect", "1"}, {"scene hash", "1"}},
-               {}};
-           std::string effect = d.effect(all);
-           if (d.measured) {
-             const TableWithSentence more = d.measured(d);
-             rows.add(more.table);
-             effect += " " + more.sentence;
-           }
-           summary.add({d.name, d.world, d.what, d.cause, effect, scene.hash});
-           rows.add(table);
-           rows.add(summary);
-         }});
+    points.push_back({"disagreement: " + d.name, scene_of(d).hash, [d](Rows& rows) {
+                        const Scene scene = scene_of(d);
+                        const std::vector<Series> all = run_variants(d, scene);
+                        Table table = table_of<DisagreementCurveRow>(d.name + "-disagreement");
+                        table.columns.back() = {d.quantity, d.unit};
+                        for (const Series& s : all)
+                          for (const auto& [t, value] : s.points)
+                            add(table, DisagreementCurveRow{s.variant.label, s.variant.method, s.outcome.step,
+                                                            s.outcome.verdict, t, value});
+                        Table summary = table_of<DisagreementRow>();
+                        std::string effect = d.effect(all);
+                        if (d.measured) {
+                          const TableWithSentence more = d.measured(d);
+                          rows.add(more.table);
+                          effect += " " + more.sentence;
+                        }
+                        add(summary, DisagreementRow{d.name, d.world, d.what, d.cause, effect, scene.hash});
+                        rows.add(table);
+                        rows.add(summary);
+                      }});
   return points;
 }
 

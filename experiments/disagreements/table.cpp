@@ -9,6 +9,7 @@
 
 #include "experiments/disagreements/disagreements.h"
 #include "experiments/metrics.h"
+#include "experiments/tables/disagreements.h"
 #include "mysim/model/energy.h"
 
 namespace crosscheck {
@@ -146,14 +147,12 @@ TableWithSentence directions(const Disagreement& d) {
   std::vector<double> angles;
   for (double degrees = first; degrees <= last; degrees += 0.5) angles.push_back(degrees * std::numbers::pi / 180);
   const Scene scene = scene_of(d);
-  Table table{d.name + "-angles",
-              {{"method", "1"}, {"angle", "rad"}, {"in plane", "rad"}, {"sideways", "rad"}, {"scene hash", "1"}},
-              {}};
+  Table table = table_of<ContactAngleRow>(d.name + "-angles");
   double steeper_by = 0, flatter_by = 0, sideways = 0;  // mrad
   const std::string bullet = d.variants[1].method;
   for (const std::string& method : {d.variants[0].method, bullet, d.variants[3].method, d.variants[4].method})
     for (const DirectionError& e : direction_errors(method, scene, angles)) {
-      table.add({method, e.angle, e.in_plane, e.sideways, scene.hash});
+      add(table, ContactAngleRow{method, e.angle, e.in_plane, e.sideways, scene.hash});
       if (method != bullet) continue;
       steeper_by = std::max(steeper_by, 1e3 * e.in_plane), flatter_by = std::min(flatter_by, 1e3 * e.in_plane);
       sideways = std::max(sideways, 1e3 * std::abs(e.sideways));

@@ -8,6 +8,7 @@
 #include "experiments/energy/long_run.h"
 #include "experiments/estimate.h"
 #include "experiments/experiment.h"
+#include "experiments/tables/energy.h"
 
 namespace crosscheck {
 namespace {
@@ -33,11 +34,6 @@ Scene everything() {
       "all-at-once");
 }
 
-bool solves_whole_step(const Method& method) {
-  if (method.stepper) return method.stepper->evaluations == 0;
-  return method.name.find("implicit") != std::string::npos;
-}
-
 /// Steps of the scene's step that each method's run is given, so that all cover the same time: as many as Bullet's
 /// explicit world, the dearer one of those with a step as short, takes in a budget. A full run's allows all
 /// on a cloth of 10 x 10.
@@ -48,57 +44,15 @@ long steps_for(const Request& request, const Scene& scene) {
 }
 
 void long_run(const Request& request, const Scene& scene, const Method& method, Rows& rows) {
-  Table summary{"energy",
-                {{"scene", "1"},
-                 {"method", "1"},
-                 {"verdict", "1"},
-                 {"reason", "1"},
-                 {"end", "s"},
-                 {"step", "s"},
-                 {"steps", "1"},
-                 {"undamped", "1"},
-                 {"symplectic", "1"},
-                 {"closure claimed", "1"},
-                 {"energy turned over", "J"},
-                 {"largest residual", "J"},
-                 {"residual", "J"},
-                 {"drift", "J/s"},
-                 {"oscillation", "J"},
-                 {"growth of the residual", "1"},
-                 {"equivalent drag", "1/s"},
-                 {"kinetic at start", "J"},
-                 {"elastic at start", "J"},
-                 {"kinetic", "J"},
-                 {"elastic", "J"},
-                 {"gravity gave", "J"},
-                 {"drag took", "J"},
-                 {"dashpots took", "J"},
-                 {"contact took", "J"},
-                 {"contact inferred", "1"},
-                 {"wind gave", "J"},
-                 {"pins gave", "J"}},
-                {}};
-  Table table{scene.name + "-ledger",
-              {{"method", "1"},
-               {"t", "s"},
-               {"kinetic", "J"},
-               {"elastic", "J"},
-               {"gravitational", "J"},
-               {"drag", "J"},
-               {"dashpots", "J"},
-               {"contact loss", "J"},
-               {"wind work", "J"},
-               {"pin work", "J"},
-               {"residual", "J"},
-               {"largest residual", "J"}},
-              {}};
+  Table summary = table_of<EnergyRow>();
+  Table table = table_of<SceneLedgerRow>(scene.name + "-ledger");
   const long steps = steps_for(request, scene);
   const double step = request.step > 0 ? request.step : scene.step;
   Run run = default_run(scene);
   run.duration = step * static_cast<double>(steps);
   run.samples = samples;
   run.timed = false;
-  run.step = request.step == 0 && solves_whole_step(method) ? longer * step : step;
+  run.step = request.step == 0 && method.implicit ? longer * step : step;
   if (steps < all_steps)
     rows.notes.push_back(fmt::format("energy takes {} steps instead of {} on {}: its {} particles cost much{}", steps,
                                      all_steps, scene.name, scene.model.particles.size(),
@@ -124,54 +78,57 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
   const bool claimed = !ledger.contact_inferred();
   const bool symplectic =
       (method.stepper && method.stepper->symplectic) || (!method.stepper && method.rule == "symplectic-euler");
-  auto told = [&](double value) { return nothing ? Cell() : Cell(value); };
-  auto closed = [&](double value) { return nothing || !claimed ? Cell() : Cell(value); };
-  const LedgerRow none{};
-  const LedgerRow &start = nothing ? none : seen.front(), &end = nothing ? none : seen.back();
-  const ResidualStatistics all = nothing ? ResidualStatistics{} : residual_statistics(seen);
-  summary.add({scene.name,
-               method.name,
-               std::string(name_of(out.verdict)),
-               out.reason,
-               out.end,
-               out.step,
-               out.steps,
-               undamped ? 1l : 0l,
-               symplectic ? 1l : 0l,
-               claimed && !nothing ? 1l : 0l,
-               told(all.energy_scale),
-               closed(all.worst),
-               closed(all.final),
-               closed(all.drift),
-               closed(all.oscillation),
-               closed(all.growth),
-               closed(all.equivalent_drag),
-               told(start.energy.kinetic),
-               told(start.energy.elastic),
-               told(end.energy.kinetic),
-               told(end.energy.elastic),
-               told(start.energy.gravitational - end.energy.gravitational),
-               told(end.drag),
-               told(end.dashpots),
-               told(end.contact),
-               model.find<Spheres>() && !claimed ? 1l : 0l,
-               told(end.wind),
-               told(end.pins)});
+  EnergyRow row{.scene = scene.name,
+                .method = method.name,
+                .verdict = out.verdict,
+                .reason = out.reason,
+                .end = out.end,
+                .step = out.step,
+                .steps = out.steps,
+                .undamped = undamped,
+                .symplectic = symplectic,
+                .closure_claimed = claimed && !nothing,
+                .contact_inferred = model.find<Spheres>() && !claimed};
+  if (!nothing) {
+    const LedgerRow &start = seen.front(), &end = seen.back();
+    const ResidualStatistics all = residual_statistics(seen);
+    if (claimed) {
+      row.largest_residual = all.worst, row.residual = all.final, row.drift = all.drift;
+      row.oscillation = all.oscillation, row.growth = all.growth, row.equivalent_drag = all.equivalent_drag;
+    }
+    row.turned_over = all.energy_scale;
+    row.kinetic_at_start = start.energy.kinetic, row.elastic_at_start = start.energy.elastic;
+    row.kinetic = end.energy.kinetic, row.elastic = end.energy.elastic;
+    row.gravity = start.energy.gravitational - end.energy.gravitational;
+    row.drag = end.drag, row.dashpots = end.dashpots, row.contact = end.contact, row.wind = end.wind,
+    row.pins = end.pins;
+  }
+  add(summary, row);
 
   double worst = 0, next = 0;
   size_t kept = 0;
   for (size_t i = 0; i < seen.size() && !nothing; ++i) {
-    const LedgerRow& row = seen[i];
-    const double residual = row.balance() - start.balance();
+    const LedgerRow& now = seen[i];
+    const double residual = now.balance() - seen.front().balance();
     worst = std::max(worst, std::abs(residual));
     // two hundred rows at equal times, and the first ones of each decade
-    const bool even = row.t >= next - 1e-9 * run.duration;
+    const bool even = now.t >= next - 1e-9 * run.duration;
     const bool first = i < 40 || static_cast<double>(i) >= 1.12 * static_cast<double>(kept);
     if (!even && !first && i + 1 < seen.size()) continue;
     if (even) next += run.duration / samples;
     kept = i;
-    table.add({method.name, row.t, row.energy.kinetic, row.energy.elastic, row.energy.gravitational, row.drag,
-               row.dashpots, row.contact, row.wind, row.pins, closed(residual), closed(worst)});
+    SceneLedgerRow kept_row{.method = method.name,
+                            .t = now.t,
+                            .kinetic = now.energy.kinetic,
+                            .elastic = now.energy.elastic,
+                            .gravitational = now.energy.gravitational,
+                            .drag = now.drag,
+                            .dashpots = now.dashpots,
+                            .contact = now.contact,
+                            .wind = now.wind,
+                            .pins = now.pins};
+    if (claimed) kept_row.residual = residual, kept_row.largest_residual = worst;
+    add(table, kept_row);
   }
   rows.add(summary);
   rows.add(table);

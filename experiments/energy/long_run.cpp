@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "experiments/tables/energy.h"
 #include "mysim/model/energy.h"
 #include "mysim/run/observers.h"
 
@@ -72,12 +73,8 @@ std::optional<double> gain(const std::string& rule, double y) {
 }
 
 /// The rule that a method follows on one linear spring.
-std::string rule_on_one_spring(const Method& method) {
-  // one spring swept once, and a link let fall and pulled back, are backward Euler; so is one Newton step
-  if (method.name.starts_with("mysim/xpbd") || method.name.starts_with("bullet/pbd") ||
-      method.name.starts_with("bullet/deformable-implicit") || method.rule == "implicit-euler+linear")
-    return "implicit-euler";
-  return method.rule;
+const std::string& rule_on_one_spring(const Method& method) {
+  return method.on_one_spring.empty() ? method.rule : method.on_one_spring;
 }
 
 }  // namespace
@@ -117,24 +114,20 @@ MeasuredDamping measured_damping(const Method& method, double h, int steps) {
 }
 
 void add_damping(const Method& method, bool full, Rows& rows) {
-  Table table{"energy-damping",
-              {{"method", "1"},
-               {"verdict", "1"},
-               {"end", "s"},
-               {"step", "s"},
-               {"h omega", "1"},
-               {"equivalent drag", "1/s"},
-               {"by theory", "1/s"}},
-              {}};
+  Table table = table_of<DampingRow>();
   std::vector<double> sizes = {0.02, 0.05, 0.1, 0.2, 0.5, 1, 1.5, 3};
   if (full) sizes = {0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5};
   for (const double size : sizes) {
     const double h = size / omega;
     const MeasuredDamping found = measured_damping(method, h, full ? 4000 : 1000);
     if (found.outcome.verdict == Verdict::unsupported) continue;
-    const auto theory = damping_by_theory(method, h, omega);
-    table.add({method.name, std::string(name_of(found.outcome.verdict)), found.outcome.end, h, size,
-               found.rate ? Cell(*found.rate) : Cell(), theory ? Cell(*theory) : Cell()});
+    add(table, DampingRow{.method = method.name,
+                          .verdict = found.outcome.verdict,
+                          .end = found.outcome.end,
+                          .step = h,
+                          .h_omega = size,
+                          .equivalent_drag = found.rate,
+                          .by_theory = damping_by_theory(method, h, omega)});
   }
   rows.add(table);
 }

@@ -1,6 +1,6 @@
 // Experiment `engines`: all methods on the same scene at the same step, with their energies.
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
 #include "experiments/tables/energy.h"
+#include "experiments/tables/engines.h"
 #include "mysim/model/system.h"
 
 namespace crosscheck {
@@ -18,21 +19,18 @@ namespace crosscheck {
 
 namespace {
 
-/// The method that the others are set against: the rule that Bullet's explicit world follows.
-constexpr auto reference_rule = "mysim/symplectic-euler";
-
-/// nan when the trajectories have no common time.
-Cell largest(const Table& table, size_t from, const std::string& column, double until) {
+/// Nothing when the trajectories have no common time.
+std::optional<double> largest(const std::vector<EngineTimeRow>& rows, std::optional<double> EngineTimeRow::*member,
+                              double until) {
   double most = -1;
-  for (size_t i = from; i < table.rows.size(); ++i)
-    if (std::get<double>(table.at(i, "t")) <= until * (1 + 1e-9))
-      if (const auto* value = std::get_if<double>(&table.at(i, column))) most = std::max(most, *value);
-  return most < 0 ? Cell() : Cell(most);
+  for (const EngineTimeRow& row : rows)
+    if (row.t <= until * (1 + 1e-9)) most = std::max(most, (row.*member).value_or(-1));
+  return most < 0 ? std::nullopt : std::optional(most);
 }
 
 /// The largest stable step of the method's rule for the scene's fastest vibration at the start, s; empty where the rule
 /// has none, chooses its own steps, or the particles' drag rates differ.
-Cell predicted_limit(const Method& method, const Scene& scene, double omega) {
+std::optional<double> predicted_limit(const Method& method, const Scene& scene, double omega) {
   const auto gamma = uniform_drag_rate(scene.model);
   if (const Stepper* rule = stepper_of(method); rule && !rule->adaptive && omega > 0 && gamma)
     if (const double limit = rule->limit(omega, *gamma); std::isfinite(limit)) return limit;
@@ -41,24 +39,24 @@ Cell predicted_limit(const Method& method, const Scene& scene, double omega) {
 
 /// Table SCENE-statistics: what perturbed runs have in common.
 void add_statistics(const Request& request, const Scene& scene, const Run& run, Results& answers, Rows& rows) {
-  Table table{scene.name + "-statistics",
-              {{"method", "1"}, {"quantity", "1"}, {"unit", "1"}, {"mean", "see unit"}, {"deviation", "see unit"}},
-              {}};
-  // the rules that stand for the two engines: sixteen runs of every method would tell no more
-  for (const char* name : {reference_rule, "bullet/deformable-explicit"}) {
+  Table table = table_of<StatisticRow>(scene.name + "-statistics");
+  // the rules that stand for the engines: sixteen runs of every method would tell no more
+  for (const MethodFamily& family : method_families()) {
+    if (!family.by_default()) continue;
     const auto methods = methods_of(request, scene);
-    const auto asked = std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == name; });
+    const auto asked =
+        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == family.representative; });
     if (asked == methods.end()) continue;
     if (!request.full && estimated_seconds(*asked, scene, run) > 0.3) {
-      rows.notes.push_back(
-          fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them", name, scene.name));
+      rows.notes.push_back(fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them",
+                                       family.representative, scene.name));
       continue;
     }
     // who cannot take the scene, or failed on it, has no statistics
     const Result& answer = result_of(request, scene, *asked, answers);
     if (answer.outcome.verdict != Verdict::ok) continue;
     for (const Statistic& s : contact_statistics(*asked, scene, run))
-      table.add({asked->name, s.quantity, s.unit, s.mean, s.deviation});
+      add(table, StatisticRow{asked->name, s.quantity, s.unit, s.mean, s.deviation});
   }
   if (!table.rows.empty()) rows.add(table);
 }
@@ -66,59 +64,16 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
 }  // namespace
 
 void engines_on(const Request& request, const Scene& scene, Results& answers, Rows& rows) {
-  Table summary{"engines",
-                {{"scene", "1"},
-                 {"method", "1"},
-                 {"verdict", "1"},
-                 {"reason", "1"},
-                 {"end", "s"},
-                 {"step", "s"},
-                 {"steps", "1"},
-                 {"evaluations", "1"},
-                 {"coincident springs", "1"},
-                 {"motion", "m"},
-                 {"window", "s"},
-                 {"measured window", "s"},
-                 {"perturbation growth", "1"},
-                 {"round-off bound", "m"},
-                 {"truth", "1"},
-                 {"truth tier", "1"},
-                 {"truth bar", "m"},
-                 {"truth until", "s"},
-                 {"largest error", "m"},
-                 {"largest difference from converged contact", "m"},
-                 {"largest difference", "m"},
-                 {"largest difference of centres", "m"},
-                 {"smallest clearance", "m"},
-                 {"creep at end", "m/s"},
-                 {"predicted step limit", "s"},
-                 {"different law", "1"}},
-                {}};
-  Table cost{"engines-cost",
-             {{"scene", "1"},
-              {"method", "1"},
-              {"cpu", "s"},
-              {"cpu per step", "s"},
-              {"simulated per cpu", "s/s"},
-              {"cpu of process", "s"}},
-             {}};
+  Table summary = table_of<EngineRow>();
+  Table cost = table_of<EngineCostRow>();
 
   const Run run = run_of(request, scene);
-  Table table{scene.name + "-engines",
-              {{"method", "1"},
-               {"t", "s"},
-               {"error", "m"},
-               {"difference from converged contact", "m"},
-               {"difference", "m"},
-               {"difference of centres", "m"},
-               {"clearance", "m"},
-               {"creep", "m/s"}},
-              {}};
+  Table table = table_of<EngineTimeRow>(scene.name + "-engines");
   const auto truth = truth_of(scene, run);
   // differences from a run that failed would tell nothing
-  const Result& by_rule = result_of(request, scene, find_method(reference_rule), answers);
+  const Result& by_rule = result_of(request, scene, find_method(std::string(subject().representative)), answers);
   const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
-  const Method probe = find_method(reference.frames() > 0 ? reference_rule : scene.method);
+  const Method probe = find_method(reference.frames() > 0 ? std::string(subject().representative) : scene.method);
   const Growth growing = growth_of(probe, scene, run, reference.frames() > 0 ? &reference : nullptr);
   const double growth = growing.until(scene.window);
   const double omega = scene.model.first_order() ? 0 : highest_frequency(scene.model, scene.start);
@@ -140,57 +95,58 @@ void engines_on(const Request& request, const Scene& scene, Results& answers, Ro
     if (out.verdict == Verdict::unsupported) answer.trajectory = {};
     const Trajectory& path = answer.trajectory;
     const bool unsupported = out.verdict == Verdict::unsupported;
-    const size_t first_row = table.rows.size();
+    std::vector<EngineTimeRow> samples;
     double lowest = 1e300;
     for (int i = 0; i < path.frames() && !unsupported; ++i) {
-      const bool both = i < reference.frames() && reference.x[i].cols() == path.x[i].cols();
-      const auto gap = clearance(scene, path.t[i], path.x[i]);
-      if (gap) lowest = std::min(lowest, *gap);
-      const Cell apart =
-          truth && i < truth->trajectory.frames() ? Cell(rms_distance(path.x[i], truth->trajectory.x[i])) : Cell();
-      table.add(
-          {method.name, path.t[i], of_rule ? Cell() : apart, of_rule ? apart : Cell(),
-           both ? Cell(rms_distance(path.x[i], reference.x[i])) : Cell(),
-           both ? Cell((centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.x[i])).norm()) : Cell(),
-           cell_of(gap), cell_of(creep(scene, path.t[i], path.x[i], path.v[i]))});
+      EngineTimeRow& row = samples.emplace_back(EngineTimeRow{.method = method.name, .t = path.t[i]});
+      if (truth && i < truth->trajectory.frames())
+        (of_rule ? row.contact_difference : row.error) = rms_distance(path.x[i], truth->trajectory.x[i]);
+      if (i < reference.frames() && reference.x[i].cols() == path.x[i].cols()) {
+        row.difference = rms_distance(path.x[i], reference.x[i]);
+        row.centre_difference = (centre_of_mass(scene, path.x[i]) - centre_of_mass(scene, reference.x[i])).norm();
+      }
+      row.clearance = clearance(scene, path.t[i], path.x[i]);
+      row.creep = creep(scene, path.t[i], path.x[i], path.v[i]);
+      lowest = std::min(lowest, row.clearance.value_or(1e300));
+      add(table, row);
     }
-    std::string laws;
-    for (const std::string& law : out.different_law) laws += (laws.empty() ? "" : "; ") + law;
-    const bool ok = out.verdict == Verdict::ok;
-    summary.add({scene.name,
-                 method.name,
-                 std::string(name_of(out.verdict)),
-                 out.reason,
-                 out.end,
-                 out.step,
-                 out.steps,
-                 out.evaluations,
-                 out.degenerate_springs,
-                 motion,
-                 scene.window,
-                 growing.window(),
-                 growth,
-                 cell_of(round_off_bound(scene, motion, growth)),
-                 truth ? Cell(truth->how) : Cell(),
-                 truth ? Cell(std::string(name_of(truth->tier)) + (of_rule ? ", in-house contact rule" : "")) : Cell(),
-                 truth ? Cell(truth->error_bar) : Cell(),
-                 of_rule ? Cell(truth->until) : Cell(),
-                 ok ? largest(table, first_row, "error", scene.window) : Cell(),
-                 ok ? largest(table, first_row, "difference from converged contact", scene.window) : Cell(),
-                 ok ? largest(table, first_row, "difference", scene.window) : Cell(),
-                 ok ? largest(table, first_row, "difference of centres", scene.duration) : Cell(),
-                 ok && lowest < 1e300 ? Cell(lowest) : Cell(),
-                 ok && path.frames() ? cell_of(creep(scene, path.t.back(), path.x.back(), path.v.back())) : Cell(),
-                 predicted_limit(method, scene, omega),
-                 laws});
+    EngineRow row{.scene = scene.name,
+                  .method = method.name,
+                  .verdict = out.verdict,
+                  .reason = out.reason,
+                  .end = out.end,
+                  .step = out.step,
+                  .steps = out.steps,
+                  .evaluations = out.evaluations,
+                  .coincident = out.degenerate_springs,
+                  .motion = motion,
+                  .window = scene.window,
+                  .measured_window = growing.window(),
+                  .growth = growth,
+                  .round_off_bound = round_off_bound(scene, motion, growth),
+                  .step_limit = predicted_limit(method, scene, omega),
+                  .different_law = fmt::format("{}", fmt::join(out.different_law, "; "))};
+    if (truth) row.truth = truth->how, row.truth_kind = {truth->tier, of_rule}, row.truth_bar = truth->error_bar;
+    if (of_rule) row.truth_until = truth->until;
+    if (out.verdict == Verdict::ok) {
+      row.error = largest(samples, &EngineTimeRow::error, scene.window);
+      row.contact_difference = largest(samples, &EngineTimeRow::contact_difference, scene.window);
+      row.difference = largest(samples, &EngineTimeRow::difference, scene.window);
+      row.centre_difference = largest(samples, &EngineTimeRow::centre_difference, scene.duration);
+      if (lowest < 1e300) row.clearance = lowest;
+      if (path.frames()) row.creep = creep(scene, path.t.back(), path.x.back(), path.v.back());
+    }
+    add(summary, row);
     if (!out.remark.empty()) rows.notes.push_back(fmt::format("{} on {}: {}", method.name, scene.name, out.remark));
     // an outside program need not tell its own time
     const bool told = out.process_seconds == 0 || out.cpu_seconds > 0;
-    if (!unsupported)
-      cost.add({scene.name, method.name, told ? Cell(out.cpu_seconds) : Cell(),
-                told && out.steps ? Cell(out.cpu_seconds / static_cast<double>(out.steps)) : Cell(),
-                out.cpu_seconds > 0 ? Cell(out.end / out.cpu_seconds) : Cell(),
-                out.process_seconds > 0 ? Cell(out.process_seconds) : Cell()});
+    if (unsupported) continue;
+    EngineCostRow spent{.scene = scene.name, .method = method.name};
+    if (told) spent.cpu = out.cpu_seconds;
+    if (told && out.steps) spent.cpu_per_step = out.cpu_seconds / static_cast<double>(out.steps);
+    if (out.cpu_seconds > 0) spent.simulated_per_cpu = out.end / out.cpu_seconds;
+    if (out.process_seconds > 0) spent.process_cpu = out.process_seconds;
+    add(cost, spent);
   }
   rows.add(table);
   if (scene.model.find<Spheres>() && scene.model.particles.size() > 1)
@@ -208,22 +164,13 @@ std::vector<Point> engines_points(const Request& request) {
 }
 
 void add_energies(const Request& request, const Scene& scene, Results& answers, Rows& rows) {
-  Table summary{"engines-energy",
-                {{"scene", "1"},
-                 {"method", "1"},
-                 {"verdict", "1"},
-                 {"end", "s"},
-                 {"energy turned over", "J"},
-                 {"largest balance error", "J"},
-                 {"relative balance error", "1"},
-                 {"contact loss inferred", "1"}},
-                {}};
+  Table summary = table_of<EngineEnergyRow>();
   if (scene.model.first_order()) {
     rows.notes.push_back(fmt::format("energies leave out {}: a first-order system has no energy", scene.name));
     rows.add(summary);
     return;
   }
-  Table table = ledger_table(scene.name + "-energy");
+  Table table = table_of<SceneEnergyRow>(scene.name + "-energy");
   for (const Method& method : methods_of(request, scene)) {
     const Result& answer = result_of(request, scene, method, answers);
     const Outcome& out = answer.outcome;
@@ -240,11 +187,17 @@ void add_energies(const Request& request, const Scene& scene, Results& answers, 
       energy_scale = std::max({energy_scale, row.energy.kinetic,
                                std::abs(row.energy.gravitational - answer.ledger[0].energy.gravitational)});
     }
-    const bool ok = out.verdict == Verdict::ok;
-    const bool claimed = ok && !answer.contact_inferred;
-    summary.add({scene.name, method.name, std::string(name_of(out.verdict)), out.end, energy_scale,
-                 claimed ? Cell(worst) : Cell(), claimed && energy_scale > 0 ? Cell(worst / energy_scale) : Cell(),
-                 answer.contact_inferred ? 1l : 0l});
+    EngineEnergyRow row{.scene = scene.name,
+                        .method = method.name,
+                        .verdict = out.verdict,
+                        .end = out.end,
+                        .turned_over = energy_scale,
+                        .contact_inferred = answer.contact_inferred};
+    if (out.verdict == Verdict::ok && !answer.contact_inferred) {
+      row.balance_error = worst;
+      if (energy_scale > 0) row.relative_balance_error = worst / energy_scale;
+    }
+    add(summary, row);
   }
   rows.add(table);
   rows.add(summary);

@@ -10,6 +10,7 @@
 
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
+#include "experiments/tables/order.h"
 
 namespace crosscheck {
 namespace {
@@ -49,26 +50,8 @@ std::string why_not(const Scene& scene) {
 }
 
 void order_on(const Request& request, const Scene& scene, Rows& rows) {
-  Table points{"order",
-               {{"scene", "1"},
-                {"method", "1"},
-                {"step", "s"},
-                {"error", "m"},
-                {"distance to own finest", "m"},
-                {"truth", "1"},
-                {"truth tier", "1"},
-                {"truth bar", "m"},
-                {"evaluations", "1"},
-                {"verdict", "1"}},
-               {}};
-  Table slopes{"order-slopes",
-               {{"scene", "1"},
-                {"method", "1"},
-                {"declared order", "1"},
-                {"measured order", "1"},
-                {"from step", "s"},
-                {"to step", "s"}},
-               {}};
+  Table points = table_of<OrderRow>();
+  Table slopes = table_of<OrderSlopeRow>();
   std::set<std::string> adaptive;  // left out, said once
   const int halvings = request.full ? 9 : 7;
   if (const std::string why = why_not(scene); !why.empty()) {
@@ -83,7 +66,7 @@ void order_on(const Request& request, const Scene& scene, Rows& rows) {
   }
   const double motion = motion_of(truth->trajectory);
   for (const Method& method : methods_of(request, scene)) {
-    if (method.name.starts_with("truth/") || (method.stepper && method.name.find('+') != std::string::npos)) continue;
+    if (method.family().role == Role::truth || (method.stepper && method.name.find('+') != std::string::npos)) continue;
     if (method.adaptive) {
       adaptive.insert(method.name);
       continue;
@@ -105,18 +88,24 @@ void order_on(const Request& request, const Scene& scene, Rows& rows) {
       const Outcome& out = r.outcome;
       const double error = largest_rms_distance(r.trajectory, truth->trajectory, scene.window);
       const bool finest = &r == &runs.back();
-      points.add({scene.name, method.name, out.step, r.ok() ? Cell(error) : Cell(),
-                  r.ok() && runs.back().ok() && !finest
-                      ? Cell(largest_rms_distance(r.trajectory, runs.back().trajectory, scene.window))
-                      : Cell(),
-                  truth->how, std::string(name_of(truth->tier)), truth->error_bar, out.evaluations,
-                  std::string(name_of(out.verdict))});
+      OrderRow row{.scene = scene.name,
+                   .method = method.name,
+                   .step = out.step,
+                   .truth = truth->how,
+                   .truth_tier = truth->tier,
+                   .truth_bar = truth->error_bar,
+                   .evaluations = out.evaluations,
+                   .verdict = out.verdict};
+      if (r.ok()) row.error = error;
+      if (r.ok() && runs.back().ok() && !finest)
+        row.distance_to_finest = largest_rms_distance(r.trajectory, runs.back().trajectory, scene.window);
+      add(points, row);
       // below 30 truth bars the bar, and below round-off the round-off, bends the slope by more than 0.05
       if (r.ok() && error > 30 * truth->error_bar && error < 0.1 * motion) good.push_back({out.step, error});
     }
     if (!method.stepper) continue;
     if (const auto fit = asymptotic_order(good))
-      slopes.add({scene.name, method.name, static_cast<long>(method.stepper->order), fit->order, fit->from, fit->to});
+      add(slopes, OrderSlopeRow{scene.name, method.name, method.stepper->order, fit->order, fit->from, fit->to});
     else
       rows.notes.push_back(fmt::format("order sees no steady slope of {} on {}", method.name, scene.name));
   }

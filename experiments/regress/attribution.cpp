@@ -67,7 +67,7 @@ bool others_held(const std::vector<CaseStatus>& all, const Names& methods) {
   });
 }
 
-/// The settings that changed in every question that moved; empty where there is none.
+/// The settings that changed in every case that moved; empty where there is none.
 std::string settings_in_common(std::span<const Comparison> rows) {
   using Changes = std::map<std::string, std::string>;  // name -> "was, is"
   using Key = std::tuple<std::string, std::string, std::string>;
@@ -104,9 +104,9 @@ std::string settings_in_common(std::span<const Comparison> rows) {
 std::string attribution_of(std::span<const Case> cases, std::span<const Comparison> rows) {
   if (const std::string settings = settings_in_common(rows); !settings.empty()) return settings;
   const std::vector<CaseStatus> all = case_statuses(cases, rows);
-  Names methods, asked, ingredients, fitting;
+  Names methods, selected, ingredients, fitting;
   for (const CaseStatus& s : all) {
-    asked.insert(s.method);
+    selected.insert(s.method);
     if (!s.moved) continue;
     methods.insert(s.method);
     ingredients.insert(s.ingredients.begin(), s.ingredients.end());
@@ -114,7 +114,7 @@ std::string attribution_of(std::span<const Case> cases, std::span<const Comparis
   if (methods.empty()) return "";
   for (const std::string& name : ingredients)
     if (fits(name, all, methods)) fitting.insert(name);
-  const bool of_rules = methods.size() <= 3 && methods.size() < asked.size() && others_held(all, methods);
+  const bool of_rules = methods.size() <= 3 && methods.size() < selected.size() && others_held(all, methods);
   const std::string rules =
       fmt::format("{} {}", methods.size() == 1 ? "the rule" : "the rules", fmt::join(methods, ", "));
   if (fitting.size() == 1) return of_rules ? fmt::format("{} under {}", *fitting.begin(), rules) : *fitting.begin();
@@ -124,10 +124,10 @@ std::string attribution_of(std::span<const Case> cases, std::span<const Comparis
 
 namespace {
 
-/// What says how far the answer is from right, the better word first.
+/// The quantities that say how far the result is from right, the better one first.
 constexpr std::string_view errors[] = {"error against truth", "change at half the step"};
 
-/// What an answer cost is no part of it.
+/// What a result cost is no part of it.
 bool is_work(const Comparison& row) { return row.quantity == "steps" || row.quantity == "force evaluations"; }
 
 bool moved(const Comparison& row) {
@@ -154,9 +154,9 @@ std::string in_words(const Comparison& row, bool name_scene) {
   return fmt::format("{} {}{}", row.quantity, size, name_scene ? " on " + row.scene : "");
 }
 
-/// What the answers tell of accuracy.
+/// What the quantities tell of accuracy.
 struct Evidence {
-  bool asked = false, has_moved = false, error_known = false;
+  bool known = false, has_moved = false, error_known = false;
   const Comparison *larger = nullptr, *smaller = nullptr;  // the errors that changed most
   std::string failure;                                     // another verdict
 };
@@ -165,7 +165,7 @@ Evidence evidence_of(std::span<const Comparison> rows) {
   Evidence all;
   std::map<std::string, const Comparison*> best;  // of each scene
   for (const Comparison& row : rows) {
-    all.asked = true;
+    all.known = true;
     all.has_moved |= moved(row) && !is_work(row);
     if (row.quantity == "verdict" && row.state == Status::moved && row.was_word == "ok")
       all.failure = fmt::format("the run of {} now ends with the verdict '{}'", row.scene, row.is_word);
@@ -186,10 +186,10 @@ Evidence evidence_of(std::span<const Comparison> rows) {
 
 }  // namespace
 
-std::string speed_accuracy_of(const SpeedComparison& speed, std::span<const Comparison> answers) {
+std::string speed_accuracy_of(const SpeedComparison& speed, std::span<const Comparison> quantities) {
   if (speed.state != SpeedStatus::slower && speed.state != SpeedStatus::faster) return "";
   std::vector<Comparison> same_scene, same_method;
-  for (const Comparison& row : answers) {
+  for (const Comparison& row : quantities) {
     if (row.method != speed.method || !row.without.empty()) continue;
     same_method.push_back(row);
     if (row.scene == speed.scene) same_scene.push_back(row);
@@ -199,7 +199,7 @@ std::string speed_accuracy_of(const SpeedComparison& speed, std::span<const Comp
   const bool faster = speed.state == SpeedStatus::faster;
   const double factor = faster ? 1 / speed.change.median : speed.change.median;
   const std::string pace = fmt::format("{:.3g} times {}", factor, faster ? "faster" : "slower");
-  if (!seen.asked) return fmt::format("{}; its answer was not asked for", pace);
+  if (!seen.known) return fmt::format("{}; its answer was not asked for", pace);
   if (!seen.failure.empty()) return fmt::format("{}, and {}", pace, seen.failure);
   if (seen.larger && seen.smaller)
     return fmt::format("{}, more accurate here and less there: {}, {}", pace, in_words(*seen.larger, elsewhere),
@@ -215,10 +215,10 @@ std::string speed_accuracy_of(const SpeedComparison& speed, std::span<const Comp
   return fmt::format("{}, and the answer moved; whether for the better is not known", pace);
 }
 
-std::vector<std::string> explain_speeds(std::vector<SpeedComparison>& speeds, std::span<const Comparison> answers) {
+std::vector<std::string> explain_speeds(std::vector<SpeedComparison>& speeds, std::span<const Comparison> quantities) {
   std::vector<std::string> told;
   for (SpeedComparison& speed : speeds) {
-    speed.sentence = speed_accuracy_of(speed, answers);
+    speed.sentence = speed_accuracy_of(speed, quantities);
     if (!speed.sentence.empty())
       told.push_back(fmt::format("{} under {}: {}", speed.scene, speed.method, speed.sentence));
   }

@@ -12,17 +12,17 @@
 
 namespace crosscheck {
 
-// Baselines: what each method answered when somebody last said that this is right. One readable file per scene.
+// Baselines: the quantities of each method when somebody last said that they are right. One readable file per scene.
 
 struct BaselineRow {
   std::string method, without;
-  bool slow = false;  // asked in full runs only
+  bool slow = false;  // selected in full runs only
   QuantityWithTolerance what;
   int blessing = 1;  // its number in the file, from 1
 };
 
 struct Baseline {
-  std::string scene, hash;  // of the scene that these are answers to
+  std::string scene, hash;  // of the scene that these are quantities of
   std::vector<Blessing> blessings;
   std::vector<BaselineRow> expected;
 };

@@ -83,46 +83,44 @@ double seconds(const Case& q) {
   Run run = default_run(q.scene);
   run.duration = q.scene.window, run.samples = 1;
   // a program of its own has to start
-  return estimated_seconds(q.method, q.scene, run) + (q.method.name.starts_with("bullet32/") ? 0.2 : 0);
+  return estimated_seconds(q.method, q.scene, run) + q.method.family().start;
 }
 
 }  // namespace
 
-std::vector<std::string> scenes_of(const Selection& asked) {
-  if (!asked.scenes.empty()) return asked.scenes;
+std::vector<std::string> scenes_of(const Selection& selection) {
+  if (!selection.scenes.empty()) return selection.scenes;
   return {shipped_scenes().begin(), shipped_scenes().end()};
 }
 
-bool selected_by_default(const std::string& method) {
-  return method.starts_with("mysim/") || method.starts_with("bullet");
-}
+bool selected_by_default(const std::string& method) { return family_of(method).is_engine(); }
 
 bool passes(const std::string& filter, const std::string& scene, const std::string& method) {
   return filter.empty() || fnmatch(filter.c_str(), scene.c_str(), FNM_EXTMATCH) == 0 ||
          fnmatch(filter.c_str(), (scene + "/" + method).c_str(), FNM_EXTMATCH) == 0;
 }
 
-std::vector<Case> cases(const Selection& asked) {
+std::vector<Case> cases(const Selection& selection) {
   std::vector<Case> all;
   const auto add = [&](Case q) {
     const double cost = seconds(q);
     q.slow = cost > fast;
-    if (passes(asked.filter, q.scene.name, q.method.name) && cost <= (asked.full ? slowest : fast))
+    if (passes(selection.filter, q.scene.name, q.method.name) && cost <= (selection.full ? slowest : fast))
       all.push_back(std::move(q));
   };
-  const std::vector<Method> methods = asked.methods.empty() ? engines() : asked.methods;
-  for (const std::string& name : scenes_of(asked)) {
+  const std::vector<Method> methods = selection.methods.empty() ? engines() : selection.methods;
+  for (const std::string& name : scenes_of(selection)) {
     const Scene scene = load_scene(name);
     const std::string own = find_method(scene.method).name;
     for (const Method& method : methods) {
       add({scene, method, "", false, scene.hash});
-      if (method.name != own && asked.methods.empty()) continue;
+      if (method.name != own && selection.methods.empty()) continue;
       for (const Ingredient& ingredient : ingredients_of(scene))
         if (ingredient.name != "rotation")  // the whole of a first-order scene
           add({without(scene, ingredient), method, ingredient.name, false, scene.hash});
     }
   }
-  if (all.empty()) throw InputError(fmt::format("--filter {}: no scene and method match", asked.filter));
+  if (all.empty()) throw InputError(fmt::format("--filter {}: no scene and method match", selection.filter));
   return all;
 }
 

@@ -10,10 +10,10 @@
 
 namespace crosscheck {
 
-// What a method does with a scene, seen as a list of numbers: what regression tests compare.
+// A case and its run, seen as a list of numbers: what regression tests compare.
 
-/// One scene under one method: what is asked. `dear`: in full runs only. `without` names the ingredient that was taken
-/// out; empty for the scene as it is.
+/// One scene under one method. `slow`: in full runs only. `without` names the ingredient that was taken out; it is
+/// empty for the scene as it is.
 struct Case {
   Scene scene;
   Method method;
@@ -53,7 +53,7 @@ CaseRun run_case(const Case& test_case);
 /// The scene's own step and tolerance over its window, samples where its own lie.
 Run run_over_window(const Scene& scene);
 
-/// The quantities that this answer has, in a fixed order: the table of them is in quantities.cpp. A failed run has its
+/// The quantities that this run has, in a fixed order: the table of them is in quantities.cpp. A failed run has its
 /// verdict, when it failed, and what it did in the first half of the time until then.
 std::vector<Quantity> quantities_of(const Case& test_case, const CaseRun& case_run);
 
@@ -65,31 +65,31 @@ std::string places_at(double t);
 /// Null where there is none of that name.
 const Quantity* find(const std::vector<Quantity>& all, const std::string& name);
 
-/// What quantities are taken from: the answer, of a failed run the first half of the time until it failed, since there
+/// What quantities are taken from: the run, of a failed one the first half of the time until it failed, since there
 /// the motion is still the scene's.
 CaseRun comparable_part(const CaseRun& case_run);
 
-// What a regression run asks: which scenes under which methods, and which of them without one ingredient.
+// The cases of a regression run: which scenes under which methods, and which of them without one ingredient.
 
 struct Selection {
   std::vector<std::string> scenes = {};  // names or files; empty: all shipped ones
-  bool full = false;                     // dear questions too
+  bool full = false;                     // slow cases too
   std::string filter;                    // glob on SCENE or SCENE/METHOD, with !(A|B) and @(A|B); empty: all
   std::vector<Method> methods;           // empty: all of mysim and Bullet
 };
 
 /// The names or files of the scenes.
-std::vector<std::string> scenes_of(const Selection& asked);
-/// Whether all is asked that baselines of these scenes should have.
-inline bool covers_all(const Selection& asked) { return asked.filter.empty() && asked.methods.empty(); }
-/// Whether somebody here changes the engine; what stands beside them as a judge is not asked unless named.
+std::vector<std::string> scenes_of(const Selection& selection);
+/// Whether everything is selected that baselines of these scenes should have.
+inline bool covers_all(const Selection& selection) { return selection.filter.empty() && selection.methods.empty(); }
+/// Whether somebody here changes the engine; what stands beside them as a judge is not selected unless named.
 bool selected_by_default(const std::string& method);
 /// Whether the filter leaves this scene under this method.
 bool passes(const std::string& filter, const std::string& scene, const std::string& method);
 
 /// Every scene under every method, as far as its cost allows (0.5 s by the estimate of experiments/estimate.h, 20 s in
 /// full runs); and under its own method also without each of its ingredients, which tells causes apart. Methods that
-/// refuse a scene are asked too: a refusal is behaviour. Throws InputError where the filter leaves nothing.
-std::vector<Case> cases(const Selection& asked);
+/// refuse a scene are cases too: a refusal is behaviour. Throws InputError where the filter leaves nothing.
+std::vector<Case> cases(const Selection& selection);
 
 }  // namespace crosscheck

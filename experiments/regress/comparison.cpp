@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 namespace crosscheck {
 namespace {
@@ -61,6 +63,23 @@ std::vector<Comparison> worst_comparisons(const std::vector<Comparison>& rows) {
   return worst;
 }
 
+std::vector<NewMethod> new_methods(std::span<const Comparison> rows) {
+  std::set<std::pair<std::string, std::string>> known;  // scene, method
+  for (const Comparison& row : rows)
+    if (row.was || !row.was_word.empty() || row.state == Status::gone) known.emplace(row.scene, row.method);
+  std::map<std::string, NewMethod> by_name;
+  std::set<std::pair<std::string, std::string>> counted;
+  for (const Comparison& row : rows) {
+    if (row.state != Status::added || known.contains({row.scene, row.method})) continue;
+    NewMethod& method = by_name.try_emplace(row.method, NewMethod{row.method}).first->second;
+    ++method.quantities;
+    method.scenes += counted.emplace(row.scene, row.method).second;
+  }
+  std::vector<NewMethod> all;
+  for (const auto& [name, method] : by_name) all.push_back(method);
+  return all;
+}
+
 std::vector<BaselineRow> baseline_rows_of(const Baseline& baseline, const Case& test_case) {
   std::vector<BaselineRow> rows;
   for (const BaselineRow& e : baseline.expected)
@@ -84,9 +103,7 @@ std::vector<Comparison> compared(const Case& test_case, const std::vector<Quanti
     set(row.is, row.is_word, q);
     const auto was = std::find_if(expected.begin(), expected.end(), same_name(q.name));
     if (was == expected.end()) {
-      row.state = !q.is_word() && !std::isfinite(q.value) ? Status::not_finite
-                  : expected.empty()                      ? Status::missing
-                                                          : Status::added;
+      row.state = !q.is_word() && !std::isfinite(q.value) ? Status::not_finite : Status::added;
     } else {
       set(row.was, row.was_word, was->what.quantity);
       row.tolerance = was->what.tolerance;

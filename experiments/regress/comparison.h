@@ -7,17 +7,15 @@
 
 namespace crosscheck {
 
-// What is, beside what was.
-
-/// Failures stand first; `fresh` is said and not held against anybody.
+/// Failures stand first; what is `added` is reported and fails nothing.
 enum class Status {
   moved,       // off by more than the tolerance, or another word
   not_finite,  // nan or infinite
-  gone,        // blessed, asked, and no longer there
-  missing,     // a scene or method without any baseline
+  gone,        // blessed, selected, and no longer there
+  missing,     // the scene has no baseline file
   stale,       // the baseline is of another scene by the same name
   unreadable,  // the file is no baseline
-  added,       // not blessed yet
+  added,       // not blessed yet: a quantity, or all of a method
   same,
 };
 std::string_view name_of(Status state);
@@ -36,17 +34,26 @@ struct Comparison {
   double rank() const;
 };
 
-/// One question's quantities beside those expected of it.
+/// One case's quantities beside those expected of it; where none is expected all are new.
 std::vector<Comparison> compared(const Case& test_case, const std::vector<Quantity>& is,
                                  const std::vector<BaselineRow>& expected);
 
-/// Of each question and standing the failed row that is off most, so that a thousand rows are read in a screen.
+/// Of each case and status the failed row that is off most, so that a thousand rows are read in a screen.
 std::vector<Comparison> worst_comparisons(const std::vector<Comparison>& rows);
 
-/// The rows of `baseline` that belong to the question.
+/// A method whose quantities are all new in some scenes: it joined after their baselines were blessed, or it is slow
+/// and these were blessed in a quick run.
+struct NewMethod {
+  std::string method;
+  size_t scenes = 0, quantities = 0;
+};
+/// Those of the rows, by name.
+std::vector<NewMethod> new_methods(std::span<const Comparison> rows);
+
+/// The rows of `baseline` that belong to the case.
 std::vector<BaselineRow> baseline_rows_of(const Baseline& baseline, const Case& test_case);
 
-// How close answers are to their baselines where they need not be the same bits: other compilers round otherwise.
+// How close results are to their baselines where they need not be the same bits: other compilers round otherwise.
 
 /// Of the rows that have both a value that was and one that is.
 struct Difference {

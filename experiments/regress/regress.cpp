@@ -8,25 +8,33 @@
 #include <set>
 
 #include "experiments/regress/baseline.h"
+#include "experiments/tables/typed.h"
 #include "mysim/base/errors.h"
 
 namespace crosscheck {
 namespace {
 
-Table answers_table() {
-  return {"answers",
-          {{"question", "1"},
-           {"quantity", "1"},
-           {"unit", "1"},
-           {"value", "1"},
-           {"word", "1"},
-           {"count", "1"},
-           {"tolerance", "1"},
-           {"derivation", "1"}},
-          {}};
-}
+/// A quantity of a case on its way from the process that ran it.
+struct QuantityRow {
+  std::string test_case, quantity, unit;
+  double value = 0;
+  std::string word;
+  bool count = false;
+  double tolerance = 0;
+  std::string derivation;
+  static constexpr std::string_view table = "quantities", about = "Quantities of one case of a regression run.";
+  static constexpr auto columns = std::tuple{
+      column("case", "1", &QuantityRow::test_case, "scene, method and the ingredient taken out"),
+      column("quantity", "1", &QuantityRow::quantity, "name of the quantity"),
+      column("unit", "1", &QuantityRow::unit, "unit of value and tolerance; word: it is a text"),
+      column("value", "1", &QuantityRow::value, "value, where it is a number"),
+      column("word", "1", &QuantityRow::word, "value, where it is a text"),
+      column("count", "1", &QuantityRow::count, "1 where it is a whole number that rounding cannot change"),
+      column("tolerance", "1", &QuantityRow::tolerance, "what rounding can do to it; 0 where it was not measured"),
+      column("derivation", "1", &QuantityRow::derivation, "how the tolerance was found")};
+};
 
-/// Its rows are the question's quantities.
+/// Its rows are the case's quantities.
 Point point_of(const Job& job) {
   const auto& [test_case, name, tolerances] = job;
   return {name, test_case.scene.hash + test_case.method.fingerprint + (tolerances ? " tolerances" : ""),
@@ -37,26 +45,18 @@ Point point_of(const Job& job) {
             else
               for (Quantity& q : quantities_of(job.test_case, run_case(job.test_case)))
                 all.push_back({std::move(q), 0, ""});
-            Table table = answers_table();
-            for (const QuantityWithTolerance& t : all)
-              table.add({job.name, t.quantity.name, t.quantity.unit, t.quantity.value, t.quantity.word,
-                         static_cast<long>(t.quantity.count), t.tolerance, t.derivation});
+            Table table = table_of<QuantityRow>();
+            for (const auto& [q, tolerance, derivation] : all)
+              add(table, QuantityRow{job.name, q.name, q.unit, q.value, q.word, q.count, tolerance, derivation});
             rows.add(table);
           },
           false};
 }
 
-std::vector<QuantityWithTolerance> answer_in(const Table& table) {
+std::vector<QuantityWithTolerance> quantities_of(const Table& table) {
   std::vector<QuantityWithTolerance> all;
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    QuantityWithTolerance t;
-    t.quantity = {std::get<std::string>(table.at(i, "quantity")), std::get<std::string>(table.at(i, "unit")),
-                  std::get<double>(table.at(i, "value")), std::get<std::string>(table.at(i, "word")),
-                  std::get<long>(table.at(i, "count")) != 0};
-    t.tolerance = std::get<double>(table.at(i, "tolerance"));
-    t.derivation = std::get<std::string>(table.at(i, "derivation"));
-    all.push_back(std::move(t));
-  }
+  for (QuantityRow& row : rows_of<QuantityRow>(table))
+    all.push_back({{row.quantity, row.unit, row.value, row.word, row.count}, row.tolerance, row.derivation});
   return all;
 }
 
@@ -68,13 +68,14 @@ JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& ou
   progress.expect(static_cast<int>(points.size()));
   const Store store(store_in(out));
   store.clear();
-  JobResults asked;
-  asked.failures = run_points(points, {jobs, {}}, store, progress);
+  JobResults results;
+  results.failures = run_points(points, {jobs, {}}, store, progress);
   for (const Point& point : points) {
     const auto rows = store.find(point.hash());
-    if (const Table* table = rows ? rows->table("answers") : nullptr) asked.answers[point.name] = answer_in(*table);
+    if (const Table* table = rows ? rows->table(std::string(QuantityRow::table)) : nullptr)
+      results.quantities[point.name] = quantities_of(*table);
   }
-  return asked;
+  return results;
 }
 
 const QuantityWithTolerance* find(const std::vector<QuantityWithTolerance>& all, const std::string& name) {
@@ -134,8 +135,8 @@ class BaselineCache {
   std::map<std::string, std::optional<Baseline>> cache_;
 };
 
-/// What the old engine answered, as an expectation. What only one of two engines is asked for is no difference between
-/// them; their verdicts both have.
+/// The other engine's quantities as those expected. A quantity that only one of the two engines has is no difference
+/// between them; verdicts both have.
 std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTolerance>& old,
                                                 const std::vector<QuantityWithTolerance>& now, const Case& q) {
   std::vector<BaselineRow> expected;
@@ -144,14 +145,14 @@ std::vector<BaselineRow> rows_from_other_method(const std::vector<QuantityWithTo
   return expected;
 }
 
-/// BlessResult, and nobody asks for it any more: a method, an ingredient or a scene's question was taken away.
+/// Blessed, and no case any more: a method, an ingredient or a scene's case was taken away.
 std::vector<Comparison> no_longer_selected(const Baseline& baseline, const std::vector<Case>& all, bool full) {
-  std::set<std::pair<std::string, std::string>> asked;
+  std::set<std::pair<std::string, std::string>> selected;
   for (const Case& q : all)
-    if (q.scene.name == baseline.scene) asked.emplace(q.method.name, q.without);
+    if (q.scene.name == baseline.scene) selected.emplace(q.method.name, q.without);
   std::vector<Comparison> rows;
   for (const BaselineRow& e : baseline.expected) {
-    if ((e.slow && !full) || !selected_by_default(e.method) || !asked.emplace(e.method, e.without).second) continue;
+    if ((e.slow && !full) || !selected_by_default(e.method) || !selected.emplace(e.method, e.without).second) continue;
     Comparison row;
     row.scene = baseline.scene, row.method = e.method, row.without = e.without;
     row.quantity = "all", row.unit = "word", row.state = Status::gone;
@@ -169,30 +170,30 @@ bool RegressionResult::passed() const {
 }
 
 RegressionResult regress(const Regression& regression, Progress& progress) {
-  const std::vector<Case> all = cases(regression.asked);
+  const std::vector<Case> all = cases(regression.selection);
   std::vector<Job> todo;
   for (const Case& q : all) {
     todo.push_back({q, q.in_words()});
     if (regression.against) todo.push_back({with_method(*regression.against, q), name_with_other_method(q), true});
   }
-  JobResults asked = run_jobs(todo, regression.out, regression.jobs, progress);
+  JobResults results = run_jobs(todo, regression.out, regression.jobs, progress);
   RegressionResult result;
-  result.failures = std::move(asked.failures);
+  result.failures = std::move(results.failures);
   std::vector<Comparison> rows;
   BaselineCache cache(regression.baselines, result.rows);
   std::set<std::string> whole_scenes;
   for (const Case& q : all) {
-    const auto is = asked.answers.find(q.in_words());
-    if (is == asked.answers.end()) continue;
+    const auto is = results.quantities.find(q.in_words());
+    if (is == results.quantities.end()) continue;
     std::vector<BaselineRow> expected;
     if (regression.against) {
-      const auto was = asked.answers.find(name_with_other_method(q));
-      if (was == asked.answers.end()) continue;
+      const auto was = results.quantities.find(name_with_other_method(q));
+      if (was == results.quantities.end()) continue;
       expected = rows_from_other_method(was->second, is->second, q);
     } else if (const Baseline* baseline = cache.of(q)) {
       expected = baseline_rows_of(*baseline, q);
-      if (covers_all(regression.asked) && whole_scenes.insert(q.scene.name).second) {
-        const auto gone = no_longer_selected(*baseline, all, regression.asked.full);
+      if (covers_all(regression.selection) && whole_scenes.insert(q.scene.name).second) {
+        const auto gone = no_longer_selected(*baseline, all, regression.selection.full);
         rows.insert(rows.end(), gone.begin(), gone.end());
       }
     } else {
@@ -212,13 +213,13 @@ using CaseKey = std::pair<std::string, std::string>;  // method, without
 /// One scene's baseline on its way to a new one.
 class Change {
  public:
-  /// Throws InputError where the file cannot be read, and where only a part of a stale one is asked for.
+  /// Throws InputError where the file cannot be read, and where only a part of a stale one is selected.
   Change(const Case& test_case, const Regression& regression, const Blessing& blessing) {
     auto old = read_baseline(regression.baselines, test_case.scene.name);
-    const Selection& asked = regression.asked;
-    const bool part = !asked.filter.empty() && asked.filter != test_case.scene.name;
+    const Selection& selection = regression.selection;
+    const bool part = !selection.filter.empty() && selection.filter != test_case.scene.name;
     if (old && old->hash != test_case.hash) {
-      if (part || !asked.methods.empty() || !asked.full)
+      if (part || !selection.methods.empty() || !selection.full)
         throw InputError(
             fmt::format("{}: expected the whole scene to be blessed (--full --filter {}), as the scene has changed",
                         file_of(regression.baselines, test_case.scene.name).string(), test_case.scene.name));
@@ -230,8 +231,8 @@ class Change {
   }
 
   /// What is the same keeps its row and its blessing. Throws InputError where a number is not finite.
-  void answered(const Case& q, const std::vector<QuantityWithTolerance>& now) {
-    asked_.emplace(q.method.name, q.without);
+  void add(const Case& q, const std::vector<QuantityWithTolerance>& now) {
+    selected_.emplace(q.method.name, q.without);
     const std::vector<BaselineRow> before = baseline_rows_of(baseline_, q);
     std::vector<BaselineRow> after;
     for (const Comparison& row : compared(q, quantities_in(now), before)) {
@@ -251,10 +252,10 @@ class Change {
     baseline_.expected.insert(baseline_.expected.end(), after.begin(), after.end());
   }
 
-  /// Takes out what was blessed and is asked no more.
-  void drop_what_nobody_asks() {
+  /// Takes out what was blessed and is selected no more.
+  void drop_what_is_not_selected() {
     std::erase_if(baseline_.expected, [&](const BaselineRow& e) {
-      if (!selected_by_default(e.method) || asked_.contains({e.method, e.without})) return false;
+      if (!selected_by_default(e.method) || selected_.contains({e.method, e.without})) return false;
       Comparison row;
       row.scene = baseline_.scene, row.method = e.method, row.without = e.without;
       row.quantity = e.what.quantity.name, row.unit = e.what.quantity.unit, row.state = Status::gone;
@@ -277,34 +278,34 @@ class Change {
 
  private:
   Baseline baseline_;
-  std::set<CaseKey> asked_;
+  std::set<CaseKey> selected_;
   std::vector<Comparison> changed_;
 };
 
 /// Of the scene's own method, for pictures; empty where it has none.
 std::string shape_of(const Case& q) {
-  const CaseRun answered = comparable_part(run_case(q));
-  if (answered.trajectory.frames() == 0) return "";
-  return shape_text(q.scene.name, q.method.name, answered.trajectory.t.back(), answered.trajectory.x.back());
+  const CaseRun part = comparable_part(run_case(q));
+  if (part.trajectory.frames() == 0) return "";
+  return shape_text(q.scene.name, q.method.name, part.trajectory.t.back(), part.trajectory.x.back());
 }
 
 }  // namespace
 
 BlessResult bless(const Regression& regression, const Blessing& blessing, Progress& progress) {
-  const std::vector<Case> all = cases(regression.asked);
+  const std::vector<Case> all = cases(regression.selection);
   std::vector<Job> todo;
   for (const Case& q : all) todo.push_back({q, q.in_words(), true});
-  const JobResults asked = run_jobs(todo, regression.out, regression.jobs, progress);
-  for (const FailedPoint& f : asked.failures)
+  const JobResults results = run_jobs(todo, regression.out, regression.jobs, progress);
+  for (const FailedPoint& f : results.failures)
     throw InputError(fmt::format("nothing is blessed: {}: {}", f.name, f.why));
 
   std::map<std::string, Change> changes;
   for (const Case& q : all)
     changes.try_emplace(q.scene.name, q, regression, blessing)
-        .first->second.answered(q, asked.answers.at(q.in_words()));
+        .first->second.add(q, results.quantities.at(q.in_words()));
   BlessResult blessed;
   for (auto& [scene, change] : changes) {
-    if (covers_all(regression.asked) && regression.asked.full) change.drop_what_nobody_asks();
+    if (covers_all(regression.selection) && regression.selection.full) change.drop_what_is_not_selected();
     if (change.changed().empty()) continue;
     blessed.files.emplace_back(file_of(regression.baselines, scene), change.text());
     blessed.numbers[scene] = change.blessing();

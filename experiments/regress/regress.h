@@ -14,9 +14,9 @@
 
 namespace crosscheck {
 
-// Asks questions side by side, each in a process of its own.
+// Runs cases side by side, each in a process of its own.
 
-/// A question with the name that its answer is found under; tolerances take three more runs.
+/// A case with the name that its result is found under; tolerances take three more runs.
 struct Job {
   Case test_case;
   std::string name;
@@ -25,8 +25,8 @@ struct Job {
 
 struct JobResults {
   std::map<std::string, std::vector<QuantityWithTolerance>>
-      answers;                        // by name; tolerances are 0 where nobody asked for them
-  std::vector<FailedPoint> failures;  // questions without an answer: a crash
+      quantities;                     // by name; tolerances are 0 where the job has none
+  std::vector<FailedPoint> failures;  // cases without a result: a crash
 };
 
 /// `out` is the folder for what is finished; `jobs` as in SweepOptions.
@@ -38,24 +38,25 @@ const QuantityWithTolerance* find(const std::vector<QuantityWithTolerance>& all,
 /// Without their tolerances.
 std::vector<Quantity> quantities_in(const std::vector<QuantityWithTolerance>& all);
 
-// Regression: asks, and sets the answers beside baselines or beside another method's.
+// Regression: runs the selected cases and compares the results with baselines or with another method's.
 
 struct Regression {
-  Selection asked;
-  std::optional<Method> against;    // instead of baselines; then exactly one method is asked
+  Selection selection;
+  std::optional<Method> against;    // instead of baselines; then exactly one method is selected
   std::filesystem::path baselines;  // folder
   std::filesystem::path out;        // folder, for what is finished
   int jobs = 0;                     // as SweepOptions
 };
 
 struct RegressionResult {
-  std::vector<Comparison> rows;       // in the order of the questions; failures of files stand first
-  std::vector<FailedPoint> failures;  // questions without an answer: a crash
+  std::vector<Comparison> rows;       // in the order of the cases; failures of files stand first
+  std::vector<FailedPoint> failures;  // cases without a result: a crash
   bool passed() const;
 };
 
-/// Asks all questions and compares. What a baseline expects and nobody asks (dear rows in a quick run, other methods)
-/// is left alone; a row that is asked and has no baseline, or one of another scene, fails.
+/// Runs all selected cases and compares. What a baseline expects and is not selected (slow rows in a quick run, other
+/// methods) is left alone. A scene that has no baseline, or one of another scene, fails; a quantity or a method that
+/// its baseline does not know is new, and fails nothing.
 RegressionResult regress(const Regression& regression, Progress& progress);
 
 struct BlessResult {
@@ -63,9 +64,9 @@ struct BlessResult {
   std::vector<std::pair<std::filesystem::path, std::string>> files;  // to be written, with their text
   std::map<std::string, int> numbers;                                // of the blessing in each changed scene's baseline
 };
-/// Asks with tolerances; what moved, is new or is gone stands in the new baselines under this blessing, rows that are
-/// the same keep theirs. Nothing is written yet. Throws InputError where a file cannot be read, where a part of a stale
-/// one is asked for (the rest would stay stale), and where a question has no answer.
+/// Runs the cases with tolerances; what moved, is new or is gone stands in the new baselines under this blessing, rows
+/// that are the same keep theirs. Nothing is written yet. Throws InputError where a file cannot be read, where a part
+/// of a stale one is selected (the rest would stay stale), and where a case has no result.
 BlessResult bless(const Regression& regression, const Blessing& blessing, Progress& progress);
 
 }  // namespace crosscheck

@@ -69,11 +69,7 @@ double PlainLoop::seconds_of(long steps) {
 
 namespace {
 
-constexpr double long_enough = 5e-3;  // s of CPU time by the estimate: a round of all questions takes half a second
-
-bool in_process(const Method& method) {
-  return method.name.starts_with("mysim/") || method.name.starts_with("bullet/");
-}
+constexpr double long_enough = 5e-3;  // s of CPU time by the estimate: a round of all cases takes half a second
 
 /// From the start up to the end of the window, as far as that is not long; the same on every machine.
 Run first_steps(const Scene& scene, const Method& method) {
@@ -90,11 +86,6 @@ bool ends_well(const Method& method, const SpeedCase& q) {
   return run_method(method, q.scene, q.run, {&timeout}).verdict == Verdict::ok;
 }
 
-class NullObserver : public Observer {
- public:
-  Verdict observe(const State&, bool) override { return Verdict::ok; }
-};
-
 double mean_seconds(double resolution, const std::function<double()>& run) {
   double sum = 0;
   int count = 0;
@@ -110,7 +101,7 @@ double seconds_of(const Method& method, const SpeedCase& q, double resolution) {
   });
 }
 
-/// Takes small pieces of memory and gives some of them back, so that what is asked for next comes to lie elsewhere: a
+/// Takes small pieces of memory and gives some of them back, so that what is allocated next comes to lie elsewhere: a
 /// small scene can take a quarter more time for where its arrays lie beside each other, whoever wrote the program.
 class HeapShuffle {
  public:
@@ -127,7 +118,7 @@ class HeapShuffle {
   std::vector<std::unique_ptr<char[]>> kept_;
 };
 
-/// A question that is known to run, and how many steps of the plain loop take long enough.
+/// A case that is known to run, and how many steps of the plain loop take long enough.
 struct PreparedCase {
   bool runs;
   long steps = 1;
@@ -153,23 +144,23 @@ void measure_once(const SpeedCase& q, const PreparedCase& prepared, double resol
 
 std::string SpeedCase::in_words() const { return fmt::format("{} under {}", scene.name, method.name); }
 
-std::vector<SpeedCase> speed_cases(const Selection& asked, const std::optional<Method>& against) {
-  std::vector<Method> methods = asked.methods.empty() ? all_methods() : asked.methods;
-  std::erase_if(methods, [](const Method& method) { return !in_process(method); });
+std::vector<SpeedCase> speed_cases(const Selection& selection, const std::optional<Method>& against) {
+  std::vector<Method> methods = selection.methods.empty() ? all_methods() : selection.methods;
+  std::erase_if(methods, [](const Method& method) { return !method.family().in_process(); });
   std::vector<SpeedCase> all;
   const auto add = [&](const Scene& scene, const Method& method) {
     SpeedCase q{scene, method, against};
     q.run = first_steps(scene, method);
-    if (passes(asked.filter, scene.name, method.name)) all.push_back(std::move(q));
+    if (passes(selection.filter, scene.name, method.name)) all.push_back(std::move(q));
   };
-  if (against && !in_process(*against)) return all;
-  for (const std::string& name : scenes_of(asked)) {
+  if (against && !against->family().in_process()) return all;
+  for (const std::string& name : scenes_of(selection)) {
     const Scene scene = load_scene(name);
     const std::string own = find_method(scene.method).name;
     for (const Method& method : methods)
       if (against || method.name == own) add(scene, method);
   }
-  if (!asked.scenes.empty()) return all;
+  if (!selection.scenes.empty()) return all;
   const Scene cloth = sized_cloth(32);  // large enough that no engine's overhead counts, small enough for its caches
   for (const Method& method : methods) add(cloth, method);
   return all;

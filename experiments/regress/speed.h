@@ -55,13 +55,13 @@ struct SpeedCase {
   std::string in_words() const;
 };
 
-/// Every scene asked under its own method, and, where that is all of the shipped ones, a cloth of 32 x 32 particles
-/// under every method asked (all of mysim and Bullet): what the filter leaves of them. With `against`, those scenes
-/// under the one method that is asked. What a program of its own does is not asked: it has a clock of its own. Empty
+/// Every selected scene under its own method, and, where that is all of the shipped ones, a cloth of 32 x 32 particles
+/// under every selected method (all of mysim and Bullet): what the filter leaves of them. With `against`, those scenes
+/// under the one method that is selected. Programs of their own are left out: each has a clock of its own. Empty
 /// where nothing is left.
-std::vector<SpeedCase> speed_cases(const Selection& asked, const std::optional<Method>& against);
+std::vector<SpeedCase> speed_cases(const Selection& selection, const std::optional<Method>& against);
 
-/// How well is measured: so many rounds, in each of which every question has its turn.
+/// How well is measured: so many rounds, in each of which every case has its turn.
 struct SpeedOptions {
   int rounds;
   double resolution = 2e-3;  // s: shorter runs are repeated within a round until they have taken as much
@@ -77,7 +77,7 @@ struct Ratios {
 /// How they are had: by measured_ratios(), or from a table of invented ones.
 using MeasureSpeeds = std::function<std::vector<Ratios>(const std::vector<SpeedCase>&, const SpeedOptions&)>;
 
-/// In each round each question is asked between two turns of the plain loop, so that a slow spell of the machine falls
+/// In each round each case is run between two turns of the plain loop, so that a slow spell of the machine falls
 /// on both, and with everything elsewhere in memory, as drawn from the seed: what that changes is noise, too.
 std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const SpeedOptions& plan, int seed);
 
@@ -105,7 +105,7 @@ struct SpeedFile {
   std::vector<BlessedSpeed> speeds;  // of several kinds of machine side by side
 };
 
-/// The question's speed on that kind of machine, or null; no kind is like one that is not known.
+/// The case's speed on that kind of machine, or null; no kind is like one that is not known.
 const BlessedSpeed* find_speed(const SpeedFile& file, const SpeedCase& test_case, const Machine& machine);
 
 /// speed-cost.csv in the folder.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "experiments/tables/typed.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 
@@ -43,7 +44,7 @@ int parts_apart(const Machine& a, const Machine& b) {
   return (a.cpu != b.cpu) + (a.compiler != b.compiler) + (a.yardstick != b.yardstick);
 }
 
-/// What is blessed of the question under other circumstances, in words: on the machine that is most like this one.
+/// What is blessed of the case under other circumstances, in words: on the machine that is most like this one.
 /// Empty where nothing is.
 std::string why_elsewhere(const SpeedFile& file, const SpeedCase& q, const Machine& here) {
   const BlessedSpeed* nearest = nullptr;
@@ -161,9 +162,9 @@ void confirm(std::vector<SpeedComparison>& rows, const std::vector<SpeedCase>& c
   for (SpeedComparison& row : rows)
     if (suspected(row)) suspects.push_back({&row, {}, {}, {}});
   for (int i = 0; i < confirmations && !suspects.empty(); ++i) {
-    std::vector<SpeedCase> asked;
-    for (const SuspectedChange& s : suspects) asked.push_back(case_of(*s.row, cases));
-    const std::vector<Ratios> measured = measure(asked, again);
+    std::vector<SpeedCase> to_repeat;
+    for (const SuspectedChange& s : suspects) to_repeat.push_back(case_of(*s.row, cases));
+    const std::vector<Ratios> measured = measure(to_repeat, again);
     std::vector<SuspectedChange> left;
     for (size_t k = 0; k < suspects.size(); ++k) {
       const bool shows = suspects[k].look(measured[k]);
@@ -195,31 +196,39 @@ std::vector<BlessedSpeed> speeds_to_bless(const std::vector<SpeedCase>& cases, c
 
 namespace {
 
-Table ratios_table() { return {"ratios", {{"question", "1"}, {"is", "1"}, {"was", "1"}}, {}}; }
+/// One round's ratios of a case on their way from the process that measured them.
+struct RatiosRow {
+  long test_case = 0;
+  double is = 0;
+  std::optional<double> was;
+  static constexpr std::string_view table = "ratios", about = "Speeds of one measurement of a regression run.";
+  static constexpr auto columns =
+      std::tuple{column("case", "1", &RatiosRow::test_case, "number of the case, from 0"),
+                 column("is", "1", &RatiosRow::is, "CPU time over the plain loop's, in one round"),
+                 column("was", "1", &RatiosRow::was, "the same of the method that it stands beside")};
+};
 
 Point point_of(const std::vector<SpeedCase>& cases, const SpeedOptions& plan, int count) {
   return {fmt::format("speed, measurement {}", count), "",
           [&cases, plan, count](Rows& rows) {
             const std::vector<Ratios> all = measured_ratios(cases, plan, count);
-            Table ratios = ratios_table();
+            Table ratios = table_of<RatiosRow>();
             for (size_t i = 0; i < all.size(); ++i)
-              for (size_t k = 0; k < all[i].is.size(); ++k) {
-                std::optional<double> was;
-                if (!all[i].was.empty()) was = all[i].was[k];
-                ratios.add({static_cast<long>(i), all[i].is[k], cell_of(was)});
-              }
+              for (size_t k = 0; k < all[i].is.size(); ++k)
+                add(ratios, RatiosRow{static_cast<long>(i), all[i].is[k],
+                                      all[i].was.empty() ? std::nullopt : std::optional(all[i].was[k])});
             rows.add(ratios);
           },
           true};
 }
 
-/// Why there is no speed where none is asked for, in words.
-std::string nothing_asked(const SpeedRun& run) {
+/// Why there is no speed where no case is selected, in words.
+std::string nothing_selected(const SpeedRun& run) {
   std::string outside;
-  std::vector<Method> methods = run.asked.methods;
+  std::vector<Method> methods = run.selection.methods;
   if (run.against) methods.push_back(*run.against);
   for (const Method& method : methods)
-    if (!method.name.starts_with("mysim/") && !method.name.starts_with("bullet/")) outside = method.name;
+    if (!method.family().in_process()) outside = method.name;
   return outside.empty()
              ? "no speed: none is asked of what the filter leaves"
              : fmt::format("no speed: {} is no method inside this program, and has a clock of its own", outside);
@@ -256,13 +265,13 @@ std::vector<Ratios> SpeedMeasurement::operator()(const std::vector<SpeedCase>& c
   progress_.expect(1);
   for (const FailedPoint& f : run_points({&point, 1}, {}, store, progress_)) throw std::runtime_error(f.why);
   const auto rows = store.find(point.hash());
-  const Table* table = rows ? rows->table("ratios") : nullptr;
+  const Table* table = rows ? rows->table(std::string(RatiosRow::table)) : nullptr;
   if (!table) throw std::runtime_error("what was measured is gone");
   std::vector<Ratios> all(cases.size());
-  for (size_t i = 0; i < table->rows.size(); ++i) {
-    Ratios& one = all.at(static_cast<size_t>(std::get<long>(table->at(i, "question"))));
-    one.is.push_back(std::get<double>(table->at(i, "is")));
-    if (const auto* was = std::get_if<double>(&table->at(i, "was"))) one.was.push_back(*was);
+  for (const RatiosRow& row : rows_of<RatiosRow>(*table)) {
+    Ratios& one = all.at(static_cast<size_t>(row.test_case));
+    one.is.push_back(row.is);
+    if (row.was) one.was.push_back(*row.was);
   }
   return all;
 }
@@ -285,9 +294,9 @@ Speeds compared_speeds(const SpeedRun& run, Progress& progress) {
     speeds.failures.push_back({"blessed speeds", error.what()});
     return speeds;
   }
-  const std::vector<SpeedCase> cases = speed_cases(run.asked, run.against);
+  const std::vector<SpeedCase> cases = speed_cases(run.selection, run.against);
   if (cases.empty()) {
-    speeds.notes.push_back(nothing_asked(run));
+    speeds.notes.push_back(nothing_selected(run));
     return speeds;
   }
   try {
@@ -323,7 +332,7 @@ std::vector<BlessedSpeed> merge_into(SpeedFile& file, const std::vector<BlessedS
 
 std::vector<BlessedSpeed> bless_speeds(const SpeedRun& run, const Blessing& blessing, Progress& progress) {
   SpeedFile file = read_speed_file(run.baselines).value_or(SpeedFile{});
-  const std::vector<SpeedCase> cases = speed_cases(run.asked, {});
+  const std::vector<SpeedCase> cases = speed_cases(run.selection, {});
   if (cases.empty()) return {};
   const std::vector<BlessedSpeed> written =
       merge_into(file, speeds_to_bless(cases, run.machine, SpeedMeasurement(run.out, progress)), blessing);

@@ -37,7 +37,7 @@ struct SpeedComparison {
 };
 
 /// The changes that count: 10 %, or twice the spread of the measurements at bless, or of the rounds now, where that is
-/// more. Measured on a loaded machine, 32 questions forty times: 99 in 100 lie within 4 % of the middle of theirs, and
+/// more. Measured on a loaded machine, 32 cases forty times: 99 in 100 lie within 4 % of the middle of theirs, and
 /// with any seven of them blessed one in a thousand of the others lies outside this noise, where an alarm takes five in
 /// a row. The same code at eight other places in the program differs by up to 5 %, which is why it is not 5 %.
 double noise_of(double spread);
@@ -48,7 +48,7 @@ double spread_of(const std::vector<double>& middles);
 /// 1 where the whole interval is above 1 + noise (slower), -1 where it is below 1 / (1 + noise) (faster), else 0.
 int direction_of(const Timing& change, double noise);
 
-/// One measurement of all questions, beside blessed speeds, or beside the other method of the question where that is
+/// One measurement of all cases, beside blessed speeds, or beside the other method of the case where that is
 /// null: `slower` and `faster` are suspicions still. What never had a speed is left out.
 std::vector<SpeedComparison> first_measurement(const std::vector<SpeedCase>& cases, const SpeedFile* blessed,
                                                const Machine& machine, const MeasureSpeeds& measure);
@@ -57,14 +57,14 @@ std::vector<SpeedComparison> first_measurement(const std::vector<SpeedCase>& cas
 /// the noise in the same direction, it is the same. The figures left are the middle ones of these four.
 void confirm(std::vector<SpeedComparison>& rows, const std::vector<SpeedCase>& cases, const MeasureSpeeds& measure);
 
-/// The speeds of all questions as they are to be blessed, by seven measurements.
+/// The speeds of all cases as they are to be blessed, by seven measurements.
 std::vector<BlessedSpeed> speeds_to_bless(const std::vector<SpeedCase>& cases, const Machine& machine,
                                           const MeasureSpeeds& measure);
 
 // The speed part of a regression run: measures, sets beside what is blessed, looks again; or blesses.
 
 struct SpeedRun {
-  Selection asked;
+  Selection selection;
   std::optional<Method> against;    // instead of blessed speeds
   std::filesystem::path baselines;  // folder
   std::filesystem::path out;        // folder, for what is measured
@@ -72,7 +72,7 @@ struct SpeedRun {
 };
 
 struct Speeds {
-  std::vector<SpeedComparison> rows;  // in the order of the questions
+  std::vector<SpeedComparison> rows;  // in the order of the cases
   std::vector<std::string> notes;     // what was not compared and why, one line each
   std::vector<FailedPoint> failures;
   std::vector<std::string> explanations = {};  // what each change was bought with, one sentence each (attribution.h)

@@ -15,14 +15,11 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-bool solves(const Method& method) {
-  const Stepper* rule = stepper_of(method);
-  return (rule && rule->evaluations == 0) || method.name.starts_with("bullet/deformable-implicit");
-}
+bool solves(const Method& method) { return method.implicit && !method.family().single_precision; }
 
 bool single(const Method& method, const CaseRun& case_run) {
   if (case_run.outcome.readback) return case_run.outcome.readback->precision == "single";
-  return method.name.starts_with("bullet32/");
+  return method.family().single_precision;
 }
 
 /// To two digits, which is all that a tolerance means.
@@ -119,7 +116,7 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
   const auto moved_by = [&](double size, unsigned seed) {
     Case other = test_case;
     other.scene = pushed(perturbed(test_case.scene, size, seed), size, static_cast<int>(seed) - 1);
-    // asked as before: where a closed form is left by the move, the error from the one of the unmoved scene counts
+    // computed as before: where a closed form is left by the move, the error from the one of the unmoved scene counts
     return quantities_of(test_case, run_case(other));
   };
   std::vector<std::vector<Quantity>> moved;

@@ -22,7 +22,7 @@ Rounding rounding_of(const Case& test_case, const CaseRun& case_run);
 /// What derivations say, line by line, for the reader of a file of them.
 std::vector<std::string> words_of_derivations();
 
-/// The answer's quantities with their tolerances: the start is moved by a little in three seeded sets of directions,
+/// The case's quantities with their tolerances: the start is moved by a little in three seeded sets of directions,
 /// and the largest change of the quantity, scaled from that little to the rounding, is what rounding can do to it; the
 /// last digits of the number itself come on top. A quantity that is zero but for rounding is bounded beside the largest
 /// one of its unit. Not scaled: the time at which a run failed, and what is beyond prediction, which a fourth, far

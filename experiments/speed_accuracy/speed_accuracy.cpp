@@ -10,7 +10,6 @@
 #include "experiments/estimate.h"
 #include "experiments/metrics.h"
 #include "experiments/observers.h"
-#include "experiments/tables/speed_accuracy.h"
 #include "experiments/timing/timing.h"
 #include "mysim/model/system.h"
 
@@ -143,7 +142,7 @@ std::vector<Method> methods_for(const Request& request, const Scene& scene) {
   if (!request.methods.empty()) return methods;
   // multistep formulas take hundreds of times as long on springs without damping: `bench` says so on one scene
   for (Method& method : all_methods())
-    if (method.name.starts_with("odeint/") || method.name == "sundials/arkode") methods.push_back(std::move(method));
+    if (method.family().role == Role::integrator && !method.multistep) methods.push_back(std::move(method));
   return methods;
 }
 
@@ -173,7 +172,7 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
   const double until = truth ? std::min(scene.window, truth->until) : scene.window;
   const std::string tier = truth ? std::string(name_of(truth->tier)) + (of_rule ? ", in-house contact rule" : "") : "";
 
-  Table table = results_table();
+  Table table = table_of<SpeedAccuracyRow>();
   std::vector<std::string> shortened;
   for (const Method& method : methods_for(request, scene)) {
     int dropped = 0;
@@ -194,12 +193,23 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
       }
       if (run.ok() && tries.back().ok() && &run != &tries.back())
         own = distance_over_time(run.trajectory, tries.back().trajectory, scene.window).largest;
-      table.add({scene.name, method.name, std::string(run.setting.tolerance ? "tolerance [1]" : "step [s]"),
-                 run.setting.value, out.step, out.steps, out.evaluations, std::string(name_of(out.verdict)), out.end,
-                 of_rule ? Cell() : cell_of(largest), of_rule ? Cell() : cell_of(over_time),
-                 of_rule ? cell_of(largest) : Cell(), of_rule ? cell_of(over_time) : Cell(), cell_of(own), motion,
-                 until, tier.empty() ? Cell() : Cell(tier), truth ? Cell(truth->error_bar) : Cell(),
-                 fmt::format("{}", fmt::join(out.different_law, "; "))});
+      SpeedAccuracyRow row{.scene = scene.name,
+                           .method = method.name,
+                           .setting = run.setting.kind(),
+                           .asked = run.setting.value,
+                           .step = out.step,
+                           .steps = out.steps,
+                           .evaluations = out.evaluations,
+                           .verdict = out.verdict,
+                           .end = out.end,
+                           .to_own_finest = own,
+                           .motion = motion,
+                           .until = until,
+                           .different_law = fmt::format("{}", fmt::join(out.different_law, "; "))};
+      (of_rule ? row.difference : row.error) = largest;
+      (of_rule ? row.difference_over_time : row.error_over_time) = over_time;
+      if (truth) row.truth = tier, row.truth_bar = truth->error_bar;
+      add(table, row);
     }
   }
   if (!shortened.empty())
@@ -236,7 +246,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
     }
   const auto times = time_round_robin(runs, {.least = 3, .most = request.full ? 9 : 7, .enough = 0.05});
   const double noise = times.empty() ? 0 : noise_floor(times);
-  Table table = timing_table();
+  Table table = table_of<SpeedAccuracyTimingRow>();
   for (size_t i = 0; i < timed.size(); ++i) {
     const Timing t = timing_of(times[i]);
     if (!(t.median > 0)) {
@@ -244,21 +254,22 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
         rows.notes.push_back(fmt::format("{} does not tell what CPU time it took", timed[i].method));
       continue;
     }
-    table.add({scene.name, timed[i].method, std::string(timed[i].setting.tolerance ? "tolerance [1]" : "step [s]"),
-               timed[i].setting.value, timed[i].share, timed[i].evaluations, t.median, t.low, t.high, t.repetitions,
-               noise});
+    add(table, SpeedAccuracyTimingRow{.scene = scene.name,
+                                      .method = timed[i].method,
+                                      .setting = timed[i].setting.kind(),
+                                      .asked = timed[i].setting.value,
+                                      .part = timed[i].share,
+                                      .evaluations = timed[i].evaluations,
+                                      .cpu = t.median,
+                                      .cpu_low = t.low,
+                                      .cpu_high = t.high,
+                                      .repetitions = t.repetitions,
+                                      .noise = noise});
   }
   rows.add(table);
 }
 
-std::string build_of(const std::string& method) {
-  if (method.starts_with("mysim/")) return "this build";
-  if (method.starts_with("bullet/")) return "Debian's library (generic x86-64, -O2), called from this build";
-  if (method.starts_with("odeint/")) return "headers of the library, compiled in this build";
-  if (method.starts_with("sundials/"))
-    return "Debian's library (generic x86-64, -O2), on a right-hand side of this build";
-  return "a program of its own";
-}
+std::string build_of(const std::string& method) { return std::string(family_of(method).build_text); }
 
 std::vector<Point> speed_accuracy_points(const Request& request) {
   std::vector<Point> points = one_point_per_scene(request, "speed-accuracy", speed_accuracy_on);

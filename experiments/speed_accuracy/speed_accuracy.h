@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "experiments/experiment.h"
+#include "experiments/tables/speed_accuracy.h"
 #include "reference/method.h"
 
 namespace crosscheck {
@@ -14,6 +15,7 @@ namespace crosscheck {
 struct Setting {
   bool tolerance;  // else a step
   double value;    // s; tolerances 1
+  SettingKind kind() const { return tolerance ? SettingKind::tolerance : SettingKind::step; }
   /// The run at this setting.
   Run applied_to(Run run) const;
 };
@@ -49,10 +51,6 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows);
 /// Rows of `speed-accuracy-timing-cost`: the same runs timed in turns. Long runs are timed over their first part, as
 /// each evaluation of a scene without contact costs the same.
 void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows);
-
-/// Adds what follows from both: `speed-accuracy-cost`, the Pareto lines and the cheapest methods (see
-/// work_precision.cpp).
-void conclude_speed_accuracy(Rows& rows);
 
 /// Who compiled the code whose time is measured.
 std::string build_of(const std::string& method);

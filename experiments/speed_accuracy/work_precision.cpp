@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "experiments/speed_accuracy/speed_accuracy.h"
-#include "experiments/tables/table.h"
 
 namespace crosscheck {
 
@@ -24,10 +23,11 @@ std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> poin
 }
 
 const WorkPrecisionPoint* cheapest(const std::vector<WorkPrecisionPoint>& points, double bound,
-                                   const std::string& prefix) {
+                                   bool (MethodFamily::*asked)() const) {
   const WorkPrecisionPoint* best = nullptr;
   for (const WorkPrecisionPoint& p : points)
-    if (p.ok && p.error && *p.error <= bound && p.method.starts_with(prefix) && (!best || p.cost < best->cost))
+    if (p.ok && p.error && *p.error <= bound && (!asked || (family_of(p.method).*asked)()) &&
+        (!best || p.cost < best->cost))
       best = &p;
   return best;
 }
@@ -49,139 +49,105 @@ struct SceneRuns {
   std::string scene;
   double motion = 0;
   std::optional<double> error_bar;  // m; none: no truth
-  bool difference = false;          // from the answer of the in-house contact rule: no error
-  std::vector<size_t> rows;         // in the table, of the points
+  Measure measure = Measure::error;
   std::vector<WorkPrecisionPoint> points;
 };
 
-std::vector<SceneRuns> runs_of(const Table& t) {
+std::vector<SceneRuns> runs_of(const Table& table) {
   std::vector<SceneRuns> scenes;
-  for (size_t i = 0; i < t.rows.size(); ++i) {
-    if (scenes.empty() || scenes.back().scene != text_or_none(t, i, "scene")) {
-      scenes.push_back({text_or_none(t, i, "scene"), *number_at(t, i, "motion"), number_at(t, i, "truth bar")});
-      scenes.back().difference = text_or_none(t, i, "truth").find("contact rule") != std::string::npos;
+  for (const SpeedAccuracyRow& row : rows_of<SpeedAccuracyRow>(table)) {
+    if (scenes.empty() || scenes.back().scene != row.scene) {
+      const bool difference = row.truth && row.truth->find("contact rule") != std::string::npos;
+      scenes.push_back({row.scene, row.motion, row.truth_bar, difference ? Measure::difference : Measure::error, {}});
     }
     SceneRuns& s = scenes.back();
-    const auto error = number_at(t, i, s.difference ? "largest difference from converged contact" : "largest error");
-    s.rows.push_back(i);
-    s.points.push_back({text_or_none(t, i, "method"), text_or_none(t, i, "setting"), *number_at(t, i, "asked"),
-                        text_or_none(t, i, "verdict") == "ok", error,
-                        static_cast<double>(std::get<long>(t.at(i, "evaluations")))});
+    s.points.push_back({row.method, row.setting, row.asked, row.verdict == Verdict::ok,
+                        s.measure == Measure::difference ? row.difference : row.error,
+                        static_cast<double>(row.evaluations)});
   }
   return scenes;
 }
 
 /// The same runs with the time they took; what was not timed is left out. Fills `noise`.
-std::vector<WorkPrecisionPoint> timed_points(const SceneRuns& s, const Table& timing, double& noise, Table& cost) {
+std::vector<WorkPrecisionPoint> timed_points(const SceneRuns& s, const std::vector<SpeedAccuracyTimingRow>& timing,
+                                             double& noise, Table& cost) {
   std::vector<WorkPrecisionPoint> points;
   for (const WorkPrecisionPoint& p : s.points)
-    for (size_t i = 0; i < timing.rows.size(); ++i) {
-      if (text_or_none(timing, i, "scene") != s.scene || text_or_none(timing, i, "method") != p.method ||
-          text_or_none(timing, i, "setting") != p.setting || *number_at(timing, i, "asked") != p.asked)
-        continue;
-      const auto measured = static_cast<double>(std::get<long>(timing.at(i, "evaluations")));
-      const double part = *number_at(timing, i, "part of the run");
+    for (const SpeedAccuracyTimingRow& row : timing) {
+      if (row.scene != s.scene || row.method != p.method || row.setting != p.setting || row.asked != p.asked) continue;
+      const auto measured = static_cast<double>(row.evaluations);
       // a failed run ended earlier than its timed twin, which nobody watched, or later
-      const double factor = measured > 0 && p.cost > 0 ? p.cost / measured : 1 / part;
+      const double factor = measured > 0 && p.cost > 0 ? p.cost / measured : 1 / row.part;
       WorkPrecisionPoint timed = p;
-      timed.time = Timing{*number_at(timing, i, "cpu"), *number_at(timing, i, "cpu low"),
-                          *number_at(timing, i, "cpu high"), std::get<long>(timing.at(i, "repetitions"))}
-                       .times(factor);
+      timed.time = Timing{row.cpu, row.cpu_low, row.cpu_high, row.repetitions}.times(factor);
       timed.cost = timed.time->median;
-      timed.part = part;
-      noise = *number_at(timing, i, "noise");
-      cost.add({s.scene, p.method, p.setting, p.asked, std::string(p.ok ? "ok" : "failed"), timed.cost, timed.time->low,
-                timed.time->high, timed.time->repetitions, part, noise, build_of(p.method)});
+      timed.part = row.part;
+      noise = row.noise;
+      add(cost, SpeedAccuracyCostRow{.scene = s.scene,
+                                     .method = p.method,
+                                     .setting = p.setting,
+                                     .asked = p.asked,
+                                     .verdict = p.ok ? RunEnd::ok : RunEnd::failed,
+                                     .cpu = timed.cost,
+                                     .cpu_low = timed.time->low,
+                                     .cpu_high = timed.time->high,
+                                     .repetitions = timed.time->repetitions,
+                                     .part = row.part,
+                                     .noise = noise,
+                                     .build = build_of(p.method)});
       points.push_back(std::move(timed));
     }
   return points;
 }
 
+template <Cost kind>
 void add_pareto(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& points, Table& table) {
   if (!s.error_bar) return;
   for (const WorkPrecisionPoint& p : pareto_line(points, *s.error_bar))
-    table.add({s.scene, p.cost, *p.error, p.method, p.setting, p.asked});
+    add(table, ParetoRow<kind>{s.scene, p.cost, *p.error, p.method, p.setting, p.asked});
 }
 
 constexpr double parts_of_motion[] = {0.1, 0.01, 0.001};
 
+template <Cost kind>
 void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& points, double noise, Table& table) {
   if (!s.error_bar) return;
   for (const double part : parts_of_motion) {
     // the truth may err as well: what is met is met whatever the truth is within its bar
     const double bound = part * s.motion, left = bound - *s.error_bar;
-    std::vector<Cell> row{s.scene, part, bound, std::string(s.difference ? "difference" : "error")};
-    const WorkPrecisionPoint *best = cheapest(points, left), *bullet = cheapest(points, left, "bullet/"),
-                             *ours = cheapest(points, left, "mysim/");
-    for (const WorkPrecisionPoint* p : {best, bullet}) {
-      row.push_back(p ? Cell(p->method) : Cell());
-      row.push_back(p ? Cell(p->setting) : Cell());
-      row.push_back(p ? Cell(p->asked) : Cell());
-      row.push_back(p ? Cell(p->cost) : Cell());
-      row.push_back(p ? Cell(*p->error) : Cell());
+    CheapestRow<kind> row{.scene = s.scene, .part_of_motion = part, .bound = bound, .measure = s.measure};
+    const WorkPrecisionPoint *best = cheapest(points, left),
+                             *bullet = cheapest(points, left, &MethodFamily::is_default_peer),
+                             *ours = cheapest(points, left, &MethodFamily::is_subject);
+    if (best) {
+      row.method = best->method, row.setting = best->setting, row.asked = best->asked, row.cost = best->cost;
+      row.distance = best->error;
+      row.tied = fmt::format("{}", fmt::join(statistically_tied(points, *best, left, noise), ", "));
     }
-    row.push_back(ours && bullet ? Cell(bullet->cost / ours->cost) : Cell());
-    row.push_back(best ? Cell(fmt::format("{}", fmt::join(statistically_tied(points, *best, left, noise), ", ")))
-                       : Cell());
-    row.push_back(left < 0 ? Cell(std::string("below the error bar of the truth"))
-                  : best   ? Cell()
-                           : Cell(std::string("no run tried meets it")));
-    table.add(std::move(row));
+    if (bullet) {
+      row.bullet = bullet->method, row.bullet_setting = bullet->setting, row.bullet_asked = bullet->asked;
+      row.bullet_cost = bullet->cost, row.bullet_distance = bullet->error;
+    }
+    if (ours && bullet) row.bullet_over_mysim = bullet->cost / ours->cost;
+    if (left < 0)
+      row.remark = "below the error bar of the truth";
+    else if (!best)
+      row.remark = "no run tried meets it";
+    add(table, row);
   }
-}
-
-Table pareto_table(const std::string& name, const Column& cost) {
-  return {
-      name, {{"scene", "1"}, cost, {"distance", "m"}, {"method", "1"}, {"setting", "1"}, {"asked", "see setting"}}, {}};
-}
-
-Table cheapest_table(const std::string& name, const std::string& cost, const std::string& unit) {
-  return {name,
-          {{"scene", "1"},
-           {"part of motion", "1"},
-           {"bound", "m"},
-           {"measure", "1"},
-           {"method", "1"},
-           {"setting", "1"},
-           {"asked", "see setting"},
-           {cost, unit},
-           {"distance", "m"},
-           {"best of Bullet", "1"},
-           {"setting of Bullet", "1"},
-           {"asked of Bullet", "see setting"},
-           {cost + " of Bullet", unit},
-           {"distance of Bullet", "m"},
-           {"Bullet / mysim", "1"},
-           {"as cheap within noise", "1"},
-           {"remark", "1"}},
-          {}};
 }
 
 }  // namespace
 
 void conclude_speed_accuracy(Rows& rows) {
-  const Table* results = rows.table("speed-accuracy");
+  const Table* results = rows.table(std::string(SpeedAccuracyRow::table));
   if (!results) return;  // a part of a sweep
-  const Table* timing = rows.table("speed-accuracy-timing-cost");
-  Table pareto = pareto_table("speed-accuracy-pareto", {"evaluations", "1"}),
-        pareto_time = pareto_table("speed-accuracy-pareto-cost", {"cpu", "s"}),
-        best = cheapest_table("speed-accuracy-cheapest", "evaluations", "1"),
-        best_time = cheapest_table("speed-accuracy-cheapest-cost", "cpu", "s"),
-        cost{"speed-accuracy-cost",
-             {{"scene", "1"},
-              {"method", "1"},
-              {"setting", "1"},
-              {"asked", "see setting"},
-              {"verdict", "1"},
-              {"cpu", "s"},
-              {"cpu low", "s"},
-              {"cpu high", "s"},
-              {"repetitions", "1"},
-              {"part timed", "1"},
-              {"noise", "1"},
-              {"build", "1"}},
-             {}},
-        engines = engines_cost_table();
+  std::vector<SpeedAccuracyTimingRow> timing;
+  const Table* timed = rows.table(std::string(SpeedAccuracyTimingRow::table));
+  if (timed) timing = rows_of<SpeedAccuracyTimingRow>(*timed);
+  Table pareto = table_of<ParetoRow<Cost::evaluations>>(), pareto_time = table_of<ParetoRow<Cost::cpu>>(),
+        best = table_of<CheapestRow<Cost::evaluations>>(), best_time = table_of<CheapestRow<Cost::cpu>>(),
+        cost = table_of<SpeedAccuracyCostRow>(), engines = table_of<EngineSpeedRow>();
   for (const SceneRuns& s : runs_of(*results)) {
     // an outside program need not count its evaluations, and of Bullet's implicit and position-based worlds the steps
     // alone are known: what their solvers take for each would pass for nothing
@@ -190,60 +156,50 @@ void conclude_speed_accuracy(Rows& rows) {
       return !(p.cost > 0) || p.method.find("/deformable-implicit") != std::string::npos ||
              p.method.find("/pbd") != std::string::npos;
     });
-    add_pareto(s, counted, pareto);
-    add_cheapest(s, counted, 0, best);
-    if (!timing) continue;
+    add_pareto<Cost::evaluations>(s, counted, pareto);
+    add_cheapest<Cost::evaluations>(s, counted, 0, best);
+    if (!timed) continue;
     double noise = 0;
-    const std::vector<WorkPrecisionPoint> points = timed_points(s, *timing, noise, cost);
-    add_pareto(s, points, pareto_time);
-    add_cheapest(s, points, noise, best_time);
+    const std::vector<WorkPrecisionPoint> points = timed_points(s, timing, noise, cost);
+    add_pareto<Cost::cpu>(s, points, pareto_time);
+    add_cheapest<Cost::cpu>(s, points, noise, best_time);
     for (const double part : parts_of_motion)
-      if (s.error_bar)
-        add_by_engine(s.scene, part, s.difference ? "difference" : "error", part * s.motion - *s.error_bar, points,
-                      engines);
+      if (s.error_bar) add_by_engine(s.scene, part, s.measure, part * s.motion - *s.error_bar, points, engines);
   }
   for (const Table& table : {pareto, best, cost, pareto_time, best_time, engines}) rows.add(table);
 }
 
 std::string engine_of(const std::string& method) { return method.substr(0, method.find('/')); }
 
-Table engines_cost_table() {
-  return {"speed-accuracy-engines-cost",
-          {{"scene", "1"},
-           {"part of motion", "1"},
-           {"measure", "1"},
-           {"engine", "1"},
-           {"method", "1"},
-           {"setting", "1"},
-           {"asked", "see setting"},
-           {"cpu", "s"},
-           {"distance", "m"},
-           {"times mysim", "1"},
-           {"times mysim low", "1"},
-           {"times mysim high", "1"},
-           {"part timed", "1"},
-           {"part timed of mysim", "1"}},
-          {}};
-}
-
-void add_by_engine(const std::string& scene, double part_of_motion, const std::string& measure, double bound,
+void add_by_engine(const std::string& scene, double part_of_motion, Measure measure, double bound,
                    const std::vector<WorkPrecisionPoint>& points, Table& table) {
   std::vector<std::string> engines;
   for (const WorkPrecisionPoint& p : points)
     if (const std::string engine = engine_of(p.method);
         std::find(engines.begin(), engines.end(), engine) == engines.end())
       engines.push_back(engine);
-  const WorkPrecisionPoint* ours = cheapest(points, bound, "mysim/");
+  const WorkPrecisionPoint* ours = cheapest(points, bound, &MethodFamily::is_subject);
   for (const std::string& engine : engines) {
     std::vector<WorkPrecisionPoint> its = points;
     std::erase_if(its, [&](const WorkPrecisionPoint& p) { return !p.time || engine_of(p.method) != engine; });
     const WorkPrecisionPoint* best = cheapest(its, bound);
     if (!best) continue;
-    const Timing* beside = ours && ours->time && ours->time->low > 0 ? &*ours->time : nullptr;
-    table.add({scene, part_of_motion, measure, engine, best->method, best->setting, best->asked, best->cost,
-               *best->error, beside ? Cell(best->cost / ours->cost) : Cell(),
-               beside ? Cell(best->time->low / beside->high) : Cell(),
-               beside ? Cell(best->time->high / beside->low) : Cell(), best->part, ours ? Cell(ours->part) : Cell()});
+    EngineSpeedRow row{.scene = scene,
+                       .part_of_motion = part_of_motion,
+                       .measure = measure,
+                       .engine = engine,
+                       .method = best->method,
+                       .setting = best->setting,
+                       .asked = best->asked,
+                       .cpu = best->cost,
+                       .distance = *best->error,
+                       .part_timed = best->part};
+    if (ours) row.part_timed_of_mysim = ours->part;
+    if (const Timing* beside = ours && ours->time && ours->time->low > 0 ? &*ours->time : nullptr) {
+      row.times_mysim = best->cost / ours->cost;
+      row.times_mysim_low = best->time->low / beside->high, row.times_mysim_high = best->time->high / beside->low;
+    }
+    add(table, row);
   }
 }
 

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/tables/table.h"
+#include "experiments/tables/speed_accuracy.h"
 #include "experiments/timing/timing.h"
+#include "reference/method.h"
 
 namespace crosscheck {
 
@@ -14,8 +15,9 @@ namespace crosscheck {
 
 /// One run: where it lies on a chart of error against cost.
 struct WorkPrecisionPoint {
-  std::string method, setting;  // setting: "step [s]" or "tolerance [1]"
-  double asked;                 // s or 1
+  std::string method;
+  SettingKind setting;
+  double asked;  // s or 1
   bool ok;
   std::optional<double> error;      // m; of runs that are ok
   double cost;                      // evaluations, or s
@@ -27,10 +29,9 @@ struct WorkPrecisionPoint {
 /// below the floor (m) counts as the floor: among those below it nobody is better.
 std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> points, double floor);
 
-/// The cheapest run with an error of at most `bound`, of the methods whose name begins with `prefix`; null where there
-/// is none.
+/// The cheapest run with an error of at most `bound`, of the families asked for; null where there is none.
 const WorkPrecisionPoint* cheapest(const std::vector<WorkPrecisionPoint>& points, double bound,
-                                   const std::string& prefix = "");
+                                   bool (MethodFamily::*asked)() const = nullptr);
 
 /// Other methods whose cheapest run within the bound cannot be told from the best one's by their times, given the noise
 /// (relative).
@@ -42,14 +43,11 @@ std::vector<std::string> statistically_tied(const std::vector<WorkPrecisionPoint
 /// "mysim" of "mysim/leapfrog": whose run it is.
 std::string engine_of(const std::string& method);
 
-/// The table "speed-accuracy-engines-cost", empty.
-Table engines_cost_table();
-
-/// Adds a row for each engine that has a timed run within `bound` (m), what the truth's bar takes off included: its
-/// cheapest, and how many times as long as mysim's cheapest it takes, from `low` to `high` the widest that both 90 %
-/// intervals allow; and which part of each was timed, the rest being scaled. Without a run of mysim within the bound no
-/// quotient is given.
-void add_by_engine(const std::string& scene, double part_of_motion, const std::string& measure, double bound,
+/// Adds an EngineSpeedRow for each engine that has a timed run within `bound` (m), what the truth's bar takes off
+/// included: its cheapest, and how many times as long as mysim's cheapest it takes, from `low` to `high` the widest
+/// that both 90 % intervals allow; and which part of each was timed, the rest being scaled. Without a run of mysim
+/// within the bound no quotient is given.
+void add_by_engine(const std::string& scene, double part_of_motion, Measure measure, double bound,
                    const std::vector<WorkPrecisionPoint>& points, Table& table);
 
 }  // namespace crosscheck

@@ -184,10 +184,6 @@ Scene on_slope(double degrees, double friction) {
                            gravity * std::sin(angle), -gravity * std::cos(angle), friction));
 }
 
-std::string_view name_of(ContactState state) {
-  return state == ContactState::sticks ? "sticks" : state == ContactState::slides ? "slides" : "neither";
-}
-
 std::optional<ConeResult> cone(const Method& method, double degrees, double friction, double step, Outcome& out) {
   const Scene scene = on_slope(degrees, friction);
   Recorder recorder;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/tables/sphere.h"
 #include "mysim/scene/scene.h"
 #include "reference/method.h"
 
@@ -59,8 +60,6 @@ Leaving leaving_by_theory();
 // ---- cone ----
 /// A particle at rest on a slope (degrees), as the side of a ball so large that it is flat here.
 Scene on_slope(double degrees, double friction);
-enum class ContactState { sticks, slides, neither };
-std::string_view name_of(ContactState state);
 struct ConeResult {
   double way;          // m, in 0.5 s
   double coulomb;      // m, by Coulomb's law: 0 within the cone, else g (sin - mu cos) t^2 / 2

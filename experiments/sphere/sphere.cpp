@@ -8,67 +8,52 @@
 #include "experiments/experiment.h"
 #include "experiments/metrics.h"
 #include "experiments/sphere/probes.h"
+#include "experiments/tables/sphere.h"
 
 namespace crosscheck {
 namespace {
 
 void rebounds(const Request& request, const Method& method, Rows& rows) {
-  Table table{"sphere-rebound",
-              {{"method", "1"},
-               {"verdict", "1"},
-               {"reason", "1"},
-               {"step", "s"},
-               {"restitution", "1"},
-               {"rebound", "m"},
-               {"by theory", "m"}},
-              {}};
+  Table table = table_of<ReboundRow>();
   std::vector<double> parts = {0, 0.5, 0.9};
   if (request.full) parts = {0, 0.25, 0.5, 0.75, 0.9, 1};
   for (const double e : parts)
     for (const double h : {1. / 60, 1. / 240, 1e-3, 1e-4}) {
       Outcome out;
       const auto height = rebound(method, drop_on_ball(e), h, out);
-      table.add({method.name, std::string(name_of(out.verdict)), out.reason, h, e, cell_of(height), 0.3 * e * e});
+      add(table, ReboundRow{.method = method.name,
+                            .verdict = out.verdict,
+                            .reason = out.reason,
+                            .step = h,
+                            .restitution = e,
+                            .rebound = height,
+                            .by_theory = 0.3 * e * e});
     }
   rows.add(table);
 }
 
 void leavings(const Request& request, const Method& method, Rows& rows) {
-  Table table{"sphere-leaving",
-              {{"method", "1"},
-               {"verdict", "1"},
-               {"reason", "1"},
-               {"step", "s"},
-               {"angle", "degrees"},
-               {"angle by theory", "degrees"},
-               {"speed", "m/s"},
-               {"speed by theory", "m/s"}},
-              {}};
+  Table table = table_of<LeavingRow>();
   const Leaving exact = leaving_by_theory();
   std::vector<double> steps = {1. / 240, 1e-3, 1e-4};
   if (request.full) steps = {1. / 60, 1. / 240, 1e-3, 2.5e-4, 1e-4, 1e-5};
   for (const double h : steps) {
     Outcome out;
     const auto found = leaving(method, h, out);
-    table.add({method.name, std::string(name_of(out.verdict)), out.reason, h, found ? Cell(found->angle) : Cell(),
-               exact.angle, found ? Cell(found->speed) : Cell(), exact.speed});
+    LeavingRow row{.method = method.name,
+                   .verdict = out.verdict,
+                   .reason = out.reason,
+                   .step = h,
+                   .angle_by_theory = exact.angle,
+                   .speed_by_theory = exact.speed};
+    if (found) row.angle = found->angle, row.speed = found->speed;
+    add(table, row);
   }
   rows.add(table);
 }
 
 void cones(const Request& request, const Method& method, Rows& rows) {
-  Table table{"sphere-cone",
-              {{"method", "1"},
-               {"verdict", "1"},
-               {"reason", "1"},
-               {"step", "s"},
-               {"angle", "degrees"},
-               {"friction", "1"},
-               {"way", "m"},
-               {"way by theory", "m"},
-               {"answer", "1"},
-               {"answer by theory", "1"}},
-              {}};
+  Table table = table_of<ConeRow>();
   std::vector<double> steps = {1e-3};
   if (request.full) steps = {1. / 60, 1. / 240, 1e-3};
   for (const double h : steps)
@@ -83,9 +68,16 @@ void cones(const Request& request, const Method& method, Rows& rows) {
         Outcome out;
         const auto found = cone(method, degrees, mu, h, out);
         const double asked = std::max(0.0, 9.81 * (std::sin(std::atan(limit)) - mu * std::cos(std::atan(limit))) / 8);
-        table.add({method.name, std::string(name_of(out.verdict)), out.reason, h, degrees, mu,
-                   found ? Cell(found->way) : Cell(), asked, found ? Cell(std::string(name_of(found->state))) : Cell(),
-                   std::string(name_of(mu < limit ? ContactState::slides : ContactState::sticks))});
+        ConeRow row{.method = method.name,
+                    .verdict = out.verdict,
+                    .reason = out.reason,
+                    .step = h,
+                    .angle = degrees,
+                    .friction = mu,
+                    .way_by_theory = asked,
+                    .answer_by_theory = mu < limit ? ContactState::slides : ContactState::sticks};
+        if (found) row.way = found->way, row.answer = found->state;
+        add(table, row);
       }
     }
   rows.add(table);
@@ -93,44 +85,9 @@ void cones(const Request& request, const Method& method, Rows& rows) {
 
 /// One run of a scene with balls: how deep, how long, where it ends.
 void drape(const Scene& scene, const Method& method, double step, Rows& rows) {
-  Table summary{"sphere-drape",
-                {{"scene", "1"},
-                 {"method", "1"},
-                 {"verdict", "1"},
-                 {"reason", "1"},
-                 {"end", "s"},
-                 {"step", "s"},
-                 {"settled after", "s"},
-                 {"centre height", "m"},
-                 {"centre moved aside", "m"},
-                 {"clearance", "m"},
-                 {"creep", "m/s"},
-                 {"contact took", "J"},
-                 {"contact inferred", "1"},
-                 {"asymmetry", "m"}},
-                {}};
-  Table deep{"sphere-penetration",
-             {{"scene", "1"},
-              {"method", "1"},
-              {"verdict", "1"},
-              {"step", "s"},
-              {"radius", "m"},
-              {"particles", "%"},
-              {"triangles", "%"},
-              {"particles at end", "%"},
-              {"triangles at end", "%"}},
-             {}};
-  Table table{scene.name + "-drape",
-              {{"method", "1"},
-               {"step", "s"},
-               {"t", "s"},
-               {"centre height", "m"},
-               {"centre moved aside", "m"},
-               {"clearance", "m"},
-               {"triangles inside", "m"},
-               {"creep", "m/s"},
-               {"asymmetry", "m"}},
-              {}};
+  Table summary = table_of<DrapeRow>();
+  Table deep = table_of<PenetrationRow>();
+  Table table = table_of<DrapeTimeRow>(scene.name + "-drape");
   Run run = default_run(scene);
   run.step = step;
   Recorder recorder;
@@ -162,22 +119,40 @@ void drape(const Scene& scene, const Method& method, double step, Rows& rows) {
     const auto count = static_cast<double>(x.cols());
     if (path.v[i].cols() != x.cols() || std::sqrt(path.v[i].squaredNorm() / count) > 0.01)
       settled = i + 1 < path.frames() ? path.t[i + 1] : INFINITY;
-    table.add({method.name, out.step, t, centre.y(), aside.norm(), cell_of(last_gap), cell_of(last_depth),
-               cell_of(last_creep), cell_of(skew)});
+    add(table, DrapeTimeRow{.method = method.name,
+                            .step = out.step,
+                            .t = t,
+                            .centre_height = centre.y(),
+                            .moved_aside = aside.norm(),
+                            .clearance = last_gap,
+                            .triangles_inside = last_depth,
+                            .creep = last_creep,
+                            .asymmetry = skew});
   }
   const bool ok = out.verdict == Verdict::ok && !none;
-  auto at_end = [&](const std::optional<double>& value) { return ok ? cell_of(value) : Cell(); };
-  auto share = [&](const std::optional<double>& depth) {
-    return ok && depth ? Cell(100 * std::max(0.0, *depth) / radius) : Cell();
-  };
-  const bool energies = ok && !ledger.rows().empty();
-  summary.add({scene.name, method.name, std::string(name_of(out.verdict)), out.reason, out.end, out.step,
-               ok && settled < 0.95 * out.end ? Cell(settled) : Cell(), ok ? Cell(centre.y()) : Cell(),
-               ok ? Cell(std::hypot(centre.x() - start.x(), centre.z() - start.z())) : Cell(), at_end(last_gap),
-               at_end(last_creep), energies ? Cell(ledger.rows().back().contact) : Cell(),
-               ledger.contact_inferred() ? 1l : 0l, at_end(skew)});
-  deep.add({scene.name, method.name, std::string(name_of(out.verdict)), out.step, radius, share(nodes),
-            share(triangles), share(last_gap ? std::optional(-*last_gap) : std::nullopt), share(last_depth)});
+  DrapeRow row{.scene = scene.name,
+               .method = method.name,
+               .verdict = out.verdict,
+               .reason = out.reason,
+               .end = out.end,
+               .step = out.step,
+               .contact_inferred = ledger.contact_inferred()};
+  PenetrationRow depth{
+      .scene = scene.name, .method = method.name, .verdict = out.verdict, .step = out.step, .radius = radius};
+  if (ok) {
+    if (settled < 0.95 * out.end) row.settled_after = settled;
+    row.centre_height = centre.y();
+    row.moved_aside = std::hypot(centre.x() - start.x(), centre.z() - start.z());
+    row.clearance = last_gap, row.creep = last_creep, row.asymmetry = skew;
+    if (!ledger.rows().empty()) row.contact = ledger.rows().back().contact;
+    const auto share = [&](double inside) { return 100 * std::max(0.0, inside) / radius; };
+    if (nodes) depth.particles = share(*nodes);
+    if (triangles) depth.triangles = share(*triangles);
+    if (last_gap) depth.particles_at_end = share(-*last_gap);
+    if (last_depth) depth.triangles_at_end = share(*last_depth);
+  }
+  add(summary, row);
+  add(deep, depth);
   rows.add(summary);
   rows.add(deep);
   rows.add(table);

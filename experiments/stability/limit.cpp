@@ -130,8 +130,10 @@ PredictedLimit predicted_limit(const Stepper& rule, const Spectrum& spectrum) {
 PredictedLimit predicted_limit(const Method& method, const Spectrum& spectrum) {
   const Stepper* rule = stepper_of(method);
   if (!rule) return {0, -1, "no linear theory: a rule of its own"};
-  if (method.name.starts_with("bullet") && spectrum.system.has_dashpots() && std::isfinite(rule->limit(1, 0)))
-    return {0, -1, "no linear theory: Bullet solves dashpots implicitly, at the end of the explicit step"};
+  if (method.splits_dashpots && spectrum.system.has_dashpots())
+    return {0, -1,
+            fmt::format("no linear theory: {} solves dashpots implicitly, at the end of the explicit step",
+                        method.family().title)};
   return predicted_limit(*rule, spectrum);
 }
 

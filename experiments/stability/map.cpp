@@ -39,7 +39,7 @@ std::span<const MapKind> map_kinds() {
 
 void add_map(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows,
              const RunCallback& watch) {
-  Table cells = map_table(), limits = map_limit_table(), check = map_check_table();
+  Table cells = table_of<MapRow>(), limits = table_of<MapLimitRow>(), check = table_of<MapCheckRow>();
   const std::string map(kind.name);
   const BaseState as_it_is = base_state_of(scene);
   const double omega = as_it_is.spectrum.omega;
@@ -68,9 +68,10 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
       const bool refused = trial.unsupported();
       if (watch)
         watched.runs.push_back({{.verdict = trial.verdict, .end = trial.end}, pictures.path(), base.scene.start.x});
-      cells.add({scene.name, method.name, map, value, h, std::string(name_of(trial.effective_verdict())),
-                 refused ? Cell() : Cell(trial.end),
-                 refused || !std::isfinite(trial.growth) ? Cell() : Cell(trial.growth)});
+      MapRow cell{scene.name, method.name, map, value, h, trial.effective_verdict(), {}, {}};
+      if (!refused) cell.end = trial.end;
+      if (!refused && std::isfinite(trial.growth)) cell.growth = trial.growth;
+      add(cells, cell);
       if (refused) {
         refusal = trial.reason;
         continue;
@@ -85,16 +86,18 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
       if (trial.unsupported()) break;
       (trial.held() ? held : failed) = middle;
     }
-    const bool finite = predicted.missing.empty() && std::isfinite(predicted.limit);
-    limits.add({scene.name, method.name, map, value, finite ? Cell(predicted.limit) : Cell(),
-                held > 0 ? Cell(held) : Cell(), failed > 0 ? Cell(failed) : Cell()});
+    MapLimitRow limit{scene.name, method.name, map, value, {}, {}, {}};
+    if (predicted.missing.empty() && std::isfinite(predicted.limit)) limit.predicted = predicted.limit;
+    if (held > 0) limit.held = held;
+    if (failed > 0) limit.failed = failed;
+    add(limits, limit);
   }
   if (answered == 0) return no_map(refusal);
   if (watch) watch(watched);
   rows.add(cells);
   rows.add(limits);
   if (size.check) {
-    check.add({scene.name, method.name, map, size.steps, answered, changed});
+    add(check, MapCheckRow{scene.name, method.name, map, size.steps, answered, changed});
     rows.add(check);
   }
 }

@@ -15,16 +15,11 @@
 namespace crosscheck {
 namespace {
 
-std::string text_of(MeasuredLimit::Kind kind) {
-  // in the order of the kinds
-  constexpr const char* texts[] = {"limit", "no stable step", "every step tried", "held up to a refusal",
-                                   "unsupported"};
-  return texts[kind];
-}
-
-std::string text_of(const PredictedLimit& p) {
-  if (!p.missing.empty()) return "none";
-  return p.limit == 0 ? "no stable step" : std::isinf(p.limit) ? "every step" : "limit";
+PredictionKind kind_of(const PredictedLimit& p) {
+  if (!p.missing.empty()) return PredictionKind::none;
+  return p.limit == 0          ? PredictionKind::no_step
+         : std::isinf(p.limit) ? PredictionKind::every_step
+                               : PredictionKind::limit;
 }
 
 /// Growth per step of the binding mode around the limit, or at a few steps where none is stable: the excess is tiny
@@ -35,7 +30,7 @@ void add_growth(const Method& method, const Stepper& rule, const BaseState& base
   if (!base.at_rest || !s.commuting || s.modes.empty() || !is_runge_kutta(rule)) return;
   const int mode = predicted.mode >= 0 ? predicted.mode : static_cast<int>(s.modes.size()) - 1;
   const Vibration& vibration = s.modes[mode];
-  Table table = growth_table();
+  Table table = table_of<GrowthRow>();
   std::vector<double> steps;
   for (const double z : {0.1, 0.2, 0.5})
     if (predicted.limit == 0) steps.push_back(z / vibration.omega);
@@ -48,16 +43,24 @@ void add_growth(const Method& method, const Stepper& rule, const BaseState& base
     const long count = std::clamp(std::lround(2.3 / std::abs(std::log(expected))), 100L, 2000L);
     const PerturbedRun trial = run_perturbed(method, base, h, count, {mode});
     if (!trial.of_mode) continue;
-    table.add({base.scene.name, method.name, vibration.omega, vibration.gamma, h, h * vibration.omega,
-               predicted.limit > 0 ? Cell(h / predicted.limit) : Cell(), expected - 1, trial.per_step - 1,
-               (trial.per_step - 1) / (expected - 1) - 1});
+    GrowthRow row{.scene = base.scene.name,
+                  .method = method.name,
+                  .omega = vibration.omega,
+                  .gamma = vibration.gamma,
+                  .step = h,
+                  .h_omega = h * vibration.omega,
+                  .predicted = expected - 1,
+                  .measured = trial.per_step - 1,
+                  .deviation = (trial.per_step - 1) / (expected - 1) - 1};
+    if (predicted.limit > 0) row.share_of_limit = h / predicted.limit;
+    add(table, row);
   }
   rows.add(table);
 }
 
 /// Why a method is not asked, or nothing.
 std::string why_not(const Method& method) {
-  if (method.name.starts_with("truth/")) return "truth takes no steps";
+  if (method.family().role == Role::truth) return "truth takes no steps";
   if (method.adaptive) return "steps that follow a tolerance";
   if (method.name.ends_with("+sticky")) return "its contact rule changes no limit";
   return "";
@@ -69,13 +72,12 @@ bool is_dear(const Method& method, const Scene& scene) {
   return !is_small(scene) && (!rule || std::isinf(rule->limit(1, 0)));
 }
 
-/// The methods whose maps are drawn: the explicit rules that differ, and Bullet's worlds.
+/// The methods whose maps are drawn: the explicit rules that differ, and the peers' methods.
 bool mapped(const Request& request, const Method& method) {
   if (!request.methods.empty() || request.full) return true;
-  for (const char* name : {"mysim/explicit-euler", "mysim/rk4", "mysim/symplectic-euler", "bullet/deformable-explicit",
-                           "bullet/deformable-implicit", "bullet/pbd"})
-    if (method.name == name) return true;
-  return false;
+  if (!method.family().is_subject()) return method.family().by_default();
+  const std::string rule = short_name(method.name);
+  return rule == "explicit-euler" || rule == "rk4" || rule == "symplectic-euler";
 }
 
 }  // namespace
@@ -92,7 +94,7 @@ Effort effort_for(const Method& method, const Scene& scene, bool full) {
 }
 
 void add_limit(const Scene& scene, const Method& method, const Effort& effort, Rows& rows) {
-  Table table = limits_table();
+  Table table = table_of<LimitRow>();
   const BaseState base = base_state_of(scene);
   const PredictedLimit predicted = predicted_limit(method, base.spectrum);
   const bool finite = predicted.missing.empty() && std::isfinite(predicted.limit);
@@ -101,24 +103,28 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, R
   std::string reason = reason_for(base, method, predicted, measured);
   for (const std::string& more : {measured.reason, saddle_note(base)})
     if (!more.empty()) reason += (reason.empty() ? "" : "; ") + more;
-  Cell limit, deviation, above, precision;
+  LimitRow row{.scene = scene.name,
+               .method = method.name,
+               .state = base.at_rest ? LimitState::rest : LimitState::start,
+               .prediction = kind_of(predicted),
+               .measurement = measured.kind,
+               .steps = effort.steps,
+               .reason = reason};
+  if (finite) row.predicted = predicted.limit;
+  if (measured.held > 0) row.held = measured.held;
+  if (measured.failed > 0) row.failed = measured.failed;
   if (measured.kind == MeasuredLimit::found) {
-    limit = measured.limit(), precision = measured.precision();
-    if (finite && predicted.limit > 0) deviation = measured.limit() / predicted.limit - 1;
+    row.measured = measured.limit(), row.precision = measured.precision();
+    if (finite && predicted.limit > 0) row.deviation = measured.limit() / predicted.limit - 1;
     // a twentieth above, kicked so that it is seen
-    above =
-        std::string(name_of(run_perturbed(method, base, 1.05 * measured.failed, effort.steps, {perturbation.mode, 1e-3})
-                                .effective_verdict()));
+    row.above = run_perturbed(method, base, 1.05 * measured.failed, effort.steps, {perturbation.mode, 1e-3})
+                    .effective_verdict();
   }
-  Cell omega, gamma;
   if (predicted.mode >= 0 && finite) {
     const Vibration& binding = base.spectrum.modes[predicted.mode];
-    omega = binding.omega, gamma = binding.gamma;
+    row.omega = binding.omega, row.gamma = binding.gamma;
   }
-  table.add({scene.name, method.name, std::string(base.at_rest ? "rest" : "start"), text_of(predicted),
-             finite ? Cell(predicted.limit) : Cell(), omega, gamma, text_of(measured.kind), limit,
-             measured.held > 0 ? Cell(measured.held) : Cell(), measured.failed > 0 ? Cell(measured.failed) : Cell(),
-             deviation, above, effort.steps, reason, precision});
+  add(table, row);
   rows.add(table);
   if (const Stepper* rule = stepper_of(method); rule && measured.kind != MeasuredLimit::unsupported)
     add_growth(method, *rule, base, predicted, rows);

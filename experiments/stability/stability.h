@@ -17,8 +17,7 @@ inline std::string deviation_reason(const BaseState& base, const Method& method)
   if (!base.at_rest && model.find<Springs>())
     reasons.emplace_back("the motion stretches and turns the springs of the start");
   if (model.find<Aerodynamics>()) reasons.emplace_back("air damps too");
-  if (method.name.starts_with("bullet"))
-    reasons.emplace_back("Bullet clamps speeds to the body's diagonal over the step");
+  if (!method.family().departure.empty()) reasons.emplace_back(method.family().departure);
   if (reasons.empty())
     reasons.emplace_back(model.find<Springs>() ? "nonlinearity of the springs" : "for no reason that is known");
   std::string all;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiments/experiment.h"
+#include "experiments/tables/stiffness.h"
 
 namespace crosscheck {
 namespace {
@@ -36,10 +37,7 @@ double sag(const Scene& scene, const std::string& method) {
 /// One mass on one link, in every step let fall by g h^2 and pulled back: force over extension when it hangs still. It
 /// is let fall by 1e-4 of the link's length, where the link's law differs from Hooke's by 5e-5.
 Table single_links(bool full, double h) {
-  Table table{
-      "stiffness",
-      {{"kLST", "1"}, {"step", "s"}, {"iterations", "1"}, {"formula", "N/m"}, {"measured", "N/m"}, {"deviation", "1"}},
-      {}};
+  Table table = table_of<LinkStiffnessRow>();
   std::vector<double> shares = {0.02, 0.1, 0.5, 0.9};
   if (full) shares = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9};
   for (const int n : {1, 4, 10})
@@ -51,24 +49,21 @@ Table single_links(bool full, double h) {
       const double steps = std::ceil(60 / std::log1p(K)) + 10;
       const double measured =
           mass * g / sag(hanging_chain(1, mass, k, g, 0, steps * h, h), fmt::format("bullet/pbd+n={}", n));
-      table.add({kLST, h, static_cast<long>(n), k, measured, measured / k - 1});
+      add(table, LinkStiffnessRow{kLST, h, n, k, measured, measured / k - 1});
     }
   return table;
 }
 
 /// Three masses. Their sag against what is asked, over k h^2 / mu of the links between masses (mu = m / 2).
 Table networks(bool full, int n) {
-  Table table{
-      "stiffness-network",
-      {{"k h^2/mu", "1"}, {"step", "s"}, {"iterations", "1"}, {"sag asked", "m"}, {"sag", "m"}, {"deviation", "1"}},
-      {}};
+  Table table = table_of<NetworkStiffnessRow>();
   const double mass = 0.1, k = 1000, g = 0.0981, asked = mass * g / k * 6;  // strain 3e-5 at most
   std::vector<double> steps = {1. / 60, 1. / 120, 1. / 240, 1. / 480, 1. / 960, 1. / 1920};
   if (full) steps.push_back(1. / 3840);
   for (const double h : steps) {
     // drag of 20/s: e^-20 of the sag is left after 2 s
     const double found = sag(hanging_chain(3, mass, k, g, 20, 2, h), fmt::format("bullet/pbd+n={}", n));
-    table.add({k * h * h / (mass / 2), h, static_cast<long>(n), asked, found, found / asked - 1});
+    add(table, NetworkStiffnessRow{k * h * h / (mass / 2), h, n, asked, found, found / asked - 1});
   }
   return table;
 }

@@ -1,30 +1,24 @@
-// The columns are the terms of the balance.
+// The ledger of a run, row by row.
 #include "experiments/tables/energy.h"
 
 namespace crosscheck {
 
-Table ledger_table(const std::string& name) {
-  return {name,
-          {{"method", "1"},
-           {"t", "s"},
-           {"kinetic", "J"},
-           {"elastic", "J"},
-           {"gravitational", "J"},
-           {"drag", "J"},
-           {"dashpots", "J"},
-           {"contact loss", "J"},
-           {"contact loss inferred", "1"},
-           {"wind work", "J"},
-           {"pin work", "J"},
-           {"balance error", "J"}},
-          {}};
-}
-
 void add_ledger(Table& table, const std::string& method, const std::vector<LedgerRow>& rows, bool inferred) {
-  for (const LedgerRow& row : rows)
-    table.add({method, row.t, row.energy.kinetic, row.energy.elastic, row.energy.gravitational, row.drag, row.dashpots,
-               row.contact, inferred ? 1l : 0l, row.wind, row.pins,
-               inferred ? Cell() : Cell(row.balance() - rows.front().balance())});
+  for (const LedgerRow& row : rows) {
+    SceneEnergyRow out{.method = method,
+                       .t = row.t,
+                       .kinetic = row.energy.kinetic,
+                       .elastic = row.energy.elastic,
+                       .gravitational = row.energy.gravitational,
+                       .drag = row.drag,
+                       .dashpots = row.dashpots,
+                       .contact = row.contact,
+                       .contact_inferred = inferred,
+                       .wind = row.wind,
+                       .pins = row.pins};
+    if (!inferred) out.balance_error = row.balance() - rows.front().balance();
+    add(table, out);
+  }
 }
 
 }  // namespace crosscheck

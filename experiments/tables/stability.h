@@ -1,80 +1,140 @@
-// The columns of the tables of experiment `stability`.
+// The tables of experiment `stability`.
 #pragma once
 
-#include "experiments/tables/table.h"
+#include "experiments/stability/limit.h"
+#include "experiments/tables/typed.h"
 
 namespace crosscheck {
 
-/// Largest stable steps; precision: the width of the bracket from `held` to `failed`, over `held`.
-inline Table limits_table() {
-  return {"stability",
-          {{"scene", "1"},
-           {"method", "1"},
-           {"state", "1"},
-           {"prediction", "1"},
-           {"predicted limit", "s"},
-           {"binding omega", "rad/s"},
-           {"binding gamma", "1/s"},
-           {"measurement", "1"},
-           {"measured limit", "s"},
-           {"held", "s"},
-           {"failed", "s"},
-           {"deviation", "1"},
-           {"verdict above", "1"},
-           {"steps", "1"},
-           {"reason", "1"},
-           {"precision", "1"}},
-          {}};
-}
+/// The state that a limit is one of: the scene's rest, or its start where it has none.
+enum class LimitState { rest, start };
+inline std::string_view name_of(LimitState state) { return state == LimitState::rest ? "rest" : "start"; }
+template <>
+struct EnumRange<LimitState> {
+  static constexpr LimitState first = LimitState::rest, last = LimitState::start;
+};
 
-/// Growth of one mode in each step.
-inline Table growth_table() {
-  return {"stability-growth",
-          {{"scene", "1"},
-           {"method", "1"},
-           {"omega", "rad/s"},
-           {"gamma", "1/s"},
-           {"step", "s"},
-           {"h omega", "1"},
-           {"share of limit", "1"},
-           {"predicted growth", "1"},
-           {"measured growth", "1"},
-           {"deviation", "1"}},
-          {}};
+enum class PredictionKind { limit, no_step, every_step, none };
+inline std::string_view name_of(PredictionKind kind) {
+  // in the order of the kinds
+  constexpr std::string_view names[] = {"limit", "no stable step", "every step", "none"};
+  return names[static_cast<int>(kind)];
 }
+template <>
+struct EnumRange<PredictionKind> {
+  static constexpr PredictionKind first = PredictionKind::limit, last = PredictionKind::none;
+};
 
-/// Cells of maps.
-inline Table map_table() {
-  return {"stability-map",
-          {{"scene", "1"},
-           {"method", "1"},
-           {"map", "1"},
-           {"value", "see map"},
-           {"step", "s"},
-           {"verdict", "1"},
-           {"end", "s"},
-           {"growth", "1"}},
-          {}};
+inline std::string_view name_of(MeasuredLimit::Kind kind) {
+  // in the order of the kinds
+  constexpr std::string_view names[] = {"limit", "no stable step", "every step tried", "held up to a refusal",
+                                        "unsupported"};
+  return names[kind];
 }
+template <>
+struct EnumRange<MeasuredLimit::Kind> {
+  static constexpr MeasuredLimit::Kind first = MeasuredLimit::found, last = MeasuredLimit::unsupported;
+};
 
-/// Limits of the rows of maps.
-inline Table map_limit_table() {
-  return {"stability-map-limit",
-          {{"scene", "1"},
-           {"method", "1"},
-           {"map", "1"},
-           {"value", "see map"},
-           {"predicted limit", "s"},
-           {"held", "s"},
-           {"failed", "s"}},
-          {}};
-}
+struct LimitRow {
+  std::string scene, method;
+  LimitState state = LimitState::rest;
+  PredictionKind prediction = PredictionKind::limit;
+  std::optional<double> predicted, omega, gamma;
+  MeasuredLimit::Kind measurement = MeasuredLimit::found;
+  std::optional<double> measured, held, failed, deviation;
+  std::optional<Verdict> above;
+  long steps = 0;
+  std::string reason;
+  std::optional<double> precision;
 
-/// Cells that change in runs ten times longer.
-inline Table map_check_table() {
-  return {"stability-map-check",
-          {{"scene", "1"}, {"method", "1"}, {"map", "1"}, {"steps", "1"}, {"cells", "1"}, {"changed", "1"}},
-          {}};
-}
+  static constexpr std::string_view table = "stability", about = "Largest stable steps, measured and predicted.";
+  static constexpr auto columns =
+      std::tuple{column("scene", "1", &LimitRow::scene, "scene"),
+                 column("method", "1", &LimitRow::method, "method"),
+                 column("state", "1", &LimitRow::state, "state about which the limit is looked for"),
+                 column("prediction", "1", &LimitRow::prediction, "what linear theory says of steps"),
+                 column("predicted limit", "s", &LimitRow::predicted, "critical time step by linear theory"),
+                 column("binding omega", "rad/s", &LimitRow::omega, "angular frequency of the mode that binds it"),
+                 column("binding gamma", "1/s", &LimitRow::gamma, "damping rate of that mode"),
+                 column("measurement", "1", &LimitRow::measurement, "what the runs say of steps"),
+                 column("measured limit", "s", &LimitRow::measured, "geometric middle of held and failed"),
+                 column("held", "s", &LimitRow::held, "largest step at which a run held"),
+                 column("failed", "s", &LimitRow::failed, "smallest step at which a run failed"),
+                 column("deviation", "1", &LimitRow::deviation, "measured over predicted limit, less 1"),
+                 column("verdict above", "1", &LimitRow::above, "how a run ends at 1.05 times the failed step"),
+                 column("steps", "1", &LimitRow::steps, "steps of each run"),
+                 column("reason", "1", &LimitRow::reason, "why measurement and prediction differ, or one is missing"),
+                 column("precision", "1", &LimitRow::precision, "width of the bracket from held to failed, over held")};
+};
+
+struct GrowthRow {
+  std::string scene, method;
+  double omega = 0, gamma = 0, step = 0, h_omega = 0;
+  std::optional<double> share_of_limit;
+  double predicted = 0, measured = 0, deviation = 0;
+
+  static constexpr std::string_view table = "stability-growth", about = "Growth of one mode in each step.";
+  static constexpr auto columns =
+      std::tuple{column("scene", "1", &GrowthRow::scene, "scene"),
+                 column("method", "1", &GrowthRow::method, "method"),
+                 column("omega", "rad/s", &GrowthRow::omega, "angular frequency of the mode"),
+                 column("gamma", "1/s", &GrowthRow::gamma, "damping rate of the mode"),
+                 column("step", "s", &GrowthRow::step, "time step"),
+                 column("h omega", "1", &GrowthRow::h_omega, "time step times angular frequency"),
+                 column("share of limit", "1", &GrowthRow::share_of_limit, "time step over the predicted limit"),
+                 column("predicted growth", "1", &GrowthRow::predicted, "spectral radius of a step by theory, less 1"),
+                 column("measured growth", "1", &GrowthRow::measured, "mean factor of the amplitude in a step, less 1"),
+                 column("deviation", "1", &GrowthRow::deviation, "measured over predicted growth, less 1")};
+};
+
+struct MapRow {
+  std::string scene, method, map;
+  double value = 0, step = 0;
+  Verdict verdict = Verdict::ok;
+  std::optional<double> end, growth;
+
+  static constexpr std::string_view table = "stability-map", about = "Cells of maps: one run in each.";
+  static constexpr auto columns =
+      std::tuple{column("scene", "1", &MapRow::scene, "scene"),
+                 column("method", "1", &MapRow::method, "method"),
+                 column("map", "1", &MapRow::map, "what the rows of the map change: stiffness or drag"),
+                 column("value", "see map", &MapRow::value, "stiffness over the scene's own, or drag rate in 1/s"),
+                 column("step", "s", &MapRow::step, "time step"),
+                 column("verdict", "1", &MapRow::verdict, "how the run ended"),
+                 column("end", "s", &MapRow::end, "simulated time reached"),
+                 column("growth", "1", &MapRow::growth, "growth of the kick over the run")};
+};
+
+struct MapLimitRow {
+  std::string scene, method, map;
+  double value = 0;
+  std::optional<double> predicted, held, failed;
+
+  static constexpr std::string_view table = "stability-map-limit", about = "Largest stable steps on the rows of maps.";
+  static constexpr auto columns =
+      std::tuple{column("scene", "1", &MapLimitRow::scene, "scene"),
+                 column("method", "1", &MapLimitRow::method, "method"),
+                 column("map", "1", &MapLimitRow::map, "what the rows of the map change: stiffness or drag"),
+                 column("value", "see map", &MapLimitRow::value, "stiffness over the scene's own, or drag rate in 1/s"),
+                 column("predicted limit", "s", &MapLimitRow::predicted, "critical time step by linear theory"),
+                 column("held", "s", &MapLimitRow::held, "largest step at which a run held"),
+                 column("failed", "s", &MapLimitRow::failed, "smallest step at which a run failed")};
+};
+
+struct MapCheckRow {
+  std::string scene, method, map;
+  long steps = 0, cells = 0, changed = 0;
+
+  static constexpr std::string_view table = "stability-map-check",
+                                    about = "Cells of maps that change in runs ten times longer.";
+  static constexpr auto columns =
+      std::tuple{column("scene", "1", &MapCheckRow::scene, "scene"),
+                 column("method", "1", &MapCheckRow::method, "method"),
+                 column("map", "1", &MapCheckRow::map, "what the rows of the map change: stiffness or drag"),
+                 column("steps", "1", &MapCheckRow::steps, "steps of each run of the map"),
+                 column("cells", "1", &MapCheckRow::cells, "cells with a run"),
+                 column("changed", "1", &MapCheckRow::changed, "cells that hold in one of the two runs only")};
+};
 
 }  // namespace crosscheck

@@ -11,6 +11,8 @@
 
 #include "experiments/tables/table.h"
 #include "mysim/base/errors.h"
+#include "mysim/run/run.h"
+#include "reference/truth/truth.h"
 
 namespace crosscheck {
 
@@ -32,6 +34,14 @@ constexpr ColumnOf<Row, T> column(std::string_view name, std::string_view unit, 
 /// each.
 template <class Enum>
 struct EnumRange;  // static constexpr Enum first, last;
+template <>
+struct EnumRange<Verdict> {
+  static constexpr Verdict first = Verdict::ok, last = Verdict::unsupported;
+};
+template <>
+struct EnumRange<Tier> {
+  static constexpr Tier first = Tier::exact, last = Tier::another_engine;
+};
 
 template <class T>
 struct CellOf;

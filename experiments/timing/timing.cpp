@@ -97,11 +97,6 @@ bool differ(const Timing& a, const Timing& b, double noise) {
 
 namespace {
 
-class NullObserver : public Observer {
- public:
-  Verdict observe(const State&, bool) override { return Verdict::ok; }
-};
-
 /// The first part of a run, in one piece: a look in between would cost as much as a few steps of a small scene.
 Run part_of(const TimedRun& turn, double share) {
   Run part = turn.run;

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cassert>
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
@@ -48,6 +49,7 @@ StreamingFile::~StreamingFile() {
 }
 
 void StreamingFile::append(std::string_view bytes) {
+  assert(out_);  // not finished yet
   if (std::fwrite(bytes.data(), 1, bytes.size(), out_.get()) != bytes.size()) fail(no_room);
 }
 

@@ -17,7 +17,6 @@
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/json.h"
-#include "mysim/base/output_folder.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;

@@ -43,6 +43,11 @@ std::vector<std::string> paths_in(const std::filesystem::path& folder);
 /// The folder in which a result is prepared, inside of the one it is for.
 inline constexpr auto inner_work_folder = ".crosscheck";
 
+/// What a folder of version 0.1 holds, where all in it is known to be ours by its name and beginning; otherwise
+/// nothing, and one of the other files in `foreign`.
+std::optional<Manifest> adopt_version_0_1(const std::filesystem::path& folder, const std::string& command,
+                                          std::string& foreign);
+
 /// The present, as "2026-11-23 03:10:00 UTC".
 std::string utc_now();
 

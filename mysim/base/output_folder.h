@@ -107,9 +107,4 @@ class ResumableOutput {
 /// who read results, and for who started the process.
 void recover_output(const std::filesystem::path& folder);
 
-/// What a folder of version 0.1 holds, where all in it is known to be ours by its name and beginning; otherwise
-/// nothing, and one of the other files in `foreign`.
-std::optional<Manifest> adopt_version_0_1(const std::filesystem::path& folder, const std::string& command,
-                                          std::string& foreign);
-
 }  // namespace crosscheck

@@ -1,4 +1,4 @@
-// Edit distances between words, and three ways of quoting for a shell.
+// Edit distances between words, three ways of quoting for a shell, and Base64.
 #include "mysim/base/text.h"
 
 #include <fmt/format.h>
@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 #include <string_view>
+
+#include "mysim/base/errors.h"
 
 namespace crosscheck {
 namespace {
@@ -70,6 +72,23 @@ std::string closest_match(std::string_view word, const std::vector<std::string>&
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
   const std::string name = closest_match(word, names);
   return name.empty() ? "" : "; did you mean '" + name + "'?";
+}
+
+void refuse_option(const std::string& method, const std::string& option, const std::string& known) {
+  std::vector<std::string> options;
+  for (size_t at = known.find('+'); at != std::string::npos; at = known.find('+', at + 1))
+    options.push_back(known.substr(at + 1, known.find_first_of(" ,;", at) - at - 1));
+  throw InputError(fmt::format("method {}: unknown option '+{}'; expected {}{}", method, option, known,
+                               did_you_mean(option, options)));
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  size_t begin = 0;
+  for (size_t end; (end = text.find(separator, begin)) != std::string_view::npos; begin = end + 1)
+    parts.emplace_back(text.substr(begin, end - begin));
+  parts.emplace_back(text.substr(begin));
+  return parts;
 }
 
 namespace {
@@ -139,6 +158,19 @@ std::string shell_join(std::span<const std::string> words) {
   std::string line;
   for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_quote(word);
   return line;
+}
+
+std::string base64(std::string_view bytes) {
+  static constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const size_t left = std::min<size_t>(3, bytes.size() - i);
+    unsigned word = 0;
+    for (size_t j = 0; j < 3; ++j) word = word << 8 | (j < left ? static_cast<unsigned char>(bytes[i + j]) : 0u);
+    for (size_t j = 0; j < 4; ++j) out += j <= left ? alphabet[word >> (18 - 6 * j) & 63] : '=';
+  }
+  return out;
 }
 
 }  // namespace crosscheck

@@ -1,4 +1,5 @@
-// Words: the name that a misspelt one probably means, and words quoted for a shell.
+// Words: a text split into parts, the name that a misspelt one probably means, and words quoted for a shell; bytes as
+// Base64.
 #pragma once
 
 #include <span>
@@ -20,6 +21,13 @@ std::string closest_match(std::string_view word, const std::vector<std::string>&
 /// The same as the end of a message: "; did you mean 'NAME'?", or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names);
 
+/// Throws InputError: "method NAME: unknown option '+OPTION'; expected KNOWN", and which of the options in KNOWN, all
+/// words behind a plus, is probably meant.
+[[noreturn]] void refuse_option(const std::string& method, const std::string& option, const std::string& known);
+
+/// The parts between the separators, one more than there are of these.
+std::vector<std::string> split(std::string_view text, char separator);
+
 // Command lines as text that a shell reads back to the same words.
 
 /// The word as bash reads it, on one line whatever is in it: plain where it can be, otherwise in quotes, and with
@@ -28,5 +36,8 @@ std::string shell_quote(const std::string& word);
 
 /// The words with blanks between them.
 std::string shell_join(std::span<const std::string> words);
+
+/// RFC 4648, with padding, in one line.
+std::string base64(std::string_view bytes);
 
 }  // namespace crosscheck

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
+#include <cassert>
 #include <limits>
 
 #include "mysim/base/errors.h"
@@ -36,6 +37,7 @@ void IncrementalPotential::clear_pins(Points& p) const {
 }
 
 void IncrementalPotential::begin(const State& start, double h) {
+  assert(h > 0 && start.v.cols() == start.x.cols());
   start_ = end_ = start;
   h_ = h;
   end_.t = start.t + h;
@@ -46,6 +48,7 @@ void IncrementalPotential::begin(const State& start, double h) {
 }
 
 State& IncrementalPotential::end(const Points& u) {
+  assert(u.cols() == y_.cols());  // begin() came before
   end_.x = y_ + u;
   end_.v = start_.v + u / h_;
   model_.particles.place_pin_velocities(end_);
@@ -146,6 +149,7 @@ void IncrementalPotential::linearise(const Points& u, Curvature curvature) {
 }
 
 void IncrementalPotential::apply(const Points& p, Points& out) {
+  assert(p.cols() == inertia_.size());
   out = p * inertia_.matrix().asDiagonal();
   tangent_.add_product(1, 0, p, out);
   frozen_damping_.add_product(0, 1 / h_, p, out);
@@ -154,6 +158,7 @@ void IncrementalPotential::apply(const Points& p, Points& out) {
 }
 
 void IncrementalPotential::precondition(const Points& r, Points& out) const {
+  assert(blocks_.cols() == 3 * r.cols());  // linearise() came before
   out.resize(3, r.cols());
   for (int i = 0; i < r.cols(); ++i) out.col(i) = blocks_.middleCols<3>(3 * i) * r.col(i);
   clear_pins(out);
@@ -178,7 +183,7 @@ CgResult ImplicitStep::newton_direction(Curvature curvature, double tolerance) {
     result = multigrid_->solve(potential_.inertia(), potential_.end(u_).x, curvature, minus_g_, tolerance, p_);
     potential_.count(result.iterations * multigrid_->products());
   }
-  // other networks, and a sheet on which the V-cycle does not help; none such is known
+  // other networks, and a cloth on which the V-cycle does not help; none such is known
   if (!result.converged && !result.negative_curvature) result = by_pairs(curvature, tolerance);
   iterations_ = result.iterations;
   return result;
@@ -194,6 +199,7 @@ CgResult ImplicitStep::by_pairs(Curvature curvature, double tolerance) {
 
 /// Descends from u_, where the potential is the last of descent_, to the minimum.
 void ImplicitStep::minimise() {
+  assert(!descent_.empty());
   double value = descent_.back();
   for (int step = 0; step < most_newton_steps; ++step) {
     potential_.gradient(u_, g_);

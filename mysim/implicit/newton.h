@@ -71,8 +71,8 @@ class IncrementalPotential {
 
 class ImplicitStep {
  public:
-  /// Systems of sheets that are large enough are solved with a V-cycle as preconditioner; `plain`: those too by the
-  /// list of pairs, which defines what they are.
+  /// Systems of large regular cloths are solved with a V-cycle as preconditioner; `plain`: those too by the list of
+  /// pairs, which defines what they are.
   explicit ImplicitStep(System& f, bool plain = false);
 
   /// Solves the implicit Euler equations of a step of h from s, to round-off or 1e-12 of the forces, whichever is

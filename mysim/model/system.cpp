@@ -1,6 +1,7 @@
 // Sums the terms of a model into accelerations; power iteration for its highest natural frequency.
 #include "mysim/model/system.h"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -31,6 +32,7 @@ System::System(const Model& model) : model_(model) {
 /// forces_ = sum of the wanted forces; `wanted` is asked with each term.
 template <class Wanted>
 void System::sum_forces(const State& stage, Wanted wanted) {
+  assert(stage.x.cols() == model_.particles.size());
   forces_.clear();
   for (const Term& term : model_.terms)
     std::visit(
@@ -49,6 +51,7 @@ void System::sum_forces(const State& stage, Wanted wanted) {
 /// a = forces_ / m, zero at pins.
 void System::set_acceleration(Points& a) const {
   const Particles& particles = model_.particles;
+  assert(a.cols() == particles.size());
   for (int i = 0; i < particles.size(); ++i) a.col(i) = forces_.f.col(i) / particles.mass[i];
   for (int pin : particles.pins) a.col(pin).setZero();
 }

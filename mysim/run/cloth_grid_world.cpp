@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "mysim/simd/cloth_grid/cloth_grid.h"
 #include "mysim/simd/instruction_sets.h"
@@ -16,7 +17,7 @@ struct Kick {
   double at, drift_before, drift_after;
 };
 
-/// What leaves the general engine its work.
+/// Other terms are left to the general engine.
 bool has_only_supported_terms(const Model& model) {
   for (const Term& term : model.terms)
     if (!std::holds_alternative<Springs>(term) && !std::holds_alternative<Gravity>(term) &&
@@ -27,9 +28,10 @@ bool has_only_supported_terms(const Model& model) {
 }
 
 template <class T>
-class FusedStepWorld : public ClothGridWorld {
+/// Positions stand drift_after of the last kick ahead of the time of the velocities.
+class ClothGridWorld : public World {
  public:
-  FusedStepWorld(const KickDriftComposition& composition, const GridTopology& topology, const Scene& scene, double h,
+  ClothGridWorld(const KickDriftComposition& composition, const GridTopology& topology, const Scene& scene, double h,
                  Kernel<T> kernel, int threads, bool record_contact_loss)
       : scene_(scene),
         kernel_(kernel),
@@ -50,27 +52,21 @@ class FusedStepWorld : public ClothGridWorld {
   }
 
   void step(double t, double t_next) override {
-    began_ = true;
-    t_ = t, t_next_ = t_next;
-    update_bounding_spheres();
-    for (SlabResult& result : slab_results_) result.lost.clear();
-    for (size_t i = 0; i < kicks_.size(); ++i) {
-      const Kick& kick = kicks_[i];
-      const Vec3 uniform_acceleration = uniform_acceleration_at(t + kick.at), shift = pin_displacement_at(t + kick.at);
-      const KickDrift<T> stride{{T(uniform_acceleration[0]), T(uniform_acceleration[1]), T(uniform_acceleration[2])},
-                                T(kick.drift_before),
-                                T(kick.drift_after),
-                                bounding_spheres_.data(),
-                                static_cast<int>(bounding_spheres_.size()),
-                                &FusedStepWorld::contact_tile,
-                                nullptr};
-      slabs_.fused_step([&](Slab& slab) { fused_step(slab, i, stride, shift); });
+    begin_contacts(t, t_next);
+    for (const Kick& kick : kicks_) {  // one for leapfrog and symplectic Euler, five for suzuki4
+      const KickDrift<T> kick_drift = kick_drift_at(t + kick.at, kick);
+      const Vec3 shift = pin_displacement_at(t + kick.at);
+      slabs_.for_each([&](Slab& slab) {  // on its own thread, between the exchanges of halo rows
+        place_pins(slab, shift);
+        fused_step(slab, kick, kick_drift);
+      });
+      ++evaluations_;
     }
   }
 
   const State& state(double t) override {
     s_.t = t;
-    if (!began_) return s_;
+    if (evaluations_ == 0) return s_;
     slabs_.get(s_.x, s_.v);
     s_.x -= kicks_.back().drift_after * s_.v;
     scene_.model.particles.place_pins(s_);
@@ -79,35 +75,36 @@ class FusedStepWorld : public ClothGridWorld {
 
   void report_contact(Observer& observer) override {
     bool any = false;
-    double sum = 0;  // one after the other: the same bits, however many bands there are
+    double sum = 0;  // one after the other: the same bits, however many slabs there are
     for (const SlabResult& result : slab_results_)
       for (const double lost : result.lost) sum += lost, any = true;
     if (any) observer.contact(sum);
   }
 
-  long evaluations() const override { return evaluations_; }
-  long degenerate_springs() const override {
-    long sum = 0;
-    for (const SlabResult& result : slab_results_) sum += result.degenerate_springs;
-    return sum;
+  Work work() const override {
+    long degenerate_springs = 0;
+    for (const SlabResult& result : slab_results_) degenerate_springs += result.degenerate_springs;
+    return {.evaluations = evaluations_,
+            .degenerate_springs = degenerate_springs,
+            .worker_seconds = slabs_.worker_seconds(),
+            .single_precision = std::is_same_v<T, float>};
   }
-  double worker_seconds() const override { return slabs_.worker_seconds(); }
 
  private:
   using Slab = typename Slabs<T>::Slab;
-  /// What the thread of a band has come by.
+  /// What the thread of a slab has found.
   struct SlabResult {
     long degenerate_springs = 0;
     std::vector<double> lost;  // J, in contact, by each particle of its own that touched in the step
   };
-  /// Whom the sweep of a band asks.
+  /// What contact_tile() is given.
   struct ContactContext {
-    FusedStepWorld* world;
+    ClothGridWorld* world;
     Slab* slab;
     SlabResult* result;
   };
 
-  /// Drag, mass and length of each kick as factors of velocity, force and fall; one line of each part.
+  /// Drag, mass and length of each kick as factors of velocity, force and uniform acceleration, laid out for each slab.
   void set_factors(const KickDriftComposition& composition, double h) {
     const Particles& particles = scene_.model.particles;
     const Eigen::ArrayXd mass = particles.mass.array();
@@ -131,20 +128,35 @@ class FusedStepWorld : public ClothGridWorld {
     }
   }
 
-  void fused_step(Slab& slab, size_t kick, KickDrift<T> stride, const Vec3& shift) {
+  KickDrift<T> kick_drift_at(double t, const Kick& kick) const {
+    Vec3 uniform_acceleration = Vec3::Zero();
+    if (const auto* gravity = scene_.model.find<Gravity>()) uniform_acceleration += gravity->acceleration;
+    if (const auto* wind = scene_.model.find<Wind>()) uniform_acceleration += wind->acceleration.at(t);
+    return {{T(uniform_acceleration[0]), T(uniform_acceleration[1]), T(uniform_acceleration[2])},
+            T(kick.drift_before),
+            T(kick.drift_after),
+            bounding_spheres_.data(),
+            static_cast<int>(bounding_spheres_.size()),
+            &ClothGridWorld::contact_tile,
+            nullptr};
+  }
+
+  void place_pins(Slab& slab, const Vec3& shift) {
     const Particles& particles = scene_.model.particles;
     for (size_t i = 0; i < particles.pins.size(); ++i)
       if (const int here = slab.here(particles.pins[i]); here >= 0)
         slab.body.place(here, particles.pin_home.col(static_cast<int>(i)) + shift);
+  }
+
+  void fused_step(Slab& slab, const Kick& kick, KickDrift<T> kick_drift) {
     ClothGrid<T>& grid = slab.body.grid();
-    const auto& factors = slab.factors[kick];
+    const auto& factors = slab.factors[&kick - kicks_.data()];
     grid.damping = factors.damping.data(), grid.inverse_mass_dt = factors.inverse_mass_dt.data(),
     grid.dt = factors.dt.data();
     grid.stride = stride_;
     ContactContext context{this, &slab, &slab_results_[slab.which]};
-    stride.user_data = &context;
-    context.result->degenerate_springs += kernel_.fused_step(grid, stride);
-    if (slab.which == 0) ++evaluations_;
+    kick_drift.user_data = &context;
+    context.result->degenerate_springs += kernel_.fused_step(grid, kick_drift);
   }
 
   Vec3 pin_displacement_at(double t) const {
@@ -152,19 +164,15 @@ class FusedStepWorld : public ClothGridWorld {
     return move ? displacement_at(*move, t) : Vec3::Zero();
   }
 
-  Vec3 uniform_acceleration_at(double t) const {
-    Vec3 uniform_acceleration = Vec3::Zero();
-    if (const auto* gravity = scene_.model.find<Gravity>()) uniform_acceleration += gravity->acceleration;
-    if (const auto* wind = scene_.model.find<Wind>()) uniform_acceleration += wind->acceleration.at(t);
-    return uniform_acceleration;
-  }
-
-  void update_bounding_spheres() {
-    if (!spheres_) return;
+  /// Forgets the contacts of the last step, and puts the bounding spheres where the spheres are at its end.
+  void begin_contacts(double t, double t_next) {
+    t_ = t, t_next_ = t_next;
+    for (SlabResult& result : slab_results_) result.lost.clear();
     bounding_spheres_.clear();
+    if (!spheres_) return;
     for (const Sphere& sphere : spheres_->list) {
       const Vec3 centre = sphere.centre_at(t_next_);
-      // a little more than the radius: who is asked decides, this only asks
+      // a little more than the radius: contact_particle() decides what touches
       const double radius = sphere.contact_radius() * (1 + 1e-6);
       bounding_spheres_.push_back({{centre[0], centre[1], centre[2]}, radius * radius});
     }
@@ -177,7 +185,7 @@ class FusedStepWorld : public ClothGridWorld {
         context.world->contact_particle(*context.slab, *context.result, here, x + lane, v + lane);
   }
 
-  /// The contact rule; coordinates stand a line apart.
+  /// The contact rule; coordinates stand a cache line apart.
   void contact_particle(const Slab& slab, SlabResult& result, int here, T* x, T* v) {
     const int i = slab.first + here;
     if (scene_.model.particles.pinned[i]) return;
@@ -201,7 +209,6 @@ class FusedStepWorld : public ClothGridWorld {
   std::vector<BoundingSphere> bounding_spheres_;
   int stride_ = 0;
   State s_;
-  bool began_ = false;
   double t_ = 0, t_next_ = 0;  // s, of the step under way
   long evaluations_ = 0;
 };
@@ -210,19 +217,18 @@ class FusedStepWorld : public ClothGridWorld {
 constexpr int particles_per_thread = 4096;
 
 template <class T>
-std::unique_ptr<ClothGridWorld> make_world(const GridTopology& topology, const KickDriftComposition& composition,
-                                           const Scene& scene, double h, bool fast, int threads,
-                                           const Observer& observer) {
+std::unique_ptr<World> make_world(const GridTopology& topology, const KickDriftComposition& composition,
+                                  const Scene& scene, double h, bool fast, int threads, const Observer& observer) {
   if (!fits<T>(topology)) return nullptr;
   const int useful_threads = std::clamp(scene.model.particles.size() / particles_per_thread, 1, threads);
-  return std::make_unique<FusedStepWorld<T>>(composition, topology, scene, h, kernel<T>(active_instruction_set(), fast),
+  return std::make_unique<ClothGridWorld<T>>(composition, topology, scene, h, kernel<T>(active_instruction_set(), fast),
                                              useful_threads, observer.every_step());
 }
 
 }  // namespace
 
-std::unique_ptr<ClothGridWorld> make_cloth_grid_world(const Stepper& stepper, ContactRule contact, const Scene& scene,
-                                                      double h, const Execution& execution, const Observer& observer) {
+std::unique_ptr<World> make_cloth_grid_world(const Stepper& stepper, ContactRule contact, const Scene& scene, double h,
+                                             const Execution& execution, const Observer& observer) {
   const Model& model = scene.model;
   const auto* springs = model.find<Springs>();
   if (execution.precision == Precision::plain || !stepper.composition || !springs || !has_only_supported_terms(model))

@@ -1,10 +1,13 @@
 // Spheres act one after the other on each particle.
 #include "mysim/run/contacts.h"
 
+#include <cassert>
+
 namespace crosscheck {
 
 std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction act, double t_n, double t,
                                       const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) {
+  assert(t > t_n);
   bool touched = false;
   const Vec3 change = v - v_n;    // by all other forces, m/s
   Vec3 friction = Vec3::Zero();   // of contacts that last, m/s
@@ -43,6 +46,7 @@ void Contacts::begin(const State& s) {
 bool Contacts::resolve(State& s) {
   lost_.reset();
   if (!spheres_) return false;
+  assert(before_.x.cols() == s.x.cols());  // begin() came before
   const ContactFunction act = rule_ == ContactRule::sticky ? resolve_contact_sticky : resolve_contact;
   for (int i = 0; i < particles_.size(); ++i) {
     if (particles_.pinned[i]) continue;

@@ -16,7 +16,6 @@
 #include <optional>
 
 #include "mysim/model/model.h"
-#include "mysim/run/run.h"
 
 namespace crosscheck {
 

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <memory>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/this_process.h"
@@ -13,48 +15,85 @@
 
 namespace crosscheck {
 
-Outcome run_loop(World& world, const Run& run, Observer& observer) {
-  const TimeGrid steps = time_grid(run);
-  const bool every_step = observer.every_step();
-  auto* pairs = steps.steps_per_sample < 2 ? nullptr : dynamic_cast<StatePairObserver*>(&observer);
-  // how many steps before a sample, modulo the distance of pairs
-  const auto left = [&](int step) { return (steps.steps_per_sample - step) % StatePairObserver::steps_between_pairs; };
-  CpuClock clock(run.timed);
-  Outcome out;
-  out.step = steps.h;
-  out.verdict = observer.observe(world.state(0), true);
+namespace {
 
-  for (int sample = 0; sample < steps.samples && out.verdict == Verdict::ok; ++sample) {
-    if (pairs && !pairs->closely() && left(0) == 2) pairs->earlier(world.state(steps.time(sample, 0)));
-    clock.start();
-    for (int step = 1; step <= steps.steps_per_sample && out.verdict == Verdict::ok; ++step) {
-      const double t = steps.time(sample, step);
-      try {
-        world.step(steps.time(sample, step - 1), t);
-      } catch (const SolverFailure& failure) {
-        out.verdict = Verdict::solver;
-        out.reason = failure.what();
-        break;
-      }
-      out.end = t;
-      const bool first = out.steps++ == 0, sampled = step == steps.steps_per_sample;
-      const bool between = pairs && !sampled, closely = between && pairs->closely(),
-                 earlier = between && !closely && left(step) == 2,
-                 later = closely || (between && step >= 2 && left(step) == 0);
-      if (!every_step && !sampled && !first && !earlier && !later) continue;
-
-      clock.stop();
-      if (first && (out.readback = world.read_back())) out.readback->step = steps.h;
-      if (every_step) world.report_contact(observer);
-      if (every_step || sampled) out.verdict = observer.observe(world.state(t), sampled);
-      if (earlier) pairs->earlier(world.state(t));
-      if (later && out.verdict == Verdict::ok) out.verdict = pairs->later(world.state(t));
-      clock.start();
-    }
-    clock.stop();
+/// Which states an observer of pairs is shown between two samples (StatePairObserver).
+class PairSchedule {
+ public:
+  PairSchedule(Observer& observer, int steps_per_sample)
+      : observer_(steps_per_sample < 2 ? nullptr : dynamic_cast<StatePairObserver*>(&observer)),
+        steps_per_sample_(steps_per_sample) {}
+  StatePairObserver& observer() const { return *observer_; }
+  /// Of the state so many steps after a sample: the first of a pair.
+  bool is_earlier(int step) const { return between(step) && !observer_->closely() && steps_left(step) == 2; }
+  /// The second of a pair, or any state where the observer looks closely.
+  bool is_later(int step) const {
+    return between(step) && (observer_->closely() || (step >= 2 && steps_left(step) == 0));
   }
 
-  out.cpu_seconds = clock.seconds();
+ private:
+  bool between(int step) const { return observer_ && step < steps_per_sample_; }
+  /// Before the next sample, modulo the distance of pairs.
+  int steps_left(int step) const { return (steps_per_sample_ - step) % StatePairObserver::steps_between_pairs; }
+
+  StatePairObserver* observer_;
+  int steps_per_sample_;
+};
+
+}  // namespace
+
+Outcome run_loop(World& world, const Run& asked, Observer& observer) {
+  const bool every_step = observer.every_step();
+  Run run = asked;
+  if (world.chooses_steps() && !every_step) run.step = run.duration / run.samples;
+  const TimeGrid grid = time_grid(run);
+  assert(grid.h > 0 && grid.steps_per_sample >= 1 && grid.samples >= 1);
+  const PairSchedule pairs(observer, grid.steps_per_sample);
+  CpuClock clock(run.timed);
+  Outcome out;
+  out.step = grid.h;
+  out.verdict = observer.observe(world.state(0), true);
+  if (pairs.is_earlier(0) && out.verdict == Verdict::ok) pairs.observer().earlier(world.state(0));
+
+  clock.start();
+  for (int sample = 0, step = 0; sample < grid.samples && out.verdict == Verdict::ok;) {
+    const double t = grid.time(sample, step), t_next = grid.time(sample, ++step);
+    try {
+      world.step(t, t_next);
+    } catch (const SolverFailure& failure) {
+      out.verdict = Verdict::solver;
+      out.reason = failure.what();
+      break;
+    }
+    out.end = t_next;
+    const bool first = out.steps++ == 0, sampled = step == grid.steps_per_sample, earlier = pairs.is_earlier(step),
+               later = pairs.is_later(step);
+    if (!every_step && !sampled && !first && !earlier && !later) continue;
+
+    clock.stop();
+    if (first && (out.readback = world.read_back())) out.readback->step = grid.h;
+    if (every_step) world.report_contact(observer);
+    if (every_step || sampled) out.verdict = observer.observe(world.state(t_next), sampled);
+    if (earlier) pairs.observer().earlier(world.state(t_next));
+    if (later && out.verdict == Verdict::ok) out.verdict = pairs.observer().later(world.state(t_next));
+    if (sampled) {
+      ++sample, step = 0;
+      if (sample < grid.samples && out.verdict == Verdict::ok && pairs.is_earlier(0))
+        pairs.observer().earlier(world.state(t_next));
+    }
+    clock.start();
+  }
+  clock.stop();
+
+  const World::Work work = world.work();
+  out.evaluations = work.evaluations;
+  out.degenerate_springs = work.degenerate_springs;
+  out.cpu_seconds = clock.seconds() + (run.timed ? work.worker_seconds : 0);
+  if (work.steps) {
+    out.steps = *work.steps;
+    out.step = out.steps > 0 ? out.end / static_cast<double>(out.steps) : 0;
+    out.tolerance = run.tolerance;
+  }
   if (out.verdict != Verdict::ok)
     out.reason = fmt::format("the run failed at t = {:.4g} s{}{}", out.end, out.reason.empty() ? "" : ": ", out.reason);
   return out;
@@ -62,9 +101,10 @@ Outcome run_loop(World& world, const Run& run, Observer& observer) {
 
 namespace {
 
-class FixedStepWorld : public World {
+/// Any rule on any scene: the definition of what every faster world computes.
+class SteppedWorld : public World {
  public:
-  FixedStepWorld(const Stepper& stepper, ContactRule rule, const Scene& scene, double h)
+  SteppedWorld(const Stepper& stepper, ContactRule rule, const Scene& scene, double h)
       : stepper_(stepper),
         particles_(scene.model.particles),
         contacts_(scene.model, rule),
@@ -75,7 +115,7 @@ class FixedStepWorld : public World {
 
   void step(double, double t_next) override {
     contacts_.begin(s_);
-    stepper_.step(f_, s_, h_, workspace_);
+    stepper_.step(f_, s_, h_, workspace_);  // steppers/leapfrog.cpp and the files beside it
     s_.t = t_next;
     particles_.place_pins(s_);
     contacts_.resolve(s_);
@@ -85,7 +125,7 @@ class FixedStepWorld : public World {
   void report_contact(Observer& observer) override {
     if (contacts_.lost()) observer.contact(*contacts_.lost());
   }
-  const System& right_hand_side() const { return f_; }
+  Work work() const override { return {f_.evaluations(), f_.degenerate_springs()}; }
 
  private:
   const Stepper& stepper_;
@@ -97,39 +137,39 @@ class FixedStepWorld : public World {
   Workspace workspace_;
 };
 
-void require_supported(const Stepper& stepper, const Model& model) {
-  if (model.first_order() && !stepper.first_order)
-    throw Unsupported("the scene is a first-order system x' = f(x, t), and this rule needs positions and velocities");
-  if (model.find<Constraints>() && !stepper.hard_constraints)
-    throw Unsupported("the scene has hard distances, and this rule knows forces only");
-}
-
-Outcome simulate_adaptively(ContactRule contact, const Scene& scene, const Run& run, Observer& observer) {
-  AdaptiveWorld world(scene, run, contact);
-  return run_adaptive_loop(world, run, observer, scene.model.find<Spheres>() != nullptr);
-}
-
-}  // namespace
-
-Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer,
-                 const Execution& execution) {
-  require_supported(stepper, scene.model);
-  if (stepper.adaptive) return simulate_adaptively(contact, scene, run, observer);
-  if (const auto cloth = simd::make_cloth_grid_world(stepper, contact, scene, time_grid(run).h, execution, observer)) {
-    Outcome out = run_loop(*cloth, run, observer);
-    out.evaluations = cloth->evaluations();
-    out.degenerate_springs = cloth->degenerate_springs();
-    if (run.timed) out.cpu_seconds += cloth->worker_seconds();
-    return out;
+/// A scene stepped by the pair of Dormand and Prince under error control.
+///
+/// Steps are chosen so that the root mean square of (estimated error of a step) / (R (scene size + |x|)), and likewise
+/// of velocities with the largest speed so far for the scene's size, stays at or below 1, with R = run.tolerance. The
+/// states that are asked for lie on the interpolant. Beside a sphere no step goes beyond the next state asked for,
+/// since contact acts on whole steps; it may take several to get there, and each may touch.
+class AdaptiveWorld : public World {
+ public:
+  AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact);
+  void step(double t, double t_next) override;
+  /// On the interpolant; looked at outside the clock, so that only the steps cost.
+  const State& state(double t) override;
+  void report_contact(Observer& observer) override {
+    if (lost_) observer.contact(*lost_);
   }
-  FixedStepWorld world(stepper, contact, scene, time_grid(run).h);
-  Outcome out = run_loop(world, run, observer);
-  out.evaluations = world.right_hand_side().evaluations();
-  out.degenerate_springs = world.right_hand_side().degenerate_springs();
-  if (execution.precision == Precision::single)
-    out.remark = "computed in double precision: single is for regular cloths of 33 columns or more";
-  return out;
-}
+  Work work() const override { return {f_.evaluations(), f_.degenerate_springs(), accepted_}; }
+  bool chooses_steps() const override { return !contacts_.any(); }
+
+ private:
+  double error_ratio();
+  void advance(double limit);
+
+  const Scene& scene_;
+  System f_;
+  Contacts contacts_;
+  DormandPrince pair_;
+  double tolerance_, h_, last_h_ = 0;
+  double fastest_;            // m/s, largest speed of an accepted state
+  double last_ratio_ = 1e-4;  // of the step before, for the controller
+  State before_, s_, seen_;   // start and end of the last accepted step; what was asked for
+  long accepted_ = 0;
+  std::optional<double> lost_;  // J, in contacts on the way to the last state asked for
+};
 
 // Step control (E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, II.4; proportional
 // and integral parts as in II of the same, IV.2).
@@ -215,6 +255,34 @@ const State& AdaptiveWorld::state(double t) {
   seen_.t = t;
   if (!scene_.model.first_order()) scene_.model.particles.place_pins(seen_);
   return seen_;
+}
+
+void require_supported(const Stepper& stepper, const Model& model) {
+  if (model.first_order() && !stepper.first_order)
+    throw Unsupported("the scene is a first-order system x' = f(x, t), and this rule needs positions and velocities");
+  if (model.find<Constraints>() && !stepper.hard_constraints)
+    throw Unsupported("the scene has hard distances, and this rule knows forces only");
+}
+
+/// Who steps the scene: the same rule in each case, on regular cloths in one pass over memory.
+std::unique_ptr<World> make_world(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run,
+                                  const Observer& observer, const Execution& execution) {
+  if (stepper.adaptive) return std::make_unique<AdaptiveWorld>(scene, run, contact);
+  const double h = time_grid(run).h;
+  if (auto cloth = simd::make_cloth_grid_world(stepper, contact, scene, h, execution, observer)) return cloth;
+  return std::make_unique<SteppedWorld>(stepper, contact, scene, h);
+}
+
+}  // namespace
+
+Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer,
+                 const Execution& execution) {
+  require_supported(stepper, scene.model);
+  const auto world = make_world(stepper, contact, scene, run, observer, execution);
+  Outcome out = run_loop(*world, run, observer);
+  if (execution.precision == Precision::single && !world->work().single_precision)
+    out.remark = "computed in double precision: single is for regular cloths of 33 columns or more";
+  return out;
 }
 
 }  // namespace crosscheck

@@ -2,6 +2,7 @@
 #include "mysim/run/observers.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "mysim/base/errors.h"
@@ -21,6 +22,7 @@ double largest_rms_distance(const Trajectory& a, const Trajectory& b, double unt
 }
 
 void Integral::add(double value, double h) {
+  assert(count_ == 0 || h > 0);
   last_ = {value, last_[0], last_[1], last_[2]};
   const auto& [p0, p1, p2, p3] = last_;
   switch (count_++) {
@@ -206,6 +208,7 @@ bool DivergenceMonitor::frozen(const State& state) {
 Verdict DivergenceMonitor::moves_too_fast(const State& state) {
   const Particles& particles = model_.particles;
   const double span = state.t - before_.t, h = span / 2;
+  assert(span > 0);
   double kinetic = 0, furthest = 0;
   for (int i = 0; i < particles.size(); ++i)
     if (!particles.pinned[i]) {

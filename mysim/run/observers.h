@@ -112,7 +112,7 @@ std::optional<MotionBounds> motion_bounds_of(const Scene& scene, const Run& run)
 
 using MotionBoundsFunction = std::function<std::optional<MotionBounds>(const Scene&, const Run&)>;
 
-/// motion_bounds_of() for who runs one scene again and again: each duration is computed once.
+/// motion_bounds_of() for callers that run one scene again and again: each duration is computed once.
 class MotionBoundsCache {
  public:
   std::optional<MotionBounds> operator()(const Scene& scene, const Run& run) {
@@ -154,7 +154,7 @@ class MotionBoundsCache {
 /// (run.h). Of engines that deliver samples alone the difference reaches over two sampling intervals: a mean
 /// velocity, which is no larger. No good run is condemned by it, but what only shakes to and fro between two samples,
 /// or is over before the third, is seen by being not finite or too long. Where there is no true motion to be had (hard
-/// distances; a watch without a scene) K^ > 10 B is a failure, and thirty times the length of the start.
+/// distances; a monitor without a scene) K^ > 10 B is a failure, and thirty times the length of the start.
 ///
 /// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
 /// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not
@@ -163,8 +163,8 @@ class DivergenceMonitor : public StatePairObserver {
  public:
   /// Of a run of the scene; both must outlive it. `reach` is asked how far the true motion goes.
   DivergenceMonitor(const Scene& scene, const Run& run, MotionBoundsFunction bounds = motion_bounds_of);
-  /// Of who knows no more than the model. The energy at the start is that of `start`, where engines may not tell
-  /// velocities; else of the first state shown.
+  /// Of a caller that knows no more than the model. The energy at the start is that of `start`, where engines may not
+  /// tell velocities; else of the first state shown.
   explicit DivergenceMonitor(const Model& model, const State* start = nullptr);
   bool every_step() const override { return ledger_.has_value(); }
   Verdict observe(const State& state, bool sample) override;
@@ -196,7 +196,7 @@ class DivergenceMonitor : public StatePairObserver {
   Verdict beyond_bounds() const;
 
   const Model& model_;
-  std::function<std::optional<MotionBounds>()> true_motion_bounds_;  // none: of who knows no more than the model
+  std::function<std::optional<MotionBounds>()> true_motion_bounds_;  // none: only the model is known
   std::optional<MotionBounds> bounds_;                               // once asked for
   std::optional<State> start_;
   std::optional<Ledger> ledger_;  // only where wind or moved pins do work
@@ -222,8 +222,8 @@ class DivergenceMonitor : public StatePairObserver {
   double longest_ = 0;   // 1
 };
 
-/// Other observers and a watch as one. The watch sees the same states whoever else looks at every step: who looks on
-/// changes no verdict.
+/// Other observers and a monitor as one. The monitor sees the same states whoever else looks at every step, so that
+/// other observers change no verdict.
 class MonitoredObservers : public StatePairObserver {
  public:
   MonitoredObservers(DivergenceMonitor& monitor, std::vector<Observer*> others)

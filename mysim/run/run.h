@@ -61,6 +61,12 @@ class Observer {
   virtual void contact(double /*lost*/) {}
 };
 
+/// Looks at nothing.
+class NullObserver : public Observer {
+ public:
+  Verdict observe(const State&, bool) override { return Verdict::ok; }
+};
+
 /// Several observers as one; the first verdict that is not ok counts.
 class Observers : public Observer {
  public:

@@ -96,6 +96,43 @@ namespace {
 
 constexpr auto without_mass = "which makes the scene first-order: without mass and without forces";
 
+/// One coefficient c for all particles, or gamma (1/s), which means c_i = gamma m_i.
+Drag read_drag(const TomlTable& s, const Particles& particles) {
+  if (s.has("coefficient") && s.has("gamma")) s.fail("gamma", "either coefficient (N s/m) or gamma (1/s), not both");
+  if (s.has("gamma")) return {s.positive("gamma") * particles.mass};
+  return {Eigen::VectorXd::Constant(particles.size(), s.positive("coefficient"))};
+}
+
+/// The mean from `key`, and [gusts] beside it.
+WindSignal read_wind_signal(const TomlTable& s, std::string_view key) {
+  WindSignal wind_signal{s.vec3(key), std::nullopt};
+  if (s.has("gusts")) {
+    const TomlTable g = s.section("gusts");
+    const int seed = g.count("seed");
+    wind_signal.gusts = {g.not_negative("variation"), g.vec3("side"), seed, Gust(seed, 1), Gust(seed, 2)};
+  }
+  return wind_signal;
+}
+
+Aerodynamics read_aerodynamics(const TomlTable& s, const std::vector<std::array<int, 3>>& triangles) {
+  if (triangles.empty()) s.fail("velocity", "a scene with a [grid]: air presses on its triangles");
+  return {s.positive("density"), s.positive("coefficient"), read_wind_signal(s, "velocity"), triangles};
+}
+
+Motion read_motion(const TomlTable& s) { return {s.vec3("amplitude"), s.positive("frequency"), s.positive("ramp")}; }
+
+Sphere read_sphere(const TomlTable& s) {
+  Sphere sphere{s.vec3("centre"), s.positive("radius"), 0, 0, 0, std::nullopt};
+  if (s.has("margin")) sphere.margin = s.positive("margin");
+  if (s.has("friction")) sphere.friction = s.not_negative("friction");
+  if (s.has("restitution")) {
+    sphere.restitution = s.not_negative("restitution");
+    if (sphere.restitution > 1) s.fail("restitution", "a number from 0 to 1");
+  }
+  if (s.has("motion")) sphere.motion = read_motion(s.section("motion"));
+  return sphere;
+}
+
 // the table of terms that have a section of their own; springs, dashpots and constraints come from [grid], [[spring]]
 // and [[constraint]]
 struct TermReader {
@@ -103,10 +140,10 @@ struct TermReader {
   Term (*read)(const TomlTable&, const Scene&);
 };
 constexpr TermReader term_readers[] = {
-    {Rotation::name, [](const TomlTable& s, const Scene&) -> Term { return read_rotation(s); }},
-    {Gravity::name, [](const TomlTable& s, const Scene&) -> Term { return read_gravity(s); }},
+    {Rotation::name, [](const TomlTable& s, const Scene&) -> Term { return Rotation{s.number("rate")}; }},
+    {Gravity::name, [](const TomlTable& s, const Scene&) -> Term { return Gravity{s.vec3("acceleration")}; }},
     {Drag::name, [](const TomlTable& s, const Scene& scene) -> Term { return read_drag(s, scene.model.particles); }},
-    {Wind::name, [](const TomlTable& s, const Scene&) -> Term { return read_wind(s); }},
+    {Wind::name, [](const TomlTable& s, const Scene&) -> Term { return Wind{read_wind_signal(s, "acceleration")}; }},
     {Aerodynamics::name,
      [](const TomlTable& s, const Scene& scene) -> Term { return read_aerodynamics(s, scene.triangles); }},
 };

@@ -10,17 +10,6 @@
 
 namespace crosscheck::simd {
 
-// the tables of mysim/simd/cloth_grid/fused_step.cpp, compiled for each
-#define TABLES_OF(isa)                \
-  namespace isa {                     \
-  Kernel<double> double_kernel(bool); \
-  Kernel<float> float_kernel(bool);   \
-  }
-TABLES_OF(sse2)
-TABLES_OF(avx2)
-TABLES_OF(avx512)
-#undef TABLES_OF
-
 std::string_view name_of(InstructionSet isa) {
   constexpr std::string_view names[] = {"sse2", "avx2", "avx512"};
   return names[static_cast<int>(isa)];
@@ -43,20 +32,6 @@ InstructionSet active_instruction_set() {
     if (name_of(isa) == named) return isa;
   throw InputError(
       fmt::format("CROSSCHECK_INSTRUCTIONS={}: expected sse2, avx2 or avx512, and one that this machine has", named));
-}
-
-template <>
-Kernel<double> kernel(InstructionSet isa, bool fast) {
-  return isa == InstructionSet::avx512 ? avx512::double_kernel(fast)
-         : isa == InstructionSet::avx2 ? avx2::double_kernel(fast)
-                                       : sse2::double_kernel(fast);
-}
-
-template <>
-Kernel<float> kernel(InstructionSet isa, bool fast) {
-  return isa == InstructionSet::avx512 ? avx512::float_kernel(fast)
-         : isa == InstructionSet::avx2 ? avx2::float_kernel(fast)
-                                       : sse2::float_kernel(fast);
 }
 
 }  // namespace crosscheck::simd

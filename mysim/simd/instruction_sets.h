@@ -1,15 +1,32 @@
-// Which instruction set runs the sweep, chosen when it is asked for.
+// Which instruction set the kernels run on, chosen when it is asked for.
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <vector>
-
-#include "mysim/simd/cloth_grid/fused_step.h"
 
 namespace crosscheck::simd {
 
 enum class InstructionSet { sse2, avx2, avx512 };
 std::string_view name_of(InstructionSet isa);
+
+template <class Function>
+Function select(InstructionSet isa, Function sse2, Function avx2, Function avx512) {
+  return isa == InstructionSet::avx512 ? avx512 : isa == InstructionSet::avx2 ? avx2 : sse2;
+}
+
+/// Declares functions that a file compiled once for each instruction set defines in `namespace CROSSCHECK_ISA`; and
+/// that one of them which is compiled for `isa`.
+#define COMPILED_FOR_EACH_INSTRUCTION_SET(...) \
+  namespace sse2 {                             \
+  __VA_ARGS__;                                 \
+  }                                            \
+  namespace avx2 {                             \
+  __VA_ARGS__;                                 \
+  }                                            \
+  namespace avx512 {                           \
+  __VA_ARGS__;                                 \
+  }
+#define SELECT_COMPILED(isa, name) ::crosscheck::simd::select(isa, &sse2::name, &avx2::name, &avx512::name)
 
 /// What this machine has, the best last.
 std::vector<InstructionSet> supported_instruction_sets();
@@ -17,9 +34,5 @@ std::vector<InstructionSet> supported_instruction_sets();
 /// The best there is, or the one that CROSSCHECK_INSTRUCTIONS names (sse2, avx2, avx512). Throws InputError where it
 /// names none of them or one that this machine lacks.
 InstructionSet active_instruction_set();
-
-/// `fast`: inverse roots from the machine's own estimate; else the same bits on AVX2 and AVX-512.
-template <class T>
-Kernel<T> kernel(InstructionSet isa, bool fast);
 
 }  // namespace crosscheck::simd

@@ -1,6 +1,8 @@
 // Threads that spin, then yield, then sleep until the next piece of work.
 #include "mysim/simd/thread_pool.h"
 
+#include <cassert>
+
 #include "mysim/base/this_process.h"
 
 namespace crosscheck::simd {
@@ -23,6 +25,7 @@ long wait_for_change(const std::atomic<long>& number, long known) {
 }  // namespace
 
 ThreadPool::ThreadPool(int threads) : workers_(threads - 1) {
+  assert(threads >= 1);
   for (int i = 1; i < threads; ++i) workers_[i - 1].thread = std::thread([this, i] { worker_loop(i); });
 }
 

@@ -1,6 +1,7 @@
 // Stages, error estimate and interpolant of the pair; and its rule of order 5 at a fixed step.
-
 #include "mysim/steppers/steppers.h"
+
+#include <cassert>
 
 namespace crosscheck {
 namespace {
@@ -60,6 +61,7 @@ const State& DormandPrince::error() {
 }
 
 void DormandPrince::interpolate(const State& s, double h, double theta, State& out) const {
+  assert(h > 0 && -1e-9 <= theta && theta <= 1 + 1e-9);
   out.t = s.t + theta * h;
   auto curve = [&](const Points& from, const Points& to, const Points& slope0, const Points& slope1, Points& result) {
     const Points rise = to - from, c = h * slope0 - rise, d = rise - h * slope1 - c;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -226,6 +227,8 @@ std::span<const Stepper> steppers() {
                "keeps hard distances",
        .hard_constraints = true},
   };
+  static_assert(std::ranges::all_of(
+      table, [](const Stepper& s) { return std::ranges::count(table, s.name, &Stepper::name) == 1; }));
   return table;
 }
 

@@ -46,7 +46,8 @@ using StabilityLimit = double (*)(double omega, double gamma);
 
 /// A rule made of kicks v' = v + h F/m and drifts x' = x + h v' alone. Leapfrogs (half drift, kick, half drift) of
 /// these parts of the step, one after the other, with drag averaged over old and new velocity; or, `kick_first`, whole
-/// kicks and then whole drifts, with drag at the old velocity. Such rules have a fast path on cloth (mysim/strip/).
+/// kicks and then whole drifts, with drag at the old velocity. Such rules have a fast path on regular cloths
+/// (mysim/simd/cloth_grid/).
 struct KickDriftComposition {
   std::vector<double> fractions;  // of the step; they add up to 1
   bool kick_first = false;

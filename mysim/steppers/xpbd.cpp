@@ -1,5 +1,5 @@
 // Extended position-based dynamics with small steps (M. Macklin, M. Mueller and N. Chentanez, Motion in Games, 2016; M.
-// Macklin et al., Symposium on Computer Animation, 2019): a free step, then one sweep over dashpots, springs and hard
+// Macklin et al., Symposium on Computer Animation, 2019): a free step, then one pass over dashpots, springs and hard
 // distances, each of which corrects the positions of its two ends at once.
 
 #include <algorithm>

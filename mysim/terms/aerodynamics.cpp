@@ -5,11 +5,6 @@
 
 namespace crosscheck {
 
-Aerodynamics read_aerodynamics(const TomlTable& s, const std::vector<std::array<int, 3>>& triangles) {
-  if (triangles.empty()) s.fail("velocity", "a scene with a [grid]: air presses on its triangles");
-  return {s.positive("density"), s.positive("coefficient"), read_wind_signal(s, "velocity"), triangles};
-}
-
 void add_force(const Aerodynamics& air, const Particles&, const State& state, Forces& forces) {
   const Vec3 wind = air.velocity.at(state.t);
   for (const auto& [a, b, c] : air.triangles) {

@@ -20,7 +20,6 @@ struct Aerodynamics {
   std::vector<std::array<int, 3>> triangles;
 };
 
-Aerodynamics read_aerodynamics(const TomlTable& s, const std::vector<std::array<int, 3>>& triangles);
 void add_force(const Aerodynamics& air, const Particles& particles, const State& state, Forces& forces);
 
 }  // namespace crosscheck

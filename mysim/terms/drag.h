@@ -1,9 +1,10 @@
 // Linear viscous drag: force -c_i v_i on every particle.
 #pragma once
 
+#include <string_view>
+
 #include "mysim/forces.h"
 #include "mysim/particles.h"
-#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 
@@ -12,12 +13,6 @@ struct Drag {
   static constexpr std::string_view name = "drag";
   Eigen::VectorXd c;  // n, N s/m
 };
-
-inline Drag read_drag(const TomlTable& s, const Particles& particles) {
-  if (s.has("coefficient") && s.has("gamma")) s.fail("gamma", "either coefficient (N s/m) or gamma (1/s), not both");
-  if (s.has("gamma")) return {s.positive("gamma") * particles.mass};
-  return {Eigen::VectorXd::Constant(particles.size(), s.positive("coefficient"))};
-}
 
 inline void add_force(const Drag& drag, const Particles&, const State& state, Forces& forces) {
   for (int i = 0; i < state.x.cols(); ++i) forces.f.col(i) -= drag.c[i] * state.v.col(i);

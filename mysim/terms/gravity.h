@@ -1,9 +1,10 @@
 // Uniform gravity: force m g on every particle, potential energy -m g . x.
 #pragma once
 
+#include <string_view>
+
 #include "mysim/forces.h"
 #include "mysim/particles.h"
-#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 
@@ -11,8 +12,6 @@ struct Gravity {
   static constexpr std::string_view name = "gravity";
   Vec3 acceleration;  // m/s^2
 };
-
-inline Gravity read_gravity(const TomlTable& s) { return {s.vec3("acceleration")}; }
 
 inline void add_force(const Gravity& gravity, const Particles& particles, const State&, Forces& forces) {
   for (int i = 0; i < particles.size(); ++i) forces.f.col(i) += particles.mass[i] * gravity.acceleration;

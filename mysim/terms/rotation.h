@@ -1,8 +1,9 @@
 // Rotation about the z axis, the assignment's simple system: x' = rate (-y, x, 0). First order: no mass, no force.
 #pragma once
 
+#include <string_view>
+
 #include "mysim/particles.h"
-#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 
@@ -10,8 +11,6 @@ struct Rotation {
   static constexpr std::string_view name = "rotation";
   double rate;  // rad/s
 };
-
-inline Rotation read_rotation(const TomlTable& s) { return {s.number("rate")}; }
 
 /// Adds the velocity field to rate (3 x n, m/s).
 inline void add_velocity(const Rotation& rotation, const State& state, Points& rate) {

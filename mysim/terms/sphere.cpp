@@ -2,6 +2,7 @@
 #include "mysim/terms/sphere.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace crosscheck {
@@ -22,20 +23,6 @@ Vec3 normal_at(const Vec3& centre, const Vec3& x) {
 
 }  // namespace
 
-Sphere read_sphere(const TomlTable& s) {
-  Sphere sphere{s.vec3("centre"), s.positive("radius"), 0, 0, 0, std::nullopt};
-  if (s.has("margin")) sphere.margin = s.positive("margin");
-  if (s.has("friction")) sphere.friction = s.not_negative("friction");
-  if (s.has("restitution")) {
-    sphere.restitution = s.not_negative("restitution");
-    if (sphere.restitution > 1) s.fail("restitution", "a number from 0 to 1");
-  }
-  if (s.has("motion")) sphere.motion = read_motion(s.section("motion"));
-  return sphere;
-}
-
-Motion read_motion(const TomlTable& s) { return {s.vec3("amplitude"), s.positive("frequency"), s.positive("ramp")}; }
-
 double clearance_from(const Spheres& spheres, double t, const Vec3& x) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Sphere& s : spheres.list) smallest = std::min(smallest, (x - s.centre_at(t)).norm() - s.contact_radius());
@@ -46,6 +33,7 @@ double resolve_contact(const Sphere& sphere, const Vec3& centre, const Vec3& x_n
                        Eigen::Ref<Vec3> v) {
   const double distance = (x - centre).norm();
   const double radius = sphere.contact_radius();
+  assert(radius > 0 && 0 <= sphere.restitution && sphere.restitution <= 1);
   if (!(distance < radius)) return 0;
 
   // put the particle on the surface

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "mysim/particles.h"
-#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 
@@ -40,9 +39,6 @@ struct Spheres {
     return std::any_of(list.begin(), list.end(), [](const Sphere& s) { return s.motion.has_value(); });
   }
 };
-
-Sphere read_sphere(const TomlTable& s);
-Motion read_motion(const TomlTable& s);
 
 /// Distance of a particle from the nearest contact surface at time t, m; negative inside.
 double clearance_from(const Spheres& spheres, double t, const Vec3& x);

@@ -26,16 +26,6 @@ double Gust::at(double t) const {
   return sum;
 }
 
-WindSignal read_wind_signal(const TomlTable& s, std::string_view key) {
-  WindSignal wind_signal{s.vec3(key), std::nullopt};
-  if (s.has("gusts")) {
-    const TomlTable g = s.section("gusts");
-    const int seed = g.count("seed");
-    wind_signal.gusts = {g.not_negative("variation"), g.vec3("side"), seed, Gust(seed, 1), Gust(seed, 2)};
-  }
-  return wind_signal;
-}
-
 Vec3 WindSignal::at(double t) const {
   if (!gusts) return mean;
   return mean * (1 + gusts->variation * gusts->along.at(t)) + gusts->side * gusts->across.at(t);

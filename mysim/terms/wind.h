@@ -4,10 +4,10 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 
 #include "mysim/forces.h"
 #include "mysim/particles.h"
-#include "mysim/scene/toml.h"
 
 namespace crosscheck {
 
@@ -35,15 +35,12 @@ struct WindSignal {
 
   Vec3 at(double t) const;
 };
-/// Reads the mean from `key` and [gusts] beside it.
-WindSignal read_wind_signal(const TomlTable& s, std::string_view key);
 
 struct Wind {
   static constexpr std::string_view name = "wind";
   WindSignal acceleration;  // m/s^2
 };
 
-inline Wind read_wind(const TomlTable& s) { return {read_wind_signal(s, "acceleration")}; }
 void add_force(const Wind& wind, const Particles& particles, const State& state, Forces& forces);
 
 }  // namespace crosscheck

@@ -16,14 +16,6 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-[[noreturn]] void refuse(std::string_view world, const std::string& option, std::string_view known) {
-  std::vector<std::string> options;  // of the sentence, all words behind a plus
-  for (size_t at = known.find('+'); at != std::string_view::npos; at = known.find('+', at + 1))
-    options.emplace_back(known.substr(at + 1, known.find_first_of(" ,;", at) - at - 1));
-  throw InputError(fmt::format("method bullet/{}: unknown option '+{}'; expected {} or none{}", world, option, known,
-                               did_you_mean(option, options)));
-}
-
 /// Reads "voxel=A", A in metres, into voxel; false where it is another option or no such length.
 bool read_voxel(const std::string& option, double& voxel) {
   const std::string_view key = "voxel=";
@@ -52,8 +44,8 @@ WorldChoice deformable_explicit(const Options& options) {
     else if (option == "default-sleep")
       settings.defaults.sleep = true;
     else if (!read_voxel(option, settings.voxel))
-      refuse("deformable-explicit", option,
-             "+default-rest, +default-margin, +default-sleep, +voxel=0.0001 to +voxel=1 (m)");
+      refuse_option("bullet/deformable-explicit", option,
+                    "+default-rest, +default-margin, +default-sleep, +voxel=0.0001 to +voxel=1 (m) or none");
   }
   return {"Bullet's deformable world, explicit: springs in N/m, Coulomb friction",
           options.empty() ? "symplectic-euler" : "", deformable(settings)};
@@ -70,10 +62,10 @@ WorldChoice deformable_implicit(const Options& options) {
     else if (option == "unprojected")
       settings.projected = false;
     else
-      refuse("deformable-implicit", option, "+tight, +shipped, +unprojected");
+      refuse_option("bullet/deformable-implicit", option, "+tight, +shipped, +unprojected or none");
   }
   return {"Bullet's deformable world, implicit: one Newton step of backward Euler",
-          options == Options{"tight"} ? "implicit-euler+linear" : "", deformable(settings)};
+          options == Options{"tight"} ? "implicit-euler+linear" : "", deformable(settings), true};
 }
 
 WorldChoice pbd(const Options& options) {
@@ -92,15 +84,17 @@ WorldChoice pbd(const Options& options) {
       settings.voxel = 0.25;
     else if (!option.starts_with("n=") || asked != 0 || std::from_chars(begin, end, asked).ptr != end || asked < 1 ||
              asked > 1000)
-      refuse("pbd", option,
-             "+n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest, +default-voxel, +voxel=0.0001 to +voxel=1 "
-             "(m)");
+      refuse_option(
+          "bullet/pbd", option,
+          "+n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest, +default-voxel, +voxel=0.0001 to +voxel=1 "
+          "(m) or none");
   }
   settings.iterations = asked > 0 ? asked : settings.demo ? 10 : 1;
   return {"Bullet's position-based world, stiffness mapped per link; different link and friction laws", "",
           [settings](const Scene& scene, const Run& run, Observer& observer) {
             return run_pbd(scene, run, observer, settings);
-          }};
+          },
+          false, true};
 }
 
 // the table: a name, and how its world is made from the options

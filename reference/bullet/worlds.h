@@ -14,6 +14,7 @@ struct WorldChoice {
   std::string what;  // one line for people
   std::string rule;  // of mysim's stepper that it must equal to round-off in contact-free scenes; may be empty
   Engine engine;
+  bool implicit = false, position_based = false;
 };
 
 /// "deformable-explicit", "deformable-implicit", "pbd".

@@ -1,6 +1,7 @@
 // Integrators that are no engines: they solve the scene's equations, written apart, by somebody else's code.
 
 #include "reference/truth/independent/integrators.h"
+#include "mysim/base/text.h"
 #include "reference/method.h"
 
 namespace crosscheck {
@@ -11,7 +12,7 @@ struct Integrator {
   std::string name, option;  // the one behind a plus that chooses it; empty: none
   std::string what, rule;
   Outcome (*run)(const Scene&, const Run&, Observer&);
-  bool adaptive;
+  bool adaptive, multistep = false;
 };
 
 std::vector<Integrator> integrators() {
@@ -29,7 +30,7 @@ std::vector<Integrator> integrators() {
        run_arkode_order4, true},
       {"sundials/cvode", "",
        "SUNDIALS CVODE, Adams' formulas with GMRES and error control, on the same: give --tol, not --step", "",
-       run_cvode, true}};
+       run_cvode, true, true}};
 }
 
 Method integrator_method(const std::string& name, const MethodOptions& options) {
@@ -37,21 +38,30 @@ Method integrator_method(const std::string& name, const MethodOptions& options) 
   for (const Integrator& i : integrators()) {
     if (i.name != name) continue;
     if (options.empty() ? i.option.empty() : options == MethodOptions{i.option})
-      return {i.name, i.what, i.rule, i.run, ContactLoss::inferred, nullptr, i.adaptive};
+      return {.name = i.name,
+              .what = i.what,
+              .rule = i.rule,
+              .engine = i.run,
+              .contact = ContactLoss::inferred,
+              .adaptive = i.adaptive,
+              .multistep = i.multistep};
     if (!i.option.empty()) known = "+" + i.option + " or none";
   }
   refuse_option(name, options.back(), known);
 }
 
-}  // namespace
-
-std::vector<MethodRow> integrator_methods() {
+std::vector<MethodRow> rows_of(std::string_view family) {
   std::vector<MethodRow> rows;
   for (const Integrator& i : integrators())
-    if (i.option.empty())
+    if (i.option.empty() && family_of(i.name).name == family)
       rows.push_back(
           {i.name, [name = i.name](const MethodOptions& options) { return integrator_method(name, options); }});
   return rows;
 }
+
+}  // namespace
+
+std::vector<MethodRow> odeint_methods() { return rows_of("odeint"); }
+std::vector<MethodRow> sundials_methods() { return rows_of("sundials"); }
 
 }  // namespace crosscheck

@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "mysim/base/text.h"
 #include "mysim/run/engine.h"
 #include "reference/method.h"
 
@@ -59,7 +60,12 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
           },
           ContactLoss::reported,
           &stepper,
-          stepper.adaptive};
+          stepper.adaptive,
+          stepper.evaluations == 0,
+          stepper.hard_constraints,
+          false,
+          false,
+          stepper.hard_constraints || rule.step == stepper.linear ? "implicit-euler" : ""};
 }
 
 }  // namespace

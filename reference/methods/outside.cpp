@@ -19,7 +19,7 @@ std::string fingerprint_of(const std::filesystem::path& file) {
 
 Method exec_method(const std::string& text) {
   const auto program = find_program(text);
-  return {.name = "exec:" + text,
+  return {.name = std::string(program_prefix) + text,
           .what = "an outside program that speaks the engine protocol",
           .rule = "",
           .engine = [program](const Scene& scene, const Run& run,

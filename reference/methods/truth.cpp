@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/text.h"
 #include "reference/method.h"
 #include "reference/truth/discrete.h"
 #include "reference/truth/truth.h"

@@ -26,8 +26,8 @@ struct Truth {
 };
 
 /// Exact where the scene has a closed form (bar: round-off, 1e-15 x scene size x (1 + radians turned)); otherwise
-/// converged on two independent routes (truth.h), found once and kept in a cache (cache.h). Of other
-/// scenes with contact only what the in-house contact rule converges to is known, for a while (truth.h).
+/// converged on two independent routes (below), found once and kept in a cache (cache.h). Of other
+/// scenes with contact only what the in-house contact rule converges to is known, for a while (below).
 std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 
 // Truth where no closed form is known: two independent routes, each refined, and what they differ by.
@@ -35,7 +35,7 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 /// One route is mysim's rk4, under hard distances that of MultiplierWorld: from half the scene's step (an eighth below
 /// 50 particles; at most h omega = 1.4 of its fastest vibration) the step is halved, twice at least, until that changes
 /// less than 1e-8 of the scene's size. The other is odeint's extrapolation under error control on the right-hand side
-/// written apart (reference/independent), at three tolerances: the same with and without SUNDIALS, so that a truth does
+/// written apart (truth/independent), at three tolerances: the same with and without SUNDIALS, so that a truth does
 /// not depend on what a machine has. The trajectory is that of the first at its last step. Its bar is the larger of the
 /// difference of the two routes, with the second one's estimate on top, and of the first one's estimate, RMS over the
 /// particles. An estimate is three times the last refinement's difference over 2^p - 1, with p as the last two

@@ -48,7 +48,7 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
   for (const Trial& t : a.trials) {
     if (t.outcome.verdict == Verdict::unsupported || t.outcome.evaluations == 0) continue;
     const bool full = t.model == "full";
-    const std::string title = t.method.substr(t.method.starts_with("mysim/") ? 6 : 0) + (full ? "" : ", least model");
+    const std::string title = short_name(t.method) + (full ? "" : ", least model");
     MethodStyle style = style_of(t.method);
     if (!full) style.dash = "(1,3)", style.marker = 6;
     if (!t.error) {
@@ -209,7 +209,7 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
     std::vector<Method> methods;
     if (!options.methods.empty()) methods = find_methods(options.methods);
     for (Method& m : all_methods())
-      if (options.methods.empty() && m.name.starts_with("mysim/")) methods.push_back(std::move(m));
+      if (options.methods.empty() && m.family().is_subject()) methods.push_back(std::move(m));
     // the truth's run, and that of each method; each of them is tried at several steps
     require_resources_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
     Progress progress(0);

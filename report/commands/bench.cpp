@@ -10,7 +10,7 @@
 
 #include "experiments/bench/bench.h"
 #include "experiments/scenes/scenes.h"
-#include "experiments/tables/table.h"
+#include "experiments/tables/bench.h"
 #include "mysim/base/files.h"
 #include "mysim/base/output_folder.h"
 #include "reference/truth/independent/integrators.h"
@@ -22,158 +22,159 @@
 
 namespace crosscheck {
 
+namespace {
+
+/// The rows of the table of that name; none where there is no such table.
+template <class Row>
+std::vector<Row> rows_in(const Rows& rows) {
+  const Table* table = rows.table(std::string(Row::table));
+  return table ? rows_of<Row>(*table) : std::vector<Row>();
+}
+
+template <class Row>
+BenchRatio ratio_of(const Row& row) {
+  return {row.ratio, row.ratio_low, row.ratio_high};
+}
+
 /// A row of the other path of mysim belongs to the last line.
-static bool is_second_path(const Table& table, size_t row, std::vector<BenchLine>& lines) {
-  if (text_at(table, row, "path of mysim") == "best") return false;
-  lines.back().plain = ratio_at(table, row, "ratio");
+template <class Row>
+bool is_second_path(const Row& row, std::vector<BenchLine>& lines) {
+  if (row.path == "best") return false;
+  lines.back().plain = ratio_of(row);
   return true;
 }
 
-void add_same_step(const Table& table, std::vector<BenchLine>& lines) {
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    if (is_second_path(table, i, lines)) continue;
-    const bool own = text_at(table, i, "force of Bullet").starts_with("force class");
+void add_same_step(const Rows& rows, std::vector<BenchLine>& lines) {
+  for (const SameStepRow& row : rows_in<SameStepRow>(rows)) {
+    if (is_second_path(row, lines)) continue;
+    const bool own = row.force.starts_with("force class");
     BenchLine& line = lines.emplace_back();
     line.group =
         "the same step: Bullet's explicit world and symplectic-euler; springs by a force class of our own, or by "
         "Bullet's";
     line.heading = "the same step as Bullet";
-    line.label =
-        fmt::format("{}: {}", size_text(text_at(table, i, "scene")), own ? "own force class" : "Bullet's force");
-    line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Bullet")),
-                              nice_seconds(*number_at(table, i, "cpu per step of mysim")),
-                              *number_at(table, i, "farthest particle"));
-    line.best = ratio_at(table, i, "ratio");
+    line.label = fmt::format("{}: {}", size_text(row.scene), own ? "own force class" : "Bullet's force");
+    line.detail =
+        fmt::format("{} : {}, {:.1g} m apart", nice_seconds(row.bullet_cpu), nice_seconds(row.cpu), row.apart);
+    line.best = ratio_of(row);
   }
 }
 
-void add_implicit_steps(const Table& table, std::vector<BenchLine>& lines) {
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    if (is_second_path(table, i, lines)) continue;
+void add_implicit_steps(const Rows& rows, std::vector<BenchLine>& lines) {
+  for (const ImplicitStepRow& row : rows_in<ImplicitStepRow>(rows)) {
+    if (is_second_path(row, lines)) continue;
     BenchLine& line = lines.emplace_back();
-    const std::string size = size_text(text_at(table, i, "scene"));
+    const std::string size = size_text(row.scene);
     line.group = "a linear implicit Euler step: Eigen's SimplicialLDLT and implicit-euler+linear";
     line.heading = "implicit step, " + size;
-    line.label = fmt::format("{}, {:g} steps a second", size, *number_at(table, i, "rate"));
-    line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(*number_at(table, i, "cpu per step of Eigen")),
-                              nice_seconds(*number_at(table, i, "cpu per step of mysim")),
-                              *number_at(table, i, "farthest particle"));
-    line.best = ratio_at(table, i, "ratio");
+    line.label = fmt::format("{}, {:g} steps a second", size, row.rate);
+    line.detail = fmt::format("{} : {}, {:.1g} m apart", nice_seconds(row.eigen_cpu), nice_seconds(row.cpu), row.apart);
+    line.best = ratio_of(row);
   }
 }
 
-void add_threads(const Table& table, std::vector<BenchLine>& lines) {
-  for (size_t i = 0; i < table.rows.size(); ++i) {
+void add_threads(const Rows& rows, std::vector<BenchLine>& lines) {
+  for (const ThreadsRow& row : rows_in<ThreadsRow>(rows)) {
     BenchLine& line = lines.emplace_back();
     line.group = "two threads beside one: leapfrog, time on the wall";
     line.heading = "two threads";
-    line.label = size_text(text_at(table, i, "scene"));
-    line.detail = fmt::format("{} : {}", nice_seconds(*number_at(table, i, "wall per step of one")),
-                              nice_seconds(*number_at(table, i, "wall per step of two")));
-    if (*number_at(table, i, "threads at work") > 1)
-      line.detail += fmt::format(", with {:.0f} % of two cores", 100 * *number_at(table, i, "share of the cores"));
+    line.label = size_text(row.scene);
+    line.detail = fmt::format("{} : {}", nice_seconds(row.one), nice_seconds(row.two));
+    if (row.threads > 1)
+      line.detail += fmt::format(", with {:.0f} % of two cores", 100 * row.share);
     else
       line.label += ", too small for a second";
-    line.best = ratio_at(table, i, "ratio");
+    line.best = ratio_of(row);
     line.wall = true;
   }
 }
 
-namespace {
+using simd::InstructionSet;
+constexpr auto naive = "naive loop";
+constexpr InstructionSet plainest = InstructionSet::sse2;
 
-constexpr auto naive = "naive loop", plainest = "sse2";
-
-void add_kernels(const Table& table, const std::string& best, std::vector<BenchLine>& lines) {
-  std::vector<double> sides;
-  for (size_t i = 0; i < table.rows.size(); ++i)
-    if (const double side = *number_at(table, i, "particles a side"); sides.empty() || sides.back() != side)
-      sides.push_back(side);
+void add_kernels(const Rows& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
+  const std::vector<KernelRow> rows = rows_in<KernelRow>(all_rows);
+  std::vector<long> sides;
+  for (const KernelRow& row : rows)
+    if (sides.empty() || sides.back() != row.side) sides.push_back(row.side);
   if (sides.empty()) return;
-  const double side = sides[sides.size() / 2];
+  const long side = sides[sides.size() / 2];
   std::vector<std::string> seen;
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    const std::string kernel = text_at(table, i, "kernel"), precision = text_at(table, i, "precision");
-    const std::string label = kernel + ", " + precision;
-    if (*number_at(table, i, "particles a side") != side || kernel == naive ||
-        std::find(seen.begin(), seen.end(), label) != seen.end())
-      continue;
+  for (const KernelRow& row : rows) {
+    const std::string label = row.kernel + ", " + row.precision;
+    if (row.side != side || row.kernel == naive || std::find(seen.begin(), seen.end(), label) != seen.end()) continue;
     seen.push_back(label);
     BenchLine line;
-    line.group = fmt::format("springs of a sheet of {0:.0f} × {0:.0f}, beside the naive loop", side);
-    line.heading = fmt::format("naive loop, {0:.0f} × {0:.0f}", side), line.label = label;
-    std::optional<size_t> chosen;
-    for (size_t j = 0; j < table.rows.size(); ++j) {
-      if (*number_at(table, j, "particles a side") != side || text_at(table, j, "precision") != precision) continue;
-      const std::string &other = text_at(table, j, "kernel"), &instructions = text_at(table, j, "instructions");
+    line.group = fmt::format("springs of a sheet of {0} × {0}, beside the naive loop", side);
+    line.heading = fmt::format("naive loop, {0} × {0}", side), line.label = label;
+    const KernelRow* chosen = nullptr;
+    for (const KernelRow& other : rows) {
+      if (other.side != side || other.precision != row.precision) continue;
       // with SSE2 the fastest double sweep is the reproducible one
-      const bool same = other == kernel || (kernel == "sweep, fastest" && precision == "double" &&
-                                            other == "sweep, reproducible" && instructions == plainest);
+      const bool same =
+          other.kernel == row.kernel || (row.kernel == "sweep, fastest" && row.precision == "double" &&
+                                         other.kernel == "sweep, reproducible" && other.instructions == plainest);
       if (!same) continue;
-      if (instructions == plainest) line.plain = ratio_at(table, j, "times the naive loop");
-      if (instructions == best || (other == kernel && !chosen)) chosen = j;
+      if (other.instructions == plainest) line.plain = ratio_of(other);
+      if (other.instructions == best || (other.kernel == row.kernel && !chosen)) chosen = &other;
     }
-    line.best = ratio_at(table, *chosen, "times the naive loop");
-    line.detail = fmt::format("{:.2f} ns a spring", *number_at(table, *chosen, "time per spring"));
-    if (kernel.starts_with("sweep"))
-      line.detail += fmt::format(", {:.0f} % of peak", 100 * *number_at(table, *chosen, "share of peak"));
+    line.best = ratio_of(*chosen);
+    line.detail = fmt::format("{:.2f} ns a spring", chosen->time);
+    if (row.kernel.starts_with("sweep")) line.detail += fmt::format(", {:.0f} % of peak", 100 * chosen->share_of_peak);
     lines.push_back(std::move(line));
   }
 }
 
 /// The scene where the engine's own way (the sweep where there is one) gains least over the naive loop.
-void add_scenes(const Table& table, const std::string& best, std::vector<BenchLine>& lines) {
+void add_scenes(const Rows& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
+  const std::vector<SceneKernelRow> rows = rows_in<SceneKernelRow>(all_rows);
   std::optional<BenchLine> least;
   int slower = 0, all = 0;
-  for (const std::string& scene : distinct(table, "scene")) {
-    std::optional<size_t> chosen;
+  for (size_t begin = 0, end = 0; begin < rows.size(); begin = end) {  // the rows of a scene
+    const SceneKernelRow* chosen = nullptr;
     std::optional<BenchRatio> plain;
-    for (size_t i = 0; i < table.rows.size(); ++i) {
-      if (text_at(table, i, "scene") != scene) continue;
-      const std::string& instructions = text_at(table, i, "instructions");
+    for (; end < rows.size() && rows[end].scene == rows[begin].scene; ++end) {
       // the sweep's rows come after the general kernel's
-      if (instructions == best) chosen = i;
-      if (instructions == plainest) plain = ratio_at(table, i, "times the naive loop");
+      if (rows[end].instructions == best) chosen = &rows[end];
+      if (rows[end].instructions == plainest) plain = ratio_of(rows[end]);
     }
     if (!chosen) continue;
-    const BenchRatio ratio = ratio_at(table, *chosen, "times the naive loop");
-    ++all, slower += ratio.ratio < 1;
-    if (least && least->best->ratio <= ratio.ratio) continue;
-    const double springs = *number_at(table, *chosen, "springs");
+    ++all, slower += chosen->ratio < 1;
+    if (least && least->best->ratio <= chosen->ratio) continue;
     least.emplace();
     least->group = "the shipped scene where mysim's kernels gain least on the naive loop";
-    least->label =
-        fmt::format("{}, {:g} spring{}: {}", scene, springs, springs > 1 ? "s" : "", text_at(table, *chosen, "kernel"));
+    least->label = fmt::format("{}, {} spring{}: {}", chosen->scene, chosen->springs, chosen->springs > 1 ? "s" : "",
+                               chosen->kernel);
     least->heading = "naive loop, least of the scenes";
-    least->detail = fmt::format("{} an evaluation", nice_seconds(1e-9 * *number_at(table, *chosen, "time")));
-    least->best = ratio, least->plain = plain;
+    least->detail = fmt::format("{} an evaluation", nice_seconds(1e-9 * chosen->time));
+    least->best = ratio_of(*chosen), least->plain = plain;
   }
   if (!least) return;
   least->detail += fmt::format("; slower on {} of {} scenes", slower, all);
   lines.push_back(*least);
 }
 
-void add_equal_error(const Table& table, std::vector<BenchLine>& lines) {
+void add_equal_error(const Rows& rows, std::vector<BenchLine>& lines) {
   const size_t begin = lines.size();
   std::vector<std::string> subject;  // scene and peer of each line
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    const std::string &scene = text_at(table, i, "scene"), &peer = text_at(table, i, "peer");
-    if (text_at(table, i, "path of mysim") == "best") {
-      const auto error = number_at(table, i, "error");
+  for (const EqualErrorRow& row : rows_in<EqualErrorRow>(rows)) {
+    if (row.path == "best") {
       BenchLine& line = lines.emplace_back();
-      line.group = fmt::format("the same error on a sheet of {}, 1 s", size_text(scene));
-      line.label =
-          fmt::format("{} {}{}", peer, error ? fmt::format("to {} m", nice(*error)) : text_at(table, i, "verdict"),
-                      text_at(table, i, "model") == "same" ? "" : ", other model");
-      line.heading = "the same error, " + size_text(scene);
-      line.remark = text_or_none(table, i, "remark");
-      subject.push_back(scene + " " + peer);
-      if (const auto own = number_at(table, i, "cpu of mysim"))
-        line.detail = fmt::format("{} : {} {}", nice_seconds(*number_at(table, i, "cpu")), nice_seconds(*own),
-                                  text_at(table, i, "mysim").substr(6));
+      line.group = fmt::format("the same error on a sheet of {}, 1 s", size_text(row.scene));
+      line.label = fmt::format("{} {}{}", row.peer,
+                               row.error ? fmt::format("to {} m", nice(*row.error)) : std::string(name_of(row.verdict)),
+                               row.model == PeerModel::same ? "" : ", other model");
+      line.heading = "the same error, " + size_text(row.scene);
+      line.remark = row.remark.value_or("");
+      subject.push_back(row.scene + " " + row.peer);
+      if (row.mysim_cpu)
+        line.detail =
+            fmt::format("{} : {} {}", nice_seconds(*row.cpu), nice_seconds(*row.mysim_cpu), short_name(*row.mysim));
     }
-    if (!number_at(table, i, "ratio")) continue;
-    (text_at(table, i, "path of mysim") == "best" ? lines.back().best : lines.back().plain) =
-        ratio_at(table, i, "ratio");
+    if (!row.ratio) continue;
+    (row.path == "best" ? lines.back().best : lines.back().plain) =
+        BenchRatio{*row.ratio, *row.ratio_low, *row.ratio_high};
   }
   for (size_t i = begin; i < lines.size(); ++i)
     for (size_t j = begin; j < lines.size(); ++j)
@@ -184,23 +185,25 @@ void add_equal_error(const Table& table, std::vector<BenchLine>& lines) {
 
 }  // namespace
 
-std::string best_instruction_set(const Rows& rows) {
-  for (const char* name : {"bench-same-step-cost", "bench-equal-error-cost"})
-    if (const Table* table = rows.table(name))
-      for (size_t i = 0; i < table->rows.size(); ++i)
-        if (text_at(*table, i, "path of mysim") == "best") return text_at(*table, i, "instructions");
+static InstructionSet best_of(const Rows& rows) {
+  for (const SameStepRow& row : rows_in<SameStepRow>(rows))
+    if (row.path == "best") return row.instructions;
+  for (const EqualErrorRow& row : rows_in<EqualErrorRow>(rows))
+    if (row.path == "best") return row.instructions;
   return plainest;
 }
 
+std::string best_instruction_set(const Rows& rows) { return std::string(name_of(best_of(rows))); }
+
 std::vector<BenchLine> bench_lines(const Rows& rows) {
   std::vector<BenchLine> lines;
-  const std::string best = best_instruction_set(rows);
-  if (const Table* table = rows.table("bench-kernels-cost")) add_kernels(*table, best, lines);
-  if (const Table* table = rows.table("bench-scenes-cost")) add_scenes(*table, best, lines);
-  if (const Table* table = rows.table("bench-equal-error-cost")) add_equal_error(*table, lines);
-  if (const Table* table = rows.table("bench-same-step-cost")) add_same_step(*table, lines);
-  if (const Table* table = rows.table("bench-implicit-step-cost")) add_implicit_steps(*table, lines);
-  if (const Table* table = rows.table("bench-threads-cost")) add_threads(*table, lines);
+  const InstructionSet best = best_of(rows);
+  add_kernels(rows, best, lines);
+  add_scenes(rows, best, lines);
+  add_equal_error(rows, lines);
+  add_same_step(rows, lines);
+  add_implicit_steps(rows, lines);
+  add_threads(rows, lines);
   return lines;
 }
 

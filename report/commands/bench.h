@@ -39,10 +39,6 @@ std::vector<BenchLine> bench_lines(const Rows& rows);
 /// The name of the best instructions in the tables: "avx512".
 std::string best_instruction_set(const Rows& rows);
 
-inline BenchRatio ratio_at(const Table& table, size_t row, const char* column) {
-  return {*number_at(table, row, column), *number_at(table, row, "ratio low"), *number_at(table, row, "ratio high")};
-}
-
 inline std::string nice_seconds(double seconds) {
   if (seconds >= 0.1) return fmt::format("{:.2f} s", seconds);
   if (seconds >= 1e-4) return fmt::format("{:.3g} ms", 1e3 * seconds);
@@ -56,11 +52,6 @@ inline std::string size_text(const std::string& scene) {
     if (const size_t at = text.find(from); at != std::string::npos) text.replace(at, 1, to);
   return text;
 }
-
-/// Lines from the tables of single steps: beside Bullet's, beside a factorisation, and on two threads.
-void add_same_step(const Table& table, std::vector<BenchLine>& lines);
-void add_implicit_steps(const Table& table, std::vector<BenchLine>& lines);
-void add_threads(const Table& table, std::vector<BenchLine>& lines);
 
 /// All ratios, of each peer the one where it does best: best instructions and SSE2 alone as two markers.
 DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& instructions, const std::string& commit);

@@ -11,6 +11,7 @@
 #include "experiments/metrics.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/stability/margin.h"
+#include "experiments/tables/engines.h"
 #include "mysim/base/files.h"
 #include "mysim/base/output_folder.h"
 #include "reference/certificate/certificate.h"
@@ -18,6 +19,7 @@
 #include "report/commands/command_line.h"
 #include "report/commands/commands.h"
 #include "report/commands/json_files.h"
+#include "report/findings/report_data.h"
 
 namespace crosscheck {
 namespace {
@@ -38,10 +40,7 @@ void print(const Certificate& certificate) {
   fmt::print("  {}\n", summary_of(certificate));
 }
 
-std::string shown(const Cell& cell) {
-  const auto* value = std::get_if<double>(&cell);
-  return value ? fmt::format("{:.3g}", *value) : "-";
-}
+std::string shown(std::optional<double> value) { return value ? fmt::format("{:.3g}", *value) : "-"; }
 
 /// Prints what the same rules differ by; true when one differs by more than allowed.
 bool equal_rules_differ(const Request& request, const Scene& scene, Results& answers) {
@@ -114,24 +113,18 @@ int compare_command(const CompareOptions& options) {
   folder.finish();
   if (mismatch) return 1;
 
-  const Table& table = *result.table("engines");
-  const std::string tier = std::holds_alternative<std::string>(table.at(0, "truth tier"))
-                               ? std::get<std::string>(table.at(0, "truth tier"))
-                               : "none";
-  fmt::print("\n{}: {}\ntruth: {}{}\n\n", scene.name, scene.question, tier,
-             tier == "none" ? ""
-                            : fmt::format(", error bar {} m ({})", shown(table.at(0, "truth bar")),
-                                          std::get<std::string>(table.at(0, "truth"))));
+  const std::vector<EngineRow> runs = rows_of<EngineRow>(result);
+  const std::optional<TruthKind> tier = runs.at(0).truth_kind;
+  fmt::print("\n{}: {}\ntruth: {}{}\n\n", scene.name, scene.question,
+             tier ? std::get<std::string>(to_cell(*tier)) : "none",
+             tier ? fmt::format(", error bar {} m ({})", shown(runs[0].truth_bar), *runs[0].truth) : "");
   fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "method", "verdict", "error/m", "diff./m",
              "centres/m", "step/s", "until/s");
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", std::get<std::string>(table.at(i, "method")),
-               std::get<std::string>(table.at(i, "verdict")), shown(table.at(i, "largest error")),
-               shown(table.at(i, "largest difference")), shown(table.at(i, "largest difference of centres")),
-               shown(table.at(i, "step")), shown(table.at(i, "end")));
-    if (const std::string verdict = std::get<std::string>(table.at(i, "verdict"));
-        verdict == "unsupported" || verdict == "crash" || verdict == "timeout")
-      fmt::print("    {}\n", std::get<std::string>(table.at(i, "reason")));
+  for (const EngineRow& run : runs) {
+    fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", run.method, name_of(run.verdict), shown(run.error),
+               shown(run.difference), shown(run.centre_difference), shown(run.step), shown(run.end));
+    if (run.verdict == Verdict::unsupported || run.verdict == Verdict::crash || run.verdict == Verdict::timeout)
+      fmt::print("    {}\n", run.reason);
   }
   for (const Result& answer : answers)
     if (!answer.outcome.remark.empty()) fmt::print("\n{}: {}\n", answer.method, answer.outcome.remark);

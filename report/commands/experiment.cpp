@@ -10,6 +10,7 @@
 #include "experiments/experiment.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
+#include "experiments/tables/dictionary.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/output_folder.h"
@@ -41,7 +42,7 @@ std::string file_of(const Certificate& c) {
 }
 
 std::vector<std::string> files_of(const Rows& rows) {
-  std::vector<std::string> files;
+  std::vector<std::string> files{"dictionary.csv"};
   for (const Table& table : rows.tables) files.push_back(table.name + ".csv");
   for (const Certificate& c : rows.certificates) files.push_back(file_of(c));
   return files;
@@ -49,6 +50,7 @@ std::vector<std::string> files_of(const Rows& rows) {
 
 void write_tables(const Rows& rows, const Provenance& lines, const std::filesystem::path& out) {
   for (const Table& table : rows.tables) write_csv(table, lines, out);
+  write_csv(dictionary(rows.tables), lines, out);
   for (const Certificate& c : rows.certificates) write_file(out / file_of(c), certificate_json(c));
 }
 

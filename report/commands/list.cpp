@@ -25,7 +25,8 @@ std::vector<std::pair<std::string, std::string>> method_rows(bool json) {
   std::vector<std::pair<std::string, std::string>> rows;
   for (const Method& method : all_methods()) rows.emplace_back(method.name, method.what);
   if (!json)
-    rows.emplace_back("exec:PATH", "any program that speaks the engine protocol (reference/protocol/PROTOCOL.md)");
+    rows.emplace_back(std::string(program_prefix) + "PATH",
+                      "any program that speaks the engine protocol (reference/protocol/PROTOCOL.md)");
   return rows;
 }
 

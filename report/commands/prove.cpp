@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A build of Crosscheck in which nothing may be found to have moved, as nothing has but the rounding.
-struct Build {
+struct BuildVariant {
   std::string name;
   std::string compiler, package;  // Debian's package; both empty: the program as it is, in another environment
   std::string type, flags;        // as CMake has them
@@ -51,10 +51,10 @@ bool fused_here() {
 #endif
 }
 
-const std::vector<Build>& builds() {
+const std::vector<BuildVariant>& builds() {
   // without optimisation everything takes up to 350 times as long: all scenes would be an hour
   constexpr auto small = "!(cloth*|flag*|jelly*)";
-  static const std::vector<Build> table = {
+  static const std::vector<BuildVariant> table = {
       {"gcc-O3", "g++", "g++", "Release", "-O3 -DNDEBUG", ""},
       {"gcc-O2", "g++", "g++", "Release", "-O2 -DNDEBUG", ""},
       {"gcc-assert", "g++", "g++", "Debug", "-O2", ""},
@@ -71,7 +71,7 @@ const std::vector<Build>& builds() {
 }
 
 /// "clang++ (package clang)"; empty where nothing is missing.
-std::string missing_for(const Build& build) {
+std::string missing_for(const BuildVariant& build) {
   if (build.compiled() && !on_path(build.compiler))
     return fmt::format("{} (package {})", build.compiler, build.package);
   if (build.fused && !fused_here()) return "a processor with AVX2 and fused multiply-adds";
@@ -85,7 +85,7 @@ struct Built {
 };
 
 /// Configures and builds the program, and the engine that it starts, in build/builds/NAME of the source tree.
-Built built(const Build& build) {
+Built built(const BuildVariant& build) {
   const fs::path source = fs::path(CROSSCHECK_SOURCE_DIR).parent_path(), folder = source / "build/builds" / build.name;
   std::string type = build.type;
   std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::toupper(c); });
@@ -207,12 +207,12 @@ BuildFinding finding_of(const JsonField& verdict) {
   return finding;
 }
 
-const std::string& filter_of(const Build& build, const RegressOptions& options) {
+const std::string& filter_of(const BuildVariant& build, const RegressOptions& options) {
   return options.filter.empty() ? build.filter : options.filter;
 }
 
 /// Runs the build's program over the baselines.
-BuildFinding asked(const fs::path& program, const Build& build, const RegressOptions& options) {
+BuildFinding asked(const fs::path& program, const BuildVariant& build, const RegressOptions& options) {
   const fs::path out = options.out / build.name;
   std::vector<std::string> words{program.string(), "regress",     "--no-speed",
                                  "--figures",      "0",           "--out",
@@ -230,7 +230,7 @@ BuildFinding asked(const fs::path& program, const Build& build, const RegressOpt
   return finding_of(JsonField::parse_file(verdict.string()));
 }
 
-BuildFinding found(const Build& build, const RegressOptions& options) {
+BuildFinding found(const BuildVariant& build, const RegressOptions& options) {
   if (const std::string missing = missing_for(build); !missing.empty()) return {.state = not_here, .note = missing};
   fs::path program = fs::path(CROSSCHECK_BINARY_DIR) / "crosscheck";
   if (build.compiled()) {
@@ -243,7 +243,7 @@ BuildFinding found(const Build& build, const RegressOptions& options) {
   return asked(program, build, options);
 }
 
-void print_finding(const Build& build, const RegressOptions& options, const BuildFinding& f) {
+void print_finding(const BuildVariant& build, const RegressOptions& options, const BuildFinding& f) {
   fmt::print("{:<12} {:<12} ", f.state, build.name);
   if (f.state == not_here)
     fmt::print("{}\n", f.note);
@@ -276,7 +276,7 @@ Table empty_table() {
           {}};
 }
 
-void add_row(Table& table, const Build& build, const RegressOptions& options, const BuildFinding& f) {
+void add_row(Table& table, const BuildVariant& build, const RegressOptions& options, const BuildFinding& f) {
   const auto count = [&](long n) { return f.state == passed || f.state == alarm ? Cell(n) : Cell(); };
   table.add({build.name, build.compiler, build.type, build.flags, build.environment, filter_of(build, options), f.state,
              count(f.quantities), count(f.failures), count(f.identical), count(f.differing), cell_of(f.off), f.furthest,
@@ -285,7 +285,7 @@ void add_row(Table& table, const Build& build, const RegressOptions& options, co
 
 void require_known(const std::string& name) {
   std::vector<std::string> names;
-  for (const Build& build : builds()) {
+  for (const BuildVariant& build : builds()) {
     if (name.empty() || name == build.name) return;
     names.push_back(build.name);
   }
@@ -306,7 +306,7 @@ int prove_builds_command(const RegressOptions& asked_for) {
   options.out = folder.path();
   Table table = empty_table();
   std::map<std::string, int> count;
-  for (const Build& build : builds()) {
+  for (const BuildVariant& build : builds()) {
     if (!options.build.empty() && options.build != build.name) continue;
     const BuildFinding finding = found(build, options);
     print_finding(build, options, finding);

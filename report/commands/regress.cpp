@@ -33,7 +33,7 @@ Machine machine_of(const Provenance& lines) {
 }
 
 SpeedRun speed_run_of(const Regression& regression, const Provenance& lines) {
-  return {regression.asked, regression.against, regression.baselines, regression.out, machine_of(lines)};
+  return {regression.selection, regression.against, regression.baselines, regression.out, machine_of(lines)};
 }
 
 Speeds speeds_beside(const Regression& regression, const Provenance& lines, const std::vector<Comparison>& answers,
@@ -102,6 +102,8 @@ int told(const RegressionResult& result, const std::string& cause, const std::fi
   const std::vector<Comparison> worst = worst_comparisons(result.rows);
   for (const Comparison& row : worst) print_row(row);
   for (const FailedPoint& f : result.failures) fmt::print("no answer  {}: {}\n", f.name, f.why);
+  for (const NewMethod& m : new_methods(result.rows))
+    fmt::print("{:<10} {}: {}; bless with --filter '*/{}'\n", name_of(Status::added), m.method, describe(m), m.method);
   const long added = count_of(result.rows, Status::added), same = count_of(result.rows, Status::same);
   long wrong = 0;
   for (const Comparison& row : result.rows) wrong += failed(row.state);
@@ -127,7 +129,7 @@ Figures before_and_after(const Regression& regression, const RegressOptions& opt
   VerdictPage page{changes, none};
   page.blessed = options.reason, page.beside = "what was blessed before";
   page.lines = lines;
-  write_verdict_page(page, cases(regression.asked), regression,
+  write_verdict_page(page, cases(regression.selection), regression,
                      std::max(options.figures, static_cast<int>(result.numbers.size())));
   Figures figures;
   std::set<std::string> scenes;
@@ -165,12 +167,12 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
 
 int regressed(const RegressOptions& options) {
   Regression regression;
-  regression.asked.full = options.full;
-  regression.asked.filter = options.filter;
-  regression.asked.scenes = options.scenes;
-  if (!options.methods.empty()) regression.asked.methods = find_methods(options.methods);
+  regression.selection.full = options.full;
+  regression.selection.filter = options.filter;
+  regression.selection.scenes = options.scenes;
+  if (!options.methods.empty()) regression.selection.methods = find_methods(options.methods);
   if (!options.against.empty()) {
-    if (regression.asked.methods.size() != 1)
+    if (regression.selection.methods.size() != 1)
       throw InputError("--against: expected one --method, which is set beside that one");
     regression.against = find_method(options.against);
   }
@@ -190,14 +192,14 @@ int regressed(const RegressOptions& options) {
   Speeds speeds;
   if (speed_is_asked(options)) speeds = speeds_beside(regression, lines, result.rows, progress);
   progress.done();
-  const std::vector<Case> asked = cases(regression.asked);
-  const std::string cause = attribution_of(asked, result.rows);
+  const std::vector<Case> selected = cases(regression.selection);
+  const std::string cause = attribution_of(selected, result.rows);
   write_verdict(result, speeds, cause, lines, regression.out);
   if (options.figures > 0 && !options.bisect) {
     VerdictPage page{result, speeds, cause};
     page.beside = regression.against ? regression.against->name : "the baselines in " + regression.baselines.string();
     page.lines = lines;
-    write_verdict_page(page, asked, regression, options.figures);
+    write_verdict_page(page, selected, regression, options.figures);
   }
   folder.finish();
   const int status = told(result, cause, options.out);

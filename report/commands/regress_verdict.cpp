@@ -190,10 +190,13 @@ void write_verdict(const RegressionResult& result, const Speeds& speeds, const s
             {"identical", close.identical},
             {"differing", close.differing},
             {"failures", Json::list()},
+            {"new_methods", Json::list()},
             {"without_answer", Json::list()}};
   if (close.furthest) json["furthest"] = json_of(*close.furthest);
   for (const Comparison& row : result.rows)
     if (failed(row.state)) json["failures"].push(json_of(row));
+  for (const NewMethod& m : new_methods(result.rows))
+    json["new_methods"].push({{"method", m.method}, {"scenes", m.scenes}, {"quantities", m.quantities}});
   for (const FailedPoint& f : result.failures) json["without_answer"].push({{"question", f.name}, {"why", f.why}});
   add_speeds(json, speeds);
   write_file(folder / "regress.json", json.dump(1) + "\n");
@@ -255,8 +258,20 @@ std::string headline(const VerdictPage& page) {
                                    [](const auto& row) { return failed(row.state); });
   if (!page.blessed.empty()) return fmt::format("{} quantities blessed: {}", page.result.rows.size(), page.blessed);
   if (page.result.passed() && !page.speeds.passed()) return "The answers are the same, and something is slower";
-  if (page.result.passed()) return fmt::format("Nothing moved: {} quantities are the same", page.result.rows.size());
+  const auto same = std::count_if(page.result.rows.begin(), page.result.rows.end(),
+                                  [](const auto& row) { return row.state == Status::same; });
+  if (page.result.passed()) return fmt::format("Nothing moved: {} quantities are the same", same);
   return fmt::format("{} of {} quantities failed", wrong, page.result.rows.size());
+}
+
+/// Empty where no method is new.
+std::string new_methods_section(const RegressionResult& result) {
+  PageTable table{"Methods that the baselines do not know", {"method", "scenes", "quantities", "bless with"}, {}};
+  for (const NewMethod& m : new_methods(result.rows))
+    table.rows.push_back({m.method, std::to_string(m.scenes), std::to_string(m.quantities),
+                          fmt::format("crosscheck regress --filter '*/{}' --bless --reason TEXT", m.method)});
+  if (table.rows.empty()) return "";
+  return "<section class=\"chapter\"><h2>What is new</h2>\n" + page_table_html(table, true) + "</section>\n";
 }
 
 /// CPU times over those of a plain loop; empty where none was measured.
@@ -301,6 +316,11 @@ void first_screen(const VerdictPage& page, std::string& out) {
 }
 
 }  // namespace
+
+std::string describe(const NewMethod& method) {
+  return fmt::format("{} quantities in {} scene{}, not blessed yet", method.quantities, method.scenes,
+                     method.scenes == 1 ? "" : "s");
+}
 
 std::string describe_change(const Comparison& row) {
   std::string text = fmt::format("was {}, is {}", shown(row.was, row.was_word), shown(row.is, row.is_word));
@@ -349,6 +369,7 @@ std::string verdict_html(const VerdictPage& page) {
             table_of(some_of(std::min<size_t>(worst.size(), 15), worst.size(), "questions"), by_size(worst, 15), true),
             true) +
         "</section>\n";
+  if (page.blessed.empty()) out += new_methods_section(page.result);
   out += speed_section(page.speeds);
   if (!page.parts.empty() && page.parts.size() < worst.size())
     out += fmt::format(

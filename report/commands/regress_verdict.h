@@ -64,6 +64,9 @@ void write_verdict_page(VerdictPage& page, const std::vector<Case>& cases, const
 
 std::string verdict_html(const VerdictPage& page);
 
+/// "512 quantities in 20 scenes, not blessed yet"
+std::string describe(const NewMethod& method);
+
 /// "was 1, is 2 m; tolerance 1e-12, 3e11 tolerances off"
 std::string describe_change(const Comparison& row);
 

@@ -9,6 +9,7 @@
 #include "experiments/estimate.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
+#include "experiments/tables/dictionary.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/output_folder.h"
@@ -29,6 +30,7 @@ namespace {
 
 void write_data(const Rows& result, const Provenance& lines, const fs::path& folder) {
   for (const Table& table : result.tables) write_csv(table, lines, folder);
+  write_csv(dictionary(result.tables), lines, folder);
   for (const Certificate& c : result.certificates)
     write_file(folder / fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method)), certificate_json(c));
 }

@@ -87,7 +87,7 @@ int run_command(const RunOptions& options) {
     if (const std::string outlook = stability_warning(method, scene, out.step); !outlook.empty())
       out.remark += (out.remark.empty() ? "" : "; ") + outlook;
   if (!ledger.rows().empty()) {  // none without velocities
-    Table energy = ledger_table("energy");
+    Table energy = table_of<SceneEnergyRow>("energy");
     add_ledger(energy, method.name, ledger.rows(), ledger.contact_inferred());
     write_csv(energy, with_scene(provenance(options.command_line), scene), folder.path());
   }

@@ -154,7 +154,7 @@ Json json_of(const SceneSummary& f, const std::string& asked) {
 /// One step by the scene's own method, unless that is a program from outside. Throws InputError where it refuses.
 void require_taken(const Scene& scene, const std::string& asked) {
   const Method method = find_method(scene.method);
-  if (scene.method.starts_with("exec:")) return;
+  if (method.family().role == Role::outside) return;
   const Outcome out = run_method(method, scene, {scene.step, scene.step, 1, 1e-3, false}, {});
   if (out.verdict == Verdict::unsupported)
     throw InputError(fmt::format("{}: time.method: expected a method that can run it; {} cannot: {}", asked,

@@ -71,15 +71,10 @@ struct EngineLook {
   MethodStyle style;
 };
 EngineLook look_of(const std::string& engine) {
-  static const std::map<std::string, std::pair<std::string, std::string>> known = {
-      {"mysim", {"mysim", "mysim/symplectic-euler"}},
-      {"bullet", {"Bullet", "bullet/deformable-explicit"}},
-      {"bullet32", {"Bullet in single precision", "bullet32/deformable-explicit"}},
-      {"odeint", {"Boost odeint", "odeint/dopri5"}},
-      {"sundials", {"SUNDIALS", "sundials/arkode"}}};
-  const auto found = known.find(engine);
-  return found == known.end() ? EngineLook{engine, style_of(engine)}
-                              : EngineLook{found->second.first, style_of(found->second.second)};
+  const MethodFamily& family = family_of(engine);
+  return family.representative.empty()
+             ? EngineLook{engine, style_of(engine)}
+             : EngineLook{std::string(family.title), style_of(std::string(family.representative))};
 }
 
 /// Of how many quotients a time is not of the whole run; empty where of none.
@@ -87,7 +82,7 @@ std::string scaled_text(const Table& t) {
   int all = 0, scaled = 0;
   for (size_t i = 0; i < t.rows.size(); ++i) {
     if (number_at(t, i, "part of motion") != 0.01 || text_at(t, i, "measure") != "error" ||
-        text_at(t, i, "engine") == "mysim" || !number_at(t, i, "times mysim"))
+        family_of(text_at(t, i, "engine")).is_subject() || !number_at(t, i, "times mysim"))
       continue;
     ++all;
     scaled += number_at(t, i, "part timed", 1) < 1 || number_at(t, i, "part timed of mysim", 1) < 1;
@@ -99,7 +94,7 @@ std::string scaled_text(const Table& t) {
 
 /// The engines that have a marker, mysim among them, as methods begin.
 std::vector<std::string> drawn_engines(const std::vector<std::string>& engines) {
-  std::vector<std::string> methods{"mysim/"};
+  std::vector<std::string> methods{std::string(subject().name) + "/"};
   for (const std::string& engine : engines) methods.push_back(engine + "/");
   return methods;
 }
@@ -131,7 +126,7 @@ PageTable table_of(const Table& t, const std::vector<std::string>& engines) {
                        setting_text(text_at(t, *row, "setting"), *number_at(t, *row, "asked")));
   };
   for (const std::string& scene : distinct(t, "scene")) {
-    const auto ours = row_of(t, scene, "mysim");
+    const auto ours = row_of(t, scene, std::string(subject().name));
     std::vector<std::string> cells{scene, ours ? run(ours) : "none tried",
                                    ours ? step_text(*number_at(t, *ours, "cpu")) : ""};
     for (const std::string& engine : engines) {
@@ -176,8 +171,8 @@ std::vector<Chart> cheapest_charts(const ChartInput& input) {
   const Table* t = input.result.table("speed-accuracy-engines-cost");
   if (!t) return {};
   std::vector<std::string> engines = distinct(*t, "engine");
-  std::erase(engines, "mysim");
-  std::ranges::stable_partition(engines, [](const std::string& engine) { return engine.starts_with("bullet"); });
+  std::erase(engines, subject().name);
+  std::ranges::stable_partition(engines, [](const std::string& engine) { return family_of(engine).is_engine(); });
   DotPlot f;
   f.name = "cheapest-1-percent-cost";
   f.title = "CPU time for 1 % error, over mysim's";

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "mysim/base/files.h"
+#include "reference/method.h"
 #include "report/base/assets.h"
 #include "report/base/gnuplot.h"
 #include "report/figures/charts.h"
@@ -112,9 +113,9 @@ Table data_of(const Figure& f) {
 
 /// Titles in the key: of outside programs the base name, without the folder.
 std::string shown(const std::string& title) {
-  if (!title.starts_with("exec:")) return title;
+  if (!title.starts_with(program_prefix)) return title;
   const size_t slash = title.rfind('/', title.find('+'));
-  return title.substr(slash == std::string::npos ? 5 : slash + 1);
+  return title.substr(slash == std::string::npos ? program_prefix.size() : slash + 1);
 }
 
 /// One plot element that picks the rows of one curve from the file.

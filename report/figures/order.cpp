@@ -16,7 +16,7 @@ namespace {
 
 /// "rk4: order 4, measured 3.99"; methods of others promise none.
 std::string title_of(const Table& slopes, const std::string& scene, const std::string& method) {
-  const std::string shown = method.starts_with("mysim/") ? method.substr(method.find('/') + 1) : method;
+  const std::string shown = short_name(method);
   for (size_t i = 0; i < slopes.rows.size(); ++i)
     if (text_at(slopes, i, "scene") == scene && text_at(slopes, i, "method") == method)
       return fmt::format("{}: order {:g}, measured {:.2f}", shown, *number_at(slopes, i, "declared order"),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/tables/engines.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 
@@ -70,7 +71,7 @@ std::vector<Chart> agreement_charts(const ChartInput& input) {
     f.x = {"t / s", false, 0.0, scene.duration};
     f.y = {"RMS difference / m", true, 1e-17, std::nullopt};  // below round-off nothing is told
     for (const MethodData& m : facts.methods) {
-      if (!m.ok() || m.method.starts_with("mysim/")) continue;
+      if (!m.ok() || family_of(m.method).is_subject()) continue;
       Curve curve{m.method, style_of(m.method), points_of(*table, m.method, "difference", true)};
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }
@@ -161,12 +162,10 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
 namespace {
 
 /// Largest energy turned over by any method that held, J: the scale of the balance error.
-double turned_over(const Table& summary, const std::string& scene) {
+double turned_over(const std::vector<EngineEnergyRow>& rows, const std::string& scene) {
   double most = 0;
-  for (size_t i = 0; i < summary.rows.size(); ++i)
-    if (std::get<std::string>(summary.at(i, "scene")) == scene &&
-        std::get<std::string>(summary.at(i, "verdict")) == "ok")
-      most = std::max(most, std::get<double>(summary.at(i, "energy turned over")));
+  for (const EngineEnergyRow& row : rows)
+    if (row.scene == scene && row.verdict == Verdict::ok) most = std::max(most, row.turned_over);
   return most;
 }
 
@@ -226,7 +225,7 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
                                 : fmt::format("{} ({} at {:.3g} s)", m.method, m.failure(), m.end));
       continue;
     }
-    const bool inferred = !m.method.starts_with("mysim/");
+    const bool inferred = !family_of(m.method).is_subject();
     Curve curve{m.method + (inferred ? " (inferred)" : ""), style_of(m.method),
                 points_of(table, m.method, "contact loss", false)};
     if (curve.points.empty()) continue;
@@ -250,11 +249,11 @@ Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& t
 
 std::vector<Chart> balance_charts(const ChartInput& input) {
   std::vector<Chart> charts;
-  const Table* summary = input.result.table("engines-energy");
-  for (size_t i = 0; i < input.scenes.size() && summary; ++i) {
+  const auto energies = rows_of<EngineEnergyRow>(input.result);
+  for (size_t i = 0; i < input.scenes.size(); ++i) {
     const Scene& scene = input.scenes[i];
     const Table* table = input.result.table(scene.name + "-energy");
-    const double scale = turned_over(*summary, scene.name);
+    const double scale = turned_over(energies, scene.name);
     if (!table || !(scale > 0)) continue;
     Figure f = input.facts[i].touched() ? contact_figure(scene, input.facts[i], *table)
                                         : balance_figure(scene, input.facts[i], *table, scale);

@@ -36,9 +36,7 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
     bool any = false;
     for (size_t i = 0; i < table.rows.size(); ++i) {
       if (text_at(table, i, "scene") != scene || text_at(table, i, "method") != method) continue;
-      if (!any)
-        f.categories.emplace_back(
-            ++place, method == sticky_sphere ? "sticky sphere" : method.substr(method.starts_with("mysim/") ? 6 : 0));
+      if (!any) f.categories.emplace_back(++place, method == sticky_sphere ? "sticky sphere" : short_name(method));
       any = true;
       const auto h = number_at(table, i, "step"), nodes = number_at(table, i, "particles"),
                  triangles = number_at(table, i, "triangles");
@@ -53,8 +51,8 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
       }
       page.rows.push_back({method, step_text(*h), said("particles"), said("triangles"), said("particles at end"),
                            said("triangles at end")});
-      if (method != sticky_sphere && (method.starts_with("mysim/") || method.starts_with("bullet/"))) {
-        auto& [particles, flat] = deepest[method.starts_with("bullet/")];
+      if (method != sticky_sphere && family_of(method).by_default()) {
+        auto& [particles, flat] = deepest[!family_of(method).is_subject()];
         particles = std::max(particles, nodes.value_or(0)), flat = std::max(flat, triangles.value_or(0));
       }
       if (method.find("dopri5") != std::string::npos) continue;  // its steps are its own
@@ -125,7 +123,7 @@ Chart drape_snapshot(const Table& table) {
   Run run = default_run(s.scene);
   // before it has fallen out of the picture
   run.duration = 1.16, run.samples = 58;
-  for (const char* method : {ours, theirs, position_based, sticky_sphere})
+  for (const std::string& method : {ours, theirs, position_based(), sticky_sphere})
     if (const auto all = distinct(table, "method"); std::find(all.begin(), all.end(), method) != all.end())
       s.panels.push_back({method, run});
   s.shot.mode = Mode::stretch;

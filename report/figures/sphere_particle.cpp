@@ -17,7 +17,7 @@ constexpr double degree = 0.017453292519943295;
 
 /// Those that stand for the others, and those that answer differently.
 bool shown_always(const std::string& method) {
-  return method == ours || method == theirs || method == position_based || method == sticky_sphere;
+  return method == ours || method == theirs || method == position_based() || method == sticky_sphere;
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
     for (const double side : {-4., 4.}) limit.points.emplace_back(slope + side, std::tan(slope * degree));
   f.curves.push_back(std::move(limit));
   const double step = usual_step(table);
-  const char* shown[] = {ours, theirs, position_based, sticky_sphere};
+  const std::string shown[] = {ours, theirs, position_based(), sticky_sphere};
   const std::pair<const char*, int> answers[] = {{"sticks", 7}, {"slides", 6}, {"neither", 9}};
   for (size_t m = 0; m < std::size(shown); ++m)
     for (const auto& [answer, marker] : answers) {
@@ -144,7 +144,7 @@ Chart rebound_chart(const Table& table, const std::string& commit) {
     Curve curve{method, style_of(method), {}, true, true};
     std::vector<std::string> row{method};
     double of_curve = 0.5;  // Bullet returns nothing: its own rebound where none is asked
-    if (method.starts_with("bullet/")) of_curve = 0;
+    if (family_of(method).is_default_peer()) of_curve = 0;
     for (const double e : parts) {
       std::string said = "";
       for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -159,7 +159,7 @@ Chart rebound_chart(const Table& table, const std::string& commit) {
       row.push_back(said);
     }
     page.rows.push_back(std::move(row));
-    if (method.starts_with("bullet/")) curve.title += " (e = 0)";
+    if (family_of(method).is_default_peer()) curve.title += " (e = 0)";
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.finding =

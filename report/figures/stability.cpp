@@ -169,8 +169,8 @@ PageTable growth_table(const Table& table, bool without_limit) {
 Table slow_blow_ups(const Table& growth) {
   Table slow{growth.name, growth.columns, {}};
   for (size_t i = 0; i < growth.rows.size(); ++i)
-    if (const std::string& method = text_at(growth, i, "method");
-        method == "mysim/explicit-euler" || method == "mysim/trapezoidal")
+    if (const Method* method = builtin_method(text_at(growth, i, "method"));
+        method && method->stepper && method->stepper->limit(1, 0) == 0)
       slow.add(growth.rows[i]);
   return slow;
 }

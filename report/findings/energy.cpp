@@ -116,9 +116,8 @@ void damping(const Table& table, std::vector<Finding>& out) {
   double worst = -1, low = INFINITY, high = -INFINITY;
   std::vector<std::string> methods;
   for (const std::string& method : distinct(table, "method")) {
-    if (method != "mysim/implicit-euler" && method != "mysim/xpbd" && method != "bullet/deformable-implicit" &&
-        method != position_based)
-      continue;
+    const Method* m = builtin_method(method);
+    if (!m || (m->on_one_spring.empty() ? m->rule : m->on_one_spring) != "implicit-euler") continue;
     for (size_t i = 0; i < table.rows.size(); ++i) {
       const double rate = number_at(table, i, "equivalent drag", NAN), theory = number_at(table, i, "by theory", NAN);
       if (text_at(table, i, "method") != method || !(theory > 0) || !std::isfinite(rate)) continue;

@@ -67,20 +67,20 @@ std::string why_off(const Scene& scene, const SceneData& facts, const MethodData
 }
 
 void other_law(const Scene& scene, const SceneData& facts, std::vector<Finding>& out) {
-  const MethodData* p = facts.find(position_based);
+  const MethodData* p = facts.find(position_based());
   if (!p || !p->ok() || !scene.model.find<Springs>() || !(facts.motion > 0)) return;
   const std::string why = why_off(scene, facts, *p);
   if (p->error)
     out.push_back({scene.name, "accuracy",
-                   fmt::format("{} differs from the truth by up to {}, {} of the motion: {}.", position_based,
+                   fmt::format("{} differs from the truth by up to {}, {} of the motion: {}.", position_based(),
                                nice_length(*p->error), percent(*p->error, facts.motion), why),
                    facts.tier, "other-law"});
   else if (p->difference)
-    out.push_back(
-        {scene.name, "accuracy",
-         fmt::format("{} differs by up to {} (RMS) until {:.3g} s: {}{}.", position_based, nice_length(*p->difference),
-                     scene.window, why, facts.touched() ? "; its friction follows another law too" : ""),
-         "another engine", "other-law"});
+    out.push_back({scene.name, "accuracy",
+                   fmt::format("{} differs by up to {} (RMS) until {:.3g} s: {}{}.", position_based(),
+                               nice_length(*p->difference), scene.window, why,
+                               facts.touched() ? "; its friction follows another law too" : ""),
+                   "another engine", "other-law"});
 }
 
 /// Names of those that are as near as the nearest (ties_with()), the thriftiest first; of more than three the number
@@ -126,7 +126,7 @@ void accuracy(const Scene& scene, const SceneData& facts, std::vector<Finding>& 
 void converged_contact(const Scene& scene, const SceneData& facts, std::vector<Finding>& out) {
   if (!facts.contact_until) return;
   std::string parts;
-  for (const char* name : {ours, "mysim/leapfrog", theirs})
+  for (const std::string& name : {ours, std::string("mysim/leapfrog"), theirs})
     if (const MethodData* m = facts.find(name); m && m->ok() && m->from_contact)
       parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", name, nice_length(*m->from_contact));
   if (!parts.empty())
@@ -171,7 +171,7 @@ std::string depth(double clearance) {
 void contact(const Scene& scene, const SceneData& facts, std::vector<Finding>& out) {
   if (!facts.touched()) return;
   std::string parts;
-  for (const char* name : {ours, theirs, position_based})
+  for (const std::string& name : {ours, theirs, position_based()})
     if (const MethodData* m = facts.find(name); m && m->ok() && m->clearance)
       parts += fmt::format("{}{}: {}{}", parts.empty() ? "" : "; ", name, depth(*m->clearance),
                            !m->creep           ? ""

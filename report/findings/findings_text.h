@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -11,8 +12,20 @@
 
 namespace crosscheck {
 
-inline constexpr auto ours = "mysim/symplectic-euler", theirs = "bullet/deformable-explicit",
-                      position_based = "bullet/pbd", sticky_sphere = "mysim/symplectic-euler+sticky";
+// the methods that stand for the subject and for the peer beside it
+inline const std::string ours(subject().representative),
+    sticky_sphere = sticky_method(),
+    theirs(std::ranges::find_if(method_families(), &MethodFamily::is_default_peer)->representative);
+
+/// The peer's position-based method.
+inline const std::string& position_based() {
+  static const std::string name = [] {
+    for (const Method& m : all_methods())
+      if (m.position_based && m.family().is_default_peer()) return m.name;
+    return std::string();
+  }();
+  return name;
+}
 
 inline std::string percent(double part, double whole) {
   const double value = 100 * part / whole;

@@ -67,7 +67,8 @@ void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneDat
   std::vector<std::string> bullet, shared, alone;
   int asked = 0;
   for (size_t i = 0; i < scenes.size(); ++i) {
-    const MethodData *a = most_accurate(facts[i], "mysim/"), *b = most_accurate(facts[i], "bullet/");
+    const MethodData *a = most_accurate(facts[i], &MethodFamily::is_subject),
+                     *b = most_accurate(facts[i], &MethodFamily::is_default_peer);
     if (!(facts[i].motion > 0) || (!a && !b)) continue;
     ++asked;
     if (!b)
@@ -99,7 +100,7 @@ void other_law_of_all(const std::vector<Scene>& scenes, const std::vector<SceneD
                       std::vector<Finding>& out) {
   std::vector<std::pair<std::string, std::map<double, std::string>>> kinds;  // of each: share of the motion, scene
   for (size_t i = 0; i < scenes.size(); ++i) {
-    const MethodData* p = facts[i].find(position_based);
+    const MethodData* p = facts[i].find(position_based());
     if (!p || !p->ok() || !p->error || !(facts[i].motion > 0)) continue;
     const std::string kind = scene_class(scenes[i]);
     auto at = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
@@ -185,9 +186,9 @@ std::vector<Finding> disagreement_findings(const Rows& result) {
   std::vector<std::string> worlds;
   for (const auto& [world, count] : by_world)
     worlds.push_back(fmt::format("{} in {}",
-                                 world == "bullet"     ? "all worlds"
-                                 : world == "bullet32" ? "single precision"
-                                                       : world,
+                                 world.find('/') != std::string::npos ? world
+                                 : family_of(world).single_precision  ? "single precision"
+                                                                      : "all worlds",
                                  count));
   return {{"", "failure",
            fmt::format("Bullet's worlds answer otherwise than a scene asks in {} known ways, each measured in the "

@@ -14,10 +14,8 @@ namespace crosscheck {
 namespace {
 
 /// Where the column, or the name, says whose it is.
-std::string short_name(const std::string& method) {
-  for (const std::string_view engine : {"mysim/", "bullet/"})
-    if (method.starts_with(engine)) return method.substr(engine.size());
-  return method;
+std::string name_in_engine(const std::string& method) {
+  return family_of(method).by_default() ? method.substr(method.find('/') + 1) : method;
 }
 
 std::string share_text(double error, const SceneData& facts) {
@@ -30,15 +28,15 @@ std::string share_text(double error, const SceneData& facts) {
 /// force evaluations, which stands for them.
 RecommendationCell nearest_cell(const SceneData& facts, const std::vector<MethodData>& among, const MethodData* m) {
   if (facts.tier.empty() || !m || !(facts.motion > 0)) return {};
-  const MethodData* best = most_accurate(facts, "");
+  const MethodData* best = most_accurate(facts);
   const std::string engine = engine_of(m->method);
   for (const MethodData& each : among)
     if (each.judged() && engine_of(each.method) == engine && ties_with(each, *m, facts) && ties_with(*m, each, facts) &&
         each.evaluations < m->evaluations)
       m = &each;
-  return {
-      fmt::format("{}{} {}", short_name(m->method), is_adaptive(m->method) ? "*" : "", share_text(*m->error, facts)),
-      ties_with(*m, *best, facts) ? "best" : ""};
+  return {fmt::format("{}{} {}", name_in_engine(m->method), is_adaptive(m->method) ? "*" : "",
+                      share_text(*m->error, facts)),
+          ties_with(*m, *best, facts) ? "best" : ""};
 }
 
 RecommendationCell truth_cell(const Scene&, const SceneData& facts, const Rows&) {
@@ -46,18 +44,18 @@ RecommendationCell truth_cell(const Scene&, const SceneData& facts, const Rows&)
 }
 
 RecommendationCell ours_cell(const Scene&, const SceneData& facts, const Rows&) {
-  return nearest_cell(facts, facts.methods, most_accurate(facts, "mysim/"));
+  return nearest_cell(facts, facts.methods, most_accurate(facts, &MethodFamily::is_subject));
 }
 
 RecommendationCell thrifty_cell(const Scene& scene, const SceneData& facts, const Rows&) {
   SceneData few = facts;
   std::erase_if(few.methods, [&](const MethodData& m) { return !m.single_evaluation(scene); });
-  return nearest_cell(facts, few.methods, most_accurate(few, "mysim/"));
+  return nearest_cell(facts, few.methods, most_accurate(few, &MethodFamily::is_subject));
 }
 
 bool bullet_can(const SceneData& facts) {
   return std::any_of(facts.methods.begin(), facts.methods.end(),
-                     [](const MethodData& m) { return m.method.starts_with("bullet/") && m.supported(); });
+                     [](const MethodData& m) { return family_of(m.method).is_default_peer() && m.supported(); });
 }
 
 RecommendationCell bullet_cell(const Scene& scene, const SceneData& facts, const Rows&) {
@@ -65,19 +63,20 @@ RecommendationCell bullet_cell(const Scene& scene, const SceneData& facts, const
   // no truth: how far the same rule is from mysim's
   if (const MethodData* b = facts.find(theirs); facts.tier.empty() && b && b->ok() && b->difference)
     return {fmt::format("{} from mysim until {:.2g} s", nice_length(*b->difference), scene.window), "none"};
-  return nearest_cell(facts, facts.methods, most_accurate(facts, "bullet/"));
+  return nearest_cell(facts, facts.methods, most_accurate(facts, &MethodFamily::is_default_peer));
 }
 
 /// Programs of the reader's own, single precision, independent integrators: where they were asked.
 RecommendationCell others_cell(const Scene&, const SceneData& facts, const Rows&) {
   SceneData others = facts;
-  std::erase_if(others.methods, [](const MethodData& m) { return short_name(m.method) != m.method; });
-  return nearest_cell(facts, others.methods, most_accurate(others, ""));
+  std::erase_if(others.methods, [](const MethodData& m) { return family_of(m.method).by_default(); });
+  return nearest_cell(facts, others.methods, most_accurate(others));
 }
 
 /// Of several too: whose it is stands there, but for mysim's.
 std::string own_name(std::string methods) {
-  for (size_t at = methods.find("mysim/"); at != std::string::npos; at = methods.find("mysim/")) methods.erase(at, 6);
+  const std::string prefix = std::string(subject().name) + "/";
+  for (size_t at; (at = methods.find(prefix)) != std::string::npos;) methods.erase(at, prefix.size());
   return methods;
 }
 
@@ -106,7 +105,7 @@ RecommendationCell fails_cell(const Scene&, const SceneData& facts, const Rows&)
   for (const MethodData& m : facts.methods) {
     if (!m.supported() || m.method == sticky_sphere) continue;
     ++ran;
-    if (!m.ok()) failed.push_back(short_name(m.method));
+    if (!m.ok()) failed.push_back(name_in_engine(m.method));
     if (is_useless(m, facts)) off.push_back(&m);
   }
   if (failed.empty() && off.empty()) return {fmt::format("none of {}", ran), ""};
@@ -117,7 +116,7 @@ RecommendationCell fails_cell(const Scene&, const SceneData& facts, const Rows&)
                         i > 0          ? ", "
                         : text.empty() ? "off: "
                                        : "; off: ",
-                        short_name(off[i]->method), percent(*off[i]->error, facts.motion));
+                        name_in_engine(off[i]->method), percent(*off[i]->error, facts.motion));
   return {fmt::format("{} (of {})", text, ran), "failed"};
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/tables/table.h"
+#include "experiments/tables/engines.h"
 
 namespace crosscheck {
 
@@ -44,56 +44,47 @@ bool is_useless(const MethodData& run, const SceneData& scene) {
 SceneData scene_data(const std::string& scene, const Rows& result) {
   SceneData facts;
   facts.scene = scene;
-  const Table* runs = result.table("engines");
-  if (!runs) return facts;  // no run of any scene came to a row: the page says why among what is missing
-  const Table& engines = *runs;
-  for (size_t i = 0; i < engines.rows.size(); ++i) {
-    if (text_or_none(engines, i, "scene") != scene) continue;
-    facts.motion = number_at(engines, i, "motion").value_or(0);
-    facts.window = number_at(engines, i, "window").value_or(0);
-    facts.measured_window = number_at(engines, i, "measured window").value_or(0);
-    facts.growth = number_at(engines, i, "perturbation growth").value_or(0);
-    facts.round_off = number_at(engines, i, "round-off bound");
-    facts.truth = text_or_none(engines, i, "truth");
-    facts.contact_until = number_at(engines, i, "truth until");
-    if (!facts.contact_until) facts.tier = text_or_none(engines, i, "truth tier");
-    facts.error_bar = number_at(engines, i, "truth bar").value_or(0);
-    MethodData m;
-    m.method = text_or_none(engines, i, "method");
-    m.verdict = text_or_none(engines, i, "verdict");
-    m.reason = text_or_none(engines, i, "reason");
-    m.different_law = text_or_none(engines, i, "different law");
-    m.end = number_at(engines, i, "end").value_or(0);
-    m.step = number_at(engines, i, "step").value_or(0);
-    m.evaluations = static_cast<long>(number_at(engines, i, "evaluations", 0));
-    m.degenerate_springs = static_cast<long>(number_at(engines, i, "coincident springs", 0));
-    m.error = number_at(engines, i, "largest error");
-    m.from_contact = number_at(engines, i, "largest difference from converged contact");
-    m.difference = number_at(engines, i, "largest difference");
-    m.centres = number_at(engines, i, "largest difference of centres");
-    m.clearance = number_at(engines, i, "smallest clearance");
-    m.creep = number_at(engines, i, "creep at end");
-    m.limit = number_at(engines, i, "predicted step limit");
-    facts.methods.push_back(std::move(m));
+  // where no run of any scene came to a row, the page says why among what is missing
+  for (const EngineRow& run : rows_of<EngineRow>(result)) {
+    if (run.scene != scene) continue;
+    facts.motion = run.motion, facts.window = run.window;
+    facts.measured_window = run.measured_window, facts.growth = run.growth;
+    facts.round_off = run.round_off_bound;
+    facts.truth = run.truth.value_or("");
+    facts.contact_until = run.truth_until;
+    if (run.truth_kind && !run.truth_until) facts.tier = name_of(run.truth_kind->tier);
+    facts.error_bar = run.truth_bar.value_or(0);
+    facts.methods.push_back({.method = run.method,
+                             .reason = run.reason,
+                             .different_law = run.different_law,
+                             .verdict = run.verdict,
+                             .end = run.end,
+                             .step = run.step,
+                             .evaluations = run.evaluations,
+                             .degenerate_springs = run.coincident,
+                             .error = run.error,
+                             .from_contact = run.contact_difference,
+                             .difference = run.difference,
+                             .centres = run.centre_difference,
+                             .clearance = run.clearance,
+                             .creep = run.creep,
+                             .limit = run.step_limit});
   }
+  const auto costs = rows_of<EngineCostRow>(result);
+  const auto energies = rows_of<EngineEnergyRow>(result);
   for (MethodData& m : facts.methods) {
-    if (const Table* cost = result.table("engines-cost"))
-      for (size_t i = 0; i < cost->rows.size(); ++i)
-        if (text_or_none(*cost, i, "scene") == scene && text_or_none(*cost, i, "method") == m.method) {
-          m.cpu = number_at(*cost, i, "cpu");
-        }
-    if (const Table* energy = result.table("engines-energy"))
-      for (size_t i = 0; i < energy->rows.size(); ++i)
-        if (text_or_none(*energy, i, "scene") == scene && text_or_none(*energy, i, "method") == m.method)
-          m.energy_error = number_at(*energy, i, "relative balance error");
+    for (const EngineCostRow& row : costs)
+      if (row.scene == scene && row.method == m.method) m.cpu = row.cpu;
+    for (const EngineEnergyRow& row : energies)
+      if (row.scene == scene && row.method == m.method) m.energy_error = row.relative_balance_error;
   }
   return facts;
 }
 
-const MethodData* most_accurate(const SceneData& scene, std::string_view engine) {
+const MethodData* most_accurate(const SceneData& scene, bool (MethodFamily::*asked)() const) {
   const MethodData* best = nullptr;
   for (const MethodData& m : scene.methods)
-    if (m.judged() && m.method.starts_with(engine) && (!best || *m.error < *best->error)) best = &m;
+    if (m.judged() && (!asked || (family_of(m.method).*asked)()) && (!best || *m.error < *best->error)) best = &m;
   return best;
 }
 
@@ -102,8 +93,8 @@ bool ties_with(const MethodData& run, const MethodData& other, const SceneData& 
 }
 
 bool is_adaptive(const std::string& method) {
-  const auto all = all_methods();
-  return std::ranges::any_of(all, [&](const Method& m) { return m.name == method && m.adaptive; });
+  const Method* m = builtin_method(method);
+  return m && m->adaptive;
 }
 
 std::string nice(double value) {

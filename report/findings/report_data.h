@@ -7,17 +7,28 @@
 #include <vector>
 
 #include "experiments/experiment.h"
+#include "experiments/tables/typed.h"
 #include "mysim/scene/scene.h"
+#include "reference/method.h"
 
 namespace crosscheck {
 
+/// The rows of the table Row::table; none where it is not there.
+template <class Row>
+std::vector<Row> rows_of(const Rows& rows) {
+  const Table* table = rows.table(std::string(Row::table));
+  return table ? rows_of<Row>(*table) : std::vector<Row>();
+}
+
 /// "blew up", "solver gave up", "froze": what a verdict other than ok says of a run, as the table writes it.
 std::string failure_class(const std::string& verdict);
+inline std::string failure_class(Verdict verdict) { return failure_class(std::string(name_of(verdict))); }
 /// "cannot" where the method does not take the scene, else the word for its failure.
 std::string failure_class_or_cannot(const std::string& verdict);
 
 struct MethodData {
-  std::string method, verdict, reason, different_law;
+  std::string method, reason, different_law;
+  Verdict verdict = Verdict::ok;
   double end = 0, step = 0;  // s
   long evaluations = 0, degenerate_springs = 0;
   std::optional<double> error;             // m, largest RMS error from the truth in the window
@@ -28,14 +39,21 @@ struct MethodData {
   std::optional<double> cpu;               // s
   std::optional<double> energy_error;      // relative
   std::optional<double> limit;             // s, largest stable step by theory, for the scene's fastest vibration
-  bool supported() const { return verdict != "unsupported"; }
-  bool ok() const { return verdict == "ok"; }
+  bool supported() const { return verdict != Verdict::unsupported; }
+  bool ok() const { return verdict == Verdict::ok; }
   /// Whether it came to its end and is no truth itself, and how far it is from the truth is known.
-  bool judged() const { return ok() && error && !method.starts_with("truth/"); }
+  bool judged() const { return ok() && error && family_of(method).role != Role::truth; }
   /// Whether it takes one force evaluation a step.
   bool single_evaluation(const Scene& scene) const {
     return static_cast<double>(evaluations) * step / scene.duration < 1.5;
   }
+  /// The rows of the table Row::table; none where it is not there.
+  template <class Row>
+  std::vector<Row> rows_of(const Rows& rows) {
+    const Table* table = rows.table(std::string(Row::table));
+    return table ? rows_of<Row>(*table) : std::vector<Row>();
+  }
+
   /// "blew up", "solver gave up" and so on, of a run that failed.
   std::string failure() const { return failure_class(verdict); }
 };
@@ -56,8 +74,8 @@ struct SceneData {
   bool touched() const;
 };
 
-/// The run nearest to the truth of the methods whose names begin so, or null.
-const MethodData* most_accurate(const SceneData& scene, std::string_view engine);
+/// The run nearest to the truth of the families asked for, or null.
+const MethodData* most_accurate(const SceneData& scene, bool (MethodFamily::*asked)() const = nullptr);
 /// Whether a run is as near to the truth as another: errs by at most 5 % more, or below the truth's error bar.
 bool ties_with(const MethodData& run, const MethodData& other, const SceneData& scene);
 

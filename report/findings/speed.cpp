@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "experiments/speed_accuracy/work_precision.h"
-#include "experiments/tables/table.h"
+#include "experiments/tables/engines.h"
 #include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 
@@ -18,7 +18,7 @@ namespace {
 bool tried_bullet(const Rows& result, const std::string& scene) {
   const Table* runs = result.table("speed-accuracy");
   for (size_t i = 0; runs && i < runs->rows.size(); ++i)
-    if (text_at(*runs, i, "scene") == scene && text_at(*runs, i, "method").starts_with("bullet/") &&
+    if (text_at(*runs, i, "scene") == scene && family_of(text_at(*runs, i, "method")).is_default_peer() &&
         text_at(*runs, i, "verdict") != "unsupported")
       return true;
   return false;
@@ -39,10 +39,8 @@ std::optional<std::string> factors_of_evaluations(const Rows& result) {
 
 /// Whether the method takes the scene, as far as experiment `engines` asked.
 bool takes(const Rows& result, const std::string& scene, const std::string& method) {
-  const Table* t = result.table("engines");
-  for (size_t i = 0; t && i < t->rows.size(); ++i)
-    if (text_at(*t, i, "scene") == scene && text_at(*t, i, "method") == method)
-      return text_at(*t, i, "verdict") != "unsupported";
+  for (const EngineRow& run : rows_of<EngineRow>(result))
+    if (run.scene == scene && run.method == method) return run.verdict != Verdict::unsupported;
   return false;
 }
 
@@ -153,7 +151,7 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
 void step_of_both(const Rows& result, std::vector<Finding>& out) {
   const Table* t = result.table("size-cost");
   if (!t) return;
-  const std::string plain = std::string(ours) + "+plain";
+  const std::string plain = ours + "+plain";
   std::map<long, std::map<std::string, double>> per_side;  // s per step
   for (size_t i = 0; i < t->rows.size(); ++i)
     per_side[std::get<long>(t->at(i, "side"))][text_at(*t, i, "method")] = number_at(*t, i, "cpu per step", 0);

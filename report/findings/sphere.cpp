@@ -15,9 +15,9 @@ namespace {
 
 void cone(const Table& table, std::vector<Finding>& out) {
   struct Count {
-    const char* method;
+    std::string method;
     int right = 0, all = 0;
-  } counts[] = {{ours}, {theirs}, {position_based}, {sticky_sphere}};
+  } counts[] = {{ours}, {theirs}, {position_based()}, {sticky_sphere}};
   for (size_t i = 0; i < table.rows.size(); ++i)
     for (Count& count : counts)
       if (text_at(table, i, "method") == count.method && text_at(table, i, "verdict") == "ok") {
@@ -79,8 +79,7 @@ void after_contact(const Rows& result, const Table& engines, std::vector<Finding
       window = number_at(engines, i, "window", 0), duration = std::max(duration, number_at(engines, i, "end", 0));
       touched |= number_at(engines, i, "smallest clearance", 1) < 1e-3;
       bullet |= method == theirs;
-      for (const char* rule : {"leapfrog", "suzuki4", "rk4", "trapezoidal", "implicit-midpoint", "dopri5"})
-        if (method == std::string("mysim/") + rule) rules.insert(method);
+      if (const Method* m = builtin_method(method); m && m->stepper && m->stepper->order >= 2) rules.insert(method);
     }
     if (!rows || !touched || !bullet || rules.size() < 2 || !(window < duration * (1 - 1e-9))) continue;
     const auto apart = differences_over_run(*rows);
@@ -112,9 +111,10 @@ void depth(const Table& table, std::vector<Finding>& out) {
     const std::string& method = text_at(table, i, "method");
     const double nodes = number_at(table, i, "particles", NAN);
     longest = std::max(longest, number_at(table, i, "step", 0));
-    if (method.starts_with("bullet/")) their_triangles = std::max(their_triangles, number_at(table, i, "triangles", 0));
-    if (method.starts_with("bullet/") && nodes > 1e-9) of_bullet[method] = std::max(of_bullet[method], nodes);
-    if (!method.starts_with("mysim/") || method == sticky_sphere) continue;
+    if (family_of(method).is_default_peer())
+      their_triangles = std::max(their_triangles, number_at(table, i, "triangles", 0));
+    if (family_of(method).is_default_peer() && nodes > 1e-9) of_bullet[method] = std::max(of_bullet[method], nodes);
+    if (!family_of(method).is_subject() || method == sticky_sphere) continue;
     any = true;
     particles = std::max(particles, nodes);
     triangles = std::max(triangles, number_at(table, i, "triangles", 0));

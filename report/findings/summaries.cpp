@@ -107,7 +107,7 @@ std::string leaving_sentence(const Table& t) {
     if (offs.empty() || offs.begin()->first != finest) continue;
     const auto [longest, at_longest] = *offs.rbegin();
     const double off = offs.begin()->second;
-    if (method.starts_with("mysim/")) {
+    if (family_of(method).is_subject()) {
       of_mysim = std::max(of_mysim, std::abs(off));
       long_step = std::max(long_step, longest);
       least = std::min(least, at_longest), most = std::max(most, at_longest);
@@ -133,7 +133,7 @@ std::string DrapeEnd::contact_text() const {
 }
 
 std::vector<DrapeEnd> drape_ends(const Table& t) {
-  const auto came_to_the_end = [&](size_t i, const char* method) {
+  const auto came_to_the_end = [&](size_t i, const std::string& method) {
     return text_at(t, i, "scene") == "drop-aside" && text_at(t, i, "method") == method &&
            text_at(t, i, "verdict") == "ok";
   };
@@ -141,7 +141,7 @@ std::vector<DrapeEnd> drape_ends(const Table& t) {
   for (size_t i = 0; i < t.rows.size(); ++i)
     if (came_to_the_end(i, ours)) finest = std::min(finest, number_at(t, i, "step", INFINITY));
   std::vector<DrapeEnd> ends;
-  for (const char* method : {ours, theirs, position_based, sticky_sphere})
+  for (const std::string& method : {ours, theirs, position_based(), sticky_sphere})
     for (size_t i = 0; i < t.rows.size(); ++i)
       if (came_to_the_end(i, method) && std::abs(number_at(t, i, "step", NAN) / finest - 1) < 1e-6)
         ends.push_back(

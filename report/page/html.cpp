@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "report/base/assets.h"
+#include "mysim/base/text.h"
 #include "report/page/inline_svg.h"
 #include "report/page/page.h"
 

@@ -28,9 +28,9 @@ std::string verdict_cell(const MethodData& m, const SceneData& facts) {
                        prose(percent(*m.error, facts.motion)));
   if (m.ok()) return "<td class=\"ok\">ok</td>";
   if (!m.supported()) return fmt::format("<td class=\"unsupported\">unsupported: {}</td>", escaped(m.reason));
-  const std::string what = m.verdict == "energy" ? "ten times too fast"
-                           : m.verdict == "nan"  ? "not a number"
-                                                 : m.failure();
+  const std::string what = m.verdict == Verdict::energy ? "ten times too fast"
+                           : m.verdict == Verdict::nan  ? "not a number"
+                                                        : m.failure();
   return fmt::format("<td class=\"failed\" title=\"{}\">{} at {:.3g} s</td>", what, m.failure(), m.end);
 }
 
@@ -227,7 +227,7 @@ std::string methods_html() {
       "class=\"methods\"><thead><tr><th>method</th><th>what it is</th><th>order</th><th>force evaluations a step</th>"
       "<th>stable while (ω: fastest vibration, γ: drag, h: step)</th></tr></thead><tbody>\n";
   for (const Method& method : all_methods())
-    if (!method.name.starts_with("truth/")) out += row_of(method);
+    if (method.family().role != Role::truth) out += row_of(method);
   return out + "</tbody></table></div>\n";
 }
 

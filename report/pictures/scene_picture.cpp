@@ -8,6 +8,7 @@
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
+#include "reference/method.h"
 #include "report/findings/report_data.h"
 
 namespace crosscheck {
@@ -305,13 +306,20 @@ Mode mode_named(const std::string& name) {
 }
 
 std::vector<std::string> pictured_methods(const Scene& scene) {
-  if (scene.model.first_order()) return {"mysim/explicit-euler", "mysim/trapezoidal", "mysim/rk4"};
-  if (scene.model.find<Constraints>()) return {"mysim/xpbd", "bullet/pbd"};
-  std::vector<std::string> names{"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd"};
+  const bool first_order = scene.model.first_order(), hard = scene.model.find<Constraints>() != nullptr;
+  std::vector<std::string> names;
+  for (const Method& m : all_methods()) {
+    const bool representative = m.name == m.family().representative;
+    const bool asked = first_order ? m.stepper && m.stepper->first_order && !m.adaptive
+                       : hard      ? m.position_based
+                                   : representative || (m.position_based && !m.family().is_subject());
+    if (asked && m.family().by_default()) names.push_back(m.name);
+  }
+  if (first_order || hard) return names;
   // what is meant for long steps first, and what fails there beside it
-  if (scene.method.find("implicit") != std::string::npos)
-    names = {"mysim/" + scene.method, "mysim/implicit-midpoint", "mysim/symplectic-euler"};
-  if (scene.model.find<Spheres>()) names.push_back("mysim/symplectic-euler+sticky");
+  if (!scene.method.starts_with(program_prefix) && find_method(scene.method).implicit)
+    names = {find_method(scene.method).name, "mysim/implicit-midpoint", std::string(subject().representative)};
+  if (scene.model.find<Spheres>()) names.push_back(sticky_method());
   return names;
 }
 

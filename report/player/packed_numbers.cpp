@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "report/base/assets.h"
+#include "mysim/base/text.h"
 
 namespace crosscheck {
 namespace {

@@ -1,13 +1,65 @@
 // Stiffness, products, grid transfers and vectors of the V-cycle, compiled once for each instruction set.
+#include "mysim/implicit/multigrid/kernels.h"
 
-#include "mysim/implicit/multigrid/rows.h"
+#include <cassert>
+
+#include "mysim/simd/cloth_grid/rows.h"
 
 namespace crosscheck::multigrid {
 
-// Stiffness of a sheet's springs, and the inverse blocks on the diagonal. Compiled once for each instruction set,
-// CROSSCHECK_ISA naming it.
-
 namespace {
+
+using simd::clear;
+using simd::fill_halo;
+using simd::reduce_halo;
+
+template <class T>
+using L = simd::Lanes<T>;
+template <class T>
+using V = typename L<T>::V;
+
+/// A block of so many numbers of each particle.
+template <int numbers>
+inline constexpr int tile_size = numbers* lanes;
+
+FORCE_INLINE long row_length(int blocks, int numbers) {
+  return static_cast<long>(left_halo + blocks + right_halo) * numbers * lanes;
+}
+
+/// The first block of a row of a field.
+template <class T>
+FORCE_INLINE T* row_of(T* field, int blocks, int row) {
+  return field + row * row_length(blocks, 3) + left_halo * tile_size<3>;
+}
+
+/// Goes over the rows from the first: begin(row, sums) adds to sums[0] (the row itself) and to sums[1], sums[2] (the
+/// next ones), finish(row, sums) is told when all that reach a row have been added. `memory`: three rows.
+template <int numbers, class T, class Begin, class Finish>
+FORCE_INLINE void over_rows(int rows, int blocks, T* memory, Begin begin, Finish finish) {
+  const long length = row_length(blocks, numbers), first = left_halo * tile_size<numbers>;
+  T* sums[3] = {memory + first, memory + length + first, memory + 2 * length + first};
+  for (T* row : sums) clear(row - first, length);
+  for (int r = 0; r < rows; ++r) {
+    begin(r, sums);
+    reduce_halo<tile_size<numbers>>(sums[0], blocks);
+    finish(r, sums[0]);
+    T* done = sums[0];
+    clear(done - first, length);
+    sums[0] = sums[1], sums[1] = sums[2], sums[2] = done;
+  }
+}
+
+/// Sums lane by lane, whatever a register holds.
+struct Sum {
+  alignas(64) double each[lanes] = {};
+  double total() const {
+    double all = 0;
+    for (const double one : each) all += one;
+    return all;
+  }
+};
+
+// Stiffness of a cloth's springs, and the inverse blocks on the diagonal.
 
 using D = L<double>;
 using Vd = V<double>;
@@ -73,6 +125,7 @@ void linearise(const SpringGeometry& s, double* const* springs, double* blocks) 
 
 /// By cofactors: symmetric as the blocks are.
 void invert(double* blocks, const double* inertia, const double* free, long count) {
+  assert(count >= 0);
   for (long i = 0; i < count; ++i, blocks += tile_size<6>, inertia += lanes, free += lanes)
     for (int lane = 0; lane < lanes; lane += D::width) {
       double* at = blocks + lane;
@@ -92,18 +145,7 @@ void to_float(const double* from, float* to, long count) {
   for (long i = 0; i < count; ++i) to[i] = static_cast<float>(from[i]);
 }
 
-}  // namespace
-
-namespace CROSSCHECK_ISA {
-
-void set_shapes(Kernels& f) { f.linearise = linearise, f.invert = invert, f.to_float = to_float; }
-
-}  // namespace CROSSCHECK_ISA
-
-// Products with the matrix of a sheet, and what is done with them row by row. Compiled once for each instruction set,
-// CROSSCHECK_ISA naming it.
-
-namespace {
+// Products with the matrix of a cloth, and what is done with them row by row.
 
 template <int value>
 struct Number {};
@@ -246,15 +288,7 @@ void residual(const Matrix<float>& m, const float* b, const float* x, float* r) 
       [&](long begin) __attribute__((always_inline)) { fill_halo<tile_size<3>>(r + begin, m.blocks); });
 }
 
-}  // namespace
-
-namespace CROSSCHECK_ISA {
-
-void set_products(Kernels& f) { f.product = product, f.smooth = smooth, f.residual = residual; }
-
-}  // namespace CROSSCHECK_ISA
-
-namespace {
+// From a grid to the next coarser one and back.
 
 using F = L<float>;
 using Vf = V<float>;
@@ -312,6 +346,7 @@ FORCE_INLINE void spread(const Transfer& t, const float* coarse, float one, floa
 }
 
 void prolong_and_add(const Transfer& t, const float* coarse, const float* free, float* x) {
+  assert(t.coarse_rows == (t.fine_rows + 1) / 2);
   const int fine_blocks = 2 * t.coarse_blocks;
   for (int row = 0; row < t.fine_rows; ++row) {
     const float* from = row_of(coarse, t.coarse_blocks, row / 2);
@@ -320,18 +355,7 @@ void prolong_and_add(const Transfer& t, const float* coarse, const float* free, 
   }
 }
 
-}  // namespace
-
-namespace CROSSCHECK_ISA {
-
-void set_transfers(Kernels& f) { f.restrict_residual = restrict_residual, f.prolong_and_add = prolong_and_add; }
-
-}  // namespace CROSSCHECK_ISA
-
-namespace {
-
-using D = L<double>;
-using Vd = V<double>;
+// Vectors of conjugate gradients.
 
 /// take(place, lane) for each register of a row's blocks; then done(place of the row).
 template <class Take, class Done>
@@ -393,8 +417,18 @@ void update_direction(const Matrix<double>& m, const float* z, double keep, doub
 
 namespace CROSSCHECK_ISA {
 
-void set_vectors(Kernels& f) {
-  f.update_solution = update_solution, f.dot_products = dot_products, f.update_direction = update_direction;
+Kernels kernels_of() {
+  return {.linearise = linearise,
+          .invert = invert,
+          .to_float = to_float,
+          .product = product,
+          .update_solution = update_solution,
+          .dot_products = dot_products,
+          .update_direction = update_direction,
+          .smooth = smooth,
+          .residual = residual,
+          .restrict_residual = restrict_residual,
+          .prolong_and_add = prolong_and_add};
 }
 
 }  // namespace CROSSCHECK_ISA

@@ -1,20 +1,21 @@
-// Linear systems of implicit steps on a sheet: A u = b with A = inertia + stiffness of the springs, never formed.
+// Linear systems of implicit steps on a cloth: A u = b with A = inertia + stiffness of the springs, never formed.
 //
-// Conjugate gradients want many iterations where springs are stiff for the step: a pull at one end must walk through
-// the sheet, a spring in each iteration. On a sheet of every second row and column it walks twice as fast, on one of
-// every fourth four times; and what is left on the finest sheet is short waves, which a few rounds of relaxation take
-// away. So one V-cycle over such sheets is the preconditioner. A coarse sheet has springs of the same stiffness, twice
-// as long (elastic energy for an area does not ask for the grid), along its own particles' differences, and the mass of
-// all: W. Hackbusch, Multi-Grid Methods and Applications, Springer 1985. It must point the right way only roughly: it
-// works in single precision, at half the memory, while the outer iteration is in double and corrects what it missed.
+// Conjugate gradients need many iterations where springs are stiff for the step: a pull at one end moves through the
+// cloth by one spring in each iteration. On a grid of every second row and column it moves twice as fast, on one of
+// every fourth four times; and the error left on the finest grid is short waves, which a few rounds of relaxation
+// remove. So one V-cycle over such grids is the preconditioner. A coarse grid has springs of the same stiffness, twice
+// as long (elastic energy of an area does not depend on the grid), along its own particles' differences, and the mass
+// of all: W. Hackbusch, Multi-Grid Methods and Applications, Springer 1985. A preconditioner need only be roughly
+// right: it works in single precision, at half the memory, while the outer iteration is in double and corrects it.
 //
 // Relaxation is Chebyshev's with the inverse 3 x 3 blocks on the diagonal. Its eigenvalues are below 2 for any springs:
 // u.A u sums (u_a - u_b).K (u_a - u_b) <= 2 (u_a.K u_a + u_b.K u_b) over springs, and that is twice the blocks' sum.
 //
-// Memory is the sweep's (simd/cloth_grid/fused_step.h), with as many lanes for double as for single precision, so that
-// both stand in the same order: column c in lane c / blocks of block c % blocks. Coarse columns are then even blocks of
-// even number, lane by lane, and nothing is moved across lanes between sheets. Each product is one sweep over the rows:
-// forces of a row are complete once its own springs are taken, and then the row may be changed in place.
+// Memory is that of the fused step (simd/cloth_grid/fused_step.h), with as many lanes for double as for single
+// precision, so that both stand in the same order: column c in lane c / blocks of block c % blocks. Coarse columns are
+// then the blocks of even number, lane by lane, and nothing is moved across lanes between grids. Each product is one
+// pass over the rows: forces of a row are complete once its own springs are taken, and then the row may be changed in
+// place.
 #pragma once
 
 #include "mysim/simd/cloth_grid/fused_step.h"
@@ -29,8 +30,8 @@ using simd::right_halo;
 
 inline constexpr int lanes = 16;
 
-/// A sheet and what of its matrix hangs on the positions. Three numbers of each particle are a field: rows x (before +
-/// blocks + after) x 3 x lanes, with copies beside the rows where springs reach over them.
+/// A grid, and the part of its matrix that depends on positions. Three numbers of each particle are a field: rows x
+/// (left_halo + blocks + right_halo) x 3 x lanes, with the halo filled where springs reach into it.
 template <class T>
 struct Matrix {
   int rows, blocks;
@@ -45,15 +46,15 @@ struct Matrix {
 /// Where the springs' stiffness comes from.
 struct SpringGeometry {
   int rows, blocks;
-  double* x;                    // m: a field; its copies are made
+  double* x;                    // m: a field; its halo is filled
   const double* k[directions];  // N/m: null, or blocks x lanes; 0 where there is no spring
   double rest[directions];      // m
   bool clamped;                 // without the negative part of a
   double* sums;                 // three rows of 6 numbers, working memory
 };
 
-/// How a coarse sheet hangs on a fine one: a fine particle between two coarse ones takes half of each; beyond the last
-/// coarse one, all of it.
+/// How a coarse grid is joined to a fine one: a fine particle between two coarse ones takes half of each; beyond the
+/// last coarse one, all of it.
 struct Transfer {
   int coarse_rows, coarse_blocks, fine_rows;
   // coarse blocks x lanes: what the fine particle to the right takes of this coarse one, 1/2 or 1; and the one to the
@@ -77,15 +78,15 @@ struct Kernels {
                             double* r, float* single);
   /// r . z and q . z.
   void (*dot_products)(const Matrix<double>&, const double* r, const double* q, const float* z, double* sums);
-  /// p = z + keep p, with its copies.
+  /// p = z + keep p, with its halo.
   void (*update_direction)(const Matrix<double>&, const float* z, double keep, double* p);
 
   /// change = keep change + take D^-1 (b - A x), x += change. `first`: x and change are 0 before.
   void (*smooth)(const Matrix<float>&, bool first, float keep, float take, const float* b, float* x, float* change);
-  /// r = b - A x, with its copies.
+  /// r = b - A x, with its halo.
   void (*residual)(const Matrix<float>&, const float* b, const float* x, float* r);
   void (*restrict_residual)(const Transfer&, const float* r, float* b);
-  /// x += what lies between the coarse ones, with its copies.
+  /// x += the coarse solution, interpolated, with its halo.
   void (*prolong_and_add)(const Transfer&, const float* coarse, const float* free, float* x);
 };
 

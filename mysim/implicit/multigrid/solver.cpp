@@ -2,37 +2,17 @@
 #include "mysim/implicit/multigrid/solver.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace crosscheck::multigrid {
 
-#define KERNELS_OF(isa)         \
-  namespace isa {               \
-  void set_products(Kernels&);  \
-  void set_shapes(Kernels&);    \
-  void set_transfers(Kernels&); \
-  void set_vectors(Kernels&);   \
-  inline Kernels kernels() {    \
-    Kernels f{};                \
-    set_products(f);            \
-    set_shapes(f);              \
-    set_transfers(f);           \
-    set_vectors(f);             \
-    return f;                   \
-  }                             \
-  }
-KERNELS_OF(sse2)
-KERNELS_OF(avx2)
-KERNELS_OF(avx512)
-#undef KERNELS_OF
+COMPILED_FOR_EACH_INSTRUCTION_SET(Kernels kernels_of())
 
-Kernels kernels(simd::InstructionSet isa) {
-  return isa == simd::InstructionSet::avx512 ? avx512::kernels()
-         : isa == simd::InstructionSet::avx2 ? avx2::kernels()
-                                             : sse2::kernels();
-}
+Kernels kernels(simd::InstructionSet isa) { return SELECT_COMPILED(isa, kernels_of)(); }
 
 Layout Layout::of(const GridTopology& topology) {
+  assert(topology.rows > 0 && topology.columns > 0);
   // down to one block or three; the rest are empty lanes, a third of them at most
   int blocks = (topology.columns + lanes - 1) / lanes, times = 1;
   for (; blocks > 3; blocks = (blocks + 1) / 2) times *= 2;
@@ -41,6 +21,8 @@ Layout Layout::of(const GridTopology& topology) {
 
 void Layout::inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& coarse) const {
   const Layout to = coarsened();
+  assert(fine.size() == static_cast<size_t>(rows * row_length()));
+  assert(coarse.size() == static_cast<size_t>(to.rows * to.row_length()));
   for (int row = 0; row < to.rows; ++row)
     for (int block = 0; block < to.blocks; ++block)
       std::copy_n(fine.data() + 2 * row * row_length() + static_cast<long>(left_halo + 2 * block) * 3 * lanes,
@@ -48,6 +30,7 @@ void Layout::inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& co
 }
 
 void Layout::put(const Points& points, double factor, AlignedBuffer<double>& field) const {
+  assert(points.cols() == static_cast<Eigen::Index>(rows) * columns);
   each([&](int i, long, long at) {
     for (int c = 0; c < 3; ++c) field.data()[at + c * lanes] = factor * points(c, i);
   });
@@ -123,17 +106,17 @@ struct ChebyshevSmoother {
   int rounds;
   double lowest, highest = 2;
 };
-// the next sheet holds waves of four of this one's springs and longer, whose eigenvalues are below about a fifth of 2;
-// by trial on hanging sheets of 24 to 128 columns at 60 and 240 steps a second one to four rounds take the same time
+// the next grid holds waves of four of this one's springs and longer, whose eigenvalues are below about a fifth of 2;
+// by trial on hanging cloths of 24 to 128 columns at 60 and 240 steps a second one to four rounds take the same time
 constexpr ChebyshevSmoother level_smoother{2, 0.4};
-/// On the coarsest sheet there is no next one: as many rounds as a pull needs to walk through it, which reduce by ten
-/// what is above the lowest.
+/// On the coarsest grid: as many rounds as a pull needs to cross it, which reduce by ten what is above the lowest.
 ChebyshevSmoother coarsest_smoother(const Layout& layout) {
   const int rounds = std::clamp(std::max(layout.rows, layout.columns), 16, 64);
   return {rounds, 2 * (1.6 / rounds) * (1.6 / rounds)};
 }
 
 void smooth(const Kernels& f, Level& level, const ChebyshevSmoother& r, bool from_zero) {
+  assert(r.rounds > 0 && 0 < r.lowest && r.lowest < r.highest);
   const double middle = (r.highest + r.lowest) / 2, half = (r.highest - r.lowest) / 2;
   double ratio = half / middle;
   for (int i = 0; i < r.rounds; ++i) {
@@ -185,7 +168,7 @@ void VCycle::set_inertia(const Eigen::ArrayXd& inertia) {
   levels_.front().load_inertia();
   for (size_t l = 1; l < levels_.size(); ++l) {
     const Layout &fine = levels_[l - 1].layout(), &coarse = levels_[l].layout();
-    // each particle's, given to the coarse ones that it hangs on
+    // of each particle, given to the coarse ones that it is joined to
     Eigen::ArrayXd& sum = levels_[l].inertia.setZero();
     for (int row = 0; row < fine.rows; ++row)
       for (int column = 0; column < fine.columns; ++column)
@@ -197,6 +180,7 @@ void VCycle::set_inertia(const Eigen::ArrayXd& inertia) {
 }
 
 void VCycle::set(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature) {
+  assert(inertia.size() == x.cols() && (inertia > 0).all());
   set_inertia(inertia);
   for (size_t l = 0; l < levels_.size(); ++l) {
     Level& level = levels_[l];
@@ -204,7 +188,7 @@ void VCycle::set(const Eigen::ArrayXd& inertia, const Points& x, Curvature curva
       level.layout().put(x, 1, level.x);
     else
       levels_[l - 1].layout().inject(levels_[l - 1].x, level.x);
-    // what relaxation and coarse sheets do must be positive definite, even where the matrix is not
+    // what relaxation and coarse grids do must be positive definite, even where the matrix is not
     level.linearise(kernels_);
     if (l == 0 && curvature == Curvature::exact) level.linearise_unclamped(kernels_);
   }
@@ -222,6 +206,7 @@ double VCycle::products() const {
 }
 
 void VCycle::cycle(size_t l) {
+  assert(l < levels_.size() && transfers_.size() + 1 == levels_.size());
   Level& level = levels_[l];
   if (l + 1 == levels_.size()) return smooth(kernels_, level, coarsest_smoother(level.layout()), true);
   Level& coarse = levels_[l + 1];
@@ -250,6 +235,7 @@ MultigridSolver::MultigridSolver(const GridTopology& topology, const std::vector
 
 CgResult MultigridSolver::solve(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature, const Points& b,
                                 double tolerance, Points& u) {
+  assert(b.cols() == x.cols() && tolerance > 0);
   const Kernels& f = v_cycle_.kernels();
   v_cycle_.set(inertia, x, curvature);
   const Matrix<double>& a = v_cycle_.exact();

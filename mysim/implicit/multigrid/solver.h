@@ -1,6 +1,7 @@
 // Linear solvers of implicit steps: conjugate gradients, alone or with a multigrid V-cycle on a cloth.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -33,6 +34,7 @@ struct CgMemory {
 template <class Apply, class Precondition>
 CgResult conjugate_gradients(Apply apply, Precondition precondition, const Points& b, double tolerance,
                              int most_iterations, Points& x, CgMemory& m) {
+  assert(tolerance > 0 && most_iterations > 0);
   CgResult result;
   x.setZero(3, b.cols());
   m.r = b;
@@ -62,11 +64,9 @@ CgResult conjugate_gradients(Apply apply, Precondition precondition, const Point
 
 namespace crosscheck::multigrid {
 
-// The functions of the room for each instruction set.
-
 Kernels kernels(simd::InstructionSet isa);
 
-// Where the particles of a sheet stand in lanes, and numbers of them put there and taken back.
+// Where the particles of a cloth stand in lanes, and numbers of them put there and taken back.
 
 using simd::AlignedBuffer;
 using simd::GridTopology;
@@ -96,18 +96,18 @@ struct Layout {
           take(row * columns + column, (static_cast<long>(row) * blocks + block) * lanes + lane,
                row * row_length() + static_cast<long>(left_halo + block) * 3 * lanes + lane);
   }
-  /// Every second row and column of a field, without copies.
+  /// Every second row and column of a field, without the halo.
   void inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& coarse) const;
-  /// Points into a field, without its copies.
+  /// Points into a field, without its halo.
   void put(const Points& points, double factor, AlignedBuffer<double>& field) const;
   void get(const AlignedBuffer<double>& field, double factor, Points& points) const;
 };
 
-// One of the sheets: its springs, its matrix and the vectors of the V-cycle on it.
+// One of the grids: its springs, its matrix and the vectors of the V-cycle on it.
 
 class Level {
  public:
-  /// Springs `times_longer` than those of the weave, and as stiff.
+  /// Springs `times_longer` than those of the topology, and as stiff.
   Level(const Layout& layout, const GridTopology& topology, double times_longer);
 
   const Layout& layout() const { return layout_; }
@@ -134,7 +134,7 @@ class Level {
   Matrix<double> exact_{};
 };
 
-// The matrix of a sheet, and the V-cycle over the coarser sheets under it.
+// The matrix of a cloth, and the V-cycle over its coarser grids.
 
 class VCycle {
  public:
@@ -151,11 +151,11 @@ class VCycle {
   AlignedBuffer<float>& b() { return levels_.front().b; }
   const AlignedBuffer<float>& u() const { return levels_.front().u; }
   void cycle() { cycle(0); }
-  /// Products that a cycle takes, those of coarse sheets by their number of particles.
+  /// Products that a cycle takes, those of coarse grids by their number of particles.
   double products() const;
 
  private:
-  /// From a sheet to the next.
+  /// From a grid to the next coarser one.
   struct GridTransfer {
     Transfer transfer{};
     AlignedBuffer<float> right, left;
@@ -170,7 +170,7 @@ class VCycle {
   Eigen::ArrayXd inertia_;  // of the particles, as last set
 };
 
-// Conjugate gradients for the systems of implicit steps on a sheet.
+// Conjugate gradients for the systems of implicit steps on a cloth.
 
 class MultigridSolver {
  public:
@@ -179,11 +179,11 @@ class MultigridSolver {
   /// Solves (inertia + K(x)) u = b for u (3 x n), until |b - A u| <= tolerance |b|. `inertia` (N/m) is of each
   /// particle, x (m) and b (N) are 3 x n; pins do not move. As conjugate_gradients (mysim/implicit): what is left is
   /// the recurrence's, and the solve stops at once at negative curvature. Gives up after 500 iterations, ten times what
-  /// sheets are known to take.
+  /// cloths are known to take.
   CgResult solve(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature, const Points& b, double tolerance,
                  Points& u);
 
-  /// Products with the matrix that an iteration takes, those of coarse sheets by their size.
+  /// Products with the matrix that an iteration takes, those of coarse grids by their size.
   double products() const { return 1 + v_cycle_.products(); }
 
  private:
@@ -191,7 +191,7 @@ class MultigridSolver {
   AlignedBuffer<double> u_, r_, p_, q_;
 };
 
-/// Null unless the model is a sheet, large enough, whose springs alone have a stiffness.
+/// Null unless the model is a regular cloth, large enough, whose springs alone have a stiffness.
 std::unique_ptr<MultigridSolver> make_multigrid_solver(const Model& model);
 
 }  // namespace crosscheck::multigrid

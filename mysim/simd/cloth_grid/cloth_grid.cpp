@@ -2,13 +2,26 @@
 #include "mysim/simd/cloth_grid/cloth_grid.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 #include <vector>
 
 namespace crosscheck::simd {
+
+COMPILED_FOR_EACH_INSTRUCTION_SET(Kernel<double> double_kernel(bool fast); Kernel<float> float_kernel(bool fast))
+
+template <>
+Kernel<double> kernel(InstructionSet isa, bool fast) {
+  return SELECT_COMPILED(isa, double_kernel)(fast);
+}
+
+template <>
+Kernel<float> kernel(InstructionSet isa, bool fast) {
+  return SELECT_COMPILED(isa, float_kernel)(fast);
+}
+
 namespace {
 
 /// What the largest difference of indices says: the springs that have it lead two rows on, or to the next row.
@@ -67,14 +80,17 @@ std::optional<GridTopology> grid_topology_with(const Springs& springs, int rows,
 
 std::optional<GridTopology> find_grid_topology(const Springs& springs, int particles) {
   if (springs.law != SpringLaw::hooke || springs.list.empty()) return std::nullopt;
+  for ([[maybe_unused]] const Spring& s : springs.list)
+    assert(0 <= s.a && s.a < particles && 0 <= s.b && s.b < particles);
   for (const int columns : candidate_columns(springs, particles))
-    if (const auto topology = grid_topology_with(springs, particles / columns, columns)) return topology;
+    if (const auto topology = grid_topology_with(springs, particles / columns, columns)) {
+      assert(topology->rows * topology->columns == particles);
+      return topology;
+    }
   return std::nullopt;
 }
 
 namespace {
-
-constexpr size_t line_bytes = 64;
 
 template <class T>
 constexpr int tile_size = 3 * lanes<T>;
@@ -82,22 +98,9 @@ constexpr int tile_size = 3 * lanes<T>;
 }  // namespace
 
 template <class T>
-void AlignedBuffer<T>::Free::operator()(T* memory) const {
-  std::free(memory);
-}
-
-template <class T>
-AlignedBuffer<T>::AlignedBuffer(size_t count) : size_(count) {
-  const size_t bytes = (count * sizeof(T) + line_bytes - 1) / line_bytes * line_bytes + 2 * line_bytes;
-  memory_.reset(static_cast<T*>(std::aligned_alloc(line_bytes, bytes)));
-  if (!memory_) throw std::bad_alloc();
-  std::fill_n(memory_.get(), bytes / sizeof(T), T(0));
-  data_ = memory_.get() + line_bytes / sizeof(T);
-}
-
-template <class T>
 ClothGridMemory<T>::ClothGridMemory(const GridTopology& topology)
     : rows_(topology.rows), columns_(topology.columns), tiles_((topology.columns + lanes<T> - 1) / lanes<T>) {
+  assert(rows_ > 0 && columns_ > 0);
   const size_t row = static_cast<size_t>(left_halo + tiles_ + right_halo) * tile_size<T>;
   x_ = AlignedBuffer<T>(row * rows_);
   v_ = AlignedBuffer<T>(static_cast<size_t>(tiles_) * tile_size<T> * rows_);
@@ -108,6 +111,7 @@ ClothGridMemory<T>::ClothGridMemory(const GridTopology& topology)
   for (int d = 0; d < directions; ++d) {
     if (!topology.families[d]) continue;
     k_[d] = AlignedBuffer<T>(static_cast<size_t>(tiles_) * lanes<T>);
+    assert(topology.families[d]->rest > 0);
     for (int c = 0; c < columns_; ++c)
       if (const int to = c + direction[d].right; to >= 0 && to < columns_)
         k_[d].data()[c % tiles_ * lanes<T> + c / tiles_] = static_cast<T>(topology.families[d]->k);
@@ -118,6 +122,7 @@ ClothGridMemory<T>::ClothGridMemory(const GridTopology& topology)
 
 template <class T>
 long ClothGridMemory<T>::x_at(int particle) const {
+  assert(0 <= particle && particle < size());
   const int row = particle / columns_, column = particle % columns_;
   return (static_cast<long>(row) * (left_halo + tiles_ + right_halo) + left_halo + column % tiles_) * tile_size<T> +
          column / tiles_;
@@ -125,6 +130,7 @@ long ClothGridMemory<T>::x_at(int particle) const {
 
 template <class T>
 long ClothGridMemory<T>::v_at(int particle) const {
+  assert(0 <= particle && particle < size());
   const int row = particle / columns_, column = particle % columns_;
   return (static_cast<long>(row) * tiles_ + column % tiles_) * tile_size<T> + column / tiles_;
 }
@@ -143,6 +149,7 @@ void ClothGridMemory<T>::place(int particle, const Vec3& x) {
 
 template <class T>
 void ClothGridMemory<T>::put(const Eigen::Ref<const Points>& x, const Eigen::Ref<const Points>& v) {
+  assert(x.cols() == size() && v.cols() == size());
   for (int i = 0; i < x.cols(); ++i) {
     place(i, x.col(i));
     for (int c = 0; c < 3; ++c) v_.data()[v_at(i) + c * lanes<T>] = static_cast<T>(v(c, i));
@@ -151,6 +158,8 @@ void ClothGridMemory<T>::put(const Eigen::Ref<const Points>& x, const Eigen::Ref
 
 template <class T>
 void ClothGridMemory<T>::get(int begin, int rows, int first, Points& x, Points& v) const {
+  assert(begin >= 0 && begin + rows <= rows_);
+  assert(first + begin * columns_ >= 0 && first + (begin + rows) * columns_ <= x.cols() && v.cols() == x.cols());
   int i = first + begin * columns_;
   for (int row = begin; row < begin + rows; ++row) {
     const T *x_row = x_.data() + x_at(row * columns_), *v_row = v_.data() + v_at(row * columns_);
@@ -176,6 +185,7 @@ Vec3 ClothGridMemory<T>::velocity(int particle) const {
 
 template <class T>
 AlignedBuffer<T> ClothGridMemory<T>::spread(const Eigen::ArrayXd& values) const {
+  assert(values.size() == 1 || values.size() == size());
   AlignedBuffer<T> buffer(values.size() == 1 ? lanes<T> : static_cast<size_t>(rows_) * tiles_ * lanes<T>);
   if (values.size() == 1) {
     std::fill_n(buffer.data(), lanes<T>, static_cast<T>(values[0]));
@@ -189,20 +199,12 @@ AlignedBuffer<T> ClothGridMemory<T>::spread(const Eigen::ArrayXd& values) const 
   return buffer;
 }
 
-template <class T>
-void ClothGridMemory<T>::get_forces(const AlignedBuffer<T>& buffer, Points& f) const {
-  for (int i = 0; i < f.cols(); ++i)
-    for (int c = 0; c < 3; ++c) f(c, i) = static_cast<double>(buffer.data()[v_at(i) + c * lanes<T>]);
-}
-
-template class AlignedBuffer<double>;
-template class AlignedBuffer<float>;
 template class ClothGridMemory<double>;
 template class ClothGridMemory<float>;
 
 namespace {
 
-constexpr int halo_rows = 2;  // rows
+constexpr int halo_rows = 2;
 
 /// Slabs of rows that are at least twice as many as their neighbours take.
 int slab_count(int rows, int threads) { return std::clamp(rows / (2 * halo_rows), 1, std::max(threads, 1)); }
@@ -216,6 +218,7 @@ Slabs<T>::Slabs(const GridTopology& topology, int threads)
   for (int i = 0; i < count; ++i) {
     const int begin = static_cast<int>(static_cast<long>(topology.rows) * i / count),
               end = static_cast<int>(static_cast<long>(topology.rows) * (i + 1) / count);
+    assert(count == 1 || end - begin >= 2 * halo_rows);
     const int leading_halo = i > 0 ? halo_rows : 0, trailing_halo = i + 1 < count ? halo_rows : 0;
     GridTopology part = topology;
     part.rows = leading_halo + end - begin + trailing_halo;
@@ -231,6 +234,7 @@ Slabs<T>::Slabs(const GridTopology& topology, int threads)
 
 template <class T>
 void Slabs<T>::put(const Points& x, const Points& v) {
+  assert(x.cols() == slabs_.back().first + slabs_.back().body.size() && v.cols() == x.cols());
   for (size_t i = 0; i < slabs_.size(); ++i) {
     slabs_[i].body.put(x.middleCols(slabs_[i].first, slabs_[i].body.size()),
                        v.middleCols(slabs_[i].first, slabs_[i].body.size()));
@@ -245,6 +249,7 @@ void Slabs<T>::get(Points& x, Points& v) const {
 
 template <class T>
 void Slabs<T>::receive_halo(int which) {
+  assert(0 <= which && which < static_cast<int>(slabs_.size()));
   Slab& slab = slabs_[which];
   const long row = slab.body.row_length();
   const auto copy = [row](T* to, const T* from) { std::memcpy(to, from, halo_rows * row * sizeof(T)); };
@@ -255,6 +260,7 @@ void Slabs<T>::receive_halo(int which) {
 
 template <class T>
 void Slabs<T>::send_halo(int which, int parity) {
+  assert(0 <= which && which < static_cast<int>(slabs_.size()));
   if (slabs_.size() == 1) return;
   Slab& slab = slabs_[which];
   const long row = slab.body.row_length();

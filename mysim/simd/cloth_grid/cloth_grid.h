@@ -2,17 +2,23 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <deque>
-#include <memory>
 #include <optional>
 
-#include "mysim/particles.h"
+#include "mysim/simd/aligned_buffer.h"
 #include "mysim/simd/cloth_grid/fused_step.h"
+#include "mysim/simd/instruction_sets.h"
 #include "mysim/simd/thread_pool.h"
 #include "mysim/terms/springs.h"
 #include "mysim/types.h"
 
 namespace crosscheck::simd {
+
+/// The functions of the fused step (fused_step.h). `fast`: inverse roots from the machine's own estimate; else the same
+/// bits on AVX2 and AVX-512.
+template <class T>
+Kernel<T> kernel(InstructionSet isa, bool fast);
 
 // Finds the regular grid in a scene's springs, if there is one.
 
@@ -30,26 +36,7 @@ struct GridTopology {
 /// network.
 std::optional<GridTopology> find_grid_topology(const Springs& springs, int particles);
 
-// The memory of a sheet: particles of a scene laid out in lanes, and back.
-
-/// Numbers that begin at a cache line, with a cache line to spare on either side.
-template <class T>
-class AlignedBuffer {
- public:
-  AlignedBuffer() = default;
-  explicit AlignedBuffer(size_t count);
-  T* data() { return data_; }
-  const T* data() const { return data_; }
-  size_t size() const { return size_; }
-
- private:
-  struct Free {
-    void operator()(T* memory) const;
-  };
-  std::unique_ptr<T, Free> memory_;
-  T* data_ = nullptr;
-  size_t size_ = 0;
-};
+// The memory of a cloth: particles of a scene laid out in lanes, and back.
 
 /// Whether a grid is wide enough for its springs to reach across lanes in one direction only.
 template <class T>
@@ -64,32 +51,34 @@ class ClothGridMemory {
 
   ClothGrid<T>& grid() { return grid_; }
   int size() const { return rows_ * columns_; }  // particles
-  /// A row of positions, with the copies beside it: so many numbers.
-  T* row(int which) { return x_.data() + which * row_length(); }
+  /// A row of positions with its halo: row_length() numbers.
+  T* row(int which) {
+    assert(0 <= which && which < rows_);
+    return x_.data() + which * row_length();
+  }
   long row_length() const { return static_cast<long>(left_halo + tiles_ + right_halo) * 3 * lanes<T>; }
 
-  /// All particles, and the copies beside the rows.
+  /// All particles, and the halos of the rows.
   void put(const Eigen::Ref<const Points>& x, const Eigen::Ref<const Points>& v);
   /// Some rows; the column of x and v of particle i is first + i.
   void get(int row, int rows, int first, Points& x, Points& v) const;
-  /// One particle, with the copies of it: v is set to 0.
+  /// One particle, in the halo too: v is set to 0.
   void place(int particle, const Vec3& x);
   Vec3 position(int particle) const;
   Vec3 velocity(int particle) const;
-  /// Numbers of each particle (or of all: one number), into lines of their own laid out as the kernel reads them; lanes
-  /// without a particle hold 0 where each has its own.
+  /// A number of each particle (or one for all), laid out as the kernel reads it; lanes without a particle hold 0 where
+  /// each has its own.
   AlignedBuffer<T> spread(const Eigen::ArrayXd& values) const;
-  AlignedBuffer<T> memory_of_forces() const { return AlignedBuffer<T>(v_.size()); }
-  void get_forces(const AlignedBuffer<T>& buffer, Points& f) const;
 
   /// The particle in a lane of a tile; -1 where there is none.
   int particle(int row, int tile, int lane) const {
+    assert(0 <= row && row < rows_ && 0 <= tile && tile < tiles_ && 0 <= lane && lane < lanes<T>);
     const int column = lane * tiles_ + tile;
     return column < columns_ ? row * columns_ + column : -1;
   }
 
  private:
-  long x_at(int particle) const;  // of its first coordinate; the others are a line further
+  long x_at(int particle) const;  // of its first coordinate; the others are a cache line further
   long v_at(int particle) const;
 
   int rows_, columns_, tiles_;
@@ -98,16 +87,16 @@ class ClothGridMemory {
   ClothGrid<T> grid_{};
 };
 
-// A sheet cut into bands of rows, one for each thread.
+// A cloth cut into slabs of rows, one for each thread.
 
-/// Around its own rows a band has two of each neighbour: that is how far a spring reaches. Before a sweep it takes
-/// their positions from where the neighbour left them after the last one; two such places, used in turns, let all bands
-/// take and leave at the same time, so that they have to wait for each other once a sweep. Forces are summed in the
-/// order of a single band: the same bits, however many there are.
+/// Around its own rows a slab has two halo rows of each neighbour: that is how far a spring reaches. Before a fused
+/// step it receives their positions from where the neighbour put them after the last one; two such buffers, used in
+/// turns, let all slabs send and receive at the same time, so that threads wait for each other once a fused step.
+/// Forces are summed in the order of a single slab: the same bits, however many there are.
 template <class T>
 class Slabs {
  public:
-  /// See KickDrift: of each particle, or one line for all.
+  /// As in ClothGrid: of each particle, or one tile for all.
   struct KickFactors {
     AlignedBuffer<T> damping, inverse_mass_dt, dt;
   };
@@ -116,26 +105,26 @@ class Slabs {
     ClothGridMemory<T> body;
     int first;                          // particle that is 0 here
     int leading_halo, own_rows;         // rows
-    AlignedBuffer<T> outgoing_halo[2];  // for the neighbours: two rows at the beginning of its own, two at the end
+    AlignedBuffer<T> outgoing_halo[2];  // for the neighbours: the first two of its own rows, and the last two
     std::vector<KickFactors> factors;   // of each kick
-    /// The particle here that is i in the scene; -1 where it is none of this band's rows.
+    /// The particle here that is i in the scene; -1 where it is in none of this slab's rows.
     int here(int i) const { return i >= first && i - first < body.size() ? i - first : -1; }
   };
 
-  /// As many bands as threads, or fewer where rows are few.
+  /// As many slabs as threads, or fewer where rows are few.
   Slabs(const GridTopology& topology, int threads);
 
   void put(const Points& x, const Points& v);
   void get(Points& x, Points& v) const;
-  /// sweep(band) for each, on its own thread, with its neighbours' rows where they are now.
-  template <class Step>
-  void fused_step(Step one) {
-    const std::function<void(int)> work = [&](int which) {
+  /// work(slab) for each, on its own thread, with its neighbours' rows where they are now.
+  template <class Work>
+  void for_each(Work work) {
+    const std::function<void(int)> exchange_and_work = [&](int which) {
       receive_halo(which);
-      one(slabs_[which]);
+      work(slabs_[which]);
       send_halo(which, 1 - parity_);
     };
-    pool_.all(work);
+    pool_.all(exchange_and_work);
     parity_ = 1 - parity_;
   }
   std::deque<Slab>& all() { return slabs_; }

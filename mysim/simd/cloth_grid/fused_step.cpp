@@ -1,6 +1,8 @@
 // See fused_step.h. Compiled once for each instruction set, CROSSCHECK_ISA naming it.
 #include "mysim/simd/cloth_grid/fused_step.h"
 
+#include <cassert>
+
 #include "mysim/simd/cloth_grid/rows.h"
 
 namespace crosscheck::simd {
@@ -62,12 +64,11 @@ struct Number {
 
 template <class T>
 struct Rows {
-  const T* x[3];  // this row and the two below, at tile 0; the last ones of a sheet have no row below
+  const T* x[3];  // this row and the two below, at tile 0; the last ones of a cloth have no row below
   T* f[3];
 };
 
-/// All springs that begin in a row. Six times the same, written as a fold so that each direction is known when this is
-/// compiled.
+/// All springs that begin in a row. Each direction is known when this is compiled.
 template <class T, bool fast>
 FORCE_INLINE void springs_of_row(const ClothGrid<T>& s, const Rows<T>& rows, int rows_below, V<T>& least) {
   using L = Lanes<T>;
@@ -157,10 +158,14 @@ template <class T>
   return degenerate_springs;
 }
 
-/// Goes over the rows from the first; `finished(row, x, f)` is told of each of its own whose forces are complete.
-/// Returns how many springs that begin in these had ends that met.
-template <class T, bool fast, class Finished>
-FORCE_INLINE long over_rows(const ClothGrid<T>& s, Finished finished) {
+/// Row after row: forces of the springs that begin in it, then kick and drift, once all of its forces are there.
+/// Returns how many springs that begin in the rows of its own had ends that met.
+template <class T, bool fast>
+long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
+  assert(s.tiles >= 3);  // fits()
+  assert(s.leading_halo >= 0 && s.trailing_halo >= 0 && s.rows > s.leading_halo + s.trailing_halo);
+  assert(s.damping && s.inverse_mass_dt && s.dt && (s.stride == 0 || s.stride == lanes<T>));
+  assert(step.bounding_sphere_count == 0 || (step.bounding_spheres && step.on_contact));
   using L = Lanes<T>;
   const long length = row_length(s), first = left_halo * tile_size<T>;
   T* f[3] = {s.force + first, s.force + length + first, s.force + 2 * length + first};
@@ -175,7 +180,7 @@ FORCE_INLINE long over_rows(const ClothGrid<T>& s, Finished finished) {
       if (L::any_less(least, L::all(min_squared_length<T>)))
         degenerate_springs += count_degenerate_springs(s, rows, s.rows - 1 - r);
       reduce_halo<tile_size<T>>(f[0], s.tiles);
-      finished(r, x, f[0]);
+      move_row(s, step, r, x, f[0]);
     }
     T* done = f[0];
     clear(done - first, length);
@@ -185,23 +190,8 @@ FORCE_INLINE long over_rows(const ClothGrid<T>& s, Finished finished) {
 }
 
 template <class T, bool fast>
-long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
-  return over_rows<T, fast>(
-      s, [&](int row, T* x, const T* f) __attribute__((always_inline)) { move_row(s, step, row, x, f); });
-}
-
-template <class T, bool fast>
-long forces(const ClothGrid<T>& s, T* drift_before) {
-  return over_rows<T, fast>(
-      s, [&](int row, T*, const T* f) __attribute__((always_inline)) {
-        T* to = drift_before + static_cast<long>(row) * s.tiles * tile_size<T>;
-        for (long i = 0; i < static_cast<long>(s.tiles) * tile_size<T>; i += Lanes<T>::width)
-          Lanes<T>::store(to + i, Lanes<T>::load(f + i));
-      });
-}
-
-template <class T, bool fast>
 void rsqrt_array(const T* s, T* y, long count) {
+  assert(count % Lanes<T>::width == 0);
   using L = Lanes<T>;
   for (long i = 0; i < count; i += L::width) L::store(y + i, rsqrt<T, fast>(L::load(s + i)));
 }
@@ -228,13 +218,12 @@ int multiply_and_add(long rounds, T* sum) {
 namespace CROSSCHECK_ISA {
 
 Kernel<double> double_kernel(bool fast) {
-  if (fast)
-    return {fused_step<double, true>, forces<double, true>, rsqrt_array<double, true>, multiply_and_add<double>};
-  return {fused_step<double, false>, forces<double, false>, rsqrt_array<double, false>, multiply_and_add<double>};
+  if (fast) return {fused_step<double, true>, rsqrt_array<double, true>, multiply_and_add<double>};
+  return {fused_step<double, false>, rsqrt_array<double, false>, multiply_and_add<double>};
 }
 Kernel<float> float_kernel(bool fast) {
-  if (fast) return {fused_step<float, true>, forces<float, true>, rsqrt_array<float, true>, multiply_and_add<float>};
-  return {fused_step<float, false>, forces<float, false>, rsqrt_array<float, false>, multiply_and_add<float>};
+  if (fast) return {fused_step<float, true>, rsqrt_array<float, true>, multiply_and_add<float>};
+  return {fused_step<float, false>, rsqrt_array<float, false>, multiply_and_add<float>};
 }
 
 }  // namespace CROSSCHECK_ISA

@@ -1,6 +1,8 @@
-// Rows of tiles with copies beside them (simd/cloth_grid/fused_step.h), whatever stands in a tile: `line` numbers of
-// it. Like simd/lanes.h, included only where code is compiled for each instruction set.
+// Rows of tiles with a halo (simd/cloth_grid/fused_step.h), of `tile_size` numbers each, whatever they are. Like
+// simd/lanes.h, included only where code is compiled for each instruction set.
 #pragma once
+
+#include <cassert>
 
 #include "mysim/simd/cloth_grid/fused_step.h"
 #include "mysim/simd/lanes.h"
@@ -10,13 +12,15 @@ namespace {
 
 template <class T>
 FORCE_INLINE void clear(T* row, long numbers) {
+  assert(numbers % Lanes<T>::width == 0);
   for (long i = 0; i < numbers; i += Lanes<T>::width) Lanes<T>::store(row + i, Lanes<T>::all(0));
 }
 
-/// What the copies beside a row of forces were given goes to the tiles that they are copies of, a lane to the side.
-/// The one lane of a copy that has no original holds 0, so that what it is added to, which lies beyond, stays as it is.
+/// Forces on the halo of a row are added to the tiles that it copies, a lane to the side. The one lane of a halo tile
+/// that has no original holds 0, so that what it is added to, which lies beyond, stays as it is.
 template <int tile_size, class T>
 FORCE_INLINE void reduce_halo(T* row, int tiles) {
+  assert(tiles >= 1);
   using L = Lanes<T>;
   const auto give = [](T * to, const T* from) __attribute__((always_inline)) {
     for (int i = 0; i < tile_size; i += L::width) L::store(to + i, L::load(to + i) + L::load(from + i));
@@ -26,10 +30,11 @@ FORCE_INLINE void reduce_halo(T* row, int tiles) {
   give(row + (tiles - 1) * tile_size - 1, row - tile_size);
 }
 
-/// The copies beside a row of positions. The one lane that has no original is given some number nearby; no spring
+/// Copies positions into the halo of a row. The one lane that has no original is given some number nearby; no spring
 /// reaches it.
 template <int tile_size, class T>
 FORCE_INLINE void fill_halo(T* row, int tiles) {
+  assert(tiles >= 1);
   using L = Lanes<T>;
   const auto copy = [](T * to, const T* from) __attribute__((always_inline)) {
     for (int i = 0; i < tile_size; i += L::width) L::store(to + i, L::load(from + i));

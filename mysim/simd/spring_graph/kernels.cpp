@@ -1,10 +1,37 @@
 // Spring forces by offset and edge by edge (kernels.h), compiled once for each instruction set.
 #include "mysim/simd/spring_graph/kernels.h"
 
-#include "mysim/simd/spring_graph/law.h"
+#include <cassert>
+
+#include "mysim/simd/lanes.h"
 
 namespace crosscheck::spring_graph {
 namespace {
+
+using L = simd::Lanes<double>;
+using V = L::V;
+
+/// m^2: nothing that is not 0 comes so close.
+inline constexpr double min_squared_length = 1e-290;
+
+/// Force over difference of the ends, N/m, at squared length s, m^2: -T / L. Ends that met: a large number times a
+/// difference of 0.
+///
+/// Root and quotient are the machine's, correctly rounded, and nothing is fused, so that each spring's force is the
+/// same to the last bit as in the plain loop, on all instructions. Near the rest length, where r - L is a small
+/// difference of large numbers, that matters most: springs at rest pull at nothing. An estimate of 1 / L with steps of
+/// Newton's (as in simd/lanes.h) does not pay: once its length is corrected to be rounded rightly, it takes a third
+/// longer than these two, which go on beside other work.
+template <bool hooke>
+FORCE_INLINE V scale_of(V s, V k, V rest) {
+  s = L::max(s, L::all(min_squared_length));
+  if constexpr (hooke) {
+    const V length = L::root(s);
+    return k * (rest - length) / length;
+  }
+  const V r2 = rest * rest;
+  return k * (r2 - s) / (s + r2);
+}
 
 /// Registers that walk a tile together: they share the counting.
 inline constexpr int registers_per_group = L::width == tile ? 1 : 2;
@@ -112,6 +139,11 @@ FORCE_INLINE void put(const DiaSprings& s, const double* x) {
 
 template <bool hooke>
 bool diagonals(const DiaSprings& s, const double* x, double* f) {
+  for (int i = 0; i < s.count; ++i) {
+    [[maybe_unused]] const Diagonal& diagonal = s.diagonals[i];
+    assert((diagonal.mask & (diagonal.mask + 1)) == 0 && diagonal.mask + 1 >= diagonal.offset + 3 * tile);
+    assert(diagonal.offset > 0 && 0 <= diagonal.first && diagonal.first < diagonal.last && diagonal.last <= s.tiles);
+  }
   put(s, x);
   for (int i = 0; i < s.count; ++i) clear(s.diagonals[i], s.diagonals[i].first - 1);
   const int* coefficient_row = s.coefficient_row;
@@ -126,16 +158,6 @@ bool diagonals(const DiaSprings& s, const double* x, double* f) {
   return L::any_less(least, L::all(min_squared_length));
 }
 
-}  // namespace
-
-namespace CROSSCHECK_ISA {
-
-bool hooke_dia(const DiaSprings& s, const double* x, double* f) { return diagonals<true>(s, x, f); }
-bool link_dia(const DiaSprings& s, const double* x, double* f) { return diagonals<false>(s, x, f); }
-
-}  // namespace CROSSCHECK_ISA
-namespace {
-
 FORCE_INLINE void put(const CooSprings& s, const double* x) {
   for (int i = 0; i < s.particles; ++i)
     for (int c = 0; c < 3; ++c) s.x[4L * i + c] = x[3L * i + c];
@@ -144,6 +166,7 @@ FORCE_INLINE void put(const CooSprings& s, const double* x) {
 
 template <bool hooke>
 bool pairs(const CooSprings& s, const double* x, double* f) {
+  assert(s.springs % tile == 0);
   put(s, x);
   V least = L::all(1);
   for (int i = 0; i < s.springs; i += L::width) {
@@ -167,8 +190,10 @@ bool pairs(const CooSprings& s, const double* x, double* f) {
 
 namespace CROSSCHECK_ISA {
 
-bool hooke_coo(const CooSprings& s, const double* x, double* f) { return pairs<true>(s, x, f); }
-bool link_coo(const CooSprings& s, const double* x, double* f) { return pairs<false>(s, x, f); }
+Kernels kernels_of(bool hooke) {
+  if (hooke) return {diagonals<true>, pairs<true>};
+  return {diagonals<false>, pairs<false>};
+}
 
 }  // namespace CROSSCHECK_ISA
 }  // namespace crosscheck::spring_graph

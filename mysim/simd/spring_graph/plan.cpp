@@ -4,32 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <map>
 
 namespace crosscheck::spring_graph {
 
-#define KERNELS_OF(isa)                                          \
-  namespace isa {                                                \
-  bool hooke_dia(const DiaSprings&, const double* x, double* f); \
-  bool link_dia(const DiaSprings&, const double* x, double* f);  \
-  bool hooke_coo(const CooSprings&, const double* x, double* f); \
-  bool link_coo(const CooSprings&, const double* x, double* f);  \
-  inline Kernels kernels(bool hooke) {                           \
-    if (hooke) return {hooke_dia, hooke_coo};                    \
-    return {link_dia, link_coo};                                 \
-  }                                                              \
-  }
-KERNELS_OF(sse2)
-KERNELS_OF(avx2)
-KERNELS_OF(avx512)
-#undef KERNELS_OF
+COMPILED_FOR_EACH_INSTRUCTION_SET(Kernels kernels_of(bool hooke))
 
 Kernels kernels(simd::InstructionSet isa, SpringLaw law) {
-  const bool hooke = law == SpringLaw::hooke;
-  return isa == simd::InstructionSet::avx512 ? avx512::kernels(hooke)
-         : isa == simd::InstructionSet::avx2 ? avx2::kernels(hooke)
-                                             : sse2::kernels(hooke);
+  return SELECT_COMPILED(isa, kernels_of)(law == SpringLaw::hooke);
 }
 
 Costs costs(simd::InstructionSet isa) {
@@ -48,6 +32,7 @@ double padding_position(long i) { return 1e6 + 17 * static_cast<double>(i); }
 DiaStorage::DiaStorage(const std::vector<OrientedSprings>& diagonals, int particles) {
   const int tiles = (particles + tile - 1) / tile;
   for (const OrientedSprings& diagonal : diagonals) {
+    assert(!diagonal.empty() && diagonal.front().a < diagonal.front().b && diagonal.back().b < particles);
     const int offset = diagonal.front().b - diagonal.front().a;
     // the springs of a tile, of the one before, which is finished then, and what their loads go beyond
     const long places = std::bit_ceil(static_cast<unsigned long>(offset + 3 * tile));
@@ -118,6 +103,7 @@ CooStorage::CooStorage(const OrientedSprings& springs, int particles) {
   rest_ = AlignedBuffer<double>(padded);
   for (size_t i = 0; i < padded; ++i) {
     const Spring& s = i < count ? springs[i] : Spring{particles, particles + 1, 0, 0, Family::single};
+    assert(0 <= s.a && s.a < s.b && s.b <= particles + 1);
     ends_.insert(ends_.end(), {4 * s.a, 4 * s.b});
     k_.data()[i] = s.k;
     rest_.data()[i] = s.rest;
@@ -151,7 +137,7 @@ Spring oriented(Spring s) {
 
 bool by_first_end(const Spring& p, const Spring& q) { return p.a < q.a; }
 
-/// Blocks from the first to the last that springs in this order begin in.
+/// Tiles from the first to the last that springs in this order begin in.
 int tiles_of(const std::vector<Spring>& springs, const std::vector<int>& order) {
   return oriented(springs[order.back()]).a / tile + 1 - oriented(springs[order.front()]).a / tile;
 }
@@ -208,6 +194,8 @@ SpringPartition partition_springs(const std::vector<Spring>& springs, int partic
   }
   for (Spring& s : partition.pairs) s = oriented(s);
   std::stable_sort(partition.pairs.begin(), partition.pairs.end(), by_first_end);
+  assert(static_cast<size_t>(std::count(taken.begin(), taken.end(), false)) ==
+         partition.pairs.size() + partition.plain.size());
   return partition;
 }
 

@@ -1,21 +1,13 @@
 // Which springs take which kernel, and the memory in which the kernels read them.
 #pragma once
 
-#include "mysim/simd/cloth_grid/cloth_grid.h"
+#include "mysim/simd/aligned_buffer.h"
 #include "mysim/simd/instruction_sets.h"
 #include "mysim/simd/spring_graph/kernels.h"
 #include "mysim/terms/springs.h"
 
 namespace crosscheck::spring_graph {
 
-// The functions of kernels.cpp and kernels.cpp for each instruction set.
-
-/// Both add the springs' forces at positions x (m) to f (N), both 3 x particles, and return whether some two ends met.
-/// They may look at lanes without a spring, too: whether springs were among them is to be found out.
-struct Kernels {
-  bool (*diagonals)(const DiaSprings&, const double* x, double* f);
-  bool (*pairs)(const CooSprings&, const double* x, double* f);
-};
 Kernels kernels(simd::InstructionSet isa, SpringLaw law);
 
 /// What things take on this kind of instructions, ns, as measured on one machine; only their ratios matter. Both kinds

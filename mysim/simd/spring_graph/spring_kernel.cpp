@@ -1,6 +1,7 @@
 // Springs go the ways that simd/spring_graph/plan.h sorts them into.
 #include "mysim/simd/spring_graph/spring_kernel.h"
 
+#include <cassert>
 #include <optional>
 
 #include "mysim/simd/spring_graph/plan.h"
@@ -14,7 +15,7 @@ struct SpringKernel::Impl {
 };
 
 SpringKernel::SpringKernel(const Springs& springs, int particles) {
-  const simd::InstructionSet isa = simd::active_instruction_set();
+  const simd::InstructionSet isa = isa_ = simd::active_instruction_set();
   const SpringLaw law = springs.law;
   spring_graph::SpringPartition partition =
       spring_graph::partition_springs(springs.list, particles, spring_graph::costs(isa));
@@ -29,6 +30,7 @@ SpringKernel::SpringKernel(SpringKernel&&) noexcept = default;
 SpringKernel::~SpringKernel() = default;
 
 void SpringKernel::add_force(const Points& x, Forces& forces) {
+  assert(x.cols() == forces.f.cols());
   if (impl_) {
     auto& [run, diagonals, pairs] = *impl_;
     if (diagonals && run.diagonals(diagonals->view(), x.data(), forces.f.data()))

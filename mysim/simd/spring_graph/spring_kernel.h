@@ -7,6 +7,10 @@
 
 namespace crosscheck {
 
+namespace simd {
+enum class InstructionSet;
+}
+
 /// Adds the same forces as the plain edge loop of terms/springs.h, in another order. Each spring goes the cheapest of
 /// three ways (simd/spring_graph/plan.h): on a diagonal (simd/spring_graph/kernels.h), in a pair
 /// (simd/spring_graph/kernels.h), or, where there are too few for lanes, through the plain loop itself. On all of them
@@ -19,11 +23,14 @@ class SpringKernel {
   SpringKernel(SpringKernel&&) noexcept;
   ~SpringKernel();
   void add_force(const Points& x, Forces& forces);
+  /// Which instructions its lanes are compiled for.
+  simd::InstructionSet isa() const { return isa_; }
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;  // none where no spring is worth it
   Springs plain_;               // those that the plain loop is for
+  simd::InstructionSet isa_;
 };
 
 }  // namespace crosscheck

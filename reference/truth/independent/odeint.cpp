@@ -29,23 +29,28 @@ class OdeintWorld : public World {
     f_.write_state(y_, t, state_);
     return state_;
   }
-  const RightHandSide& right_hand_side() const { return f_; }
-  long accepted() const { return accepted_; }
+  Work work() const override { return {f_.evaluations(), f_.degenerate_springs()}; }
 
  protected:
   RightHandSide f_;
   StateVector y_;
   State state_;
+};
+
+class AdaptiveOdeintWorld : public OdeintWorld {
+ public:
+  using OdeintWorld::OdeintWorld;
+  Work work() const override { return {f_.evaluations(), f_.degenerate_springs(), accepted_}; }
+  bool chooses_steps() const override { return true; }
+
+ protected:
   long accepted_ = 0;
 };
 
 class Rk4World : public OdeintWorld {
  public:
   using OdeintWorld::OdeintWorld;
-  void step(double t, double t_next) override {
-    rule_.do_step(std::ref(f_), y_, t, t_next - t);
-    ++accepted_;
-  }
+  void step(double t, double t_next) override { rule_.do_step(std::ref(f_), y_, t, t_next - t); }
 
  private:
   odeint::runge_kutta4<StateVector> rule_;
@@ -56,10 +61,10 @@ void require_progress(double t, double h) {
     throw SolverFailure(fmt::format("the step fell below round-off at t = {:.4g} s", t));
 }
 
-class Dopri5World : public OdeintWorld {
+class Dopri5World : public AdaptiveOdeintWorld {
  public:
   Dopri5World(const Scene& scene, const Run& run)
-      : OdeintWorld(scene),
+      : AdaptiveOdeintWorld(scene),
         rule_(odeint::make_dense_output(run.tolerance * scene.size(), run.tolerance,
                                         odeint::runge_kutta_dopri5<StateVector>())) {
     rule_.initialize(y_, 0.0, std::min(run.step, run.duration));
@@ -84,10 +89,10 @@ class Dopri5World : public OdeintWorld {
   odeint::result_of::make_dense_output<odeint::runge_kutta_dopri5<StateVector>>::type rule_;
 };
 
-class BulirschStoerWorld : public OdeintWorld {
+class BulirschStoerWorld : public AdaptiveOdeintWorld {
  public:
   BulirschStoerWorld(const Scene& scene, const Run& run)
-      : OdeintWorld(scene),
+      : AdaptiveOdeintWorld(scene),
         rule_(run.tolerance * scene.size(), run.tolerance),
         h_(std::min(run.step, run.duration)),
         ramp_end_(scene.model.particles.move ? scene.model.particles.move->ramp : 0) {}
@@ -127,20 +132,17 @@ class BulirschStoerWorld : public OdeintWorld {
 
 Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer) {
   Rk4World world(scene);
-  Outcome out = run_loop(world, run, observer);
-  out.evaluations = world.right_hand_side().evaluations();
-  out.degenerate_springs = world.right_hand_side().degenerate_springs();
-  return out;
+  return run_loop(world, run, observer);
 }
 
 Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer) {
   Dopri5World world(scene, run);
-  return run_adaptive_loop(world, run, observer);
+  return run_loop(world, run, observer);
 }
 
 Outcome run_odeint_bulirsch_stoer(const Scene& scene, const Run& run, Observer& observer) {
   BulirschStoerWorld world(scene, run);
-  return run_adaptive_loop(world, run, observer);
+  return run_loop(world, run, observer);
 }
 
 std::string odeint_version() { return fmt::format("{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000); }

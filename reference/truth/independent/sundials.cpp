@@ -86,13 +86,12 @@ class ArkodeWorld : public SundialsWorld {
     check_flag(ERKStepSetInitStep(memory_.get(), std::min(run.step, run.duration) / 10), "ERKStepSetInitStep");
   }
 
+ private:
   long accepted() const override {
     long steps = 0;
     check_flag(ERKStepGetNumSteps(memory_.get(), &steps), "ERKStepGetNumSteps");
     return steps;
   }
-
- private:
   int one_step(double stop, double& t) override {
     check_flag(ERKStepSetStopTime(memory_.get(), stop), "ERKStepSetStopTime");
     return ERKStepEvolve(memory_.get(), stop, solution(), &t, ARK_ONE_STEP);
@@ -107,7 +106,7 @@ class ArkodeWorld : public SundialsWorld {
 
 Outcome run_table(ARKODE_ERKTableID rule, const Scene& scene, const Run& run, Observer& observer) {
   ArkodeWorld world(rule, scene, run);
-  return run_adaptive_loop(world, run, observer);
+  return run_loop(world, run, observer);
 }
 
 }  // namespace
@@ -146,13 +145,12 @@ class CvodeWorld : public SundialsWorld {
     check_flag(CVodeSetInitStep(memory_.get(), std::min(run.step, run.duration) / 10), "CVodeSetInitStep");
   }
 
+ private:
   long accepted() const override {
     long steps = 0;
     check_flag(CVodeGetNumSteps(memory_.get(), &steps), "CVodeGetNumSteps");
     return steps;
   }
-
- private:
   int one_step(double stop, double& t) override {
     check_flag(CVodeSetStopTime(memory_.get(), stop), "CVodeSetStopTime");
     return CVode(memory_.get(), stop, solution(), &t, CV_ONE_STEP);
@@ -174,7 +172,7 @@ class CvodeWorld : public SundialsWorld {
 
 Outcome run_cvode(const Scene& scene, const Run& run, Observer& observer) {
   CvodeWorld world(scene, run);
-  return run_adaptive_loop(world, run, observer);
+  return run_loop(world, run, observer);
 }
 
 }  // namespace crosscheck

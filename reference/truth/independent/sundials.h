@@ -24,8 +24,8 @@ class SundialsWorld : public World {
   void step(double, double t_next) override;
   const State& state(double t) override;
 
-  const RightHandSide& right_hand_side() const { return f_; }
-  virtual long accepted() const = 0;  // steps
+  Work work() const override { return {f_.evaluations(), f_.degenerate_springs(), accepted()}; }
+  bool chooses_steps() const override { return true; }
 
  protected:
   SUNContext context() const { return context_.get(); }
@@ -35,6 +35,7 @@ class SundialsWorld : public World {
  private:
   /// Takes one step, which ends at `stop` (s) at the latest, and sets t; returns SUNDIALS' flag.
   virtual int one_step(double stop, double& t) = 0;
+  virtual long accepted() const = 0;  // steps
   /// The interpolant at a time within the last step.
   virtual int interpolate(double t, N_Vector out) = 0;
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The whole cheat corpus in both lanes: no trick may earn a point, harm another part, or leave anything behind.
+# The whole cheat corpus in both sandboxes: no trick may earn a point, harm another part, or leave anything behind.
 # cheats/run.sh BUILD: the folder of a build, which it brings up to date first.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

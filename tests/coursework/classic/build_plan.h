@@ -1,5 +1,5 @@
 // How a whole program that a student handed in becomes one test program per part: finds the classes, lays the files
-// out so that every include is met, and says which commands to run. It runs nothing itself; the lanes do.
+// out so that every include is met, and says which commands to run. It runs nothing itself; the sandboxes do.
 #pragma once
 
 #include <filesystem>

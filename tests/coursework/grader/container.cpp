@@ -19,6 +19,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tests/coursework/grader/spawn.h"
+
 namespace coursework {
 namespace fs = std::filesystem;
 namespace {
@@ -79,13 +81,6 @@ long resident(pid_t process) {
   return 0;
 }
 
-std::vector<char*> argv_of(const std::vector<std::string>& words) {
-  std::vector<char*> out;
-  for (const std::string& word : words) out.push_back(const_cast<char*>(word.c_str()));
-  out.push_back(nullptr);
-  return out;
-}
-
 }  // namespace
 
 Usage run_in_container(const std::vector<std::string>& command, const std::vector<std::string>& environment,
@@ -94,7 +89,7 @@ Usage run_in_container(const std::vector<std::string>& command, const std::vecto
   if (file < 0) throw std::runtime_error(log.string() + ": cannot be written");
   // what loses its parent becomes ours: it is counted, and killed at the end
   prctl(PR_SET_CHILD_SUBREAPER, 1);
-  const auto words = argv_of(command), named = argv_of(environment);
+  const auto words = pointers_to(command), named = pointers_to(environment);
   const auto begin = std::chrono::steady_clock::now();
   const pid_t first = fork();
   if (first == 0) exec_on_one_cpu(words.data(), named.data(), file, container.closed);

@@ -81,19 +81,6 @@ namespace {
 
 using crosscheck::Json;
 
-std::string base64(const std::string& bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned three = 0;
-    for (size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (int k = 0; k < 4; ++k) out += digits[three >> (18 - 6 * k) & 63];
-  }
-  for (size_t k = 0; k < (3 - bytes.size() % 3) % 3; ++k) out[out.size() - 1 - k] = '=';
-  return out;
-}
-
 std::string html(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -107,7 +94,7 @@ std::string html(const std::string& text) {
 void put_output(Json& to, const TestResult& test, const std::string& text) {
   to["output"] = test.plot.empty() ? text
                                    : "<pre>" + html(text) + "</pre><img alt=\"your numbers and the right ones\" " +
-                                         "src=\"data:image/svg+xml;base64," + base64(test.plot) + "\">";
+                                         "src=\"data:image/svg+xml;base64," + crosscheck::base64(test.plot) + "\">";
   to["output_format"] = test.plot.empty() ? "text" : "html";
 }
 

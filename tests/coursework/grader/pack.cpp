@@ -107,6 +107,14 @@ bool has_main(const fs::path& file) {
   return false;
 }
 
+/// Whether a source that includes `header` belongs to it. Programs of their own only use it, and so do the calls of
+/// public tests, which are compiled beside submissions: their "calls.h" is found there only.
+bool belongs_to(const fs::path& root, const std::string& source, const std::string& header) {
+  const auto its = includes_of(root, source);
+  return !has_main(root / source) && std::find(its.begin(), its.end(), header) != its.end() &&
+         std::all_of(its.begin(), its.end(), [&](const std::string& file) { return fs::exists(root / file); });
+}
+
 }  // namespace
 
 std::vector<std::string> sources_needed(const fs::path& root, std::vector<std::string> first) {
@@ -124,12 +132,9 @@ std::vector<std::string> sources_needed(const fs::path& root, std::vector<std::s
     want(fs::path(file).replace_extension(".cpp"));
     for (const auto& entry : fs::directory_iterator((root / file).parent_path())) {
       const fs::path beside = fs::relative(entry.path(), root);
-      // a program of its own only uses the header
-      if (beside.extension() != ".cpp" || has_main(entry.path()) ||
-          fs::exists(fs::path(entry.path()).replace_extension(".h")))
-        continue;
-      const auto its = includes_of(root, beside.generic_string());
-      if (std::find(its.begin(), its.end(), file) != its.end()) want(beside);
+      if (beside.extension() == ".cpp" && !fs::exists(fs::path(entry.path()).replace_extension(".h")) &&
+          belongs_to(root, beside.generic_string(), file))
+        want(beside);
     }
   }
   return {needed.begin(), needed.end()};

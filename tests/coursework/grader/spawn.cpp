@@ -258,13 +258,6 @@ class BlockedSignals {
   sigset_t ours_{}, before_{};
 };
 
-std::vector<char*> pointers(const std::vector<std::string>& texts) {
-  std::vector<char*> all;
-  for (const std::string& text : texts) all.push_back(const_cast<char*>(text.c_str()));
-  all.push_back(nullptr);
-  return all;
-}
-
 /// What is there now, up to `most` in all kept. Returns false at the end of file.
 bool read_available(int fd, std::string& kept, std::size_t most, std::size_t& seen) {
   char block[65536];
@@ -325,8 +318,15 @@ ChildStatus communicate(const SpawnOptions& start, pid_t supervisor, Pipe& in, P
 
 }  // namespace
 
+std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
+  std::vector<char*> all;
+  for (const std::string& text : texts) all.push_back(const_cast<char*>(text.c_str()));
+  all.push_back(nullptr);
+  return all;
+}
+
 ProcessResult spawn(const SpawnOptions& start) {
-  const auto command = pointers(start.command), environment = pointers(start.environment);
+  const auto command = pointers_to(start.command), environment = pointers_to(start.environment);
   const sock_fprog filter{static_cast<unsigned short>(start.filter.size() / sizeof(sock_filter)),
                           reinterpret_cast<sock_filter*>(const_cast<char*>(start.filter.data()))};
   Pipe in, answers, captured_output, reports;

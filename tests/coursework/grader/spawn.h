@@ -58,6 +58,9 @@ struct ProcessResult {
   std::string answers, captured_output;
 };
 
+/// The texts as exec wants them, with a null pointer behind the last. They must outlive it.
+std::vector<char*> pointers_to(const std::vector<std::string>& texts);
+
 /// Throws std::runtime_error where it cannot be started.
 ProcessResult spawn(const SpawnOptions& start);
 

@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <csignal>
+#include <set>
 #include <sstream>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/container.h"
-#include "tests/coursework/grader/pack.h"
 
 namespace coursework {
 namespace {
@@ -29,10 +29,11 @@ TEST(SourcesNeeded, FollowsIncludesAndWhatBelongsToHeaders) {
       {"a/local.h", ""},
       {"a/x.h", "#include \"b/y.h\"\n"},
       {"a/x.cpp", "#include \"a/x.h\"\n"},
-      {"a/part.cpp", "#include \"a/x.h\"\n"},                   // no header of its own: belongs to x.h
-      {"a/other.h", ""},                                        // nobody includes it
-      {"a/other.cpp", "#include \"a/x.h\"\n"},                  // uses x.h, belongs to other.h
-      {"a/second.cpp", "#include \"a/x.h\"\nint main() {}\n"},  // another program
+      {"a/part.cpp", "#include \"a/x.h\"\n"},                         // no header of its own: belongs to x.h
+      {"a/other.h", ""},                                              // nobody includes it
+      {"a/other.cpp", "#include \"a/x.h\"\n"},                        // uses x.h, belongs to other.h
+      {"a/second.cpp", "#include \"a/x.h\"\nint main() {}\n"},        // another program
+      {"a/calls.cpp", "#include \"a/x.h\"\n#include \"calls.h\"\n"},  // compiled elsewhere, where calls.h is
       {"b/y.h", ""},
       {"b/z.cpp", "#include \"b/y.h\"\n#include \"b/w.h\"\n"},
       {"b/w.h", ""},
@@ -44,9 +45,43 @@ TEST(SourcesNeeded, FollowsIncludesAndWhatBelongsToHeaders) {
   EXPECT_EQ(sources_needed(tree.path, {"a/main.cpp"}), expected);
 }
 
+/// The names between `open` and `close` in the include lines of a text.
+std::vector<std::string> included(const std::string& text, char open, char close) {
+  std::vector<std::string> names;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (const size_t at = line.find(open); line.starts_with("#include") && at != std::string::npos)
+      names.push_back(line.substr(at + 1, line.find(close, at + 1) - at - 1));
+  return names;
+}
+
+/// What the sources of a package include is in the package, on through all headers of ours.
+void expect_includes_inside(const fs::path& in) {
+  std::vector<std::string> todo;
+  std::istringstream sources(content_of_file(in / "sources.txt"));
+  for (std::string source; sources >> source;) todo.push_back(source);
+  EXPECT_GT(todo.size(), 30u);
+  std::set<std::string> seen(todo.begin(), todo.end());
+  while (!todo.empty()) {
+    const std::string file = todo.back(), text = content_of_file(in / file);
+    todo.pop_back();
+    SCOPED_TRACE(file);
+    for (const std::string& name : included(text, '"', '"')) {
+      const fs::path beside = (fs::path(file).parent_path() / name).lexically_normal();
+      const std::string found = fs::exists(in / beside) ? beside.generic_string() : name;
+      EXPECT_TRUE(fs::exists(in / found)) << name;
+      if (fs::exists(in / found) && seen.insert(found).second) todo.push_back(found);
+    }
+    // headers of these libraries are not in the package, nor are they on the machine that builds it
+    for (const std::string& name : included(text, '<', '>'))
+      EXPECT_FALSE(name.starts_with("boost/") || name.starts_with("Spectra/")) << name;
+  }
+}
+
 TEST(Package, HoldsScriptsSourcesAndSecretAndNoOtherAssignment) {
   ASSERT_GE(assignments().size(), 2u);
   for (const Assignment& assignment : assignments()) {
+    SCOPED_TRACE(assignment.name);
     const TemporaryFolder scratch("package");
     write_package(assignment, "the secret", scratch.path / "p.zip");
     const fs::path in = scratch.path / "in";
@@ -66,6 +101,7 @@ TEST(Package, HoldsScriptsSourcesAndSecretAndNoOtherAssignment) {
       programs += content_of_file(in / source).find("\nint main(") != std::string::npos;
     }
     EXPECT_EQ(programs, 1);
+    expect_includes_inside(in);
     for (const Assignment& other : assignments())
       if (other.name != assignment.name) {
         EXPECT_FALSE(fs::exists(in / "tests/coursework" / other.name)) << other.name;

@@ -106,7 +106,7 @@ TEST(LeftRunning, WhatOutlivesItsParentIsSeen) {
 TEST_P(SandboxTest, NothingItWroteIsLeft) {
   if (GetParam() == "bare") return;
   // of this sandbox and this process alone: another sandbox's test may be writing beside it
-  const std::string name = "litter-of-lane-test-" + std::string(GetParam()) + "-" + std::to_string(getpid());
+  const std::string name = "litter-of-sandbox-test-" + std::string(GetParam()) + "-" + std::to_string(getpid());
   const auto own = open_folder("own");
   Job littering = job("litter", name);
   littering.writable = own;

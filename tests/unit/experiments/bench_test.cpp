@@ -142,7 +142,7 @@ TEST_F(BenchEqualError, ARowForEachRunAndPathWithTheRatioOfItsTimes) {
   const Table &table = *rows.table("bench-equal-error-cost"), &own = *rows.table("bench-own-runs-cost");
   expect_finite(table);
   expect_finite(own);
-  EXPECT_EQ(table.columns, equal_error_table().columns);
+  EXPECT_EQ(table.columns, columns_of<EqualErrorRow>());
   ASSERT_EQ(table.rows.size(), 4 * code_paths().size());
   for (size_t i = 0; i < table.rows.size(); ++i) {
     SCOPED_TRACE(i);

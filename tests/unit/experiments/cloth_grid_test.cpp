@@ -11,7 +11,7 @@
 #include "experiments/timing/instruction_sets.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/this_process.h"
-#include "mysim/simd/instruction_sets.h"
+#include "mysim/simd/cloth_grid/cloth_grid.h"
 #include "mysim/simd/thread_pool.h"
 #include "tests/unit/experiments/cloths.h"
 #include "tests/unit/reference/helpers.h"

@@ -1,10 +1,15 @@
 // Methods: names, options and their messages; what a method lacks is a row; every method meets every shipped scene.
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "experiments/metrics.h"
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 #include "reference/method.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
@@ -33,6 +38,34 @@ TEST(Methods, NamesAreUniqueAndFoundAgain) {
     EXPECT_TRUE(m.engine);
   }
   for (const Stepper& s : steppers()) EXPECT_TRUE(names.contains("mysim/" + std::string(s.name)));
+}
+
+TEST(Methods, EachIsOfAFamilyOfTheTable) {
+  EXPECT_EQ(std::ranges::count_if(method_families(), &MethodFamily::is_subject), 1);
+  for (const MethodFamily& family : method_families()) {
+    if (!family.methods) continue;
+    const std::string prefix = std::string(family.name) + "/";
+    for (const MethodRow& row : family.methods()) EXPECT_TRUE(row.name.starts_with(prefix)) << row.name;
+    EXPECT_TRUE(family.representative.empty() || builtin_method(family.representative)) << family.name;
+  }
+  for (const Method& m : all_methods()) EXPECT_TRUE(m.name.starts_with(std::string(m.family().name) + "/")) << m.name;
+  EXPECT_EQ(&family_of("exec:./a/b"), &family_of("exec"));
+}
+
+TEST(Methods, NoProductFileAsksForAnEngineByTheBeginningOfAName) {
+  int files = 0;
+  for (const auto room : {"mysim", "reference", "experiments", "report"})
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(CROSSCHECK_SOURCE) / room)) {
+      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+      const std::string text = read_file(entry.path(), "a source");
+      ++files;
+      for (const MethodFamily& family : method_families())
+        EXPECT_FALSE(contains(text, fmt::format("starts_with(\"{}", family.name)) && family.name != "file" &&
+                     family.name != "exec")
+            << entry.path() << " asks for " << family.name;
+    }
+  EXPECT_GT(files, 100);
 }
 
 TEST(Methods, ABareNameMeansMysimAndOptionsFollowAPlus) {

@@ -144,8 +144,37 @@ TEST(Comparison, SaysOfEachQuantityHowItStands) {
   for (const Comparison& row : rows) EXPECT_EQ(row.state, expected_standings.at(row.quantity)) << row.quantity;
   EXPECT_TRUE(failed(Status::gone));
   EXPECT_FALSE(failed(Status::added));
-  // nobody blessed anything: that fails, too
-  for (const Comparison& row : compared(test_case(), {{"sag", "m", 1}}, {})) EXPECT_EQ(row.state, Status::missing);
+}
+
+TEST(Comparison, AMethodWithoutBaselineRowsIsNewAndFailsNothingButNotFiniteNumbers) {
+  const std::vector<Comparison> rows = compared(test_case(), {{"sag", "m", 1}, {"period", "s", NAN}}, {});
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].state, Status::added);
+  EXPECT_EQ(rows[1].state, Status::not_finite);
+}
+
+TEST(Comparison, NewMethodsAreThoseOfWhichASceneKnowsNothing) {
+  std::vector<Comparison> rows;
+  const auto add = [&](const char* scene, const char* method, const char* quantity, Status state) {
+    Comparison row;
+    row.scene = scene, row.method = method, row.quantity = quantity, row.state = state, row.is = 1;
+    if (state == Status::same) row.was = 1;
+    rows.push_back(row);
+  };
+  add("spring", "mysim/rk4", "sag", Status::same);
+  add("spring", "mysim/rk4", "period", Status::added);  // a new quantity of a known method
+  for (const char* scene : {"spring", "chain"})
+    for (const char* quantity : {"sag", "period"}) add(scene, "mysim/new", quantity, Status::added);
+  add("chain", "mysim/new", "energy", Status::not_finite);
+  add("chain", "mysim/rk4", "sag", Status::added);  // known elsewhere, not there
+  const std::vector<NewMethod> all = new_methods(rows);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].method, "mysim/new");
+  EXPECT_EQ(all[0].scenes, 2u);
+  EXPECT_EQ(all[0].quantities, 4u);
+  EXPECT_EQ(all[1].method, "mysim/rk4");
+  EXPECT_EQ(all[1].scenes, 1u);
+  EXPECT_EQ(all[1].quantities, 1u);
 }
 
 TEST(Comparison, OfEachQuestionTheRowToLookAtFirstIsAWordThenANumberThenACount) {

@@ -79,7 +79,7 @@ TEST(Timing, TheNoiseFloorIsWhatHalvesOfTheRepetitionsDifferBy) {
 std::vector<WorkPrecisionPoint> tiny() {
   auto point = [](const char* method, double cost, std::optional<double> error) {
     return WorkPrecisionPoint{
-        method, "step [s]", cost, error.has_value(), error, cost, Timing{cost, 0.99 * cost, 1.01 * cost, 5}};
+        method, SettingKind::step, cost, error.has_value(), error, cost, Timing{cost, 0.99 * cost, 1.01 * cost, 5}};
   };
   return {point("mysim/a", 8, 0.001),   point("mysim/a", 4, 0.01),     point("mysim/a", 2, 0.1),
           point("bullet/b", 5, 0.02),   point("bullet/b", 16, 0.0005), point("mysim/c", 1, {}),
@@ -104,8 +104,8 @@ TEST(SpeedAccuracy, TheCheapestWithinABoundOnBothSidesOfIt) {
   const auto points = tiny();
   EXPECT_EQ(cheapest(points, 0.01)->cost, 4);
   EXPECT_EQ(cheapest(points, 0.0099)->cost, 8);
-  EXPECT_EQ(cheapest(points, 0.02, "bullet/")->cost, 5);
-  EXPECT_EQ(cheapest(points, 0.0199, "bullet/")->cost, 16);
+  EXPECT_EQ(cheapest(points, 0.02, &MethodFamily::is_default_peer)->cost, 5);
+  EXPECT_EQ(cheapest(points, 0.0199, &MethodFamily::is_default_peer)->cost, 16);
   EXPECT_EQ(cheapest(points, 1e-4), nullptr);
   // mysim/d at 4.05 overlaps 4; bullet/b does not meet the bound
   EXPECT_EQ(statistically_tied(points, *cheapest(points, 0.01), 0.01, 0.01), std::vector<std::string>{"mysim/d"});
@@ -201,12 +201,22 @@ TEST(SpeedAccuracy, AMethodThatRefusesTheLongestStepIsTimedAtTheOthers) {
 
 TEST(SpeedAccuracy, ABoundIsMetWithTheTruthsOwnBar) {
   Rows rows;
-  Table t = results_table();
+  Table t = table_of<SpeedAccuracyRow>();
   // motion 1 m, bar 2 mm; errors of 7 and 9 mm at 20 and 10 evaluations
   for (const auto& [step, evaluations, error] : {std::tuple{0.1, 10l, 9e-3}, std::tuple{0.05, 20l, 7e-3}})
-    t.add({std::string("s"), std::string("mysim/a"), std::string("step [s]"), step, step, evaluations, evaluations,
-           std::string("ok"), 1., error, error, Cell(), Cell(), Cell(), 1., 1., std::string("converged"), 2e-3,
-           std::string()});
+    add(t, SpeedAccuracyRow{.scene = "s",
+                            .method = "mysim/a",
+                            .asked = step,
+                            .step = step,
+                            .steps = evaluations,
+                            .evaluations = evaluations,
+                            .end = 1,
+                            .error = error,
+                            .error_over_time = error,
+                            .motion = 1,
+                            .until = 1,
+                            .truth = "converged",
+                            .truth_bar = 2e-3});
   rows.add(t);
   conclude_speed_accuracy(rows);
   const Table& best = *rows.table("speed-accuracy-cheapest");
@@ -313,9 +323,17 @@ TEST(SpeedAccuracy, TimesAreScaledToTheWholeRun) {
   Rows timed;
   timed.add(*rows.table("speed-accuracy"));
   // a tenth of the run took 2 s
-  Table t = timing_table();
-  t.add({std::string("spring"), std::string("mysim/leapfrog"), std::string("step [s]"),
-         cell(rows, "mysim/leapfrog", 3, "asked"), 0.1, evaluations / 10, 2., 1.9, 2.2, 5L, 0.03});
+  Table t = table_of<SpeedAccuracyTimingRow>();
+  add(t, SpeedAccuracyTimingRow{.scene = "spring",
+                                .method = "mysim/leapfrog",
+                                .asked = std::get<double>(cell(rows, "mysim/leapfrog", 3, "asked")),
+                                .part = 0.1,
+                                .evaluations = evaluations / 10,
+                                .cpu = 2,
+                                .cpu_low = 1.9,
+                                .cpu_high = 2.2,
+                                .repetitions = 5,
+                                .noise = 0.03});
   timed.add(t);
   conclude_speed_accuracy(timed);
   const Table& cost = *timed.table("speed-accuracy-cost");

@@ -1,6 +1,9 @@
 // The lanes of the general spring kernel tested: diagonals and pairs against the plain edge loop, on every instruction
 // set.
 
+#include <cstdlib>
+#include <set>
+
 #include "experiments/timing/instruction_sets.h"
 #include "mysim/simd/spring_graph/plan.h"
 #include "mysim/simd/spring_graph/spring_kernel.h"
@@ -205,6 +208,16 @@ TEST(Network, SortsCheaply) {
   EXPECT_EQ(partition(tangle(1, 1000, SpringLaw::hooke)).pairs.size(), 1000u);
 }
 
+TEST(Network, EachLawAndInstructionSetHasLoopsOfItsOwn) {
+  std::set<bool (*)(const spring_graph::DiaSprings&, const double*, double*)> diagonals;
+  std::set<bool (*)(const spring_graph::CooSprings&, const double*, double*)> pairs;
+  for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
+    for (const InstructionSet isa : {InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512}) {
+      EXPECT_TRUE(diagonals.insert(spring_graph::kernels(isa, law).diagonals).second) << name_of(isa);
+      EXPECT_TRUE(pairs.insert(spring_graph::kernels(isa, law).pairs).second) << name_of(isa);
+    }
+}
+
 TEST(Network, SpringKernelRunsOnTheInstructionsThatAreAskedFor) {
   const Loose net = strands(9, 300, {1, 2, 17, 18, 34}, SpringLaw::hooke);
   Forces plain{Points::Zero(3, 300)};
@@ -213,9 +226,13 @@ TEST(Network, SpringKernelRunsOnTheInstructionsThatAreAskedFor) {
     const ScopedInstructionSet only(isa);
     Forces fast{Points::Zero(3, 300)};
     SpringKernel kernel(net.springs, 300);
+    EXPECT_EQ(kernel.isa(), isa);
     kernel.add_force(net.x, fast);
     expect_close(net, fast, plain);
   }
+  const ScopedInstructionSet nobody_asks(InstructionSet::sse2);  // and all is as before, afterwards
+  unsetenv("CROSSCHECK_INSTRUCTIONS");
+  EXPECT_EQ(SpringKernel(net.springs, 300).isa(), simd::supported_instruction_sets().back());
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using namespace testing_tools;
 
 std::string file_text(const std::string& name) {
   std::ifstream in(CROSSCHECK_SOURCE "/" + name);
-  EXPECT_TRUE(in) << name;
+  if (!in) throw std::runtime_error(name + " cannot be read");
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

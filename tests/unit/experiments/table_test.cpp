@@ -6,8 +6,11 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 
+#include "experiments/tables/dictionary.h"
+#include "experiments/tables/engines.h"
 #include "experiments/tables/table.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -76,6 +79,111 @@ TEST(Csv, ColumnsAreFoundByName) {
   } catch (const std::out_of_range& e) {
     EXPECT_TRUE(contains(e.what(), "table probe has no column c"));
   }
+}
+
+struct ProbeRow {
+  std::string name;
+  double size = 0;
+  long count = 0;
+  int order = 0;
+  bool within = false;
+  Verdict verdict = Verdict::ok;
+  std::optional<double> error = {};
+  std::optional<Tier> tier = {};
+  std::optional<TruthKind> truth = {};
+  bool operator==(const ProbeRow&) const = default;
+
+  static constexpr std::string_view table = "probe";
+  static constexpr auto columns = std::tuple{column("name", "1", &ProbeRow::name, "a text"),
+                                             column("size", "m", &ProbeRow::size, "a number"),
+                                             column("count", "1", &ProbeRow::count, "a whole number"),
+                                             column("order", "1", &ProbeRow::order, "a small one"),
+                                             column("within", "1", &ProbeRow::within, "yes or no"),
+                                             column("verdict", "1", &ProbeRow::verdict, "a word"),
+                                             column("error", "m", &ProbeRow::error, "a number or nothing"),
+                                             column("tier", "1", &ProbeRow::tier, "a word or nothing"),
+                                             column("truth", "1", &ProbeRow::truth, "a value of its own")};
+};
+
+/// The table as it comes back from its file.
+Table read_back(const Table& table) {
+  const Folder folder("rows");
+  write_csv(table, {{"command", "test"}}, folder.path());
+  return read_csv(folder.path() / (table.name + ".csv"));
+}
+
+template <class Row>
+std::string refusal(const Table& table) {
+  try {
+    rows_of<Row>(table);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(TypedTables, RowsComeBackFromTheirFileAsTheyWere) {
+  std::vector<ProbeRow> rows = {{"plain", 0.1, 7, 2, true, Verdict::ok, 1e-300, Tier::exact, TruthKind{}},
+                                {"with, comma", -3, -1, 0, false, Verdict::timeout, {}, {}, {}}};
+  for (int tier = 1; tier <= 4; ++tier)
+    for (const bool of_rule : {false, true}) {
+      rows.push_back({"", 2, 0, 0, false, Verdict::ok, -0.5, Tier(tier), TruthKind{Tier(tier), of_rule}});
+      rows.back().verdict = static_cast<Verdict>(static_cast<int>(Verdict::energy) + tier + 4 * of_rule - 1);
+    }
+  Table table = table_of<ProbeRow>();
+  for (const ProbeRow& row : rows) add(table, row);
+  EXPECT_EQ(rows_of<ProbeRow>(table), rows);
+  EXPECT_EQ(rows_of<ProbeRow>(read_back(table)), rows);
+  EXPECT_EQ(csv_row(table.rows[1]), "\"with, comma\",-3,-1,0,0,timeout,,,");
+  // columns without any value read as texts
+  table.rows = {table.rows[1]};
+  EXPECT_EQ(rows_of<ProbeRow>(read_back(table)), std::vector{rows[1]});
+  // whole numbers of a file may stand for numbers, not the other way round
+  table.rows[0][2] = 0.5;
+  EXPECT_TRUE(contains(refusal<ProbeRow>(table), "table probe, column count: expected a whole number"));
+}
+
+TEST(TypedTables, OtherColumnsAndUnknownWordsAreRefusedByTableAndColumn) {
+  Table table = table_of<ProbeRow>("mine");
+  add(table, ProbeRow{"a", 1, 1, 1, true, Verdict::ok, {}, {}, {}});
+  EXPECT_EQ(refusal<ProbeRow>(table), "");
+  EXPECT_TRUE(contains(refusal<EngineRow>(table), "table mine: expected the columns of table engines"));
+  Table other = table;
+  other.columns[1].unit = "mm";
+  EXPECT_TRUE(contains(refusal<ProbeRow>(other), "table mine: expected the columns of table probe"));
+  other = table;
+  other.rows[0][5] = std::string("fine");
+  EXPECT_TRUE(contains(refusal<ProbeRow>(other), "table mine, column verdict: unknown word 'fine'"));
+  other.rows[0][5] = std::string("ok");
+  other.rows[0][8] = std::string("exact, in-house rule");
+  EXPECT_TRUE(contains(refusal<ProbeRow>(other), "table mine, column truth: unknown word 'exact, in-house rule'"));
+  other.rows[0][8] = 1.0;
+  EXPECT_TRUE(contains(refusal<ProbeRow>(other), "table mine, column truth: expected a text"));
+}
+
+TEST(Dictionary, SaysOfEveryColumnOnceWhatItIs) {
+  const Table all = dictionary();
+  std::set<std::pair<std::string, std::string>> seen;
+  for (size_t i = 0; i < all.rows.size(); ++i) {
+    const std::string table = text_at(all, i, "table"), column = text_at(all, i, "column");
+    EXPECT_TRUE(seen.insert({table, column}).second) << table << " " << column << " twice";
+    for (const char* said : {"unit", "type", "description"})
+      EXPECT_FALSE(text_at(all, i, said).empty()) << table << " " << column;
+  }
+  for (const Column& column : columns_of<EngineRow>()) EXPECT_TRUE(seen.contains({"engines", column.name}));
+  EXPECT_TRUE(seen.contains({"NAME-angles", "sideways"}));
+}
+
+TEST(Dictionary, OfTablesAtHandHasTheseOnly) {
+  const std::vector<Table> present = {table_of<EngineRow>(), table_of<EngineEnergyRow>(),
+                                      table_of<EngineTimeRow>("chain-engines")};
+  EXPECT_EQ(distinct(dictionary(present), "table"),
+            (std::vector<std::string>{"engines", "SCENE-engines", "engines-energy"}));
+  const Table some = dictionary(std::span(present).first(1));
+  EXPECT_EQ(some.rows.size(), present[0].columns.size());
+  EXPECT_EQ(text_at(some, 2, "type"),
+            "one of: ok | energy | nan | stretch | solver | frozen | timeout | crash | unsupported");
+  EXPECT_EQ(text_at(some, 13, "type"), "number, or empty");
 }
 
 TEST(Files, AreWrittenWholeIntoNewFoldersAndOverOldOnes) {

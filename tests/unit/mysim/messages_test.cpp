@@ -1,4 +1,5 @@
-// Proposals for misspelt words, lines of progress, the system's complaints, and words that a shell reads back.
+// Proposals for misspelt words, lines of progress, the system's complaints, words that a shell reads back, and
+// bytes as text.
 
 #include <gtest/gtest.h>
 
@@ -118,6 +119,19 @@ TEST(ShellWords, ComeBackFromAShellAndStandOnOneLine) {
   }
   const std::string words[] = {"crosscheck", "run", "my scene.toml"};
   EXPECT_EQ(shell_join(words), "crosscheck run 'my scene.toml'");
+}
+
+TEST(Base64, IsThatOfTheStandard) {
+  // RFC 4648, 10
+  const char* const rows[][2] = {{"", ""},
+                                 {"f", "Zg=="},
+                                 {"fo", "Zm8="},
+                                 {"foo", "Zm9v"},
+                                 {"foob", "Zm9vYg=="},
+                                 {"fooba", "Zm9vYmE="},
+                                 {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : rows) EXPECT_EQ(base64(bytes), text);
+  EXPECT_EQ(base64(std::string("\xff\0\xfe", 3)), "/wD+");
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 
 #include "mysim/base/errors.h"
 #include "mysim/scene/grid.h"
-#include "reference/method.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {

@@ -73,7 +73,7 @@ using namespace testing_tools;
 
 WorkPrecisionPoint point(const std::string& method, double error, double seconds, bool ok = true) {
   const Timing time{seconds, 0.9 * seconds, 1.2 * seconds, 5};
-  return {method, "step [s]", 0.01, ok, error, seconds, time};
+  return {method, SettingKind::step, 0.01, ok, error, seconds, time};
 }
 
 double number(const Table& t, size_t row, const char* column) { return std::get<double>(t.at(row, column)); }
@@ -88,8 +88,8 @@ const std::vector<WorkPrecisionPoint> runs = {point("mysim/rk4", 1e-6, 8),
                                               point("sundials/arkode", 1e-6, 0.5, false)};
 
 TEST(ByEngine, TheCheapestRunOfEachWithinTheBoundBesideMysims) {
-  Table t = engines_cost_table();
-  add_by_engine("s", 0.01, "error", 0.01, runs, t);
+  Table t = table_of<EngineSpeedRow>();
+  add_by_engine("s", 0.01, Measure::error, 0.01, runs, t);
   ASSERT_EQ(t.rows.size(), 3u) << "ARKODE failed, and failures are not fast";
   EXPECT_EQ(word(t, 0, "method"), "mysim/leapfrog");
   EXPECT_EQ(number(t, 0, "times mysim"), 1);
@@ -103,10 +103,10 @@ TEST(ByEngine, TheCheapestRunOfEachWithinTheBoundBesideMysims) {
 }
 
 TEST(ByEngine, WithoutARunOfMysimThereIsNoQuotient) {
-  Table t = engines_cost_table();
-  add_by_engine("s", 1e-5, "error", 1e-7, runs, t);
+  Table t = table_of<EngineSpeedRow>();
+  add_by_engine("s", 1e-5, Measure::error, 1e-7, runs, t);
   EXPECT_TRUE(t.rows.empty()) << "nobody is as near";
-  add_by_engine("s", 0.1, "error", 0.1, {runs[3]}, t);
+  add_by_engine("s", 0.1, Measure::error, 0.1, {runs[3]}, t);
   ASSERT_EQ(t.rows.size(), 1u);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(t.at(0, "times mysim")));
 }
@@ -120,12 +120,12 @@ std::vector<Chart> charts_of(const Table& t) {
 }
 
 TEST(CheapestChart, SaysWhoIsFastestWhereTheClockCanTell) {
-  Table t = engines_cost_table();
-  for (const double part : {0.1, 0.01, 0.001}) add_by_engine("cloth", part, "error", part, runs, t);
+  Table t = table_of<EngineSpeedRow>();
+  for (const double part : {0.1, 0.01, 0.001}) add_by_engine("cloth", part, Measure::error, part, runs, t);
   // odeint is no slower than mysim here, within the intervals
-  add_by_engine("rod", 0.01, "error", 0.01, {point("mysim/xpbd", 1e-3, 2), point("odeint/rk4", 1e-6, 2.1)}, t);
+  add_by_engine("rod", 0.01, Measure::error, 0.01, {point("mysim/xpbd", 1e-3, 2), point("odeint/rk4", 1e-6, 2.1)}, t);
   // held against a rule of mysim's own: no error, so no place in the figure
-  add_by_engine("drape", 0.01, "difference", 0.01, runs, t);
+  add_by_engine("drape", 0.01, Measure::difference, 0.01, runs, t);
   const auto charts = charts_of(t);
   ASSERT_EQ(charts.size(), 1u);
   const DotPlot& f = std::get<DotPlot>(charts[0].figure);
@@ -142,8 +142,8 @@ TEST(CheapestChart, SaysWhoIsFastestWhereTheClockCanTell) {
 }
 
 TEST(CheapestChart, WithoutAnotherEngineThereIsNone) {
-  Table t = engines_cost_table();
-  add_by_engine("cloth", 0.01, "error", 0.01, {runs[0], runs[1]}, t);
+  Table t = table_of<EngineSpeedRow>();
+  add_by_engine("cloth", 0.01, Measure::error, 0.01, {runs[0], runs[1]}, t);
   EXPECT_TRUE(charts_of(t).empty());
   EXPECT_TRUE(cheapest_charts({{}, {}, {}, "commit"}).empty());
 }
@@ -156,8 +156,8 @@ TEST(CheapestChart, NamesWhoIsThereAndWhichTimesAreScaled) {
   EXPECT_EQ(builds_text({"mysim/rk4", "exec:./a"}),
             "mysim is compiled in this build, programs of their own are as they were built");
   const auto caption_of = [](const std::vector<WorkPrecisionPoint>& points) {
-    Table t = engines_cost_table();
-    add_by_engine("cloth", 0.01, "error", 0.01, points, t);
+    Table t = table_of<EngineSpeedRow>();
+    add_by_engine("cloth", 0.01, Measure::error, 0.01, points, t);
     return figure_info(charts_of(t).at(0))->caption;
   };
   std::vector<WorkPrecisionPoint> whole{point("mysim/rk4", 1e-3, 1), point("bullet/pbd", 1e-3, 8)}, part = whole;

@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_tools;
 
-MethodData run(const std::string& method, std::optional<double> error, const std::string& verdict = "ok",
+MethodData run(const std::string& method, std::optional<double> error, Verdict verdict = Verdict::ok,
                long evaluations = 6000) {
   MethodData m;
   m.method = method, m.verdict = verdict, m.error = error, m.step = 5e-4, m.evaluations = evaluations;
@@ -40,7 +40,7 @@ class Choice : public testing::Test {
 };
 
 TEST_F(Choice, TheNearestOfEachEngineAndWhoIsNearest) {
-  const SceneData f = facts({run("mysim/suzuki4", 1e-8, "ok", 30000), run("mysim/leapfrog", 2e-5),
+  const SceneData f = facts({run("mysim/suzuki4", 1e-8, Verdict::ok, 30000), run("mysim/leapfrog", 2e-5),
                              run("bullet/deformable-explicit", 6e-4), run("bullet/pbd", 5e-3)});
   EXPECT_EQ(cell("mysim's nearest", f).text, "suzuki4 < 0.001 %");
   EXPECT_EQ(cell("mysim's nearest", f).css_class, std::string("best"));
@@ -52,10 +52,10 @@ TEST_F(Choice, TheNearestOfEachEngineAndWhoIsNearest) {
 
 TEST_F(Choice, OfSeveralThatAreAsNearTheCheapestIsNamed) {
   // 2.5e-16 m apart at three times the work; one with fewer evaluations is nearer by far than those of one a step
-  const SceneData f = facts({run("mysim/implicit-euler", 1e-2, "ok", 18000), run("mysim/symplectic-euler", 1.0001e-2),
-                             run("mysim/explicit-euler", 2e-2)});
+  const SceneData f = facts({run("mysim/implicit-euler", 1e-2, Verdict::ok, 18000),
+                             run("mysim/symplectic-euler", 1.0001e-2), run("mysim/explicit-euler", 2e-2)});
   EXPECT_EQ(cell("mysim's nearest", f).text, "symplectic-euler 1 %");
-  const SceneData few = facts({run("mysim/dopri5", 1e-8, "ok", 100), run("mysim/explicit-euler", 2e-2)});
+  const SceneData few = facts({run("mysim/dopri5", 1e-8, Verdict::ok, 100), run("mysim/explicit-euler", 2e-2)});
   EXPECT_EQ(cell("mysim's nearest", few).text, "dopri5* < 0.001 %");
 }
 
@@ -81,11 +81,11 @@ TEST_F(Choice, NothingIsSaidBelowTheErrorBar) {
 }
 
 TEST_F(Choice, FailuresAndUselessAnswersAreNamed) {
-  const SceneData f =
-      facts({run("mysim/rk4", 1e-4), run("mysim/explicit-euler", {}, "energy"), run("mysim/xpbd", 0.2),
-             run("bullet/pbd", 0.3), run("bullet/deformable-explicit", {}, "unsupported"), run(sticky_sphere, 0.9)});
+  const SceneData f = facts({run("mysim/rk4", 1e-4), run("mysim/explicit-euler", {}, Verdict::energy),
+                             run("mysim/xpbd", 0.2), run("bullet/pbd", 0.3),
+                             run("bullet/deformable-explicit", {}, Verdict::unsupported), run(sticky_sphere, 0.9)});
   EXPECT_EQ(cell("failed, or over 10 % off", f).text, "explicit-euler failed; off: pbd 30 %, xpbd 20 % (of 4)");
-  EXPECT_EQ(cell("Bullet's nearest", facts({run("bullet/pbd", {}, "unsupported")})).text, "cannot");
+  EXPECT_EQ(cell("Bullet's nearest", facts({run("bullet/pbd", {}, Verdict::unsupported)})).text, "cannot");
 }
 
 TEST_F(Choice, WithoutATruthThereAreDifferencesOnly) {

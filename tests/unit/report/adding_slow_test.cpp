@@ -1,0 +1,139 @@
+// What the pages say of adding things: a new stepper, term, scene, engine, experiment, chart or assignment is one new
+// file and rows of one table; and then the program knows it, without anybody else being told.
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "mysim/base/files.h"
+#include "mysim/base/process.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/report/adding/additions.h"
+
+namespace crosscheck::testing_tools {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path source = CROSSCHECK_SOURCE;
+
+Addition addition(const std::string& name) {
+  return read_addition(source / "tests/unit/report/adding" / (name + ".txt"));
+}
+
+std::vector<std::string> paths_of(const auto& files) {
+  std::vector<std::string> paths;
+  for (const auto& [path, content] : files) paths.push_back(path);
+  return paths;
+}
+
+struct Place {
+  const char* what;
+  std::vector<std::string> tables;
+  const char* list;  // of sources; null: none, the file is a header or no source
+};
+const std::vector<Place> places = {
+    {"stepper", {"mysim/steppers/steppers.cpp"}, "mysim/CMakeLists.txt"},
+    {"scene", {"experiments/scenes/scenes.cpp"}, nullptr},
+    {"engine", {"reference/method.cpp"}, "reference/CMakeLists.txt"},
+    {"experiment", {"experiments/experiment.cpp"}, "experiments/CMakeLists.txt"},
+    {"chart", {"report/figures/charts.cpp"}, "report/CMakeLists.txt"},
+    {"assignment", {"tests/coursework/grader/assignments.cpp"}, "tests/coursework/CMakeLists.txt"},
+    // the list of terms, and the table of those who read them
+    {"term", {"mysim/model/model.h", "mysim/scene/scene.cpp"}, nullptr},
+};
+
+/// Each change can be made as the files are, and no file gets more than so many lines.
+void expect_changes(const std::map<std::string, std::vector<Addition::Change>>& files, long most) {
+  for (const auto& [path, changes] : files) {
+    const std::string before = read_file(source / path, "a source"), after = with_changes(before, changes);
+    const long lines = std::count(after.begin(), after.end(), '\n') - std::count(before.begin(), before.end(), '\n');
+    EXPECT_NE(before, after) << path;
+    EXPECT_LE(static_cast<long>(changes.size()), most) << path;
+    EXPECT_LE(lines, most) << path;
+  }
+}
+
+TEST(Adding, TakesOneFileAndRowsOfTheTable) {
+  for (const Place& place : places) {
+    SCOPED_TRACE(place.what);
+    const Addition a = addition(place.what);
+    EXPECT_EQ(a.created.size(), 1u);
+    for (const auto& [path, text] : a.created) EXPECT_FALSE(fs::exists(source / path)) << path;
+    EXPECT_EQ(paths_of(a.edited), place.tables);
+    EXPECT_EQ(paths_of(a.listed), place.list ? std::vector<std::string>{place.list} : std::vector<std::string>{});
+    // a row, and beside it the declaration of what it names
+    expect_changes(a.edited, a.created.begin()->first.ends_with(".toml") ? 1 : 2);
+    expect_changes(a.listed, 1);
+  }
+}
+
+TEST(Adding, ALineThatDoesNotStandThereOnceIsRefused) {
+  const std::vector<Addition::Change> change = {{"b", "b\nc"}};
+  EXPECT_EQ(with_changes("a\nb\nd\n", change), "a\nb\nc\nd\n");
+  EXPECT_THROW(with_changes("a\nd\n", change), std::invalid_argument);
+  EXPECT_THROW(with_changes("a\nb\nb \nb\n", change), std::invalid_argument);
+}
+
+/// The compiler's word on a file of ours, or of an addition, with the addition's files before ours.
+ProgramResult compiled(const Addition& a, const std::string& file) {
+  const TemporaryFolder folder("adding");
+  write_addition(a, source, folder.path);
+  std::vector<std::string> command = {
+      CROSSCHECK_CXX, "-std=c++20", "-fsyntax-only", "-DCROSSCHECK_COURSEWORK_SOURCE=\"\"", "-I", folder.path.string()};
+  command.insert(command.end(), {"-I", CROSSCHECK_SOURCE});
+  std::istringstream folders(CROSSCHECK_INCLUDES);
+  // the compiler's own folder is searched last, where it stands: named, its math.h is not found from cmath any more
+  for (std::string each; std::getline(folders, each, '|');)
+    if (each != "/usr/include") command.insert(command.end(), {"-isystem", each});
+  command.push_back(((fs::exists(folder.path / file) ? folder.path : source) / file).string());
+  return run_program(command, ".", {});
+}
+
+TEST(Adding, WhatIsNotLinkedHereCompilesAsItIsDescribed) {
+  for (const char* what : {"engine", "chart", "assignment"}) {
+    const Addition a = addition(what);
+    for (const auto& files : {paths_of(a.created), paths_of(a.edited)})
+      for (const std::string& file : files) {
+        const ProgramResult end = compiled(a, file);
+        EXPECT_EQ(end.status, 0) << file << ": " << end.err;
+      }
+  }
+}
+
+/// Who must answer for a term does not compile until it does: new_term_slow_test has the list. The engine takes it.
+TEST(Adding, ATermIsTakenByTheEngineAndAskedAboutElsewhere) {
+  const Addition term = addition("term");
+  for (const char* file : {"mysim/model/system.cpp", "mysim/implicit/newton.cpp"}) {
+    const ProgramResult end = compiled(term, file);
+    EXPECT_EQ(end.status, 0) << file << ": " << end.err;
+  }
+  const ProgramResult end = compiled(term, "mysim/model/energy.cpp");
+  EXPECT_NE(end.status, 0);
+  EXPECT_TRUE(contains(end.err, "Tide"));
+}
+
+/// The program with a stepper, a scene and an experiment more.
+std::string told(std::vector<std::string> words) {
+  const TemporaryFolder folder("adding");
+  words.insert(words.begin(), CROSSCHECK_EXTENDED);
+  const ProgramResult end = run_program(words, folder.path, {"CROSSCHECK_LOCK=" + (folder.path / "lock").string()});
+  EXPECT_EQ(end.status, 0) << end.err;
+  std::string all = end.out;
+  for (const auto& entry : fs::recursive_directory_iterator(folder.path))
+    if (entry.path().extension() == ".csv") all += read_file(entry.path(), "a table");
+  return all;
+}
+
+TEST(Adding, NewcomersAreListed) {
+  EXPECT_TRUE(contains(told({"list", "methods", "--json"}), "\"mysim/ralston\""));
+  EXPECT_TRUE(contains(told({"list", "scenes", "--json"}), "\"two-masses\""));
+  EXPECT_TRUE(contains(told({"list", "experiments", "--json"}), "\"census\""));
+}
+
+TEST(Adding, NewcomersWorkTogether) {
+  EXPECT_TRUE(contains(told({"compare", "two-masses", "--methods", "ralston,rk4"}), "mysim/ralston"));
+  EXPECT_TRUE(contains(told({"experiment", "census", "two-masses", "spring", "--jobs", "1"}), "two-masses,3"));
+}
+
+}  // namespace
+}  // namespace crosscheck::testing_tools
