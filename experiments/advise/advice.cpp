@@ -141,7 +141,7 @@ int search_order(const Method& m) {
   return (m.stepper->evaluations == 0 ? 10 : 0) - m.stepper->order;
 }
 
-/// The least model that a file can say and whose own error leaves half of the tolerance.
+/// The least model that a scene file can express and that leaves half of the tolerance.
 std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
   try {
     const ReferenceSolution y = reference_solution_of(scene, tolerance);
@@ -167,7 +167,7 @@ std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
     least.name = fmt::format("without {}", fmt::join(names, ", "));
     return least;
   } catch (const Unsupported&) {
-    return std::nullopt;  // no step of the yardstick is fine enough to tell a model's error from its own
+    return std::nullopt;  // no step of the reference solution is fine enough for a model's error
   }
 }
 

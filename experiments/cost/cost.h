@@ -20,20 +20,20 @@ struct Kernel {
   std::function<double()> run;
 };
 
-/// Multiplications and additions in registers that wait for nobody, with the instructions that mysim's kernels use
-/// (fused ones where these have them).
+/// Multiplications and additions in registers that depend on no other result, with the instructions that mysim's
+/// kernels use (fused ones where these have them).
 Kernel multiply_add_kernel();
 
-/// a = b + s c over three arrays of `bytes` in all: what memory of that size delivers. 24 bytes an element.
+/// a = b + s c over three arrays of `bytes` in all: the bandwidth of memory of that size. 24 bytes an element.
 Kernel triad_kernel(double bytes);
 
-// Experiment `cost`: what a step costs, against size, by phase, and beside what the machine can do.
+// Experiment `cost`: the cost of a step against size, by phase, and against the machine's peaks.
 
 /// `size-cost`: time per step of every method on a cloth of n x n particles.
 void cost_of_size(const Request& request, int n, Rows& rows);
 /// `phases-cost`: of mysim's leapfrog on a cloth above a sphere, in the general engine, what springs, other forces,
-/// contact and the rest of the step take, and the whole step in the sweep, which does all of it in one pass; of
-/// Bullet's worlds the whole step, since what they do inside cannot be told from outside.
+/// contact and the rest of the step take, and the whole step in the fused step, which does all of it in one pass; of
+/// Bullet's worlds the whole step, since their phases cannot be seen from outside.
 void cost_of_phases(const Request& request, int n, Rows& rows);
 /// The same from measured times, s: springs, all forces, a step without the sphere and a step with it (of methods[0]);
 /// then whole steps, of methods[1] and on.

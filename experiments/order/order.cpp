@@ -1,5 +1,5 @@
-// Experiment `order`: error against step, and the slope beside the declared order; and the distance of each run from
-// the same method's run at its smallest step, which tells who converges to something else.
+// Experiment `order`: error against step, and the slope against the declared order; and the distance of each run from
+// the same method's run at its smallest step, which shows methods that converge to something else.
 
 #include <fmt/ranges.h>
 

@@ -1,4 +1,4 @@
-// Quantities beside their baselines: the status of each, and how different they are.
+// Quantities compared with their baselines: the status of each, and how different they are.
 #pragma once
 
 #include <span>
@@ -34,7 +34,7 @@ struct Comparison {
   double rank() const;
 };
 
-/// One case's quantities beside those expected of it; where none is expected all are new.
+/// One case's quantities compared with its baseline; where none is expected all are new.
 std::vector<Comparison> compared(const Case& test_case, const std::vector<Quantity>& is,
                                  const std::vector<BaselineRow>& expected);
 

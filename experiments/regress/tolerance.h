@@ -24,9 +24,9 @@ std::vector<std::string> words_of_derivations();
 
 /// The case's quantities with their tolerances: the start is moved by a little in three seeded sets of directions,
 /// and the largest change of the quantity, scaled from that little to the rounding, is what rounding can do to it; the
-/// last digits of the number itself come on top. A quantity that is zero but for rounding is bounded beside the largest
-/// one of its unit. Not scaled: the time at which a run failed, and what is beyond prediction, which a fourth, far
-/// smaller move tells.
+/// last digits of the number itself come on top. A quantity that is zero but for rounding is bounded relative to the
+/// largest one of its unit. Not scaled: the time at which a run failed, and what is beyond prediction, which a fourth,
+/// far smaller change shows.
 std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case);
 
 }  // namespace crosscheck

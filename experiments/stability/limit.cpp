@@ -100,7 +100,7 @@ PredictedLimit of_mixed_modes(const Stepper& rule, const Spectrum& s) {
 }
 
 /// Whether the rule's stability region is as deep in one direction of decaying vibrations as in another, to 15 %: then
-/// the fastest rates bind. rk4's depth is 2.62 to 2.96; the others' goes to 0 or 1 beside the imaginary axis.
+/// the fastest rates bind. rk4's depth is 2.62 to 2.96; the others' goes to 0 or 1 near the imaginary axis.
 bool isotropic_region(const Stepper& rule) {
   double least = infinity, most = 0;
   for (int i = 0; i <= 20; ++i) {  // rates of size 1, from undamped to critically damped
@@ -335,7 +335,7 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
   // without drag a rule that grows at h omega = 1/64 does so at every step; with drag of a millionth of omega its limit
   // would still be seen
   const double lowest = unit / (damped ? 1 << 20 : 64), highest = 128 * unit;
-  // from a radian to five of them a step in tenths: a composed rule holds again beyond a band where it does not
+  // from a radian to five of them a step in tenths: a composed rule holds again beyond an interval where it does not
   // (suzuki4 at 4.05 radians, above its limit of 2.72), and doubling would step over it
   MeasuredLimit m = largest_step(holds, std::clamp(base.scene.step, lowest, highest), lowest, highest, precision, unit);
   if (refused.empty()) return m;

@@ -1,4 +1,4 @@
-// What a verdict at the end of a run cannot tell: how a longer run would fare.
+// Warnings on the stability of longer runs, which a verdict at the end of a run cannot show.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a sweep keeps on disk: its list of points, and the rows of each as JSON.
+// Files of a sweep: its list of points, and the rows of each as JSON.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace crosscheck {
 
-// The plan of a sweep: the list of its points, written beside the store, so that shards can be joined later.
+// The list of a sweep's points, written next to the store, so that shards can be joined later.
 
 struct PointList {
   struct Entry {
     std::string name, hash;
     bool operator==(const Entry&) const = default;
   };
-  std::vector<std::string> experiments;  // whose conclusions are drawn from the rows
+  std::vector<std::string> experiments;  // those that draw conclusions from the rows
   std::vector<Entry> points;
   Provenance provenance;  // of the tables: command, commit, scenes, ...
 };
@@ -38,7 +38,7 @@ std::string rows_json(const Rows& rows);
 /// Throws InputError, "expected ...", when the text is no rows.
 Rows read_rows(const std::string& text);
 
-// The folder in which a sweep keeps what its points gave: one file per point, by its hash.
+// The folder in which a sweep keeps its points' rows: one file per point, by its hash.
 
 class Store {
  public:

@@ -96,7 +96,7 @@ class Batch {
     const pid_t parent = getpid(), pid = fork();
     if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid == 0) {
-      // no worker goes on when the sweep is killed, or a resumed one would compute the same points beside it
+      // no worker outlives a killed sweep, or a resumed one would compute the same points at the same time
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) _exit(1);
       work(worker);

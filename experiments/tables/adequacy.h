@@ -5,7 +5,7 @@
 
 namespace crosscheck {
 
-/// A model with all its ingredients, without a single one, or without this one and all before it in the ladder.
+/// A model with all its ingredients, without a single one, or without this one and all before it in the ablation.
 enum class ModelKind { full, single, cumulative };
 constexpr std::string_view name_of(ModelKind kind) {
   return kind == ModelKind::full ? "full" : kind == ModelKind::single ? "single" : "cumulative";
@@ -129,7 +129,7 @@ struct GridRow {
                  column("cost", "spring evaluations", &GridRow::cost, "evaluations times springs")};
 };
 
-/// A clamped line of a sheet on one grid.
+/// A clamped line of a cloth on one grid.
 struct BendingRow {
   long particles = 0;
   double cells = 0, stiffness = 0, droop = 0;
