@@ -21,7 +21,7 @@ struct Unsupported : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A solver inside a step found no answer: the run ends with Verdict::solver. what() is the reason.
+/// A solver inside a step found no solution: the run ends with Verdict::solver. what() is the reason.
 struct SolverFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -32,8 +32,8 @@ struct SolverFailure : std::runtime_error {
 /// of the library that threw.
 std::string in_words(const std::exception_ptr& thrown);
 
-/// Runs a program's work and returns its exit status. What it throws is told on standard error in one line that begins
-/// with the program's name, and the status is 2: 1 is for answers that are no, which are returned, never thrown.
+/// Runs a program's work and returns its exit status. What it throws is reported on standard error in one line that
+/// begins with the program's name, and the status is 2: 1 is for negative results, which are returned, never thrown.
 int run_reporting_errors(std::string_view program, const std::function<int()>& work);
 
 }  // namespace crosscheck

@@ -131,7 +131,7 @@ namespace {
 // the number of a file in memory, which parent and child share, and programs that they start do not
 constexpr auto notes_variable = "CROSSCHECK_SUPERVISOR";
 
-/// Those that end a program, unless who started it had them ignored.
+/// Signals that end a program, unless its parent had them ignored.
 sigset_t ending_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -220,7 +220,7 @@ int run_supervised(const std::function<int()>& work) {
     sigprocmask(SIG_SETMASK, &before, nullptr);
     return work();
   }
-  signal(SIGCHLD, SIG_DFL);  // or, where who started this ignores it, nobody could be waited for
+  signal(SIGCHLD, SIG_DFL);  // or, where the parent ignores it, no child could be waited for
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   remove_stale_temporary_folders();
   const int status = status_of_child(child, waited);

@@ -46,7 +46,7 @@ std::string written_between(std::string_view text, const toml::source_region& wh
   return out.substr(0, cut) + "...";
 }
 
-/// A value as it is told in a message: as the file has it.
+/// A value as messages show it: as the file has it.
 std::string as_written(const toml::node& n, std::string_view text) {
   if (n.is_table() && !n.as_table()->is_inline()) return "a table";
   if (n.is_array_of_tables()) return "tables";
@@ -129,7 +129,7 @@ struct TomlTable::Node {
   const toml::table* table = nullptr;
   std::string file;
   std::string path;                                     // dotted name of this table; empty at the root
-  mutable std::set<std::string, std::less<>> read;      // every key that was asked for
+  mutable std::set<std::string, std::less<>> read;      // every key that was looked up
   mutable std::vector<std::shared_ptr<Node>> children;  // so that finish() sees what was read below
   mutable std::map<std::string, std::vector<std::shared_ptr<Node>>, std::less<>> made;
 

@@ -1,4 +1,4 @@
-// Which instruction sets this machine has, and which one was asked for.
+// Which instruction sets this machine has, and which one was requested.
 #include "mysim/simd/instruction_sets.h"
 
 #include <fmt/format.h>

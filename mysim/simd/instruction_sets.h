@@ -1,4 +1,4 @@
-// Which instruction set the kernels run on, chosen when it is asked for.
+// Which instruction set the kernels run on, chosen at its first use.
 #pragma once
 
 #include <string_view>

@@ -37,7 +37,7 @@ class TrajectoryWriter : public Observer {
  public:
   explicit TrajectoryWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
   Verdict observe(const State& state, bool sample) override;
-  /// Says in both files how many frames there are; a run that failed has fewer than were asked for.
+  /// Says in both files how many frames there are; a run that failed has fewer than requested.
   void finish();
   /// When the frames were taken, s.
   const std::vector<double>& times() const { return times_; }

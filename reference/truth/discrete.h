@@ -12,7 +12,7 @@
 
 namespace crosscheck {
 
-/// What a step adds to (u, v, 1), as a matrix E: the rule multiplies by I + E. Kept without the identity, beside which
+/// What a step adds to (u, v, 1), as a matrix E: the rule multiplies by I + E. Kept without the identity, next to which
 /// the small entries of short steps would lose their digits.
 using Increment = Eigen::Matrix3d;
 
@@ -20,7 +20,7 @@ struct DiscreteStepper {
   std::string_view name;                                       // of mysim's stepper
   Increment (*of_mode)(const Mode& mode, double h);            // moved pins left out
   Increment (*of_system)(const Eigen::Matrix3d& a, double h);  // of y' = A y; null where the rule needs u'' = ...
-  bool one_spring = false;                                     // sweeps the springs one by one: a matrix for one only
+  bool one_spring = false;                                     // projects the springs one by one: a matrix for one only
 };
 
 /// The table: every one-step rule of mysim's. dopri5 chooses its steps and has none.

@@ -33,7 +33,7 @@ FORCE_INLINE T* row_of(T* field, int blocks, int row) {
 }
 
 /// Goes over the rows from the first: begin(row, sums) adds to sums[0] (the row itself) and to sums[1], sums[2] (the
-/// next ones), finish(row, sums) is told when all that reach a row have been added. `memory`: three rows.
+/// next ones), finish(row, sums) is called when all that reach a row have been added. `memory`: three rows.
 template <int numbers, class T, class Begin, class Finish>
 FORCE_INLINE void over_rows(int rows, int blocks, T* memory, Begin begin, Finish finish) {
   const long length = row_length(blocks, numbers), first = left_halo * tile_size<numbers>;

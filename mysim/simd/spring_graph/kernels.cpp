@@ -21,7 +21,7 @@ inline constexpr double min_squared_length = 1e-290;
 /// same to the last bit as in the plain loop, on all instructions. Near the rest length, where r - L is a small
 /// difference of large numbers, that matters most: springs at rest pull at nothing. An estimate of 1 / L with steps of
 /// Newton's (as in simd/lanes.h) does not pay: once its length is corrected to be rounded rightly, it takes a third
-/// longer than these two, which go on beside other work.
+/// longer than these two, which overlap with other work.
 template <bool hooke>
 FORCE_INLINE V scale_of(V s, V k, V rest) {
   s = L::max(s, L::all(min_squared_length));

@@ -1,4 +1,4 @@
-// The spring term for any network, fast: on lanes where that is worth it, else through the plain loop.
+// The spring term for any spring graph, fast: on lanes where that is worth it, else through the plain loop.
 #pragma once
 
 #include <memory>

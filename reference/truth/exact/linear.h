@@ -75,10 +75,10 @@ class DrivenMotion {
   Oscillator after_ramp_;   // from the ramp's end
 };
 
-// Scenes whose equations of motion are linear, split into modes that do not know each other.
+// Scenes whose equations of motion are linear, split into modes that are independent.
 
-/// u'' = -w2 (u - sway d) - drag u' - dashpot (u' - sway d') + push, where d(t) is the displacement of moved pins along
-/// the line. The particles are displaced by u(t) times the shape.
+/// u'' = -omega2 (u - participation d) - drag u' - dashpot (u' - participation d') + forcing, where d(t) is the
+/// displacement of moved pins along the line. The particles are displaced by u(t) times the shape.
 struct Mode {
   double omega2;         // 1/s^2; 0 without springs
   double drag;           // 1/s
@@ -95,8 +95,8 @@ struct LinearScene {
   double base_amplitude = 0;  // m, amplitude of d along the line; 0: the pins stand still
 
   /// Smallest length that a spring is left with when each mode reaches `amplitude` (m) to either side of `centre` (m)
-  /// and moved pins reach theirs; 0 or less: it may turn over, and the scene is linear no more. Infinite without
-  /// springs.
+  /// and moved pins reach `base_amplitude`; 0 or less: it may turn over, and the scene is linear no more. Infinite
+  /// without springs.
   double shortest_spring_length(const Model& model, const std::vector<double>& centre,
                                 const std::vector<double>& amplitude) const;
 };
