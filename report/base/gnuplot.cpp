@@ -1,4 +1,4 @@
-// Exit codes and warnings of gnuplot tell little: it ends with 0 on a full disk, and warns where all is well.
+// Exit codes and warnings of gnuplot mean little: it ends with 0 on a full disk, and warns where all is well.
 #include "report/base/gnuplot.h"
 
 #include <fmt/format.h>

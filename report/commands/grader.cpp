@@ -37,7 +37,7 @@ std::string option_value(const std::vector<std::string>& words, const std::strin
   return "";
 }
 
-/// Grades, then sets the parts that are steppers beside other engines; the page links to it.
+/// Grades, then compares the parts that are steppers with other engines; the page links to it.
 int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   const fs::path charts = page.parent_path() / (page.stem().string() + "-charts");
   OutputFolder folder(charts, "report");

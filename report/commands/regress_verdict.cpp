@@ -247,7 +247,7 @@ std::vector<Comparison> by_size(std::vector<Comparison> rows, size_t most) {
   return rows;
 }
 
-/// "12 of 39 questions, those that are off most"
+/// "12 of 39 cases, those that are off most"
 std::string some_of(size_t shown, size_t all, const std::string& what) {
   return shown < all ? fmt::format("{} of {} {}: those that are off most", shown, all, what)
                      : fmt::format("{} {}", all, what);

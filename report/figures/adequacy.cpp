@@ -290,7 +290,7 @@ Chart ladder(const Table& t, const Table* least, const std::string& scene, const
   return chart;
 }
 
-/// A scene that has no part of its own in the report says here what it asks.
+/// A scene that has no part of its own in the report states its question here.
 void add_question(Chart& chart, const std::vector<Scene>& shown, const std::string& scene) {
   const auto shipped = shipped_scenes();
   if (std::ranges::none_of(shown, [&](const Scene& s) { return s.name == scene; }) &&

@@ -149,7 +149,7 @@ double key_room(const Figure& f) {
   return 0.036 * std::max(0, rows - 3);
 }
 
-/// Degrees by which tick texts are turned so that they find room beside each other; 0: not at all.
+/// Degrees by which tick texts are turned so that they do not overlap; 0: not at all.
 int turned(const Figure& f) {
   const bool short_ones = std::all_of(f.categories.begin(), f.categories.end(),
                                       [](const auto& category) { return category.second.size() <= 4; });
@@ -272,7 +272,7 @@ MethodStyle style_of(const std::string& method) {
   };
   for (const Row& row : table)
     if (method == row.name) return row.style;
-  // others, like outside programs, are told apart as far as five looks go
+  // others, like outside programs, are distinguished as far as five styles go
   static const MethodStyle others[] = {{"#333333", "(8,2,2,2,2,2)", 3},
                                        {"#AA3377", "(6,2,2,2)", 10},
                                        {"#117733", "(10,2,4,2)", 8},

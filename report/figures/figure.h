@@ -39,7 +39,7 @@ struct FailureMark {
   std::string title;
   MethodStyle style;
   double x, y;
-  std::string kind = "failed";  // in the key, where the colour tells the method
+  std::string kind = "failed";  // in the key, where the colour shows the method
   int cross = 2;                // gnuplot point type, one for each kind
   Tooltip tooltips = {};
 };
@@ -54,7 +54,7 @@ struct Axis {
 struct FigureSize {
   double width = 17;   // cm
   double font = 8.5;   // pt, on paper
-  bool titled = true;  // false: the caption beside it says what it shows
+  bool titled = true;  // false: the caption says what it shows
   /// Its width where a font is 12 high.
   double units() const { return width / 2.54 * 72 * 12 / font; }
 };
@@ -98,8 +98,8 @@ struct LabelsOverlap : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes and draws it into the folder (style.gp is put beside it); what gnuplot warns of is told on stderr. Throws
-/// std::runtime_error that names the figure when gnuplot fails, or a form of it is missing, empty or cut off.
+/// Writes and draws it into the folder (style.gp is put next to it); what gnuplot warns of is reported on stderr.
+/// Throws std::runtime_error that names the figure when gnuplot fails, or a form of it is missing, empty or cut off.
 void draw(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
 
 /// The end of a script: the terminals for a figure so much taller than the usual one, each with the plot command.

@@ -49,7 +49,7 @@ std::string where_energy_leaves(const Table& table) {
   return said;
 }
 
-/// What three rules that are not symplectic do on a scene, as far as they were asked.
+/// Three rules that are not symplectic on a scene, as far as they were run.
 std::vector<std::string> beside(const Table& table, const std::string& scene) {
   std::vector<std::string> all;
   for (const char* shown : {"bullet/pbd", "mysim/explicit-euler", "mysim/implicit-euler"})

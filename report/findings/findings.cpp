@@ -152,7 +152,7 @@ void failures(const Scene& scene, const SceneData& facts, std::vector<Finding>& 
     failed.push_back(text);
   }
   if (failed.empty()) return;
-  // a long list of names tells less than who is left
+  // a long list of names says less than the names that are not in it
   const std::string sentence =
       failed.size() <= 3 || held.empty()
           ? fmt::format("At a step of {} these failed: {}.", own_step_text(scene), joined(failed))

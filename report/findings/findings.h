@@ -22,7 +22,7 @@ std::vector<Finding> findings_of(const Scene& scene, const SceneData& facts);
 /// What all scenes together showed, first things first.
 std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneData>& facts,
                                       const Rows& result);
-/// Who is cheapest for a given accuracy, and by how much.
+/// The cheapest methods for a given accuracy, and by how much.
 std::vector<Finding> speed_findings(const Rows& result);
 
 /// What a step costs in both engines.

@@ -19,7 +19,7 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneD
   for (size_t i = 0; i < scenes.size(); ++i) {
     const MethodData* b = facts[i].find(theirs);
     if (!b) {
-      continue;  // not asked
+      continue;  // not run
     } else if (!b->supported()) {
       alone.push_back(scenes[i].name);
     } else if (!b->ok() || !b->difference) {
@@ -120,7 +120,7 @@ void other_law_of_all(const std::vector<Scene>& scenes, const std::vector<SceneD
          "see each scene", "other-law-of-all"});
 }
 
-/// Who failed where others held, by kind of failure, and where all failed.
+/// Methods that failed where others held, by kind of failure, and scenes on which all failed.
 void failures_of_all(const std::vector<SceneData>& facts, std::vector<Finding>& out) {
   std::map<std::string, std::map<std::string, std::vector<std::string>>> failed;  // method, kind, scenes
   std::vector<std::string> all;

@@ -31,8 +31,8 @@ struct Change {
   bool timed = false;       // rests on timings, which are never the same twice
 };
 
-/// Findings of OLD/report.json beside these, those of one rule and scene in their order; what stayed is left out.
-/// Throws InputError where OLD holds no finished report.
+/// Findings of OLD/report.json compared with these, those of one rule and scene in their order; what stayed is left
+/// out. Throws InputError where OLD holds no finished report.
 std::vector<Change> changes_since(const std::filesystem::path& old, const AllFindings& now);
 
 }  // namespace crosscheck

@@ -49,7 +49,7 @@ std::vector<Finding> of_chapter(const std::vector<Finding>& findings, const std:
   return own;
 }
 
-/// What a reader asks first, and the findings that answer it: of a chapter, or of a topic where they have none.
+/// A question and the findings that answer it: of a chapter, or of a topic where they have none.
 struct Question {
   const char* text;
   std::vector<std::string> topics, chapters;

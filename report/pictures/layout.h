@@ -35,7 +35,7 @@ struct Layout {
   double bar_top = 0, bar_height = 0, bar_left = 0, bar_width = 0;
 };
 
-/// A row whose only title stands in its first column is a strip: the title heads the whole row.
+/// A row with one title, in its first column, is a strip: the title heads the whole row.
 bool is_strip(const std::vector<Panel>& row);
 
 /// Width of a legend entry with its swatch and the gap after it, in pixels.

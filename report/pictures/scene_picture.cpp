@@ -316,7 +316,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
     if (asked && m.family().by_default()) names.push_back(m.name);
   }
   if (first_order || hard) return names;
-  // what is meant for long steps first, and what fails there beside it
+  // what is meant for long steps first, and what fails there next to it
   if (!scene.method.starts_with(program_prefix) && find_method(scene.method).implicit)
     names = {find_method(scene.method).name, "mysim/implicit-midpoint", std::string(subject().representative)};
   if (scene.model.find<Spheres>()) names.push_back(sticky_method());

@@ -63,7 +63,7 @@ Json methods_json(const Scene& scene, const std::vector<ThinnedTrajectory>& all,
     double own = 0;
     json.update(places_json(all[m], lattice, m > 0 && first ? *first : std::vector<std::uint16_t>(), own));
     if (all[m].ok()) bound = std::max(bound, own);
-    // the truth stands beside them at once where there is room for it, and it goes all the way
+    // the truth stands next to them at once where there is room for it, and it goes all the way
     json["first"] = all[m].answer || (all.size() <= 4 && all[m].t.back() > 0.98 * scene.duration);
     json["frames"] = all[m].x.size();
     json["stretch"] = values_json(stretch, m, particles), json["distance"] = values_json(distance, m, particles);

@@ -1,4 +1,4 @@
-// Runs as differences from the truth; cells as a few shapes whose sizes change.
+// Runs as differences from the truth; cells as a few shapes of changing size.
 #include "report/player/run_motions.h"
 
 #include <fmt/ranges.h>
