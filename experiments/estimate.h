@@ -1,4 +1,4 @@
-// What a run will take (CPU time, steps, memory, disk), refusals of what this machine lacks, and a run's progress.
+// Estimates of a run's CPU time, steps, memory and disk, refusals of what this machine lacks, and a run's progress.
 #pragma once
 
 #include <filesystem>

@@ -43,7 +43,7 @@ struct Point {
   std::string hash() const;
 };
 
-/// What the rows of a scene depend on: its name, its hash, its times, its tolerance and its default method.
+/// The data that a scene's rows depend on: its name, its hash, its times, its tolerance and its default method.
 std::string content_of(const Scene& scene);
 
 // Experiments: drivers that run methods over scenes and write tables. The table of them is in experiment.cpp.

@@ -1,4 +1,4 @@
-// What quick and full benches measure, and in which order.
+// The measurements of quick and full benches, in their order.
 #include "experiments/bench/bench.h"
 
 #include <fmt/format.h>

@@ -53,7 +53,7 @@ struct ImplicitStepOptions {
   MicrobenchmarkOptions plan;
 };
 
-/// How many are announced.
+/// The number of announced steps of work.
 inline int work_of(const ImplicitStepOptions& asked) {
   return static_cast<int>(asked.sides.size() * asked.rates.size());
 }

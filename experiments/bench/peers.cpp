@@ -103,7 +103,7 @@ int PeerRuns::count(const std::vector<Peer>& peers) {
 
 namespace {
 
-/// What an evaluation of mysim's methods takes by one path, s, round by round.
+/// The time of an evaluation of mysim's methods on one code path, s, round by round.
 struct MysimTimes {
   CodePath path;
   std::map<std::string, std::vector<double>> per_evaluation;  // by method; those of which a run ended well

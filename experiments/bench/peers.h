@@ -33,7 +33,7 @@ class PeerRuns {
  public:
   /// Finds the truth: mysim/suzuki4 at a sixteenth of its largest step.
   PeerRuns(const Scene& scene, Progress& progress);
-  /// What halving the truth's step changed at last, m.
+  /// The change by the last halving of the truth's step, m.
   double error_bar() const { return bar_; }
 
   std::vector<PeerRun> of(const std::vector<Peer>& peers) const;
@@ -42,7 +42,7 @@ class PeerRuns {
   /// is wide enough for it.
   std::vector<PeerRun> own(double wanted, long most) const;
 
-  /// How many are announced, the truth's and mysim's own among them.
+  /// The number of announced runs, the truth's and mysim's own among them.
   static int count(const std::vector<Peer>& peers);
 
  private:
@@ -64,7 +64,7 @@ struct EqualErrorOptions {
   TimedRunOptions turns;
 };
 
-/// How many steps of work are announced.
+/// The number of announced steps of work.
 int work_of(const EqualErrorOptions& asked);
 
 /// `bench-equal-error-cost`: for each run of each peer its error (peers.h), its time, and how many times that is

@@ -16,7 +16,7 @@ struct ThreadsOptions {
 
 /// `bench-threads-cost`: wall time of a step of leapfrog with one thread and with +threads=2, which may take one where
 /// a cloth is small, and their ratio, round by round; and the share of the time of the cores that the threads got while
-/// they were timed: threads that wait look again and again, so that what is missing somebody else had, and the ratio is
+/// they were timed: threads that wait spin, so that other processes had the missing share, and the ratio is
 /// then less than the machine can give. A note says so below 95 %, and where there is one core only. Call it before the
 /// process is bound to a core.
 void two_threads(const ThreadsOptions& asked, Rows& rows, Progress& progress);

@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-// What this machine can do at most, measured by small loops of this build (S. Williams, A. Waterman and D. Patterson,
+// The peaks of this machine, measured by small loops of this build (S. Williams, A. Waterman and D. Patterson,
 // "Roofline", 2009).
 
 /// A loop with a known amount of work; run() does it once and says what CPU time it took, s.
@@ -40,7 +40,7 @@ void cost_of_phases(const Request& request, int n, Rows& rows);
 Table phases_table(int n, const std::vector<std::string>& methods, const std::vector<Timing>& times);
 /// `roofline-cost`: the machine's peaks and the spring kernel at several sizes.
 void cost_against_roofline(bool full, Rows& rows);
-/// What must be said beside a measured peak below the rate of another loop, flop/s; nothing where there is none.
+/// The remark on a measured peak below the rate of another loop, flop/s; nothing where there is none.
 std::optional<std::string> doubt_about_peak(double peak, double triad);
 
 /// Work of the spring kernel per spring, in floating-point operations: 3 differences, 5 for the squared length, 1

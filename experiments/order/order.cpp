@@ -71,7 +71,7 @@ void order_on(const Request& request, const Scene& scene, Rows& rows) {
       adaptive.insert(method.name);
       continue;
     }
-    // engines of others cost ten times as much a step, and no order is promised for them
+    // other engines cost ten times as much a step, and declare no order
     const int steps = method.stepper ? halvings : std::min(halvings, 5);
     std::vector<Refinement> runs;
     for (int i = 0; i < steps; ++i) {

@@ -127,7 +127,7 @@ namespace {
 /// The quantities that say how far the result is from right, the better one first.
 constexpr std::string_view errors[] = {"error against truth", "change at half the step"};
 
-/// What a result cost is no part of it.
+/// The cost of a result is no part of it.
 bool is_work(const Comparison& row) { return row.quantity == "steps" || row.quantity == "force evaluations"; }
 
 bool moved(const Comparison& row) {

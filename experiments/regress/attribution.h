@@ -1,4 +1,4 @@
-// What explains a change: the ingredient or stepper that all failures share; the accuracy that a change of speed was
+// Attribution of changes: the ingredient or stepper that all failures share; the accuracy that a change of speed was
 // bought with.
 #pragma once
 

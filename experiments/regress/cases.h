@@ -35,7 +35,7 @@ struct Quantity {
   bool is_word() const { return !word.empty(); }
 };
 
-/// How quantities are called that others look for.
+/// Names of quantities that other code looks up.
 inline constexpr const char *setting_prefix = "setting ", *time_of_failure = "time of failure",
                             *error_quantity = "error against truth", *halving_quantity = "change at half the step",
                             *contact_quantity = "energy lost in contact";
@@ -65,8 +65,8 @@ std::string places_at(double t);
 /// Null where there is none of that name.
 const Quantity* find(const std::vector<Quantity>& all, const std::string& name);
 
-/// What quantities are taken from: the run, of a failed one the first half of the time until it failed, since there
-/// the motion is still the scene's.
+/// The part of a run that gives quantities: all of it, of a failed one the first half of the time until it failed,
+/// since there the motion is still the scene's.
 CaseRun comparable_part(const CaseRun& case_run);
 
 // The cases of a regression run: which scenes under which methods, and which of them without one ingredient.

@@ -1,4 +1,4 @@
-// What the table of quantities is made of.
+// The functions behind the table of quantities.
 #pragma once
 
 #include "experiments/regress/cases.h"

@@ -44,7 +44,7 @@ class PlainLoop {
   double h_;                                               // s
 };
 
-// How fast methods are, as ratios to a plain loop on the same scene in the same rounds.
+// Speeds of methods, as ratios to a plain loop on the same scene in the same rounds.
 
 /// One scene under one method, over its first steps; against another method where one is named.
 struct SpeedCase {

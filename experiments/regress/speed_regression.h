@@ -21,7 +21,7 @@ enum class SpeedStatus {
   elsewhere,  // blessed on another kind of machine, by another compiler or of another scene: not compared
 };
 std::string_view name_of(SpeedStatus state);
-/// What is held against somebody.
+/// Whether the status fails the regression run.
 inline bool failed(SpeedStatus state) { return state <= SpeedStatus::gone; }
 
 struct SpeedComparison {

@@ -41,7 +41,7 @@ double motion_in(const CaseRun& case_run) {
   return case_run.trajectory.frames() > 0 ? motion_of(case_run.trajectory) : 0;
 }
 
-/// What the equation of one step leaves in places, m: mysim's rules stop at 1e-12 of the inertial forces, or where the
+/// The error of one step's equation in positions, m: mysim's rules stop at 1e-12 of the inertial forces, or where the
 /// spring forces, of places known to their last digits, are no longer distinct; the lightest particle yields most.
 double left_by_one_step(const Case& test_case, const CaseRun& case_run, double lengths) {
   const Model& model = test_case.scene.model;

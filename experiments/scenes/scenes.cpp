@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* folder_of_disagreements = CROSSCHECK_SCENES "/disagreements";
 
-/// Of several cloths a quick run looks at one of each kind.
+/// Of several cloths a quick run uses one of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-swing",   "cloth-wind",
                                                   "flag",        "cloth-carried", "jelly"};
 

@@ -1,4 +1,4 @@
-// What follows from errors and costs: Pareto lines, and the cheapest method and engine within an accuracy.
+// Analysis of errors and costs: Pareto lines, and the cheapest method and engine within an accuracy.
 #pragma once
 
 #include <optional>

@@ -13,7 +13,7 @@
 
 namespace crosscheck {
 
-// How deep a surface is inside a ball: its particles, and the triangles between them.
+// The penetration depth of a surface in a ball: its particles, and the triangles between them.
 
 /// Point of the triangle a b c nearest to p, m.
 Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);

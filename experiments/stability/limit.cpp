@@ -149,7 +149,7 @@ Rates rates_of(const Vibration& m) {
 }
 
 /// How far the scene is from rest, at the start, in the first and in the last tenth of the run; and, where each step
-/// multiplies it, the kicked mode's amplitude at the start and now.
+/// multiplies it, the perturbed mode's amplitude at the start and now.
 class GrowthObserver : public Observer {
  public:
   GrowthObserver(const BaseState& base, bool multiplies, int mode, double duration)
@@ -218,8 +218,8 @@ BaseState base_state_of(const Scene& scene) {
   if (const auto* springs = scene.model.find<Springs>())
     for (const Spring& s : springs->list) {
       const double length = (base.scene.start.x.col(s.a) - base.scene.start.x.col(s.b)).norm();
-      // where ends meet there is no scale: a kick of the root of the rounding of a millionth of the scene drowns in
-      // the rounding of the scene
+      // where ends meet there is no scale: a perturbation of the root of the rounding of a millionth of the scene
+      // drowns in the rounding of the scene
       if (length > 1e-6 * scene.size()) base.spacing = std::min(base.spacing, length);
     }
   return base;
@@ -255,7 +255,7 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation) {
   push *= size / largest_column(push);
   scene.start.x += push;
   if (of_mode) scene.start.v += rates_of(s.modes[perturbation.mode]).fast.real() * push;
-  // a thousandth in every direction: should another mode than the kicked one be unstable, it has what to grow from
+  // a thousandth in every direction: should another mode than the perturbed one be unstable, it has what to grow from
   for (int i = 0; i < scene.start.x.cols(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
       const double part = 1e-3 * size * (2 * uniform(engine) - 1);
@@ -279,9 +279,9 @@ PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h
   const bool rests_there = rule && !rule->hard_constraints;
   if (growth_observer.first > 0 && (rests_there || rotation)) {
     trial.growth = growth_observer.last / growth_observer.first;
-    // What grows fast has reached the springs' nonlinearity within the first tenth and stays there. A stable mode
-    // swings by 1 / sqrt(1 - (h / limit)^2) at most, which is 1000 at half a millionth below its limit: no search is as
-    // fine.
+    // A mode that grows fast has reached the springs' nonlinearity within the first tenth and stays there. A stable
+    // mode swings by 1 / sqrt(1 - (h / limit)^2) at most, which is 1000 at half a millionth below its limit: no search
+    // is as fine.
     constexpr double largest_swing = 1000;
     if (growth_observer.last > largest_swing * growth_observer.perturbation)
       trial.growth = growth_observer.last / growth_observer.perturbation;

@@ -7,7 +7,7 @@
 
 namespace crosscheck {
 
-/// What a map's rows change.
+/// The parameter that a map's rows change.
 struct MapKind {
   std::string_view name;  // "stiffness" (over the scene's own), "drag" (gamma, 1/s)
   /// The value of row 0 <= part <= 1, logarithmic; omega: the scene's fastest vibration as it is, rad/s.

@@ -116,7 +116,7 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, R
   if (measured.kind == MeasuredLimit::found) {
     row.measured = measured.limit(), row.precision = measured.precision();
     if (finite && predicted.limit > 0) row.deviation = measured.limit() / predicted.limit - 1;
-    // a twentieth above, kicked so that it is seen
+    // a twentieth above, perturbed so that it is seen
     row.above = run_perturbed(method, base, 1.05 * measured.failed, effort.steps, {perturbation.mode, 1e-3})
                     .effective_verdict();
   }

@@ -8,7 +8,7 @@ namespace crosscheck {
 
 // Why a measured limit is not the predicted one.
 
-/// Why theory, which looks at small motion about one state, may say something else than the run.
+/// The reason why theory, of small motion about one state, may differ from the run.
 inline std::string deviation_reason(const BaseState& base, const Method& method) {
   const Model& model = base.scene.model;
   std::vector<std::string> reasons;
@@ -25,7 +25,7 @@ inline std::string deviation_reason(const BaseState& base, const Method& method)
   return all;
 }
 
-/// What a saddle means for the row; empty where there was none.
+/// A note on a saddle for the row; empty where there was none.
 inline std::string saddle_note(const BaseState& base) {
   if (!base.saddle) return "";
   return base.at_rest

@@ -15,7 +15,7 @@ struct EnumRange<ModelKind> {
   static constexpr ModelKind first = ModelKind::full, last = ModelKind::cumulative;
 };
 
-/// What a tolerance is.
+/// The kind of a tolerance.
 enum class ToleranceKind { of_scene, hundredth_of_motion, tenth_of_motion };
 constexpr std::string_view name_of(ToleranceKind kind) {
   return kind == ToleranceKind::of_scene              ? "the scene's own"
@@ -27,7 +27,7 @@ struct EnumRange<ToleranceKind> {
   static constexpr ToleranceKind first = ToleranceKind::of_scene, last = ToleranceKind::tenth_of_motion;
 };
 
-/// What is seen to follow a power of the number of cells.
+/// A quantity that follows a power of the number of cells.
 enum class ScalingQuantity { error, stiffness_for_sag, bend_stiffness_for_droop };
 constexpr std::string_view name_of(ScalingQuantity quantity) {
   return quantity == ScalingQuantity::error               ? "error of the motion against cells along a side"

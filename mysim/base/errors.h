@@ -1,4 +1,4 @@
-// How a request is refused, and the one place where what was thrown becomes a message and an exit status.
+// Exceptions that refuse a request, and the one place where they become a message and an exit status.
 #pragma once
 
 #include <exception>
@@ -9,7 +9,8 @@
 
 namespace crosscheck {
 
-// How a request is refused: bad input (exit 2), what a method lacks, and a solver that gave up (rows, not crashes).
+// Exceptions that refuse a request: bad input (exit 2), what a method lacks, and a solver that gave up (rows, not
+// crashes).
 
 /// Bad use or bad input. what() is one line that names the file, the key and what was expected.
 struct InputError : std::runtime_error {
@@ -28,7 +29,7 @@ struct SolverFailure : std::runtime_error {
 
 // The one place where what was thrown becomes a message and an exit status.
 
-/// What an exception says to people: one line that names the file or folder where one is concerned, without the words
+/// The message of an exception: one line that names the file or folder where one is concerned, without the words
 /// of the library that threw.
 std::string in_words(const std::exception_ptr& thrown);
 

@@ -17,7 +17,7 @@ class StreamingFile {
  public:
   /// Makes the folder where it is missing.
   explicit StreamingFile(std::filesystem::path file);
-  /// What was not finished is gone.
+  /// Removes an unfinished file.
   ~StreamingFile();
   StreamingFile(const StreamingFile&) = delete;
   StreamingFile& operator=(const StreamingFile&) = delete;

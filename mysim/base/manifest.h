@@ -36,7 +36,7 @@ void write_manifest(const Manifest& manifest, const std::filesystem::path& folde
 /// Throws InputError that names the file where it cannot be read.
 Manifest::File file_entry(const std::filesystem::path& file);
 
-/// The paths of all that is in a folder and below and is no folder itself, relative, sorted, the manifest and our
+/// The paths of all that is in a folder and below and is no folder itself, relative, sorted, the manifest and the
 /// working folder left out; links are not followed. Empty folders are listed too, with a slash at the end.
 std::vector<std::string> paths_in(const std::filesystem::path& folder);
 

@@ -281,7 +281,7 @@ void follow_journal(const fs::path& work, const fs::path& target) {
   if (is_there(from)) absorb(from, target);
 }
 
-/// What an earlier process left in a working folder.
+/// Leftovers of an earlier process in a working folder.
 void recover_from(const fs::path& work, const fs::path& target) {
   std::error_code in_use;
   if (is_there(work / journal / Manifest::file_name)) {
@@ -371,7 +371,7 @@ void recover_output(const fs::path& folder) {
   try {
     lock.emplace(place, "that finishes what another began");
   } catch (const InputError&) {
-    return;  // somebody is at it
+    return;  // another process does it
   }
   with_output_errors(place, [&] {
     for (const fs::path& work : {place.beside, place.inside}) recover_from(work, place.target);

@@ -61,7 +61,7 @@ class OutputFolder {
   /// (those of version 0.1 are known by their names and taken over), or where it cannot be written to. Nothing is
   /// changed then.
   OutputFolder(const std::filesystem::path& folder, const std::string& command);
-  /// What was not finished is gone, and the earlier result is there as before.
+  /// Removes an unfinished result; the earlier one is there as before.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;

@@ -62,7 +62,7 @@ ProcessResult run_process(const std::vector<std::string>& argv, double timeout);
 
 // Starting a program without a shell, and its end.
 
-/// What a program finds as its files when it starts.
+/// The standard files of a program at its start.
 struct FileActions {
   posix_spawn_file_actions_t list;
   FileActions() { posix_spawn_file_actions_init(&list); }

@@ -30,7 +30,7 @@ class Progress {
   ~Progress();
   /// Announces the step that begins now; `seconds`: how long it will take, where that is known.
   void begin(const std::string& what, double seconds = 0);
-  /// How much of the step that is going on is done, 0 to 1. Costs a store.
+  /// Sets the finished part of the current step, 0 to 1. Costs a store.
   void part(double done);
   /// More work was found, or less.
   void expect(int more);

@@ -147,7 +147,7 @@ class AdaptiveWorld : public World {
  public:
   AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact);
   void step(double t, double t_next) override;
-  /// On the interpolant; looked at outside the clock, so that only the steps cost.
+  /// On the interpolant; evaluated outside the clock, so that only the steps cost.
   const State& state(double t) override;
   void report_contact(Observer& observer) override {
     if (lost_) observer.contact(*lost_);

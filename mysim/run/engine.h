@@ -10,7 +10,7 @@ namespace crosscheck {
 /// A scene inside an engine, stepped from outside.
 class World {
  public:
-  /// What the steps so far have taken.
+  /// The work of the steps so far.
   struct Work {
     long evaluations = 0;            // of the right-hand side
     long degenerate_springs = 0;     // springs met at zero length, summed over the evaluations

@@ -150,7 +150,7 @@ class MotionBoundsCache {
 /// that lies in a hollow has far more energy than it can ever move with. tests/unit/experiments/verdict_trials.cpp
 /// counts how often a verdict errs.
 ///
-/// It looks at every step where the work of wind or pins is added up and once K^ has passed B, else at pairs of states
+/// It observes every step where the work of wind or pins is added up and once K^ has passed B, else at pairs of states
 /// (run.h). Of engines that deliver samples alone the difference spans two sampling intervals: a mean
 /// velocity, which is no larger. No good run is condemned by it, but what only shakes to and fro between two samples,
 /// or is over before the third, is seen by being not finite or too long. Where there is no true motion to be had (hard
@@ -175,7 +175,7 @@ class DivergenceMonitor : public StatePairObserver {
 
   /// The largest K^ / B so far.
   double most() const { return most_; }
-  /// What is no failure goes less than so many times as fast and as far as the true motion.
+  /// A run that has not failed goes less than so many times as fast and as far as the true motion.
   static constexpr double allowed = 10;
   /// Bounds of K^ / B: in order up to; without a true motion failed, with one blown up beyond.
   static constexpr double in_order = 1, suspect = 10, blown_up = 1000;
@@ -222,8 +222,8 @@ class DivergenceMonitor : public StatePairObserver {
   double longest_ = 0;   // 1
 };
 
-/// Other observers and a monitor as one. The monitor sees the same states whoever else looks at every step, so that
-/// other observers change no verdict.
+/// Other observers and a monitor as one. The monitor sees the same states whichever other observers see every step, so
+/// that other observers change no verdict.
 class MonitoredObservers : public StatePairObserver {
  public:
   MonitoredObservers(DivergenceMonitor& monitor, std::vector<Observer*> others)

@@ -146,8 +146,8 @@ using Engine = std::function<Outcome(const Scene&, const Run&, Observer&)>;
 // Looking at a run by pairs of states two steps apart, without looking at every step.
 
 /// An observer of samples that is also shown, by the run loop, the state two steps before each sample (where a sampling
-/// interval has two steps or more), and such a pair every `steps_between_pairs` steps before it, whoever else looks at
-/// every step. Where only samples are known (outside programs, adaptive rules) neither function is called.
+/// interval has two steps or more), and such a pair every `steps_between_pairs` steps before it, whichever observers
+/// see every step. Where only samples are known (outside programs, adaptive rules) neither function is called.
 class StatePairObserver : public Observer {
  public:
   static constexpr int steps_between_pairs = 16;

@@ -56,7 +56,7 @@ std::string as_written(const toml::node& n, std::string_view text) {
 /// A question ends a sentence, anything else goes on behind a semicolon.
 std::string and_then(const std::string& question) { return question.ends_with('?') ? question : question + ";"; }
 
-/// How a value of another type than a number becomes one.
+/// The number that a value of another type stands for, as text.
 std::string mended_number(const toml::node& n) {
   if (const auto* word = n.as_string()) {
     double value = 0;
@@ -76,7 +76,7 @@ std::string mended_number(const toml::node& n) {
   return "";
 }
 
-/// What the table of keys expects of the key in a line, by the headers above it; nothing where it says nothing.
+/// The expected value of the key in a line, by the headers above it; nothing where it says nothing.
 const Key* key_in_line(std::string_view text, int line, std::span<const Key> keys) {
   std::span<const Key> here = keys;
   const auto find = [](std::span<const Key> among, std::string_view name) {
@@ -337,7 +337,7 @@ class KeyCheck {
   static std::string full(const std::string& path, std::string_view key) {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
   }
-  /// How the key is written, and what stands there.
+  /// The key as it is written, and its value.
   static std::string written(const std::string& path, const Key& key) {
     std::string name = full(path, key.name), keys, more;
     // [[sphere]] holds [sphere.motion], without an index

@@ -1,4 +1,4 @@
-// What a stepper is, the table of all of them, and what rules share: leapfrog, rk4, dopri5, stability limits.
+// Steppers, the table of all of them, and parts that rules share: leapfrog, rk4, dopri5, stability limits.
 #pragma once
 
 #include <any>
@@ -12,7 +12,7 @@
 
 namespace crosscheck {
 
-// What a stepper is, and the table of all of them. A new stepper is a function in a file of its own and one row.
+// Steppers, and the table of all of them. A new stepper is a function in a file of its own and one row.
 
 /// Working memory of a stepper, made at its first step and kept, so that no later step allocates.
 class Workspace {

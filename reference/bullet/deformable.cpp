@@ -270,7 +270,7 @@ std::optional<std::vector<double>> DeformableForces::drag_rates(SceneForce* own)
   if (implicit_) {
     own->addScaledDampingForceDifferential(1, common, moving);
   } else {
-    // what a common velocity changes of our own forces is their drag, unless air that looks at velocities is there too
+    // a common velocity changes the drag alone of Crosscheck's forces, unless there is aerodynamic force too
     if (own->carried().air) return own->carried().drag ? std::nullopt : std::optional(rates);
     ProbeState placed(scene_, soft_body_, t_);
     placed.stop();

@@ -149,7 +149,7 @@ class Obstacles {
   /// Where that is, m. All stands as before afterwards.
   std::vector<Vec3> centres_at(double t);
 
-  /// What was built: places, radii, friction and restitution of the balls, and the soft body's margin.
+  /// The objects that were built: places, radii, friction and restitution of the balls, and the soft body's margin.
   void read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const;
 
  private:
@@ -167,8 +167,8 @@ class Obstacles {
 /// by half a voxel's turn at its faces.
 std::string normal_error_text(const Scene& scene, double voxel);
 
-// What all Bullet worlds do alike: a body and its obstacles go in, states come out, and all is taken down in the right
-// order.
+// The part that all Bullet worlds share: a body and its obstacles go in, states come out, and all is taken down in the
+// right order.
 
 /// BulletWorld: a soft-body world of Bullet. The derived class makes world_ and soft_body_, calls enter(), and calls
 /// remove_all() in its destructor, since its forces and solvers must outlive the world.
@@ -187,7 +187,7 @@ class SoftBodyWorld : public World {
     world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the spheres are fixed or led
   }
 
-  /// What a prescribed motion leads, at a time at which no round frequency has brought it back.
+  /// Pins and spheres of a prescribed motion, at a time at which no round frequency has brought it back.
   Readback::Places prescribed_places() {
     const double t = 0.382 * scene_.duration;
     std::optional<ProbeState> kept;  // puts the nodes back at the end

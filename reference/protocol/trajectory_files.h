@@ -15,7 +15,7 @@ namespace crosscheck {
 
 // NumPy's .npy files: what trajectories are stored in.
 
-/// What stands before frames x particles x 3 numbers, float64, little endian, C order (format 1.0): 128 bytes, whatever
+/// The header of frames x particles x 3 numbers, float64, little endian, C order (format 1.0): 128 bytes, whatever
 /// the numbers.
 std::string npy_header(long frames, long particles);
 /// The numbers of a frame as they stand behind it.

@@ -1,4 +1,4 @@
-// What a one-step rule should produce on a linear scene, exactly: powers of its amplification matrix. Written from the
+// Exact results of one-step rules on linear scenes: powers of its amplification matrix. Written from the
 // rules' definitions, apart from mysim's steppers, which are tested against it.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace crosscheck {
 
-/// What a step adds to (u, v, 1), as a matrix E: the rule multiplies by I + E. Kept without the identity, next to which
-/// the small entries of short steps would lose their digits.
+/// The increment of (u, v, 1) in a step, as a matrix E: the rule multiplies by I + E. Kept without the identity, next
+/// to which the small entries of short steps would lose their digits.
 using Increment = Eigen::Matrix3d;
 
 struct DiscreteStepper {

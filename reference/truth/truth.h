@@ -44,7 +44,7 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 /// to less than that is not known. The scene must be free of contact.
 std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 
-// What a scene with contact converges to in the step, under the in-house contact rule.
+// The limit of a scene with contact as the step goes to 0, under the in-house contact rule.
 
 /// mysim's leapfrog at 1/8, 1/16 and 1/32 of the scene's step. The result holds as long as the last
 /// difference (RMS over the particles, largest so far) is at most 2/3 of the one before, as at order 0.6 or more: with

@@ -26,7 +26,7 @@ void erase_pdf_date(const std::filesystem::path& pdf) {
 
 namespace {
 
-/// What is wrong with a file that gnuplot wrote, or nothing. A format that is known by its first bytes must come to its
+/// The fault of a file that gnuplot wrote, or nothing. A format that is known by its first bytes must come to its
 /// last ones.
 std::string wrong_with_drawn_file(const std::filesystem::path& file) {
   struct Format {

@@ -1,4 +1,4 @@
-// What the command lines of all our programs have in common.
+// The common part of all programs' command lines.
 #pragma once
 
 #include <span>

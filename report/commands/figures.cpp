@@ -34,7 +34,7 @@ struct FiguresOptions {
 
 struct PictureRequest {
   Scene scene;
-  std::string given;  // the scene's name or file, as somebody typed it
+  std::string given;  // the scene's name or file, as it was typed
 };
 
 struct FigureSelection {
@@ -50,7 +50,7 @@ const Experiment* experiment_named(const std::string& name) {
   return nullptr;
 }
 
-/// The scenes that somebody named, or those that stand for the others.
+/// The scenes that the user named, or those that stand for the others.
 std::vector<PictureRequest> scenes_asked(const FiguresOptions& options) {
   std::vector<PictureRequest> all;
   const std::vector<Scene> scenes = scenes_for({}, options.scenes, options.full);

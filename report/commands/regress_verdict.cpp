@@ -239,7 +239,7 @@ PageTable table_of(const std::string& caption, const std::vector<Comparison>& ro
   return table;
 }
 
-/// Those to look at first.
+/// The cases to look at first.
 std::vector<Comparison> by_size(std::vector<Comparison> rows, size_t most) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Comparison& a, const Comparison& b) { return a.rank() > b.rank(); });

@@ -129,7 +129,7 @@ class Builder {
   /// Whether each scene has charts of its own.
   bool all() const { return options_.full || !options_.scenes.empty(); }
 
-  /// Every scene that some experiment looks at.
+  /// Every scene of some experiment.
   std::vector<Scene> scenes_of_all() const {
     std::vector<Scene> all = request_.scenes;
     for (const Request& request : requests_) add_missing(all, request.scenes);
@@ -277,7 +277,7 @@ class Builder {
   const ReportOptions& options_;
   Request request_;  // of the scenes that have a part of their own
   std::vector<const Experiment*> experiments_;
-  std::vector<Request> requests_;  // one per experiment, with the scenes that it looks at
+  std::vector<Request> requests_;  // one per experiment, with its scenes
   OutputFolder& folder_;
   fs::path figures_;
   RunsFolder runs_;

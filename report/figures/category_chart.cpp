@@ -83,7 +83,7 @@ Table data_of(const DotPlot& dots) {
 
 constexpr double letter_width = 7.3;  // mean width of a letter of 12 units, in units
 
-/// What the longest name, or heading, takes of the width.
+/// The share of the width for the longest name or heading.
 double room_for_names(const DotPlot& dots) {
   size_t longest = 0;
   for (const std::string& name : dots.names) longest = std::max(longest, name.size());

@@ -88,7 +88,7 @@ constexpr auto pareto_title = "nothing better at less cost";
 /// The words in the key for all crosses of a kind.
 std::string kind_in_key(const FailureMark& mark) { return mark.kind + " (in its colour)"; }
 
-/// How a curve is called in the data file: gnuplot splits even quoted fields at commas.
+/// The name of a curve in the data file: gnuplot splits even quoted fields at commas.
 std::string id_of(std::string title) {
   for (char& c : title)
     if (c == ',' || c == '"') c = ';';

@@ -53,7 +53,7 @@ std::string picture_name(const Scene& scene);
 Shot shot_for_print(const Scene& scene, const FigureSize& size, bool full);
 double pixels_per_inch(const FigureSize& size);
 
-/// What it shows, in words.
+/// Its caption.
 FigureInfo picture_info(const Scene& scene, const std::vector<const Result*>& answers, const FigureSize& size,
                         const std::string& commit);
 

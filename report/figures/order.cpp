@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// "rk4: order 4, measured 3.99"; methods of others promise none.
+/// "rk4: order 4, measured 3.99"; other engines' methods declare none.
 std::string title_of(const Table& slopes, const std::string& scene, const std::string& method) {
   const std::string shown = short_name(method);
   for (size_t i = 0; i < slopes.rows.size(); ++i)
@@ -52,7 +52,7 @@ double astray(const Points2& errors, const Points2& own) {
   return errors.empty() || own.empty() ? 0 : errors.back().second / own.back().second;
 }
 
-/// How far the slopes that were seen on a scene are from the orders that methods promise.
+/// The distance of a scene's measured slopes from the declared orders.
 std::string slopes_sentence(const Table& slopes, const std::string& scene) {
   constexpr double close = 0.1;  // what the finest three steps of a smooth scene still carry of the next order
   std::vector<std::string> other;

@@ -29,7 +29,7 @@ struct Cost {
   }
 };
 
-/// What one scene's rows say as a whole.
+/// The summary of one scene's rows.
 struct SceneRows {
   const Table& runs;
   const Table* cost;  // of CPU times
@@ -38,7 +38,7 @@ struct SceneRows {
   double motion = 0;
   std::optional<double> error_bar;
   bool difference() const { return truth.find("contact rule") != std::string::npos; }
-  /// What is drawn over the cost.
+  /// The quantity drawn over the cost.
   const char* column() const {
     return !error_bar     ? "distance to own finest"
            : difference() ? "largest difference from converged contact"

@@ -85,7 +85,7 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
   return chart;
 }
 
-/// How a scene with a draped body ends, by method and step.
+/// The final state of a scene with a draped body, by method and step.
 PageTable drape_table(const Table& table, const std::string& scene) {
   PageTable page{scene + ": how it ends",
                  {"method", "step", "settled after / s", "centre height / m", "moved aside / mm", "creep / (mm/s)",

@@ -1,4 +1,4 @@
-// What a finding rests on: the formula of its rule, and rows of tables with fingerprints.
+// The evidence of a finding: the formula of its rule, and rows of tables with fingerprints.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-// How each kind of finding comes from the tables: the formula behind its sentence, and where its rows stand.
+// The derivation of each kind of finding from the tables: the formula behind its sentence, and where its rows stand.
 
 struct FindingRule {
   std::string_view name;

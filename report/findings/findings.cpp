@@ -50,7 +50,7 @@ void agreement(const Scene& scene, const SceneData& facts, std::vector<Finding>&
   }
 }
 
-/// What is known of the cause. It damps as implicit Euler does, and where it errs no more its law is not what is seen.
+/// The known cause. It damps as implicit Euler does, and where it errs no more its law is not what is seen.
 std::string why_off(const Scene& scene, const SceneData& facts, const MethodData& p) {
   const auto* springs = scene.model.find<Springs>();
   const MethodData* implicit = facts.find("mysim/implicit-euler");

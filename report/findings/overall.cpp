@@ -95,7 +95,7 @@ void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneDat
        "see each scene", "nearest-of-all"});
 }
 
-/// How far the position-based world is off, by kind of scene.
+/// The error of the position-based world, by kind of scene.
 void other_law_of_all(const std::vector<Scene>& scenes, const std::vector<SceneData>& facts,
                       std::vector<Finding>& out) {
   std::vector<std::pair<std::string, std::map<double, std::string>>> kinds;  // of each: share of the motion, scene

@@ -100,7 +100,7 @@ std::string own_step_text(const Scene& scene);
 /// "2 ms", or "tolerance 1.0e-6": a run's setting, "step [s]" or "tolerance [1]".
 std::string setting_text(const std::string& setting, double asked);
 
-// What kind of scene it is, in a word for tables and sentences.
+// The class of a scene, in a word for tables and sentences.
 
 /// "ball", "hard lengths", "cloth", "springs", "rotation" or "free flight": by what is hardest in it.
 std::string scene_class(const Scene& scene);

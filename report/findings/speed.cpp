@@ -24,7 +24,7 @@ bool tried_bullet(const Rows& result, const std::string& scene) {
   return false;
 }
 
-/// What the same comparison gives in force evaluations: whether the method is slower, or its engine.
+/// The same comparison in force evaluations: whether the method is slower, or its engine.
 std::optional<std::string> factors_of_evaluations(const Rows& result) {
   const Table* t = result.table("speed-accuracy-cheapest");
   double low = 1e300, high = 0;

@@ -1,4 +1,4 @@
-// What the search for the largest stable steps showed.
+// Findings of the search for the largest stable steps.
 
 #include <algorithm>
 #include <cmath>

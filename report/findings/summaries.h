@@ -1,4 +1,4 @@
-// What single tables say, in words that a finding and a figure share.
+// Summaries of single tables, in words that a finding and a figure share.
 #pragma once
 
 #include <optional>
@@ -48,7 +48,7 @@ std::string power_text(const PowerLaw& power);
 /// nothing was fitted.
 std::string bend_sentence(const Rows& rows);
 
-// How little of a scene's model is enough, from table `adequacy-least`.
+// The least models of scenes, from table `adequacy-least`.
 
 /// The least model that was found within one tolerance.
 struct LeastModel {
@@ -62,10 +62,10 @@ struct LeastModel {
 /// From the strictest tolerance of the table on, in its order; empty where the scene was not run.
 std::vector<LeastModel> least_models_of(const Rows& rows, const std::string& scene);
 
-/// What stays of the scene's ingredients (table `adequacy`) when those are left out.
+/// The scene's ingredients (table `adequacy`) that stay when those are left out.
 std::vector<std::string> kept_without(const Rows& rows, const std::string& scene, const std::string& left_out);
 
-// How far from the exact angle particles leave a ball.
+// The error of the angle at which particles leave a ball.
 
 /// Of table `sphere-leaving`: mysim's rules together, every other method by itself, at the finest step and at the
 /// longest. Empty where no particle leaves.
@@ -103,7 +103,7 @@ struct StepLimitComparison {
 /// Nothing where there is no theory, the method does not take the scene, or theory's limit lies beyond what was tried.
 std::optional<StepLimitComparison> compare_step_limit(const Table& stability, size_t row);
 
-/// A sentence on the limits of all scenes that can rest, and one on those that theory looks at from their start.
+/// A sentence on the limits of all scenes that can rest, and one on those that theory treats about their start.
 struct StepLimitSummary {
   std::string sentence;
   bool at_rest, theory_holds;  // theory holds where no row is `apart`

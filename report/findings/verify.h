@@ -23,7 +23,7 @@ struct Verification {
 /// cannot be read.
 Verification verify_report(const std::filesystem::path& folder);
 
-// What a report says otherwise than an earlier one.
+// Changes of a report against an earlier one.
 
 struct Change {
   std::string scene;        // or empty: of all

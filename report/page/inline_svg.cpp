@@ -296,7 +296,7 @@ struct Tag {
   std::string_view bytes, width, height, alt;
 };
 
-/// What stands in quotes behind `name="` in a tag.
+/// The quoted text behind `name="` in a tag.
 std::string_view attribute(std::string_view tag, std::string_view name) {
   const size_t at = tag.find(name);
   if (at == std::string_view::npos) return "";

@@ -8,7 +8,7 @@
 
 namespace crosscheck::render {
 
-// How wide a text will be, so that it can be made to fit before it is set.
+// The width of a text, so that it can be made to fit before it is set.
 
 /// Width of a UTF-8 text in DejaVu Sans (or its bold), in units of the font size; letters outside ASCII are guessed.
 double text_width(const std::string& text, bool bold);

@@ -209,7 +209,8 @@ std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Sho
   return frames;
 }
 
-/// What view and scale must have room for. A run that blew up would leave neither room nor colour for the others.
+/// The motions that view and scale must have room for. A run that blew up would leave neither room nor colour for the
+/// others.
 struct Seen {
   std::vector<Points> healthy, all, trails;
   std::vector<render::Ball> balls;

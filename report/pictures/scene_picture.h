@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-// How far springs are stretched, as colours show it.
+// The stretch of springs, as colours show it.
 
 /// Extension of the line between two particles, % of its length at rest; compression counts as zero.
 double extension(const Points& x, int a, int b, double rest);
@@ -43,7 +43,7 @@ Shot usual_shot(const Scene& scene, bool full);
 /// Throws InputError when nothing can be shown.
 render::Picture picture_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot);
 
-/// What pictures have in common that are to be compared, like those of a clip.
+/// The common view of pictures that are to be compared, like those of a clip.
 struct CommonView {
   render::View view;
   double top;  // of the scale, in its unit

@@ -90,7 +90,7 @@ Json plot_json(const Scene& scene) {
   return {{"label", "energy / J"}, {"unit", "J"}, {"title", scene.name + ": total energy over time"}};
 }
 
-/// What of it all methods share.
+/// The part of it that all methods share.
 Json shared_json(const Scene& scene, const CameraPlacement& placement, const std::vector<double>& times) {
   Json json{{"scene", scene.name}, {"particles", scene.model.particles.size()}, {"times", times}};
   json["from"] = vector_json(placement.from);

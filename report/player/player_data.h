@@ -1,4 +1,4 @@
-// What the page's player needs of a scene, as JSON that it reads (player.js): motions, springs, obstacles, colours,
+// A scene as JSON for the page's player (player.js): motions, springs, obstacles, colours,
 // plot.
 #pragma once
 

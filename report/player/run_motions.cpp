@@ -16,7 +16,7 @@
 namespace crosscheck {
 namespace {
 
-/// What a scene's runs are packed against.
+/// The reference that a scene's runs are packed against.
 struct Against {
   const Scene& scene;
   ThinnedTrajectory truth;  // at the frames of the scene's player

@@ -35,7 +35,7 @@ std::vector<ThinnedTrajectory> thin(const Scene& scene, const std::vector<const 
 /// The lattice of a scene's motions: around the truth, where there is one, else around those that went well.
 Lattice lattice_of(const std::vector<ThinnedTrajectory>& all);
 
-// What colours and the plot show of motions: stretch, distance from the truth, energy.
+// Values of motions for colours and the plot: stretch, distance from the truth, energy.
 
 /// Values of the particles of several motions on one scale from 0 to top.
 struct ColourValues {

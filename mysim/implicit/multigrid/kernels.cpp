@@ -293,7 +293,7 @@ void residual(const Matrix<float>& m, const float* b, const float* x, float* r) 
 using F = L<float>;
 using Vf = V<float>;
 
-/// What the fine row below an even one takes of the coarse row, and of the next.
+/// The weights of the coarse row, and of the next, in the fine row below an even one.
 FORCE_INLINE float down(const Transfer& t, int coarse_row) { return coarse_row + 1 < t.coarse_rows ? 0.5f : 1; }
 
 /// Along a fine row: what coarse particles are given of it.

@@ -39,7 +39,7 @@ std::optional<ExactSolution> exact_solution(const Scene& scene);
 /// scenes.
 std::optional<Points> hanging_equilibrium(const Scene& scene);
 
-/// What the motion becomes as its amplitude goes to 0: no exact solution of any scene with springs off a line, and
+/// The limit of the motion as its amplitude goes to 0: no exact solution of any scene with springs off a line, and
 /// never given as one.
 struct LinearisedSolution {
   std::vector<double> omega;          // rad/s, of the vibrations, rising

@@ -46,7 +46,7 @@ struct Oscillator {
   }
 };
 
-// What a driven oscillator adds to its free motion.
+// The driven part of an oscillator's motion.
 
 /// u'' = -w2 (u - d) - drag u' - dashpot (u' - d') from rest at u = 0, where d = a r(t) sin(W t) is a prescribed motion
 /// (mysim/particles.h) along a line. With d the imaginary part of a r(t) e^(iWt), and r a polynomial of degree 5 during

@@ -1,4 +1,4 @@
-// What SUNDIALS' integrators share: the scene's equations on its vectors, behind the run loop of all engines.
+// The part that SUNDIALS' integrators share: the scene's equations on its vectors, behind the run loop of all engines.
 #pragma once
 
 #include <nvector/nvector_serial.h>
