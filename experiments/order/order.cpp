@@ -42,7 +42,7 @@ std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
   return Fit{slope(p, r), p->step, r->step};
 }
 
-/// Why a scene is left out, or nothing.
+/// The reason why a scene is left out, or nothing.
 std::string why_not(const Scene& scene) {
   if (scene.model.find<Spheres>()) return "contact makes every rule first order, erratically after impacts";
   if (scene.start.x.cols() > 50) return "its runs would cost much; speed-accuracy has its error over the step";

@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-// Which ingredient, or which rule, the failures have in common.
+// The ingredient or the rule that the failures have in common.
 
 /// In words for people; empty where it is not attributed. Settings that the engine reports are named where they changed
 /// in every case that moved. An ingredient is named only where

@@ -222,7 +222,7 @@ Point point_of(const std::vector<SpeedCase>& cases, const SpeedOptions& plan, in
           true};
 }
 
-/// Why there is no speed where no case is selected, in words.
+/// The reason for no speed where no case is selected, in words.
 std::string nothing_selected(const SpeedRun& run) {
   std::string outside;
   std::vector<Method> methods = run.selection.methods;

@@ -146,7 +146,7 @@ std::vector<Method> methods_for(const Request& request, const Scene& scene) {
   return methods;
 }
 
-/// Why there is nothing to be fast at, or empty.
+/// The reason why no speed is measured, or empty.
 std::string why_not(const Scene& scene, double motion) {
   // 1e-6 of its size: where nothing moves a run of one step is as right as any other
   if (!(motion > 1e-6 * scene.size())) return "nothing moves there";

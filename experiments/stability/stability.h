@@ -6,7 +6,7 @@
 
 namespace crosscheck {
 
-// Why a measured limit is not the predicted one.
+// Reasons why a measured limit is not the predicted one.
 
 /// The reason why theory, of small motion about one state, may differ from the run.
 inline std::string deviation_reason(const BaseState& base, const Method& method) {
@@ -33,7 +33,7 @@ inline std::string saddle_note(const BaseState& base) {
              : "the only equilibrium found is a saddle, not a rest";
 }
 
-/// Why the measurement is not what theory says, or why theory says nothing; empty where they agree.
+/// The reason why the measurement differs from theory, or why theory says nothing; empty where they agree.
 inline std::string reason_for(const BaseState& base, const Method& method, const PredictedLimit& p,
                               const MeasuredLimit& m) {
   // a bracket is no more exact than its width

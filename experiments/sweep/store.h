@@ -29,7 +29,7 @@ void write_point_list(const PointList& plan, const std::filesystem::path& folder
 /// Throws InputError that names the file and what was expected.
 PointList read_point_list(const std::filesystem::path& folder);
 
-/// Where the points of a sweep with that output folder are kept.
+/// The folder for the points of a sweep with that output folder.
 std::filesystem::path store_in(const std::filesystem::path& folder);
 
 // Rows as JSON, and back to the same bits: how a finished point is kept.
@@ -48,7 +48,7 @@ class Store {
   std::optional<Rows> find(const std::string& hash) const;
   /// Written under another name and renamed: a killed run leaves whole files only.
   void keep(const std::string& hash, const Rows& rows) const;
-  /// Why a point failed, in a file of its own; it does not count as there, and the next keep() or run replaces it.
+  /// Stores why a point failed, in its own file; it does not count as there, and the next keep() or run replaces it.
   void keep_failure(const std::string& hash, const std::string& why) const;
   void forget_failure(const std::string& hash) const;
   std::optional<std::string> failure_of(const std::string& hash) const;

@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-// Which instruction set mysim uses, for a while.
+// The instruction set that mysim uses, for a while.
 
 /// For as long as it is there mysim's fast paths keep to an instruction set, as CROSSCHECK_INSTRUCTIONS does it from
 /// outside; afterwards all is as before. Not for use while other threads run.

@@ -66,7 +66,7 @@ class OutputFolder {
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
-  /// Where the files are to be written.
+  /// The folder to write the files into.
   const std::filesystem::path& path() const { return stage_; }
   /// Puts all that was written in place. Throws InputError where that fails.
   void finish();

@@ -17,7 +17,7 @@ namespace crosscheck {
 
 namespace {
 
-/// Which states an observer of pairs is shown between two samples (StatePairObserver).
+/// The states that an observer of pairs is shown between two samples (StatePairObserver).
 class PairSchedule {
  public:
   PairSchedule(Observer& observer, int steps_per_sample)

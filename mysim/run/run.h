@@ -102,7 +102,7 @@ struct Readback {
     std::optional<double> friction;     // Coulomb's mu
     std::optional<double> restitution;  // e
   };
-  /// Where the engine puts its pins and spheres at another time.
+  /// The engine's pins and spheres at another time.
   struct Places {
     double t;                   // s
     Points pins;                // m, in the scene's order

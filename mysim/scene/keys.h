@@ -1,4 +1,4 @@
-// Which keys a scene file may have, as one visible table, and the check of a whole file against it.
+// The keys that a scene file may have, as one visible table, and the check of a whole file against it.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace crosscheck {
 
-// Which keys a TOML file may have, as one visible table, and the check of a whole file against it.
+// The keys that a TOML file may have, as one visible table, and the check of a whole file against it.
 
 /// One key of a table.
 struct Key {

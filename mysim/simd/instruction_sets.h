@@ -1,4 +1,4 @@
-// Which instruction set the kernels run on, chosen at its first use.
+// The instruction set that the kernels run on, chosen at its first use.
 #pragma once
 
 #include <string_view>

@@ -39,7 +39,7 @@ class TrajectoryWriter : public Observer {
   Verdict observe(const State& state, bool sample) override;
   /// Says in both files how many frames there are; a run that failed has fewer than requested.
   void finish();
-  /// When the frames were taken, s.
+  /// The times of the frames, s.
   const std::vector<double>& times() const { return times_; }
 
  private:

@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-// Which program is running.
+// The identity of the running program.
 
 /// The linker's fingerprint of the running program's content, in hexadecimal digits; empty where it has none.
 std::string build_id();

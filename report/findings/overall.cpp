@@ -61,8 +61,8 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneD
     add("failure", "Bullet's explicit world cannot model " + joined(alone) + ": their tables of runs say why.");
 }
 
-/// Which engine is nearest to the truth at the scenes' own steps; within 5 %, or within the truth's error bar, they
-/// share the place.
+/// The engine with the least error at the scenes' own steps; within 5 %, or within the truth's error bar,
+/// engines share the place.
 void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneData>& facts, std::vector<Finding>& out) {
   std::vector<std::string> bullet, shared, alone;
   int asked = 0;

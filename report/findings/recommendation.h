@@ -1,4 +1,4 @@
-// Which method for which scene: a row of the table that the report opens with, and the finding that vouches for it.
+// Methods recommended for scenes: a row of the table that the report opens with, and the finding that vouches for it.
 #pragma once
 
 #include "report/findings/findings.h"

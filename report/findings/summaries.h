@@ -71,7 +71,7 @@ std::vector<std::string> kept_without(const Rows& rows, const std::string& scene
 /// longest. Empty where no particle leaves.
 std::string leaving_sentence(const Table& leaving);
 
-// Where the cloth of scene drop-aside, which should slide off its ball, is in the end.
+// The final place of the cloth of scene drop-aside, which should slide off its ball.
 
 /// A method's last state, at the finest step of mysim/symplectic-euler.
 struct DrapeEnd {

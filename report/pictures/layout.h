@@ -1,4 +1,5 @@
-// Where panels, titles, colour bar and legend go in the picture, in pixels from the top left, and how wide texts are.
+// Positions of panels, titles, colour bar and legend in the picture, in pixels from the top left, and widths
+// of texts.
 #pragma once
 
 #include <string>

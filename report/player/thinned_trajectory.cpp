@@ -147,7 +147,7 @@ std::string dashes_of(const MethodStyle& style) {
   return dash;
 }
 
-/// Why a run failed, without saying again that it did, and when.
+/// The reason why a run failed, without saying again that it did, and when.
 std::string why_failed(const Outcome& out) {
   const std::string words(in_words(out.verdict));
   const size_t open = words.find('(');

@@ -43,7 +43,7 @@ struct Matrix {
   T* force;                 // N: three rows of a field, working memory
 };
 
-/// Where the springs' stiffness comes from.
+/// The source of the springs' stiffness.
 struct SpringGeometry {
   int rows, blocks;
   double* x;                    // m: a field; its halo is filled

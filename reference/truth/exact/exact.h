@@ -34,7 +34,7 @@ struct ExactSolution {
 /// Springs follow Hooke's law and must never turn over: what is claimed is bounded for all times.
 std::optional<ExactSolution> exact_solution(const Scene& scene);
 
-/// Where a tree of Hooke's springs hangs at rest below its one pin, under gravity and steady wind (3 x n, m): each
+/// The rest positions of a tree of Hooke's springs below its one pin, under gravity and steady wind (3 x n, m): each
 /// spring is longer by the weight that it carries over its stiffness. It need not start there. Nothing for other
 /// scenes.
 std::optional<Points> hanging_equilibrium(const Scene& scene);
