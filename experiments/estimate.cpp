@@ -28,7 +28,7 @@ double seconds_of_evaluation(const Method& method, const Scene& scene) {
 
 double estimated_seconds(const Method& method, const Scene& scene, const Run& run) {
   double evaluations = 1;  // per step
-  // conjugate gradients, measured on cloth-hang at steps of 0.5 to 17 ms: mysim's, with the multigrid that sheets have,
+  // conjugate gradients, measured on cloth-hang at steps of 0.5 to 17 ms: mysim's, with the multigrid of cloth grids,
   // and Bullet's; mysim's without it on jelly at 1 to 7 ms
   const double longer = time_grid(run).h / scene.step;
   if (const Stepper* rule = stepper_of(method))
@@ -53,7 +53,7 @@ double estimated_seconds(const Method& method, const Scene& scene, long steps) {
 
 namespace {
 
-/// Far beyond any question: three hours at the ten nanoseconds that the cheapest step of one particle takes.
+/// Beyond any use: three hours at the ten nanoseconds that the cheapest step of one particle takes.
 constexpr double most_steps = 1e12;
 
 double springs_and_constraints_in(const Scene& scene) {
@@ -89,7 +89,7 @@ void require_memory_for(const Scene& scene, const std::string& what, double byte
 ResourceEstimate resource_estimate_of(const Method& method, const Scene& scene, const Run& run) {
   const double particles = static_cast<double>(scene.start.x.cols()), springs = springs_and_constraints_in(scene);
   ResourceEstimate estimate{};
-  // as plan() does, without its refusal
+  // as time_grid() does, without its refusal
   const double interval = run.duration / run.samples;
   estimate.steps = run.samples * std::max(1., std::ceil(interval / run.step * (1 - 1e-9)));
   estimate.seconds =
@@ -153,7 +153,7 @@ void require_resources_to_keep(const std::vector<Method>& methods, const Scene& 
 
 namespace {
 
-/// Tells a run's progress at its samples and hands everything on, pairs of states too where the other looks at pairs.
+/// Reports a run's progress at its samples and forwards all calls, pairs of states too where the other observes pairs.
 class ProgressObserver : public StatePairObserver {
  public:
   ProgressObserver(Observer& inner, double duration, Progress& progress)

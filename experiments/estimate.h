@@ -1,4 +1,4 @@
-// What a run will take (CPU time, steps, memory, disk), refusals of what this machine lacks, and a run's progress.
+// Estimates of a run's CPU time, steps, memory and disk, refusals of what this machine lacks, and a run's progress.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-// What work would cost, before it is done: so that what is left out for its cost is the same on every machine.
+// Estimates of cost before the work: what is left out for its cost is the same on every machine.
 
 /// CPU time of a run of the method, s: from the number of its steps, the particles and the springs; measured with this
 /// suite's builds once, good to a factor of about 3. Rules that solve an equation in each step take more products with
@@ -22,7 +22,7 @@ double estimated_seconds(const Method& method, const Scene& scene, long steps);
 /// first sample, which is run.
 double estimated_as_it_begins(const Method& method, const Scene& scene, Run run);
 
-// What a run will take, before it starts, and refusals of what this machine has not got.
+// Resources of a run before it starts, and refusals where this machine lacks them.
 
 struct ResourceEstimate {
   double steps;    // 1; of adaptive methods as many as the scene's own step would make
@@ -36,11 +36,11 @@ struct ResourceEstimate {
 ResourceEstimate resource_estimate_of(const Method& method, const Scene& scene, const Run& run);
 
 /// A run as long as that with samples as far apart as the scene's own. Throws InputError that begins with --duration
-/// and tells samples, steps, time and disk where there would be more than a million samples.
+/// and names samples, steps, time and disk where there would be more than a million samples.
 Run with_duration(const Method& method, const Scene& scene, Run run, double duration);
 
 /// Throws InputError where the run would take more than 1e12 steps, or more memory than is free, or, where its frames
-/// are written into a folder, more than the disk has. The message tells the number of steps and the time.
+/// are written into a folder, more than the disk has. The message gives the number of steps and the time.
 void require_resources_to_write(const Method& method, const Scene& scene, const Run& run,
                                 const std::filesystem::path& folder);
 /// The same where the frames of all methods are kept in memory.
@@ -48,8 +48,8 @@ void require_resources_to_keep(const std::vector<Method>& methods, const Scene& 
 
 // The progress of runs.
 
-/// The method, each run of which is announced as a step of work and tells at its samples how far it has come. Its
-/// answers are the same.
+/// The method, each run of which is announced as a step of work and reports its progress at its samples. Its
+/// results are the same.
 Method with_progress(const Method& method, Progress& progress);
 
 }  // namespace crosscheck

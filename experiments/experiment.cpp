@@ -57,9 +57,9 @@ std::span<const Experiment> experiments() {
   static constexpr std::string_view timed_scenes[] = {"circle",   "projectile", "spring",        "normal-modes",
                                                       "pendulum", "chain",      "chain-link",    "rod",
                                                       "slide",    "bounce",     "cloth-student", "cloth-hang"};
-  // of moving scenes from small to large; the last is the one that the other questions are asked of too
+  // of moving scenes from small to large; the last is the one that the other experiments use too
   static constexpr std::string_view speed_charts[] = {"pendulum", "chain", "cloth-hang"};
-  // the hanging cloth, at rest on a coarse grid, tells how stiffness follows the grid once more
+  // the hanging cloth, at rest on a coarse grid, shows once more how stiffness follows the grid
   static constexpr std::string_view all_and_swing[] = {"circle",
                                                        "projectile",
                                                        "spring",
@@ -128,7 +128,7 @@ std::vector<Method> methods_of(const Request& request, const Scene& scene) {
   if (!request.methods.empty()) return request.methods;
   std::vector<Method> methods;
   // truth is what the others are held against, integrators of others are no engines, and single precision doubles the
-  // work where few scenes ask about it: these run when they are named
+  // work where few scenes need it: these run when they are named
   for (Method& method : all_methods())
     if (method.family().by_default()) methods.push_back(std::move(method));
   if (scene.model.find<Spheres>()) methods.push_back(find_method(sticky_method()));

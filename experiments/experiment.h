@@ -20,7 +20,7 @@ namespace crosscheck {
 // A point: one piece of an experiment's work, independent of all others. Sweeps compute points in any order, on any
 // machine, and keep what they gave.
 
-/// What points give. Results are joined by appending the rows of tables of the same name.
+/// Results of points. They are joined by appending the rows of tables of the same name.
 struct Rows {
   std::vector<Table> tables;
   std::vector<Certificate> certificates;
@@ -43,16 +43,16 @@ struct Point {
   std::string hash() const;
 };
 
-/// What the rows of a scene depend on: its name, its hash, its times, its tolerance and its default method.
+/// The data that a scene's rows depend on: its name, its hash, its times, its tolerance and its default method.
 std::string content_of(const Scene& scene);
 
 // Experiments: drivers that run methods over scenes and write tables. The table of them is in experiment.cpp.
 
-/// A run as it went, for who wants to see it move.
+/// A run as it went, for playback.
 struct WatchedRun {
   Outcome outcome;
   Trajectory path;   // its samples; of one that failed, and of a map's cell, its last pictures; no frames: refused
-  Points rest = {};  // of a cell of a map: N (3 x n), m, from where it was kicked
+  Points rest = {};  // of a cell of a map: N (3 x n), m, of the base state
 };
 /// Runs of one method, in the order of the rows that the driver writes of them.
 struct WatchedRuns {
@@ -66,13 +66,13 @@ using RunCallback = std::function<void(const WatchedRuns&)>;
 struct Request {
   std::vector<Scene> scenes;
   std::vector<Method> methods;  // empty: the default ones of each scene
-  bool full = false;            // more points, for the same questions
+  bool full = false;            // more points of the same experiments
   double step = 0;              // s, of all fixed-step methods; 0: each scene's own
-  bool scenes_only = false;     // only what is asked of these scenes, not what experiments ask of scenes of their own
+  bool scenes_only = false;     // only these scenes, not the experiments' own ones
   RunCallback watch = {};       // is shown the runs of speed-accuracy and of the maps; rows do not depend on it
 };
 
-/// One method's answer to one scene at the request's step, kept: experiments and pictures look at the same run.
+/// One method's run of one scene at the request's step, kept: experiments and pictures use the same run.
 struct Result {
   std::string scene, method;
   Outcome outcome;
@@ -85,11 +85,11 @@ struct Experiment {
   std::string_view name, question;
   /// The list of its points; the same request gives the same list.
   std::vector<Point> (*points)(const Request&);
-  /// The scenes that stand for all in a quick run where nobody names any; empty: quick_scenes().
+  /// The scenes that stand for all in a quick run where none is named; empty: quick_scenes().
   std::span<const std::string_view> quick_scenes = {};
   /// Adds the tables that are made of the rows of all points.
   void (*conclude)(Rows&) = nullptr;
-  /// Those of its scenes that have charts and played runs of their own in a quick run where nobody names any; the
+  /// Those of its scenes that have charts and played runs of their own in a quick run where none is named; the
   /// others are in its tables and in the charts of all scenes. Empty: all have.
   std::span<const std::string_view> quick_charts = {};
 };
@@ -124,19 +124,19 @@ bool has_own_charts(const std::string& experiment, const std::string& scene, boo
 void add_missing(std::vector<Scene>& all, const std::vector<Scene>& more);
 
 /// The methods that a request runs on a scene: the ones it names, or all of mysim and Bullet; on a scene with a sphere
-/// also the assignment's sticky sphere, to be seen failing beside them.
+/// also the assignment's sticky sphere, to be seen failing.
 std::vector<Method> methods_of(const Request& request, const Scene& scene);
 
 /// Results that are at hand: a deque, so that references stay valid.
 using Results = std::deque<Result>;
 
-/// The method's answer to the scene at the request's step, from those at hand or by running it now.
+/// The method's result on the scene at the request's step, from those at hand or by running it now.
 Result& result_of(const Request& request, const Scene& scene, const Method& method, Results& answers);
 
-/// Tables SCENE-energy and engines-energy: the ledgers of the answers at the request's step.
+/// Tables SCENE-energy and engines-energy: the ledgers of the results at the request's step.
 void add_energies(const Request& request, const Scene& scene, Results& answers, Rows& rows);
 
-/// Experiment `engines` on one scene, with the answers that it looked at.
+/// Experiment `engines` on one scene, with the results that it used.
 void engines_on(const Request& request, const Scene& scene, Results& answers, Rows& rows);
 
 /// One point per scene: `compute` is given a request of that scene alone. Its content is the scene's and the request's.

@@ -8,7 +8,7 @@
 
 namespace crosscheck {
 
-// Where a scene comes to rest.
+// The rest state of a scene.
 
 /// The state of rest under gravity, springs and steady winds, pins where they stand at the start: found by dynamic
 /// relaxation with kinetic damping (all velocities are set to zero at each peak of the kinetic energy; drag is left

@@ -60,7 +60,7 @@ std::optional<double> round_off_bound(const Scene& scene, double motion, double 
 /// add up like a random walk, each grows like a perturbation, and there are about ten of them in a step.
 std::optional<double> single_precision_bound(const Scene& scene, double motion, double growth, long steps);
 
-// What can be said of a motion whose single positions cannot be predicted: means over perturbed runs, and their spread.
+// Statistics of a motion whose single positions cannot be predicted: means over perturbed runs, and their spread.
 
 struct Statistic {
   std::string quantity, unit;

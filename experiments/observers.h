@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-// The last moments of a run, as close together as its fastest vibration asks.
+// The last moments of a run, as close together as its fastest vibration needs.
 
 /// Keeps the last 25 pictures of a run whatever its length: eight to a period of the vibration omega (rad/s), or every
 /// step where steps are longer than that, or nothing vibrates. So nothing that is shown looks slower than it was.

@@ -1,4 +1,4 @@
-// Where the terms add their forces (N), and the stiffness and damping (the tangent) of implicit methods.
+// Sums of the terms' forces (N), and the stiffness and damping (the tangent) of implicit methods.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace crosscheck {
 
-// Where the terms add their forces.
+// Sums of the terms' forces.
 
 struct Forces {
   Points f;                     // N (3 x n)

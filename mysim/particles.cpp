@@ -1,4 +1,4 @@
-// Where the pins are at a time: the prescribed motion and its derivative.
+// Positions of the pins at a time: the prescribed motion and its derivative.
 #include "mysim/particles.h"
 
 #include <cassert>

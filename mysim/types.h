@@ -13,7 +13,7 @@ inline double largest_column(const Points& p) { return p.cols() > 0 ? p.colwise(
 /// Sum of the products of all entries.
 inline double dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
 
-/// What changes with time. A first-order scene (x' = f(x, t)) has no velocities: v is then 3 x 0.
+/// The state that changes with time. A first-order scene (x' = f(x, t)) has no velocities: v is then 3 x 0.
 struct State {
   double t = 0;  // s
   Points x;      // N (3 x n), m

@@ -1,4 +1,4 @@
-// Methods: everything that answers a scene, by name, and the families that they belong to.
+// Methods: everything that runs a scene, by name, and their families.
 #pragma once
 
 #include <filesystem>
@@ -14,13 +14,14 @@
 
 namespace crosscheck {
 
-// The families of methods. Who reads a method's name asks its family, and no name: a further engine is a row.
+// The families of methods. Code that depends on a method's kind reads its family, never its name: a further engine is a
+// row.
 
-/// What a family is to the comparison: what is tested, engines beside it, others' integrators on the right-hand side
-/// written apart, the best answers known, programs and trajectories of the reader's.
+/// The role of a family in the comparison: the engine under test, its peers, others' integrators on the right-hand side
+/// written apart, the best solutions known, programs and trajectories of the reader's.
 enum class Role { subject, peer, integrator, truth, outside };
 
-/// Who compiled it.
+/// The origin of a family's build.
 enum class Build { unknown, here, debian, own_program };
 
 struct MethodRow;
@@ -30,7 +31,7 @@ struct MethodFamily {
   std::string_view title;  // for people
   Role role;
   std::string_view representative = {};  // the method that stands for it where one must
-  std::string_view variant_of = {};      // the same engine built otherwise: asked by `regress`, else only by name
+  std::string_view variant_of = {};      // the same engine built otherwise: run by `regress`, else only by name
   Build build = Build::unknown;
   std::string_view build_text = "a program of its own";
   double call = 200e-9, element = 12e-9;  // s, an evaluation, and what it takes for each particle and spring
@@ -53,7 +54,7 @@ const MethodFamily& subject();
 /// The family of a method's name, or of a family's; what has no other is a program's, of `exec:`.
 const MethodFamily& family_of(std::string_view name);
 
-// Methods: everything that answers a scene, by name.
+// Methods: everything that runs a scene, by name.
 
 struct Method {
   std::string name;     // full, e.g. "mysim/leapfrog+sticky"
@@ -85,7 +86,7 @@ std::string short_name(const std::string& method);
 /// The subject's representative with the contact rule that puts a touching particle back.
 std::string sticky_method();
 
-/// What names of programs begin with.
+/// The prefix of programs' names.
 inline constexpr std::string_view program_prefix = "exec:";
 
 /// A method by name: "rk4" (short for "mysim/rk4"), "bullet/pbd+n=10", "exec:./program". Throws InputError that lists
@@ -103,14 +104,14 @@ const Stepper* stepper_of(const Method& method);
 /// Splits "a,b,c" and finds each.
 std::vector<Method> find_methods(const std::string& list);
 
-/// Runs the method under a DivergenceMonitor (mysim/run/observers.h), which may ask `bounds`; Unsupported becomes an
+/// Runs the method under a DivergenceMonitor (mysim/run/observers.h), which may call `bounds`; Unsupported becomes an
 /// outcome with that verdict.
 Outcome run_method(const Method& method, const Scene& scene, const Run& run, std::vector<Observer*> observers,
                    const MotionBoundsFunction& bounds = motion_bounds_of);
 
-// Who makes the methods of a family: the files in methods/.
+// The methods of each family, made by the files in methods/.
 
-/// What stands behind the pluses of a name: "sticky", "n=10".
+/// The options behind the pluses of a name: "sticky", "n=10".
 using MethodOptions = std::vector<std::string>;
 
 /// A name, how its method is made from the options, and the options one of which must be given: each of them is a

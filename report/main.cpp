@@ -22,7 +22,7 @@ constexpr AddCommand commands[] = {
     add_render,      // a picture or a clip
     add_advise,      // the cheapest method for a tolerance
     add_regress,     // what moved since the baselines
-    add_bench,       // speed beside the peers
+    add_bench,       // speed against the peers
     add_engine,      // another Bullet
     add_grader,      // grade and assignment
 };

@@ -1,4 +1,4 @@
-// Runs the rungs.
+// Runs the ablations of a model.
 #include "experiments/adequacy/ablation.h"
 
 #include <fmt/ranges.h>

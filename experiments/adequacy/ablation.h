@@ -1,4 +1,4 @@
-// The model ladder of a scene: what each ingredient is worth, one at a time and one after the other.
+// Ablations of a scene's model: ingredients are left out one at a time, and one after the other.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-/// What errors of models are measured with: the truth of the full scene, and a rule and step so fine that on the full
+/// The reference for errors of models: the truth of the full scene, and a rule and step so fine that on the full
 /// model its own error is a fifth of the tolerance at most.
 struct ReferenceSolution {
   Method method;
@@ -25,7 +25,7 @@ ReferenceSolution reference_solution_of(const Scene& scene, double tolerance);
 struct AblatedModel {
   std::string name;              // "full", "without bend springs", "without bend springs, drag"
   std::vector<std::string> out;  // ingredients left out
-  bool single;                   // one ingredient alone; else a step of the cumulative ladder
+  bool single;                   // one ingredient alone; else a step of the cumulative ablation
   Scene scene;
   std::optional<double> error;  // m, largest RMS distance from the truth of the full scene; empty where it failed
   Outcome outcome;
@@ -35,15 +35,15 @@ struct AblatedModel {
   }
 };
 
-/// The full model, every single removal, and the cumulative ladder: at each step the ingredient goes that adds the
+/// The full model, every single removal, and the cumulative ablation: at each step the ingredient goes that adds the
 /// least error. It ends where the next step errs by more than `most` (m), that step included, or nothing is left.
 std::vector<AblatedModel> ablations_of(const Scene& scene, const ReferenceSolution& reference, double most);
 
-/// The model that leaves out the most within the tolerance (m); the full model where nothing can be left out.
+/// The ablated model that leaves out the most within the tolerance (m); the full model where nothing can be left out.
 const AblatedModel& least_model(const std::vector<AblatedModel>& ladder, double tolerance);
 
-/// The error of a model of the scene, m: its distance from `truth` over time by the reference's rule; empty where the
-/// run failed.
+/// The error of a model of the scene, m: its distance from `truth` over time by the reference solution's rule; empty
+/// where the run failed.
 std::optional<double> model_error(const Scene& model, const ReferenceSolution& reference, const Trajectory& truth,
                                   Outcome& outcome);
 

@@ -1,5 +1,5 @@
-// Experiment `adequacy`: the model ladder of each scene, the least model within its tolerance, and how cloth depends on
-// its grid.
+// Experiment `adequacy`: ablations of each scene's model, the least model within its tolerance, and how cloth depends
+// on its grid.
 
 #include <fmt/ranges.h>
 

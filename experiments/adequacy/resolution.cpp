@@ -101,7 +101,7 @@ std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& 
 }
 
 std::vector<Bending> bending_stiffness(const std::vector<int>& sizes) {
-  // a line of a sheet of 1 m x 1 m and 0.1 kg
+  // a line of a cloth of 1 m x 1 m and 0.1 kg
   const auto line = [](int n, double bend) {
     const double d = 1 / (n - 1.5);
     std::string text = fmt::format(

@@ -29,12 +29,12 @@ struct PowerLaw {
 };
 std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& points);
 
-/// How the stiffness k of bend (skip-one) springs must grow with the grid for a sheet to droop alike: one line of a
-/// sheet of 1 m and 0.1 kg, clamped flat at one end (two pinned particles, half a cell to either side of the clamp, so
+/// How the stiffness k of bend (skip-one) springs must grow with the grid for a cloth to droop alike: one line of a
+/// cloth of 1 m and 0.1 kg, clamped flat at one end (two pinned particles, half a cell to either side of the clamp, so
 /// that the free length is the same on all grids), held flat by bend springs and kept from stretching by structural
 /// ones. Derived: with the lengths kept, a curvature
 /// kappa turns neighbouring cells of size d by d kappa, which shortens a bend spring over them by d^3 kappa^2 / 4; the
-/// energy of one line is k d^6 kappa^4 / 32 per particle, of the sheet k d^4 kappa^4 / 32 per area: for the same sheet
+/// energy of one line is k d^6 kappa^4 / 32 per particle, of the cloth k d^4 kappa^4 / 32 per area: for the same cloth
 /// k must grow as d^-4, as the fourth power of the number of cells.
 struct Bending {
   int n;

@@ -58,7 +58,7 @@ const Trial& Search::at_tolerance(double relative) {
 bool Search::hopeless(const Trial& t) const {
   return t.outcome.verdict == Verdict::unsupported || t.cost() > dearest();
 }
-/// What so many steps between two samples cost at least: nothing is run to see that it is too much.
+/// The least cost of so many steps between two samples, without a run.
 bool Search::too_dear(long steps) const {
   const int evaluations = method_->stepper ? std::max(1, method_->stepper->evaluations) : 1;
   return static_cast<double>(steps) * advice_.scene.samples * evaluations *
@@ -78,7 +78,7 @@ void Search::over_steps() {
     const Trial& t = at(meets);
     if (t.meets) {
       cost = t.cost();
-      // a smaller step must do as well: one that is right by luck is none
+      // a smaller step must do as well: an accidental success is none
       const bool luck = !at(2 * meets).meets;
       if (!luck) confirmed = true;
       if (luck) fails = meets, meets *= 4;
@@ -141,7 +141,7 @@ int search_order(const Method& m) {
   return (m.stepper->evaluations == 0 ? 10 : 0) - m.stepper->order;
 }
 
-/// The least model that a file can say and whose own error leaves half of the tolerance.
+/// The least model that a scene file can express and that leaves half of the tolerance.
 std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
   try {
     const ReferenceSolution y = reference_solution_of(scene, tolerance);
@@ -167,7 +167,7 @@ std::optional<Candidate> least_of(const Scene& scene, double tolerance) {
     least.name = fmt::format("without {}", fmt::join(names, ", "));
     return least;
   } catch (const Unsupported&) {
-    return std::nullopt;  // no step of the yardstick is fine enough to tell a model's error from its own
+    return std::nullopt;  // no step of the reference solution is fine enough for a model's error
   }
 }
 
@@ -202,7 +202,7 @@ void caveats_of(Advice& a, const Trial& t) {
     a.caveats.push_back(fmt::format("the method follows another law: {}", fmt::join(t.outcome.different_law, "; ")));
 }
 
-/// What can be promised at all, with the truth's bar in the window; throws CannotGuarantee where nothing can.
+/// The advice without its trials; throws CannotGuarantee where the truth allows none.
 Advice guarantee_of(const Scene& scene, double tolerance, const DenseTruth& path) {
   const Truth& truth = path.truth();
   Advice a{scene, tolerance, truth.tier, truth.how, path.error_bar(), truth.under_contact_rule, path.until(), {}, 0, {},
@@ -226,7 +226,7 @@ bool finer(const Trial& x, const Trial& y) {
   return y.relative > 0 ? x.relative < y.relative : x.step < y.step * (1 - 1e-9);
 }
 
-/// What a finer trial does not confirm was met by luck.
+/// Marks trials that a finer one does not confirm.
 void mark_accidental(std::vector<Trial>& trials) {
   for (Trial& t : trials)
     for (const Trial& o : trials) t.accidental |= t.meets && !o.meets && !o.accidental && finer(o, t);

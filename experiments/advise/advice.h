@@ -1,4 +1,4 @@
-// Advice: the cheapest model, method and step that answer a scene to a tolerance, found by measured search.
+// Advice: the cheapest model, method and step that meet a tolerance on a scene, found by measured search.
 #pragma once
 
 #include <cmath>
@@ -14,9 +14,9 @@
 
 namespace crosscheck {
 
-// Advice: the cheapest model, method and step that answer a scene to a tolerance, found by measured search.
+// Advice: the cheapest model, method and step that meet a tolerance on a scene, found by measured search.
 
-/// Nothing that was tried meets what is asked, or nothing can tell whether it does. what() is the reason, one line.
+/// No trial meets the tolerance, or no reference can show that one does. what() is the reason, one line.
 struct CannotGuarantee : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -43,8 +43,8 @@ struct Advice {
   Tier tier;
   std::string truth;             // how it was found
   double error_bar;              // m, the truth's, in the window
-  bool under_contact_rule;       // what is met is a difference, no error
-  double until;                  // s, the promise ends here
+  bool under_contact_rule;       // the tolerance bounds a difference, no error
+  double until;                  // s, the guarantee ends here
   std::vector<Trial> trials;     // everything tried, in order
   size_t chosen;                 // of the trials
   std::optional<size_t> second;  // the cheapest other method that meets it

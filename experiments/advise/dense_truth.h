@@ -14,10 +14,10 @@ namespace crosscheck {
 /// of what leads its pins and spheres, of its gusts. 0 where nothing vibrates.
 double fastest_motion(const Scene& scene);
 
-/// The truth up to the end of what can be promised, at any time. A closed form is asked for each time. Converged truth
-/// is computed at eight places in each period of the fastest motion, or more, and cubic between them with its speeds at
-/// both ends: doubling the places from there on until what that leaves out, seen where every other place is left out,
-/// is below a thirtieth of `tolerance` (m).
+/// The truth up to the end of what can be guaranteed, at any time. A closed form is evaluated at each time. Converged
+/// truth is computed at eight places in each period of the fastest motion, or more, and cubic between them with its
+/// speeds at both ends: doubling the places from there on until what that leaves out, seen where every other place is
+/// left out, is below a thirtieth of `tolerance` (m).
 class DenseTruth {
  public:
   /// Throws CannotGuarantee where no truth is known, or the places would be too many.

@@ -1,4 +1,4 @@
-// What quick and full benches measure, and in which order.
+// The measurements of quick and full benches, in their order.
 #include "experiments/bench/bench.h"
 
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ Rows bench(const BenchSuite& plan) {
   std::vector<EqualErrorOptions> sheets;
   for (const BenchSuite::PeerCloth& asked : plan.sheets)
     sheets.push_back({std::make_shared<const Scene>(asked.scene()), asked.peers, plan.turns});
-  // shipped scenes, two sheets at the same step, and implicit steps
+  // shipped scenes, two cloths at the same step, and implicit steps
   int work = 3 + static_cast<int>(plan.kernel_sides.size() + plan.threads.sides.size()) + work_of(plan.implicit_step);
   for (const EqualErrorOptions& asked : sheets) work += work_of(asked);
   Progress progress(work);

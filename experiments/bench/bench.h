@@ -17,8 +17,8 @@ struct BenchSuite {
     Scene scene() const { return of(side); }
     static Scene hooke(int side) { return hanging_cloth(side); }
   };
-  std::vector<int> kernel_sides;    // of sheets that kernels run on
-  std::vector<std::string> scenes;  // on which the engine's kernels stand beside the naive loop
+  std::vector<int> kernel_sides;    // of cloths that kernels run on
+  std::vector<std::string> scenes;  // on which the engine's kernels are compared with the naive loop
   std::vector<PeerCloth> sheets;    // for the same error
   SameStepOptions same_step;
   ImplicitStepOptions implicit_step;
@@ -27,7 +27,7 @@ struct BenchSuite {
   ThreadsOptions threads;
 };
 
-/// quick: within 90 s on a quiet machine of two cores; full: the largest sheet and every peer on each.
+/// quick: within 90 s on a quiet machine of two cores; full: the largest cloth and every peer on each.
 BenchSuite bench_suite(bool full);
 
 /// The tables bench-*-cost: threads first, and then kernels, scenes, peers at the same error and at the same step, and

@@ -108,7 +108,7 @@ namespace {
 
 constexpr double falls_for = 0.5;  // s
 
-/// A sheet on its way down, and what a step of it asks for.
+/// A falling cloth, and the linear system of its step.
 struct FallingCloth {
   Scene scene;
   State state;

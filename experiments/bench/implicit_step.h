@@ -48,17 +48,17 @@ class FactorisedStep {
 // mysim's implicit step beside a sparse factorisation: the same linear system, solved to round-off by both.
 
 struct ImplicitStepOptions {
-  std::vector<int> sides;     // particles along a side of the sheet
+  std::vector<int> sides;     // particles along a side of the cloth
   std::vector<double> rates;  // steps a second
   MicrobenchmarkOptions plan;
 };
 
-/// How many are announced.
+/// The number of announced steps of work.
 inline int work_of(const ImplicitStepOptions& asked) {
   return static_cast<int>(asked.sides.size() * asked.rates.size());
 }
 
-/// `bench-implicit-step-cost`: from the sheet as it hangs after half a second, one step of `implicit-euler+linear` and
+/// `bench-implicit-step-cost`: from the cloth as it hangs after half a second, one step of `implicit-euler+linear` and
 /// one by Eigen's SimplicialLDLT (implicit_step.h): how far apart both end (the farthest particle, m), their times,
 /// iterations of conjugate gradients, and the ratio of the times, round by round; with the best instructions for mysim,
 /// and with SSE2 alone.

@@ -21,7 +21,7 @@ using simd::InstructionSet;
 
 constexpr auto naive = "naive loop", double_precision = "double", single_precision = "single";
 
-/// A sheet with a wave in it, so that every spring pulls.
+/// A cloth with a wave in it, so that every spring pulls.
 Scene waving_cloth(int n) {
   Scene scene = hanging_cloth(n);
   for (int i = 0; i < scene.start.x.cols(); ++i)

@@ -1,4 +1,4 @@
-// What a spring costs, kernel by kernel, on generated cloths and on shipped scenes.
+// The cost of a spring, kernel by kernel, on generated cloths and on shipped scenes.
 #pragma once
 
 #include "experiments/bench/micro.h"
@@ -6,19 +6,19 @@
 
 namespace crosscheck {
 
-// What a spring costs, kernel by kernel.
+// The cost of a spring, kernel by kernel.
 
-/// `bench-kernels-cost`: ns of CPU time per spring and step on a sheet with so many particles along a side, with 90 %
+/// `bench-kernels-cost`: ns of CPU time per spring and step on a cloth with so many particles along a side, with 90 %
 /// intervals; how many times the naive loop's speed, round by round; operations per second, counting `flop_per_spring`;
 /// and their share of the most that the same instructions do in registers. The naive loop: Eigen::Vector3d, spring by
-/// spring; it, the plain loop and the general kernel: forces only; the sweep: a whole step.
+/// spring; it, the plain loop and the general kernel: forces only; the fused step: a whole step.
 Table kernels_table(int side, const MicrobenchmarkOptions& plan);
 
-// What the forces of a scene's springs cost, scene by scene.
+// The cost of the spring forces, scene by scene.
 
 /// `bench-scenes-cost`: on each scene (those without springs are left out) one evaluation of the springs' forces in the
-/// engine's own ways (the general kernel; the sweep, a whole step, where the springs are a grid) beside the naive loop
-/// of spring_forces.h, round by round.
+/// engine's own kernels (the general one; the fused step, a whole step, where the springs are a grid) beside the naive
+/// loop of spring_forces.h, round by round.
 Table scenes_table(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& plan);
 
 }  // namespace crosscheck

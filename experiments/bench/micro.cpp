@@ -12,7 +12,7 @@
 namespace crosscheck {
 namespace {
 
-/// Why a benchmark gave no times, or "". Google Benchmark 1.8 renamed what 1.7 calls an error.
+/// The reason why a benchmark gave no times, or "". Google Benchmark 1.8 renamed what 1.7 calls an error.
 template <class Run>
 std::string error_of(const Run& run) {
   if constexpr (requires { run.error_occurred; })

@@ -19,10 +19,10 @@ struct MicrobenchmarkOptions {
   double seconds = 0.02;  // of each piece in each round
 };
 
-/// CPU time of one run of each, s, one for each round; by name. In a round all have their turn one after the other, so
-/// that a slow spell of the machine falls on all, and quotients within a round tell most; alone on this machine among
-/// all of Crosscheck (experiments/timing/machine.h). Names must differ. Throws
-/// Unsupported with the package's name where the suite was built without Google Benchmark.
+/// CPU time of one run of each, s, one for each round; by name. In a round all run one after the other, so
+/// that a slow spell of the machine falls on all, and quotients within a round are the most exact; alone on this
+/// machine among all of Crosscheck (experiments/timing/machine.h). Names must differ. Throws Unsupported with the
+/// package's name where the suite was built without Google Benchmark.
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
                                                                const MicrobenchmarkOptions& plan);
 

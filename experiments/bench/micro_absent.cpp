@@ -1,4 +1,4 @@
-// What stands in for Google Benchmark where the suite was built without it.
+// A substitute for Google Benchmark where the suite was built without it.
 
 #include "experiments/bench/micro.h"
 #include "mysim/base/errors.h"

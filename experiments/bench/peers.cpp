@@ -20,13 +20,13 @@
 namespace crosscheck {
 namespace {
 
-/// mysim's ways to an accuracy: where the ladder of steps begins (in 2 / omega, below the rule's limit), and each step
-/// over the next longer one.
+/// mysim's methods for an accuracy: where their series of steps begins (in 2 / omega, below the rule's limit), and each
+/// step over the next longer one.
 struct MysimMethod {
   const char* method;
   double first, rung;
 };
-constexpr double fine = 0.8409, coarse = 0.5;  // 2^(-1/4); where runs are dear and a better rule is at hand
+constexpr double fine = 0.8409, coarse = 0.5;  // 2^(-1/4); where runs are slow and a better rule is at hand
 // the most accurate for its work first: where it errs less in as many evaluations there is no use in going on
 constexpr MysimMethod own_methods[] = {{"mysim/suzuki4+fast", 1.3, fine},
                                        {"mysim/leapfrog+fast", 0.95, fine},
@@ -103,7 +103,7 @@ int PeerRuns::count(const std::vector<Peer>& peers) {
 
 namespace {
 
-/// What an evaluation of mysim's methods takes by one path, s, round by round.
+/// The time of an evaluation of mysim's methods on one code path, s, round by round.
 struct MysimTimes {
   CodePath path;
   std::map<std::string, std::vector<double>> per_evaluation;  // by method; those of which a run ended well
@@ -238,8 +238,8 @@ void equal_error(const EqualErrorOptions& asked, Rows& rows, Progress& progress)
       rows.notes.push_back(note);
     return refused;
   });
-  double wanted = INFINITY;  // m: the least error that can be told
-  long most = 0;             // evaluations: as many as take mysim about the time that the dearest run takes a peer
+  double wanted = INFINITY;  // m: the least error above the error bar
+  long most = 0;             // evaluations: as many as take mysim about the time that a peer's slowest run takes
   for (const PeerRun& run : peers) {
     if (run.ok() && *run.error > 2 * error_bar) wanted = std::min(wanted, *run.error - 2 * error_bar);
     most = std::max(most, 5 * run.outcome.evaluations);

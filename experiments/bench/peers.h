@@ -1,4 +1,4 @@
-// mysim beside Bullet and the integrators of others on a cloth: at the same error, and at the same step.
+// mysim compared with Bullet and other integrators on a cloth: at the same error, and at the same step.
 #pragma once
 
 #include "experiments/experiment.h"
@@ -8,9 +8,9 @@
 
 namespace crosscheck {
 
-// Whole runs on a sheet and how far each ends from the truth: the errors that are compared.
+// Whole runs on a cloth and their errors at the end, which are compared.
 
-/// Somebody to be compared with, and at which settings: tolerances of those that follow one, else steps in units of
+/// A method to compare with, and its settings: tolerances of those that follow one, else steps in units of
 /// leapfrog's largest stable one, 2 / omega with the scene's fastest vibration omega.
 struct Peer {
   std::string method;
@@ -33,16 +33,16 @@ class PeerRuns {
  public:
   /// Finds the truth: mysim/suzuki4 at a sixteenth of its largest step.
   PeerRuns(const Scene& scene, Progress& progress);
-  /// What halving the truth's step changed at last, m.
+  /// The change by the last halving of the truth's step, m.
   double error_bar() const { return bar_; }
 
   std::vector<PeerRun> of(const std::vector<Peer>& peers) const;
   /// mysim's, of each method from long steps to short ones: until a run errs no more than `wanted` (m), takes more
-  /// evaluations than `most`, or more than a run of another method that errs less. In single precision where the sheet
+  /// evaluations than `most`, or more than a run of another method that errs less. In single precision where the cloth
   /// is wide enough for it.
   std::vector<PeerRun> own(double wanted, long most) const;
 
-  /// How many are announced, the truth's and mysim's own among them.
+  /// The number of announced runs, the truth's and mysim's own among them.
   static int count(const std::vector<Peer>& peers);
 
  private:
@@ -56,7 +56,7 @@ class PeerRuns {
   double bar_;
 };
 
-// What the same accuracy costs: mysim beside Bullet and the integrators of others, on a sheet.
+// The cost of the same accuracy: mysim, Bullet and other integrators, on a cloth.
 
 struct EqualErrorOptions {
   std::shared_ptr<const Scene> scene;
@@ -64,7 +64,7 @@ struct EqualErrorOptions {
   TimedRunOptions turns;
 };
 
-/// How many steps of work are announced.
+/// The number of announced steps of work.
 int work_of(const EqualErrorOptions& asked);
 
 /// `bench-equal-error-cost`: for each run of each peer its error (peers.h), its time, and how many times that is
@@ -73,16 +73,16 @@ int work_of(const EqualErrorOptions& asked);
 /// error is within the bar. `bench-own-runs-cost`: mysim's runs.
 void equal_error(const EqualErrorOptions& asked, Rows& rows, Progress& progress);
 
-// Bullet's explicit world beside mysim's symplectic Euler at the same step: the same rule, so that the time of a step
+// Bullet's explicit world and mysim's symplectic Euler at the same step: the same rule, so that the time of a step
 // is all that differs.
 
 struct SameStepOptions {
-  int side = 64;          // particles along a side of the sheet
+  int side = 64;          // particles along a side of the cloth
   double duration = 0.2;  // s, over which both are followed
   TimedRunOptions turns;
 };
 
-/// `bench-same-step-cost`: on a sheet whose three stiffnesses a force class of our own carries in Bullet (without
+/// `bench-same-step-cost`: on a cloth whose three stiffnesses a force class of Crosscheck's carries in Bullet (without
 /// faces), and on one of two stiffnesses under Bullet's own spring force: how far apart both engines are at the end
 /// (the farthest particle, m), the time of a step, and the ratio of the times, round by round; with the best
 /// instructions for mysim, and with SSE2 alone.

@@ -27,7 +27,7 @@ BenchmarkFunction naive_loop(const Scene& scene) {
       work->f[s.a] += force;
       work->f[s.b] -= force;
     }
-    // tells the compiler that somebody reads them, so that the work is not left out
+    // makes the compiler take them as read, so that the work is not left out
     asm volatile("" : : "r"(work->f.data()) : "memory");
   };
 }

@@ -16,7 +16,7 @@ using BenchmarkFunction = std::function<void()>;
 BenchmarkFunction naive_loop(const Scene& scene);
 /// The definition of the term (mysim/terms/springs.h).
 BenchmarkFunction plain_loop(const Scene& scene);
-/// The engine's kernel for any network, with an instruction set that the machine has.
+/// The engine's kernel for any spring graph, with an instruction set that the machine has.
 BenchmarkFunction general_kernel(const Scene& scene, simd::InstructionSet isa);
 /// The engine's fused step: not the forces alone but a whole step of a cloth, kick and drift included. T: double or
 /// float; `fast` as of simd::kernel(). Nothing where the springs are no regular grid, or one too narrow.

@@ -27,7 +27,7 @@ double cpu_of_all_threads() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/// A sheet that is stepped on and on.
+/// A cloth that is stepped on and on.
 class TimedCloth {
  public:
   TimedCloth(const Scene& scene, int threads)

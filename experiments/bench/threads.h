@@ -1,4 +1,4 @@
-// Two threads beside one: the same steps of the same sheet, by the clock on the wall.
+// Two threads against one: the same steps of the same cloth, by wall-clock time.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,13 @@
 namespace crosscheck {
 
 struct ThreadsOptions {
-  std::vector<int> sides;  // particles along a side of each sheet
+  std::vector<int> sides;  // particles along a side of each cloth
   TimedRunOptions turns;
 };
 
 /// `bench-threads-cost`: wall time of a step of leapfrog with one thread and with +threads=2, which may take one where
-/// a sheet is small, and their ratio, round by round; and the share of the time of the cores that the threads got while
-/// they were timed: threads that wait look again and again, so that what is missing somebody else had, and the ratio is
+/// a cloth is small, and their ratio, round by round; and the share of the time of the cores that the threads got while
+/// they were timed: threads that wait spin, so that other processes had the missing share, and the ratio is
 /// then less than the machine can give. A note says so below 95 %, and where there is one core only. Call it before the
 /// process is bound to a core.
 void two_threads(const ThreadsOptions& asked, Rows& rows, Progress& progress);

@@ -20,7 +20,7 @@
 namespace crosscheck {
 namespace {
 
-/// Tells the compiler that somebody reads it, so that the work is not left out.
+/// Makes the compiler take it as read, so that the work is not left out.
 void keep(const double* data) { asm volatile("" : : "r"(data) : "memory"); }
 
 /// Compiled for each instruction set; the best that the machine has is taken.
@@ -106,7 +106,7 @@ long springs_of(const Scene& scene) { return static_cast<long>(scene.model.find<
 void cost_of_size(const Request& request, int n, Rows& rows) {
   const Scene scene = sized_cloth(n);
   std::vector<Method> methods, asked = methods_of(request, scene);
-  // beside engines that know networks only: the same rule without the kernel for regular cloths
+  // for engines that know spring graphs only: the same rule without the fused step
   if (request.methods.empty()) asked.push_back(find_method(std::string(subject().representative) + "+plain"));
   for (Method& method : asked) {
     if (method.adaptive) continue;  // how long its steps are is its own choice
@@ -162,7 +162,7 @@ std::function<double()> springs_alone(const Scene& scene) {
   };
 }
 
-/// All forces, as the stepper asks for them, per call, s.
+/// All forces, as the stepper computes them, per call, s.
 std::function<double()> forces_alone(const Scene& scene) {
   auto system = std::make_shared<System>(scene.model);
   auto state = std::make_shared<State>(scene.start);
@@ -203,7 +203,7 @@ Table phases_table(int n, const std::vector<std::string>& methods, const std::ve
 
 void cost_of_phases(const Request& request, int n, Rows& rows) {
   const Scene plain = sized_cloth(n), above = sized_cloth(n, true);
-  // the sweep has no phases
+  // the fused step has no phases
   const Method ours = find_method("mysim/leapfrog+plain"), fused = find_method("mysim/leapfrog");
   std::vector<Method> others;
   for (Method& m : methods_of(request, above))

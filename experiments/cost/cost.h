@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-// What this machine can do at most, measured by small loops of this build (S. Williams, A. Waterman and D. Patterson,
+// The peaks of this machine, measured by small loops of this build (S. Williams, A. Waterman and D. Patterson,
 // "Roofline", 2009).
 
 /// A loop with a known amount of work; run() does it once and says what CPU time it took, s.
@@ -20,27 +20,27 @@ struct Kernel {
   std::function<double()> run;
 };
 
-/// Multiplications and additions in registers that wait for nobody, with the instructions that mysim's kernels use
-/// (fused ones where these have them).
+/// Multiplications and additions in registers that depend on no other result, with the instructions that mysim's
+/// kernels use (fused ones where these have them).
 Kernel multiply_add_kernel();
 
-/// a = b + s c over three arrays of `bytes` in all: what memory of that size delivers. 24 bytes an element.
+/// a = b + s c over three arrays of `bytes` in all: the bandwidth of memory of that size. 24 bytes an element.
 Kernel triad_kernel(double bytes);
 
-// Experiment `cost`: what a step costs, against size, by phase, and beside what the machine can do.
+// Experiment `cost`: the cost of a step against size, by phase, and against the machine's peaks.
 
 /// `size-cost`: time per step of every method on a cloth of n x n particles.
 void cost_of_size(const Request& request, int n, Rows& rows);
 /// `phases-cost`: of mysim's leapfrog on a cloth above a sphere, in the general engine, what springs, other forces,
-/// contact and the rest of the step take, and the whole step in the sweep, which does all of it in one pass; of
-/// Bullet's worlds the whole step, since what they do inside cannot be told from outside.
+/// contact and the rest of the step take, and the whole step in the fused step, which does all of it in one pass; of
+/// Bullet's worlds the whole step, since their phases cannot be seen from outside.
 void cost_of_phases(const Request& request, int n, Rows& rows);
 /// The same from measured times, s: springs, all forces, a step without the sphere and a step with it (of methods[0]);
 /// then whole steps, of methods[1] and on.
 Table phases_table(int n, const std::vector<std::string>& methods, const std::vector<Timing>& times);
 /// `roofline-cost`: the machine's peaks and the spring kernel at several sizes.
 void cost_against_roofline(bool full, Rows& rows);
-/// What must be said beside a measured peak below the rate of another loop, flop/s; nothing where there is none.
+/// The remark on a measured peak below the rate of another loop, flop/s; nothing where there is none.
 std::optional<std::string> doubt_about_peak(double peak, double triad);
 
 /// Work of the spring kernel per spring, in floating-point operations: 3 differences, 5 for the squared length, 1

@@ -1,4 +1,4 @@
-// Known disagreements between Bullet and what a scene asks: the scenes, their runs, and the direction of contact.
+// Known disagreements between Bullet and a scene's definition: the scenes, their runs, and the direction of contact.
 #pragma once
 
 #include <functional>
@@ -24,9 +24,9 @@ struct DirectionError {
 /// the scene.
 std::vector<DirectionError> direction_errors(const std::string& method, Scene scene, const std::vector<double>& angles);
 
-// Known disagreements: where Bullet's worlds answer otherwise than the scene asks, each in the smallest scene that
-// shows it, with its cause and the measured size of its effect. The table is in experiments/disagreements/table.cpp; a
-// new one is a scene file in scenes/disagreements/ and a row.
+// Known disagreements: where Bullet's worlds solve another problem than the scene's, each in the smallest scene that
+// shows it, with its cause and the measured size of its effect. The table is in disagreements/table.cpp; a new one
+// is a scene file in scenes/disagreements/ and a row.
 
 /// One curve of the figure: a method at a step, perhaps on the scene with another spring law.
 struct Variant {
@@ -51,11 +51,11 @@ struct TableWithSentence {
 
 struct Disagreement {
   std::string name;   // of the scene file too
-  std::string world;  // whose it is
+  std::string world;  // the Bullet world that has it
   std::string what;   // a heading: what cannot be matched, or fails
   std::string cause;  // one sentence
   std::string quantity, unit;
-  std::vector<Variant> variants;  // first what the scene asks for
+  std::vector<Variant> variants;  // the first is the scene's own
   /// The quantity; none: the largest distance of a particle from its place in the first variant's run (m), on a
   /// logarithmic axis.
   std::function<double(const Scene&, const State&)> value;

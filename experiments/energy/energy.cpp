@@ -15,7 +15,7 @@ namespace {
 
 constexpr long all_steps = 100000;
 constexpr int samples = 200;
-/// Rules that solve the whole step are meant for longer ones: theirs is that many times the scene's.
+/// Rules that solve the whole step are meant for longer steps: so many times the scene's.
 constexpr int longer = 10;
 
 /// Everything that takes or gives energy, in one small scene: a cloth held by two moved corners swings in gusts against
@@ -35,7 +35,7 @@ Scene everything() {
 }
 
 /// Steps of the scene's step that each method's run is given, so that all cover the same time: as many as Bullet's
-/// explicit world, the dearer one of those with a step as short, takes in a budget. A full run's allows all
+/// explicit world, the slower one of those with a step as short, takes in a budget. A full run's allows all
 /// on a cloth of 10 x 10.
 long steps_for(const Request& request, const Scene& scene) {
   const double budget = request.full ? 2.5 : 0.9;  // s
@@ -58,7 +58,7 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
                                      all_steps, scene.name, scene.model.particles.size(),
                                      request.full ? "" : "; --full takes more"));
 
-  // how many steps an adaptive rule takes is its own choice: stiff springs ask for millions
+  // how many steps an adaptive rule takes is its own choice: stiff springs take millions
   if (const double seconds = method.adaptive ? estimated_as_it_begins(method, scene, run) : 0; seconds > 30) {
     rows.notes.push_back(
         fmt::format("energy leaves out {} on {}: as it begins, its {:.3g} s would cost about {:.0f} s of CPU time",

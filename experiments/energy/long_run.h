@@ -1,4 +1,4 @@
-// What is read off long runs: drift, oscillation and growth of the energy residual, and numerical damping.
+// Statistics of long runs: drift, oscillation and growth of the energy residual, and numerical damping.
 #pragma once
 
 #include <optional>
@@ -29,7 +29,7 @@ class ThinnedLedger : public Observer {
   long stride_, seen_ = 0, next_ = 1;
 };
 
-/// What the rows of a long run say of its residual r, the balance less the balance at the start (J).
+/// Statistics over a long run of its residual r, the balance less the balance at the start (J).
 struct ResidualStatistics {
   double energy_scale = 0;  // J: the largest kinetic energy, or change of gravitational or elastic energy
   double worst = 0;         // J, largest |r|

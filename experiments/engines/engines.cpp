@@ -40,7 +40,7 @@ std::optional<double> predicted_limit(const Method& method, const Scene& scene, 
 /// Table SCENE-statistics: what perturbed runs have in common.
 void add_statistics(const Request& request, const Scene& scene, const Run& run, Results& answers, Rows& rows) {
   Table table = table_of<StatisticRow>(scene.name + "-statistics");
-  // the rules that stand for the engines: sixteen runs of every method would tell no more
+  // the rules that stand for the engines: sixteen runs of every method would show no more
   for (const MethodFamily& family : method_families()) {
     if (!family.by_default()) continue;
     const auto methods = methods_of(request, scene);
@@ -52,7 +52,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
                                        family.representative, scene.name));
       continue;
     }
-    // who cannot take the scene, or failed on it, has no statistics
+    // a method that refuses the scene, or failed on it, has no statistics
     const Result& answer = result_of(request, scene, *asked, answers);
     if (answer.outcome.verdict != Verdict::ok) continue;
     for (const Statistic& s : contact_statistics(*asked, scene, run))
@@ -70,7 +70,7 @@ void engines_on(const Request& request, const Scene& scene, Results& answers, Ro
   const Run run = run_of(request, scene);
   Table table = table_of<EngineTimeRow>(scene.name + "-engines");
   const auto truth = truth_of(scene, run);
-  // differences from a run that failed would tell nothing
+  // differences from a run that failed would say nothing
   const Result& by_rule = result_of(request, scene, find_method(std::string(subject().representative)), answers);
   const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
   const Method probe = find_method(reference.frames() > 0 ? std::string(subject().representative) : scene.method);
@@ -87,7 +87,7 @@ void engines_on(const Request& request, const Scene& scene, Results& answers, Ro
     if (out.verdict != Verdict::unsupported && !method.stepper) {
       rows.certificates.push_back(certify(method.name, scene, out));
       if (rows.certificates.back().mismatch()) {
-        // what answers another scene is no answer: no number of it is kept
+        // a run of another scene is no result: no number of it is kept
         out.verdict = Verdict::unsupported;
         out.reason = "it built another scene, see its parity certificate";
       }
@@ -138,7 +138,7 @@ void engines_on(const Request& request, const Scene& scene, Results& answers, Ro
     }
     add(summary, row);
     if (!out.remark.empty()) rows.notes.push_back(fmt::format("{} on {}: {}", method.name, scene.name, out.remark));
-    // an outside program need not tell its own time
+    // an outside program need not report its own time
     const bool told = out.process_seconds == 0 || out.cpu_seconds > 0;
     if (unsupported) continue;
     EngineCostRow spent{.scene = scene.name, .method = method.name};

@@ -1,5 +1,5 @@
-// Experiment `order`: error against step, and the slope beside the declared order; and the distance of each run from
-// the same method's run at its smallest step, which tells who converges to something else.
+// Experiment `order`: error against step, and the slope against the declared order; and the distance of each run from
+// the same method's run at its smallest step, which shows methods that converge to something else.
 
 #include <fmt/ranges.h>
 
@@ -42,7 +42,7 @@ std::optional<Fit> asymptotic_order(const std::vector<ErrorAtStep>& points) {
   return Fit{slope(p, r), p->step, r->step};
 }
 
-/// Why a scene is left out, or nothing.
+/// The reason why a scene is left out, or nothing.
 std::string why_not(const Scene& scene) {
   if (scene.model.find<Spheres>()) return "contact makes every rule first order, erratically after impacts";
   if (scene.start.x.cols() > 50) return "its runs would cost much; speed-accuracy has its error over the step";
@@ -71,7 +71,7 @@ void order_on(const Request& request, const Scene& scene, Rows& rows) {
       adaptive.insert(method.name);
       continue;
     }
-    // engines of others cost ten times as much a step, and no order is promised for them
+    // other engines cost ten times as much a step, and declare no order
     const int steps = method.stepper ? halvings : std::min(halvings, 5);
     std::vector<Refinement> runs;
     for (int i = 0; i < steps; ++i) {

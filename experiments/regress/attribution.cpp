@@ -21,7 +21,7 @@ struct CaseStatus {
   std::string scene, method, without;
   Names ingredients;
   bool moved = false;
-  bool ran = false;  // before: what was refused or failed then tells nothing
+  bool ran = false;  // before: a case that was refused or failed then says nothing
 };
 
 std::vector<CaseStatus> case_statuses(std::span<const Case> cases, std::span<const Comparison> rows) {
@@ -82,7 +82,7 @@ std::string settings_in_common(std::span<const Comparison> rows) {
       changes[row.quantity.substr(std::string_view(setting_prefix).size())] =
           fmt::format("was {}, is {}", row.was_word, row.is_word);
   }
-  for (const auto& test_case : refused) moved.erase(test_case);  // these tell nothing
+  for (const auto& test_case : refused) moved.erase(test_case);  // these say nothing
   if (moved.empty()) return "";
   Changes common = moved.begin()->second;
   for (const auto& [test_case, changes] : moved)
@@ -127,7 +127,7 @@ namespace {
 /// The quantities that say how far the result is from right, the better one first.
 constexpr std::string_view errors[] = {"error against truth", "change at half the step"};
 
-/// What a result cost is no part of it.
+/// The cost of a result is no part of it.
 bool is_work(const Comparison& row) { return row.quantity == "steps" || row.quantity == "force evaluations"; }
 
 bool moved(const Comparison& row) {
@@ -154,7 +154,7 @@ std::string in_words(const Comparison& row, bool name_scene) {
   return fmt::format("{} {}{}", row.quantity, size, name_scene ? " on " + row.scene : "");
 }
 
-/// What the quantities tell of accuracy.
+/// Evidence of the quantities on accuracy.
 struct Evidence {
   bool known = false, has_moved = false, error_known = false;
   const Comparison *larger = nullptr, *smaller = nullptr;  // the errors that changed most

@@ -1,4 +1,4 @@
-// Baselines: the quantities and the last shape of each scene when somebody last said that they are right.
+// Baselines: the quantities and the last shape of each scene at the last blessing.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace crosscheck {
 
-// Baselines: the quantities of each method when somebody last said that they are right. One readable file per scene.
+// Baselines: the quantities of each method at the last blessing. One readable file per scene.
 
 struct BaselineRow {
   std::string method, without;

@@ -17,8 +17,8 @@ namespace crosscheck {
 namespace {
 
 /// Estimates are those of release builds. Without optimisation each number that Eigen reads is a call of several
-/// functions: mysim's rules on cloth-hang, chain and spring take up to 350 times as long. Told by the assertions, as
-/// fmt's headers turn optimisation on for a while, after which g++ says that it is on.
+/// functions: mysim's rules on cloth-hang, chain and spring take up to 350 times as long. Recognised by the assertions,
+/// as fmt's headers turn optimisation on for a while, after which g++ says that it is on.
 #ifdef NDEBUG
 constexpr double slower = 1;
 #else

@@ -30,12 +30,12 @@ struct Quantity {
   double value = 0;
   std::string word = {};
   bool count = false;    // a whole number that rounding cannot change
-  double size = 0;       // of the numbers that it is a difference of: its last digits are theirs
+  double size = 0;       // of the numbers whose difference it is: its rounding error is relative to these
   double error_bar = 0;  // what is not known of it whatever the engine does: the error bar of a truth
   bool is_word() const { return !word.empty(); }
 };
 
-/// How quantities are called that others look for.
+/// Names of quantities that other code looks up.
 inline constexpr const char *setting_prefix = "setting ", *time_of_failure = "time of failure",
                             *error_quantity = "error against truth", *halving_quantity = "change at half the step",
                             *contact_quantity = "energy lost in contact";
@@ -65,8 +65,8 @@ std::string places_at(double t);
 /// Null where there is none of that name.
 const Quantity* find(const std::vector<Quantity>& all, const std::string& name);
 
-/// What quantities are taken from: the run, of a failed one the first half of the time until it failed, since there
-/// the motion is still the scene's.
+/// The part of a run that gives quantities: all of it, of a failed one the first half of the time until it failed,
+/// since there the motion is still the scene's.
 CaseRun comparable_part(const CaseRun& case_run);
 
 // The cases of a regression run: which scenes under which methods, and which of them without one ingredient.
@@ -82,13 +82,13 @@ struct Selection {
 std::vector<std::string> scenes_of(const Selection& selection);
 /// Whether everything is selected that baselines of these scenes should have.
 inline bool covers_all(const Selection& selection) { return selection.filter.empty() && selection.methods.empty(); }
-/// Whether somebody here changes the engine; what stands beside them as a judge is not selected unless named.
+/// Whether the method is an engine's; integrators, truth and outside programs are selected by name only.
 bool selected_by_default(const std::string& method);
 /// Whether the filter leaves this scene under this method.
 bool passes(const std::string& filter, const std::string& scene, const std::string& method);
 
 /// Every scene under every method, as far as its cost allows (0.5 s by the estimate of experiments/estimate.h, 20 s in
-/// full runs); and under its own method also without each of its ingredients, which tells causes apart. Methods that
+/// full runs); and under its own method also without each of its ingredients, which separates causes. Methods that
 /// refuse a scene are cases too: a refusal is behaviour. Throws InputError where the filter leaves nothing.
 std::vector<Case> cases(const Selection& selection);
 

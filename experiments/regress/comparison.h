@@ -1,4 +1,4 @@
-// Quantities beside their baselines: the status of each, and how different they are.
+// Quantities compared with their baselines: the status of each, and how different they are.
 #pragma once
 
 #include <span>
@@ -30,11 +30,11 @@ struct Comparison {
   std::string note;  // what else is to be said, e.g. what is wrong with a file
   /// How many tolerances it is off; 0 for words, infinite for counts.
   double off() const;
-  /// What to look at first: words, then numbers by how far they are off, then counts.
+  /// The order of reading: words, then numbers by how far they are off, then counts.
   double rank() const;
 };
 
-/// One case's quantities beside those expected of it; where none is expected all are new.
+/// One case's quantities compared with its baseline; where none is expected all are new.
 std::vector<Comparison> compared(const Case& test_case, const std::vector<Quantity>& is,
                                  const std::vector<BaselineRow>& expected);
 
@@ -53,7 +53,7 @@ std::vector<NewMethod> new_methods(std::span<const Comparison> rows);
 /// The rows of `baseline` that belong to the case.
 std::vector<BaselineRow> baseline_rows_of(const Baseline& baseline, const Case& test_case);
 
-// How close results are to their baselines where they need not be the same bits: other compilers round otherwise.
+// The difference of results from their baselines where they need not be the same bits: other compilers round otherwise.
 
 /// Of the rows that have both a value that was and one that is.
 struct Difference {

@@ -267,7 +267,7 @@ void error_against_truth(const Observation& seen, Quantities& out) {
   out.back().error_bar = truth->error_bar;
 }
 
-/// What the engine says that it is set to. Six digits: single precision rounds what it is told.
+/// The settings that the engine reports. Six digits: single precision rounds its input.
 void settings(const Observation& seen, Quantities& out) {
   if (!seen.case_run.outcome.readback) return;
   const Readback& told = *seen.case_run.outcome.readback;

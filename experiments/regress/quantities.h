@@ -1,4 +1,4 @@
-// What the table of quantities is made of.
+// The functions behind the table of quantities.
 #pragma once
 
 #include "experiments/regress/cases.h"
@@ -20,7 +20,7 @@ std::optional<Truth> exact_truth(const Scene& scene);
 // ---- of the run itself ----
 /// How far the particles are from where they started, RMS.
 void offsets(const Observation& seen, Quantities& out);
-/// Where they are, seen along directions drawn once for each particle: tells apart what moves alike on the whole.
+/// Positions along directions drawn once for each particle: they differ where means over the particles agree.
 void places(const Observation& seen, Quantities& out);
 /// Kinetic, elastic and gravitational energy, above that at the start.
 void energies(const Observation& seen, Quantities& out);

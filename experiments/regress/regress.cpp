@@ -230,7 +230,7 @@ class Change {
     baseline_.blessings.push_back(blessing);
   }
 
-  /// What is the same keeps its row and its blessing. Throws InputError where a number is not finite.
+  /// A quantity that is the same keeps its row and its blessing. Throws InputError where a number is not finite.
   void add(const Case& q, const std::vector<QuantityWithTolerance>& now) {
     selected_.emplace(q.method.name, q.without);
     const std::vector<BaselineRow> before = baseline_rows_of(baseline_, q);

@@ -102,7 +102,7 @@ double seconds_of(const Method& method, const SpeedCase& q, double resolution) {
 }
 
 /// Takes small pieces of memory and gives some of them back, so that what is allocated next comes to lie elsewhere: a
-/// small scene can take a quarter more time for where its arrays lie beside each other, whoever wrote the program.
+/// small scene can take a quarter more time for where its arrays lie in memory, in any program.
 class HeapShuffle {
  public:
   explicit HeapShuffle(std::mt19937_64& engine) {

@@ -13,13 +13,13 @@
 
 namespace crosscheck {
 
-// The yardstick of speed: a plain loop over a scene's springs and particles that nobody makes faster.
+// The reference loop for speed: a plain loop over a scene's springs and particles that is never optimised.
 
 /// Symplectic Euler with springs and gravity on plain arrays, one number after the other; what else a scene has it
 /// leaves out. It uses nothing of any engine, so that a change to one of them cannot change it.
 class PlainLoop {
  public:
-  /// Stored speeds name it; whoever changes the loop changes this, and stored speeds are no longer compared.
+  /// Stored speeds name it; it changes with the loop, and stored speeds are no longer compared.
   static constexpr const char* name = "plain loop 1";
 
   explicit PlainLoop(const Scene& scene);
@@ -44,9 +44,9 @@ class PlainLoop {
   double h_;                                               // s
 };
 
-// How fast methods are, as ratios to a plain loop on the same scene in the same rounds.
+// Speeds of methods, as ratios to a plain loop on the same scene in the same rounds.
 
-/// One scene under one method, over its first steps; beside another method where one is named.
+/// One scene under one method, over its first steps; against another method where one is named.
 struct SpeedCase {
   Scene scene;
   Method method;
@@ -61,7 +61,7 @@ struct SpeedCase {
 /// where nothing is left.
 std::vector<SpeedCase> speed_cases(const Selection& selection, const std::optional<Method>& against);
 
-/// How well is measured: so many rounds, in each of which every case has its turn.
+/// Settings of a measurement: so many rounds, each of which runs every case once.
 struct SpeedOptions {
   int rounds;
   double resolution = 2e-3;  // s: shorter runs are repeated within a round until they have taken as much
@@ -71,20 +71,20 @@ struct SpeedOptions {
 /// or fails.
 struct Ratios {
   std::vector<double> is;   // of the method
-  std::vector<double> was;  // of the one that it stands beside, in the same rounds; empty without one
+  std::vector<double> was;  // of the one that it is compared with, in the same rounds; empty without one
 };
 
-/// How they are had: by measured_ratios(), or from a table of invented ones.
+/// The source of measurements: measured_ratios(), or a table of invented ones.
 using MeasureSpeeds = std::function<std::vector<Ratios>(const std::vector<SpeedCase>&, const SpeedOptions&)>;
 
-/// In each round each case is run between two turns of the plain loop, so that a slow spell of the machine falls
+/// In each round each case is run between two runs of the plain loop, so that a slow spell of the machine falls
 /// on both, and with everything elsewhere in memory, as drawn from the seed: what that changes is noise, too.
 std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const SpeedOptions& plan, int seed);
 
-// Blessed speeds: what each method cost beside the plain loop when somebody last said that this is right. One file.
+// Blessed speeds: the cost of each method over that of the plain loop at the last blessing. One file.
 
 /// The kind of machine and program that a speed belongs to: on another kind it says nothing, for what a method takes
-/// beside the plain loop depends on the processor's units and caches and on the compiler.
+/// relative to the plain loop depends on the processor's units and caches and on the compiler.
 struct Machine {
   std::string cpu,
       compiler;  // processor_kind() (experiments/timing/machine.h), empty where that is not known; with its flags

@@ -27,7 +27,7 @@ std::vector<double> changes_of(const Ratios& ratios, double was) {
 
 double middle(std::vector<double> values) { return timing_of(std::move(values)).median; }
 
-/// What a machine differs in from this one, in words; empty where in nothing.
+/// The differences of a machine from this one, in words; empty where there are none.
 std::string differences_of(const Machine& there, const Machine& here) {
   std::string text;
   const auto tell = [&](const char* part, const std::string& is, const std::string& would_be) {
@@ -44,7 +44,7 @@ int parts_apart(const Machine& a, const Machine& b) {
   return (a.cpu != b.cpu) + (a.compiler != b.compiler) + (a.yardstick != b.yardstick);
 }
 
-/// What is blessed of the case under other circumstances, in words: on the machine that is most like this one.
+/// The case's blessed speed under other circumstances, in words: on the machine that is most like this one.
 /// Empty where nothing is.
 std::string why_elsewhere(const SpeedFile& file, const SpeedCase& q, const Machine& here) {
   const BlessedSpeed* nearest = nullptr;
@@ -222,7 +222,7 @@ Point point_of(const std::vector<SpeedCase>& cases, const SpeedOptions& plan, in
           true};
 }
 
-/// Why there is no speed where no case is selected, in words.
+/// The reason for no speed where no case is selected, in words.
 std::string nothing_selected(const SpeedRun& run) {
   std::string outside;
   std::vector<Method> methods = run.selection.methods;

@@ -21,7 +21,7 @@ enum class SpeedStatus {
   elsewhere,  // blessed on another kind of machine, by another compiler or of another scene: not compared
 };
 std::string_view name_of(SpeedStatus state);
-/// What is held against somebody.
+/// Whether the status fails the regression run.
 inline bool failed(SpeedStatus state) { return state <= SpeedStatus::gone; }
 
 struct SpeedComparison {
@@ -37,7 +37,7 @@ struct SpeedComparison {
 };
 
 /// The changes that count: 10 %, or twice the spread of the measurements at bless, or of the rounds now, where that is
-/// more. Measured on a loaded machine, 32 cases forty times: 99 in 100 lie within 4 % of the middle of theirs, and
+/// more. Measured on a loaded machine, 32 cases forty times: 99 in 100 lie within 4 % of their case's median, and
 /// with any seven of them blessed one in a thousand of the others lies outside this noise, where an alarm takes five in
 /// a row. The same code at eight other places in the program differs by up to 5 %, which is why it is not 5 %.
 double noise_of(double spread);
@@ -48,7 +48,7 @@ double spread_of(const std::vector<double>& middles);
 /// 1 where the whole interval is above 1 + noise (slower), -1 where it is below 1 / (1 + noise) (faster), else 0.
 int direction_of(const Timing& change, double noise);
 
-/// One measurement of all cases, beside blessed speeds, or beside the other method of the case where that is
+/// One measurement of all cases, compared with blessed speeds, or with the other method of the case where that is
 /// null: `slower` and `faster` are suspicions still. What never had a speed is left out.
 std::vector<SpeedComparison> first_measurement(const std::vector<SpeedCase>& cases, const SpeedFile* blessed,
                                                const Machine& machine, const MeasureSpeeds& measure);
@@ -61,7 +61,7 @@ void confirm(std::vector<SpeedComparison>& rows, const std::vector<SpeedCase>& c
 std::vector<BlessedSpeed> speeds_to_bless(const std::vector<SpeedCase>& cases, const Machine& machine,
                                           const MeasureSpeeds& measure);
 
-// The speed part of a regression run: measures, sets beside what is blessed, looks again; or blesses.
+// The speed part of a regression run: measures, compares with blessed speeds, measures suspects again; or blesses.
 
 struct SpeedRun {
   Selection selection;
@@ -98,7 +98,7 @@ class SpeedMeasurement {
 /// A file of blessed speeds that cannot be read is a failure; one that is not there is said.
 Speeds compared_speeds(const SpeedRun& run, Progress& progress);
 
-/// The figures of one measurement beside those of a file, and of those that confirm it.
+/// The figures of one measurement compared with those of a file, and of those that confirm it.
 Speeds compared_speeds(const std::vector<SpeedCase>& cases, const SpeedFile* blessed, const Machine& machine,
                        const MeasureSpeeds& measure);
 

@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-/// Who said that it is right, and why.
+/// The author of a blessing, and the reason.
 struct Blessing {
   std::string date, commit, build, reason;
 };

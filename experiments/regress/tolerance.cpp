@@ -41,8 +41,8 @@ double motion_in(const CaseRun& case_run) {
   return case_run.trajectory.frames() > 0 ? motion_of(case_run.trajectory) : 0;
 }
 
-/// What the equation of one step leaves in places, m: mysim's rules stop at 1e-12 of the inertial forces, or where the
-/// spring forces, of places known to their last digits, are no longer told apart; the lightest particle yields most.
+/// The error of one step's equation in positions, m: mysim's rules stop at 1e-12 of the inertial forces, or where the
+/// spring forces, of places known to their last digits, are no longer distinct; the lightest particle yields most.
 double left_by_one_step(const Case& test_case, const CaseRun& case_run, double lengths) {
   const Model& model = test_case.scene.model;
   double stiffest = 0, lightest = INFINITY;
@@ -54,7 +54,7 @@ double left_by_one_step(const Case& test_case, const CaseRun& case_run, double l
   return lengths * (1e-12 + 8 * eps * stiffest * h * h / lightest);
 }
 
-/// What steps leave in the quantity: solvers, and sums over steps. A change of the start tells nothing of that where
+/// The error of steps in the quantity: solvers, and sums over steps. A change of the start shows nothing of it where
 /// the rule damps: what the start had in excess is gone by then, and what the last steps leave is not.
 double left_by_steps(const Case& test_case, const CaseRun& case_run, const Rounding& rounding, const Quantity& q) {
   const Outcome& outcome = case_run.outcome;
@@ -123,7 +123,7 @@ std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case) {
   for (const unsigned seed : {1u, 2u, 3u}) moved.push_back(moved_by(little, seed));
   const double less = 10 * rounding.size;
   const std::vector<Quantity> moved_less = less < little / 2 ? moved_by(less, 1) : std::vector<Quantity>{};
-  std::map<std::string, double> scale;  // of each unit: what is zero but for rounding is bounded beside it
+  std::map<std::string, double> scale;  // of each unit: it bounds what is zero but for rounding
   for (const Quantity& q : quantities)
     if (!q.count) scale[q.unit] = std::max(scale[q.unit], std::abs(q.value));
   const auto change_of = [&](const Quantity& q) {

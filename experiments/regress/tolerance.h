@@ -1,4 +1,4 @@
-// How much of a change rounding explains: the tolerance of each quantity, found by measurement.
+// The change that rounding explains: the tolerance of each quantity, found by measurement.
 #pragma once
 
 #include "experiments/regress/cases.h"
@@ -8,7 +8,7 @@ namespace crosscheck {
 struct QuantityWithTolerance {
   Quantity quantity;
   double tolerance = 0;    // in the quantity's unit; 0 for words and counts: they must be equal
-  std::string derivation;  // short: words_of_derivation() explains it
+  std::string derivation;  // short: words_of_derivations() explains it
 };
 
 /// m: what all roundings of a run amount to as a change of the start.
@@ -19,14 +19,14 @@ struct Rounding {
 };
 Rounding rounding_of(const Case& test_case, const CaseRun& case_run);
 
-/// What derivations say, line by line, for the reader of a file of them.
+/// Explanations of derivations, line by line, for the reader of a file of them.
 std::vector<std::string> words_of_derivations();
 
 /// The case's quantities with their tolerances: the start is moved by a little in three seeded sets of directions,
 /// and the largest change of the quantity, scaled from that little to the rounding, is what rounding can do to it; the
-/// last digits of the number itself come on top. A quantity that is zero but for rounding is bounded beside the largest
-/// one of its unit. Not scaled: the time at which a run failed, and what is beyond prediction, which a fourth, far
-/// smaller move tells.
+/// last digits of the number itself come on top. A quantity that is zero but for rounding is bounded relative to the
+/// largest one of its unit. Not scaled: the time at which a run failed, and what is beyond prediction, which a fourth,
+/// far smaller change shows.
 std::vector<QuantityWithTolerance> with_tolerances(const Case& test_case);
 
 }  // namespace crosscheck

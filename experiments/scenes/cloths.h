@@ -10,13 +10,13 @@ namespace crosscheck {
 
 // The same cloth with another number of particles, and surfaces of different grids at the same points of the material.
 
-/// The sheet of the scene, read from its text; nothing where it has none, or more than a sheet (a block, single
+/// The cloth grid of the scene, read from its text; nothing where it has none, or more than one (a block, single
 /// particles beside it), or its springs follow no grid.
 std::optional<Grid> cloth_grid_of(const Scene& scene);
 
-/// The scene with n particles along the longer side of its sheet and as many along the other as keep the cells' shape.
+/// The scene with n particles along the longer side of its cloth and as many along the other as keep the cells' shape.
 /// Pins stay where they are on the material: an edge that is pinned whole stays so, others go to the nearest particle.
-/// The step is at most 0.7 of leapfrog's limit. Throws Unsupported without a sheet.
+/// The step is at most 0.7 of leapfrog's limit. Throws Unsupported without a cloth.
 Scene with_resolution(const Scene& scene, int n);
 
 /// The stiffness of all springs multiplied; the step follows.
@@ -31,7 +31,7 @@ Points at_material_points(const Points& x, int nu, int nv, int m);
 
 /// cloth-hang with n x n particles: 1 m, 0.25 kg in all, 200 N/m for all three families, two corners pinned, drag 4/s.
 /// The step is 1e-2 s / n, 0.45 of the explicit limit at each size, since particles get lighter as n^-2. It begins as a
-/// wave 5 cm high, so that springs pull from the first step on. With a sphere (0.3 m) below its middle where asked.
+/// wave 5 cm high, so that springs pull from the first step on. With a sphere (0.3 m) below its middle where requested.
 Scene sized_cloth(int n, bool sphere = false);
 
 // The scene that all engines are timed on.
@@ -41,7 +41,7 @@ struct Stiffnesses {
   double structural = 400, shear = 200, bend = 20;
 };
 
-/// A sheet of n x n particles, 1 m by 1 m and 0.25 kg, flat at the start, hanging by two corners of one edge; drag 5/s
+/// A cloth of n x n particles, 1 m by 1 m and 0.25 kg, flat at the start, hanging by two corners of one edge; drag 5/s
 /// in sum, 9.81 m/s^2, 1 s. Damped so much that no wrinkle grows out of rounding: with less the error of every method
 /// would be that of chance. Its step is below every explicit rule's limit.
 Scene hanging_cloth(int n, const Stiffnesses& stiffnesses = {});
@@ -51,7 +51,7 @@ Scene hanging_cloth(int n, const Stiffnesses& stiffnesses = {});
 Scene hanging_cloth_of_two_stiffnesses(int n);
 
 /// The same with the law of Bullet's position-based links in place of Hooke's (mysim/terms/springs.h): what they
-/// converge to, so that their error can be told from their model.
+/// converge to, so that their error can be separated from their model's.
 Scene hanging_cloth_of_links(int n);
 
 }  // namespace crosscheck

@@ -15,8 +15,8 @@ struct Ingredient {
   void (*remove)(Model&);  // takes it out of an expanded model
 };
 
-/// What the scene has that could be left out: each term, each family of springs, pins, motions, gusts, friction. A
-/// family that is all of the springs is named once.
+/// The ingredients of the scene that could be left out: each term, each family of springs, pins, motions, gusts,
+/// friction. A family that is all of the springs is named once.
 std::vector<Ingredient> ingredients_of(const Scene& scene);
 
 /// The scene without it. Its hash is taken anew; its text stays.

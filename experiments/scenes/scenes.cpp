@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* folder_of_disagreements = CROSSCHECK_SCENES "/disagreements";
 
-/// Of several cloths a quick run looks at one of each kind.
+/// Of several cloths a quick run uses one of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-swing",   "cloth-wind",
                                                   "flag",        "cloth-carried", "jelly"};
 
@@ -58,7 +58,7 @@ std::vector<std::string> quick_scenes() {
 
 namespace {
 
-/// The scenes beside the shipped ones, each a file in a folder of their own.
+/// The scenes of known disagreements, each a file in a folder of their own.
 std::vector<std::string> scenes_of_disagreements() {
   std::vector<std::string> names;
   for (const auto& file : std::filesystem::directory_iterator(folder_of_disagreements))

@@ -14,7 +14,7 @@ namespace crosscheck {
 /// Names of the shipped scenes, from simple to rich.
 std::span<const std::string_view> shipped_scenes();
 
-/// Those of them that a quick run looks at when nobody names any: each kind of scene once, and of several cloths one.
+/// Those of them that a quick run uses when none is named: each kind of scene once, and of several cloths one.
 std::vector<std::string> quick_scenes();
 
 /// A shipped scene by name, the scene of a known disagreement by name, or any TOML file by path. Throws InputError that
@@ -25,7 +25,7 @@ Scene load_scene(const std::string& name_or_path);
 std::filesystem::path file_of_disagreement(const std::string& name);
 
 /// Several at once; none given: all shipped ones. Throws InputError when two have the same name, under which their rows
-/// and files could not be told apart.
+/// and files would clash.
 std::vector<Scene> load_scenes(const std::vector<std::string>& names);
 
 }  // namespace crosscheck

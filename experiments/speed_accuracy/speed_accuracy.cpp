@@ -73,7 +73,7 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
     run.duration = base.duration * run.samples / base.samples;
     return {run, static_cast<double>(run.samples) / base.samples};
   }
-  // the clock is read at each sample, which takes 0.3 microseconds: one in 100 is often enough to tell a blow-up
+  // the clock is read at each sample, which takes 0.3 microseconds: one in 100 is often enough to detect a blow-up
   const long all = static_cast<long>(time_grid(run).steps_per_sample) * run.samples;
   long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
   const int samples =
@@ -101,7 +101,7 @@ namespace {
 struct SettingRun {
   Setting setting;
   Outcome outcome;
-  Trajectory trajectory, end;  // and its last pictures, where it is watched and failed
+  Trajectory trajectory, end;  // and its last frames, where a callback wants them and it failed
   bool ok() const { return outcome.verdict == Verdict::ok; }
 };
 
@@ -125,7 +125,7 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
                                   method.name, scene.name));
       return {};
     }
-    // its end is seen in a run of its own: who looks at every step makes adaptive methods take others
+    // its last frames take a run of their own: observing every step makes adaptive methods take other steps
     LastFrames last(omega, setting.tolerance ? 0 : setting.value);
     if (watched && out.verdict != Verdict::ok) run_method(method, scene, setting.applied_to(base), {&last});
     tries.push_back({setting, std::move(out), std::move(recorder.trajectory), last.path()});
@@ -136,7 +136,7 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
   return tries;
 }
 
-/// All of mysim and Bullet, and who solves the same equations with a library's integrator.
+/// All of mysim and Bullet, and the library integrators of the same equations.
 std::vector<Method> methods_for(const Request& request, const Scene& scene) {
   std::vector<Method> methods = methods_of(request, scene);
   if (!request.methods.empty()) return methods;
@@ -146,7 +146,7 @@ std::vector<Method> methods_for(const Request& request, const Scene& scene) {
   return methods;
 }
 
-/// Why there is nothing to be fast at, or empty.
+/// The reason why no speed is measured, or empty.
 std::string why_not(const Scene& scene, double motion) {
   // 1e-6 of its size: where nothing moves a run of one step is as right as any other
   if (!(motion > 1e-6 * scene.size())) return "nothing moves there";
@@ -233,12 +233,12 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
   for (const Method& method : methods)
     for (const Setting& setting : ladder(method, scene, base, request.full)) {
       const TimedPart part = part_of(method, scene, base, setting);
-      // asked until it takes the scene once: it may refuse the longest steps alone
+      // run until it accepts the scene once: it may refuse the longest steps alone
       if (timed.empty() || timed.back().method != method.name)
         if (run_method(method, scene, part.run, {}).verdict == Verdict::unsupported) continue;
       timed.push_back({method.name, setting, part.share});
       runs.push_back([&method, &scene, &bounds, part, &timed, at = timed.size() - 1] {
-        // watched: what Bullet's worlds do after a blow-up takes many times as long as a step
+        // monitored: after a blow-up a step of Bullet's worlds takes many times as long
         const Outcome out = run_method(method, scene, part.run, {}, std::ref(bounds));
         timed[at].evaluations = out.evaluations;
         return out.cpu_seconds;

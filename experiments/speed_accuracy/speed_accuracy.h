@@ -28,7 +28,7 @@ struct Setting {
 std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run& run, bool full,
                             int* dropped = nullptr);
 
-/// What is timed of a run: the whole, or its first part.
+/// The timed part of a run: the whole, or its first part.
 struct TimedPart {
   Run run;
   double share = 1;  // of the run's steps or samples
@@ -52,7 +52,7 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows);
 /// each evaluation of a scene without contact costs the same.
 void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows);
 
-/// Who compiled the code whose time is measured.
+/// The build of the code whose time is measured.
 std::string build_of(const std::string& method);
 
 }  // namespace crosscheck

@@ -76,7 +76,7 @@ std::vector<WorkPrecisionPoint> timed_points(const SceneRuns& s, const std::vect
     for (const SpeedAccuracyTimingRow& row : timing) {
       if (row.scene != s.scene || row.method != p.method || row.setting != p.setting || row.asked != p.asked) continue;
       const auto measured = static_cast<double>(row.evaluations);
-      // a failed run ended earlier than its timed twin, which nobody watched, or later
+      // a failed run ended earlier than its timed twin, which had no observer, or later
       const double factor = measured > 0 && p.cost > 0 ? p.cost / measured : 1 / row.part;
       WorkPrecisionPoint timed = p;
       timed.time = Timing{row.cpu, row.cpu_low, row.cpu_high, row.repetitions}.times(factor);

@@ -1,4 +1,4 @@
-// What follows from errors and costs: Pareto lines, and the cheapest method and engine within an accuracy.
+// Analysis of errors and costs: Pareto lines, and the cheapest method and engine within an accuracy.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-// What follows from runs and their costs: the Pareto line, and who meets an accuracy at the least cost.
+// Work-precision analysis of runs: the Pareto line, and the cheapest run within an accuracy.
 
 /// One run: where it lies on a chart of error against cost.
 struct WorkPrecisionPoint {
@@ -25,22 +25,22 @@ struct WorkPrecisionPoint {
   double part = 1;                  // of the run that was timed; the rest is scaled
 };
 
-/// The runs that no cheaper run beats, from cheap to dear, each with a smaller error than the one before. An error
-/// below the floor (m) counts as the floor: among those below it nobody is better.
+/// The runs that no cheaper run beats, from cheap to expensive, each with a smaller error than the one before. An error
+/// below the floor (m) counts as the floor: those below it are equal.
 std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> points, double floor);
 
 /// The cheapest run with an error of at most `bound`, of the families asked for; null where there is none.
 const WorkPrecisionPoint* cheapest(const std::vector<WorkPrecisionPoint>& points, double bound,
                                    bool (MethodFamily::*asked)() const = nullptr);
 
-/// Other methods whose cheapest run within the bound cannot be told from the best one's by their times, given the noise
-/// (relative).
+/// Other methods whose cheapest run within the bound cannot be distinguished from the best one's by their times, given
+/// the noise (relative).
 std::vector<std::string> statistically_tied(const std::vector<WorkPrecisionPoint>& points,
                                             const WorkPrecisionPoint& best, double bound, double noise);
 
-// The cheapest run of each engine within an accuracy, beside mysim's.
+// The cheapest run of each engine within an accuracy, compared with mysim's.
 
-/// "mysim" of "mysim/leapfrog": whose run it is.
+/// The engine of a method: "mysim" of "mysim/leapfrog".
 std::string engine_of(const std::string& method);
 
 /// Adds an EngineSpeedRow for each engine that has a timed run within `bound` (m), what the truth's bar takes off

@@ -1,4 +1,4 @@
-// Probes of collision response: small scenes with a known answer, and what is read off runs: penetration depth,
+// Probes of collision response: small scenes with a known result, and measurements of runs: penetration depth,
 // asymmetry.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace crosscheck {
 
-// How deep a surface is inside a ball: its particles, and the triangles between them.
+// The penetration depth of a surface in a ball: its particles, and the triangles between them.
 
 /// Point of the triangle a b c nearest to p, m.
 Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
@@ -38,7 +38,7 @@ class MirrorSymmetry {
   std::array<std::vector<int>, 2> partner_;  // across x, across z
 };
 
-// Probes of collision response: small scenes with a ball, each with one answer that is known or can be told apart.
+// Probes of collision response: small scenes with a ball, each with one result that is known or can be classified.
 
 // ---- rebound ----
 /// A particle dropped by 0.3 m on the top of a ball of 0.5 m that returns the part e of its speed.

@@ -1,4 +1,4 @@
-// Experiment `sphere`: how engines answer a ball. Probes with one known answer each, and draped cloths.
+// Experiment `sphere`: the engines' contact with a ball. Probes with one known result each, and draped cloths.
 
 #include <fmt/format.h>
 
@@ -61,7 +61,7 @@ void cones(const Request& request, const Method& method, Rows& rows) {
       const double limit = std::tan(degrees * 0.017453292519943295);
       std::vector<double> frictions = {0.95 * limit, 1.05 * limit};
       for (int i = 0; i <= 12; ++i)
-        // where the answer is within a twentieth of the limit both are
+        // within a twentieth of the limit stand the two above
         if (std::abs(0.1 * i / limit - 1) > 0.05) frictions.push_back(0.1 * i);
       std::sort(frictions.begin(), frictions.end());
       for (const double mu : frictions) {

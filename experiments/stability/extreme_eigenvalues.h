@@ -15,7 +15,7 @@ struct Eigenpair {
 /// Of a symmetric matrix, each to `tolerance` (relative); nothing where the iteration did not converge.
 std::optional<Eigenpair> largest_eigenpair(const Eigen::SparseMatrix<double>& symmetric, double tolerance);
 
-/// Of a symmetric matrix whose eigenvalues lie above `shift`, the one nearest to it.
+/// The eigenvalue nearest to `shift` of a symmetric matrix with all of them above it.
 std::optional<Eigenpair> eigenpair_above(const Eigen::SparseMatrix<double>& symmetric, double shift, double tolerance);
 
 /// Of any square matrix, the `count` of largest modulus; a pair of conjugates counts as two.

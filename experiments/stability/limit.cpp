@@ -100,7 +100,7 @@ PredictedLimit of_mixed_modes(const Stepper& rule, const Spectrum& s) {
 }
 
 /// Whether the rule's stability region is as deep in one direction of decaying vibrations as in another, to 15 %: then
-/// the fastest rates bind. rk4's depth is 2.62 to 2.96; the others' goes to 0 or 1 beside the imaginary axis.
+/// the fastest rates bind. rk4's depth is 2.62 to 2.96; the others' goes to 0 or 1 near the imaginary axis.
 bool isotropic_region(const Stepper& rule) {
   double least = infinity, most = 0;
   for (int i = 0; i <= 20; ++i) {  // rates of size 1, from undamped to critically damped
@@ -149,7 +149,7 @@ Rates rates_of(const Vibration& m) {
 }
 
 /// How far the scene is from rest, at the start, in the first and in the last tenth of the run; and, where each step
-/// multiplies it, the kicked mode's amplitude at the start and now.
+/// multiplies it, the perturbed mode's amplitude at the start and now.
 class GrowthObserver : public Observer {
  public:
   GrowthObserver(const BaseState& base, bool multiplies, int mode, double duration)
@@ -218,8 +218,8 @@ BaseState base_state_of(const Scene& scene) {
   if (const auto* springs = scene.model.find<Springs>())
     for (const Spring& s : springs->list) {
       const double length = (base.scene.start.x.col(s.a) - base.scene.start.x.col(s.b)).norm();
-      // where ends meet there is no scale: a kick of the root of the rounding of a millionth of the scene drowns in
-      // the rounding of the scene
+      // where ends meet there is no scale: a perturbation of the root of the rounding of a millionth of the scene
+      // drowns in the rounding of the scene
       if (length > 1e-6 * scene.size()) base.spacing = std::min(base.spacing, length);
     }
   return base;
@@ -255,7 +255,7 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation) {
   push *= size / largest_column(push);
   scene.start.x += push;
   if (of_mode) scene.start.v += rates_of(s.modes[perturbation.mode]).fast.real() * push;
-  // a thousandth in every direction: should another mode than the kicked one be unstable, it has what to grow from
+  // a thousandth in every direction: should another mode than the perturbed one be unstable, it has what to grow from
   for (int i = 0; i < scene.start.x.cols(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
       const double part = 1e-3 * size * (2 * uniform(engine) - 1);
@@ -279,9 +279,9 @@ PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h
   const bool rests_there = rule && !rule->hard_constraints;
   if (growth_observer.first > 0 && (rests_there || rotation)) {
     trial.growth = growth_observer.last / growth_observer.first;
-    // What grows fast has reached the springs' nonlinearity within the first tenth and stays there. A stable mode
-    // swings by 1 / sqrt(1 - (h / limit)^2) at most, which is 1000 at half a millionth below its limit: no search is as
-    // fine.
+    // A mode that grows fast has reached the springs' nonlinearity within the first tenth and stays there. A stable
+    // mode swings by 1 / sqrt(1 - (h / limit)^2) at most, which is 1000 at half a millionth below its limit: no search
+    // is as fine.
     constexpr double largest_swing = 1000;
     if (growth_observer.last > largest_swing * growth_observer.perturbation)
       trial.growth = growth_observer.last / growth_observer.perturbation;
@@ -335,7 +335,7 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
   // without drag a rule that grows at h omega = 1/64 does so at every step; with drag of a millionth of omega its limit
   // would still be seen
   const double lowest = unit / (damped ? 1 << 20 : 64), highest = 128 * unit;
-  // from a radian to five of them a step in tenths: a composed rule holds again beyond a band where it does not
+  // from a radian to five of them a step in tenths: a composed rule holds again beyond an interval where it does not
   // (suzuki4 at 4.05 radians, above its limit of 2.72), and doubling would step over it
   MeasuredLimit m = largest_step(holds, std::clamp(base.scene.step, lowest, highest), lowest, highest, precision, unit);
   if (refused.empty()) return m;

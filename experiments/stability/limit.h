@@ -19,7 +19,7 @@ inline bool is_runge_kutta(const Stepper& rule) { return rule.first_order; }
 
 struct PredictedLimit {
   double limit = 0;     // s; 0: no step is stable; infinite: every step is
-  int mode = -1;        // of the spectrum's, the one that binds; -1: none, or not told apart
+  int mode = -1;        // of the spectrum's, the one that binds; -1: none, or not identified
   std::string missing;  // why there is no prediction; empty where there is one
 };
 /// The minimum of the rule's limit over the modes. Where damping and stiffness do not commute: Runge-Kutta rules take
@@ -33,15 +33,15 @@ PredictedLimit predicted_limit(const Stepper& rule, const Spectrum& spectrum);
 /// By the rule that the method follows; `missing` where it follows none, or only without what the scene has.
 PredictedLimit predicted_limit(const Method& method, const Spectrum& spectrum);
 
-// Runs that ask one thing: does what is off from rest grow?
+// Runs that show whether a perturbation of the rest state grows.
 
-/// A scene as its stability is asked: at rest where it has a rest, else as it starts.
+/// The base state for a scene's stability: at rest where it has a rest, else as it starts.
 struct BaseState {
   Scene scene;  // its start is the state
   bool at_rest = false;
   bool saddle = false;  // an equilibrium was found that is no rest, but a saddle
   Spectrum spectrum;    // about the state
-  double spacing = 1;   // m, the shortest spring that has a length: the scale beside which a kick is small
+  double spacing = 1;   // m, the shortest spring that has a length: the scale relative to which a perturbation is small
 };
 BaseState base_state_of(const Scene& scene);
 
@@ -55,26 +55,26 @@ struct PerturbedRun {
   Verdict verdict = Verdict::ok;
   std::string reason;
   double end = 0;        // s
-  double growth = 0;     // of the norm sqrt(|w'|^2 + w K w), from the first to the last tenth of the run; 0: not told
-  double per_step = 1;   // of the kicked mode's amplitude (a rotation's |x|): the mean factor; 1 where not told
-  double amplitude = 1;  // of the kicked mode, at the end over at the start
+  double growth = 0;     // of the norm sqrt(|w'|^2 + w K w), from the first to the last tenth of the run; 0: unknown
+  double per_step = 1;   // of the perturbed mode's amplitude (a rotation's |x|): the mean factor; 1 where unknown
+  double amplitude = 1;  // of the perturbed mode, at the end over at the start
   long steps = 0;        // taken, where the two above are known
   bool of_mode = false;  // whether the two above are known
   bool unsupported() const { return verdict == Verdict::unsupported; }
-  /// Whether the step held: no failure, and nothing that grew. Rest that is kicked is judged by growth too: by 1/20
+  /// Whether the step held: no failure, and nothing that grew. A perturbed rest is judged by growth too: by 1/20
   /// over the run (beats of a neutral rule's modes look like a thousandth), and, where a Runge-Kutta rule multiplies
-  /// the mode by a constant factor, by that factor: rounding and nonlinearity do 1e-6 to a kick over a run, and what
-  /// grows by less than 1e-9 in a step is called neutral however long one looks.
+  /// the mode by a constant factor, by that factor: rounding and nonlinearity change a perturbation by 1e-6 over a run,
+  /// and what grows by less than 1e-9 in a step is called neutral however long one looks.
   bool held() const;
-  /// The verdict, or `energy` where the run ended before what grew had more energy than the watch allows.
+  /// The verdict, or `energy` where the run ended before what grew had more energy than the monitor allows.
   Verdict effective_verdict() const { return verdict == Verdict::ok && !held() ? Verdict::energy : verdict; }
 };
 
 /// Runs the method from the base state, perturbed (or from the start, unperturbed, where the scene has no rest).
-/// Further observers see the run too.
+/// Further observers observe the run too.
 PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps,
                            const Perturbation& perturbation, std::vector<Observer*> observers = {});
-/// The run that run_perturbed() makes.
+/// The times and samples of such a run.
 Run run_of_perturbed(double h, long steps);
 /// The base scene with the perturbation in its start.
 Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation);
@@ -84,7 +84,7 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation);
 /// times that upwards in tenths.
 MeasuredLimit largest_step(const std::function<bool(double)>& holds, double first, double lowest, double highest,
                            double precision, double fine_above = std::numeric_limits<double>::infinity());
-/// The same by trials of the method, from the scene's own step on: nobody tells it what theory allows. Where theory
+/// The same by trials of the method, from the scene's own step on: it uses no theory for the limit. Where theory
 /// says how fast the scene can vibrate, that only says where to give up. A step that it refuses counts as none that
 /// holds; where the bracket ends at such a one it is no limit but `refused_above`, and where every step was refused the
 /// scene is `unsupported`.

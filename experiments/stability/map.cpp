@@ -20,8 +20,8 @@ Scene with_gamma(Scene scene, double gamma) {
   return scene;
 }
 
-/// Cells show blow-ups as they are: kicked by a ten-thousandth of the springs' length, so that growth comes to where
-/// the watch judges it.
+/// Cells show blow-ups as they are: perturbed by a ten-thousandth of the springs' length, so that growth comes to where
+/// the monitor judges it.
 constexpr double visible = 1e-4;
 
 /// h omega from 1/50 to 20 of the scene as it is; 0 <= part <= 1.
@@ -48,7 +48,7 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
     rows.notes.push_back(fmt::format("stability draws no map of step and {}, {} on {}: it refuses every cell: {}",
                                      kind.name, method.name, scene.name, why));
   };
-  // what a method lacks it lacks in every cell: asked once, at the shortest step
+  // what a method lacks it lacks in every cell: tried once, at the shortest step
   if (const PerturbedRun first = run_perturbed(method, as_it_is, step_at(0, omega), 1, {}); first.unsupported())
     return no_map(first.reason);
   long changed = 0, answered = 0;

@@ -7,7 +7,7 @@
 
 namespace crosscheck {
 
-/// What a map's rows change.
+/// The parameter that a map's rows change.
 struct MapKind {
   std::string_view name;  // "stiffness" (over the scene's own), "drag" (gamma, 1/s)
   /// The value of row 0 <= part <= 1, logarithmic; omega: the scene's fastest vibration as it is, rad/s.
@@ -25,13 +25,13 @@ struct MapSize {
 /// As fine as about 10 s of CPU time pay for; nothing where no map costs so little. Quick maps are coarser.
 std::optional<MapSize> map_size(const Method& method, const Scene& scene, bool full);
 
-/// Tables stability-map (cells), stability-map-limit (limits of the rows) and, where asked, stability-map-check. A cell
-/// that the method refuses says so; where it refuses all there is no map, and a note. `watch` is shown the last
+/// Tables stability-map (cells), stability-map-limit (limits of the rows) and, where requested, stability-map-check. A
+/// cell that the method refuses says so; where it refuses all there is no map, and a note. `watch` is shown the last
 /// pictures of each cell's run.
 void add_map(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows,
              const RunCallback& watch = {});
 
-/// The scene that maps of a scene are made of: itself, if it has at most 64 particles; else of a sheet of cloth the
+/// The scene that maps of a scene are made of: itself, if it has at most 64 particles; else of a cloth the
 /// same with 6 particles along its longer side, "NAME-6"; else itself in a full run, or nothing.
 std::optional<Scene> map_scene(const Scene& scene, bool full);
 

@@ -1,4 +1,4 @@
-// What a verdict at the end of a run cannot tell: how a longer run would fare.
+// Warnings on the stability of longer runs, which a verdict at the end of a run cannot show.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace crosscheck {
 /// with dashpots or unequal drag rates, rules without a theory and adaptive ones have none.
 std::string stability_warning(const Method& method, const Scene& scene, double h);
 
-/// What a step of the rule multiplies the vibration's amplitude by, by the eigenvalues of its amplification matrix;
+/// The factor of a step on the vibration's amplitude, by the eigenvalues of its amplification matrix;
 /// 1 where the rule has none in closed form.
 double growth_per_step(const Stepper& rule, const Vibration& vibration, double h);
 

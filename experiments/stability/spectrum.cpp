@@ -173,7 +173,7 @@ double stiffest_of(const Model& model) {
   return stiffest;
 }
 
-/// Where all forces cancel, to the last digits.
+/// The equilibrium, to the last digits.
 std::optional<State> converged_rest(const Scene& scene) {
   const Model& model = scene.model;
   auto rest = rest_of(scene);

@@ -48,7 +48,7 @@ struct Spectrum {
 
 /// Dense up to 400 free coordinates (200 where damping and stiffness do not commute), by Lanczos and Arnoldi iterations
 /// of Spectra beyond that: then only the slowest and the fastest mode, or, where they do not commute, the four rates of
-/// largest |z|, which tell nothing of the least damped one. A rotation x' = w cross x is one vibration of |w|
+/// largest |z|, which say nothing of the least damped one. A rotation x' = w cross x is one vibration of |w|
 /// without drag. Modes that the stiffness pushes away from the state, as it may at the start of a motion, count as
 /// omega = 0.
 Spectrum spectrum_of(const Scene& scene, const State& state);

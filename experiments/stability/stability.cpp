@@ -23,7 +23,7 @@ PredictionKind kind_of(const PredictedLimit& p) {
 }
 
 /// Growth per step of the binding mode around the limit, or at a few steps where none is stable: the excess is tiny
-/// beside the step's own factor, and runs to a blow-up would take millions of steps.
+/// next to the step's own factor, and runs to a blow-up would take millions of steps.
 void add_growth(const Method& method, const Stepper& rule, const BaseState& base, const PredictedLimit& predicted,
                 Rows& rows) {
   const Spectrum& s = base.spectrum;
@@ -58,7 +58,7 @@ void add_growth(const Method& method, const Stepper& rule, const BaseState& base
   rows.add(table);
 }
 
-/// Why a method is not asked, or nothing.
+/// The reason why a method is not measured, or nothing.
 std::string why_not(const Method& method) {
   if (method.family().role == Role::truth) return "truth takes no steps";
   if (method.adaptive) return "steps that follow a tolerance";
@@ -66,7 +66,7 @@ std::string why_not(const Method& method) {
   return "";
 }
 
-/// Large scenes by who is stable at every step and solves an equation in each, or has no linear limit.
+/// Large scenes under methods that are stable at every step and solve an equation in each, or have no linear limit.
 bool is_dear(const Method& method, const Scene& scene) {
   const Stepper* rule = stepper_of(method);
   return !is_small(scene) && (!rule || std::isinf(rule->limit(1, 0)));
@@ -116,7 +116,7 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, R
   if (measured.kind == MeasuredLimit::found) {
     row.measured = measured.limit(), row.precision = measured.precision();
     if (finite && predicted.limit > 0) row.deviation = measured.limit() / predicted.limit - 1;
-    // a twentieth above, kicked so that it is seen
+    // a twentieth above, perturbed so that it is seen
     row.above = run_perturbed(method, base, 1.05 * measured.failed, effort.steps, {perturbation.mode, 1e-3})
                     .effective_verdict();
   }

@@ -6,9 +6,9 @@
 
 namespace crosscheck {
 
-// Why a measured limit is not the predicted one.
+// Reasons why a measured limit is not the predicted one.
 
-/// Why theory, which looks at small motion about one state, may say something else than the run.
+/// The reason why theory, of small motion about one state, may differ from the run.
 inline std::string deviation_reason(const BaseState& base, const Method& method) {
   const Model& model = base.scene.model;
   std::vector<std::string> reasons;
@@ -25,7 +25,7 @@ inline std::string deviation_reason(const BaseState& base, const Method& method)
   return all;
 }
 
-/// What a saddle means for the row; empty where there was none.
+/// A note on a saddle for the row; empty where there was none.
 inline std::string saddle_note(const BaseState& base) {
   if (!base.saddle) return "";
   return base.at_rest
@@ -33,10 +33,10 @@ inline std::string saddle_note(const BaseState& base) {
              : "the only equilibrium found is a saddle, not a rest";
 }
 
-/// Why the measurement is not what theory says, or why theory says nothing; empty where they agree.
+/// The reason why the measurement differs from theory, or why theory says nothing; empty where they agree.
 inline std::string reason_for(const BaseState& base, const Method& method, const PredictedLimit& p,
                               const MeasuredLimit& m) {
-  // a bracket tells no more than its width
+  // a bracket is no more exact than its width
   const double enough = std::max(0.01, m.precision());
   switch (m.kind) {
     case MeasuredLimit::found:
@@ -55,7 +55,7 @@ inline std::string reason_for(const BaseState& base, const Method& method, const
 
 // The largest stable step of one method on one scene, as a row.
 
-/// What a search is worth.
+/// The effort of a search.
 struct Effort {
   long steps;        // of each run
   double precision;  // at which halving ends
@@ -64,7 +64,7 @@ struct Effort {
 /// for.
 Effort effort_for(const Method& method, const Scene& scene, bool full);
 
-/// Small scenes cost so little that every method is asked on them, and finely.
+/// Small scenes cost so little that every method is measured on them, and finely.
 inline bool is_small(const Scene& scene) { return scene.start.x.cols() <= 50; }
 
 /// A row of table stability, and rows of stability-growth where steps multiply modes.

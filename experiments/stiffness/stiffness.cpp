@@ -54,7 +54,7 @@ Table single_links(bool full, double h) {
   return table;
 }
 
-/// Three masses. Their sag against what is asked, over k h^2 / mu of the links between masses (mu = m / 2).
+/// Three masses: their sag over the exact one, against k h^2 / mu of the links between masses (mu = m / 2).
 Table networks(bool full, int n) {
   Table table = table_of<NetworkStiffnessRow>();
   const double mass = 0.1, k = 1000, g = 0.0981, asked = mass * g / k * 6;  // strain 3e-5 at most

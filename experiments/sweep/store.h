@@ -1,4 +1,4 @@
-// What a sweep keeps on disk: its list of points, and the rows of each as JSON.
+// Files of a sweep: its list of points, and the rows of each as JSON.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@
 
 namespace crosscheck {
 
-// The plan of a sweep: the list of its points, written beside the store, so that shards can be joined later.
+// The list of a sweep's points, written next to the store, so that shards can be joined later.
 
 struct PointList {
   struct Entry {
     std::string name, hash;
     bool operator==(const Entry&) const = default;
   };
-  std::vector<std::string> experiments;  // whose conclusions are drawn from the rows
+  std::vector<std::string> experiments;  // those that draw conclusions from the rows
   std::vector<Entry> points;
   Provenance provenance;  // of the tables: command, commit, scenes, ...
 };
@@ -29,7 +29,7 @@ void write_point_list(const PointList& plan, const std::filesystem::path& folder
 /// Throws InputError that names the file and what was expected.
 PointList read_point_list(const std::filesystem::path& folder);
 
-/// Where the points of a sweep with that output folder are kept.
+/// The folder for the points of a sweep with that output folder.
 std::filesystem::path store_in(const std::filesystem::path& folder);
 
 // Rows as JSON, and back to the same bits: how a finished point is kept.
@@ -38,7 +38,7 @@ std::string rows_json(const Rows& rows);
 /// Throws InputError, "expected ...", when the text is no rows.
 Rows read_rows(const std::string& text);
 
-// The folder in which a sweep keeps what its points gave: one file per point, by its hash.
+// The folder in which a sweep keeps its points' rows: one file per point, by its hash.
 
 class Store {
  public:
@@ -48,7 +48,7 @@ class Store {
   std::optional<Rows> find(const std::string& hash) const;
   /// Written under another name and renamed: a killed run leaves whole files only.
   void keep(const std::string& hash, const Rows& rows) const;
-  /// Why a point failed, in a file of its own; it does not count as there, and the next keep() or run replaces it.
+  /// Stores why a point failed, in its own file; it does not count as there, and the next keep() or run replaces it.
   void keep_failure(const std::string& hash, const std::string& why) const;
   void forget_failure(const std::string& hash) const;
   std::optional<std::string> failure_of(const std::string& hash) const;

@@ -23,7 +23,7 @@
 namespace crosscheck {
 namespace {
 
-/// Children can be waited for, also where whoever started this program ignores SIGCHLD: then the system reaps them
+/// Children can be waited for, also where its parent ignores SIGCHLD: then the system reaps them
 /// itself, and waitpid() knows of none.
 class DefaultSigchld {
  public:
@@ -55,7 +55,7 @@ class Batch {
       announce();
       int status = 0;
       const pid_t pid = waitpid(-1, &status, WNOHANG);
-      if (pid < 0 && errno == ECHILD) break;  // somebody else waited for them: what is missing is named below
+      if (pid < 0 && errno == ECHILD) break;  // other code waited for them: what is missing is named below
       if (pid <= 0) {
         usleep(20000);
         continue;
@@ -96,7 +96,7 @@ class Batch {
     const pid_t parent = getpid(), pid = fork();
     if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid == 0) {
-      // no worker goes on when the sweep is killed, or a resumed one would compute the same points beside it
+      // no worker outlives a killed sweep, or a resumed one would compute the same points at the same time
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) _exit(1);
       work(worker);

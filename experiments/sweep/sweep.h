@@ -1,4 +1,4 @@
-// Computes the points of a sweep: what is finished is not repeated, what fails is named, and other points go on.
+// Computes the points of a sweep: finished points are not repeated, a failed one is named, and other points go on.
 #pragma once
 
 #include <span>
@@ -34,7 +34,7 @@ struct FailedPoint {
 std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOptions& options, const Store& store,
                                     Progress& progress);
 
-/// The rows of all points of the plan in their order, each from the first store that has it, and what the plan's
+/// The rows of all points of the list in their order, each from the first store that has it, and what the list's
 /// experiments conclude from them; the names of points that no store has are added to `missing`.
 Rows joined(const PointList& plan, std::span<const Store> stores, std::vector<std::string>& missing);
 

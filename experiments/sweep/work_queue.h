@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-/// What parent and workers share. A worker that dies leaves the number of its point behind.
+/// Memory that parent and workers share. A worker that dies leaves the number of its point behind.
 struct WorkQueue {
   static constexpr int most_workers = 256;
   std::atomic<int> next{0};

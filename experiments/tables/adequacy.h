@@ -5,7 +5,7 @@
 
 namespace crosscheck {
 
-/// A model with all its ingredients, without a single one, or without this one and all before it in the ladder.
+/// A model with all its ingredients, without a single one, or without this one and all before it in the ablation.
 enum class ModelKind { full, single, cumulative };
 constexpr std::string_view name_of(ModelKind kind) {
   return kind == ModelKind::full ? "full" : kind == ModelKind::single ? "single" : "cumulative";
@@ -15,7 +15,7 @@ struct EnumRange<ModelKind> {
   static constexpr ModelKind first = ModelKind::full, last = ModelKind::cumulative;
 };
 
-/// What a tolerance is.
+/// The kind of a tolerance.
 enum class ToleranceKind { of_scene, hundredth_of_motion, tenth_of_motion };
 constexpr std::string_view name_of(ToleranceKind kind) {
   return kind == ToleranceKind::of_scene              ? "the scene's own"
@@ -27,7 +27,7 @@ struct EnumRange<ToleranceKind> {
   static constexpr ToleranceKind first = ToleranceKind::of_scene, last = ToleranceKind::tenth_of_motion;
 };
 
-/// What is seen to follow a power of the number of cells.
+/// A quantity that follows a power of the number of cells.
 enum class ScalingQuantity { error, stiffness_for_sag, bend_stiffness_for_droop };
 constexpr std::string_view name_of(ScalingQuantity quantity) {
   return quantity == ScalingQuantity::error               ? "error of the motion against cells along a side"
@@ -129,7 +129,7 @@ struct GridRow {
                  column("cost", "spring evaluations", &GridRow::cost, "evaluations times springs")};
 };
 
-/// A clamped line of a sheet on one grid.
+/// A clamped line of a cloth on one grid.
 struct BendingRow {
   long particles = 0;
   double cells = 0, stiffness = 0, droop = 0;

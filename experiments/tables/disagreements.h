@@ -5,7 +5,7 @@
 
 namespace crosscheck {
 
-/// Where one of Bullet's worlds answers otherwise than the scene asks.
+/// A case where one of Bullet's worlds solves another problem than the scene's.
 struct DisagreementRow {
   std::string name, world, what, cause, effect, scene_hash;
 

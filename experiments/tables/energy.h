@@ -109,7 +109,7 @@ struct EnergyRow {
       column("pins gave", "J", &EnergyRow::pins, "work done by moved pins over the run")};
 };
 
-/// What a rule takes from an oscillator that nothing damps.
+/// The numerical damping of a rule on an undamped oscillator.
 struct DampingRow {
   std::string method;
   Verdict verdict = Verdict::ok;

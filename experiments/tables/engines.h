@@ -136,7 +136,7 @@ struct EngineEnergyRow {
                         "1 where the engine does not tell what contact took, so that no balance is claimed")};
 };
 
-/// What sixteen perturbed runs of a scene with contact have in common.
+/// Statistics of sixteen perturbed runs of a scene with contact.
 struct StatisticRow {
   std::string method, quantity, unit;
   double mean = 0, deviation = 0;

@@ -5,7 +5,7 @@
 
 namespace crosscheck {
 
-/// What the setting of a run is: a step, or the tolerance of an adaptive method.
+/// The kind of a run's setting: a step, or the tolerance of an adaptive method.
 enum class SettingKind { step, tolerance };
 inline std::string_view name_of(SettingKind kind) { return kind == SettingKind::step ? "step [s]" : "tolerance [1]"; }
 template <>

@@ -5,7 +5,7 @@
 
 namespace crosscheck {
 
-/// What a particle on a slope does: sticks (moves by less than 1 mm), slides (Coulomb's way), or neither.
+/// The behaviour of a particle on a slope: sticks (moves by less than 1 mm), slides (Coulomb's way), or neither.
 enum class ContactState { sticks, slides, neither };
 constexpr std::string_view name_of(ContactState state) {
   return state == ContactState::sticks ? "sticks" : state == ContactState::slides ? "slides" : "neither";
@@ -83,7 +83,7 @@ struct ConeRow {
                  column("answer by theory", "1", &ConeRow::answer_by_theory, "the same by Coulomb's law")};
 };
 
-/// How a cloth on a ball ends.
+/// The final state of a cloth on a ball.
 struct DrapeRow {
   std::string scene, method;
   Verdict verdict = Verdict::ok;
@@ -115,7 +115,7 @@ struct DrapeRow {
              "largest distance of a particle from its partner's mirror image at the end")};
 };
 
-/// How deep a cloth is inside a ball.
+/// The penetration depth of a cloth in a ball.
 struct PenetrationRow {
   std::string scene, method;
   Verdict verdict = Verdict::ok;

@@ -17,7 +17,7 @@ namespace crosscheck {
 using Cell = std::variant<std::monostate, std::string, double, long>;
 inline Cell cell_of(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
 
-/// `# key: value` lines above a table: who made these numbers, from what, with what.
+/// `# key: value` lines above a table: the program that made these numbers, its input and its tools.
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
 struct Column {
@@ -48,7 +48,7 @@ std::string csv_row(const std::vector<Cell>& row);
 std::string csv(const Table& table, const Provenance& provenance);
 void write_csv(const Table& table, const Provenance& provenance, const std::filesystem::path& folder);
 
-// What stands in a table's cells, for those who read tables: charts, sentences, conclusions.
+// Look-ups of a table's cells, for charts, sentences and conclusions.
 
 /// Throws std::bad_variant_access where it is no text.
 inline const std::string& text_at(const Table& table, size_t row, const std::string& column) {

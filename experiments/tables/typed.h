@@ -1,4 +1,4 @@
-// Tables as structs: a row is a struct that declares its columns once, and both who writes and who reads get the
+// Tables as structs: a row is a struct that declares its columns once, and both writers and readers use the
 // struct.
 #pragma once
 
@@ -30,7 +30,7 @@ constexpr ColumnOf<Row, T> column(std::string_view name, std::string_view unit, 
   return {name, unit, member, description};
 }
 
-/// The words of an enum that stands in tables, in the order of its values from `first` on. To be specialised beside
+/// The words of an enum that stands in tables, in the order of its values from `first` on. To be specialised next to
 /// each.
 template <class Enum>
 struct EnumRange;  // static constexpr Enum first, last;

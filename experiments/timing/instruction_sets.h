@@ -1,4 +1,4 @@
-// Keeps mysim to one instruction set for a while; the two sets in which it is timed beside others.
+// Keeps mysim to one instruction set for a while; the two sets in which it is timed against others.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace crosscheck {
 
-// Which instruction set mysim uses, for a while.
+// The instruction set that mysim uses, for a while.
 
 /// For as long as it is there mysim's fast paths keep to an instruction set, as CROSSCHECK_INSTRUCTIONS does it from
-/// outside; afterwards all is as before. Not for use beside other threads.
+/// outside; afterwards all is as before. Not for use while other threads run.
 class ScopedInstructionSet {
  public:
   explicit ScopedInstructionSet(simd::InstructionSet isa);
@@ -24,7 +24,7 @@ class ScopedInstructionSet {
   std::optional<std::string> before_;
 };
 
-// The two ways in which mysim is timed beside others.
+// The two instruction sets in which mysim is timed against others.
 
 struct CodePath {
   std::string name;

@@ -1,4 +1,4 @@
-// Affinity masks, the lock file, and what Linux tells of the processor.
+// Affinity masks, the lock file, and what Linux reports of the processor.
 #include "experiments/timing/machine.h"
 
 #include <fcntl.h>
@@ -112,7 +112,7 @@ std::string processor_kind(const fs::path& cpuinfo, const fs::path& caches) {
   const auto add = [&](const std::string& text) { kind += (kind.empty() ? "" : ", ") + text; };
   bool numbered = false;
   if (const auto name = fields.find("model name"); name != fields.end()) add(name->second);
-  // what x86 and what ARM call their make; a name alone tells nothing
+  // what x86 and what ARM call their make; a name alone identifies nothing
   for (const char* number :
        {"cpu family", "model", "stepping", "CPU implementer", "CPU variant", "CPU part", "CPU revision"})
     if (const auto field = fields.find(number); field != fields.end()) {

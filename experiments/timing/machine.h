@@ -13,7 +13,7 @@ int cores_allowed();
 /// Keeps the calling process to the last core that it may use, so that its caches stay warm. Best effort.
 void pin_to_one_core();
 
-// Who may compute on this machine: many untimed points side by side, or one timed point alone, over all sweeps of this
+// A lock on this machine for many untimed points side by side, or one timed point alone, over all sweeps of this
 // user, so that shards on one machine do not spoil each other's timings.
 
 class MachineLock {
@@ -21,7 +21,7 @@ class MachineLock {
   enum class Mode { shared, exclusive };
   /// Waits until it is had. The lock file is /tmp/crosscheck-UID.lock wherever TMPDIR points, since batch systems give
   /// each job a TMPDIR of its own; jobs that also have a /tmp of their own do not see each other. CROSSCHECK_LOCK
-  /// names another file, as tests do, which wait for nobody but themselves. Where none can be made, nobody waits.
+  /// names another file, as tests do, which then wait for themselves only. Without a lock file there is no wait.
   explicit MachineLock(Mode mode);
   ~MachineLock();
   MachineLock(const MachineLock&) = delete;
@@ -31,12 +31,12 @@ class MachineLock {
   int handle_;
 };
 
-// What kind of processor this is: speeds are compared on one kind only.
+// The kind of processor: speeds are compared on one kind only.
 
-/// The processor in one line: its name, its family, model and stepping (which tell apart what providers of virtual
+/// The processor in one line: its name, its family, model and stepping (which distinguish what providers of virtual
 /// machines sell under one name), its sizes of cache and its instruction sets for arithmetic. From Linux's `cpuinfo`
 /// (usually /proc/cpuinfo) and the folder of the first processor's caches (/sys/devices/system/cpu/cpu0/cache); what
-/// these do not tell is left out. Empty where the processor cannot be told from others.
+/// these do not report is left out. Empty where the processor cannot be identified.
 std::string processor_kind(const std::filesystem::path& cpuinfo, const std::filesystem::path& caches);
 
 /// This machine's.

@@ -25,7 +25,7 @@ struct Timing {
 /// Median and interval of repeated times. The interval lies between the k-th smallest and the k-th largest time, with
 /// the largest k for which it holds the true median with probability 0.9 or more whatever the distribution is (the
 /// number of times below the median is binomial; H. A. David and H. N. Nagaraja, Order Statistics, 7.1). Fewer than
-/// five times cannot promise that: there it is smallest to largest. Throws std::invalid_argument without times.
+/// five times cannot guarantee that: there it is smallest to largest. Throws std::invalid_argument without times.
 Timing timing_of(std::vector<double> seconds);
 
 struct TimingOptions {
@@ -37,7 +37,7 @@ struct TimingOptions {
 
 /// Times of every repetition of every run. A run does its work once and says what CPU time it took, s; first each is
 /// run once to warm up, then one after the other, round by round, so that a slow spell of the machine falls on all.
-/// What says 0 there tells no time (a program that keeps no clock, a method that refused): it is not asked again, and
+/// A run that returns 0 has no time (a program that keeps no clock, a method that refused): it is not repeated, and
 /// its only time is 0.
 std::vector<std::vector<double>> time_round_robin(std::span<const std::function<double()>> runs,
                                                   const TimingOptions& plan);
@@ -45,11 +45,11 @@ std::vector<std::vector<double>> time_round_robin(std::span<const std::function<
 /// Quotients of the times of two runs, round by round; of as many rounds as both have.
 std::vector<double> ratios_of_rounds(const std::vector<double>& a, const std::vector<double>& b);
 
-/// What two measurements of the same thing differ by here, relative: the 90 % quantile over the runs of the difference
-/// between the medians of their even and their odd repetitions; at least 1 %.
+/// The relative difference of two measurements of the same thing here: the 90 % quantile over the runs of the
+/// difference between the medians of their even and their odd repetitions; at least 1 %.
 double noise_floor(std::span<const std::vector<double>> times);
 
-/// Whether two timings tell different costs: their intervals are apart, and their medians by more than the noise.
+/// Whether two timings show different costs: their intervals are apart, and their medians by more than the noise.
 bool differ(const Timing& a, const Timing& b, double noise);
 
 // Methods timed in turns, over as much of a run as the clock needs.
@@ -72,8 +72,8 @@ struct TimedRunOptions {
   double seconds = 0.02;  // of each run in each round
 };
 
-/// CPU time of each run over its evaluations, nobody looking on: without contact each evaluation costs the same, so
-/// that the first part of a run tells the time of the whole. In a round all have their turn. A run that tells no time
+/// CPU time of each run over its evaluations, without observers: without contact each evaluation costs the same, so
+/// that the first part of a run gives the time of the whole. A round runs all. A run that reports no time
 /// or fails at once has no times.
 std::vector<EvaluationTimes> time_round_robin(const std::vector<TimedRun>& turns, const TimedRunOptions& plan);
 

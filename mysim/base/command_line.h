@@ -1,4 +1,4 @@
-// What is wrong with a command line, for the programs that read theirs with CLI11; mysim itself does not know it.
+// Error messages of command lines, for the programs that use CLI11; mysim itself does not.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 
 namespace crosscheck {
 
-/// What CLI11 complains of, with the words that a person needs: first of all the options that nobody knows, since they
+/// CLI11's errors in words for people: unknown options come first, since they
 /// are why others seem to be missing.
 inline std::string usage_error(const std::string& program, const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* command = &app;

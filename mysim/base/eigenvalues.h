@@ -1,4 +1,4 @@
-// Eigenvalues of dense matrices, by Eigen. Whoever needs them calls these: its templates take half a minute to
+// Eigenvalues of dense matrices, by Eigen. Other files call these: Eigen's templates take half a minute to
 // compile. Where its iteration fails, the values are nan.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How a request is refused, and the one place where what was thrown becomes a message and an exit status.
+// Exceptions that refuse a request, and the one place where they become a message and an exit status.
 #pragma once
 
 #include <exception>
@@ -9,7 +9,8 @@
 
 namespace crosscheck {
 
-// How a request is refused: bad input (exit 2), what a method lacks, and a solver that gave up (rows, not crashes).
+// Exceptions that refuse a request: bad input (exit 2), what a method lacks, and a solver that gave up (rows, not
+// crashes).
 
 /// Bad use or bad input. what() is one line that names the file, the key and what was expected.
 struct InputError : std::runtime_error {
@@ -21,19 +22,19 @@ struct Unsupported : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A solver inside a step found no answer: the run ends with Verdict::solver. what() is the reason.
+/// A solver inside a step found no solution: the run ends with Verdict::solver. what() is the reason.
 struct SolverFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
 // The one place where what was thrown becomes a message and an exit status.
 
-/// What an exception says to people: one line that names the file or folder where one is concerned, without the words
+/// The message of an exception: one line that names the file or folder where one is concerned, without the words
 /// of the library that threw.
 std::string in_words(const std::exception_ptr& thrown);
 
-/// Runs a program's work and returns its exit status. What it throws is told on standard error in one line that begins
-/// with the program's name, and the status is 2: 1 is for answers that are no, which are returned, never thrown.
+/// Runs a program's work and returns its exit status. What it throws is reported on standard error in one line that
+/// begins with the program's name, and the status is 2: 1 is for negative results, which are returned, never thrown.
 int run_reporting_errors(std::string_view program, const std::function<int()>& work);
 
 }  // namespace crosscheck

@@ -11,13 +11,13 @@ namespace crosscheck {
 
 // A file that is written piece by piece while a run goes on, and is seen only when it is whole.
 
-/// Until finish() it has no name, or, where file systems know no nameless files, a temporary one beside the file: a
+/// Until finish() it has no name, or, where file systems know no nameless files, a temporary one next to the file: a
 /// killed run leaves no half file. Everything throws InputError that names the file when it cannot be written.
 class StreamingFile {
  public:
   /// Makes the folder where it is missing.
   explicit StreamingFile(std::filesystem::path file);
-  /// What was not finished is gone.
+  /// Removes an unfinished file.
   ~StreamingFile();
   StreamingFile(const StreamingFile&) = delete;
   StreamingFile& operator=(const StreamingFile&) = delete;
@@ -41,7 +41,7 @@ class StreamingFile {
 
 // Writing files so that a killed run leaves no half file.
 
-/// Writes under a temporary name beside the file and renames it. Makes the folder where it is missing.
+/// Writes under a temporary name next to the file and renames it. Makes the folder where it is missing.
 /// Throws InputError that names the file when it cannot be written.
 void write_file(const std::filesystem::path& file, std::string_view content);
 
@@ -68,7 +68,7 @@ struct TemporaryFolder {
   std::filesystem::path path;
 };
 
-/// A name for mkdtemp that tells the owner: its number, when it was started (clock ticks since the boot), and the
+/// A name for mkdtemp that identifies the owner: its number, when it was started (clock ticks since the boot), and the
 /// namespace in which the number means something.
 std::string temporary_name(std::string_view purpose);
 

@@ -1,4 +1,4 @@
-// A tree of our own; nlohmann's library reads text into it and writes it out.
+// A tree of Crosscheck's own; nlohmann's library reads text into it and writes it out.
 #include "mysim/base/json.h"
 
 #include <fmt/format.h>
@@ -81,7 +81,7 @@ struct Json::Parts {
     return std::nullopt;
   }
 
-  /// What the library writes.
+  /// Writes through the library.
   static Written written(const Json& json) {
     switch (json.kind_) {
       case Kind::null:
@@ -142,7 +142,7 @@ struct Json::Parts {
     return false;
   }
 
-  /// What the library calls while it reads.
+  /// Callbacks of the library while it reads.
   class Reader {
    public:
     bool null() { return add(Json()), true; }

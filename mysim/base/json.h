@@ -1,4 +1,4 @@
-// JSON: values that are built and written, and files whose look-ups name file, place and what was expected. The one
+// JSON: values that are built and written, and files with look-ups that name file, place and what was expected. The one
 // file that knows the library behind it is json.cpp.
 #pragma once
 
@@ -15,8 +15,8 @@
 namespace crosscheck {
 
 /// A JSON value that is built and then written; objects keep the order in which their keys came. Numbers take no memory
-/// of their own, so that long lists are cheap. What is no list, object or null where one is asked for throws
-/// std::logic_error: that is a mistake of ours, not of a file.
+/// of their own, so that long lists are cheap. A value that is no list, object or null where one is expected throws
+/// std::logic_error: that is a bug, not a fault of a file.
 class Json {
  public:
   struct Member;

@@ -161,12 +161,12 @@ constexpr std::array known_commands{KnownCommand{"run", "run.json", "\"force_eva
                                     KnownCommand{"regress", "regress.json", "\"without_answer\""},
                                     KnownCommand{"bench", "bench.json", "\"tables\""}};
 
-/// In whatever folder of ours.
+/// Names in the folders of all commands.
 const std::set<std::string_view> known_names{
     "trajectory.npy", "velocities.npy", "run.json",    "plan.json",    "report.json", "index.html", "figures.json",
     "CITATION.cff",   "advice.toml",    "advice.json", "regress.json", "junit.xml",   "bench.json"};
 
-/// Names that nobody gives to a file by hand; runs lie in folders by their figure, scenes by their name.
+/// Names that no user gives to a file by hand; runs lie in folders by their figure, scenes by their name.
 const std::regex& known_patterns() {
   static const std::regex all(
       R"((steppers/your-[^/]+|points/[0-9a-f]{16}\.(json|failed)|(data/)?certificate-[^/]+\.json|data/[^/]+-motions\.json)"

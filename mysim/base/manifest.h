@@ -1,4 +1,4 @@
-// crosscheck.json: what in a folder is ours, so that nothing else there is ever removed or replaced.
+// crosscheck.json lists Crosscheck's files in a folder, so that nothing else there is ever removed or replaced.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct Manifest {
     std::uintmax_t bytes = 0;
     std::string hash;  // FNV-1a, 16 digits; empty: announced, and not known to be whole
   };
-  std::string command;                // whose folder it is: "report", "run", ...
+  std::string command;                // the command that owns the folder: "report", "run", ...
   bool finished = false;              // the state: "finished", or "being written"
-  long process = 0;                   // who wrote or writes
+  long process = 0;                   // the process that wrote or writes
   std::string since;                  // since when, UTC
   std::map<std::string, File> files;  // by their path inside the folder; the manifest itself is not among them
 
@@ -26,7 +26,7 @@ struct Manifest {
   static Manifest begun(std::string command);
   /// Whether the path names a listed file, or what a killed run left of one under its temporary name.
   bool names(const std::string& path) const;
-  /// Whether the path is ours as we left it: named, and not changed since by anybody.
+  /// Whether the path is Crosscheck's and unchanged: listed, and not changed since.
   bool ours(const std::filesystem::path& folder, const std::string& path) const;
 };
 
@@ -36,14 +36,14 @@ void write_manifest(const Manifest& manifest, const std::filesystem::path& folde
 /// Throws InputError that names the file where it cannot be read.
 Manifest::File file_entry(const std::filesystem::path& file);
 
-/// The paths of all that is in a folder and below and is no folder itself, relative, sorted, the manifest and our
+/// The paths of all that is in a folder and below and is no folder itself, relative, sorted, the manifest and the
 /// working folder left out; links are not followed. Empty folders are listed too, with a slash at the end.
 std::vector<std::string> paths_in(const std::filesystem::path& folder);
 
 /// The folder in which a result is prepared, inside of the one it is for.
 inline constexpr auto inner_work_folder = ".crosscheck";
 
-/// What a folder of version 0.1 holds, where all in it is known to be ours by its name and beginning; otherwise
+/// What a folder of version 0.1 holds, where all in it is known to be Crosscheck's by its name and beginning; otherwise
 /// nothing, and one of the other files in `foreign`.
 std::optional<Manifest> adopt_version_0_1(const std::filesystem::path& folder, const std::string& command,
                                           std::string& foreign);

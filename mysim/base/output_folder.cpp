@@ -26,7 +26,7 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// Only there can a folder not be renamed, though it and its parent are ours.
+/// Only there can a folder not be renamed, though this user owns it and its parent.
 bool is_mount_point(const fs::path& folder) {
   struct statx about {};
   if (statx(AT_FDCWD, folder.c_str(), AT_SYMLINK_NOFOLLOW, STATX_TYPE, &about) != 0) return false;
@@ -121,7 +121,7 @@ OutputLock::OutputLock(const OutputPlace& place, const std::string& command) : p
                        : "another process is writing into it; wait for it, or give another folder");
     }
     if (same_file(handle_, file)) break;
-    close(handle_);  // that of one who ended in between
+    close(handle_);  // of a process that ended in between
   }
   const std::string text = fmt::format("{}\n{}\n{}\n", getpid(), utc_now(), command);
   if (ftruncate(handle_, 0) != 0 || pwrite(handle_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
@@ -211,7 +211,7 @@ void remove_empty_above(const fs::path& root, const fs::path& path) {
 /// The user's files under `target` get a second name under `stage`, where a new result lies.
 void link_what_is_the_users(const fs::path& target, const std::optional<Manifest>& old, const fs::path& stage) {
   const std::vector<std::string> paths = paths_in(target);
-  // those that change their names come last, so that they take nobody's
+  // those that change their names come last, so that they take no other file's
   for (const bool changed : {false, true})
     for (const std::string& path : paths) {
       if (changed != (old && old->names(path)) || (changed && old->ours(target, path))) continue;
@@ -233,8 +233,8 @@ void link_what_is_the_users(const fs::path& target, const std::optional<Manifest
     }
 }
 
-/// Empties a folder that another has replaced: what is ours goes, and what of the user's is not in `target` moves
-/// there.
+/// Empties a folder that another has replaced: Crosscheck's files go, and those of the user's that are not in `target`
+/// move there.
 void absorb(const fs::path& from, const fs::path& target) {
   const std::optional<Manifest> old = read_manifest(from);
   std::set<std::pair<dev_t, ino_t>> there;
@@ -281,7 +281,7 @@ void follow_journal(const fs::path& work, const fs::path& target) {
   if (is_there(from)) absorb(from, target);
 }
 
-/// What an earlier process left in a working folder.
+/// Leftovers of an earlier process in a working folder.
 void recover_from(const fs::path& work, const fs::path& target) {
   std::error_code in_use;
   if (is_there(work / journal / Manifest::file_name)) {
@@ -306,7 +306,7 @@ void recover_from(const fs::path& work, const fs::path& target) {
 
 bool has_leftovers(const OutputPlace& place) { return is_there(place.beside) || is_there(place.inside); }
 
-/// Whether it lies in another folder of ours, inside of this one: the parts of a sweep do.
+/// Whether it lies in another result's folder inside of this one, as the parts of a sweep do.
 bool is_of_another_result(const fs::path& target, const std::string& path) {
   for (fs::path above = fs::path(path).parent_path(); !above.empty(); above = above.parent_path())
     if (is_there(target / above / Manifest::file_name)) return true;
@@ -371,7 +371,7 @@ void recover_output(const fs::path& folder) {
   try {
     lock.emplace(place, "that finishes what another began");
   } catch (const InputError&) {
-    return;  // somebody is at it
+    return;  // another process does it
   }
   with_output_errors(place, [&] {
     for (const fs::path& work : {place.beside, place.inside}) recover_from(work, place.target);

@@ -1,4 +1,4 @@
-// Folders of results: who may write there, and a finished result that stays until the next one is whole.
+// Folders of results: a lock for one writer, and a finished result that stays until the next one is whole.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace crosscheck {
 
-// Where a result goes, where it is prepared, and who may write it.
+// The place of a result, its working folders, and the lock for its one writer.
 
-/// A folder for results, and our working folders for it.
+/// A folder for results, and its working folders.
 struct OutputPlace {
   /// Throws InputError where there is a file of that name.
   explicit OutputPlace(const std::filesystem::path& asked);
@@ -22,7 +22,7 @@ struct OutputPlace {
   std::filesystem::path inside;  // TARGET/.crosscheck, where nothing can be made beside it
 
   bool writable_beside() const;
-  /// Whether another folder can take its name: it is no mount point, and nobody's working folder whom we know.
+  /// Whether another folder can take its name: it is no mount point, and no process that can be seen works in it.
   bool exchangeable() const;
   /// Throws InputError: the folder cannot be made or written to, or why else.
   [[noreturn]] void refuse(const std::string& why = "") const;
@@ -46,8 +46,8 @@ class OutputLock {
   int process_;
 };
 
-// Folders of results: what is ours in them is known by a manifest, everything else is left alone, and a finished result
-// stays until the next one is whole.
+// Folders of results: Crosscheck's files in them are listed in a manifest, everything else is left alone, and a
+// finished result stays until the next one is whole.
 
 /// A result that is prepared in another folder and put in place when it is whole. The two folders exchange their names
 /// (renameat2, RENAME_EXCHANGE) after the user's files were linked into the new one; where that cannot be done (no such
@@ -57,16 +57,16 @@ class OutputLock {
 class OutputFolder {
  public:
   /// Takes the lock, finishes what an earlier start could not, and begins. Throws InputError "--out FOLDER: ..." where
-  /// somebody else writes there, where the folder is of another command, where it holds files and no manifest of ours
+  /// another process writes there, where the folder is of another command, where it holds files and no manifest
   /// (those of version 0.1 are known by their names and taken over), or where it cannot be written to. Nothing is
   /// changed then.
   OutputFolder(const std::filesystem::path& folder, const std::string& command);
-  /// What was not finished is gone, and the earlier result is there as before.
+  /// Removes an unfinished result; the earlier one is there as before.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
-  /// Where the files are to be written.
+  /// The folder to write the files into.
   const std::filesystem::path& path() const { return stage_; }
   /// Puts all that was written in place. Throws InputError where that fails.
   void finish();
@@ -103,8 +103,8 @@ class ResumableOutput {
   std::map<std::string, Manifest::File> now_;  // announced and kept
 };
 
-/// Finishes what a killed process could not, where there is anything to finish and nobody else writes there: for those
-/// who read results, and for who started the process.
+/// Finishes what a killed process could not, where there is anything to finish and no other process writes there: for
+/// readers of results, and for the process that started the killed one.
 void recover_output(const std::filesystem::path& folder);
 
 }  // namespace crosscheck

@@ -238,7 +238,7 @@ std::string last_lines(const std::string& text, int count) {
 }
 
 // stdin is a socket, as writing to the pipe of a program that has ended would end this one; stderr is a nameless file
-// in memory, so that nobody has to read along.
+// in memory, so that no reader is needed.
 
 ProcessWithInput::ProcessWithInput(const std::vector<std::string>& argv) {
   int ends[2] = {-1, -1};

@@ -15,11 +15,11 @@
 
 namespace crosscheck {
 
-// What programs that we start find in their environment.
+// The environment of programs that Crosscheck starts.
 
-/// The entries "NAME=value" for a program that we start, whatever it is: those of this program, but a locale that
+/// The entries "NAME=value" for any program that Crosscheck starts: those of this program, but a locale that
 /// exists everywhere (C.UTF-8: letters in UTF-8, points in numbers, English messages) and the time zone UTC, so that
-/// what it writes does not depend on whose terminal or job it was started from. `extra` wins over both.
+/// its output does not depend on the terminal or job that started it. `extra` wins over both.
 std::vector<std::string> program_environment(const std::vector<std::string>& extra = {});
 
 /// The texts as exec and its kin take them, a null at the end; good as long as these texts.
@@ -62,7 +62,7 @@ ProcessResult run_process(const std::vector<std::string>& argv, double timeout);
 
 // Starting a program without a shell, and its end.
 
-/// What a program finds as its files when it starts.
+/// The standard files of a program at its start.
 struct FileActions {
   posix_spawn_file_actions_t list;
   FileActions() { posix_spawn_file_actions_init(&list); }
@@ -105,7 +105,7 @@ class ProcessWithInput {
   /// Starts argv[0] (looked up in PATH); what it says on stdout is lost. Throws std::runtime_error if that is not
   /// possible.
   explicit ProcessWithInput(const std::vector<std::string>& argv);
-  /// Ends it, where it was not told that this was all.
+  /// Ends it, where its input was not closed.
   ~ProcessWithInput();
   ProcessWithInput(const ProcessWithInput&) = delete;
   ProcessWithInput& operator=(const ProcessWithInput&) = delete;

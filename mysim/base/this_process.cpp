@@ -73,7 +73,7 @@ double given_up_by_group(const fs::path& group, std::string_view key) {
   return 0;
 }
 
-/// What the groups of this process leave, version 2 or 1, each one up to the root.
+/// The memory that the groups of this process leave, version 2 or 1, each one up to the root.
 double left_by_groups() {
   double least = unlimited;
   std::ifstream in("/proc/self/cgroup");
@@ -131,7 +131,7 @@ namespace {
 // the number of a file in memory, which parent and child share, and programs that they start do not
 constexpr auto notes_variable = "CROSSCHECK_SUPERVISOR";
 
-/// Those that end a program, unless who started it had them ignored.
+/// Signals that end a program, unless its parent had them ignored.
 sigset_t ending_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -151,7 +151,7 @@ void signal_children(int number) {
   for (pid_t child; all >> child && !all.eof();) kill(child, number);
 }
 
-/// What lost its parent came to this process. It may tidy up first.
+/// Orphans became children of this process. It may tidy up first.
 void end_descendants() {
   using Clock = std::chrono::steady_clock;
   const auto patience = Clock::now() + std::chrono::seconds(2), despair = patience + std::chrono::seconds(10);
@@ -184,7 +184,7 @@ void tidy_results(int notes) {
   for (size_t begin = 0, end; (end = text.find('\0', begin)) != std::string::npos; begin = end + 1) try {
       recover_output(text.substr(begin, end - begin));
     } catch (const std::exception&) {
-      // somebody else is at it by now, or the next start with this folder will say what is wrong
+      // another process does it by now, or the next start with this folder will say what is wrong
     }
 }
 
@@ -220,7 +220,7 @@ int run_supervised(const std::function<int()>& work) {
     sigprocmask(SIG_SETMASK, &before, nullptr);
     return work();
   }
-  signal(SIGCHLD, SIG_DFL);  // or, where who started this ignores it, nobody could be waited for
+  signal(SIGCHLD, SIG_DFL);  // or, where the parent ignores it, no child could be waited for
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   remove_stale_temporary_folders();
   const int status = status_of_child(child, waited);

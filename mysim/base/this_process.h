@@ -22,7 +22,7 @@ class CpuClock {
   double begin_ = 0, total_ = 0;
 };
 
-// How much memory and disk there is, and refusals of what does not fit.
+// Free memory and disk, and refusals of what does not fit.
 
 /// Bytes that this process can still take: what the system says is available (MemAvailable), less where a control group
 /// or a limit of the process's address space allows less. Infinite where nothing is known.

@@ -82,7 +82,7 @@ class ImplicitStep {
   const State& solve_linear(const State& s, double h);
 
   /// Values of the incremental potential in the last solve(), J: at the start position, then after each Newton step
-  /// (of the last repetition, where air or dashpots ask for several).
+  /// (of the last repetition, where air or dashpots need several).
   const std::vector<double>& descent() const { return descent_; }
   /// Of conjugate gradients, in the last system.
   int iterations() const { return iterations_; }

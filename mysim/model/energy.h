@@ -1,4 +1,4 @@
-// Energies and powers of a state, by our own formulas, for every engine alike.
+// Energies and powers of a state, by mysim's formulas, for every engine alike.
 #pragma once
 
 #include "mysim/model/model.h"
@@ -12,7 +12,7 @@ struct Energy {
   double total() const { return kinetic + elastic + gravitational; }
 };
 
-/// What flows in and out of a state each second.
+/// Powers into and out of a state.
 struct Power {
   double drag = 0;      // W, taken by drag (not negative)
   double dashpots = 0;  // W, taken by dashpots (not negative)

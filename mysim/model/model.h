@@ -10,7 +10,7 @@
 // its order survives. Spheres and constraints are no forces: contact acts on whole steps, constraints on methods.
 //
 // What must know every term (energies, hash, JSON, certificate, each engine) visits the variant with a function for
-// each and none for "the rest": a new term does not compile there until it is answered (tests/unit/new_term_test.cpp).
+// each and none for "the rest": a new term does not compile there until it is handled (new_term_slow_test.cpp).
 #pragma once
 
 #include <concepts>

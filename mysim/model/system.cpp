@@ -29,7 +29,7 @@ System::System(const Model& model) : model_(model) {
     has_velocity_forces_ |= std::visit([]<class T>(const T&) { return UsesVelocity<T>; }, term);
 }
 
-/// forces_ = sum of the wanted forces; `wanted` is asked with each term.
+/// forces_ = sum of the wanted forces; `wanted` is called with each term.
 template <class Wanted>
 void System::sum_forces(const State& stage, Wanted wanted) {
   assert(stage.x.cols() == model_.particles.size());

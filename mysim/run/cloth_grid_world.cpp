@@ -92,12 +92,12 @@ class ClothGridWorld : public World {
 
  private:
   using Slab = typename Slabs<T>::Slab;
-  /// What the thread of a slab has found.
+  /// Results of a slab's thread.
   struct SlabResult {
     long degenerate_springs = 0;
     std::vector<double> lost;  // J, in contact, by each particle of its own that touched in the step
   };
-  /// What contact_tile() is given.
+  /// The user data of contact_tile().
   struct ContactContext {
     ClothGridWorld* world;
     Slab* slab;

@@ -21,7 +21,7 @@ namespace crosscheck {
 
 enum class ContactRule { coulomb, sticky };  // sticky: the assignment's sphere, kept to be shown failing
 
-/// What a rule does to one particle that touches a sphere: as resolve_contact.
+/// The action of a rule on one particle that touches a sphere: as resolve_contact.
 using ContactFunction = double (*)(const Sphere&, const Vec3& centre, const Vec3& x_n, Eigen::Ref<Vec3> x,
                                    Eigen::Ref<Vec3> v);
 
@@ -38,7 +38,7 @@ class Contacts {
   void begin(const State& s);
   /// Lets every sphere act on the whole step of every free particle; true when one touched.
   bool resolve(State& s);
-  /// What the last resolve() took, J; nothing where nothing touched.
+  /// The loss in the last resolve(), J; nothing where nothing touched.
   const std::optional<double>& lost() const { return lost_; }
 
  private:

@@ -17,7 +17,7 @@ namespace crosscheck {
 
 namespace {
 
-/// Which states an observer of pairs is shown between two samples (StatePairObserver).
+/// The states that an observer of pairs is shown between two samples (StatePairObserver).
 class PairSchedule {
  public:
   PairSchedule(Observer& observer, int steps_per_sample)
@@ -115,7 +115,7 @@ class SteppedWorld : public World {
 
   void step(double, double t_next) override {
     contacts_.begin(s_);
-    stepper_.step(f_, s_, h_, workspace_);  // steppers/leapfrog.cpp and the files beside it
+    stepper_.step(f_, s_, h_, workspace_);  // steppers/leapfrog.cpp and the files next to it
     s_.t = t_next;
     particles_.place_pins(s_);
     contacts_.resolve(s_);
@@ -141,13 +141,13 @@ class SteppedWorld : public World {
 ///
 /// Steps are chosen so that the root mean square of (estimated error of a step) / (R (scene size + |x|)), and likewise
 /// of velocities with the largest speed so far for the scene's size, stays at or below 1, with R = run.tolerance. The
-/// states that are asked for lie on the interpolant. Beside a sphere no step goes beyond the next state asked for,
+/// states that are requested lie on the interpolant. Near a sphere no step goes beyond the next one,
 /// since contact acts on whole steps; it may take several to get there, and each may touch.
 class AdaptiveWorld : public World {
  public:
   AdaptiveWorld(const Scene& scene, const Run& run, ContactRule contact);
   void step(double t, double t_next) override;
-  /// On the interpolant; looked at outside the clock, so that only the steps cost.
+  /// On the interpolant; evaluated outside the clock, so that only the steps cost.
   const State& state(double t) override;
   void report_contact(Observer& observer) override {
     if (lost_) observer.contact(*lost_);
@@ -166,9 +166,9 @@ class AdaptiveWorld : public World {
   double tolerance_, h_, last_h_ = 0;
   double fastest_;            // m/s, largest speed of an accepted state
   double last_ratio_ = 1e-4;  // of the step before, for the controller
-  State before_, s_, seen_;   // start and end of the last accepted step; what was asked for
+  State before_, s_, seen_;   // start and end of the last accepted step; the requested state
   long accepted_ = 0;
-  std::optional<double> lost_;  // J, in contacts on the way to the last state asked for
+  std::optional<double> lost_;  // J, in contacts on the way to the last requested state
 };
 
 // Step control (E. Hairer, S. P. Norsett and G. Wanner, Solving Ordinary Differential Equations I, II.4; proportional
@@ -222,7 +222,7 @@ void AdaptiveWorld::advance(double limit) {
       last_h_ = h;
       const double kept = std::max(ratio, 1e-10);
       const double factor = safety * std::pow(kept, -proportional) * std::pow(last_ratio_, integral);
-      // a step cut short to end at the limit says nothing against the one that was planned
+      // a step cut short to end at the limit says nothing against the one that was proposed
       h_ = std::max(h == h_ ? 0.0 : h_, h * std::clamp(factor, least, room));
       last_ratio_ = std::max(ratio, 1e-4);
       ++accepted_;
@@ -264,7 +264,7 @@ void require_supported(const Stepper& stepper, const Model& model) {
     throw Unsupported("the scene has hard distances, and this rule knows forces only");
 }
 
-/// Who steps the scene: the same rule in each case, on regular cloths in one pass over memory.
+/// The world that steps the scene: the same rule in each case, on regular cloths the fused step.
 std::unique_ptr<World> make_world(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run,
                                   const Observer& observer, const Execution& execution) {
   if (stepper.adaptive) return std::make_unique<AdaptiveWorld>(scene, run, contact);

@@ -10,12 +10,12 @@ namespace crosscheck {
 /// A scene inside an engine, stepped from outside.
 class World {
  public:
-  /// What the steps so far have taken.
+  /// The work of the steps so far.
   struct Work {
     long evaluations = 0;            // of the right-hand side
     long degenerate_springs = 0;     // springs met at zero length, summed over the evaluations
     std::optional<long> steps = {};  // accepted by a world that chooses its own; of others the run loop counts them
-    double worker_seconds = 0;       // s, CPU time of threads beside the one that steps
+    double worker_seconds = 0;       // s, CPU time of threads other than the one that steps
     bool single_precision = false;
   };
 
@@ -24,9 +24,9 @@ class World {
   virtual void step(double t, double t_next) = 0;
   /// Positions and velocities now, in the scene's numbering; t is what the caller knows.
   virtual const State& state(double t) = 0;
-  /// Tells the observer what the contacts of the last step took, where the engine knows it.
+  /// Reports to the observer what the contacts of the last step took, where the engine knows it.
   virtual void report_contact(Observer& /*observer*/) {}
-  /// What the engine says of the scene it built, asked once after the first step.
+  /// The scene as the engine built it, read once after the first step.
   virtual std::optional<Readback> read_back() { return std::nullopt; }
   virtual Work work() const { return {}; }
   /// Whether the world crosses any interval in steps of its own: the run's step is then only the grid on which

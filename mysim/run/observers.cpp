@@ -246,7 +246,7 @@ Verdict DivergenceMonitor::goes_too_far(const State& state) {
   }
   if (bounds_) return beyond_bounds();
   if (true_motion_bounds_) return Verdict::ok;
-  // nobody to ask
+  // no true motion to compare with
   if (most_ > suspect) return Verdict::energy;
   return longest_ > allowed * longer * at_start_ ? Verdict::stretch : Verdict::ok;
 }

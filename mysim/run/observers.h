@@ -57,7 +57,7 @@ class Integral {
 };
 
 enum class ContactLoss {
-  reported,  // the engine tells what its contacts take
+  reported,  // the engine reports what its contacts take
   inferred,  // it does not: what is missing from the balance is called contact loss, and no closure is claimed
   sampled,   // nor is more seen than samples: what drag and air took between them is an estimate, no closure either
 };
@@ -96,7 +96,7 @@ class Ledger : public Observer {
   std::vector<LedgerRow> rows_;
 };
 
-// How far the true motion of a scene goes, good to some per cent: enough to tell whether a run goes ten times as far.
+// Bounds of a scene's true motion, good to some per cent: enough to see whether a run goes ten times as far.
 
 struct MotionBounds {
   double speed = 0;    // m/s, the largest of a free particle
@@ -125,7 +125,7 @@ class MotionBoundsCache {
   std::map<std::pair<double, int>, std::optional<MotionBounds>> known_;  // by duration (s) and samples
 };
 
-// Tells when a run has failed: it moves ten times as fast, or makes a spring ten times as long, as the true motion ever
+// Detects a failed run: it moves ten times as fast, or makes a spring ten times as long, as the true motion ever
 // does; or its state is not finite.
 
 /// Verdict::energy when a free particle is faster than ten times the largest speed of the true motion, by central
@@ -150,21 +150,21 @@ class MotionBoundsCache {
 /// that lies in a hollow has far more energy than it can ever move with. tests/unit/experiments/verdict_trials.cpp
 /// counts how often a verdict errs.
 ///
-/// It looks at every step where the work of wind or pins is added up and once K^ has passed B, else at pairs of states
-/// (run.h). Of engines that deliver samples alone the difference reaches over two sampling intervals: a mean
+/// It observes every step where the work of wind or pins is added up and once K^ has passed B, else at pairs of states
+/// (run.h). Of engines that deliver samples alone the difference spans two sampling intervals: a mean
 /// velocity, which is no larger. No good run is condemned by it, but what only shakes to and fro between two samples,
 /// or is over before the third, is seen by being not finite or too long. Where there is no true motion to be had (hard
 /// distances; a monitor without a scene) K^ > 10 B is a failure, and thirty times the length of the start.
 ///
 /// Verdict::frozen when at the first sample no free particle has moved or gained speed, bit for bit, although one that
 /// touches no sphere was accelerated at the start: an engine that dropped its forces, or a body put to sleep. (Not
-/// asked of hard distances, whose own forces may balance, nor where no velocities are told.)
+/// checked under hard distances, whose forces may balance, nor where no velocities are reported.)
 class DivergenceMonitor : public StatePairObserver {
  public:
-  /// Of a run of the scene; both must outlive it. `bounds` is asked how far the true motion goes.
+  /// Of a run of the scene; both must outlive it. `bounds` gives those of the true motion.
   DivergenceMonitor(const Scene& scene, const Run& run, MotionBoundsFunction bounds = motion_bounds_of);
   /// Of a caller that knows no more than the model. The energy at the start is that of `start`, where engines may not
-  /// tell velocities; else of the first state shown.
+  /// report velocities; else of the first state shown.
   explicit DivergenceMonitor(const Model& model, const State* start = nullptr);
   bool every_step() const override { return ledger_.has_value(); }
   Verdict observe(const State& state, bool sample) override;
@@ -175,7 +175,7 @@ class DivergenceMonitor : public StatePairObserver {
 
   /// The largest K^ / B so far.
   double most() const { return most_; }
-  /// What is no failure goes less than so many times as fast and as far as the true motion.
+  /// A run that has not failed goes less than so many times as fast and as far as the true motion.
   static constexpr double allowed = 10;
   /// Bounds of K^ / B: in order up to; without a true motion failed, with one blown up beyond.
   static constexpr double in_order = 1, suspect = 10, blown_up = 1000;
@@ -191,13 +191,13 @@ class DivergenceMonitor : public StatePairObserver {
   bool frozen(const State& state);
   /// By what was seen two steps before; not ok either where a part of B is not finite.
   Verdict moves_too_fast(const State& state);
-  /// At a sample: what the lengths say, and the true motion where it is asked for.
+  /// At a sample: the verdict by lengths, and by the true motion where it is needed.
   Verdict goes_too_far(const State& state);
   Verdict beyond_bounds() const;
 
   const Model& model_;
   std::function<std::optional<MotionBounds>()> true_motion_bounds_;  // none: only the model is known
-  std::optional<MotionBounds> bounds_;                               // once asked for
+  std::optional<MotionBounds> bounds_;                               // once computed
   std::optional<State> start_;
   std::optional<Ledger> ledger_;  // only where wind or moved pins do work
   std::optional<State> first_;    // until the sample after it
@@ -222,8 +222,8 @@ class DivergenceMonitor : public StatePairObserver {
   double longest_ = 0;   // 1
 };
 
-/// Other observers and a monitor as one. The monitor sees the same states whoever else looks at every step, so that
-/// other observers change no verdict.
+/// Other observers and a monitor as one. The monitor sees the same states whichever other observers see every step, so
+/// that other observers change no verdict.
 class MonitoredObservers : public StatePairObserver {
  public:
   MonitoredObservers(DivergenceMonitor& monitor, std::vector<Observer*> others)

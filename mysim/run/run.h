@@ -1,4 +1,4 @@
-// One run: what is asked (Run), who looks on (Observer), what came of it (Outcome). Every engine has this type.
+// One run: its settings (Run), its observers (Observer), its results (Outcome). Every engine has this type.
 #pragma once
 
 #include <functional>
@@ -12,28 +12,28 @@
 
 namespace crosscheck {
 
-// One run: what is asked (Run), who looks on (Observer), what came of it (Outcome). Every engine has the same type.
+// One run: its settings (Run), its observers (Observer), its results (Outcome). Every engine has the same type.
 
 enum class Verdict {
   ok,
   energy,       // over ten times as fast as the true motion ever is (run/observers.h)
   nan,          // a non-finite position or velocity
   stretch,      // a spring over ten times as long as in the true motion
-  solver,       // an equation inside a step had no answer
+  solver,       // an equation inside a step had no solution
   frozen,       // forces act, and nothing moves
   timeout,      // an outside program did not end in time
-  crash,        // an outside program died, or did not deliver what the protocol asks
+  crash,        // an outside program died, or did not deliver what the protocol requires
   unsupported,  // the method lacks an ingredient of the scene
 };
 std::string_view name_of(Verdict verdict);   // the word in tables and files
 std::string_view in_words(Verdict verdict);  // for people
 
 struct Run {
-  double step;              // s, as asked; the run reduces it so that it divides the sampling interval
+  double step;              // s, at most; the run reduces it so that it divides the sampling interval
   double duration;          // s
   int samples;              // frames after the first, at i duration / samples
   double tolerance = 1e-6;  // of adaptive methods: relative; absolute it is this times the scene's size
-  bool timed = true;        // whether CPU time is asked for; its clock costs as much as a step of a few particles
+  bool timed = true;        // whether CPU time is measured; its clock costs as much as a step of a few particles
 };
 /// The scene's own step, duration and samples; adaptive methods keep to a hundredth of the scene's tolerance.
 Run default_run(const Scene& scene);
@@ -48,7 +48,7 @@ struct TimeGrid {
 /// Throws InputError when the step is so small that a sampling interval would take more than 1e9 of them.
 TimeGrid time_grid(const Run& run);
 
-/// Looks at states as they pass.
+/// Observes the states of a run.
 class Observer {
  public:
   virtual ~Observer() = default;
@@ -61,7 +61,7 @@ class Observer {
   virtual void contact(double /*lost*/) {}
 };
 
-/// Looks at nothing.
+/// Observes nothing.
 class NullObserver : public Observer {
  public:
   Verdict observe(const State&, bool) override { return Verdict::ok; }
@@ -88,13 +88,13 @@ struct ForceProbe {
   Points wind;      // of both winds, at x and t, the free particles at rest
 };
 
-/// What an engine says of the scene it built, read from its own data structures after the first step. What is empty it
-/// does not tell.
+/// The scene as the engine built it, read from its own data structures after the first step. What is empty it
+/// does not report.
 struct Readback {
   struct Link {
     int a, b;                         // ends, in the scene's numbering
     double rest;                      // m
-    std::optional<double> stiffness;  // N/m; where the engine does not tell, the probe does
+    std::optional<double> stiffness;  // N/m; where the engine does not report it, the probe does
   };
   struct Ball {
     Vec3 centre;                        // m, at the start
@@ -102,7 +102,7 @@ struct Readback {
     std::optional<double> friction;     // Coulomb's mu
     std::optional<double> restitution;  // e
   };
-  /// Where the engine puts its pins and spheres at another time.
+  /// The engine's pins and spheres at another time.
   struct Places {
     double t;                   // s
     Points pins;                // m, in the scene's order
@@ -121,7 +121,7 @@ struct Readback {
   std::optional<double> step;                   // s
   std::string precision;                        // "double" or "single"
   std::optional<bool> may_sleep;                // the engine may freeze slow bodies
-  std::map<std::string, std::string> settings;  // of the engine, beyond these, that its answers hang on: name -> value
+  std::map<std::string, std::string> settings;  // others that the engine's results depend on: name -> value
   std::map<std::string, std::string> mapped;    // quantity -> how it was handed over, for the certificate
 };
 
@@ -146,8 +146,8 @@ using Engine = std::function<Outcome(const Scene&, const Run&, Observer&)>;
 // Looking at a run by pairs of states two steps apart, without looking at every step.
 
 /// An observer of samples that is also shown, by the run loop, the state two steps before each sample (where a sampling
-/// interval has two steps or more), and such a pair every `steps_between_pairs` steps before it, whoever else looks at
-/// every step. Where only samples are known (outside programs, adaptive rules) neither function is called.
+/// interval has two steps or more), and such a pair every `steps_between_pairs` steps before it, whichever observers
+/// see every step. Where only samples are known (outside programs, adaptive rules) neither function is called.
 class StatePairObserver : public Observer {
  public:
   static constexpr int steps_between_pairs = 16;

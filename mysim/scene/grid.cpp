@@ -21,8 +21,8 @@ double springs_of_grid(const Grid& g) {
   return count;
 }
 
-/// Refuses, with the numbers, what would not fit into memory even as a scene that nobody runs: a spring, its copy while
-/// the list is handed on and sorted; places, velocity and mass.
+/// Refuses, with the numbers, what would not fit into memory even as a scene that is never run: a spring, its copy
+/// while the list is handed on and sorted; places, velocity and mass.
 void require_memory_of_grid(const TomlTable& s, const Grid& g) {
   const double springs = springs_of_grid(g);
   const double bytes = springs * 2 * sizeof(Spring) + g.size() * 16. * sizeof(double);

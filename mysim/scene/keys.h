@@ -1,4 +1,4 @@
-// Which keys a scene file may have, as one visible table, and the check of a whole file against it.
+// The keys that a scene file may have, as one visible table, and the check of a whole file against it.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace crosscheck {
 
-// Which keys a TOML file may have, as one visible table, and the check of a whole file against it.
+// The keys that a TOML file may have, as one visible table, and the check of a whole file against it.
 
 /// One key of a table.
 struct Key {
@@ -17,11 +17,11 @@ struct Key {
   bool required = false;
   Kind kind = Kind::value;
   std::span<const Key> below = {};  // of tables: their keys
-  std::string_view unless = {};     // not required where this key stands beside it or in a table around it
+  std::string_view unless = {};     // not required where this key stands in the same table or in one around it
 };
 
 /// Looks at the keys of the whole file before any value is read. Throws InputError on the first table that lacks keys
-/// (it names them all and says what is expected of each), has keys that nobody knows (with the nearest one, or where
+/// (it names them all and says what is expected of each), has unknown keys (with the nearest one, or where
 /// the key belongs) or that is no table; on text that is no TOML it says what was probably meant. name stands in for
 /// the file in messages.
 void check_keys(std::string_view text, const std::string& name, std::span<const Key> keys);

@@ -103,7 +103,7 @@ Drag read_drag(const TomlTable& s, const Particles& particles) {
   return {Eigen::VectorXd::Constant(particles.size(), s.positive("coefficient"))};
 }
 
-/// The mean from `key`, and [gusts] beside it.
+/// The mean from `key`, and [gusts] next to it.
 WindSignal read_wind_signal(const TomlTable& s, std::string_view key) {
   WindSignal wind_signal{s.vec3(key), std::nullopt};
   if (s.has("gusts")) {

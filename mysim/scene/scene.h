@@ -1,4 +1,4 @@
-// A scene: what is simulated and which question it answers. Read from TOML once, expanded once, used by every engine.
+// A scene: what is simulated, and for which question. Read from TOML once, expanded once, used by every engine.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct Camera {
   std::optional<double> at;  // s, when the picture is taken; none: at the end
 };
 
-/// What a scene is wished to do, in plain measures (experiments/measures.h): what unset parameters are fitted
+/// The wished behaviour of a scene, in plain measures (experiments/measures.h): what unset parameters are fitted
 /// to.
 struct Wish {
   std::optional<double> sag;          // m
@@ -31,7 +31,7 @@ struct Wish {
 
 struct Scene {
   std::string name;
-  std::string question;    // what the scene asks, one sentence for a reader
+  std::string question;    // one sentence for a reader
   std::string parameters;  // how its parameters were chosen
   Model model;
   State start;

@@ -46,7 +46,7 @@ std::string written_between(std::string_view text, const toml::source_region& wh
   return out.substr(0, cut) + "...";
 }
 
-/// A value as it is told in a message: as the file has it.
+/// A value as messages show it: as the file has it.
 std::string as_written(const toml::node& n, std::string_view text) {
   if (n.is_table() && !n.as_table()->is_inline()) return "a table";
   if (n.is_array_of_tables()) return "tables";
@@ -56,7 +56,7 @@ std::string as_written(const toml::node& n, std::string_view text) {
 /// A question ends a sentence, anything else goes on behind a semicolon.
 std::string and_then(const std::string& question) { return question.ends_with('?') ? question : question + ";"; }
 
-/// How a value of another type than a number becomes one.
+/// The number that a value of another type stands for, as text.
 std::string mended_number(const toml::node& n) {
   if (const auto* word = n.as_string()) {
     double value = 0;
@@ -76,7 +76,7 @@ std::string mended_number(const toml::node& n) {
   return "";
 }
 
-/// What the table of keys expects of the key in a line, by the headers above it; nothing where it says nothing.
+/// The expected value of the key in a line, by the headers above it; nothing where it says nothing.
 const Key* key_in_line(std::string_view text, int line, std::span<const Key> keys) {
   std::span<const Key> here = keys;
   const auto find = [](std::span<const Key> among, std::string_view name) {
@@ -129,7 +129,7 @@ struct TomlTable::Node {
   const toml::table* table = nullptr;
   std::string file;
   std::string path;                                     // dotted name of this table; empty at the root
-  mutable std::set<std::string, std::less<>> read;      // every key that was asked for
+  mutable std::set<std::string, std::less<>> read;      // every key that was looked up
   mutable std::vector<std::shared_ptr<Node>> children;  // so that finish() sees what was read below
   mutable std::map<std::string, std::vector<std::shared_ptr<Node>>, std::less<>> made;
 
@@ -337,7 +337,7 @@ class KeyCheck {
   static std::string full(const std::string& path, std::string_view key) {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
   }
-  /// How the key is written, and what stands there.
+  /// The key as it is written, and its value.
   static std::string written(const std::string& path, const Key& key) {
     std::string name = full(path, key.name), keys, more;
     // [[sphere]] holds [sphere.motion], without an index

@@ -15,8 +15,8 @@ namespace crosscheck {
 // One table of a scene file: typed look-ups that name file, line and key when they fail, and remember what was read.
 
 /// A table of a TOML file. Every look-up throws InputError ("FILE:LINE: KEY: expected ..., got ...") when the value is
-/// missing, of the wrong type, not finite or out of range; of a number written as "fit" it says who fits it. finish()
-/// throws on the first key that nobody asked for.
+/// missing, of the wrong type, not finite or out of range; of a number written as "fit" it names the command that fits
+/// it. finish() throws on the first key that was never looked up.
 class TomlTable {
  public:
   /// Reads and parses a file. Throws InputError when it is missing or no TOML.
@@ -75,7 +75,7 @@ class TomlDocument {
   std::shared_ptr<Tree> tree_;
 };
 
-// What is wrong with text that is no TOML, in the words of somebody who wants to mend it.
+// A diagnosis of text that is no TOML: which line to mend, and how.
 
 /// A fault of the text: the line (from 1) that is to be mended, which need not be the one where a parser stumbles, and
 /// how.

@@ -121,7 +121,7 @@ std::optional<TomlError> strange_characters(std::string_view text) {
 
 bool line_matches(const std::string& text, const char* pattern) { return std::regex_search(text, std::regex(pattern)); }
 
-/// What is wrong with a single value, code alone; nothing where it looks well.
+/// The fault of a single value, code alone; nothing where it looks well.
 std::string wrong_with_value(const std::string& v) {
   if (v.empty()) return "nothing stands behind the =; expected a value";
   if (v[0] == '=') return "expected a single = between key and value";

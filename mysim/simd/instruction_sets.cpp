@@ -1,4 +1,4 @@
-// Which instruction sets this machine has, and which one was asked for.
+// The instruction sets of this machine, and the requested one.
 #include "mysim/simd/instruction_sets.h"
 
 #include <fmt/format.h>

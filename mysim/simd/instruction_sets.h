@@ -1,4 +1,4 @@
-// Which instruction set the kernels run on, chosen when it is asked for.
+// The instruction set that the kernels run on, chosen at its first use.
 #pragma once
 
 #include <string_view>
@@ -28,7 +28,7 @@ Function select(InstructionSet isa, Function sse2, Function avx2, Function avx51
   }
 #define SELECT_COMPILED(isa, name) ::crosscheck::simd::select(isa, &sse2::name, &avx2::name, &avx512::name)
 
-/// What this machine has, the best last.
+/// The instruction sets of this machine, the best last.
 std::vector<InstructionSet> supported_instruction_sets();
 
 /// The best there is, or the one that CROSSCHECK_INSTRUCTIONS names (sse2, avx2, avx512). Throws InputError where it

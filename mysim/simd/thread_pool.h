@@ -1,4 +1,4 @@
-// Threads that stand by for the next piece of work, which comes many thousand times a second.
+// A thread pool for pieces of work, one of which comes many thousand times a second.
 #pragma once
 
 #include <atomic>
@@ -8,11 +8,11 @@
 
 namespace crosscheck::simd {
 
-/// A thread that has nothing to do looks again and again for some microseconds, then lets others go first, and falls
+/// An idle thread spins for some microseconds, then yields to others, and falls
 /// asleep when a millisecond has passed: waking up takes longer than a step of a small cloth.
 class ThreadPool {
  public:
-  /// So many threads in all; the one that asks is the first.
+  /// So many threads in all; the calling one is the first.
   explicit ThreadPool(int threads);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -21,7 +21,7 @@ class ThreadPool {
   int size() const { return static_cast<int>(workers_.size()) + 1; }
   /// work(0) ... work(size() - 1), which must not throw, each on a thread of its own; returns when all are done.
   void all(const std::function<void(int)>& work);
-  /// CPU time that the other threads have worked, s; without what they waited.
+  /// CPU time of the other threads' work, s, without their waits.
   double seconds() const;
 
  private:

@@ -15,7 +15,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// First h at which `growth` (of a step of h) exceeds 1, found by walking and halving; `scale` is a step that is long
-/// beside what is looked for. 0 when even the shortest steps grow.
+/// next to what is sought. 0 when even the shortest steps grow.
 template <class Growth>
 double first_exit(Growth growth, double scale) {
   constexpr int walk = 4000;

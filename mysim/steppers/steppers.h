@@ -1,4 +1,4 @@
-// What a stepper is, the table of all of them, and what rules share: leapfrog, rk4, dopri5, stability limits.
+// Steppers, the table of all of them, and parts that rules share: leapfrog, rk4, dopri5, stability limits.
 #pragma once
 
 #include <any>
@@ -12,7 +12,7 @@
 
 namespace crosscheck {
 
-// What a stepper is, and the table of all of them. A new stepper is a function in a file of its own and one row.
+// Steppers, and the table of all of them. A new stepper is a function in a file of its own and one row.
 
 /// Working memory of a stepper, made at its first step and kept, so that no later step allocates.
 class Workspace {
@@ -23,7 +23,7 @@ class Workspace {
     while (static_cast<int>(states_.size()) <= i) states_.push_back(like_);
     return states_[i];
   }
-  /// Memory of the stepper's own kind, made from `from` the first time it is asked for.
+  /// Memory of the stepper's own kind, made from `from` at its first use.
   template <class T, class From>
   T& own(From& from) {
     if (!own_.has_value()) own_.emplace<T>(from);
@@ -37,7 +37,7 @@ class Workspace {
 };
 
 /// Advances state.x and state.v from state.t by h. The caller sets the new time, moves the pins and resolves contacts.
-/// Throws SolverFailure when an equation inside the step has no answer.
+/// Throws SolverFailure when an equation inside the step has no solution.
 using StepFunction = void (*)(System&, State&, double h, Workspace&);
 
 /// The largest stable step (s) on u'' = -omega^2 u - gamma u' (rad/s, 1/s); infinite where every step is stable, 0
@@ -148,7 +148,7 @@ class DormandPrince {
 namespace crosscheck::limits {
 
 // Largest stable steps on the damped oscillator u'' = -omega^2 u - gamma u', rule by rule (rad/s, 1/s -> s): the theory
-// beside which the steppers are tested. Sources: the eigenvalues of each rule's 2 x 2 step matrix.
+// against which the steppers are tested. Sources: the eigenvalues of each rule's 2 x 2 step matrix.
 
 double explicit_euler(double omega, double gamma);
 double trapezoidal(double omega, double gamma);

@@ -45,7 +45,7 @@ static double scale_of(const Spring& s, double squared) {
   return s.k * (r2 - squared) / (squared + r2);
 }
 
-/// For each law a loop of its own: nothing is asked spring by spring.
+/// For each law a loop of its own: no branch is taken spring by spring.
 template <SpringLaw law>
 static void loop(const std::vector<Spring>& list, const Points& x, Forces& forces) {
   for (const Spring& s : list) {

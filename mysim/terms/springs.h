@@ -20,7 +20,7 @@ struct Spring {
   int a, b;       // ends
   double k;       // stiffness, N/m
   double rest;    // rest length r, m
-  Family family;  // for colours, tables and the model ladder; physics does not look at it
+  Family family;  // for colours, tables and ablations; physics does not depend on it
 };
 
 enum class SpringLaw { hooke, bullet_link };

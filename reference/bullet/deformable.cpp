@@ -1,4 +1,4 @@
-// Bullet's deformable world, who carries which force in it, and a force class for what Bullet's own cannot carry.
+// Bullet's deformable world, its forces, and a force class for what Bullet's own cannot carry.
 #include "reference/bullet/deformable.h"
 
 #include <BulletSoftBody/btDeformableBodySolver.h>
@@ -270,7 +270,7 @@ std::optional<std::vector<double>> DeformableForces::drag_rates(SceneForce* own)
   if (implicit_) {
     own->addScaledDampingForceDifferential(1, common, moving);
   } else {
-    // what a common velocity changes of our own forces is their drag, unless air that looks at velocities is there too
+    // a common velocity changes the drag alone of Crosscheck's forces, unless there is aerodynamic force too
     if (own->carried().air) return own->carried().drag ? std::nullopt : std::optional(rates);
     ProbeState placed(scene_, soft_body_, t_);
     placed.stop();
@@ -391,7 +391,7 @@ Outcome run_deformable(const Scene& scene, const Run& run, Observer& observer, c
   if (scene.model.find<Dashpots>() && !settings.implicit)
     out.different_law.push_back("dashpots: Bullet solves them implicitly, at the end of the explicit step");
   if (const auto limit = world.speed_limit(); limit && out.verdict == Verdict::ok) {
-    // a run that failed anyway is a failure; one that looks well under a limit of its own answers another question
+    // a run that failed anyway is a failure; one that ends well under Bullet's speed limit solves another problem
     if (!settings.defaults.margin)
       throw Unsupported(fmt::format(
           "Bullet's deformable world limits speeds to the body's box over the step, here to {:.3g} m/s", *limit));

@@ -11,7 +11,7 @@
 
 namespace crosscheck::bullet {
 
-// A force class of our own in Bullet's deformable world, for what Bullet's own forces cannot carry: more than two
+// A force class of Crosscheck's in Bullet's deformable world, for what Bullet's own forces cannot carry: more than two
 // stiffnesses, another spring law than Hooke's, springs whose implicit step cannot blow up, dashpots that differ or
 // hang on moved pins, drag that differs between particles or is implicit, and wind.
 
@@ -43,7 +43,7 @@ class SceneForce : public btDeformableLagrangianForce {
   void addScaledElasticForceDifferential(btScalar scale, const TVStack& dx, TVStack& df) override;
   void buildDampingForceDifferentialDiagonal(btScalar scale, TVStack& diagonal) override;
 
-  /// Springs only, at m_q: what the certificate's probe asks too.
+  /// Springs only, at m_q: for the certificate's probe too.
   void addScaledElasticForce(btScalar scale, TVStack& force);
   /// A value that Bullet does not use: forces of a known type would be merged with the first of their kind.
   static constexpr auto type = static_cast<btDeformableLagrangianForceType>(100);
@@ -63,8 +63,8 @@ class SceneForce : public btDeformableLagrangianForce {
   Forces aerodynamic_forces_;  // N
 };
 
-// The forces of a scene in Bullet's deformable world: Bullet's own where they can carry it, a class of our own for the
-// rest; and what the world tells of them.
+// The forces of a scene in Bullet's deformable world: Bullet's own where they can carry it, SceneForce for the
+// rest; and what the world reports of them.
 
 class DeformableForces {
  public:
@@ -81,7 +81,7 @@ class DeformableForces {
  private:
   void carry_drag(const Drag* drag, SceneForce::CarriedTerms& ours);
   void carry_springs(const Springs* springs, const Dashpots* dashpots, SceneForce::CarriedTerms& ours, bool shipped);
-  /// 1/s, of each particle; nothing where they cannot be told from other forces.
+  /// 1/s, of each particle; nothing where they cannot be separated from other forces.
   std::optional<std::vector<double>> drag_rates(SceneForce* own) const;
   ForceProbe probe(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world) const;
 

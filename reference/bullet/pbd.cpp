@@ -131,7 +131,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     body().m_cfg.kDG = static_cast<btScalar>(air.coefficient);
   }
 
-  /// What links cannot do, as forces on the nodes for one step, at the nodes' state.
+  /// Terms that links cannot carry, as forces on the nodes for one step, at the nodes' state.
   void add_forces(double t, bool winds, bool dashpots) {
     const Model& model = scene_.model;
     added_.f.setZero(3, model.particles.size());

@@ -11,7 +11,7 @@
 namespace crosscheck::bullet {
 namespace {
 
-/// True when the springs join all particles into one network.
+/// True when the springs join all particles into one connected graph.
 bool connected(const Model& model) {
   const int n = model.particles.size();
   std::vector<int> parent(n);
@@ -131,7 +131,7 @@ const State& SoftBody::read_state(double t) {
     state_.x.col(particle_of_[node]) = from_bullet(bt_body_->m_nodes[node].m_x);
     state_.v.col(particle_of_[node]) = from_bullet(bt_body_->m_nodes[node].m_v);
   }
-  // Bullet knows no velocity of prescribed pins; ours is exact
+  // Bullet knows no velocity of prescribed pins; the scene's is exact
   const Particles& particles = scene_.model.particles;
   const Vec3 velocity = particles.move ? velocity_at(*particles.move, t) : Vec3::Zero();
   for (int pin : particles.pins) state_.v.col(pin) = velocity;
@@ -227,7 +227,7 @@ void Obstacles::read_back(const btDiscreteDynamicsWorld& world, const btSoftBody
   const btCollisionObjectArray& objects = world.getCollisionObjectArray();
   for (int i = 0; i < objects.size(); ++i)
     if (const auto* ball = dynamic_cast<const btSphereShape*>(objects[i]->getCollisionShape())) {
-      const size_t known = readback.spheres->size();  // one that nobody built here counts where it stands
+      const size_t known = readback.spheres->size();  // one that was not built here counts where it stands
       readback.spheres->push_back(
           {known < built_.size() ? built_[known] : from_bullet(objects[i]->getWorldTransform().getOrigin()),
            ball->getRadius() + *readback.margin, objects[i]->getFriction() * body.m_cfg.kDF,

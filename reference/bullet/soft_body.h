@@ -18,25 +18,26 @@ namespace crosscheck::bullet {
 //
 // Traps met here (all measured): pinned nodes go last, since the implicit world shifts its contact prediction by one
 // node for each pin before; the first step overwrites rest lengths unless the update flag is cleared; bodies slower
-// than 0.04 m/s fall asleep unless told not to; a disconnected network hangs the builder of the node tree; the body's
-// margin is 0.25 m unless set; the explicit world clamps speeds to the diagonal of the body's box over the step.
+// than 0.04 m/s fall asleep unless that is disabled; a disconnected spring graph hangs the builder of the node tree;
+// the body's margin is 0.25 m unless set; the explicit world clamps speeds to the diagonal of the body's box over the
+// step.
 
-/// Bullet's vector, in the precision that it was built with, from ours, and back.
+/// Bullet's vector, in the precision that it was built with, from mysim's, and back.
 inline btVector3 to_bullet(const Vec3& v) { return {btScalar(v.x()), btScalar(v.y()), btScalar(v.z())}; }
 inline Vec3 from_bullet(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// What every world needs and what it leaves behind in the right order.
+/// Objects that every world needs, destroyed in the right order.
 struct CollisionPipeline {
   btSoftBodyRigidBodyCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
   btDbvtBroadphase broadphase;
 };
 
-/// Throws Unsupported where Bullet would hang (a network in several pieces beside a sphere) or cannot follow
-/// (first-order scenes, restitution). To be asked before a world is built.
+/// Throws Unsupported where Bullet would hang (a spring graph in several pieces near a sphere) or cannot follow
+/// (first-order scenes, restitution). To be called before a world is built.
 void require_supported(const Scene& scene);
 
-/// What is left at Bullet's defaults, to be seen failing.
+/// Parameters left at Bullet's defaults, to be seen failing.
 struct BulletDefaults {
   bool rest = false;    // the first step overwrites rest lengths with the lengths it finds
   bool margin = false;  // 0.25 m
@@ -71,7 +72,7 @@ class SoftBody {
 /// mu of the pair of ends, 1 / (1/m_a + 1/m_b) with pins of infinite mass, kg; infinite between two pins.
 double pair_mass(const Particles& particles, const Spring& spring);
 
-// A state into which a body is put for a moment, to ask its world for forces.
+// A state into which a body is put for a moment, to probe its world's forces.
 
 /// Puts the nodes to 1.1 times the start, so that all springs pull, with velocities that are no rigid motion: x + P x
 /// (as m/s), P turning the coordinates by one place, under which every distance d grows, d . (d + P d) >= |d|^2 / 2.
@@ -148,7 +149,7 @@ class Obstacles {
   /// Where that is, m. All stands as before afterwards.
   std::vector<Vec3> centres_at(double t);
 
-  /// What was built: places, radii, friction and restitution of the balls, and the soft body's margin.
+  /// The objects that were built: places, radii, friction and restitution of the balls, and the soft body's margin.
   void read_back(const btDiscreteDynamicsWorld& world, const btSoftBody& body, Readback& readback) const;
 
  private:
@@ -166,8 +167,8 @@ class Obstacles {
 /// by half a voxel's turn at its faces.
 std::string normal_error_text(const Scene& scene, double voxel);
 
-// What all Bullet worlds do alike: a body and its obstacles go in, states come out, and all is taken down in the right
-// order.
+// The part that all Bullet worlds share: a body and its obstacles go in, states come out, and all is taken down in the
+// right order.
 
 /// BulletWorld: a soft-body world of Bullet. The derived class makes world_ and soft_body_, calls add_to_world(), and
 /// calls remove_all() in its destructor, since its forces and solvers must outlive the world.
@@ -186,7 +187,7 @@ class SoftBodyWorld : public World {
     world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the spheres are fixed or led
   }
 
-  /// What a prescribed motion leads, at a time at which no round frequency has brought it back.
+  /// Pins and spheres of a prescribed motion, at a time at which no round frequency has brought it back.
   Readback::Places prescribed_places() {
     const double t = 0.382 * scene_.duration;
     std::optional<ProbeState> kept;  // puts the nodes back at the end

@@ -55,7 +55,7 @@ void certify_motion(const Scene& scene, const Readback& r, CertificateWriter& w)
         spheres->list[i].motion, spheres->list[i].centre_at(t), r.later->centres[i]);
 }
 
-/// Where the engine began.
+/// The engine's start.
 void certify_start(const Scene& scene, const Readback& r, CertificateWriter& w) {
   if (!r.start || r.start->x.cols() != scene.start.x.cols()) {
     w.row("start", "as in the scene", r.start ? "other particles" : "not told",

@@ -6,7 +6,7 @@
 namespace crosscheck {
 namespace {
 
-/// Springs of one family: how many and between whom, rest lengths, stiffness.
+/// Springs of one family: their number, ends, rest lengths and stiffness.
 void certify_family(Family family, const Springs& springs, const Readback& r, CertificateWriter& w) {
   const std::string name = family == Family::single ? "springs" : fmt::format("{} springs", name_of(family));
   int count = 0, same = 0;
@@ -32,7 +32,7 @@ void certify_family(Family family, const Springs& springs, const Readback& r, Ce
     // the inverse of a mapping by powers loses what 1 - kLST loses: k h^2/mu may be 1e-6, and eps / 1e-6 is left
     w.row(name + ": stiffness", range, fmt::format("largest deviation {:.2g}", stiffness),
           stiffness <= std::max(1e-8, w.tolerance()));
-  else if (!r.probe || r.probe->springs.size() == 0)  // otherwise the forces tell it, with the law
+  else if (!r.probe || r.probe->springs.size() == 0)  // otherwise the forces show it, with the law
     w.add_unattested(name + ": stiffness", range);
 }
 
@@ -67,7 +67,7 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
       w.row(quantity, asked, found, same);
   };
   if (springs && !springs->list.empty() && r.probe && r.probe->springs.size() > 0) {
-    // a stretch by less than a thousandth tells no law: all laws are straight lines there
+    // a stretch by less than a thousandth shows no law: all laws are straight lines there
     const long force_free = count_force_free(springs->list, [&](const Spring& s) {
       return std::abs((probed.x.col(s.a) - probed.x.col(s.b)).norm() - s.rest) > 1e-3 * s.rest;
     });

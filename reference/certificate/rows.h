@@ -1,4 +1,4 @@
-// How rows of a certificate are written, and who writes which.
+// The writer of a certificate's rows, and the functions that write them.
 #pragma once
 
 #include <fmt/format.h>

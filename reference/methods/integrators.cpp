@@ -1,4 +1,4 @@
-// Integrators that are no engines: they solve the scene's equations, written apart, by somebody else's code.
+// Integrators that are no engines: they solve the scene's equations, written apart, by other libraries.
 
 #include "reference/truth/independent/integrators.h"
 #include "mysim/base/text.h"

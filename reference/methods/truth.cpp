@@ -1,4 +1,4 @@
-// The best answers known, played through the observer like any other method.
+// The best solutions known, played through the observer like any other method.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -108,7 +108,7 @@ Outcome failed(Outcome out, Verdict verdict, const std::string& what, const Proc
   return out;
 }
 
-/// Reads what the program wrote. Throws InputError where it is not what the protocol asks.
+/// Reads what the program wrote. Throws InputError where it breaks the protocol.
 Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, Outcome& out) {
   for (const char* file : {"run.json", "trajectory.npy", "velocities.npy"}) {
     const fs::file_status status = fs::status(folder / file);

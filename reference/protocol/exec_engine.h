@@ -16,8 +16,8 @@ struct Program {
 };
 
 /// Reads "PATH+option+option". PATH is relative to the working directory; a bare word is looked for there, then in
-/// PATH. What follows the longest part that is a file are options; timeout=SECONDS is meant for us, the others for the
-/// program. Throws InputError when there is no such program.
+/// PATH. What follows the longest part that is a file are options; timeout=SECONDS is Crosscheck's, the others are for
+/// the program. Throws InputError when there is no such program.
 Program find_program(const std::string& text);
 
 /// Runs the program on the scene and plays what it delivered to the observer. Verdict::timeout and Verdict::crash, with

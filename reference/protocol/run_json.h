@@ -1,5 +1,5 @@
-// run.json of the engine protocol: what a program says of its run, beside the trajectory. Its format is described in
-// PROTOCOL.md.
+// run.json of the engine protocol: what a program reports of its run, besides the trajectory. Its format is described
+// in PROTOCOL.md.
 #pragma once
 
 #include <filesystem>

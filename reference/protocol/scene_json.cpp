@@ -140,7 +140,7 @@ std::string scene_json(const Scene& scene, const Run& run, const std::vector<std
   }
   if (!scene.triangles.empty()) json["triangles"] = scene.triangles;
 
-  // a line for each part: long lists stay out of the way of a reader who pages through
+  // a line for each part: long lists stay out of a reader's way
   return json.dump_in_lines();
 }
 

@@ -1,4 +1,4 @@
-// scene.json of the engine protocol: the expanded scene and the run that is asked, for programs outside.
+// scene.json of the engine protocol: the expanded scene and the requested run, for outside programs.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-// What JSON files of scenes and runs hold beside plain values: vectors and places.
+// Values in JSON files of scenes and runs besides plain ones: vectors and places.
 
 /// Of three numbers. Throws InputError as JsonField does.
 Vec3 vec3_of(const JsonField& field);
@@ -22,13 +22,13 @@ Points points_of(const JsonField& field, int count);
 Json json_of(const Vec3& v);
 Json json_of(const Points& p);
 
-// scene.json of the engine protocol: the expanded scene and the run that is asked, for programs outside. Its format is
+// scene.json of the engine protocol: the expanded scene and the requested run, for outside programs. Its format is
 // described in PROTOCOL.md.
 
 /// The file's content. Every number is written such that reading it gives the same bits.
 std::string scene_json(const Scene& scene, const Run& run, const std::vector<std::string>& options);
 
-/// What a program was asked.
+/// The task of an outside program.
 struct EngineTask {
   Scene scene;
   Run run;

@@ -46,7 +46,7 @@ struct Header {
   std::vector<long> shape;
 };
 
-/// What stands behind 'key': in the header's dictionary, from the first character that is no space.
+/// The value of 'key': in the header's dictionary, from the first character that is no space.
 std::optional<std::string> dictionary_value(const std::string& dictionary, const std::string& key) {
   size_t at = dictionary.find("'" + key + "'");
   if (at == std::string::npos || (at = dictionary.find(':', at)) == std::string::npos) return std::nullopt;

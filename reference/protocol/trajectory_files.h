@@ -15,7 +15,7 @@ namespace crosscheck {
 
 // NumPy's .npy files: what trajectories are stored in.
 
-/// What stands before frames x particles x 3 numbers, float64, little endian, C order (format 1.0): 128 bytes, whatever
+/// The header of frames x particles x 3 numbers, float64, little endian, C order (format 1.0): 128 bytes, whatever
 /// the numbers.
 std::string npy_header(long frames, long particles);
 /// The numbers of a frame as they stand behind it.
@@ -37,9 +37,9 @@ class TrajectoryWriter : public Observer {
  public:
   explicit TrajectoryWriter(std::filesystem::path folder) : folder_(std::move(folder)) {}
   Verdict observe(const State& state, bool sample) override;
-  /// Says in both files how many frames there are; a run that failed has fewer than were asked for.
+  /// Says in both files how many frames there are; a run that failed has fewer than requested.
   void finish();
-  /// When the frames were taken, s.
+  /// The times of the frames, s.
   const std::vector<double>& times() const { return times_; }
 
  private:

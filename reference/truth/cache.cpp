@@ -56,7 +56,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto extension = ".truth";
-constexpr int error_bar_version = 2;  // raised with what a truth's error bar means: no answer of an older rule is found
+constexpr int error_bar_version = 2;  // raised with what a truth's error bar means: no truth of an older rule is found
 
 class ByteWriter {
  public:
@@ -147,7 +147,7 @@ std::string serialized(const std::string& key, const std::optional<Truth>& truth
   return sum.bytes() + w.bytes();
 }
 
-/// The answer in the file; throws CorruptFile where it is none, or another one's.
+/// The truth in the file; throws CorruptFile where it is none, or another key's.
 std::optional<Truth> deserialized(const std::string& key, const std::string& file) {
   ByteReader r(file);
   if (r.count() != Fnv1a::of(std::string_view(file).substr(sizeof(std::uint64_t))) || r.text() != key)
@@ -166,7 +166,7 @@ std::optional<Truth> deserialized(const std::string& key, const std::string& fil
   return truth;
 }
 
-/// Answers of programs that are gone would pile up: what is older than a month goes.
+/// Removes files older than a month: those of programs that are gone would pile up.
 void remove_old_files(const fs::path& folder) {
   std::error_code error;
   const auto limit = fs::file_time_type::clock::now() - std::chrono::hours(30 * 24);
@@ -178,7 +178,7 @@ void remove_old_files(const fs::path& folder) {
   }
 }
 
-/// The stored answer, or nothing where there is none or it is damaged.
+/// The stored truth, or nothing where there is none or it is damaged.
 std::optional<std::optional<Truth>> load_file(const fs::path& file, const std::string& key) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
@@ -190,7 +190,7 @@ std::optional<std::optional<Truth>> load_file(const fs::path& file, const std::s
   }
 }
 
-/// Holds a file's lock while it lives; a process that dies lets go of it. Where no lock can be had, nobody waits.
+/// Holds a file's lock while it lives; a process that dies lets go of it. Where no lock can be had, there is no wait.
 class FileLock {
  public:
   explicit FileLock(const fs::path& file) {
@@ -241,7 +241,7 @@ std::optional<Truth> TruthCache::find_or_compute(const Scene& scene, const Run& 
   const std::string key = key_of(scene, run);
   const fs::path file = file_at(key);
   if (auto stored = load_file(file, key)) return *stored;
-  // processes of one sweep ask for the same answer at the same time: one computes, the others wait
+  // processes of one sweep need the same truth at the same time: one computes, the others wait
   const FileLock lock(file);
   if (auto stored = load_file(file, key)) return *stored;
   std::optional<Truth> truth = compute();

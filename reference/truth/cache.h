@@ -10,14 +10,14 @@
 
 namespace crosscheck {
 
-// Which program is running.
+// The identity of the running program.
 
 /// The linker's fingerprint of the running program's content, in hexadecimal digits; empty where it has none.
 std::string build_id();
 
-// Truth that was found before: converged answers cost seconds, and the same ones are asked for again and again.
+// Truth that was found before: converged ones cost seconds, and the same ones are needed again and again.
 
-/// Answers of one program in a folder, one file each, by what the answer depends on: the scene (its hash and step), the
+/// Truths of one program in a folder, one file each, by what a truth depends on: the scene (its hash and step), the
 /// run's duration and samples. The program is part of the key: another build never reads them.
 class TruthCache {
  public:
@@ -27,7 +27,7 @@ class TruthCache {
   /// is named, or the program has no build id.
   static std::optional<TruthCache> from_environment();
 
-  /// The stored answer, or a new one that is stored; "no truth" is an answer too. A file that is damaged or was made by
+  /// The stored truth, or a new one that is stored; "no truth" is stored too. A file that is damaged or was made by
   /// another program counts for nothing, and a folder that cannot be written to stores nothing.
   std::optional<Truth> find_or_compute(const Scene& scene, const Run& run,
                                        const std::function<std::optional<Truth>()>& compute) const;

@@ -123,7 +123,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// What errors in (u, v) grow by, velocities weighed with 1 / omega.
+/// The growth of errors in (u, v), velocities weighed with 1 / omega.
 double amplification_of(const Increment& power, double omega) {
   Eigen::Matrix2d m = power.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
   m(0, 1) *= omega, m(1, 0) /= omega;

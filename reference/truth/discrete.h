@@ -1,4 +1,4 @@
-// What a one-step rule should produce on a linear scene, exactly: powers of its amplification matrix. Written from the
+// Exact results of one-step rules on linear scenes: powers of its amplification matrix. Written from the
 // rules' definitions, apart from mysim's steppers, which are tested against it.
 #pragma once
 
@@ -12,15 +12,15 @@
 
 namespace crosscheck {
 
-/// What a step adds to (u, v, 1), as a matrix E: the rule multiplies by I + E. Kept without the identity, beside which
-/// the small entries of short steps would lose their digits.
+/// The increment of (u, v, 1) in a step, as a matrix E: the rule multiplies by I + E. Kept without the identity, next
+/// to which the small entries of short steps would lose their digits.
 using Increment = Eigen::Matrix3d;
 
 struct DiscreteStepper {
   std::string_view name;                                       // of mysim's stepper
   Increment (*of_mode)(const Mode& mode, double h);            // moved pins left out
   Increment (*of_system)(const Eigen::Matrix3d& a, double h);  // of y' = A y; null where the rule needs u'' = ...
-  bool one_spring = false;                                     // sweeps the springs one by one: a matrix for one only
+  bool one_spring = false;                                     // projects the springs one by one: a matrix for one only
 };
 
 /// The table: every one-step rule of mysim's. dopri5 chooses its steps and has none.

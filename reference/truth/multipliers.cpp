@@ -46,7 +46,7 @@ void MultiplierWorld::derivative(const State& stage, State& rate) {
   jacobian.setFromTriplets(entries.begin(), entries.end());
   const Eigen::VectorXd free_acceleration = inverse_mass_.cwiseProduct(forces_.f.reshaped());
   const Eigen::SparseMatrix<double> matrix = jacobian * inverse_mass_.asDiagonal() * jacobian.transpose();
-  if (factor_.rows() == 0) factor_.analyzePattern(matrix);  // who meets whom never changes
+  if (factor_.rows() == 0) factor_.analyzePattern(matrix);  // the sparsity pattern never changes
   factor_.factorize(matrix);
   // a dependent distance leaves a pivot at round-off: 1e-12 of the largest
   const auto pivots = factor_.vectorD();

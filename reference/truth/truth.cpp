@@ -73,11 +73,11 @@ struct RefinementStudy {
   Trajectory coarse, middle, fine;
 };
 
-/// What a route says of its own error, sample by sample: the differences of its last two refinements up to there.
+/// The error estimate of a refinement study, sample by sample: the differences of its last two refinements up to there.
 class RichardsonEstimate {
  public:
   explicit RichardsonEstimate(const RefinementStudy& study) : study_(study) {}
-  /// m, of the error up to sample i, to be asked in order. An order p divides the error by 2^p at each refinement (by
+  /// m, of the error up to sample i, to be called in order. An order p divides the error by 2^p at each refinement (by
   /// r, where it is the tolerance that is refined), so that the last difference over r - 1 is left; three times that,
   /// for r is itself measured. Where the differences do not halve no order shows, and the whole difference stands.
   double error_up_to(size_t i) {
@@ -104,7 +104,7 @@ double first_step(const Scene& scene, bool constrained) {
   return std::min(2 * scene.step / part, omega > 0 ? 1.4 / omega : scene.step);
 }
 
-/// mysim's run at one step, under a watch for failures; nothing if it failed. Throws Unsupported where the hard
+/// mysim's run at one step, under a DivergenceMonitor; nothing if it failed. Throws Unsupported where the hard
 /// distances depend on each other.
 std::optional<Trajectory> run_rk4(const Scene& scene, const Run& run, bool constrained) {
   Recorder recorder;
@@ -124,7 +124,7 @@ std::optional<Trajectory> run_rk4(const Scene& scene, const Run& run, bool const
 /// Halves the step until that changes little; at least twice, so that an order can be seen.
 std::optional<RefinementStudy> refine_rk4(const Scene& scene, const Run& run) {
   constexpr int most_halvings = 7;
-  const double enough = 1e-8 * scene.size();  // far below what any scene asks for; a few particles reach 1e-11 at once
+  const double enough = 1e-8 * scene.size();  // far below what any scene needs; a few particles reach 1e-11 at once
   const bool constrained = scene.model.find<Constraints>() != nullptr;
   double h = first_step(scene, constrained);
   const auto at = [&] { return run_rk4(scene, {h, run.duration, run.samples}, constrained); };
@@ -256,7 +256,7 @@ std::optional<Truth> contact_truth(const Scene& scene, const Run& run) {
 
   Truth truth{Tier::converged, "", {}, 1e-15 * scene.size()};
   truth.under_contact_rule = true;
-  // a rounding of each step's positions at worst: what is below it tells nothing of the order
+  // a rounding of each step's positions at worst: what is below it shows no order
   const double noise = std::numeric_limits<double>::epsilon() * scene.size() * run.duration / h;
   double before = 0, last = 0, motion = 0, least = 4;
   for (int i = 0; i <= end; ++i) {
@@ -270,7 +270,7 @@ std::optional<Truth> contact_truth(const Scene& scene, const Run& run) {
     truth.error_bars.push_back(truth.error_bar);
     truth.until = fine->t[i];
   }
-  // what ends before anything was touched for a while tells nothing of contact
+  // what ends before anything was touched for a while shows nothing of contact
   if (static_cast<int>(truth.error_bars.size()) <= span->touch + 1 || !(truth.error_bar < 0.01 * motion))
     return std::nullopt;
   truth.trajectory = std::move(*paths[2]);

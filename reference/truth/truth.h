@@ -1,4 +1,4 @@
-// The best answer known for a scene, with its tier and its error bar, and how it is found.
+// The best solution known for a scene, with its tier and its error bar, and how it is found.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-// The best answer known for a scene, with its tier and its error bar.
+// The best solution known for a scene, with its tier and its error bar.
 
 enum class Tier { exact = 1, exact_discrete = 2, converged = 3, another_engine = 4 };
 std::string_view name_of(Tier tier);
@@ -20,7 +20,7 @@ struct Truth {
   Trajectory trajectory;
   double error_bar;                // m, error bar of the RMS position error, at any sample
   std::vector<double> error_bars;  // m, the same up to each sample; empty where it is one and the same
-  // the answer of the in-house contact rule: what others are apart from it is a difference, and no error
+  // a result of the in-house contact rule: the distance of others from it is a difference, and no error
   bool under_contact_rule = false;
   double until = INFINITY;  // s, holds up to here; the samples end with it
 };
@@ -44,9 +44,9 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 /// to less than that is not known. The scene must be free of contact.
 std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 
-// What a scene with contact converges to in the step, under the in-house contact rule.
+// The limit of a scene with contact as the step goes to 0, under the in-house contact rule.
 
-/// mysim's leapfrog at 1/8, 1/16 and 1/32 of the scene's step. The answer holds as long as the last
+/// mysim's leapfrog at 1/8, 1/16 and 1/32 of the scene's step. The result holds as long as the last
 /// difference (RMS over the particles, largest so far) is at most 2/3 of the one before, as at order 0.6 or more: with
 /// contact every stepper is of first order on smooth motion. It ends 0.3 s after the first touch of a scene of several
 /// free particles, and with the scene's window; the samples of the truth end there too. The bar is the last difference

@@ -1,4 +1,4 @@
-// The temporary name begins with a dot, so that nobody takes it for a result.
+// The temporary name begins with a dot, so that it is not taken for a result.
 #include "report/base/atomic_file.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// A file that others write: they are given a temporary name beside it, and it gets its own when it is whole.
+// A file that other programs write under a temporary name next to it; it is renamed when it is whole.
 #pragma once
 
 #include <filesystem>

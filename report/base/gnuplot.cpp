@@ -1,4 +1,4 @@
-// Exit codes and warnings of gnuplot tell little: it ends with 0 on a full disk, and warns where all is well.
+// Exit codes and warnings of gnuplot mean little: it ends with 0 on a full disk, and warns where all is well.
 #include "report/base/gnuplot.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ void erase_pdf_date(const std::filesystem::path& pdf) {
 
 namespace {
 
-/// What is wrong with a file that gnuplot wrote, or nothing. A format that is known by its first bytes must come to its
+/// The fault of a file that gnuplot wrote, or nothing. A format that is known by its first bytes must come to its
 /// last ones.
 std::string wrong_with_drawn_file(const std::filesystem::path& file) {
   struct Format {

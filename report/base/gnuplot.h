@@ -11,7 +11,7 @@ namespace crosscheck {
 /// write the same bytes; its length stays, and with it all offsets. Throws InputError when the file cannot be written.
 void erase_pdf_date(const std::filesystem::path& pdf);
 
-/// Runs gnuplot, without anybody's own settings, on a script in `folder`, which must leave these files there. Returns
+/// Runs gnuplot, without user settings, on a script in `folder`, which must leave these files there. Returns
 /// what it warned of; a warning is no failure. Throws std::runtime_error that begins with `what` when gnuplot fails, or
 /// a file is missing, empty or cut off.
 std::string run_gnuplot(const std::string& script, const std::filesystem::path& folder,

@@ -1,4 +1,4 @@
-// Who made these numbers: command, commit, compiler, machine, engines.
+// The provenance of numbers: command, commit, compiler, machine, engines.
 #pragma once
 
 #include "experiments/tables/table.h"

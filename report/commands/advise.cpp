@@ -33,8 +33,8 @@ struct AdviseOptions {
   std::string command_line;
 };
 
-/// Error against cost of everything that was tried, the asked tolerance as a line, the advised run marked; failed runs
-/// as crosses at the cost they had spent.
+/// Error against cost of everything that was tried, the requested tolerance as a line, the advised run marked; failed
+/// runs as crosses at the cost they had spent.
 Figure advice_figure(const Advice& a, const std::string& commit) {
   Figure f;
   f.name = a.scene.name + "-advice";
@@ -56,7 +56,7 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
           {title + ": " + failure_class(std::string(name_of(t.outcome.verdict))), style, t.cost(), 3 * highest});
       continue;
     }
-    if (!(*t.error > a.error_bar)) continue;  // below its bar the truth tells nothing
+    if (!(*t.error > a.error_bar)) continue;  // below its error bar the truth says nothing
     auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == title; });
     if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {title, style, {}, true, true});
     curve->points.emplace_back(t.cost(), *t.error);
@@ -237,7 +237,7 @@ int advise_command(const AdviseOptions& options) {
   try {
     return advised(options, folder);
   } catch (const CannotGuarantee& why) {
-    // what was advised before would pass for this advice where none can be given; but it may be what was asked about
+    // earlier advice would pass for this one where none can be given; but it may be the scene of this command
     const fs::path old = options.out / "advice.toml", now = folder.path() / "advice.toml";
     if (!fs::exists(now) && fs::exists(old) && fs::exists(options.scene) && fs::equivalent(old, options.scene))
       fs::copy_file(old, now);

@@ -111,7 +111,7 @@ void add_kernels(const Rows& all_rows, InstructionSet best, std::vector<BenchLin
     const KernelRow* chosen = nullptr;
     for (const KernelRow& other : rows) {
       if (other.side != side || other.precision != row.precision) continue;
-      // with SSE2 the fastest double sweep is the reproducible one
+      // with SSE2 the fastest fused step in double is the reproducible one
       const bool same =
           other.kernel == row.kernel || (row.kernel == "sweep, fastest" && row.precision == "double" &&
                                          other.kernel == "sweep, reproducible" && other.instructions == plainest);
@@ -126,7 +126,7 @@ void add_kernels(const Rows& all_rows, InstructionSet best, std::vector<BenchLin
   }
 }
 
-/// The scene where the engine's own way (the sweep where there is one) gains least over the naive loop.
+/// The scene where the engine's own kernel (the fused step where there is one) gains least over the naive loop.
 void add_scenes(const Rows& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
   const std::vector<SceneKernelRow> rows = rows_in<SceneKernelRow>(all_rows);
   std::optional<BenchLine> least;
@@ -135,7 +135,7 @@ void add_scenes(const Rows& all_rows, InstructionSet best, std::vector<BenchLine
     const SceneKernelRow* chosen = nullptr;
     std::optional<BenchRatio> plain;
     for (; end < rows.size() && rows[end].scene == rows[begin].scene; ++end) {
-      // the sweep's rows come after the general kernel's
+      // the fused step's rows come after the general kernel's
       if (rows[end].instructions == best) chosen = &rows[end];
       if (rows[end].instructions == plainest) plain = ratio_of(rows[end]);
     }
@@ -248,7 +248,7 @@ DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& ins
 
 namespace {
 
-/// Who compiled what is timed, and how.
+/// The builds of what is timed.
 Provenance build_lines() {
   Provenance lines{
       {"build of mysim", CROSSCHECK_COMPILER "; the sweep once for each of x86-64, x86-64-v3 and x86-64-v4, -O3"},

@@ -1,4 +1,4 @@
-// What the bench found, line by line, as people read it: for the terminal and the figure.
+// The results of the bench as lines for people: on the terminal and in the figure.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace crosscheck {
 
 struct BenchSuite;
 
-/// How many times somebody's time mysim's is, with its 90 % interval.
+/// The ratio of a peer's time to mysim's, with its 90 % interval.
 struct BenchRatio {
   double ratio, low, high;
 };
@@ -24,7 +24,7 @@ struct BenchRatio {
 struct BenchLine {
   std::string group;                      // what is compared, a heading
   std::string heading;                    // the same in few words, for the figure
-  std::string label;                      // with whom, at which accuracy
+  std::string label;                      // the peer, and at which accuracy
   std::string detail;                     // times or rates behind the ratio; of the best path
   std::optional<BenchRatio> best, plain;  // best instructions; SSE2 alone
   std::string remark = {};                // why there is no ratio
@@ -32,8 +32,8 @@ struct BenchLine {
   bool wall = false;                      // the ratio is one of times on the wall, not of CPU times
 };
 
-/// From the tables of bench(). Kernels on the sheet in the middle of those asked; of the shipped scenes the one where
-/// the engine's own way gains least; all runs of all peers; two threads beside one.
+/// From the tables of bench(). Kernels on the middle one of the selected cloths; of the shipped scenes the one where
+/// the engine's own kernel gains least; all runs of all peers; two threads against one.
 std::vector<BenchLine> bench_lines(const Rows& rows);
 
 /// The name of the best instructions in the tables: "avx512".
@@ -61,7 +61,7 @@ struct BenchOptions {
   std::filesystem::path out = "out/bench";
   std::string command_line;
 };
-/// The short plan, the long one, or one of one's own.
+/// The short suite, the long one, or the caller's.
 int bench_command(const BenchOptions& options, const BenchSuite& plan);
 
 }  // namespace crosscheck

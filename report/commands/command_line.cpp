@@ -1,4 +1,4 @@
-// What the command lines of all our programs have in common.
+// The common part of all programs' command lines.
 #include "report/commands/command_line.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What the command lines of all our programs have in common.
+// The common part of all programs' command lines.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ namespace crosscheck {
 
 using AddCommand = void (*)(CLI::App&, Invocation&);
 
-/// Reads the command line, runs the one of the commands that it asks for, and returns the exit status. Throws
+/// Reads the command line, runs its command, and returns the exit status. Throws
 /// InputError that names the nearest word. `version`: what --version prints; empty: there is no such option.
 int run_command_line(const std::string& description, const std::string& version, std::span<const AddCommand> commands,
                      int argc, char** argv);

@@ -16,7 +16,7 @@ class OutputFolder;
 /// One call of the program.
 struct Invocation {
   std::string line;  // the command line as a person would type it
-  int status = 0;    // of the exit: 0 done, 1 the answer is no; bad input throws InputError (exit 2)
+  int status = 0;    // of the exit: 0 done, 1 a negative result; bad input throws InputError (exit 2)
 };
 
 void add_doctor(CLI::App& app, Invocation& call);
@@ -36,8 +36,8 @@ void add_engine(CLI::App& app, Invocation& call);
 
 /// `grade` and `assignment`, by their names alone: the grader knows their options.
 void add_grader(CLI::App& app, Invocation& call);
-/// Becomes the grader, found beside this program, with these arguments; where a page of one submission is asked for,
-/// starts it, and sets the student's steppers beside other engines in a report next to the page. Throws
+/// Becomes the grader, found next to this program, with these arguments; where a page of one submission is requested,
+/// starts it, and compares the student's steppers with other engines in a report next to the page. Throws
 /// std::runtime_error where the grader is not built.
 int grader_command(const std::vector<std::string>& words);
 
@@ -45,7 +45,7 @@ struct ReportOptions {
   std::vector<std::string> scenes;
   std::string methods;
   bool full = false;
-  std::vector<std::string> experiments = {};  // whose chapters there are; empty: all
+  std::vector<std::string> experiments = {};  // those with chapters; empty: all
   std::filesystem::path against = {};         // an earlier report, or empty
   std::filesystem::path out = "out/report";
   std::string command_line;

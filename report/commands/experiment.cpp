@@ -60,7 +60,7 @@ void print_tables(const Rows& rows, const std::filesystem::path& out) {
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
 }
 
-/// The plan, and what may come of its points; what earlier ones gave stays where the sweep goes on.
+/// The list of points, and files of their results; earlier results stay where the sweep goes on.
 void announce(ResumableOutput& folder, const PointList& plan, const Store& store, const ExperimentOptions& options) {
   const std::string points = store.folder().filename().string();
   std::vector<std::string> files{"plan.json"};

@@ -34,7 +34,7 @@ struct FiguresOptions {
 
 struct PictureRequest {
   Scene scene;
-  std::string given;  // the scene's name or file, as somebody typed it
+  std::string given;  // the scene's name or file, as it was typed
 };
 
 struct FigureSelection {
@@ -50,7 +50,7 @@ const Experiment* experiment_named(const std::string& name) {
   return nullptr;
 }
 
-/// The scenes that somebody named, or those that stand for the others.
+/// The scenes that the user named, or those that stand for the others.
 std::vector<PictureRequest> scenes_asked(const FiguresOptions& options) {
   std::vector<PictureRequest> all;
   const std::vector<Scene> scenes = scenes_for({}, options.scenes, options.full);
@@ -136,7 +136,7 @@ std::string script_of(const PictureRequest& picture, const FiguresOptions& optio
       name, shell_quoted(picture.given), options.set, size.width, options.full ? " --full" : "");
 }
 
-/// Draws the picture of a scene into the folder, and hands its words to those who write the catalogue.
+/// Draws the picture of a scene into the folder, and returns its entry of the catalogue.
 Point picture_point(const PictureRequest& picture, const FiguresOptions& options, const FigureSize& size,
                     const Provenance& lines) {
   return {"picture: " + picture_name(picture.scene), content_of(picture.scene), [&, size](Rows& rows) {
@@ -195,7 +195,7 @@ int figures_command(const FiguresOptions& asked_for) {
   const size_t pictures = points.size();
   points.insert(points.end(), work.points.begin(), work.points.end());
   problems.compute(points, store);
-  std::vector<std::string> missing;  // told already
+  std::vector<std::string> missing;  // reported already
   const Rows rows = joined(point_list_of(work.experiments, work.points, lines), {&store, 1}, missing);
 
   std::vector<FigureInSet> drawn;

@@ -28,7 +28,7 @@ fs::path grader() {
   return program;
 }
 
-/// What stands behind an option, or behind its =; empty where it is not given.
+/// The value of an option, given behind it or behind its =; empty where it is not given.
 std::string option_value(const std::vector<std::string>& words, const std::string& option) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == option && i + 1 < words.size()) return words[i + 1];
@@ -37,7 +37,7 @@ std::string option_value(const std::vector<std::string>& words, const std::strin
   return "";
 }
 
-/// Grades, then sets the parts that are steppers beside other engines; the page links to it.
+/// Grades, then compares the parts that are steppers with other engines; the page links to it.
 int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   const fs::path charts = page.parent_path() / (page.stem().string() + "-charts");
   OutputFolder folder(charts, "report");

@@ -29,12 +29,12 @@ struct BuildVariant {
   std::string compiler, package;  // Debian's package; both empty: the program as it is, in another environment
   std::string type, flags;        // as CMake has them
   std::string environment;        // NAME=value, or empty
-  std::string filter = {};        // what it is asked where nobody says; empty: all
+  std::string filter = {};        // cases that it runs by default; empty: all
   bool fused = false;             // needs a processor with AVX2 and fused multiply-adds
   bool compiled() const { return !compiler.empty(); }
 };
 
-/// The C library as it is from 2.33 on, whose variants of sin, exp and pow can be chosen from outside.
+/// The C library as it is from 2.33 on, with variants of sin, exp and pow that can be chosen from outside.
 bool library_obeys() {
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
   return true;
@@ -300,7 +300,7 @@ int prove_builds_command(const RegressOptions& asked_for) {
   require_known(options.build);
   Selection asked{options.scenes, options.full, options.filter, {}};
   if (!options.methods.empty()) asked.methods = find_methods(options.methods);
-  cases(asked);  // refuses what no build could answer
+  cases(asked);  // refuses what no build could run
   if (options.baselines.empty()) options.baselines = CROSSCHECK_BASELINES;
   OutputFolder folder(options.out, "regress");
   options.out = folder.path();

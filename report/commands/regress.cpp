@@ -1,4 +1,4 @@
-// regress: answers beside baselines or beside another method's; --bless writes baselines.
+// regress: results against baselines or against another method's; --bless writes baselines.
 #include "report/commands/regress.h"
 
 #include <fmt/format.h>
@@ -118,7 +118,7 @@ int told(const RegressionResult& result, const std::string& cause, const std::fi
 
 using Figures = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;  // drawn as, kept as
 
-/// A page of what changes, and of each scene in which something moved the curve that goes beside its baseline.
+/// A page of what changes, and of each scene in which something moved the curve that is stored next to its baseline.
 Figures before_and_after(const Regression& regression, const RegressOptions& options, const BlessResult& result,
                          const Provenance& lines) {
   RegressionResult changes;

@@ -12,10 +12,10 @@ struct RegressOptions {
   std::filesystem::path baselines;  // empty: the shipped ones
   bool full = false, bless = false, bisect = false, prove = false, prove_builds = false;
   std::vector<std::string> scenes;       // names or files; empty: all shipped ones
-  int figures = 6;                       // of so many failed questions
+  int figures = 6;                       // of so many failed cases
   std::string mutant;                    // with `prove`, one of the wrong changes; empty: all
   std::string build;                     // with `prove_builds`, one of the builds; empty: all
-  bool no_speed = false, speed = false;  // speed is measured too, when bisecting only where it is asked for
+  bool no_speed = false, speed = false;  // speed is measured too, when bisecting only where it is requested
   bool prove_speed = false;
   int repetitions = 200;  // of `prove_speed`
   std::filesystem::path out = "out/regress";
@@ -25,10 +25,10 @@ struct RegressOptions {
 /// Runs the mutants against the baselines and says which were caught. 1 where one escaped, where a cause was named
 /// wrongly, or where mysim as it is was caught.
 int prove_command(const RegressOptions& options);
-/// Measures the speeds of this program beside its own, again and again. 1 where any of them raised an alarm.
+/// Measures the speeds of this program against its own, again and again. 1 where any of them raised an alarm.
 int prove_speed_command(const RegressOptions& options);
-/// Builds Crosscheck in other ways and runs each against the baselines: none of them has anything to say. 1 where one
-/// has, or could not be built; InputError where there is no such build.
+/// Builds Crosscheck in other ways and runs each against the baselines: none of them may fail. 1 where one
+/// does, or could not be built; InputError where there is no such build.
 int prove_builds_command(const RegressOptions& options);
 
 /// This machine and this program.
@@ -36,7 +36,7 @@ Machine machine_of(const Provenance& lines);
 
 SpeedRun speed_run_of(const Regression& regression, const Provenance& lines);
 
-/// Measured, compared, and with what each change was bought.
+/// Measures, compares, and explains each change.
 Speeds speeds_beside(const Regression& regression, const Provenance& lines, const std::vector<Comparison>& answers,
                      Progress& progress);
 

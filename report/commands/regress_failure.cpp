@@ -1,4 +1,4 @@
-// Runs a failed question again and draws it.
+// Runs a failed case again and draws it.
 #include "report/commands/regress_failure.h"
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ void beside_baseline(FailureDetails& e, const Regression& regression) {
   for (const double t : times_of(e.test_case)) {
     const Comparison *offset = row_named(e.rows, offset_at(t)), *places = row_named(e.rows, places_at(t));
     if (offset && offset->was) e.was.emplace_back(t, *offset->was);
-    // places tell apart what moves alike on the whole
+    // places differ where means over the particles agree
     if (!places || !places->was || !places->is || !std::isfinite(*places->is)) continue;
     e.difference.emplace_back(t, std::abs(*places->is - *places->was));
     e.tolerance.emplace_back(t, places->tolerance);

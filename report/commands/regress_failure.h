@@ -1,4 +1,4 @@
-// A failed question beyond its numbers: both runs over time, where they part, and figures of them.
+// Details of a failed case: both runs over time, where they diverge, and figures of them.
 #pragma once
 
 #include <filesystem>
@@ -17,11 +17,11 @@ using Series = std::vector<std::pair<double, double>>;  // over time, s
 
 struct FailureDetails {
   Case test_case;
-  std::vector<Comparison> rows;                  // of the question, those that failed first
+  std::vector<Comparison> rows;                  // of the case, those that failed first
   Series was, is;                                // RMS distance of the particles from where they started, m
   bool was_sampled = false;                      // of the old run the whole curve is known, not a few points of it
   Series difference, tolerance;                  // how far the two differ, and what they may, m
-  std::optional<double> first_divergence;        // s: the first time at which they part by more than the tolerance
+  std::optional<double> first_divergence;        // s: the first time at which they differ by more than the tolerance
   std::optional<Result> old_answer, new_answer;  // for pictures; of a baseline the scene's own method only
 };
 
@@ -35,12 +35,12 @@ std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vect
 
 // Figures and pictures of a failed case.
 
-/// Draws into OUT/figures what the details have: both curves, the difference over time beside its tolerance, and both
+/// Draws into OUT/figures the details: both curves, the difference over time with its tolerance, and both
 /// shapes side by side. What cannot be drawn is said in `problems`.
 std::vector<PageImage> failure_figures(const FailureDetails& details, const Provenance& lines,
                                        const std::filesystem::path& out, std::vector<std::string>& problems);
 
-/// When and how the two part, in a sentence or two.
+/// When and how the two runs diverge, in a sentence or two.
 std::string describe_divergence(const FailureDetails& details);
 
 }  // namespace crosscheck

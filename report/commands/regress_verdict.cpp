@@ -239,7 +239,7 @@ PageTable table_of(const std::string& caption, const std::vector<Comparison>& ro
   return table;
 }
 
-/// Those to look at first.
+/// The cases to look at first.
 std::vector<Comparison> by_size(std::vector<Comparison> rows, size_t most) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Comparison& a, const Comparison& b) { return a.rank() > b.rank(); });
@@ -247,7 +247,7 @@ std::vector<Comparison> by_size(std::vector<Comparison> rows, size_t most) {
   return rows;
 }
 
-/// "12 of 39 questions, those that are off most"
+/// "12 of 39 cases, those that are off most"
 std::string some_of(size_t shown, size_t all, const std::string& what) {
   return shown < all ? fmt::format("{} of {} {}: those that are off most", shown, all, what)
                      : fmt::format("{} {}", all, what);

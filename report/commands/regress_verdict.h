@@ -35,7 +35,7 @@ void write_verdict(const RegressionResult& result, const Speeds& speeds, const s
 
 // The page of a regression run: what moved, by how much, why, and pictures of it.
 
-/// A failed question with its figures.
+/// A failed case with its figures.
 struct FailurePart {
   std::string scene, heading, text;
   std::vector<PageImage> images;
@@ -58,7 +58,7 @@ std::vector<FailurePart> failure_parts(const std::vector<Case>& cases, const Reg
                                        const Regression& regression, int most, const Provenance& lines,
                                        std::vector<std::string>& problems);
 
-/// Writes OUT/index.html with its parts: the figures of at most `figures` failed questions. What cannot be drawn is
+/// Writes OUT/index.html with its parts: the figures of at most `figures` failed cases. What cannot be drawn is
 /// said there and on stderr.
 void write_verdict_page(VerdictPage& page, const std::vector<Case>& cases, const Regression& regression, int figures);
 

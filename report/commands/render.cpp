@@ -35,7 +35,7 @@ void read_size(const std::string& text, Shot& shot) {
     throw InputError(fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each from 64 to 8192", text));
 }
 
-/// What is asked for, checked before any work.
+/// The request, checked before any work.
 Shot shot_of(const RenderOptions& options, const Scene& scene, bool clip) {
   Shot shot;
   shot.mode = mode_named(options.mode);
@@ -54,7 +54,7 @@ Shot shot_of(const RenderOptions& options, const Scene& scene, bool clip) {
   return shot;
 }
 
-/// The methods' answers; those that give none are told.
+/// The methods' results; methods without one are reported.
 std::vector<Result> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run,
                                Progress& progress) {
   std::vector<Result> answers;

@@ -97,7 +97,7 @@ class Builder {
     charts_ = all_charts({request_.scenes, findings_.facts, rows_, value_of(page_.provenance, "commit"), all()});
     draw_charts();
     for (const Chart& chart : charts_) add(chart);
-    // beside the answer stands the last scene that Bullet answers too
+    // next to the summary stands the last scene that Bullet runs too
     const ScenePart* shown = nullptr;
     for (const ScenePart& part : page_.scenes) {
       const MethodData* bullet = part.facts->find(theirs);
@@ -129,7 +129,7 @@ class Builder {
   /// Whether each scene has charts of its own.
   bool all() const { return options_.full || !options_.scenes.empty(); }
 
-  /// Every scene that some experiment looks at.
+  /// Every scene of some experiment.
   std::vector<Scene> scenes_of_all() const {
     std::vector<Scene> all = request_.scenes;
     for (const Request& request : requests_) add_missing(all, request.scenes);
@@ -227,7 +227,7 @@ class Builder {
 
   fs::path file_of(const Snapshot& s) const { return figures_ / (file_name_of(s.name) + ".png"); }
 
-  /// Figures, and the pictures beside them.
+  /// Figures, and the pictures next to them.
   void draw_charts() {
     std::vector<Point> points;
     for (const Chart& chart : charts_) {
@@ -277,7 +277,7 @@ class Builder {
   const ReportOptions& options_;
   Request request_;  // of the scenes that have a part of their own
   std::vector<const Experiment*> experiments_;
-  std::vector<Request> requests_;  // one per experiment, with the scenes that it looks at
+  std::vector<Request> requests_;  // one per experiment, with its scenes
   OutputFolder& folder_;
   fs::path figures_;
   RunsFolder runs_;
@@ -310,7 +310,7 @@ int report_command(const ReportOptions& options, OutputFolder& folder) {
     require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
   request.scenes_only = !options.scenes.empty() && !options.full;
   if (!options.against.empty()) {
-    changes_since(options.against, {});  // is it a report? Asked before the work
+    changes_since(options.against, {});  // is it a report? Checked before the work
     if (fs::weakly_canonical(options.against) == fs::weakly_canonical(options.out))
       throw InputError("--against: expected another folder than that of --out, which is written anew");
   }

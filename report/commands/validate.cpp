@@ -19,7 +19,7 @@
 namespace crosscheck {
 namespace {
 
-/// What is told of a scene.
+/// The summary of a scene.
 struct SceneSummary {
   Scene scene;
   std::map<Family, long> springs;
@@ -162,8 +162,8 @@ void require_taken(const Scene& scene, const std::string& asked) {
 }
 
 /// Checks every scene and prints what it is: particles, springs by family, pins, the fastest vibration, the critical
-/// time step of each explicit rule, what its default run will take. Faults are told one line each on standard error; 2
-/// where there was one, 0 otherwise.
+/// time step of each explicit rule, what its default run will take. Faults are reported one line each on standard
+/// error; 2 where there was one, 0 otherwise.
 int validate_command(const std::vector<std::string>& scenes, bool json) {
   int status = 0;
   Json entries = Json::list();

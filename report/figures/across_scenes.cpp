@@ -1,4 +1,4 @@
-// Charts over all scenes: the error of every method, and who is fastest at 1 % error.
+// Charts over all scenes: the error of every method, and the fastest method at 1 % error.
 
 #include <fmt/format.h>
 
@@ -60,12 +60,12 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
   return {{"", std::move(f)}};
 }
 
-// Who is fastest at an accuracy: on every scene the cheapest run of each engine within 1 % of the motion, beside
+// The fastest method at an accuracy: on every scene the cheapest run of each engine within 1 % of the motion, against
 // mysim's.
 
 namespace {
 
-/// How an engine is called, and whose look it has.
+/// An engine's name, and its style.
 struct EngineLook {
   std::string name;
   MethodStyle style;
@@ -121,7 +121,7 @@ PageTable table_of(const Table& t, const std::vector<std::string>& engines) {
   }
   const auto run = [&](const std::optional<size_t>& row) {
     if (!row) return std::string();
-    const std::string& method = text_at(t, *row, "method");  // whose it is, says the column
+    const std::string& method = text_at(t, *row, "method");  // the column names the engine
     return fmt::format("{}, {}", method.substr(method.find('/') + 1),
                        setting_text(text_at(t, *row, "setting"), *number_at(t, *row, "asked")));
   };

@@ -1,4 +1,4 @@
-// What each ingredient of a scene and a finer grid are worth.
+// The effect of each ingredient of a scene, and of a finer grid.
 
 #include <fmt/ranges.h>
 
@@ -54,7 +54,7 @@ bool sag_runs_on(const Table& t, const std::string& scene) {
   return growth.size() > 1 && growth.front() > 1e-4 && growth.back() > 0.7 * growth.front();
 }
 
-/// How the distance from the finest grid goes with the grid, scene by scene.
+/// The distance from the finest grid against the grid, scene by scene.
 std::string motion_sentence(const Table& grids, const Rows& rows, const std::vector<Curve>& curves) {
   std::vector<std::string> falls, others, endless;
   size_t fewest = 4;  // below which a power is a hint
@@ -290,7 +290,7 @@ Chart ladder(const Table& t, const Table* least, const std::string& scene, const
   return chart;
 }
 
-/// A scene that has no part of its own in the report says here what it asks.
+/// A scene that has no part of its own in the report states its question here.
 void add_question(Chart& chart, const std::vector<Scene>& shown, const std::string& scene) {
   const auto shipped = shipped_scenes();
   if (std::ranges::none_of(shown, [&](const Scene& s) { return s.name == scene; }) &&

@@ -83,7 +83,7 @@ Table data_of(const DotPlot& dots) {
 
 constexpr double letter_width = 7.3;  // mean width of a letter of 12 units, in units
 
-/// What the longest name, or heading, takes of the width.
+/// The share of the width for the longest name or heading.
 double room_for_names(const DotPlot& dots) {
   size_t longest = 0;
   for (const std::string& name : dots.names) longest = std::max(longest, name.size());
@@ -104,7 +104,7 @@ double rows_of_key(const DotPlot& dots) {
   return std::ceil(static_cast<double>(entries) / std::max(1., side_by_side));
 }
 
-/// What terminals() asks for: lines of 17 units and more, and what title, numbers, label and key take.
+/// The height for terminals(): lines of 17 units and more, and what title, numbers, label and key take.
 double tall(const DotPlot& dots) {
   const double wide = dots.size.units() / 680, line = 17 + 9 * std::min(1., wide),
                height = (dots.size.titled ? 30 : 10) + 62 + 21 * rows_of_key(dots) +
@@ -140,7 +140,7 @@ std::string axis_of(const DotPlot& dots) {
 Drawing drawing_of(const DotPlot& dots) {
   Drawing drawing{dots.name, data_of(dots), ""};
   std::string out = fmt::format("# {}\n# Draw again: gnuplot {}.gp\nreset\nload \"style.gp\"\n", dots.title, dots.name);
-  // beside the names title and key stand in the middle of the figure, not of the plot
+  // next to the names title and key stand in the middle of the figure, not of the plot
   if (dots.size.titled)
     out += fmt::format(
         "set title ' '\nset label {} at screen 0.5, screen 1 offset 0,-1.2 center noenhanced font \"DejaVu "

@@ -15,9 +15,9 @@ namespace crosscheck {
 /// The step of the table that is nearest to a millisecond, s.
 double usual_step(const Table& table);
 
-/// Coulomb's law on slopes: the way that a particle slides, against friction / tan(slope); and a table of answers.
+/// Coulomb's law on slopes: the way that a particle slides, against friction / tan(slope); and a table of results.
 Chart cone_law(const Table& cones, const std::string& commit);
-/// Who sticks, who slides, who creeps, cell by cell; empty where none of the methods shown was asked.
+/// Methods that stick, slide or creep, cell by cell; empty where none of the methods shown was run.
 std::optional<Chart> cone_map(const Table& cones, const std::string& commit);
 Chart rebound_chart(const Table& rebounds, const std::string& commit);
 Chart leaving_chart(const Table& leavings, const std::string& commit);

@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-// What captions say of measured times: who built what, and which times are scaled.
+// Remarks on measured times in captions: the builds, and which times are scaled.
 
 /// Of the methods in a chart, by name or "ENGINE/": "mysim and odeint are compiled in this build, Bullet is Debian's
 /// generic x86-64 build". Only engines that are there are named.
@@ -75,11 +75,11 @@ std::vector<Chart> contact_charts(const ChartInput& input);     // centres of ma
 std::vector<Chart> balance_charts(const ChartInput& input);     // balance error or contact loss over time
 std::vector<Chart> order_charts(const ChartInput& input);       // error against step
 
-std::vector<Chart> energy_charts(const ChartInput& input);          // where it went, drift, numerical damping
-std::vector<Chart> sphere_charts(const ChartInput& input);          // contact: friction, rebound, depth, drapes
-std::vector<Chart> stiffness_charts(const ChartInput& input);       // of position-based links
-std::vector<Chart> disagreement_charts(const ChartInput& input);    // where Bullet answers otherwise than it is asked
-std::vector<Chart> cheapest_charts(const ChartInput& input);        // who is fastest at an accuracy, over all scenes
+std::vector<Chart> energy_charts(const ChartInput& input);        // where it went, drift, numerical damping
+std::vector<Chart> sphere_charts(const ChartInput& input);        // contact: friction, rebound, depth, drapes
+std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links
+std::vector<Chart> disagreement_charts(const ChartInput& input);  // where Bullet solves another problem
+std::vector<Chart> cheapest_charts(const ChartInput& input);      // the fastest method at an accuracy, over all scenes
 std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // error against cost, chapter of its own
 std::vector<Chart> cost_charts(const ChartInput& input);            // of a step
 std::vector<Chart> adequacy_charts(const ChartInput& input);        // what each ingredient and the grid are worth

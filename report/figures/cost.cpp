@@ -1,4 +1,4 @@
-// What a step costs: against size, by phase, and beside what the machine can do.
+// The cost of a step: against size, by phase, and against the machine's peaks.
 
 #include <fmt/format.h>
 

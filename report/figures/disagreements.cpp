@@ -1,4 +1,4 @@
-// Known disagreements: one figure each, what is asked beside what comes out.
+// Known disagreements: one figure each, with the scene's curve and Bullet's.
 
 #include <fmt/format.h>
 

@@ -88,7 +88,7 @@ constexpr auto pareto_title = "nothing better at less cost";
 /// The words in the key for all crosses of a kind.
 std::string kind_in_key(const FailureMark& mark) { return mark.kind + " (in its colour)"; }
 
-/// How a curve is called in the data file: gnuplot splits even quoted fields at commas.
+/// The name of a curve in the data file: gnuplot splits even quoted fields at commas.
 std::string id_of(std::string title) {
   for (char& c : title)
     if (c == ',' || c == '"') c = ';';
@@ -149,7 +149,7 @@ double key_room(const Figure& f) {
   return 0.036 * std::max(0, rows - 3);
 }
 
-/// Degrees by which tick texts are turned so that they find room beside each other; 0: not at all.
+/// Degrees by which tick texts are turned so that they do not overlap; 0: not at all.
 int turned(const Figure& f) {
   const bool short_ones = std::all_of(f.categories.begin(), f.categories.end(),
                                       [](const auto& category) { return category.second.size() <= 4; });
@@ -272,7 +272,7 @@ MethodStyle style_of(const std::string& method) {
   };
   for (const Row& row : table)
     if (method == row.name) return row.style;
-  // others, like outside programs, are told apart as far as five looks go
+  // others, like outside programs, are distinguished as far as five styles go
   static const MethodStyle others[] = {{"#333333", "(8,2,2,2,2,2)", 3},
                                        {"#AA3377", "(6,2,2,2)", 10},
                                        {"#117733", "(10,2,4,2)", 8},

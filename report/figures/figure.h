@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-/// How a method looks, the same in every figure: colour, dash and marker, so that no meaning hangs on colour alone.
+/// The style of a method, the same in every figure: colour, dash and marker, so that no meaning hangs on colour alone.
 struct MethodStyle {
   std::string colour;  // "#RRGGBB"
   std::string dash;    // gnuplot dash type
@@ -19,7 +19,7 @@ struct MethodStyle {
 };
 MethodStyle style_of(const std::string& method);
 
-/// What a marker or a cell is to hands on the page.
+/// The tooltip and the run of a marker or a cell on the page.
 struct Tooltip {
   std::string words;     // to a pointer above it
   std::string run = {};  // what a click plays (FigureInfo::runs): the method, a blank, the place among its runs
@@ -39,7 +39,7 @@ struct FailureMark {
   std::string title;
   MethodStyle style;
   double x, y;
-  std::string kind = "failed";  // in the key, where the colour tells the method
+  std::string kind = "failed";  // in the key, where the colour shows the method
   int cross = 2;                // gnuplot point type, one for each kind
   Tooltip tooltips = {};
 };
@@ -50,16 +50,16 @@ struct Axis {
   std::optional<double> low, high;
 };
 
-/// How large a figure is on paper. What is in it is laid out for its width over its font.
+/// The size of a figure on paper. Its layout follows its width over its font.
 struct FigureSize {
   double width = 17;   // cm
   double font = 8.5;   // pt, on paper
-  bool titled = true;  // false: the caption beside it says what it shows
+  bool titled = true;  // false: the caption says what it shows
   /// Its width where a font is 12 high.
   double units() const { return width / 2.54 * 72 * 12 / font; }
 };
 
-/// What every figure has, whatever it draws.
+/// The parts of every figure, whatever it draws.
 struct FigureInfo {
   std::string name;         // file name without ending
   std::string title;        // what it shows
@@ -90,7 +90,7 @@ struct Drawing {
 };
 /// Throws std::runtime_error that names the figure when there is nothing to draw or a number is not finite.
 Drawing drawing_of(const Figure& figure);
-/// What the markers of each element of its plot say, in the order of the script.
+/// The tooltips of the markers of each element of its plot, in the order of the script.
 std::vector<std::vector<Tooltip>> tooltips_of(const Figure& figure);
 
 /// gnuplot found no room for the letters of a figure.
@@ -98,8 +98,8 @@ struct LabelsOverlap : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes and draws it into the folder (style.gp is put beside it); what gnuplot warns of is told on stderr. Throws
-/// std::runtime_error that names the figure when gnuplot fails, or a form of it is missing, empty or cut off.
+/// Writes and draws it into the folder (style.gp is put next to it); what gnuplot warns of is reported on stderr.
+/// Throws std::runtime_error that names the figure when gnuplot fails, or a form of it is missing, empty or cut off.
 void draw(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
 
 /// The end of a script: the terminals for a figure so much taller than the usual one, each with the plot command.
@@ -183,7 +183,7 @@ struct HeatMap : FigureInfo {
 
 /// Throws std::runtime_error that names the figure when there is nothing to draw or a value is not above zero.
 Drawing drawing_of(const HeatMap& map);
-/// What its cells say, in the order of the script.
+/// The tooltips of its cells, in the order of the script.
 std::vector<Tooltip> tooltips_of(const HeatMap& map);
 
 }  // namespace crosscheck

@@ -23,13 +23,13 @@ std::string latex(const std::string& text);
 bool resize(Chart& chart, const FigureSize& size);
 
 /// Draws the chart's figure in this size, where its letters find no room with smaller ones (but no smaller than 5 pt,
-/// where what does not fit is told on stderr), and leaves it with the size that it has. Throws as draw() does.
+/// where what does not fit is reported on stderr), and leaves it with the size that it has. Throws as draw() does.
 void draw_in_size(Chart& chart, FigureSize size, const Provenance& provenance, const std::filesystem::path& folder);
 
 /// A word that a shell takes as it is.
 std::string shell_quoted(const std::string& word);
 
-/// NAME.txt and NAME.tex beside the files of a figure: caption as text, and a figure environment.
+/// NAME.txt and NAME.tex next to the files of a figure: caption as text, and a figure environment.
 void write_captions(const FigureInfo& figure, const std::filesystem::path& folder);
 
 inline constexpr std::array chart_endings = {"pdf", "svg", "png", "csv", "gp", "txt", "tex"};
@@ -41,7 +41,7 @@ struct FigureInSet {
   std::span<const char* const> files;  // the endings of its files
 };
 
-/// figures.json: what each figure shows, on what it rests and how large it is; CITATION.cff: how to cite who made them.
+/// figures.json: what each figure shows, on what it rests and how large it is; CITATION.cff: how to cite their program.
 void write_catalogue(const std::vector<FigureInSet>& figures, const Provenance& provenance,
                      const std::filesystem::path& folder);
 
@@ -53,7 +53,7 @@ std::string picture_name(const Scene& scene);
 Shot shot_for_print(const Scene& scene, const FigureSize& size, bool full);
 double pixels_per_inch(const FigureSize& size);
 
-/// What it shows, in words.
+/// Its caption.
 FigureInfo picture_info(const Scene& scene, const std::vector<const Result*>& answers, const FigureSize& size,
                         const std::string& commit);
 

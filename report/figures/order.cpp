@@ -1,4 +1,4 @@
-// Error against step, whose slope is the order of the method; and the distance from the same method's own finest run:
+// Error against step, with the method's order as its slope; and the distance from the same method's own finest run:
 // where the two part, the method converges to something else.
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 namespace crosscheck {
 namespace {
 
-/// "rk4: order 4, measured 3.99"; methods of others promise none.
+/// "rk4: order 4, measured 3.99"; other engines' methods declare none.
 std::string title_of(const Table& slopes, const std::string& scene, const std::string& method) {
   const std::string shown = short_name(method);
   for (size_t i = 0; i < slopes.rows.size(); ++i)
@@ -52,7 +52,7 @@ double astray(const Points2& errors, const Points2& own) {
   return errors.empty() || own.empty() ? 0 : errors.back().second / own.back().second;
 }
 
-/// How far the slopes that were seen on a scene are from the orders that methods promise.
+/// The distance of a scene's measured slopes from the declared orders.
 std::string slopes_sentence(const Table& slopes, const std::string& scene) {
   constexpr double close = 0.1;  // what the finest three steps of a smooth scene still carry of the next order
   std::vector<std::string> other;
@@ -99,9 +99,9 @@ std::vector<Chart> order_charts(const ChartInput& input) {
       Curve curve{title_of(*slopes, scene.name, method), style_of(method), {}, true, true};
       Points2 errors = column_of(*points, scene.name, method, "error");
       Points2 own = column_of(*points, scene.name, method, "distance to own finest");
-      // 4: a rule of first order whose last two errors are e and 2 e is at 1; a slower start may make it 2
+      // 4: a rule of first order with last two errors e and 2 e is at 1; a slower start may make it 2
       const bool else_where = astray(errors, own) > 4 && errors.back().second > 10 * error_bar;
-      // below its error bar the truth tells nothing
+      // below its error bar the truth says nothing
       std::erase_if(errors, [&](const auto& p) { return p.second <= error_bar; });
       curve.points = std::move(errors);
       // a mark is named after its curve, if there is one

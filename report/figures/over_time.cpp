@@ -69,7 +69,7 @@ std::vector<Chart> agreement_charts(const ChartInput& input) {
     f.caption = caption_of(scene, input.commit);
     f.tier = another_engine(facts);
     f.x = {"t / s", false, 0.0, scene.duration};
-    f.y = {"RMS difference / m", true, 1e-17, std::nullopt};  // below round-off nothing is told
+    f.y = {"RMS difference / m", true, 1e-17, std::nullopt};  // below round-off nothing is known
     for (const MethodData& m : facts.methods) {
       if (!m.ok() || family_of(m.method).is_subject()) continue;
       Curve curve{m.method, style_of(m.method), points_of(*table, m.method, "difference", true)};
@@ -149,7 +149,7 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
         f.tier += fmt::format(", known until {:.3g} s to {} ({})", *facts.contact_until, nice_length(facts.error_bar),
                               facts.truth);
       }
-      // lines on zero are words, not a figure: what is nearest to the surface is said beside it
+      // lines on zero make no figure: what is nearest to the surface is said in the text
       const bool flat = std::ranges::all_of(f.curves, [](const Curve& c) {
         return std::ranges::all_of(c.points, [](const auto& p) { return std::abs(p.second) < 1e-9; });
       });

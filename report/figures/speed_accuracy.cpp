@@ -1,5 +1,5 @@
 // Error against cost, once in evaluations and once in CPU time: curves of all methods, the Pareto line, the floor of
-// the truth, crosses for failed runs; and beside each figure who is cheapest.
+// the truth, crosses for failed runs; and with each figure the cheapest methods.
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ bool same_run(const Table& a, size_t i, const Table& b, size_t j) {
   return true;
 }
 
-/// Both costs of a chart, told apart by these.
+/// The two costs of a chart.
 struct Cost {
   bool time;
   std::string suffix() const { return time ? "-cost" : ""; }
@@ -29,7 +29,7 @@ struct Cost {
   }
 };
 
-/// What one scene's rows say as a whole.
+/// The summary of one scene's rows.
 struct SceneRows {
   const Table& runs;
   const Table* cost;  // of CPU times
@@ -38,7 +38,7 @@ struct SceneRows {
   double motion = 0;
   std::optional<double> error_bar;
   bool difference() const { return truth.find("contact rule") != std::string::npos; }
-  /// What is drawn over the cost.
+  /// The quantity drawn over the cost.
   const char* column() const {
     return !error_bar     ? "distance to own finest"
            : difference() ? "largest difference from converged contact"
@@ -138,7 +138,7 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     if (!apart || (!s.error_bar && !(*apart > 0))) continue;
     auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
     if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {method, style_of(method), {}, true, true});
-    // below its bar the truth tells nothing
+    // below its error bar the truth says nothing
     const double y = std::min(highest, s.error_bar ? std::max(*apart, *s.error_bar) : *apart);
     beyond += *apart > highest;
     curve->points.emplace_back(*cost, y);

@@ -85,7 +85,7 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
   return chart;
 }
 
-/// How a scene with a draped body ends, by method and step.
+/// The final state of a scene with a draped body, by method and step.
 PageTable drape_table(const Table& table, const std::string& scene) {
   PageTable page{scene + ": how it ends",
                  {"method", "step", "settled after / s", "centre height / m", "moved aside / mm", "creep / (mm/s)",
@@ -115,7 +115,7 @@ PageTable drape_table(const Table& table, const std::string& scene) {
   return page;
 }
 
-/// The cloth that slides off, by four that answer differently.
+/// The cloth that slides off, by four methods with different results.
 Chart drape_snapshot(const Table& table) {
   Snapshot s;
   s.name = "sphere-drop-aside";
@@ -177,7 +177,7 @@ double end_of(const Table& table) {
   return end;
 }
 
-/// Who slides on at the end, at the usual step.
+/// The methods under which it slides on at the end, at the usual step.
 std::string still_sliding(const Table& table, double end) {
   const double step = usual_step(table);
   std::vector<std::string> sliding;
@@ -194,7 +194,7 @@ std::string still_sliding(const Table& table, double end) {
                          : fmt::format("Still above 1 mm/s at the end: {}.", joined(sliding));
 }
 
-/// Who is a micrometre and more from its mirror image, from when on, at the usual step.
+/// Methods a micrometre and more from their mirror image, and since when, at the usual step.
 std::string broken_symmetry(const Table& table) {
   const double step = usual_step(table);
   std::vector<std::string> broken;

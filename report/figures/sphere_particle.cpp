@@ -15,7 +15,7 @@ namespace {
 
 constexpr double degree = 0.017453292519943295;
 
-/// Those that stand for the others, and those that answer differently.
+/// Methods that stand for the others, and methods with different results.
 bool shown_always(const std::string& method) {
   return method == ours || method == theirs || method == position_based() || method == sticky_sphere;
 }
@@ -88,7 +88,7 @@ std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
   f.x = {"slope / degrees", false, 5.0, 55.0};
   f.y = {"friction", false, -0.05, 1.25};
   Curve limit{"tan(slope), exact", {"#555555", "1", -1}, {}};
-  // level beside the methods of a slope, which stand beside each other
+  // flat across the methods of a slope, which stand side by side
   for (const double slope : {10., 20., 30., 40., 50.})
     for (const double side : {-4., 4.}) limit.points.emplace_back(slope + side, std::tan(slope * degree));
   f.curves.push_back(std::move(limit));
@@ -108,7 +108,7 @@ std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
       }
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }
-  if (f.curves.size() == 1) return std::nullopt;  // none of these was asked
+  if (f.curves.size() == 1) return std::nullopt;  // none of these was run
   f.finding =
       "Above the line it must stick (filled), below it slide (open); a triangle does neither: it moves at a "
       "steady creep.";
@@ -143,7 +143,7 @@ Chart rebound_chart(const Table& table, const std::string& commit) {
   for (const std::string& method : distinct(table, "method")) {
     Curve curve{method, style_of(method), {}, true, true};
     std::vector<std::string> row{method};
-    double of_curve = 0.5;  // Bullet returns nothing: its own rebound where none is asked
+    double of_curve = 0.5;  // Bullet returns nothing: its own rebound where the scene has none
     if (family_of(method).is_default_peer()) of_curve = 0;
     for (const double e : parts) {
       std::string said = "";

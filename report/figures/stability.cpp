@@ -147,7 +147,7 @@ std::string signed_text(double value) {
   return text;
 }
 
-/// Growth where no step is stable, or just beside a limit.
+/// Growth where no step is stable, or close to a limit.
 PageTable growth_table(const Table& table, bool without_limit) {
   PageTable page{without_limit ? "Growth of the fastest vibration in each step, where no step is stable."
                                : "Growth (+) or decay (-) of the binding vibration in each step, beside the limit.",

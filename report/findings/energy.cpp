@@ -16,7 +16,7 @@ namespace {
 /// "10000 to 100000"
 std::string steps_text(long fewest, long most) { return range(count_text(fewest), count_text(most)); }
 
-/// What does not add up on a scene where drag or contact act, in parts of what these took or gave, with the method.
+/// The energy residual on a scene where drag or contact act, in parts of their energy, with the method.
 std::map<double, std::string> open_balances(const Table& table, const std::string& scene, bool symplectic) {
   std::map<double, std::string> open;
   for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -49,7 +49,7 @@ std::string where_energy_leaves(const Table& table) {
   return said;
 }
 
-/// What three rules that are not symplectic do on a scene, as far as they were asked.
+/// Three rules that are not symplectic on a scene, as far as they were run.
 std::vector<std::string> beside(const Table& table, const std::string& scene) {
   std::vector<std::string> all;
   for (const char* shown : {"bullet/pbd", "mysim/explicit-euler", "mysim/implicit-euler"})

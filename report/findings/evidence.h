@@ -1,4 +1,4 @@
-// What a finding rests on: the formula of its rule, and rows of tables with fingerprints.
+// The evidence of a finding: the formula of its rule, and rows of tables with fingerprints.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-// How each kind of finding comes from the tables: the formula behind its sentence, and where its rows stand.
+// The derivation of each kind of finding from the tables: the formula behind its sentence, and where its rows stand.
 
 struct FindingRule {
   std::string_view name;
@@ -27,7 +27,7 @@ const FindingRule& finding_rule(std::string_view name);
 /// The figure that shows a finding, of those that there are; of several the last. Empty where there is none.
 std::string figure_of(std::string_view rule, const std::string& scene, const std::vector<std::string>& figures);
 
-// What a finding rests on: rows of the tables, with fingerprints that tell whether they are still the same.
+// The evidence of a finding: rows of the tables, with fingerprints that show whether they are still the same.
 
 struct Evidence {
   std::string table;

@@ -50,7 +50,7 @@ void agreement(const Scene& scene, const SceneData& facts, std::vector<Finding>&
   }
 }
 
-/// What is known of the cause. It damps as implicit Euler does, and where it errs no more its law is not what is seen.
+/// The known cause. It damps as implicit Euler does, and where it errs no more its law is not what is seen.
 std::string why_off(const Scene& scene, const SceneData& facts, const MethodData& p) {
   const auto* springs = scene.model.find<Springs>();
   const MethodData* implicit = facts.find("mysim/implicit-euler");
@@ -152,7 +152,7 @@ void failures(const Scene& scene, const SceneData& facts, std::vector<Finding>& 
     failed.push_back(text);
   }
   if (failed.empty()) return;
-  // a long list of names tells less than who is left
+  // a long list of names says less than the names that are not in it
   const std::string sentence =
       failed.size() <= 3 || held.empty()
           ? fmt::format("At a step of {} these failed: {}.", own_step_text(scene), joined(failed))

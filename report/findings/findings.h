@@ -17,28 +17,28 @@ struct Finding {
   std::string chapter = {};  // of the report, by its id, that shows what it rests on; empty: none
 };
 
-/// What one scene showed.
+/// Findings of one scene.
 std::vector<Finding> findings_of(const Scene& scene, const SceneData& facts);
-/// What all scenes together showed, first things first.
+/// Findings of all scenes together, the most important first.
 std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneData>& facts,
                                       const Rows& result);
-/// Who is cheapest for a given accuracy, and by how much.
+/// The cheapest methods for a given accuracy, and by how much.
 std::vector<Finding> speed_findings(const Rows& result);
 
-/// What a step costs in both engines.
+/// The cost of a step in both engines.
 std::vector<Finding> cost_findings(const Rows& result);
 
 /// Of experiment `energy`.
 std::vector<Finding> energy_findings(const Rows& result);
 /// Of experiment `sphere`.
 std::vector<Finding> sphere_findings(const Rows& result);
-/// How little model is enough.
+/// The least models.
 std::vector<Finding> adequacy_findings(const Rows& result);
 
-/// How many known disagreements this run measured.
+/// The number of known disagreements in this run.
 std::vector<Finding> disagreement_findings(const Rows& result);
 
-/// What experiment `stability` showed.
+/// Findings of experiment `stability`.
 std::vector<Finding> stability_findings(const Rows& rows);
 
 }  // namespace crosscheck

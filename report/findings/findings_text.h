@@ -12,7 +12,7 @@
 
 namespace crosscheck {
 
-// the methods that stand for the subject and for the peer beside it
+// the methods that stand for the subject and for its peer
 inline const std::string ours(subject().representative),
     sticky_sphere = sticky_method(),
     theirs(std::ranges::find_if(method_families(), &MethodFamily::is_default_peer)->representative);

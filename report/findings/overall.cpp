@@ -19,7 +19,7 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneD
   for (size_t i = 0; i < scenes.size(); ++i) {
     const MethodData* b = facts[i].find(theirs);
     if (!b) {
-      continue;  // not asked
+      continue;  // not run
     } else if (!b->supported()) {
       alone.push_back(scenes[i].name);
     } else if (!b->ok() || !b->difference) {
@@ -61,8 +61,8 @@ void agreement_of_all(const std::vector<Scene>& scenes, const std::vector<SceneD
     add("failure", "Bullet's explicit world cannot model " + joined(alone) + ": their tables of runs say why.");
 }
 
-/// Which engine is nearest to the truth at the scenes' own steps; within 5 %, or within the truth's error bar, they
-/// share the place.
+/// The engine with the least error at the scenes' own steps; within 5 %, or within the truth's error bar,
+/// engines share the place.
 void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneData>& facts, std::vector<Finding>& out) {
   std::vector<std::string> bullet, shared, alone;
   int asked = 0;
@@ -95,7 +95,7 @@ void nearest_of_all(const std::vector<Scene>& scenes, const std::vector<SceneDat
        "see each scene", "nearest-of-all"});
 }
 
-/// How far the position-based world is off, by kind of scene.
+/// The error of the position-based world, by kind of scene.
 void other_law_of_all(const std::vector<Scene>& scenes, const std::vector<SceneData>& facts,
                       std::vector<Finding>& out) {
   std::vector<std::pair<std::string, std::map<double, std::string>>> kinds;  // of each: share of the motion, scene
@@ -120,7 +120,7 @@ void other_law_of_all(const std::vector<Scene>& scenes, const std::vector<SceneD
          "see each scene", "other-law-of-all"});
 }
 
-/// Who failed where others held, by kind of failure, and where all failed.
+/// Methods that failed where others held, by kind of failure, and scenes on which all failed.
 void failures_of_all(const std::vector<SceneData>& facts, std::vector<Finding>& out) {
   std::map<std::string, std::map<std::string, std::vector<std::string>>> failed;  // method, kind, scenes
   std::vector<std::string> all;

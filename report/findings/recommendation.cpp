@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-/// Where the column, or the name, says whose it is.
+/// A method's name in a column of its engine, else in full.
 std::string name_in_engine(const std::string& method) {
   return family_of(method).by_default() ? method.substr(method.find('/') + 1) : method;
 }
@@ -24,8 +24,8 @@ std::string share_text(double error, const SceneData& facts) {
   return (error < facts.error_bar ? "< " : "") + percent(part, 1);
 }
 
-/// The nearest of those that take part, in bold where nobody is nearer. Of several that are as near the cheapest, in
-/// force evaluations, which stands for them.
+/// The most accurate of those that take part, in bold where none is more accurate. Of several equal ones the cheapest,
+/// in force evaluations, which stands for them.
 RecommendationCell nearest_cell(const SceneData& facts, const std::vector<MethodData>& among, const MethodData* m) {
   if (facts.tier.empty() || !m || !(facts.motion > 0)) return {};
   const MethodData* best = most_accurate(facts);
@@ -66,21 +66,21 @@ RecommendationCell bullet_cell(const Scene& scene, const SceneData& facts, const
   return nearest_cell(facts, facts.methods, most_accurate(facts, &MethodFamily::is_default_peer));
 }
 
-/// Programs of the reader's own, single precision, independent integrators: where they were asked.
+/// Programs of the reader's own, single precision, independent integrators: where they were run.
 RecommendationCell others_cell(const Scene&, const SceneData& facts, const Rows&) {
   SceneData others = facts;
   std::erase_if(others.methods, [](const MethodData& m) { return family_of(m.method).by_default(); });
   return nearest_cell(facts, others.methods, most_accurate(others));
 }
 
-/// Of several too: whose it is stands there, but for mysim's.
+/// Names of one method or several, without mysim's prefix.
 std::string own_name(std::string methods) {
   const std::string prefix = std::string(subject().name) + "/";
   for (size_t at; (at = methods.find(prefix)) != std::string::npos;) methods.erase(at, prefix.size());
   return methods;
 }
 
-/// Who is cheapest for 1 % of the motion, and how many times as long as mysim's best Bullet's takes.
+/// The cheapest method for 1 % of the motion, and the time of Bullet's cheapest over mysim's.
 RecommendationCell cheapest_cell(const Scene& scene, const SceneData& facts, const Rows& result) {
   const Table* t = result.table("speed-accuracy-cheapest-cost");
   for (size_t i = 0; t && i < t->rows.size(); ++i) {

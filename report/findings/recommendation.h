@@ -1,4 +1,4 @@
-// Which method for which scene: a row of the table that the report opens with, and the finding that vouches for it.
+// Methods recommended for scenes: a row of the table that the report opens with, and the finding that vouches for it.
 #pragma once
 
 #include "report/findings/findings.h"
@@ -6,7 +6,7 @@
 namespace crosscheck {
 
 struct RecommendationCell {
-  std::string text = "–";          // as it is: nothing was asked, or can be said
+  std::string text = "–";          // as it is: nothing was run, or can be said
   const char* css_class = "none";  // class of the page: "best", "failed", "none" or ""
   bool empty() const { return text == "–"; }
 };
@@ -15,7 +15,7 @@ struct RecommendationCell {
 struct RecommendationColumn {
   const char *head, *term;  // the term of the glossary (page/contents.cpp) that explains it
   RecommendationCell (*cell)(const Scene& scene, const SceneData& facts, const Rows& result);
-  bool timed = false;  // rests on timings, which another finding tells
+  bool timed = false;  // rests on timings, which another finding reports
 };
 const std::vector<RecommendationColumn>& recommendation_columns();
 

@@ -67,7 +67,7 @@ struct SceneData {
   bool touched() const;
 };
 
-/// The run nearest to the truth of the families asked for, or null.
+/// The most accurate run of the selected families, or null.
 const MethodData* most_accurate(const SceneData& scene, bool (MethodFamily::*asked)() const = nullptr);
 /// Whether a run is as near to the truth as another: errs by at most 5 % more, or below the truth's error bar.
 bool ties_with(const MethodData& run, const MethodData& other, const SceneData& scene);
@@ -90,10 +90,10 @@ std::string step_text(double seconds);
 /// The scene's own step as it is taken, so that it divides the time between samples: "31.4 ms (of the 50 ms asked
 /// for)".
 std::string own_step_text(const Scene& scene);
-/// "2 ms", or "tolerance 1.0e-6": what a run was asked for, its setting "step [s]" or "tolerance [1]".
+/// "2 ms", or "tolerance 1.0e-6": a run's setting, "step [s]" or "tolerance [1]".
 std::string setting_text(const std::string& setting, double asked);
 
-// What kind of scene it is, in a word for tables and sentences.
+// The class of a scene, in a word for tables and sentences.
 
 /// "ball", "hard lengths", "cloth", "springs", "rotation" or "free flight": by what is hardest in it.
 std::string scene_class(const Scene& scene);

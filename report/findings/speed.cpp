@@ -24,7 +24,7 @@ bool tried_bullet(const Rows& result, const std::string& scene) {
   return false;
 }
 
-/// What the same comparison gives in force evaluations: whether it is the method that is dearer, or its engine.
+/// The same comparison in force evaluations: whether the method is slower, or its engine.
 std::optional<std::string> factors_of_evaluations(const Rows& result) {
   const Table* t = result.table("speed-accuracy-cheapest");
   double low = 1e300, high = 0;
@@ -37,14 +37,14 @@ std::optional<std::string> factors_of_evaluations(const Rows& result) {
   return range(times_text(low), times_text(high));
 }
 
-/// Whether the method takes the scene, as far as experiment `engines` asked.
+/// Whether the method takes the scene, as far as experiment `engines` ran it.
 bool takes(const Rows& result, const std::string& scene, const std::string& method) {
   for (const EngineRow& run : rows_of<EngineRow>(result))
     if (run.scene == scene && run.method == method) return run.verdict != Verdict::unsupported;
   return false;
 }
 
-/// Who was hardly tried where others were: with less than two runs on a scene that they take.
+/// Methods that were hardly tried where others were: with less than two runs on a scene that they take.
 std::string hardly_tried(const Rows& result) {
   const Table* t = result.table("speed-accuracy");
   if (!t) return "";
@@ -63,7 +63,7 @@ std::string hardly_tried(const Rows& result) {
   return scenes.empty() ? "" : fmt::format(" Hardly tried: {}.", joined(scenes));
 }
 
-/// The methods that the clock cannot tell from the cheapest, it among them.
+/// The methods that timing cannot distinguish from the cheapest, it among them.
 std::vector<std::string> cheapest_ones(const Table& t, size_t row) {
   std::vector<std::string> all{text_at(t, row, "method")};
   std::istringstream others(text_or_none(t, row, "as cheap within noise"));
@@ -101,12 +101,12 @@ std::string told_by_engine(const std::map<std::string, std::vector<std::string>>
   return joined(out);
 }
 
-/// Who meets 1 % of the motion at the least CPU time, on how many scenes.
+/// The methods that meet 1 % of the motion at the least CPU time, and on how many scenes.
 void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   const Table* t = result.table("speed-accuracy-cheapest-cost");
   if (!t) return;
   std::map<std::string, std::vector<std::string>> scenes_of;  // by the cheapest
-  std::vector<std::string> ties;                              // scenes where the clock cannot tell engines apart
+  std::vector<std::string> ties;                              // scenes where timing cannot distinguish engines
   double low = 1e300, high = 0;
   std::vector<std::string> without;  // scenes on which no run of Bullet that was tried meets it
   for (size_t i = 0; i < t->rows.size(); ++i) {
@@ -146,8 +146,8 @@ void cheapest_for_one_percent(const Rows& result, std::vector<Finding>& out) {
   out.push_back({"", "cost", sentence + "." + hardly_tried(result), "measured", "cheapest"});
 }
 
-/// The same rule in both engines, over the sizes: by solvers for any network on both sides, and by mysim's kernel for
-/// regular cloths, of which Bullet has no like.
+/// The same rule in both engines, over the sizes: by kernels for any spring graph on both sides, and by mysim's fused
+/// step on regular cloths, of which Bullet has no like.
 void step_of_both(const Rows& result, std::vector<Finding>& out) {
   const Table* t = result.table("size-cost");
   if (!t) return;

@@ -64,9 +64,9 @@ std::map<std::string, double> differences_over_run(const Table& rows) {
   return largest;
 }
 
-/// What becomes of single positions after the window: mysim's own rules of an order above one, which share its contact
+/// Single positions after the window: mysim's own rules of an order above one, which share its contact
 /// rule, say whether they can be predicted. They part by what their steps err and by what grows of it; where that stays
-/// small beside the difference of Bullet, it is Bullet's answer that differs, and no chance.
+/// small against the difference of Bullet, it is Bullet's result that differs, and no chance.
 void after_contact(const Rows& result, const Table& engines, std::vector<Finding>& out) {
   for (const std::string& scene : distinct(engines, "scene")) {
     const Table* rows = result.table(scene + "-engines");

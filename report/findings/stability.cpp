@@ -1,4 +1,4 @@
-// What the search for the largest stable steps showed.
+// Findings of the search for the largest stable steps.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ void without_stable_step(const Table& table, const Table* growth, std::vector<Fi
   std::string which;
   for (size_t i = 0; growth && i < growth->rows.size(); ++i) {
     const double deviation = std::abs(number_at(*growth, i, "deviation", NAN));
-    // beside a limit other things are measured
+    // close to a limit other things are measured
     if (number_at(*growth, i, "share of limit") || !(deviation > off)) continue;
     off = deviation;
     which = fmt::format("{} on {}", text_at(*growth, i, "method"), text_at(*growth, i, "scene"));

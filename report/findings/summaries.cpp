@@ -1,4 +1,4 @@
-// What single tables say: grids, least models, where particles leave a ball, drapes, step limits.
+// Summaries of single tables: grids, least models, where particles leave a ball, drapes, step limits.
 #include "report/findings/summaries.h"
 
 #include <fmt/format.h>

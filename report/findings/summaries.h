@@ -1,4 +1,4 @@
-// What single tables say, in words that a finding and a figure share.
+// Summaries of single tables, in words that a finding and a figure share.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace crosscheck {
 
 inline constexpr auto residual_bounded = "bounded", residual_none = "zero to round-off";
 
-/// Of a row of table `energy` whose closure is claimed; of a run that failed, the word for its failure.
+/// Of a row of table `energy` that claims closure; of a run that failed, the word for its failure.
 inline std::string residual_class(const Table& energy, size_t row) {
   const double worst = number_at(energy, row, "largest residual", 0),
                turned = number_at(energy, row, "energy turned over", 0),
@@ -43,12 +43,12 @@ std::optional<PowerLaw> power_of(const Rows& rows, const std::string& scene, con
 /// "4.24 ± 0.03"
 std::string power_text(const PowerLaw& power);
 
-/// How bend springs must stiffen, beside the derived 4, and what of the difference is explained: the derivation counts
-/// as many bend springs as cells, and a line has half a one less, as none reaches over the free end. Empty where
+/// The power by which bend springs must stiffen against the derived 4, with the cause of the difference: the derivation
+/// counts as many bend springs as cells, and a line has half a one less, as none crosses the free end. Empty where
 /// nothing was fitted.
 std::string bend_sentence(const Rows& rows);
 
-// How little of a scene's model is enough, from table `adequacy-least`.
+// The least models of scenes, from table `adequacy-least`.
 
 /// The least model that was found within one tolerance.
 struct LeastModel {
@@ -59,19 +59,19 @@ struct LeastModel {
   double cost;            // of the full model's
   bool of_motion(int percent) const { return tolerance.starts_with(std::to_string(percent) + " %"); }
 };
-/// From the strictest tolerance of the table on, in its order; empty where the scene was not asked.
+/// From the strictest tolerance of the table on, in its order; empty where the scene was not run.
 std::vector<LeastModel> least_models_of(const Rows& rows, const std::string& scene);
 
-/// What stays of the scene's ingredients (table `adequacy`) when those are left out.
+/// The scene's ingredients (table `adequacy`) that stay when those are left out.
 std::vector<std::string> kept_without(const Rows& rows, const std::string& scene, const std::string& left_out);
 
-// How far from the exact angle particles leave a ball.
+// The error of the angle at which particles leave a ball.
 
-/// Of table `sphere-leaving`: mysim's rules together, every other method by itself, at the finest step and beside the
+/// Of table `sphere-leaving`: mysim's rules together, every other method by itself, at the finest step and at the
 /// longest. Empty where no particle leaves.
 std::string leaving_sentence(const Table& leaving);
 
-// Where the cloth of scene drop-aside, which should slide off its ball, is in the end.
+// The final place of the cloth of scene drop-aside, which should slide off its ball.
 
 /// A method's last state, at the finest step of mysim/symplectic-euler.
 struct DrapeEnd {
@@ -88,9 +88,9 @@ std::vector<DrapeEnd> drape_ends(const Table& drapes);
 /// "At 1.6 s it is off the ball with a and b; with c it still touches it, frozen."
 std::string drape_end_sentence(const std::vector<DrapeEnd>& ends);
 
-// Measured stability limits beside theory, from table `stability`.
+// Measured stability limits against theory, from table `stability`.
 
-/// A largest stable step by theory beside the one measured.
+/// A largest stable step by theory, and the one measured.
 struct StepLimitComparison {
   enum Kind {
     agrees,  // within 1 %, or both say that no step, or every step, is stable
@@ -103,7 +103,7 @@ struct StepLimitComparison {
 /// Nothing where there is no theory, the method does not take the scene, or theory's limit lies beyond what was tried.
 std::optional<StepLimitComparison> compare_step_limit(const Table& stability, size_t row);
 
-/// A sentence on the limits of all scenes that can rest, and one on those that theory looks at from their start.
+/// A sentence on the limits of all scenes that can rest, and one on those that theory treats about their start.
 struct StepLimitSummary {
   std::string sentence;
   bool at_rest, theory_holds;  // theory holds where no row is `apart`
@@ -111,7 +111,7 @@ struct StepLimitSummary {
 std::vector<StepLimitSummary> step_limit_summaries(const Table& stability);
 
 /// "-0.12 %", "47 times as long": of measured over predicted, less 1; "within ±0.07 %" where it is less than what the
-/// search can tell, `finest`.
+/// search can resolve, `finest`.
 std::string deviation_text(double off, double finest = 0);
 
 }  // namespace crosscheck

@@ -23,7 +23,7 @@ struct Verification {
 /// cannot be read.
 Verification verify_report(const std::filesystem::path& folder);
 
-// What a report says otherwise than an earlier one.
+// Changes of a report against an earlier one.
 
 struct Change {
   std::string scene;        // or empty: of all
@@ -31,8 +31,8 @@ struct Change {
   bool timed = false;       // rests on timings, which are never the same twice
 };
 
-/// Findings of OLD/report.json beside these, those of one rule and scene in their order; what stayed is left out.
-/// Throws InputError where OLD holds no finished report.
+/// Findings of OLD/report.json compared with these, those of one rule and scene in their order; what stayed is left
+/// out. Throws InputError where OLD holds no finished report.
 std::vector<Change> changes_since(const std::filesystem::path& old, const AllFindings& now);
 
 }  // namespace crosscheck

@@ -30,7 +30,7 @@ bool holds_on(std::string_view rest) {
          (rest.size() == 3 || !(is_digit(rest[3]) || rest[3] == '.'));
 }
 
-/// What stands in front holds on, too: "8 x 8", "0.32 ± 0.01".
+/// The text in front stays attached, too: "8 x 8", "0.32 ± 0.01".
 bool holds_what_follows(std::string_view before) {
   return before.ends_with(" x") || before.ends_with("(of") || before.ends_with("±") || before.ends_with("<");
 }

@@ -172,7 +172,7 @@ void remove_names(std::string& text) {
   }
 }
 
-/// What stands in its title: whose run it is stands in what it plays already (page.js puts it in front again).
+/// Its title without the method, which the run that it plays names (page.js puts it in front again).
 std::string title_of(const Tooltip& tip) {
   const std::string method = tip.run.substr(0, tip.run.rfind(' ')) + ", ";
   return escaped(!tip.run.empty() && tip.words.starts_with(method) ? tip.words.substr(method.size()) : tip.words);
@@ -296,7 +296,7 @@ struct Tag {
   std::string_view bytes, width, height, alt;
 };
 
-/// What stands in quotes behind `name="` in a tag.
+/// The quoted text behind `name="` in a tag.
 std::string_view attribute(std::string_view tag, std::string_view name) {
   const size_t at = tag.find(name);
   if (at == std::string_view::npos) return "";

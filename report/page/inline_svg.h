@@ -8,7 +8,7 @@
 
 namespace crosscheck {
 
-/// What parts of a drawing say to a pointer above them, in the order in which they are drawn.
+/// The tooltips of parts of a drawing, in the order in which they are drawn.
 struct Tooltips {
   std::vector<std::vector<Tooltip>> markers;  // of each element of the plot; an element may have none
   std::vector<Tooltip> boxes;                 // of all the drawing

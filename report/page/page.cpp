@@ -32,7 +32,7 @@ std::string finding_list(const std::vector<Finding>& findings, const std::vector
   return out + "</ul>\n";
 }
 
-/// What the front shows: what belongs to no chapter, and the first of each chapter.
+/// The findings on the front: those of no chapter, and the first of each chapter.
 std::vector<Finding> front_of(const std::vector<Finding>& findings) {
   std::vector<Finding> front;
   for (const Finding& f : findings)
@@ -49,7 +49,7 @@ std::vector<Finding> of_chapter(const std::vector<Finding>& findings, const std:
   return own;
 }
 
-/// What a reader asks first, and the findings that answer it: of a chapter, or of a topic where they have none.
+/// A question and the findings that answer it: of a chapter, or of a topic where they have none.
 struct Question {
   const char* text;
   std::vector<std::string> topics, chapters;
@@ -68,7 +68,7 @@ const std::vector<Question>& questions() {
   return all;
 }
 
-/// What an earlier report said otherwise.
+/// The changes against an earlier report.
 std::string changes_html(const PageContent& c) {
   if (c.against.empty()) return "";
   std::string out = fmt::format("<section id=\"changes\"><h2>What changed since {}</h2>\n", escaped(c.against));

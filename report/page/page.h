@@ -1,4 +1,4 @@
-// The page: one self-contained HTML file that opens with the answer; and report.json, the same as data.
+// The page: one self-contained HTML file that opens with the summary; and report.json, the same as data.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +25,7 @@ struct PageImage {
 /// The runs of a figure, as the player has them: one file of JSON for each method (report/player/run_motions.h).
 struct PlayableRuns {
   std::string key;
-  std::string scene;  // whose player's data they are added to
+  std::string scene;  // the scene of the player's data that they are added to
   std::string stage;  // or JSON of a stage of their own (report/player/player_data.h)
   std::vector<std::filesystem::path> methods;
 };
@@ -57,7 +57,7 @@ struct Chapter {
 
 struct PageContent {
   std::vector<Finding> findings;  // of the whole report
-  std::vector<PageImage> hero;    // beside the answer: a picture, and the figures of the whole report
+  std::vector<PageImage> hero;    // next to the summary: a picture, and the figures of the whole report
   std::vector<ScenePart> scenes;
   std::vector<Chapter> chapters;
   std::vector<PlayableRuns> runs;     // that figures play
@@ -74,8 +74,8 @@ std::vector<std::string> figures_of(const PageContent& content);
 /// The whole page. Throws std::runtime_error when an image or motions cannot be read.
 std::string page_html(const PageContent& content);
 
-/// The beginning of a page up to its body, styles included, and what else belongs into its head; and the table of who
-/// made it.
+/// The beginning of a page up to its body, styles included, and what else belongs into its head; and the table of its
+/// provenance.
 std::string page_head(const std::string& title, const std::string& more = "");
 std::string provenance_html(const Provenance& lines);
 

@@ -28,7 +28,7 @@ class RunsFolder {
  public:
   explicit RunsFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Writes what passes; from several processes at a time. The run is the scene's at the request's step.
+  /// Writes the runs; from several processes at a time. The run is the scene's at the request's step.
   void keep(const WatchedRuns& watched, const Run& run) const;
 
   /// The set of this key, without a scene or stage yet: nothing where no run was kept. Methods whose runs weigh most

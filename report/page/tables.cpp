@@ -62,7 +62,7 @@ std::string narrow(const std::string& cell) {
 }  // namespace
 
 std::string page_table_html(const PageTable& table, bool open) {
-  // long ones open when asked: the figure above has said most of it
+  // long ones open on a click: the figure above has said most of it
   const bool shut = !open && !table.open && table.rows.size() > 6;
   std::string out = shut ? fmt::format("<details><summary>{}</summary>\n", prose(table.caption)) : "";
   out += "<div class=\"scroll\"><table>";
@@ -193,7 +193,7 @@ std::string recommendation_table_html(const std::vector<ScenePart>& scenes) {
 
 namespace {
 
-/// As a page writes what a terminal spells out, and without how to ask for it on a command line.
+/// A terminal's text as a page writes it, without hints at command-line options.
 std::string readable(std::string text) {
   constexpr std::pair<std::string_view, std::string_view> table[] = {{": give --tol, not --step", ""},
                                                                      {"--step", "the scene's step"},

@@ -124,7 +124,7 @@ std::vector<Sample> light_samples(int passes) {
   return samples;
 }
 
-// Finds the nearest camera in a given direction whose view holds everything.
+// Finds the nearest camera in a given direction with a view that holds everything.
 //
 // In camera axes (a to the right, b up, c towards the eye) a point is inside the left and right edges if
 // |a - A| <= s (C - c), with the eye at (A, B, C) and s the tangent of half the horizontal field of view. All these

@@ -11,7 +11,7 @@ namespace crosscheck {
 /// Its step divides the time between two frames.
 Run clip_run(const Scene& scene);
 
-/// Writes the answers to clip_run() as an MP4; `shot.at` has no meaning. Failed runs stand still and say so. Shows
+/// Writes the results of clip_run() as an MP4; `shot.at` has no meaning. Failed runs stand still and say so. Shows
 /// progress. Throws InputError for mode strip, sizes of odd numbers, and where nothing can be shown; Unsupported
 /// without ffmpeg.
 void write_clip(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot,

@@ -40,7 +40,7 @@ Context::Context() : handle_(std::make_unique<Handle>()) {
   make_current();
   gl_ = load_gl([](const char* name) { return reinterpret_cast<GlAddress>(OSMesaGetProcAddress(name)); });
 
-  // a libGL linked beside OSMesa would swallow every call in silence
+  // a libGL linked next to OSMesa would swallow every call in silence
   const auto* name = reinterpret_cast<const char*>(gl_.GetString(GL_RENDERER));
   const std::string renderer = name ? name : "nothing";
   if (renderer.rfind("llvmpipe", 0) != 0 && renderer.rfind("softpipe", 0) != 0) {

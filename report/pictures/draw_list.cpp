@@ -54,7 +54,7 @@ void check(const Body& body) {
   as_many(body.tube_colour.size(), body.tubes.size(), "tube colours");
 }
 
-/// Throws std::runtime_error for an index that no particle has, or for values whose number does not fit.
+/// Throws std::runtime_error for an index that no particle has, or for values of the wrong number.
 TransformedBody transform_body(const Body& body, const Frame& frame, const Scale* scale) {
   check(body);
   TransformedBody placed{body, scale, {}, {}};

@@ -43,7 +43,7 @@ struct DrawList {
 };
 
 /// Leaves out whatever has a vertex that is not finite or absurdly far away. Throws std::runtime_error for an index
-/// that no particle has, or for values whose number does not fit.
+/// that no particle has, or for values of the wrong number.
 DrawList draw_list_of(const Panel& panel, const Frame& frame, const std::optional<Scale>& scale);
 
 }  // namespace crosscheck::render

@@ -77,7 +77,7 @@ struct Gl {
 
 using GlAddress = void (*)();
 
-/// Fills the table by asking `address_of` for each name; throws std::runtime_error naming the first one missing.
+/// Fills the table by `address_of` of each name; throws std::runtime_error naming the first one missing.
 Gl load_gl(GlAddress (*address_of)(const char* name));
 
 // One compiled shader program and its uniforms by name.
@@ -113,7 +113,7 @@ struct ShadowMap {
   int size;
 };
 
-/// A colour texture of RGBA floats, with a depth buffer if asked for.
+/// A colour texture of RGBA floats, with a depth buffer if requested.
 struct ColourTarget {
   ColourTarget(const Gl& gl, int width, int height, GLint format, bool with_depth);
   GLuint framebuffer = 0, texture = 0;

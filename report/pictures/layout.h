@@ -1,4 +1,5 @@
-// Where panels, titles, colour bar and legend go in the picture, in pixels from the top left, and how wide texts are.
+// Positions of panels, titles, colour bar and legend in the picture, in pixels from the top left, and widths
+// of texts.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace crosscheck::render {
 
-// How wide a text will be, so that it can be made to fit before it is set.
+// The width of a text, so that it can be made to fit before it is set.
 
 /// Width of a UTF-8 text in DejaVu Sans (or its bold), in units of the font size; letters outside ASCII are guessed.
 double text_width(const std::string& text, bool bold);
@@ -35,7 +36,7 @@ struct Layout {
   double bar_top = 0, bar_height = 0, bar_left = 0, bar_width = 0;
 };
 
-/// A row whose only title stands in its first column is a strip: the title heads the whole row.
+/// A row with one title, in its first column, is a strip: the title heads the whole row.
 bool is_strip(const std::vector<Panel>& row);
 
 /// Width of a legend entry with its swatch and the gap after it, in pixels.

@@ -159,7 +159,7 @@ std::string number(double value, double step) {
 void add_bar(GnuplotPage& page, const Scale& scale, const Layout& layout) {
   const double font = layout.text, top = layout.bar_top, bottom = top + layout.bar_height;
   const double left = layout.bar_left, right = left + layout.bar_width;
-  // edges drawn once around the bar, whose colours are in the pixels
+  // edges drawn once around the bar, which has its colours in the pixels
   for (const double y : {top, bottom}) page.stroke(left, y, right, y, 0x777777, 0.8);
   for (const double x : {left, right}) page.stroke(x, top, x, bottom, 0x777777, 0.8);
   page.label((left + right) / 2, bottom + 2.25 * font, "center", scale.label, font, false, title_ink);

@@ -9,7 +9,7 @@
 
 namespace crosscheck::render {
 
-/// What gnuplot writes: a PNG of these pixels, or a PDF page on which so many of them make an inch.
+/// The format that gnuplot writes: a PNG of these pixels, or a PDF page on which so many of them make an inch.
 struct PageFormat {
   bool pdf = false;
   double pixels_per_inch = 96;  // gnuplot's own for PNG: letters of 0.75 pt are a pixel high

@@ -43,7 +43,7 @@ struct OffscreenRenderer::Parts {
     const bool diverging = picture.scale && picture.scale->diverging;
     const std::tuple wanted(layout.panel_width, layout.panel_height, picture.quality, diverging);
     if (!painter || painter_for != wanted) {
-      // a new context too: the old painter's textures and programs go with theirs
+      // a new context too: the old painter's textures and programs go with the old one
       painter.reset(), context.reset();
       context = std::make_unique<Context>();
       painter =

@@ -1,4 +1,4 @@
-// What a picture shows, without a word about how it is drawn: panels of bodies in one common view.
+// The content of a picture, apart from its drawing: panels of bodies in one common view.
 #pragma once
 
 #include <array>

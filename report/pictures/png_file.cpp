@@ -105,7 +105,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The picture's image with the bar. Throws std::runtime_error where nothing stands before the ground: the picture is
-/// then nowhere darker by more than an eye tells apart.
+/// then nowhere darker by more than an eye can distinguish.
 Image drawn(const Picture& picture, const Layout& layout, const fs::path& file, OffscreenRenderer& renderer) {
   Image image = renderer.draw(picture);
   constexpr int visible = 24;  // of 255; the ground of an empty picture is one colour

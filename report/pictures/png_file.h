@@ -1,4 +1,4 @@
-// PNG files as gnuplot writes them: read back, and told how large they are in print.
+// PNG files as gnuplot writes them: read back, with their size in print set.
 #pragma once
 
 #include <filesystem>

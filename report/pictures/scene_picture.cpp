@@ -209,7 +209,8 @@ std::vector<int> frames_of(const Scene& scene, const Trajectory& path, const Sho
   return frames;
 }
 
-/// What view and scale must have room for. A run that blew up would leave neither room nor colour for the others.
+/// The motions that view and scale must have room for. A run that blew up would leave neither room nor colour for the
+/// others.
 struct Seen {
   std::vector<Points> healthy, all, trails;
   std::vector<render::Ball> balls;
@@ -316,7 +317,7 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
     if (asked && m.family().by_default()) names.push_back(m.name);
   }
   if (first_order || hard) return names;
-  // what is meant for long steps first, and what fails there beside it
+  // what is meant for long steps first, and what fails there next to it
   if (!scene.method.starts_with(program_prefix) && find_method(scene.method).implicit)
     names = {find_method(scene.method).name, "mysim/implicit-midpoint", std::string(subject().representative)};
   if (scene.model.find<Spheres>()) names.push_back(sticky_method());

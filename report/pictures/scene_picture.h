@@ -1,4 +1,4 @@
-// From scenes and answers to pictures: what is drawn in which mode, as which shapes, and from where it is seen.
+// From scenes and results to pictures: modes, shapes and cameras.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-// How far springs are stretched, as colours show it.
+// The stretch of springs, as colours show it.
 
 /// Extension of the line between two particles, % of its length at rest; compression counts as zero.
 double extension(const Points& x, int a, int b, double rest);
@@ -39,11 +39,11 @@ struct Shot {
 Shot usual_shot(const Scene& scene, bool full);
 
 /// Results of one scene side by side, in one view. Results without frames are left out; a failed run is shown at its
-/// last finite frame and says so. In mode difference the first answer is the one that the others are set against.
+/// last finite frame and says so. In mode difference the others are compared with the first one.
 /// Throws InputError when nothing can be shown.
 render::Picture picture_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot);
 
-/// What pictures have in common that are to be compared, like those of a clip.
+/// The common view of pictures that are to be compared, like those of a clip.
 struct CommonView {
   render::View view;
   double top;  // of the scale, in its unit
@@ -62,13 +62,13 @@ struct CameraPlacement {
 CameraPlacement camera_placement(const Scene& scene, const std::vector<Points>& shown,
                                  const std::vector<double>& times);
 
-/// Which of the answer's frames such a shot shows (not of mode strip).
+/// The frame of the result that such a shot shows (not of mode strip).
 int frame_shown(const Scene& scene, const Result& answer, const Shot& shot);
 
-/// The methods that a picture of the scene shows when nobody names any.
+/// The methods that a picture of the scene shows when none is named.
 std::vector<std::string> pictured_methods(const Scene& scene);
 
-/// What the answer looks like at one of its frames; in mode difference coloured by the distance from `base`.
+/// The body at one of the result's frames; in mode difference coloured by the distance from `base`.
 render::Body body_of(const Scene& scene, const Result& answer, int frame, Mode mode, const Points* base);
 
 /// The families that the scene's springs belong to, in the order of the legend.

@@ -30,7 +30,7 @@ struct Lattice {
   double unit;  // m, along each axis
   /// m, no place is further from its number's.
   double bound() const { return unit * std::sqrt(3.) / 2 + 1e-12 * low.norm(); }
-  /// Numbers of places (frames x particles x 3), which wrap at 2^16: -24576 to 40959 are told apart. Nothing where a
+  /// Numbers of places (frames x particles x 3), which wrap at 2^16: -24576 to 40959 stay distinct. Nothing where a
   /// place lies beyond.
   std::optional<std::vector<std::uint16_t>> numbers_of(std::span<const Points> frames) const;
 };
@@ -39,7 +39,7 @@ Lattice lattice_around(std::span<const Points> frames);
 std::vector<std::uint16_t> subtract_frames(std::vector<std::uint16_t> numbers, std::span<const std::uint16_t> other,
                                            size_t per_frame);
 
-/// Values from 0 to top (those above count as top) in steps of top / 63: as many colours as an eye tells apart.
+/// Values from 0 to top (those above count as top) in steps of top / 63: as many colours as an eye can distinguish.
 std::vector<std::uint16_t> quantise(std::span<const double> values, double top);
 
 // Whole numbers of 16 bits, packed small for the page; unpack.js opens them.

@@ -63,7 +63,7 @@ Json methods_json(const Scene& scene, const std::vector<ThinnedTrajectory>& all,
     double own = 0;
     json.update(places_json(all[m], lattice, m > 0 && first ? *first : std::vector<std::uint16_t>(), own));
     if (all[m].ok()) bound = std::max(bound, own);
-    // the truth stands beside them at once where there is room for it, and it goes all the way
+    // the truth stands next to them at once where there is room for it, and it goes all the way
     json["first"] = all[m].answer || (all.size() <= 4 && all[m].t.back() > 0.98 * scene.duration);
     json["frames"] = all[m].x.size();
     json["stretch"] = values_json(stretch, m, particles), json["distance"] = values_json(distance, m, particles);
@@ -90,7 +90,7 @@ Json plot_json(const Scene& scene) {
   return {{"label", "energy / J"}, {"unit", "J"}, {"title", scene.name + ": total energy over time"}};
 }
 
-/// What of it all methods share.
+/// The part of it that all methods share.
 Json shared_json(const Scene& scene, const CameraPlacement& placement, const std::vector<double>& times) {
   Json json{{"scene", scene.name}, {"particles", scene.model.particles.size()}, {"times", times}};
   json["from"] = vector_json(placement.from);

@@ -1,4 +1,4 @@
-// What the page's player needs of a scene, as JSON that it reads (player.js): motions, springs, obstacles, colours,
+// A scene as JSON for the page's player (player.js): motions, springs, obstacles, colours,
 // plot.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace crosscheck {
 
-/// The answers in lock-step, and the truth behind them where there is one. Distances from the truth are there up to the
-/// scene's window and the truth's end. Empty when there is nothing to play: no answer has frames, or the scene has too
+/// The results in lock-step, and the truth behind them where there is one. Distances from the truth are there up to the
+/// scene's window and the truth's end. Empty when there is nothing to play: no result has frames, or the scene has too
 /// many particles for a page (see thinned_trajectory.h).
 std::string player_json(const Scene& scene, const std::vector<const Result*>& answers,
                         const std::optional<Truth>& truth);

@@ -1,4 +1,4 @@
-// Runs as differences from the truth; cells as a few shapes whose sizes change.
+// Runs as differences from the truth; cells as a few shapes of changing size.
 #include "report/player/run_motions.h"
 
 #include <fmt/ranges.h>
@@ -16,7 +16,7 @@
 namespace crosscheck {
 namespace {
 
-/// What a scene's runs are packed against.
+/// The reference that a scene's runs are packed against.
 struct Against {
   const Scene& scene;
   ThinnedTrajectory truth;  // at the frames of the scene's player

@@ -19,7 +19,7 @@ namespace crosscheck {
 /// when the scene has no player (thinned_trajectory.h) or no truth.
 std::string run_motions_json(const WatchedRuns& watched, const std::optional<Truth>& truth);
 
-// Runs of a stability map, for a click on their cells: departures from rest, a few shapes whose sizes change from
+// Runs of a stability map, for a click on their cells: departures from rest, a few shapes that change in size from
 // picture to picture, which is all that a run near its limit does.
 
 /// JSON of one method's cells, in their order; null for a cell with fewer than two pictures. A cell is

@@ -1,4 +1,4 @@
-// What of a scene does not move with its methods, as the player reads it: triangles, springs, obstacles.
+// The parts of a scene that no method moves, for the player: triangles, springs, obstacles.
 #pragma once
 
 #include "mysim/base/json.h"

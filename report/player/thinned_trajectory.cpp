@@ -31,7 +31,7 @@ ThinnedTrajectory thinned(const Result* answer, const std::string& name, const T
 /// The farthest that a coordinate is from its start, m.
 double moved(const Points& x, const Points& start) { return (x - start).cwiseAbs().maxCoeff(); }
 
-/// A failed run is shown while it stays within three times the reach of the others: further out no camera sees it, and
+/// A failed run is shown while it stays within three times the extent of the others: further out no camera sees it, and
 /// the lattice of its places would be coarse.
 void cut_failed(double size, std::vector<ThinnedTrajectory>& all) {
   double reach = size;
@@ -147,7 +147,7 @@ std::string dashes_of(const MethodStyle& style) {
   return dash;
 }
 
-/// Why a run failed, without saying again that it did, and when.
+/// The reason why a run failed, without saying again that it did, and when.
 std::string why_failed(const Outcome& out) {
   const std::string words(in_words(out.verdict));
   const size_t open = words.find('(');

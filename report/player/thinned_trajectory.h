@@ -17,7 +17,7 @@ struct ThinnedTrajectory {
   const Result* answer = nullptr;  // none: the truth
   std::string name;
   std::vector<double> t;     // s
-  std::vector<Points> x, v;  // N (3 x n), m and m/s; v is 3 x 0 where the method tells none
+  std::vector<Points> x, v;  // N (3 x n), m and m/s; v is 3 x 0 where the method reports none
   bool ok() const { return !answer || answer->outcome.verdict == Verdict::ok; }
 };
 
@@ -27,7 +27,7 @@ int frame_stride(const Scene& scene);
 
 /// The truth at every stride-th of its samples.
 ThinnedTrajectory thin(const Truth& truth, int stride);
-/// The answers that have frames, then the truth, if there is one. A run that failed ends with its last frame near the
+/// The results that have frames, then the truth, if there is one. A run that failed ends with its last frame near the
 /// others.
 std::vector<ThinnedTrajectory> thin(const Scene& scene, const std::vector<const Result*>& answers,
                                     const std::optional<Truth>& truth);
@@ -35,7 +35,7 @@ std::vector<ThinnedTrajectory> thin(const Scene& scene, const std::vector<const 
 /// The lattice of a scene's motions: around the truth, where there is one, else around those that went well.
 Lattice lattice_of(const std::vector<ThinnedTrajectory>& all);
 
-// What colours and the plot show of motions: stretch, distance from the truth, energy.
+// Values of motions for colours and the plot: stretch, distance from the truth, energy.
 
 /// Values of the particles of several motions on one scale from 0 to top.
 struct ColourValues {

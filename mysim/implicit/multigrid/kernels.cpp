@@ -33,7 +33,7 @@ FORCE_INLINE T* row_of(T* field, int blocks, int row) {
 }
 
 /// Goes over the rows from the first: begin(row, sums) adds to sums[0] (the row itself) and to sums[1], sums[2] (the
-/// next ones), finish(row, sums) is told when all that reach a row have been added. `memory`: three rows.
+/// next ones), finish(row, sums) is called when all that reach a row have been added. `memory`: three rows.
 template <int numbers, class T, class Begin, class Finish>
 FORCE_INLINE void over_rows(int rows, int blocks, T* memory, Begin begin, Finish finish) {
   const long length = row_length(blocks, numbers), first = left_halo * tile_size<numbers>;
@@ -293,7 +293,7 @@ void residual(const Matrix<float>& m, const float* b, const float* x, float* r) 
 using F = L<float>;
 using Vf = V<float>;
 
-/// What the fine row below an even one takes of the coarse row, and of the next.
+/// The weights of the coarse row, and of the next, in the fine row below an even one.
 FORCE_INLINE float down(const Transfer& t, int coarse_row) { return coarse_row + 1 < t.coarse_rows ? 0.5f : 1; }
 
 /// Along a fine row: what coarse particles are given of it.

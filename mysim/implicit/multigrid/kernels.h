@@ -43,7 +43,7 @@ struct Matrix {
   T* force;                 // N: three rows of a field, working memory
 };
 
-/// Where the springs' stiffness comes from.
+/// The source of the springs' stiffness.
 struct SpringGeometry {
   int rows, blocks;
   double* x;                    // m: a field; its halo is filled
@@ -53,8 +53,8 @@ struct SpringGeometry {
   double* sums;                 // three rows of 6 numbers, working memory
 };
 
-/// How a coarse grid is joined to a fine one: a fine particle between two coarse ones takes half of each; beyond the
-/// last coarse one, all of it.
+/// The transfer between a coarse grid and a fine one: a fine particle between two coarse ones takes half of each;
+/// beyond the last coarse one, all of it.
 struct Transfer {
   int coarse_rows, coarse_blocks, fine_rows;
   // coarse blocks x lanes: what the fine particle to the right takes of this coarse one, 1/2 or 1; and the one to the

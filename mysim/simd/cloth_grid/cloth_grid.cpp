@@ -24,7 +24,7 @@ Kernel<float> kernel(InstructionSet isa, bool fast) {
 
 namespace {
 
-/// What the largest difference of indices says: the springs that have it lead two rows on, or to the next row.
+/// Candidates by the largest difference of indices: the springs that have it lead two rows on, or to the next row.
 std::vector<int> candidate_columns(const Springs& springs, int particles) {
   int farthest = 0;
   for (const Spring& s : springs.list) farthest = std::max(farthest, std::abs(s.b - s.a));

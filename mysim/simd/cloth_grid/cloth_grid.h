@@ -33,12 +33,12 @@ struct GridTopology {
 };
 
 /// Empty where the springs are of another law, no such grid, or not all of one: such scenes are left to kernels for any
-/// network.
+/// spring graph.
 std::optional<GridTopology> find_grid_topology(const Springs& springs, int particles);
 
 // The memory of a cloth: particles of a scene laid out in lanes, and back.
 
-/// Whether a grid is wide enough for its springs to reach across lanes in one direction only.
+/// Whether a grid is wide enough for its springs to cross lanes in one direction only.
 template <class T>
 bool fits(const GridTopology& topology) {
   return (topology.columns + lanes<T> - 1) / lanes<T> >= 3;
@@ -89,7 +89,7 @@ class ClothGridMemory {
 
 // A cloth cut into slabs of rows, one for each thread.
 
-/// Around its own rows a slab has two halo rows of each neighbour: that is how far a spring reaches. Before a fused
+/// Around its own rows a slab has two halo rows of each neighbour: a spring spans two rows at most. Before a fused
 /// step it receives their positions from where the neighbour put them after the last one; two such buffers, used in
 /// turns, let all slabs send and receive at the same time, so that threads wait for each other once a fused step.
 /// Forces are summed in the order of a single slab: the same bits, however many there are.

@@ -141,7 +141,7 @@ FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int 
   fill_halo<tile_size<T>>(x, s.tiles);
 }
 
-/// Springs that begin in a row and whose ends met, one by one; asked only where a length was 0.
+/// The number of degenerate springs that begin in a row, one by one; called only where a length was 0.
 template <class T>
 [[gnu::noinline]] long count_degenerate_springs(const ClothGrid<T>& s, const Rows<T>& rows, int rows_below) {
   long degenerate_springs = 0;

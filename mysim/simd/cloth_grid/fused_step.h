@@ -16,7 +16,7 @@
 // exception at the ends. Lanes without a particle have stiffness 0.
 //
 // A row is finished when the rows above and itself have given it their forces; then it is kicked and drifted in place,
-// since no later row asks for its old positions. So a whole step is one pass, each spring is taken once, and three
+// since no later row needs its old positions. So a whole step is one pass, each spring is taken once, and three
 // rows of forces are all the memory it needs. fused_step.cpp is compiled once for each instruction set.
 //
 // A slab of a cloth is stepped like a whole one. Its halo rows are rows of its neighbours: those before its own give
@@ -38,7 +38,7 @@ inline constexpr int lanes = 64 / sizeof(T);
 
 inline constexpr int left_halo = 1, right_halo = 2;  // of a row, in tiles
 
-/// The fused step asks for contact where a particle comes closer to `centre` than the root of `squared_radius`.
+/// The fused step calls back where a particle comes closer to `centre` than the root of `squared_radius`.
 struct BoundingSphere {
   double centre[3], squared_radius;  // m, m^2
 };
@@ -58,8 +58,8 @@ struct ClothGrid {
   int stride;                               // of these: lanes, or 0 where one tile is for all
 };
 
-/// What a fused step does beside the springs. `damping` is a number of its own: in 1 - damping, rounded, a fraction of
-/// it would be gone in every step.
+/// Parameters of a fused step besides the springs. `damping` is a number of its own: in 1 - damping, rounded, a
+/// fraction of it would be gone in every step.
 template <class T>
 struct KickDrift {
   T uniform_acceleration[3];    // m/s^2: of all particles alike
@@ -77,7 +77,7 @@ struct Kernel {
   long (*fused_step)(const ClothGrid<T>&, const KickDrift<T>&);
   /// 1 / sqrt of each, as the springs take it: `count` is a multiple of the lanes.
   void (*rsqrt_array)(const T* s, T* y, long count);
-  /// What the machine can do at most: so many rounds of multiplications and additions in registers, independent of
+  /// The machine's peak: so many rounds of multiplications and additions in registers, independent of
   /// each other. `sum` takes something that depends on all of them. Returns how many operations a round has.
   int (*multiply_and_add)(long rounds, T* sum);
 };

@@ -21,7 +21,7 @@ inline constexpr double min_squared_length = 1e-290;
 /// same to the last bit as in the plain loop, on all instructions. Near the rest length, where r - L is a small
 /// difference of large numbers, that matters most: springs at rest pull at nothing. An estimate of 1 / L with steps of
 /// Newton's (as in simd/lanes.h) does not pay: once its length is corrected to be rounded rightly, it takes a third
-/// longer than these two, which go on beside other work.
+/// longer than these two, which overlap with other work.
 template <bool hooke>
 FORCE_INLINE V scale_of(V s, V k, V rest) {
   s = L::max(s, L::all(min_squared_length));
@@ -37,7 +37,7 @@ FORCE_INLINE V scale_of(V s, V k, V rest) {
 inline constexpr int registers_per_group = L::width == tile ? 1 : 2;
 inline constexpr int group_size = registers_per_group * L::width;
 
-/// Three coordinates of the particles in `abreast` registers.
+/// Three coordinates of the particles in `registers_per_group` registers.
 struct Sums {
   V f[3][registers_per_group];
 };
@@ -45,7 +45,7 @@ struct Sums {
 FORCE_INLINE long ring_length(const Diagonal& diagonal) { return diagonal.mask + 1 + tile; }
 FORCE_INLINE long place(int b) { return static_cast<long>(b) * tile; }
 
-/// The springs that begin in a stretch of a tile.
+/// The springs that begin in a group of a tile.
 template <bool hooke>
 FORCE_INLINE Sums begin_at(const DiaSprings& s, int b, int lane, const int* coefficient_row, V& least) {
   const long at = place(b) + lane;
@@ -88,7 +88,7 @@ FORCE_INLINE void begin_tile(const DiaSprings& s, int b, const int*& coefficient
   for (int i = 0; i < s.count; ++i) coefficient_row += b >= s.diagonals[i].first && b < s.diagonals[i].last;
 }
 
-/// What all springs do to a tile, onto f.
+/// Adds the forces of all springs on a tile to f.
 FORCE_INLINE void finish_tile(const DiaSprings& s, int b, double* f) {
   alignas(64) double last[3 * tile];  // of the last tile, which may hold fewer particles
   const int there = s.particles - b * tile;

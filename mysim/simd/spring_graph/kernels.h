@@ -1,20 +1,20 @@
-// Forces of any network of springs: by offset (DIA) where springs lie in order, else edge by edge (COO).
+// Forces of any spring graph: by offset (DIA) where springs lie in order, else edge by edge (COO).
 #pragma once
 
 namespace crosscheck::spring_graph {
 
 // Springs by diagonals. kernels.cpp is compiled once for each instruction set.
 //
-// What a spring costs is getting at its ends: numbers that lie apart are gathered one by one, and adding to both ends
-// is a scatter, where no two lanes may meet. But particles are seldom numbered at random. Row by row, as in cloths,
-// tiles and chains, most springs join particle i to i + offset, with a handful of offsets: in the matrix of who is
-// joined to whom they stand on a few diagonals. Eight springs of a diagonal that begin side by side also end side by
-// side: their ends are six loads, and nothing is gathered. Lanes without a spring have stiffness 0.
+// The cost of a spring is the access to its ends: numbers that lie apart are gathered one by one, and adding to both
+// ends is a scatter, where no two lanes may meet. But particles are seldom numbered at random. Row by row, as in
+// cloths, tiles and chains, most springs join particle i to i + offset, with a handful of offsets: in the adjacency
+// matrix they stand on a few diagonals. Eight springs of a diagonal that begin side by side also end side by side:
+// their ends are six loads, and nothing is gathered. Lanes without a spring have stiffness 0.
 //
 // The kernel goes over tiles of eight particles. First come the springs that begin in a tile: their forces on it are
 // summed in registers, and each is also left in its diagonal's ring. Then the tile before is finished: what ends at a
 // particle is `offset` places back in the ring of each diagonal, side by side again. So each spring is computed once,
-// and each force is written once and read once while it is still in the cache, however large the network is: a ring is
+// and each force is written once and read once while it is still in the cache, however large the graph is: a ring is
 // about as long as its offset.
 //
 // Stiffness and rest length of eight springs are a coefficient row; equal rows share their memory. In a grid nearly all

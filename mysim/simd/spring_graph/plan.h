@@ -1,4 +1,4 @@
-// Which springs take which kernel, and the memory in which the kernels read them.
+// The partition of springs among kernels, and the memory in which the kernels read them.
 #pragma once
 
 #include "mysim/simd/aligned_buffer.h"
@@ -10,7 +10,7 @@ namespace crosscheck::spring_graph {
 
 Kernels kernels(simd::InstructionSet isa, SpringLaw law);
 
-/// What things take on this kind of instructions, ns, as measured on one machine; only their ratios matter. Both kinds
+/// Costs on this kind of instructions, ns, as measured on one machine; only their ratios matter. Both kinds
 /// of AVX share one set: they sort springs alike, add them up in the same order, and so give the same bits.
 struct Costs {
   double coefficient_row,
@@ -32,7 +32,7 @@ class DiaStorage {
   /// Each of them springs of one offset, no two alike.
   DiaStorage(const std::vector<OrientedSprings>& diagonals, int particles);
   const DiaSprings& view() const { return view_; }
-  /// Springs of some rest length whose ends are in one place, as last put there.
+  /// Springs of some rest length whose ends are in one place, in the positions last loaded.
   long degenerate_springs() const;
 
  private:
@@ -57,9 +57,9 @@ class CooStorage {
   AlignedBuffer<double> k_, rest_, x_, force_;
 };
 
-// Sorts the springs of a network into diagonals, pairs and plain ones.
+// Sorts the springs of a graph into diagonals, pairs and plain ones.
 
-/// Which springs go which way: what costs least.
+/// The partition of the least cost.
 struct SpringPartition {
   std::vector<OrientedSprings> diagonals;
   OrientedSprings pairs;

@@ -1,4 +1,4 @@
-// Springs go the ways that simd/spring_graph/plan.h sorts them into.
+// Springs take the kernels that simd/spring_graph/plan.h sorts them into.
 #include "mysim/simd/spring_graph/spring_kernel.h"
 
 #include <cassert>

@@ -1,4 +1,4 @@
-// The spring term for any network, fast: on lanes where that is worth it, else through the plain loop.
+// The spring term for any spring graph, fast: on lanes where that is worth it, else through the plain loop.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,7 @@ class SpringKernel {
   SpringKernel(SpringKernel&&) noexcept;
   ~SpringKernel();
   void add_force(const Points& x, Forces& forces);
-  /// Which instructions its lanes are compiled for.
+  /// The instruction set that its lanes are compiled for.
   simd::InstructionSet isa() const { return isa_; }
 
  private:

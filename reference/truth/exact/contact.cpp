@@ -23,7 +23,7 @@ std::optional<ExactSolution> held_by_friction(const Scene& scene) {
       const Vec3 d = scene.start.x.col(i) - s.centre;
       const double gap = d.norm() - s.contact_radius();
       if (gap > 1e-12 * s.contact_radius()) continue;
-      if (under) return std::nullopt;  // wedged between two: that asks for both forces at once
+      if (under) return std::nullopt;  // wedged between two: that needs both forces at once
       under = &s, n = d.normalized();
     }
     if (!under) return std::nullopt;

@@ -97,7 +97,7 @@ std::optional<Points> hanging_equilibrium(const Scene& scene) {
   for (const Spring& s : springs->list) at[s.a].push_back(&s), at[s.b].push_back(&s);
 
   // from the pin downwards: what a particle carries, itself included; as many springs as free particles reach each of
-  // them once, or there is a loop and someone is not reached
+  // them once, or there is a loop and a particle is not reached
   std::vector<char> reached(n, 0);
   std::vector<double> carried(n, 0);  // kg
   std::vector<std::pair<const Spring*, int>> order;

@@ -46,7 +46,7 @@ struct Oscillator {
   }
 };
 
-// What a driven oscillator adds to its free motion.
+// The driven part of an oscillator's motion.
 
 /// u'' = -w2 (u - d) - drag u' - dashpot (u' - d') from rest at u = 0, where d = a r(t) sin(W t) is a prescribed motion
 /// (mysim/particles.h) along a line. With d the imaginary part of a r(t) e^(iWt), and r a polynomial of degree 5 during
@@ -75,7 +75,7 @@ class DrivenMotion {
   Oscillator after_ramp_;   // from the ramp's end
 };
 
-// Scenes whose equations of motion are linear, split into modes that do not know each other.
+// Scenes whose equations of motion are linear, split into modes that are independent.
 
 /// u'' = -omega2 (u - participation d) - drag u' - dashpot (u' - participation d') + forcing, where d(t) is the
 /// displacement of moved pins along the line. The particles are displaced by u(t) times the shape.
@@ -95,8 +95,8 @@ struct LinearScene {
   double base_amplitude = 0;  // m, amplitude of d along the line; 0: the pins stand still
 
   /// Smallest length that a spring is left with when each mode reaches `amplitude` (m) to either side of `centre` (m)
-  /// and moved pins reach theirs; 0 or less: it may turn over, and the scene is linear no more. Infinite without
-  /// springs.
+  /// and moved pins reach `base_amplitude`; 0 or less: it may turn over, and the scene is linear no more. Infinite
+  /// without springs.
   double shortest_spring_length(const Model& model, const std::vector<double>& centre,
                                 const std::vector<double>& amplitude) const;
 };

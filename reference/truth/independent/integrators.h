@@ -15,10 +15,10 @@ namespace crosscheck {
 
 /// odeint's classic Runge-Kutta rule at run.step.
 Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer);
-/// odeint's Dormand-Prince 5(4) to run.tolerance, with its own interpolant at the times that are looked at.
+/// odeint's Dormand-Prince 5(4) to run.tolerance, with its own interpolant at the observed times.
 Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's extrapolation of the midpoint rule, of varying order (Bulirsch and Stoer), to run.tolerance; steps end at
-/// the times that are looked at. Its estimate compares answers of different numbers of stages, so that it also sees an
+/// the observed times. Its estimate compares results of different numbers of stages, so that it also sees an
 /// error that comes from time alone: Fehlberg's 7(8) pair has the same weights there in both rules, and follows a moved
 /// pin 1e-9 of the scene's size wrong under a tolerance of 1e-13.
 Outcome run_odeint_bulirsch_stoer(const Scene& scene, const Run& run, Observer& observer);

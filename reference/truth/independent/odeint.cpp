@@ -108,7 +108,7 @@ class BulirschStoerWorld : public AdaptiveOdeintWorld {
  private:
   void integrate_to(double t, double t_next) {
     while (t < t_next) {
-      // a step that would leave a sliver takes the whole way; one cut short says nothing against the one planned
+      // a step that would leave a sliver takes the whole way; one cut short says nothing against the one proposed
       const bool last = t + 1.01 * h_ >= t_next;
       double h = last ? t_next - t : h_;
       const double tried = h;

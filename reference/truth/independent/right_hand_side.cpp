@@ -1,4 +1,4 @@
-// What is taken from a scene, where everything is at a time, and the forces on flat arrays.
+// Data of a scene, prescribed positions at a time, and the forces on flat arrays.
 #include "reference/truth/independent/right_hand_side.h"
 
 #include <Eigen/Cholesky>
@@ -160,7 +160,7 @@ void RightHandSide::write_state(const StateVector& y, double t, State& state) {
     state.v = Points::Map(v_.data(), 3, n_);
 }
 
-/// What a spring and a dashpot do to their ends: a factor times the vector from one to the other.
+/// The force of a spring and a dashpot on their ends: a factor times the vector from one to the other.
 void RightHandSide::add_pair_force(const SpringDashpot& p) {
   const double* a = &x_[3 * p.a];
   const double* b = &x_[3 * p.b];

@@ -59,7 +59,7 @@ int SundialsWorld::rate(realtype t, N_Vector y, N_Vector out, void* self) {
   try {
     world.f_(world.y_, world.rate_, t);
   } catch (...) {
-    world.thrown_ = std::current_exception();  // C code lies between here and who can handle it
+    world.thrown_ = std::current_exception();  // C code lies between here and the handler
     return -1;
   }
   std::copy(world.rate_.begin(), world.rate_.end(), N_VGetArrayPointer(out));
@@ -120,7 +120,7 @@ Outcome run_arkode_order4(const Scene& scene, const Run& run, Observer& observer
 }
 
 // SUNDIALS CVODE: Adams' formulas of varying order, their equations solved by Newton's method with GMRES on difference
-// quotients. The best that was found for it on a sheet of 32 x 32 particles and 1 s: 2.6 s of CPU time for an error of
+// quotients. The best that was found for it on a cloth of 32 x 32 particles and 1 s: 2.6 s of CPU time for an error of
 // 5e-6 m; Adams' formulas iterated to a fixed point take 4.5 s for 1e-5 m, backward differentiation with GMRES 4.3 s
 // for 3e-5 m.
 

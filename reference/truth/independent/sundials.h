@@ -1,4 +1,4 @@
-// What SUNDIALS' integrators share: the scene's equations on its vectors, behind the run loop of all engines.
+// The part that SUNDIALS' integrators share: the scene's equations on its vectors, behind the run loop of all engines.
 #pragma once
 
 #include <nvector/nvector_serial.h>
@@ -20,7 +20,7 @@ class SundialsWorld : public World {
  public:
   SundialsWorld(const Scene& scene, const Run& run);
 
-  /// One step of the integrator after the other, ending at samples; between samples its interpolant answers.
+  /// One step of the integrator after the other, ending at samples; between samples its interpolant gives the state.
   void step(double, double t_next) override;
   const State& state(double t) override;
 
