@@ -352,10 +352,23 @@ OutputPlace checked(OutputPlace place, const std::string& command) {
   return place;
 }
 
+/// Removes the half manifests that killed processes left in the folder itself, where no working folder holds them.
+void remove_half_manifests(const fs::path& target) {
+  std::error_code error;
+  std::vector<fs::path> halves;
+  for (const auto& entry : fs::directory_iterator(target, error)) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with(std::string(Manifest::file_name) + ".") && name.ends_with(".part"))
+      halves.push_back(entry.path());
+  }
+  for (const fs::path& half : halves) fs::remove(half, error);
+}
+
 /// With the lock: finishes, looks, and takes over what version 0.1 wrote.
 std::optional<Manifest> entered(const OutputPlace& place, const std::string& command) {
   return with_output_errors(place, [&] {
     for (const fs::path& work : {place.beside, place.inside}) recover_from(work, place.target);
+    remove_half_manifests(place.target);
     std::optional<Manifest> manifest = require_ours(place, command);
     if (manifest && !is_there(place.target / Manifest::file_name)) write_manifest(*manifest, place.target);
     return manifest;
@@ -375,6 +388,7 @@ void recover_output(const fs::path& folder) {
   }
   with_output_errors(place, [&] {
     for (const fs::path& work : {place.beside, place.inside}) recover_from(work, place.target);
+    remove_half_manifests(place.target);
   });
 }
 

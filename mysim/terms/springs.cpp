@@ -24,7 +24,6 @@ std::string_view name_of(Family family) {
 std::string_view name_of(SpringLaw law) { return law == SpringLaw::hooke ? "hooke" : "bullet-link"; }
 
 Tension tension_of(const Spring& s, SpringLaw law, double length) {
-  assert(!(length <= 0));
   if (law == SpringLaw::hooke) return {s.k * (length - s.rest), s.k};
   const double l2 = length * length, r2 = s.rest * s.rest, sum = l2 + r2;
   return {s.k * length * (l2 - r2) / sum, s.k * (l2 * l2 + 4 * l2 * r2 - r2 * r2) / (sum * sum)};

@@ -212,7 +212,11 @@ TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
     undisturbed += whole;
     recover_output(target_);
     const Files now = in(target_);
-    EXPECT_TRUE(now == with_mine(one) || now == with_mine(two)) << trial << ": " << now.size() << " files";
+    std::string others;
+    for (const auto& [name, content] : now)
+      if (!with_mine(one).contains(name) && !with_mine(two).contains(name))
+        others += " " + name + "=" + content.substr(0, 40);
+    EXPECT_TRUE(now == with_mine(one) || now == with_mine(two)) << trial << ": " << now.size() << " files," << others;
     expect_no_working_folder();
   }
   EXPECT_GT(killed, 10);
