@@ -2,7 +2,6 @@
 #include "mysim/terms/springs.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace crosscheck {
