@@ -24,13 +24,6 @@ namespace crosscheck {
 
 namespace {
 
-/// The rows of the table of that name; none where there is no such table.
-template <class Row>
-std::vector<Row> rows_in(const Rows& rows) {
-  const Table* table = rows.table(std::string(Row::table));
-  return table ? rows_of<Row>(*table) : std::vector<Row>();
-}
-
 template <class Row>
 BenchRatio ratio_of(const Row& row) {
   return {row.ratio, row.ratio_low, row.ratio_high};
@@ -45,7 +38,7 @@ bool is_second_path(const Row& row, std::vector<BenchLine>& lines) {
 }
 
 void add_same_step(const Rows& rows, std::vector<BenchLine>& lines) {
-  for (const SameStepRow& row : rows_in<SameStepRow>(rows)) {
+  for (const SameStepRow& row : rows_of<SameStepRow>(rows)) {
     if (is_second_path(row, lines)) continue;
     const bool own = row.force.starts_with("force class");
     BenchLine& line = lines.emplace_back();
@@ -61,7 +54,7 @@ void add_same_step(const Rows& rows, std::vector<BenchLine>& lines) {
 }
 
 void add_implicit_steps(const Rows& rows, std::vector<BenchLine>& lines) {
-  for (const ImplicitStepRow& row : rows_in<ImplicitStepRow>(rows)) {
+  for (const ImplicitStepRow& row : rows_of<ImplicitStepRow>(rows)) {
     if (is_second_path(row, lines)) continue;
     BenchLine& line = lines.emplace_back();
     const std::string size = size_text(row.scene);
@@ -74,7 +67,7 @@ void add_implicit_steps(const Rows& rows, std::vector<BenchLine>& lines) {
 }
 
 void add_threads(const Rows& rows, std::vector<BenchLine>& lines) {
-  for (const ThreadsRow& row : rows_in<ThreadsRow>(rows)) {
+  for (const ThreadsRow& row : rows_of<ThreadsRow>(rows)) {
     BenchLine& line = lines.emplace_back();
     line.group = "two threads beside one: leapfrog, time on the wall";
     line.heading = "two threads";
@@ -94,7 +87,7 @@ constexpr auto naive = "naive loop";
 constexpr InstructionSet plainest = InstructionSet::sse2;
 
 void add_kernels(const Rows& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
-  const std::vector<KernelRow> rows = rows_in<KernelRow>(all_rows);
+  const std::vector<KernelRow> rows = rows_of<KernelRow>(all_rows);
   std::vector<long> sides;
   for (const KernelRow& row : rows)
     if (sides.empty() || sides.back() != row.side) sides.push_back(row.side);
@@ -128,7 +121,7 @@ void add_kernels(const Rows& all_rows, InstructionSet best, std::vector<BenchLin
 
 /// The scene where the engine's own kernel (the fused step where there is one) gains least over the naive loop.
 void add_scenes(const Rows& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
-  const std::vector<SceneKernelRow> rows = rows_in<SceneKernelRow>(all_rows);
+  const std::vector<SceneKernelRow> rows = rows_of<SceneKernelRow>(all_rows);
   std::optional<BenchLine> least;
   int slower = 0, all = 0;
   for (size_t begin = 0, end = 0; begin < rows.size(); begin = end) {  // the rows of a scene
@@ -158,7 +151,7 @@ void add_scenes(const Rows& all_rows, InstructionSet best, std::vector<BenchLine
 void add_equal_error(const Rows& rows, std::vector<BenchLine>& lines) {
   const size_t begin = lines.size();
   std::vector<std::string> subject;  // scene and peer of each line
-  for (const EqualErrorRow& row : rows_in<EqualErrorRow>(rows)) {
+  for (const EqualErrorRow& row : rows_of<EqualErrorRow>(rows)) {
     if (row.path == "best") {
       BenchLine& line = lines.emplace_back();
       line.group = fmt::format("the same error on a sheet of {}, 1 s", size_text(row.scene));
@@ -186,9 +179,9 @@ void add_equal_error(const Rows& rows, std::vector<BenchLine>& lines) {
 }  // namespace
 
 static InstructionSet best_of(const Rows& rows) {
-  for (const SameStepRow& row : rows_in<SameStepRow>(rows))
+  for (const SameStepRow& row : rows_of<SameStepRow>(rows))
     if (row.path == "best") return row.instructions;
-  for (const EqualErrorRow& row : rows_in<EqualErrorRow>(rows))
+  for (const EqualErrorRow& row : rows_of<EqualErrorRow>(rows))
     if (row.path == "best") return row.instructions;
   return plainest;
 }
