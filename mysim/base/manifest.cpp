@@ -25,7 +25,8 @@ namespace {
 constexpr int manifest_format = 1;
 constexpr auto state_finished = "finished", state_begun = "being written";
 
-/// "x.csv" of "x.csv.123.part" and of ".x.csv.123.part", how files and figures are called until they are whole.
+}  // namespace
+
 std::optional<std::string> whole_name(const std::string& path) {
   constexpr std::string_view ending = ".part";
   if (!path.ends_with(ending)) return std::nullopt;
@@ -34,8 +35,6 @@ std::optional<std::string> whole_name(const std::string& path) {
   if (dot == std::string::npos || dot + 1 == stem.size() || stem[dot] != '.') return std::nullopt;
   return stem.substr(0, dot);
 }
-
-}  // namespace
 
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);

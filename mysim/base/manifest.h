@@ -36,6 +36,10 @@ void write_manifest(const Manifest& manifest, const std::filesystem::path& folde
 /// Throws InputError that names the file where it cannot be read.
 Manifest::File file_entry(const std::filesystem::path& file);
 
+/// "x.csv" of "x.csv.123.part" and of ".x.csv.123.part", how files and figures are called until they are whole; nothing
+/// of other names.
+std::optional<std::string> whole_name(const std::string& path);
+
 /// The paths of all that is in a folder and below and is no folder itself, relative, sorted, the manifest and the
 /// working folder left out; links are not followed. Empty folders are listed too, with a slash at the end.
 std::vector<std::string> paths_in(const std::filesystem::path& folder);

@@ -356,11 +356,8 @@ OutputPlace checked(OutputPlace place, const std::string& command) {
 void remove_half_manifests(const fs::path& target) {
   std::error_code error;
   std::vector<fs::path> halves;
-  for (const auto& entry : fs::directory_iterator(target, error)) {
-    const std::string name = entry.path().filename();
-    if (name.starts_with(std::string(Manifest::file_name) + ".") && name.ends_with(".part"))
-      halves.push_back(entry.path());
-  }
+  for (const auto& entry : fs::directory_iterator(target, error))
+    if (whole_name(entry.path().filename()) == Manifest::file_name) halves.push_back(entry.path());
   for (const fs::path& half : halves) fs::remove(half, error);
 }
 

@@ -186,10 +186,12 @@ TEST_P(Output, KilledAtAnyMomentTheFirstIsWholeOrTheSecond) {
   }
   const auto with_mine = [](Files files) {
     files["data/mine.txt"] = "mine";
+    files["crosscheck.json.mine.part"] = "mine";  // called nearly as half a manifest is
     return files;
   };
   put(one);
   std::ofstream(target_ / "data/mine.txt") << "mine";
+  std::ofstream(target_ / "crosscheck.json.mine.part") << "mine";
   std::mt19937 random(22);
   int killed = 0, undisturbed = 0;
   for (int trial = 0; trial < 60; ++trial) {
