@@ -164,7 +164,7 @@ class ProgressObserver : public StatePairObserver {
     return inner_.observe(state, sample);
   }
   void contact(double lost) override { inner_.contact(lost); }
-  bool closely() const override { return pairs_ && pairs_->closely(); }
+  bool needs_every_state() const override { return pairs_ && pairs_->needs_every_state(); }
   void earlier(const State& state) override {
     if (pairs_) pairs_->earlier(state);
   }
@@ -180,8 +180,8 @@ class ProgressObserver : public StatePairObserver {
 }  // namespace
 
 Method with_progress(const Method& method, Progress& progress) {
-  Method told = method;
-  told.engine = [method, &progress](const Scene& scene, const Run& run, Observer& observer) {
+  Method reporting = method;
+  reporting.engine = [method, &progress](const Scene& scene, const Run& run, Observer& observer) {
     const double steps = run.duration / run.step;
     progress.begin(fmt::format("{} by {}{}", scene.name, method.name,
                                method.adaptive ? "" : fmt::format(", {:.0f} steps of {:.3g} s", steps, run.step)),
@@ -189,7 +189,7 @@ Method with_progress(const Method& method, Progress& progress) {
     ProgressObserver observed(observer, run.duration, progress);
     return method.engine(scene, run, observed);
   };
-  return told;
+  return reporting;
 }
 
 }  // namespace crosscheck

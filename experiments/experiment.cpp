@@ -15,13 +15,13 @@
 
 namespace crosscheck {
 
-const Table* Rows::table(const std::string& name) const {
+const Table* TableSet::table(const std::string& name) const {
   for (const Table& t : tables)
     if (t.name == name) return &t;
   return nullptr;
 }
 
-void Rows::add(const Table& table) {
+void TableSet::add(const Table& table) {
   for (Table& t : tables) {
     if (t.name != table.name) continue;
     if (t.columns != table.columns) throw std::logic_error(fmt::format("table {}: its columns differ", t.name));
@@ -31,7 +31,7 @@ void Rows::add(const Table& table) {
   tables.push_back(table);
 }
 
-void Rows::append(const Rows& other) {
+void TableSet::append(const TableSet& other) {
   for (const Table& t : other.tables) add(t);
   certificates.insert(certificates.end(), other.certificates.begin(), other.certificates.end());
   for (const std::string& note : other.notes)
@@ -81,18 +81,25 @@ std::span<const Experiment> experiments() {
   static constexpr std::string_view stability_scenes[] = {"spring", "normal-modes", "cloth-hang"};
   static constexpr Experiment table[] = {
       {"engines", "Do mysim and Bullet agree on the same scene, and at what cost?", engines_points},
-      {"speed-accuracy", "What accuracy does each method give for its cost, and where does it fail?",
+      {"speed-accuracy", "What error does each method have at which cost, and where does it fail?",
        speed_accuracy_points, timed_scenes, conclude_speed_accuracy, speed_charts},
       // its longest points are longer than those of all others, and begin early in a report
       {"adequacy", "How little model is enough for a scene?", adequacy_points, all_and_swing, conclude_adequacy,
        cloths},
       {"order", "How fast does the error fall when the step is made smaller?", order_points},
-      {"stability", "Where does each method break?", stability_points, stability_scenes},
-      {"energy", "Where does the energy go, and what does not add up?", energy_points, long_runs},
-      {"sphere", "How do they answer a ball?", sphere_points, on_balls},
-      {"cost", "What does a step cost, against size and beside what the machine can do?", cost_points},
-      {"stiffness", "How stiff is a position-based link, against the formula that hands it over?", stiffness_points},
-      {"disagreements", "Where does Bullet answer otherwise than it is asked, and by how much?", disagreements_points},
+      {"stability",
+       "What is the critical time step of each method, measured and predicted, and how do runs fail beyond it?",
+       stability_points, stability_scenes},
+      {"energy", "Where does the energy go, how large is the energy residual, and how strong is numerical damping?",
+       energy_points, long_runs},
+      {"sphere", "How do friction, rebound and penetration depth on a ball compare with theory?", sphere_points,
+       on_balls},
+      {"cost", "What does a time step cost, by size of the cloth, and how near is it to the machine's peak?",
+       cost_points},
+      {"stiffness", "How stiff is a position-based link, measured and by the formula that maps stiffness to it?",
+       stiffness_points},
+      {"disagreements", "Where does Bullet solve another problem than the scene states, and by how much?",
+       disagreements_points},
   };
   return table;
 }
@@ -141,9 +148,9 @@ Run run_of(const Request& request, const Scene& scene) {
   return run;
 }
 
-Result& result_of(const Request& request, const Scene& scene, const Method& method, Results& answers) {
-  for (Result& a : answers)
-    if (a.scene == scene.name && a.method == method.name) return a;
+MethodResult& result_of(const Request& request, const Scene& scene, const Method& method, MethodResults& results) {
+  for (MethodResult& result : results)
+    if (result.scene == scene.name && result.method == method.name) return result;
   Recorder recorder;
   std::vector<Observer*> observers{&recorder};
   Ledger ledger(scene.model, method.contact);
@@ -151,9 +158,9 @@ Result& result_of(const Request& request, const Scene& scene, const Method& meth
   Outcome out = run_method(method, scene, run_of(request, scene), observers);
   const bool unsupported = out.verdict == Verdict::unsupported;  // found out during the run, perhaps
   if (unsupported) recorder.trajectory = {};
-  return answers.emplace_back(Result{scene.name, method.name, std::move(out), std::move(recorder.trajectory),
-                                     unsupported ? std::vector<LedgerRow>() : ledger.rows(),
-                                     ledger.contact_inferred()});
+  return results.emplace_back(MethodResult{scene.name, method.name, std::move(out), std::move(recorder.trajectory),
+                                           unsupported ? std::vector<LedgerRow>() : ledger.rows(),
+                                           ledger.contact_inferred()});
 }
 
 std::string content_of(const Request& request, const Scene& scene) {
@@ -164,13 +171,14 @@ std::string content_of(const Request& request, const Scene& scene) {
 }
 
 std::vector<Point> one_point_per_scene(const Request& request, const std::string& experiment,
-                                       void (*compute)(const Request&, const Scene&, Rows&)) {
+                                       void (*compute)(const Request&, const Scene&, TableSet&)) {
   std::vector<Point> points;
   for (const Scene& scene : request.scenes) {
     Request alone = request;
     alone.scenes = {scene};
-    points.push_back({fmt::format("{}: {}", experiment, scene.name), content_of(request, scene),
-                      [alone = std::move(alone), compute](Rows& rows) { compute(alone, alone.scenes[0], rows); }});
+    points.push_back(
+        {fmt::format("{}: {}", experiment, scene.name), content_of(request, scene),
+         [alone = std::move(alone), compute](TableSet& tables) { compute(alone, alone.scenes[0], tables); }});
   }
   return points;
 }

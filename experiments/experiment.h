@@ -1,4 +1,4 @@
-// Experiments: the points of their work, the rows these give, what is requested of them, and the table of them.
+// Experiments: their points and what a point computes, requests, and the table of experiments.
 #pragma once
 
 #include <deque>
@@ -17,11 +17,11 @@
 
 namespace crosscheck {
 
-// A point: one piece of an experiment's work, independent of all others. Sweeps compute points in any order, on any
-// machine, and keep what they gave.
+// A point: one piece of an experiment's work, independent of all others. A sweep computes points in any order, on any
+// machine, and keeps their tables.
 
-/// Results of points. They are joined by appending the rows of tables of the same name.
-struct Rows {
+/// The tables of a point, or of all points: these are joined by appending the rows of tables of the same name.
+struct TableSet {
   std::vector<Table> tables;
   std::vector<Certificate> certificates;
   std::vector<std::string> notes;  // what was left out and why, for people
@@ -30,13 +30,13 @@ struct Rows {
   /// Appends the rows of a table to the one of that name, or begins it. Throws std::logic_error when columns differ.
   void add(const Table& table);
   /// Appends all of another's; a note that is there already is not said twice.
-  void append(const Rows& other);
+  void append(const TableSet& other);
 };
 
 struct Point {
   std::string name;     // for people: "engines: cloth-hang"; no two of a sweep share it
   std::string content;  // everything, beside the program, that its rows depend on
-  std::function<void(Rows&)> compute;
+  std::function<void(TableSet&)> compute;
   bool timed = false;  // measures time: is run alone, pinned to one core, after all others
 
   /// Fingerprint of name, content and program: 16 hexadecimal digits. The same point of another build is another point.
@@ -48,20 +48,20 @@ std::string content_of(const Scene& scene);
 
 // Experiments: drivers that run methods over scenes and write tables. The table of them is in experiment.cpp.
 
-/// A run as it went, for playback.
-struct WatchedRun {
+/// A run, recorded for playback.
+struct RecordedRun {
   Outcome outcome;
   Trajectory path;   // its samples; of one that failed, and of a map's cell, its last pictures; no frames: refused
   Points rest = {};  // of a cell of a map: N (3 x n), m, of the base state
 };
 /// Runs of one method, in the order of the rows that the driver writes of them.
-struct WatchedRuns {
-  std::string of;  // "speed-accuracy", or the map: "stiffness-map", "drag-map"
+struct RecordedRuns {
+  std::string of;  // "engines": one run, at the scene's own step; "speed-accuracy"; a map: "stiffness-map", "drag-map"
   const Scene& scene;
   std::string method;
-  std::vector<WatchedRun> runs;
+  std::vector<RecordedRun> runs;
 };
-using RunCallback = std::function<void(const WatchedRuns&)>;
+using RunCallback = std::function<void(const RecordedRuns&)>;
 
 struct Request {
   std::vector<Scene> scenes;
@@ -69,11 +69,11 @@ struct Request {
   bool full = false;            // more points of the same experiments
   double step = 0;              // s, of all fixed-step methods; 0: each scene's own
   bool scenes_only = false;     // only these scenes, not the experiments' own ones
-  RunCallback watch = {};       // is shown the runs of speed-accuracy and of the maps; rows do not depend on it
+  RunCallback on_runs = {};     // is given the runs of engines, speed-accuracy and the maps; rows do not depend on it
 };
 
-/// One method's run of one scene at the request's step, kept: experiments and pictures use the same run.
-struct Result {
+/// A method's run of a scene at the request's step, kept, so that experiments and pictures use the same run.
+struct MethodResult {
   std::string scene, method;
   Outcome outcome;
   Trajectory trajectory;
@@ -88,7 +88,7 @@ struct Experiment {
   /// The scenes that stand for all in a quick run where none is named; empty: quick_scenes().
   std::span<const std::string_view> quick_scenes = {};
   /// Adds the tables that are made of the rows of all points.
-  void (*conclude)(Rows&) = nullptr;
+  void (*conclude)(TableSet&) = nullptr;
   /// Those of its scenes that have charts and played runs of their own in a quick run where none is named; the
   /// others are in its tables and in the charts of all scenes. Empty: all have.
   std::span<const std::string_view> quick_charts = {};
@@ -104,9 +104,9 @@ std::vector<Point> sphere_points(const Request& request);
 std::vector<Point> speed_accuracy_points(const Request& request);
 std::vector<Point> cost_points(const Request& request);
 std::vector<Point> adequacy_points(const Request& request);
-void conclude_adequacy(Rows& rows);
+void conclude_adequacy(TableSet& tables);
 /// Adds what follows from the errors and the costs of all scenes (speed_accuracy/work_precision.cpp).
-void conclude_speed_accuracy(Rows& rows);
+void conclude_speed_accuracy(TableSet& tables);
 
 std::span<const Experiment> experiments();
 /// Throws InputError that lists what there is.
@@ -127,21 +127,21 @@ void add_missing(std::vector<Scene>& all, const std::vector<Scene>& more);
 /// also the assignment's sticky sphere, to be seen failing.
 std::vector<Method> methods_of(const Request& request, const Scene& scene);
 
-/// Results that are at hand: a deque, so that references stay valid.
-using Results = std::deque<Result>;
+/// The results so far: a deque, so that references stay valid.
+using MethodResults = std::deque<MethodResult>;
 
-/// The method's result on the scene at the request's step, from those at hand or by running it now.
-Result& result_of(const Request& request, const Scene& scene, const Method& method, Results& answers);
+/// The method's result on the scene at the request's step, from those so far or by running it now.
+MethodResult& result_of(const Request& request, const Scene& scene, const Method& method, MethodResults& results);
 
 /// Tables SCENE-energy and engines-energy: the ledgers of the results at the request's step.
-void add_energies(const Request& request, const Scene& scene, Results& answers, Rows& rows);
+void add_energies(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables);
 
 /// Experiment `engines` on one scene, with the results that it used.
-void engines_on(const Request& request, const Scene& scene, Results& answers, Rows& rows);
+void engines_on(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables);
 
 /// One point per scene: `compute` is given a request of that scene alone. Its content is the scene's and the request's.
 std::vector<Point> one_point_per_scene(const Request& request, const std::string& experiment,
-                                       void (*compute)(const Request&, const Scene&, Rows&));
+                                       void (*compute)(const Request&, const Scene&, TableSet&));
 
 /// The parts of a request that a scene's rows depend on: the methods, outside programs with the fingerprint of their
 /// file, the step and the number of points.

@@ -8,8 +8,6 @@
 
 namespace crosscheck {
 
-// The rest state of a scene.
-
 /// The state of rest under gravity, springs and steady winds, pins where they stand at the start: found by dynamic
 /// relaxation with kinetic damping (all velocities are set to zero at each peak of the kinetic energy; drag is left
 /// out, as it does not move the rest), until the RMS acceleration of the free particles is 1e-5 of what moves them.

@@ -10,8 +10,6 @@
 
 namespace crosscheck {
 
-// Numbers taken from trajectories.
-
 /// Mass-weighted mean of the positions of the free particles, m (mean of all where there is no mass).
 Vec3 centre_of_mass(const Scene& scene, const Points& x);
 

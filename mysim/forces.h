@@ -7,8 +7,6 @@
 
 namespace crosscheck {
 
-// Sums of the terms' forces.
-
 struct Forces {
   Points f;                     // N (3 x n)
   long degenerate_springs = 0;  // springs met at zero length: their direction is undefined, they get zero force

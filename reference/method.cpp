@@ -34,27 +34,33 @@ std::span<const MethodFamily> method_families() {
        .build_text = "this build",
        .call = 100e-9,
        .element = 5e-9,
+       .grid_kernel = true,
        .methods = mysim_methods},
       {.name = "bullet",
        .title = "Bullet",
        .role = Role::peer,
        .representative = "bullet/deformable-explicit",
+       .representative_title = "Bullet's explicit deformable world",
+       .noun = "world",
        .build = Build::debian,
        .build_text = "Debian's library (generic x86-64, -O2), called from this build",
        .call = 2e-6,
        .element = 40e-9,
+       .highest_order = 1,
        .departure = clamped,
        .methods = bullet_methods},
       {.name = "bullet32",
        .title = "Bullet in single precision",
        .role = Role::peer,
        .representative = "bullet32/deformable-explicit",
+       .noun = "world",
        .variant_of = "bullet",
        .build = Build::own_program,
        .call = 2e-6,
        .element = 40e-9,
        .start = 0.2,
        .single_precision = true,
+       .highest_order = 1,
        .departure = clamped,
        .methods = bullet32_methods},
       {.name = "odeint",
@@ -79,6 +85,15 @@ std::span<const MethodFamily> method_families() {
 
 const MethodFamily& subject() { return *std::ranges::find_if(method_families(), &MethodFamily::is_subject); }
 
+std::vector<const MethodFamily*> default_peers() {
+  std::vector<const MethodFamily*> peers;
+  for (const MethodFamily& family : method_families())
+    if (family.is_default_peer()) peers.push_back(&family);
+  return peers;
+}
+
+bool is_first_peer(const MethodFamily& family) { return &family == default_peers().front(); }
+
 const MethodFamily& family_of(std::string_view name) {
   const std::string_view prefix = name.substr(0, name.find_first_of("/:"));
   const auto families = method_families();
@@ -92,10 +107,26 @@ std::string short_name(const std::string& method) {
 
 std::string sticky_method() { return std::string(subject().representative) + "+sticky"; }
 
-const Method* builtin_method(std::string_view name) {
+std::span<const Method> builtin_methods() {
   static const std::vector<Method> all = all_methods();
+  return all;
+}
+
+const Method* builtin_method(std::string_view name) {
+  const auto all = builtin_methods();
   const auto found = std::ranges::find(all, name, &Method::name);
   return found == all.end() ? nullptr : &*found;
+}
+
+const Method* builtin_without_options(std::string_view name) {
+  const Method* with_its_choice = builtin_method(name);
+  return with_its_choice ? with_its_choice : builtin_method(name.substr(0, name.find('+')));
+}
+
+std::string subject_method(const std::function<bool(const Stepper&)>& asked) {
+  for (const Method& method : builtin_methods())
+    if (method.family().is_subject() && method.stepper && asked(*method.stepper)) return method.name;
+  return "";
 }
 
 std::vector<Method> all_methods() {

@@ -30,13 +30,17 @@ struct MethodFamily {
   std::string_view name;   // what stands before '/' or ':' in the names of its methods
   std::string_view title;  // for people
   Role role;
-  std::string_view representative = {};  // the method that stands for it where one must
-  std::string_view variant_of = {};      // the same engine built otherwise: run by `regress`, else only by name
+  std::string_view representative = {};        // the method that stands for it where one must
+  std::string_view representative_title = {};  // for people; empty: its name
+  std::string_view noun = "method";            // for one of its methods: Bullet calls them worlds
+  std::string_view variant_of = {};            // the same engine built otherwise: run by `regress`, else only by name
   Build build = Build::unknown;
   std::string_view build_text = "a program of its own";
   double call = 200e-9, element = 12e-9;  // s, an evaluation, and what it takes for each particle and spring
   double start = 0;                       // s, of its program
   bool single_precision = false;
+  int highest_order = 0;                          // of its rules; 0: not known
+  bool grid_kernel = false;                       // it has a kernel for regular cloths
   std::string_view departure = {};                // why it may leave linear theory
   std::vector<MethodRow> (*methods)() = nullptr;  // null: the reader names them
 
@@ -51,10 +55,16 @@ struct MethodFamily {
 std::span<const MethodFamily> method_families();
 const MethodFamily& subject();
 
+/// The peers that run without being named, in the table's order.
+std::vector<const MethodFamily*> default_peers();
+/// Whether it is the first of them, whom columns of some tables are about.
+bool is_first_peer(const MethodFamily& family);
+
+/// Which families are asked for; empty: all.
+using FamilyFilter = std::function<bool(const MethodFamily&)>;
+
 /// The family of a method's name, or of a family's; what has no other is a program's, of `exec:`.
 const MethodFamily& family_of(std::string_view name);
-
-// Methods: everything that runs a scene, by name.
 
 struct Method {
   std::string name;     // full, e.g. "mysim/leapfrog+sticky"
@@ -67,9 +77,14 @@ struct Method {
   bool implicit = false;             // solves an equation in each step
   bool position_based = false;
   bool multistep = false;
-  bool splits_dashpots = false;    // solves them after an explicit step
-  std::string on_one_spring = {};  // the rule that it is on one linear spring; empty: `rule`
-  std::string fingerprint = {};    // of an outside program's or trajectory's file; empty for what is built in
+  bool splits_dashpots = false;             // solves them after an explicit step
+  std::string on_one_spring = {};           // the rule that it is on one linear spring; empty: `rule`
+  std::string fingerprint = {};             // of an outside program's or trajectory's file; empty for what is built in
+  bool counts_evaluations = true;           // false: its steps alone are known, and not what its solver takes for each
+  bool sticky_contact = false;              // a touching particle is put back to where it came from
+  SpringLaw spring_law = SpringLaw::hooke;  // of its springs, whatever the scene asks for, where it is position-based
+  bool own_friction = false;                // follows another law than Coulomb's
+  CurveStyle style = {};
 
   const MethodFamily& family() const { return family_of(name); }
 };
@@ -77,8 +92,17 @@ struct Method {
 /// Every method there is, without options.
 std::vector<Method> all_methods();
 
+/// The same, made once.
+std::span<const Method> builtin_methods();
+
 /// The one of them with this name, or null: for readers of tables.
 const Method* builtin_method(std::string_view name);
+
+/// The one of them that a name with options is made from, or null.
+const Method* builtin_without_options(std::string_view name);
+
+/// The first of the subject's methods with such a stepper, or an empty name.
+std::string subject_method(const std::function<bool(const Stepper&)>& asked);
 
 /// "leapfrog" of mysim's; of others the whole name.
 std::string short_name(const std::string& method);

@@ -10,9 +10,9 @@ namespace {
 
 // in the order of --help
 constexpr AddCommand commands[] = {
-    add_doctor,      // what is installed
-    add_list,        // what there is
-    add_validate,    // is a scene's file good?
+    add_doctor,      // programs and libraries
+    add_list,        // scenes, methods, experiments
+    add_validate,    // checks scene files
     add_run,         // one method on one scene
     add_compare,     // methods side by side on one scene
     add_experiment,  // tables of measurements
@@ -21,9 +21,9 @@ constexpr AddCommand commands[] = {
     add_figures,     // charts and pictures for print
     add_render,      // a picture or a clip
     add_advise,      // the cheapest method for a tolerance
-    add_regress,     // what moved since the baselines
+    add_regress,     // results beside baselines
     add_bench,       // speed against the peers
-    add_engine,      // another Bullet
+    add_engine,      // another version of Bullet
     add_grader,      // grade and assignment
 };
 

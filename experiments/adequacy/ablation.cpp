@@ -78,36 +78,37 @@ ReferenceSolution reference_solution_of(const Scene& scene, double tolerance) {
 }
 
 std::vector<AblatedModel> ablations_of(const Scene& scene, const ReferenceSolution& y, double most) {
-  std::vector<AblatedModel> rungs;
-  const auto rung = [&](const Scene& model, std::vector<std::string> out, bool single) {
-    AblatedModel r{name_without(out), std::move(out), single, model, {}, {}};
-    r.error = model_error(model, y, y.truth.trajectory, r.outcome);
-    return r;
+  std::vector<AblatedModel> models;
+  const auto ablated = [&](const Scene& scene_of_model, std::vector<std::string> out, bool single) {
+    AblatedModel model{name_without(out), std::move(out), single, scene_of_model, {}, {}};
+    model.error = model_error(scene_of_model, y, y.truth.trajectory, model.outcome);
+    return model;
   };
-  rungs.push_back(rung(scene, {}, false));
-  AblatedModel now = rungs.front();
+  models.push_back(ablated(scene, {}, false));
+  AblatedModel now = models.front();
   for (bool first = true;; first = false) {
     std::optional<AblatedModel> best;
     for (const Ingredient& ingredient : ingredients_of(now.scene)) {
       std::vector<std::string> out = now.out;
       out.push_back(ingredient.name);
-      AblatedModel next = rung(without(now.scene, ingredient), std::move(out), first);
-      if (first) rungs.push_back(next);
+      AblatedModel next = ablated(without(now.scene, ingredient), std::move(out), first);
+      if (first) models.push_back(next);
       if (next.error && (!best || *next.error < *best->error)) best = std::move(next);
     }
     if (!best) break;
-    if (!first) rungs.push_back(*best);
+    if (!first) models.push_back(*best);
     if (*best->error > most) break;
     now = std::move(*best);
   }
-  return rungs;
+  return models;
 }
 
-const AblatedModel& least_model(const std::vector<AblatedModel>& ladder, double tolerance) {
-  const AblatedModel* least = &ladder.front();
-  for (const AblatedModel& r : ladder) {
-    if (!r.error || *r.error > tolerance) continue;
-    if (r.out.size() > least->out.size() || (r.out.size() == least->out.size() && *r.error < *least->error)) least = &r;
+const AblatedModel& least_model(const std::vector<AblatedModel>& models, double tolerance) {
+  const AblatedModel* least = &models.front();
+  for (const AblatedModel& model : models) {
+    if (!model.error || *model.error > tolerance) continue;
+    const size_t left_out = model.out.size(), most = least->out.size();
+    if (left_out > most || (left_out == most && *model.error < *least->error)) least = &model;
   }
   return *least;
 }

@@ -40,7 +40,7 @@ struct AblatedModel {
 std::vector<AblatedModel> ablations_of(const Scene& scene, const ReferenceSolution& reference, double most);
 
 /// The ablated model that leaves out the most within the tolerance (m); the full model where nothing can be left out.
-const AblatedModel& least_model(const std::vector<AblatedModel>& ladder, double tolerance);
+const AblatedModel& least_model(const std::vector<AblatedModel>& models, double tolerance);
 
 /// The error of a model of the scene, m: its distance from `truth` over time by the reference solution's rule; empty
 /// where the run failed.

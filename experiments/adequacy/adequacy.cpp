@@ -58,7 +58,7 @@ std::string truth_text(const Truth& truth) {
                                   : std::string(name_of(truth.tier));
 }
 
-void ladder_on(const Request&, const Scene& scene, Rows& rows) {
+void ablations_on(const Request&, const Scene& scene, TableSet& tables) {
   Table table = table_of<AdequacyRow>(), least = table_of<LeastModelRow>();
   try {
     const ReferenceSolution y = reference_solution_of(scene, scene.tolerance);
@@ -66,11 +66,11 @@ void ladder_on(const Request&, const Scene& scene, Rows& rows) {
     const size_t frames = static_cast<size_t>(y.run.samples) + 1;
     seen.t.resize(frames), seen.x.resize(frames);
     const double motion = motion_of(seen);
-    const std::vector<AblatedModel> ladder = ablations_of(scene, y, 0.3 * motion);
-    const double full_cost = ladder.front().cost();
-    for (const AblatedModel& r : ladder)
+    const std::vector<AblatedModel> models = ablations_of(scene, y, 0.3 * motion);
+    const double full_cost = models.front().cost();
+    for (const AblatedModel& r : models)
       add(table, AdequacyRow{.scene = scene.name,
-                             .rung = r.name,
+                             .model = r.name,
                              .left_out = fmt::format("{}", fmt::join(r.out, ", ")),
                              .kind = r.out.empty() ? ModelKind::full
                                      : r.single    ? ModelKind::single
@@ -91,7 +91,7 @@ void ladder_on(const Request&, const Scene& scene, Rows& rows) {
                                                            {0.1 * motion, ToleranceKind::tenth_of_motion}};
     std::map<std::vector<std::string>, std::vector<std::optional<double>>> unseen;  // by what is left out
     for (const auto& [tolerance, what] : tolerances) {
-      const AblatedModel& l = least_model(ladder, tolerance);
+      const AblatedModel& l = least_model(models, tolerance);
       LeastModelRow row{.scene = scene.name,
                         .tolerance = tolerance,
                         .tolerance_is = what,
@@ -113,13 +113,13 @@ void ladder_on(const Request&, const Scene& scene, Rows& rows) {
       add(least, row);
     }
   } catch (const Unsupported& why) {
-    rows.notes.push_back(fmt::format("adequacy leaves out {}: {}", scene.name, why.what()));
+    tables.notes.push_back(fmt::format("adequacy leaves out {}: {}", scene.name, why.what()));
   }
-  rows.add(table);
-  rows.add(least);
+  tables.add(table);
+  tables.add(least);
 }
 
-void resolution_on(const Request& request, const Scene& scene, Rows& rows) {
+void resolution_on(const Request& request, const Scene& scene, TableSet& tables) {
   Table table = table_of<GridRow>();
   std::vector<int> sizes{8, 12, 16, 24};
   if (request.full) sizes.insert(sizes.end(), {32, 48, 64, 96, 128});
@@ -134,15 +134,15 @@ void resolution_on(const Request& request, const Scene& scene, Rows& rows) {
                        .evaluations = r.evaluations,
                        .springs = r.springs,
                        .cost = static_cast<double>(r.evaluations) * static_cast<double>(r.springs)});
-  rows.add(table);
+  tables.add(table);
 }
 
-void bending_on(const Request& request, Rows& rows) {
+void bending_on(const Request& request, TableSet& tables) {
   Table table = table_of<BendingRow>();
   std::vector<int> sizes{8, 10, 12, 16};
   if (request.full) sizes.insert(sizes.end(), {20, 24});
   for (const Bending& b : bending_stiffness(sizes)) add(table, BendingRow{b.n, b.cells, b.stiffness, b.droop});
-  rows.add(table);
+  tables.add(table);
 }
 
 }  // namespace
@@ -154,23 +154,23 @@ std::vector<Point> adequacy_points(const Request& request) {
     Request alone = request;
     alone.scenes = {scene};
     points.push_back({fmt::format("adequacy: grids of {}", scene.name), content_of(request, scene) + scene.source,
-                      [alone = std::move(alone)](Rows& rows) { resolution_on(alone, alone.scenes[0], rows); }});
+                      [alone = std::move(alone)](TableSet& tables) { resolution_on(alone, alone.scenes[0], tables); }});
   }
   if (!points.empty() && !request.scenes_only)
     points.push_back({"adequacy: bend springs", fmt::format("full={}", request.full),
-                      [request](Rows& rows) { bending_on(request, rows); }});
-  for (Point& ladder : one_point_per_scene(request, "adequacy", ladder_on)) points.push_back(std::move(ladder));
+                      [request](TableSet& tables) { bending_on(request, tables); }});
+  for (Point& point : one_point_per_scene(request, "adequacy", ablations_on)) points.push_back(std::move(point));
   return points;
 }
 
-void conclude_adequacy(Rows& rows) {
+void conclude_adequacy(TableSet& tables) {
   Table table = table_of<ScalingRow>();
   using Curve = std::vector<std::pair<double, double>>;
   const auto fit = [&](const std::string& scene, ScalingQuantity what, const Curve& points,
                        std::optional<double> derived = {}) {
     if (const auto law = power_law(points)) add(table, ScalingRow{scene, what, law->exponent, law->deviation, derived});
   };
-  if (const Table* grids = rows.table("adequacy-resolution")) {
+  if (const Table* grids = tables.table("adequacy-resolution")) {
     const auto all = rows_of<GridRow>(*grids);
     for (size_t i = 0; i < all.size();) {
       const std::string& scene = all[i].scene;
@@ -184,12 +184,12 @@ void conclude_adequacy(Rows& rows) {
       fit(scene, ScalingQuantity::stiffness_for_sag, stiffnesses);
     }
   }
-  if (const Table* bending = rows.table("adequacy-bending")) {
+  if (const Table* bending = tables.table("adequacy-bending")) {
     Curve stiffnesses;
     for (const BendingRow& row : rows_of<BendingRow>(*bending)) stiffnesses.emplace_back(row.cells, row.stiffness);
     fit("", ScalingQuantity::bend_stiffness_for_droop, stiffnesses, 4.);
   }
-  if (!table.rows.empty()) rows.add(table);
+  if (!table.rows.empty()) tables.add(table);
 }
 
 }  // namespace crosscheck

@@ -15,7 +15,7 @@
 
 namespace crosscheck {
 
-void Search::over(const Candidate& model, const Method& method) {
+void Search::try_all(const Candidate& model, const Method& method) {
   model_ = &model;
   method_ = &method;
   limit_.reset();
@@ -24,7 +24,7 @@ void Search::over(const Candidate& model, const Method& method) {
     const double gamma = uniform_drag_rate(model.scene.model).value_or(0);
     if (const double limit = rule->limit(omega, gamma); std::isfinite(limit)) limit_ = limit;
   }
-  method.adaptive ? over_tolerances() : over_steps();
+  method.adaptive ? search_tolerances() : search_steps();
 }
 
 const Trial& Search::run(const Run& run) {
@@ -44,29 +44,29 @@ const Trial& Search::run(const Run& run) {
   advice_.trials.push_back(std::move(t));
   return advice_.trials.back();
 }
-const Trial& Search::at(long steps) {
+const Trial& Search::trial_at(long steps) {
   Run r = default_run(model_->scene);
   r.step = r.duration / r.samples / static_cast<double>(steps);
   return run(r);
 }
-const Trial& Search::at_tolerance(double relative) {
+const Trial& Search::trial_at_tolerance(double relative) {
   Run r = observed_run(*method_, model_->scene, path_);
   r.tolerance = relative;
   return run(r);
 }
 /// 1e9 spring evaluations take some seconds; a run that doubles them again and again would never end.
 bool Search::hopeless(const Trial& t) const {
-  return t.outcome.verdict == Verdict::unsupported || t.cost() > dearest();
+  return t.outcome.verdict == Verdict::unsupported || t.cost() > cost_limit();
 }
 /// The least cost of so many steps between two samples, without a run.
-bool Search::too_dear(long steps) const {
+bool Search::too_costly(long steps) const {
   const int evaluations = method_->stepper ? std::max(1, method_->stepper->evaluations) : 1;
   return static_cast<double>(steps) * advice_.scene.samples * evaluations *
              static_cast<double>(springs_of(model_->scene.model)) >
-         dearest();
+         cost_limit();
 }
 
-void Search::over_steps() {
+void Search::search_steps() {
   const double interval = advice_.scene.duration / advice_.scene.samples;
   // from twice the stable step on
   long meets = 1, fails = 0;
@@ -74,45 +74,45 @@ void Search::over_steps() {
   constexpr long most = 1l << 22;  // where a run fails at once, however short its steps
   double cost = 0;
   for (bool confirmed = false; !confirmed;) {
-    if (too_dear(meets)) return;
-    const Trial& t = at(meets);
+    if (too_costly(meets)) return;
+    const Trial& t = trial_at(meets);
     if (t.meets) {
       cost = t.cost();
       // a smaller step must do as well: an accidental success is none
-      const bool luck = !at(2 * meets).meets;
-      if (!luck) confirmed = true;
-      if (luck) fails = meets, meets *= 4;
+      const bool accidental = !trial_at(2 * meets).meets;
+      if (!accidental) confirmed = true;
+      if (accidental) fails = meets, meets *= 4;
     } else {
       if (hopeless(t) || meets >= most) return;
       fails = meets, meets *= 2;
     }
   }
   while (fails == 0 && meets > 1) {
-    const Trial& t = at(meets / 2);
+    const Trial& t = trial_at(meets / 2);
     if (t.meets)
       meets /= 2, cost = t.cost();
     else
       fails = meets / 2;
   }
   while (meets > fails + 1 && static_cast<double>(meets) > 1.05 * static_cast<double>(fails) &&
-         worth(cost, static_cast<double>(fails) / static_cast<double>(meets))) {
+         may_improve(cost, static_cast<double>(fails) / static_cast<double>(meets))) {
     const long middle = std::clamp(std::lround(std::sqrt(static_cast<double>(meets) * static_cast<double>(fails))),
                                    fails + 1, meets - 1);
-    const Trial& t = at(middle);
+    const Trial& t = trial_at(middle);
     (t.meets ? meets : fails) = middle;
     if (t.meets) cost = t.cost();
   }
-  keep(cost);
+  record_cost(cost);
 }
 
-void Search::over_tolerances() {
+void Search::search_tolerances() {
   constexpr double loosest = 1e-1, tightest = 1e-13;
   double meets = loosest, fails = 0, cost = 0;
   for (bool confirmed = false; !confirmed;) {
-    const Trial& t = at_tolerance(meets);
+    const Trial& t = trial_at_tolerance(meets);
     if (t.meets) {
       cost = t.cost();
-      confirmed = at_tolerance(meets / 4).meets;
+      confirmed = trial_at_tolerance(meets / 4).meets;
       if (!confirmed) fails = meets, meets /= 16;
     } else {
       if (hopeless(t)) return;
@@ -121,21 +121,20 @@ void Search::over_tolerances() {
     if (meets < tightest) return;
   }
   // the cost of a fifth-order rule goes as the fifth root of its tolerance
-  while (fails > 0 && fails / meets > 1.28 && worth(cost, std::pow(meets / fails, 0.2))) {
+  while (fails > 0 && fails / meets > 1.28 && may_improve(cost, std::pow(meets / fails, 0.2))) {
     const double middle = std::sqrt(meets * fails);
-    const Trial& t = at_tolerance(middle);
+    const Trial& t = trial_at_tolerance(middle);
     (t.meets ? meets : fails) = middle;
     if (t.meets) cost = t.cost();
   }
-  keep(cost);
+  record_cost(cost);
 }
 
-// Advice: models and methods one after another through the search, the cheapest that is met soundly, its file, its
-// check.
+// Advice: the search over all models and methods, the cheapest confirmed trial, its scene file, and the check of that.
 
 namespace {
 
-/// Rules of high order first: they set the price that the others are left at.
+/// Rules of high order first: they set the cost at which the others are given up.
 int search_order(const Method& m) {
   if (!m.stepper) return 20;
   return (m.stepper->evaluations == 0 ? 10 : 0) - m.stepper->order;
@@ -233,8 +232,8 @@ void mark_accidental(std::vector<Trial>& trials) {
   for (Trial& t : trials) t.meets &= !t.accidental;
 }
 
-/// Met by it and by all finer trials, of which there is one at least.
-bool sound(const std::vector<Trial>& trials, const Trial& t) {
+/// Whether the tolerance is met by the trial and by all finer ones, of which there is one at least.
+bool is_confirmed(const std::vector<Trial>& trials, const Trial& t) {
   bool confirmed = false;
   for (const Trial& o : trials)
     if (finer(o, t)) {
@@ -244,11 +243,12 @@ bool sound(const std::vector<Trial>& trials, const Trial& t) {
   return t.meets && confirmed;
 }
 
-/// The cheapest sound trial, of another method than that where one is given.
+/// The cheapest confirmed trial, of another method than that where one is given.
 std::optional<size_t> cheapest(const std::vector<Trial>& trials, const std::string& but = "") {
   std::optional<size_t> best;
   for (size_t i = 0; i < trials.size(); ++i)
-    if (trials[i].method != but && sound(trials, trials[i]) && (!best || trials[i].cost() < trials[*best].cost()))
+    if (trials[i].method != but && is_confirmed(trials, trials[i]) &&
+        (!best || trials[i].cost() < trials[*best].cost()))
       best = i;
   return best;
 }
@@ -268,7 +268,7 @@ Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods)
                    [](const Method& x, const Method& y) { return search_order(x) < search_order(y); });
   Search search(a, path);
   for (const Candidate& model : models)
-    for (const Method& method : methods) search.over(model, method);
+    for (const Method& method : methods) search.try_all(model, method);
 
   mark_accidental(a.trials);
   const auto best = cheapest(a.trials);

@@ -14,8 +14,6 @@
 
 namespace crosscheck {
 
-// Advice: the cheapest model, method and step that meet a tolerance on a scene, found by measured search.
-
 /// No trial meets the tolerance, or no reference can show that one does. what() is the reason, one line.
 struct CannotGuarantee : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -38,7 +36,7 @@ struct Trial {
 };
 
 struct Advice {
-  Scene scene;       // as asked
+  Scene scene;       // as given
   double tolerance;  // m
   Tier tier;
   std::string truth;             // how it was found
@@ -57,8 +55,8 @@ struct Advice {
 /// Tries each method on the scene, and on the least model whose own error is half the tolerance at most. A step is
 /// taken when it meets the tolerance, every smaller one that was tried does so too, and among them one of half its
 /// length; steps are refined to 5 %. Errors are looked for after every step, not at the samples alone (dense_truth.h).
-/// Methods that already cost four times the best are left. Throws CannotGuarantee where no truth is known, its bar is
-/// above a third of the tolerance, the tolerance is above the scene's motion, or no method meets it.
+/// Methods that already cost four times the best are given up. Throws CannotGuarantee where no truth is known, its bar
+/// is above a third of the tolerance, the tolerance is above the scene's motion, or no method meets it.
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods);
 
 // The search for the cheapest run of a model by a method that meets a tolerance.
@@ -70,25 +68,25 @@ struct Candidate {
 };
 
 /// Longest steps first, halved until they meet the tolerance, then refined. What is tried goes to the advice's trials;
-/// a method that already costs four times the best of those before it is left.
+/// a method that already costs four times the best of those before it is given up.
 class Search {
  public:
   Search(Advice& advice, const DenseTruth& path) : advice_(advice), path_(path) {}
 
-  void over(const Candidate& model, const Method& method);
+  void try_all(const Candidate& model, const Method& method);
 
  private:
   /// The run with that step, or with that relative tolerance; one that was done before is not done again.
   const Trial& run(const Run& run);
-  const Trial& at(long steps);  // between two samples
-  const Trial& at_tolerance(double relative);
+  const Trial& trial_at(long steps);  // so many between two samples
+  const Trial& trial_at_tolerance(double relative);
   bool hopeless(const Trial& t) const;
-  bool too_dear(long steps) const;
-  bool worth(double cost, double ratio) const { return cost * ratio < best_; }
-  double dearest() const { return std::min(4 * best_, 1e9); }
-  void over_steps();
-  void over_tolerances();
-  void keep(double cost) { best_ = std::min(best_, cost); }
+  bool too_costly(long steps) const;
+  bool may_improve(double cost, double ratio) const { return cost * ratio < best_; }
+  double cost_limit() const { return std::min(4 * best_, 1e9); }
+  void search_steps();
+  void search_tolerances();
+  void record_cost(double cost) { best_ = std::min(best_, cost); }
 
   Advice& advice_;
   const DenseTruth& path_;

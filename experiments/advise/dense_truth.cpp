@@ -14,8 +14,8 @@ namespace crosscheck {
 namespace {
 
 constexpr double turn = 2 * std::numbers::pi;
-constexpr double places_in_a_period = 8;
-constexpr double most_numbers = 6e7;  // places times coordinates: both routes of a converged truth then take 2 GB
+constexpr double samples_per_period = 8;
+constexpr double most_numbers = 6e7;  // samples times coordinates: both routes of a converged truth then take 2 GB
 
 double fastest_gust(const WindSignal& wind_signal) {
   double omega = 0;
@@ -25,27 +25,28 @@ double fastest_gust(const WindSignal& wind_signal) {
   return omega;
 }
 
-/// s, from one place to the next: what a scene without vibrations does is resolved by its own step.
+/// s, from one sample to the next: the motion of a scene without vibrations is resolved by its own step.
 double first_spacing(const Scene& scene) {
   const double interval = scene.duration / scene.samples, omega = fastest_motion(scene);
-  const bool led = scene.model.first_order() || scene.model.find<Constraints>();
-  const double own = led ? std::min(interval, scene.step) : interval;
-  return omega > 0 ? std::min(own, turn / omega / places_in_a_period) : own;
+  const bool resolved_by_step = scene.model.first_order() || scene.model.find<Constraints>();
+  const double own = resolved_by_step ? std::min(interval, scene.step) : interval;
+  return omega > 0 ? std::min(own, turn / omega / samples_per_period) : own;
 }
 
-/// Places between two samples at that spacing; throws CannotGuarantee where memory would not hold them.
-int places_at(const Scene& scene, double spacing) {
-  const double places = std::ceil(scene.duration / scene.samples / spacing * (1 - 1e-9));
-  const double all = places * scene.samples * static_cast<double>(scene.start.x.size());
+/// Samples of the dense scene for each of the scene, at that spacing; throws CannotGuarantee where memory would not
+/// hold them.
+int samples_at(const Scene& scene, double spacing) {
+  const double samples = std::ceil(scene.duration / scene.samples / spacing * (1 - 1e-9));
+  const double all = samples * scene.samples * static_cast<double>(scene.start.x.size());
   if (!(all <= most_numbers))
     throw CannotGuarantee(
         fmt::format("to see what lies between its samples, the truth of {} would be needed at {:.3g} times of {:.3g} "
                     "numbers each; make its duration shorter",
-                    scene.name, places * scene.samples, static_cast<double>(scene.start.x.size())));
-  return std::max(1, static_cast<int>(places));
+                    scene.name, samples * scene.samples, static_cast<double>(scene.start.x.size())));
+  return std::max(1, static_cast<int>(samples));
 }
 
-Truth truth_at_places(const Scene& dense) {
+Truth dense_truth_of(const Scene& dense) {
   auto truth = truth_of(dense, default_run(dense));
   if (!truth) throw CannotGuarantee("no truth is known for the scene: nothing to promise against");
   return std::move(*truth);
@@ -69,11 +70,11 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
   double spacing = first_spacing(scene);
   constexpr int most_doublings = 8;
   for (int i = 0;; ++i, spacing /= 2) {
-    dense_.samples = scene.samples * places_at(scene, spacing);
-    truth_ = truth_at_places(dense_);
+    dense_.samples = scene.samples * samples_at(scene, spacing);
+    truth_ = dense_truth_of(dense_);
     measure();
     if (exact_) break;
-    const double lost = left_out();
+    const double lost = interpolation_error();
     bar_ += lost;
     if (lost <= tolerance / 30) break;
     if (i == most_doublings)
@@ -82,7 +83,7 @@ DenseTruth::DenseTruth(const Scene& scene, double tolerance) : dense_(scene), ex
   }
   // an eighth of a period holds 0.79 rad
   const double omega = fastest_motion(scene);
-  moment_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples;
+  time_resolution_ = omega > 0 ? 1 / (16 * omega) : scene.duration / dense_.samples;
 }
 
 void DenseTruth::measure() {
@@ -95,8 +96,8 @@ void DenseTruth::measure() {
   }
 }
 
-/// Cubic between two places, with the speeds at both (Hermite); straight in a first-order scene, which has none.
-Points DenseTruth::between(int from, int to, double t) const {
+/// Cubic between two samples, with the velocities at both (Hermite); straight in a first-order scene, which has none.
+Points DenseTruth::interpolated(int from, int to, double t) const {
   const Trajectory& path = truth_.trajectory;
   const double span = path.t[to] - path.t[from], s = (t - path.t[from]) / span;
   const Points &a = path.x[from], &b = path.x[to];
@@ -108,11 +109,11 @@ Points DenseTruth::between(int from, int to, double t) const {
 
 /// Twice the spacing leaves out 16 times as much of a smooth path, half of which is trusted; where a sphere is hit the
 /// speed jumps, and it is twice as much only.
-double DenseTruth::left_out() const {
+double DenseTruth::interpolation_error() const {
   const Trajectory& path = truth_.trajectory;
   double most = 0;
   for (int i = 1; i + 1 < path.frames() && path.t[i + 1] <= until_ * (1 + 1e-9); ++i)
-    most = std::max(most, rms_distance(between(i - 1, i + 1, path.t[i]), path.x[i]));
+    most = std::max(most, rms_distance(interpolated(i - 1, i + 1, path.t[i]), path.x[i]));
   const bool smooth = !dense_.model.find<Spheres>() && path.v.front().cols() > 0;
   return most / (smooth ? 8 : 2);
 }
@@ -122,17 +123,18 @@ Points DenseTruth::at(double t) const {
   const Trajectory& path = truth_.trajectory;
   const auto after = std::upper_bound(path.t.begin(), path.t.end(), t);
   const int to = std::clamp(static_cast<int>(after - path.t.begin()), 1, path.frames() - 1);
-  return between(to - 1, to, t);
+  return interpolated(to - 1, to, t);
 }
 
 Run observed_run(const Method& method, const Scene& scene, const DenseTruth& path) {
   Run run = default_run(scene);
-  if (method.adaptive && !scene.model.find<Spheres>()) run.step = std::min(run.step, path.moment());
+  if (method.adaptive && !scene.model.find<Spheres>()) run.step = std::min(run.step, path.time_resolution());
   return run;
 }
 
 Verdict MaxErrorObserver::observe(const State& state, bool sample) {
-  if (state.t > path_.until() * (1 + 1e-9) || (!sample && state.t < last_ + path_.moment())) return Verdict::ok;
+  if (state.t > path_.until() * (1 + 1e-9) || (!sample && state.t < last_ + path_.time_resolution()))
+    return Verdict::ok;
   last_ = state.t;
   distance_ = std::max(distance_, rms_distance(state.x, path_.at(state.t)));
   return Verdict::ok;

@@ -15,42 +15,43 @@ namespace crosscheck {
 double fastest_motion(const Scene& scene);
 
 /// The truth up to the end of what can be guaranteed, at any time. A closed form is evaluated at each time. Converged
-/// truth is computed at eight places in each period of the fastest motion, or more, and cubic between them with its
-/// speeds at both ends: doubling the places from there on until what that leaves out, seen where every other place is
-/// left out, is below a thirtieth of `tolerance` (m).
+/// truth is sampled eight times in each period of the fastest motion, or more often, and interpolated between samples
+/// by cubics with the velocities at both ends: samples are doubled until the interpolation error, estimated by leaving
+/// out every other sample, is below a thirtieth of `tolerance` (m).
 class DenseTruth {
  public:
-  /// Throws CannotGuarantee where no truth is known, or the places would be too many.
+  /// Throws CannotGuarantee where no truth is known, or the samples would be too many.
   DenseTruth(const Scene& scene, double tolerance);
 
   const Truth& truth() const { return truth_; }
-  /// The scene with samples at all these places: what is measured in it sees the whole motion.
+  /// The scene with all these samples: what is measured in it sees the whole motion.
   const Scene& dense() const { return dense_; }
   double until() const { return until_; }    // s
-  double error_bar() const { return bar_; }  // m, the truth's, what is lost between places included
+  double error_bar() const { return bar_; }  // m, the truth's, with the interpolation error
   double motion() const { return motion_; }  // m, the largest RMS distance from the start
   /// s: within it the fastest motion turns by a sixteenth of a radian, and no error changes by more than 0.2 % of its
   /// largest.
-  double moment() const { return moment_; }
+  double time_resolution() const { return time_resolution_; }
   Points at(double t) const;  // m, 3 x n; t in s, up to until()
 
  private:
   void measure();
-  Points between(int from, int to, double t) const;
-  double left_out() const;
+  Points interpolated(int from, int to, double t) const;
+  double interpolation_error() const;
 
   Scene dense_;
   std::optional<ExactSolution> exact_;
   Truth truth_;
-  double until_ = 0, bar_ = 0, motion_ = 0, moment_ = 0;
+  double until_ = 0, bar_ = 0, motion_ = 0, time_resolution_ = 0;
 };
 
-/// The scene's own run, looked at in moments: a method that chooses its steps is seen on the grid of the run's step,
-/// and takes the same ones whatever that is (beside a sphere it bounds them, and stays what it was).
+/// The scene's own run, observed at the truth's time resolution: a method that chooses its steps is observed on the
+/// grid of the run's step, and takes the same steps whatever that is (beside a sphere it bounds them, and stays what it
+/// was).
 Run observed_run(const Method& method, const Scene& scene, const DenseTruth& path);
 
-/// Looks at every step of a run, and keeps the largest RMS distance from the truth. Steps closer than a moment of the
-/// path to the one before are passed over, samples never.
+/// Observes every step of a run, and keeps the largest RMS distance from the truth. Steps closer to the one before than
+/// the truth's time resolution are passed over, samples never.
 class MaxErrorObserver : public Observer {
  public:
   explicit MaxErrorObserver(const DenseTruth& path) : path_(path) {}

@@ -42,7 +42,7 @@ const Kind* kind_of(std::string_view path) {
 
 using Measure = std::function<std::optional<double>(const Scene&)>;
 struct Objective {
-  Wished wished;
+  WishResult wished;
   Measure measure;
 };
 
@@ -89,7 +89,7 @@ class Fit {
     }
   }
 
-  Fitted run() {
+  FitResult run() {
     Eigen::VectorXd p = coarse();
     Eigen::VectorXd r = *residual(p);
     for (int i = 0; i < 30 && r.lpNorm<Eigen::Infinity>() > 0.002; ++i) {
@@ -105,7 +105,7 @@ class Fit {
                                           objectives_[i].wished.name, objectives_[i].wished.wished, unit_of(i),
                                           objectives_[i].wished.reached));
     }
-    Fitted fitted{scene_at(p), "", unknowns_, {}};
+    FitResult fitted{scene_at(p), "", unknowns_, {}};
     for (const Objective& objective : objectives_) fitted.wishes.push_back(objective.wished);
     TomlDocument file = file_at(p);
     const double omega = highest_frequency(fitted.scene.model, fitted.scene.start);
@@ -209,6 +209,6 @@ bool has_unknowns(std::string_view text, const std::string& name) {
   return !TomlDocument(text, name).where("fit").empty();
 }
 
-Fitted fit_to_wishes(std::string_view text, const std::string& name) { return Fit(text, name).run(); }
+FitResult fit_to_wishes(std::string_view text, const std::string& name) { return Fit(text, name).run(); }
 
 }  // namespace crosscheck

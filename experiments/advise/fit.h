@@ -16,16 +16,16 @@ struct Unknown {
   double value = 0;
 };
 
-struct Wished {
+struct WishResult {
   std::string name, unit;
   double wished, reached;
 };
 
-struct Fitted {
+struct FitResult {
   Scene scene;
   std::string toml;
   std::vector<Unknown> unknowns;
-  std::vector<Wished> wishes;
+  std::vector<WishResult> wishes;
 };
 
 /// True when the text of a scene file holds values to be fitted. Throws InputError when it is no TOML.
@@ -35,6 +35,6 @@ bool has_unknowns(std::string_view text, const std::string& name);
 /// logarithms of the parameters and of the measures, until each wish is met within 0.2 %. The step becomes at most half
 /// of leapfrog's limit. Throws InputError where values are to be fitted without as many wishes, or that cannot be
 /// fitted, and CannotGuarantee where a wish cannot be measured or is not met within 2 %.
-Fitted fit_to_wishes(std::string_view text, const std::string& name);
+FitResult fit_to_wishes(std::string_view text, const std::string& name);
 
 }  // namespace crosscheck

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/bench/kernels.h"
+#include "experiments/bench/spring_cost.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/timing/machine.h"
 #include "mysim/base/errors.h"
@@ -32,67 +32,68 @@ std::vector<std::string> all_scenes() {
 BenchSuite bench_suite(bool full) {
   const std::vector<Peer> all{odeint_rk4(),      odeint_dopri5(),   arkode(),    cvode(),
                               bullet_explicit(), bullet_implicit(), bullet_pbd()};
-  BenchSuite plan{{64, 128, 256},
-                  all_scenes(),
-                  {{32, all},
-                   {32, {bullet_explicit()}, hanging_cloth_of_two_stiffnesses},
-                   {32, {bullet_pbd_on_links()}, hanging_cloth_of_links},
-                   {64, {odeint_rk4()}}},
-                  {},
-                  {{64}, {60, 240}, {3, 0.1}},
-                  {11, 0.015},
-                  {11, 0.004},
-                  {},
-                  // one thread is at work; the least for two; what the caches of two cores hold; more than that
-                  {{64, 96, 256, 512}, {11, 0.06}}};
+  BenchSuite suite{{64, 128, 256},
+                   all_scenes(),
+                   {{32, all},
+                    {32, {bullet_explicit()}, hanging_cloth_of_two_stiffnesses},
+                    {32, {bullet_pbd_on_links()}, hanging_cloth_of_links},
+                    {64, {odeint_rk4()}}},
+                   {},
+                   {{64}, {60, 240}, {3, 0.1}},
+                   {11, 0.015},
+                   {11, 0.004},
+                   {},
+                   // one thread is at work; the least for two; what the caches of two cores hold; more than that
+                   {{64, 96, 256, 512}, {11, 0.06}}};
   if (full) {
-    plan.sheets = {{32, all},
-                   {32, {bullet_explicit()}, hanging_cloth_of_two_stiffnesses},
-                   {32, {bullet_pbd_on_links()}, hanging_cloth_of_links},
-                   {64, all},
-                   {64, {bullet_explicit()}, hanging_cloth_of_two_stiffnesses},
-                   {64, {bullet_pbd_on_links()}, hanging_cloth_of_links},
-                   {128, {odeint_rk4(), {"odeint/dopri5", {1e-4}}, {"bullet/deformable-explicit", {0.95}}}}};
-    plan.implicit_step = {{32, 64, 128}, {60, 240}, {5, 0.1}};
-    plan.kernels = {21, 0.02};
-    plan.on_scenes = {21, 0.005};
-    plan.turns = {11, 0.04};
-    plan.threads.turns = {21, 0.2};
+    suite.cloths = {{32, all},
+                    {32, {bullet_explicit()}, hanging_cloth_of_two_stiffnesses},
+                    {32, {bullet_pbd_on_links()}, hanging_cloth_of_links},
+                    {64, all},
+                    {64, {bullet_explicit()}, hanging_cloth_of_two_stiffnesses},
+                    {64, {bullet_pbd_on_links()}, hanging_cloth_of_links},
+                    {128, {odeint_rk4(), {"odeint/dopri5", {1e-4}}, {"bullet/deformable-explicit", {0.95}}}}};
+    suite.implicit_step = {{32, 64, 128}, {60, 240}, {5, 0.1}};
+    suite.kernels = {21, 0.02};
+    suite.on_scenes = {21, 0.005};
+    suite.turns = {11, 0.04};
+    suite.threads.turns = {21, 0.2};
   }
-  plan.same_step.turns = plan.turns;
-  return plan;
+  suite.same_step.turns = suite.turns;
+  return suite;
 }
 
-Rows bench(const BenchSuite& plan) {
-  Rows rows;
-  std::vector<EqualErrorOptions> sheets;
-  for (const BenchSuite::PeerCloth& asked : plan.sheets)
-    sheets.push_back({std::make_shared<const Scene>(asked.scene()), asked.peers, plan.turns});
+TableSet bench(const BenchSuite& suite) {
+  TableSet tables;
+  std::vector<EqualErrorOptions> cloths;
+  for (const BenchSuite::PeerCloth& cloth : suite.cloths)
+    cloths.push_back({std::make_shared<const Scene>(cloth.scene()), cloth.peers, suite.turns});
   // shipped scenes, two cloths at the same step, and implicit steps
-  int work = 3 + static_cast<int>(plan.kernel_sides.size() + plan.threads.sides.size()) + work_of(plan.implicit_step);
-  for (const EqualErrorOptions& asked : sheets) work += work_of(asked);
+  int work =
+      3 + static_cast<int>(suite.kernel_sides.size() + suite.threads.sides.size()) + work_of(suite.implicit_step);
+  for (const EqualErrorOptions& options : cloths) work += work_of(options);
   Progress progress(work);
-  two_threads(plan.threads, rows, progress);
+  two_threads(suite.threads, tables, progress);
   pin_to_one_core();
   try {
-    for (const int side : plan.kernel_sides) {
+    for (const int side : suite.kernel_sides) {
       progress.begin(fmt::format("kernels on a sheet of {0} x {0}", side));
-      rows.add(kernels_table(side, plan.kernels));
+      tables.add(kernels_table(side, suite.kernels));
     }
     progress.begin("kernels on the shipped scenes");
-    rows.add(scenes_table(load_scenes(plan.scenes), plan.on_scenes));
+    tables.add(scenes_table(load_scenes(suite.scenes), suite.on_scenes));
   } catch (const Unsupported& refusal) {
-    rows.notes.push_back(fmt::format("bench leaves out kernels: {}", refusal.what()));
+    tables.notes.push_back(fmt::format("bench leaves out kernels: {}", refusal.what()));
   }
-  for (const EqualErrorOptions& asked : sheets) equal_error(asked, rows, progress);
-  same_step(plan.same_step, rows, progress);
+  for (const EqualErrorOptions& options : cloths) equal_error(options, tables, progress);
+  same_step(suite.same_step, tables, progress);
   try {
-    implicit_step(plan.implicit_step, rows, progress);
+    implicit_step(suite.implicit_step, tables, progress);
   } catch (const Unsupported& refusal) {
-    rows.notes.push_back(fmt::format("bench leaves out implicit steps: {}", refusal.what()));
+    tables.notes.push_back(fmt::format("bench leaves out implicit steps: {}", refusal.what()));
   }
   progress.done();
-  return rows;
+  return tables;
 }
 
 }  // namespace crosscheck

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "experiments/bench/implicit_step.h"
-#include "experiments/bench/micro.h"
+#include "experiments/bench/microbenchmarks.h"
 #include "experiments/bench/peers.h"
 #include "experiments/bench/threads.h"
 #include "experiments/scenes/cloths.h"
@@ -19,7 +19,7 @@ struct BenchSuite {
   };
   std::vector<int> kernel_sides;    // of cloths that kernels run on
   std::vector<std::string> scenes;  // on which the engine's kernels are compared with the naive loop
-  std::vector<PeerCloth> sheets;    // for the same error
+  std::vector<PeerCloth> cloths;    // for the same error
   SameStepOptions same_step;
   ImplicitStepOptions implicit_step;
   MicrobenchmarkOptions kernels, on_scenes;
@@ -33,6 +33,6 @@ BenchSuite bench_suite(bool full);
 /// The tables bench-*-cost: threads first, and then kernels, scenes, peers at the same error and at the same step, and
 /// the implicit step, measured on one core, which the process keeps to from then on. Notes say what was left out and
 /// why.
-Rows bench(const BenchSuite& plan);
+TableSet bench(const BenchSuite& suite);
 
 }  // namespace crosscheck

@@ -130,17 +130,18 @@ struct MysimStep {
   }
 };
 
-void beside_factorisation(const FallingCloth& falling, double rate, const MicrobenchmarkOptions& plan, Table& table) {
+void beside_factorisation(const FallingCloth& falling, double rate, const MicrobenchmarkOptions& options,
+                          Table& table) {
   const double h = 1 / rate;
   const auto factorised = std::make_shared<FactorisedStep>(falling.scene, h);
   const State& from = falling.state;
-  std::vector<Microbenchmark> micros{{"factorised", [factorised, &from] { factorised->step(from.x, from.v); }}};
+  std::vector<Microbenchmark> benchmarks{{"factorised", [factorised, &from] { factorised->step(from.x, from.v); }}};
   std::vector<std::shared_ptr<MysimStep>> own;
   for (const CodePath& path : code_paths()) {
     own.push_back(MysimStep::with(falling.scene, path.instructions));
-    micros.push_back({path.name, [solver = own.back(), &from, h] { solver->step.solve_linear(from, h); }});
+    benchmarks.push_back({path.name, [solver = own.back(), &from, h] { solver->step.solve_linear(from, h); }});
   }
-  const auto times = run_microbenchmarks(micros, plan);
+  const auto times = run_microbenchmarks(benchmarks, options);
   const Timing its = timing_of(times.at("factorised"));
   const Points& end = factorised->step(from.x, from.v);
   for (size_t i = 0; i < own.size(); ++i) {
@@ -170,16 +171,16 @@ void beside_factorisation(const FallingCloth& falling, double rate, const Microb
 
 }  // namespace
 
-void implicit_step(const ImplicitStepOptions& asked, Rows& rows, Progress& progress) {
+void implicit_step(const ImplicitStepOptions& options, TableSet& tables, Progress& progress) {
   Table table = table_of<ImplicitStepRow>();
-  for (const int side : asked.sides) {
+  for (const int side : options.sides) {
     const FallingCloth falling(side);
-    for (const double rate : asked.rates) {
+    for (const double rate : options.rates) {
       progress.begin(fmt::format("{}: implicit steps of 1/{:g} s", falling.scene.name, rate));
-      beside_factorisation(falling, rate, asked.plan, table);
+      beside_factorisation(falling, rate, options.microbenchmarks, table);
     }
   }
-  rows.add(table);
+  tables.add(table);
 }
 
 }  // namespace crosscheck

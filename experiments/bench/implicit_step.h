@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "experiments/bench/micro.h"
+#include "experiments/bench/microbenchmarks.h"
 #include "experiments/experiment.h"
 #include "mysim/base/progress.h"
 #include "mysim/scene/scene.h"
@@ -45,23 +45,21 @@ class FactorisedStep {
   Points end_;
 };
 
-// mysim's implicit step beside a sparse factorisation: the same linear system, solved to round-off by both.
-
 struct ImplicitStepOptions {
   std::vector<int> sides;     // particles along a side of the cloth
   std::vector<double> rates;  // steps a second
-  MicrobenchmarkOptions plan;
+  MicrobenchmarkOptions microbenchmarks;
 };
 
 /// The number of announced steps of work.
-inline int work_of(const ImplicitStepOptions& asked) {
-  return static_cast<int>(asked.sides.size() * asked.rates.size());
+inline int work_of(const ImplicitStepOptions& options) {
+  return static_cast<int>(options.sides.size() * options.rates.size());
 }
 
 /// `bench-implicit-step-cost`: from the cloth as it hangs after half a second, one step of `implicit-euler+linear` and
 /// one by Eigen's SimplicialLDLT (implicit_step.h): how far apart both end (the farthest particle, m), their times,
 /// iterations of conjugate gradients, and the ratio of the times, round by round; with the best instructions for mysim,
 /// and with SSE2 alone.
-void implicit_step(const ImplicitStepOptions& asked, Rows& rows, Progress& progress);
+void implicit_step(const ImplicitStepOptions& options, TableSet& tables, Progress& progress);
 
 }  // namespace crosscheck

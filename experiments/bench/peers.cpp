@@ -20,11 +20,11 @@
 namespace crosscheck {
 namespace {
 
-/// mysim's methods for an accuracy: where their series of steps begins (in 2 / omega, below the rule's limit), and each
-/// step over the next longer one.
+/// A method of mysim whose step is shortened until it is accurate enough: its longest step (in 2 / omega, below the
+/// rule's limit), and the ratio of each step to the one before.
 struct MysimMethod {
   const char* method;
-  double first, rung;
+  double first, ratio;
 };
 constexpr double fine = 0.8409, coarse = 0.5;  // 2^(-1/4); where runs are slow and a better rule is at hand
 // the most accurate for its work first: where it errs less in as many evaluations there is no use in going on
@@ -86,7 +86,7 @@ std::vector<PeerRun> PeerRuns::own(double wanted, long most) const {
     const Method method = find_method(own.method);
     progress_.begin(fmt::format("{}: {}", scene_.name, own.method));
     if (method.name.ends_with("+single") && !fused_step<float>(scene_, simd::InstructionSet::sse2, true)) continue;
-    for (double part = own.first; part > shortest * own.first; part *= own.rung) {
+    for (double part = own.first; part > shortest * own.first; part *= own.ratio) {
       const PeerRun last = done(method, part);
       runs.push_back(last);
       if ((last.ok() && *last.error <= wanted) || beaten(last) || last.outcome.evaluations > most) break;
@@ -115,14 +115,14 @@ struct Times {
   std::vector<MysimTimes> own;
 };
 
-Times in_turns(const EqualErrorOptions& asked, const std::vector<PeerRun>& peers, const std::vector<PeerRun>& own) {
+Times in_turns(const EqualErrorOptions& options, const std::vector<PeerRun>& peers, const std::vector<PeerRun>& own) {
   Times times;
   times.peers.resize(peers.size());
   std::vector<TimedRun> turns;
   std::vector<std::function<void(const EvaluationTimes&)>> take;  // where the times of each turn go
   for (size_t i = 0; i < peers.size(); ++i) {
     if (!peers[i].ok()) continue;
-    turns.push_back({peers[i].method, asked.scene, peers[i].run});
+    turns.push_back({peers[i].method, options.scene, peers[i].run});
     take.push_back([&times, i](const EvaluationTimes& all) { times.peers[i] = all; });
   }
   for (const CodePath& path : code_paths()) times.own.push_back({path, {}});
@@ -131,10 +131,10 @@ Times in_turns(const EqualErrorOptions& asked, const std::vector<PeerRun>& peers
       if (!run.ok()) continue;
       const auto [entry, is_new] = mine.per_evaluation.try_emplace(run.method.name);
       if (!is_new) continue;
-      turns.push_back({run.method, asked.scene, run.run, mine.path.instructions});
+      turns.push_back({run.method, options.scene, run.run, mine.path.instructions});
       take.push_back([&to = entry->second](const EvaluationTimes& all) { to = all.per_evaluation; });
     }
-  const std::vector<EvaluationTimes> all = time_round_robin(turns, asked.turns);
+  const std::vector<EvaluationTimes> all = time_round_robin(turns, options.turns);
   for (size_t i = 0; i < all.size(); ++i) take[i](all[i]);
   return times;
 }
@@ -147,7 +147,7 @@ std::vector<WorkPrecisionPoint> points_of(const std::vector<PeerRun>& own, const
   std::vector<WorkPrecisionPoint> points;
   for (const PeerRun& run : own)
     if (run.ok())
-      points.push_back({run.method.name, SettingKind::step, run.asked, true, run.error,
+      points.push_back({run.method.name, SettingKind::step, run.requested, true, run.error,
                         time_of(run, times.per_evaluation.at(run.method.name)).median});
   return points;
 }
@@ -158,7 +158,7 @@ EqualErrorRow row_of(const PeerRun& run, const std::string& scene, double error_
                     .peer = run.method.name,
                     .model = run.other_model ? PeerModel::other : PeerModel::same,
                     .setting = run.method.adaptive ? SettingKind::tolerance : SettingKind::step,
-                    .asked = run.asked,
+                    .requested = run.requested,
                     .verdict = run.outcome.verdict,
                     .error = run.error,
                     .truth_bar = error_bar,
@@ -192,13 +192,13 @@ void set_beside(EqualErrorRow& row, const PeerRun& peer, const EvaluationTimes& 
     return;
   }
   const auto run = std::find_if(own.begin(), own.end(), [&](const PeerRun& r) {
-    return r.method.name == best->method && r.asked == best->asked;
+    return r.method.name == best->method && r.requested == best->requested;
   });
   const double evaluations =
       static_cast<double>(peer.outcome.evaluations) / static_cast<double>(run->outcome.evaluations);
   const Timing ratio =
       timing_of(ratios_of_rounds(its.per_evaluation, times.per_evaluation.at(best->method))).times(evaluations);
-  row.mysim = best->method, row.mysim_step = best->asked, row.mysim_error = best->error, row.mysim_cpu = best->cost;
+  row.mysim = best->method, row.mysim_step = best->requested, row.mysim_error = best->error, row.mysim_cpu = best->cost;
   row.ratio = ratio.median, row.ratio_low = ratio.low, row.ratio_high = ratio.high;
 }
 
@@ -207,7 +207,7 @@ void add_own(const std::string& scene, const std::vector<PeerRun>& own, const My
   for (const PeerRun& run : own) {
     OwnRunRow row{.scene = scene,
                   .method = run.method.name,
-                  .step = run.asked,
+                  .step = run.requested,
                   .verdict = run.outcome.verdict,
                   .error = run.error,
                   .truth_bar = error_bar,
@@ -224,18 +224,18 @@ void add_own(const std::string& scene, const std::vector<PeerRun>& own, const My
 
 }  // namespace
 
-int work_of(const EqualErrorOptions& asked) { return 1 + PeerRuns::count(asked.peers); }
+int work_of(const EqualErrorOptions& options) { return 1 + PeerRuns::count(options.peers); }
 
-void equal_error(const EqualErrorOptions& asked, Rows& rows, Progress& progress) {
-  const std::string& scene = asked.scene->name;
-  const PeerRuns runs(*asked.scene, progress);
+void equal_error(const EqualErrorOptions& options, TableSet& tables, Progress& progress) {
+  const std::string& scene = options.scene->name;
+  const PeerRuns runs(*options.scene, progress);
   const double error_bar = runs.error_bar();
-  std::vector<PeerRun> peers = runs.of(asked.peers);
+  std::vector<PeerRun> peers = runs.of(options.peers);
   std::erase_if(peers, [&](const PeerRun& run) {
     const bool refused = run.outcome.verdict == Verdict::unsupported;
     if (const std::string note = fmt::format("bench leaves out {}: {}", run.method.name, run.outcome.reason);
-        refused && std::find(rows.notes.begin(), rows.notes.end(), note) == rows.notes.end())
-      rows.notes.push_back(note);
+        refused && std::find(tables.notes.begin(), tables.notes.end(), note) == tables.notes.end())
+      tables.notes.push_back(note);
     return refused;
   });
   double wanted = INFINITY;  // m: the least error above the error bar
@@ -247,7 +247,7 @@ void equal_error(const EqualErrorOptions& asked, Rows& rows, Progress& progress)
   const std::vector<PeerRun> own = runs.own(wanted, most);
 
   progress.begin(fmt::format("{}: all in turns", scene));
-  const Times times = in_turns(asked, peers, own);
+  const Times times = in_turns(options, peers, own);
   Table table = table_of<EqualErrorRow>(), curve = table_of<OwnRunRow>();
   for (size_t i = 0; i < peers.size(); ++i)
     for (const MysimTimes& path : times.own) {
@@ -256,38 +256,37 @@ void equal_error(const EqualErrorOptions& asked, Rows& rows, Progress& progress)
       add(table, row);
     }
   for (const MysimTimes& path : times.own) add_own(scene, own, path, error_bar, curve);
-  rows.add(table);
-  rows.add(curve);
+  tables.add(table);
+  tables.add(curve);
 }
 
 namespace {
 
-constexpr auto bullets = "bullet/deformable-explicit", ours = "mysim/symplectic-euler+fast";
-
 /// The state at the end of a run, m.
 Points end_of(const Method& method, const Scene& scene, const Run& run,
-              std::optional<simd::InstructionSet> instructions, Outcome* told = nullptr) {
+              std::optional<simd::InstructionSet> instructions, Outcome* outcome = nullptr) {
   std::optional<ScopedInstructionSet> kept;
   if (instructions) kept.emplace(*instructions);
   Recorder recorder;
   Outcome out = run_method(method, scene, run, {&recorder});
-  if (told) *told = std::move(out);
+  if (outcome) *outcome = std::move(out);
   return recorder.trajectory.frames() > 1 ? recorder.trajectory.x.back() : Points();
 }
 
-void beside_bullet(const std::shared_ptr<const Scene>& scene, const SameStepOptions& asked, Table& table,
-                   std::vector<std::string>& notes) {
-  const Run run{scene->step, asked.duration, 1};
-  const Method theirs = find_method(bullets), own = find_method(ours);
+void beside(const MethodFamily& peer, const std::shared_ptr<const Scene>& scene, const SameStepOptions& options,
+            Table& table, std::vector<std::string>& notes) {
+  const Run run{scene->step, options.duration, 1};
+  const Method theirs = find_method(std::string(peer.representative)),
+               own = find_method(std::string(subject().representative) + "+fast");
   Outcome out;
   const Points end = end_of(theirs, *scene, run, std::nullopt, &out);
   if (out.verdict != Verdict::ok) {
-    notes.push_back(fmt::format("bench: {} on {}: {}", bullets, scene->name, out.reason));
+    notes.push_back(fmt::format("bench: {} on {}: {}", theirs.name, scene->name, out.reason));
     return;
   }
   std::vector<TimedRun> turns{{theirs, scene, run}};
   for (const CodePath& path : code_paths()) turns.push_back({own, scene, run, path.instructions});
-  const std::vector<EvaluationTimes> times = time_round_robin(turns, asked.turns);
+  const std::vector<EvaluationTimes> times = time_round_robin(turns, options.turns);
   const Timing its = timing_of(times[0].per_evaluation);
   const std::string force = out.readback ? out.readback->mapped["stiffness"] : "";
   for (size_t i = 0; i < code_paths().size(); ++i) {
@@ -303,10 +302,10 @@ void beside_bullet(const std::shared_ptr<const Scene>& scene, const SameStepOpti
                            .bullet_cpu = its.median,
                            .bullet_low = its.low,
                            .bullet_high = its.high,
-                           .build = build_of(bullets),
+                           .build = build_of(theirs.name),
                            .path = path.name,
                            .instructions = path.instructions,
-                           .mysim = ours,
+                           .mysim = own.name,
                            .cpu = each.median,
                            .low = each.low,
                            .high = each.high,
@@ -318,13 +317,14 @@ void beside_bullet(const std::shared_ptr<const Scene>& scene, const SameStepOpti
 
 }  // namespace
 
-void same_step(const SameStepOptions& asked, Rows& rows, Progress& progress) {
+void same_step(const SameStepOptions& options, TableSet& tables, Progress& progress) {
   Table table = table_of<SameStepRow>();
-  for (const Scene& scene : {hanging_cloth(asked.side), hanging_cloth_of_two_stiffnesses(asked.side)}) {
-    progress.begin(fmt::format("{}: the same step in Bullet", scene.name));
-    beside_bullet(std::make_shared<const Scene>(scene), asked, table, rows.notes);
+  for (const Scene& scene : {hanging_cloth(options.side), hanging_cloth_of_two_stiffnesses(options.side)}) {
+    const MethodFamily& peer = *default_peers().front();  // the table's columns are about it
+    progress.begin(fmt::format("{}: the same step in {}", scene.name, peer.title));
+    beside(peer, std::make_shared<const Scene>(scene), options, table, tables.notes);
   }
-  rows.add(table);
+  tables.add(table);
 }
 
 }  // namespace crosscheck

@@ -23,7 +23,7 @@ struct PeerRun {
   Method method;
   Run run;
   Outcome outcome;
-  double asked;                 // step in s, or tolerance
+  double requested;             // step in s, or tolerance
   std::optional<double> error;  // RMS over the particles at the end, m; of runs that ended well
   bool other_model = false;
   bool ok() const { return error.has_value(); }
@@ -65,13 +65,13 @@ struct EqualErrorOptions {
 };
 
 /// The number of announced steps of work.
-int work_of(const EqualErrorOptions& asked);
+int work_of(const EqualErrorOptions& options);
 
 /// `bench-equal-error-cost`: for each run of each peer its error (peers.h), its time, and how many times that is
 /// the time of mysim's cheapest run that errs no more (the truth's bar counted against mysim on both sides), round by
 /// round: once with the best instructions that the machine has, once with SSE2 alone. No ratio stands where the peer's
 /// error is within the bar. `bench-own-runs-cost`: mysim's runs.
-void equal_error(const EqualErrorOptions& asked, Rows& rows, Progress& progress);
+void equal_error(const EqualErrorOptions& options, TableSet& tables, Progress& progress);
 
 // Bullet's explicit world and mysim's symplectic Euler at the same step: the same rule, so that the time of a step
 // is all that differs.
@@ -86,6 +86,6 @@ struct SameStepOptions {
 /// faces), and on one of two stiffnesses under Bullet's own spring force: how far apart both engines are at the end
 /// (the farthest particle, m), the time of a step, and the ratio of the times, round by round; with the best
 /// instructions for mysim, and with SSE2 alone.
-void same_step(const SameStepOptions& asked, Rows& rows, Progress& progress);
+void same_step(const SameStepOptions& options, TableSet& tables, Progress& progress);
 
 }  // namespace crosscheck

@@ -33,7 +33,7 @@ class TimedCloth {
   TimedCloth(const Scene& scene, int threads)
       : h_(scene.step),
         world_(simd::make_cloth_grid_world(*find_method(rule).stepper, ContactRule::coulomb, scene, h_,
-                                           {Precision::reproducible, threads}, no_observers_)) {}
+                                           {ExecutionPath::reproducible, threads}, no_observers_)) {}
 
   /// Wall time of a step, s.
   double step(int steps) {
@@ -68,18 +68,18 @@ int steps_in(double seconds, TimedCloth& world) {
 
 }  // namespace
 
-void two_threads(const ThreadsOptions& asked, Rows& rows, Progress& progress) {
+void two_threads(const ThreadsOptions& options, TableSet& tables, Progress& progress) {
   if (cores_allowed() < 2) {
-    rows.notes.emplace_back("bench leaves out two threads: this process may use one core");
+    tables.notes.emplace_back("bench leaves out two threads: this process may use one core");
     return;
   }
   Table table = table_of<ThreadsRow>();
-  for (const int side : asked.sides) {
+  for (const int side : options.sides) {
     const Scene scene = hanging_cloth(side);
     progress.begin(fmt::format("{}: two threads", scene.name));
     TimedCloth one(scene, 1), two(scene, 2);
     const MachineLock exclusive(MachineLock::Mode::exclusive);
-    const int steps = steps_in(asked.turns.seconds, one), rounds = asked.turns.rounds;
+    const int steps = steps_in(options.turns.seconds, one), rounds = options.turns.rounds;
     const std::vector<std::function<double()>> runs{[&] { return one.step(steps); }, [&] { return two.step(steps); }};
     const auto times =
         time_round_robin(runs, TimingOptions{.least = rounds, .most = rounds, .resolution = 0, .warm = INFINITY});
@@ -103,12 +103,12 @@ void two_threads(const ThreadsOptions& asked, Rows& rows, Progress& progress) {
                           .ratio_low = ratio.low,
                           .ratio_high = ratio.high});
     if (at_work > 1 && share < nearly_all)
-      rows.notes.push_back(
+      tables.notes.push_back(
           fmt::format("bench: two threads on {} got {:.0f} % of the time of two cores, as something else ran: their "
                       "ratio is less than this machine can give",
                       scene.name, 100 * share));
   }
-  rows.add(table);
+  tables.add(table);
 }
 
 }  // namespace crosscheck

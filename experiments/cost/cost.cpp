@@ -41,11 +41,7 @@ Kernel multiply_add_kernel() {
   double none = 0;
   const int each = kernel.multiply_and_add(0, &none);
   return {static_cast<double>(each) * rounds, 0, [kernel, sum = std::make_shared<double>(0)] {
-            CpuClock clock;
-            clock.start();
-            kernel.multiply_and_add(rounds, sum.get());
-            clock.stop();
-            return clock.seconds();
+            return cpu_time_of([&] { kernel.multiply_and_add(rounds, sum.get()); });
           }};
 }
 
@@ -58,22 +54,20 @@ Kernel triad_kernel(double bytes) {
   auto arrays =
       std::make_shared<Arrays>(Arrays{std::vector<double>(n, 1), std::vector<double>(n, 2), std::vector<double>(n, 3)});
   return {2. * static_cast<double>(n) * rounds, 24. * static_cast<double>(n) * rounds, [arrays, n, rounds] {
-            CpuClock clock;
             double* a = arrays->a.data();
             const double *b = arrays->b.data(), *c = arrays->c.data();
-            clock.start();
-            for (int round = 0; round < rounds; ++round) {
-              triad(a, b, c, n);
-              keep(a);
-            }
-            clock.stop();
-            return clock.seconds();
+            return cpu_time_of([&] {
+              for (int round = 0; round < rounds; ++round) {
+                triad(a, b, c, n);
+                keep(a);
+              }
+            });
           }};
 }
 
 namespace {
 
-/// A run of so many steps, without a look in between.
+/// A run of so many steps, not observed in between.
 Run steps_of(const Scene& scene, long steps) { return {scene.step, scene.step * static_cast<double>(steps), 1}; }
 
 /// As many steps as take about 10 ms by the estimate; at least 2.
@@ -83,12 +77,12 @@ long steps_to_time(const Method& method, const Scene& scene) {
 }
 
 /// CPU time of one step, s, of a run of so many; 0 where the method does not take the scene.
-std::function<double()> step_of(const Method& method, const Scene& scene, long steps, Outcome* told = nullptr) {
-  return [&method, &scene, steps, told] {
+std::function<double()> step_of(const Method& method, const Scene& scene, long steps, Outcome* outcome = nullptr) {
+  return [&method, &scene, steps, outcome] {
     NullObserver null_observer;
     Outcome out = method.engine(scene, steps_of(scene, steps), null_observer);
     const double each = out.steps > 0 ? out.cpu_seconds / static_cast<double>(out.steps) : 0;
-    if (told) *told = std::move(out);
+    if (outcome) *outcome = std::move(out);
     return each;
   };
 }
@@ -103,20 +97,20 @@ long springs_of(const Scene& scene) { return static_cast<long>(scene.model.find<
 
 }  // namespace
 
-void cost_of_size(const Request& request, int n, Rows& rows) {
+void cost_of_size(const Request& request, int n, TableSet& tables) {
   const Scene scene = sized_cloth(n);
-  std::vector<Method> methods, asked = methods_of(request, scene);
+  std::vector<Method> methods, requested = methods_of(request, scene);
   // for engines that know spring graphs only: the same rule without the fused step
-  if (request.methods.empty()) asked.push_back(find_method(std::string(subject().representative) + "+plain"));
-  for (Method& method : asked) {
+  if (request.methods.empty()) requested.push_back(find_method(std::string(subject().representative) + "+plain"));
+  for (Method& method : requested) {
     if (method.adaptive) continue;  // how long its steps are is its own choice
     if (run_method(method, scene, steps_of(scene, 1), {}).verdict != Verdict::unsupported)
       methods.push_back(std::move(method));
   }
   std::vector<std::function<double()>> runs;
-  std::vector<Outcome> told(methods.size());
+  std::vector<Outcome> outcomes(methods.size());
   for (size_t i = 0; i < methods.size(); ++i)
-    runs.push_back(step_of(methods[i], scene, steps_to_time(methods[i], scene), &told[i]));
+    runs.push_back(step_of(methods[i], scene, steps_to_time(methods[i], scene), &outcomes[i]));
   const auto times = steps_timed(runs, request.full);
   const double noise = noise_floor(times);
   Table table = table_of<SizeCostRow>();
@@ -124,7 +118,7 @@ void cost_of_size(const Request& request, int n, Rows& rows) {
   for (size_t i = 0; i < methods.size(); ++i) {
     const Timing t = timing_of(times[i]);
     if (!(t.median > 0)) {
-      rows.notes.push_back(fmt::format("{} does not tell what CPU time it took", methods[i].name));
+      tables.notes.push_back(fmt::format("{} does not tell what CPU time it took", methods[i].name));
       continue;
     }
     add(table, SizeCostRow{.method = methods[i].name,
@@ -132,9 +126,9 @@ void cost_of_size(const Request& request, int n, Rows& rows) {
                            .particles = particles,
                            .springs = springs_of(scene),
                            .step = scene.step,
-                           .steps_timed = told[i].steps,
-                           .evaluations_per_step = static_cast<double>(told[i].evaluations) /
-                                                   static_cast<double>(std::max(1L, told[i].steps)),
+                           .steps_timed = outcomes[i].steps,
+                           .evaluations_per_step = static_cast<double>(outcomes[i].evaluations) /
+                                                   static_cast<double>(std::max(1L, outcomes[i].steps)),
                            .cpu = t.median,
                            .cpu_low = t.low,
                            .cpu_high = t.high,
@@ -143,7 +137,7 @@ void cost_of_size(const Request& request, int n, Rows& rows) {
                            .noise = noise,
                            .build = build_of(methods[i].name)});
   }
-  rows.add(table);
+  tables.add(table);
 }
 
 namespace {
@@ -154,11 +148,10 @@ std::function<double()> springs_alone(const Scene& scene) {
   auto forces = std::make_shared<Forces>(Forces{Points::Zero(3, scene.start.x.cols())});
   const int calls = std::max(2, static_cast<int>(2e6 / static_cast<double>(springs_of(scene))));
   return [kernel, forces, &scene, calls] {
-    CpuClock clock;
-    clock.start();
-    for (int i = 0; i < calls; ++i) kernel->add_force(scene.start.x, *forces);
-    clock.stop();
-    return clock.seconds() / calls;
+    const auto call_all = [&] {
+      for (int i = 0; i < calls; ++i) kernel->add_force(scene.start.x, *forces);
+    };
+    return cpu_time_of(call_all) / calls;
   };
 }
 
@@ -169,11 +162,10 @@ std::function<double()> forces_alone(const Scene& scene) {
   auto a = std::make_shared<Points>(Points::Zero(3, scene.start.x.cols()));
   const int calls = std::max(2, static_cast<int>(2e6 / static_cast<double>(springs_of(scene))));
   return [system, state, a, calls] {
-    CpuClock clock;
-    clock.start();
-    for (int i = 0; i < calls; ++i) system->position_acceleration(*state, *a);
-    clock.stop();
-    return clock.seconds() / calls;
+    const auto call_all = [&] {
+      for (int i = 0; i < calls; ++i) system->position_acceleration(*state, *a);
+    };
+    return cpu_time_of(call_all) / calls;
   };
 }
 
@@ -201,7 +193,7 @@ Table phases_table(int n, const std::vector<std::string>& methods, const std::ve
   return table;
 }
 
-void cost_of_phases(const Request& request, int n, Rows& rows) {
+void cost_of_phases(const Request& request, int n, TableSet& tables) {
   const Scene plain = sized_cloth(n), above = sized_cloth(n, true);
   // the fused step has no phases
   const Method ours = find_method("mysim/leapfrog+plain"), fused = find_method("mysim/leapfrog");
@@ -219,7 +211,7 @@ void cost_of_phases(const Request& request, int n, Rows& rows) {
   }
   std::vector<Timing> t;
   for (const auto& times : steps_timed(runs, request.full)) t.push_back(timing_of(times));
-  rows.add(phases_table(n, names, t));
+  tables.add(phases_table(n, names, t));
 }
 
 std::optional<std::string> doubt_about_peak(double peak, double triad) {
@@ -230,7 +222,7 @@ std::optional<std::string> doubt_about_peak(double peak, double triad) {
       peak / 1e9, triad / 1e9);
 }
 
-void cost_against_roofline(bool full, Rows& rows) {
+void cost_against_roofline(bool full, TableSet& tables) {
   std::vector<int> sides{16, 32, 64, 128};
   if (full) sides.insert(sides.end(), {256, 512});
   std::vector<Scene> scenes;
@@ -262,8 +254,8 @@ void cost_against_roofline(bool full, Rows& rows) {
     if (row.bytes > 0) row.intensity = row.work / row.bytes, row.bandwidth = row.bytes / t.median;
     add(table, row);
   }
-  if (const auto doubt = doubt_about_peak(loops[0].rate, loops[1].rate)) rows.notes.push_back(*doubt);
-  rows.add(table);
+  if (const auto doubt = doubt_about_peak(loops[0].rate, loops[1].rate)) tables.notes.push_back(*doubt);
+  tables.add(table);
 }
 
 std::vector<Point> cost_points(const Request& request) {
@@ -276,12 +268,13 @@ std::vector<Point> cost_points(const Request& request) {
   alone.scenes.clear();
   std::vector<Point> points;
   for (const int n : sides)
-    points.push_back({fmt::format("cost: {0} x {0}", n), content, [=](Rows& rows) { cost_of_size(alone, n, rows); }});
-  for (const int n : {32, 64})
     points.push_back(
-        {fmt::format("cost: phases, {0} x {0}", n), content, [=](Rows& rows) { cost_of_phases(alone, n, rows); }});
+        {fmt::format("cost: {0} x {0}", n), content, [=](TableSet& tables) { cost_of_size(alone, n, tables); }});
+  for (const int n : {32, 64})
+    points.push_back({fmt::format("cost: phases, {0} x {0}", n), content,
+                      [=](TableSet& tables) { cost_of_phases(alone, n, tables); }});
   points.push_back(
-      {"cost: roofline", content, [full = request.full](Rows& rows) { cost_against_roofline(full, rows); }});
+      {"cost: roofline", content, [full = request.full](TableSet& tables) { cost_against_roofline(full, tables); }});
   for (Point& point : points) point.timed = true;
   return points;
 }

@@ -16,7 +16,7 @@ namespace crosscheck {
 
 /// A loop with a known amount of work; run() does it once and says what CPU time it took, s.
 struct Kernel {
-  double flop, bytes;  // of one run; bytes as the source asks for them
+  double flop, bytes;  // of one run; bytes that the source reads and writes
   std::function<double()> run;
 };
 
@@ -27,19 +27,17 @@ Kernel multiply_add_kernel();
 /// a = b + s c over three arrays of `bytes` in all: the bandwidth of memory of that size. 24 bytes an element.
 Kernel triad_kernel(double bytes);
 
-// Experiment `cost`: the cost of a step against size, by phase, and against the machine's peaks.
-
 /// `size-cost`: time per step of every method on a cloth of n x n particles.
-void cost_of_size(const Request& request, int n, Rows& rows);
+void cost_of_size(const Request& request, int n, TableSet& tables);
 /// `phases-cost`: of mysim's leapfrog on a cloth above a sphere, in the general engine, what springs, other forces,
 /// contact and the rest of the step take, and the whole step in the fused step, which does all of it in one pass; of
 /// Bullet's worlds the whole step, since their phases cannot be seen from outside.
-void cost_of_phases(const Request& request, int n, Rows& rows);
+void cost_of_phases(const Request& request, int n, TableSet& tables);
 /// The same from measured times, s: springs, all forces, a step without the sphere and a step with it (of methods[0]);
 /// then whole steps, of methods[1] and on.
 Table phases_table(int n, const std::vector<std::string>& methods, const std::vector<Timing>& times);
 /// `roofline-cost`: the machine's peaks and the spring kernel at several sizes.
-void cost_against_roofline(bool full, Rows& rows);
+void cost_against_roofline(bool full, TableSet& tables);
 /// The remark on a measured peak below the rate of another loop, flop/s; nothing where there is none.
 std::optional<std::string> doubt_about_peak(double peak, double triad);
 

@@ -67,7 +67,7 @@ std::vector<Point> disagreements_points(const Request& request) {
   if (request.scenes_only) return {};
   std::vector<Point> points;
   for (const Disagreement& d : disagreements())
-    points.push_back({"disagreement: " + d.name, scene_of(d).hash, [d](Rows& rows) {
+    points.push_back({"disagreement: " + d.name, scene_of(d).hash, [d](TableSet& tables) {
                         const Scene scene = scene_of(d);
                         const std::vector<Series> all = run_variants(d, scene);
                         Table table = table_of<DisagreementCurveRow>(d.name + "-disagreement");
@@ -80,12 +80,12 @@ std::vector<Point> disagreements_points(const Request& request) {
                         std::string effect = d.effect(all);
                         if (d.measured) {
                           const TableWithSentence more = d.measured(d);
-                          rows.add(more.table);
+                          tables.add(more.table);
                           effect += " " + more.sentence;
                         }
                         add(summary, DisagreementRow{d.name, d.world, d.what, d.cause, effect, scene.hash});
-                        rows.add(table);
-                        rows.add(summary);
+                        tables.add(table);
+                        tables.add(summary);
                       }});
   return points;
 }

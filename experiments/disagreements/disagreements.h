@@ -10,7 +10,7 @@
 
 namespace crosscheck {
 
-// In which direction a method pushes a particle away from a ball, against the ball's own normal.
+// The direction in which a method pushes a particle away from a ball, against the ball's own normal.
 
 /// At one place of the ball, `angle` from the top: the direction of the impulses, less the normal there, in the plane
 /// of gravity (positive: as if the place were farther down) and across it. rad; as the step goes to 0.

@@ -53,11 +53,11 @@ double largest(const Series& s) {
 }
 
 std::string friction_effect(const std::vector<Series>& all) {
-  const double asked = all[0].last(), explicit_world = all[1].last(), pbd = all[2].last();
+  const double coulomb = all[0].last(), explicit_world = all[1].last(), pbd = all[2].last();
   return fmt::format(
       "In {:.2g} s the particle slides {:.4f} m by Coulomb's law and {:.4f} m in the deformable world, but creeps only "
       "{:.4f} m in the position-based world.",
-      all[0].points.back().first, asked, explicit_world, pbd);
+      all[0].points.back().first, coulomb, explicit_world, pbd);
 }
 
 std::string stiffness_effect(const std::vector<Series>& all) {
@@ -103,7 +103,7 @@ std::string rest_effect(const std::vector<Series>& all) {
 }
 
 std::string wind_effect(const std::vector<Series>& all) {
-  // when each has half the speed that is asked for at the end
+  // when each has half the speed that the scene prescribes at the end
   const double half = all[0].last() / 2;
   auto reached = [&](const Series& s) {
     for (const auto& [t, v] : s.points)

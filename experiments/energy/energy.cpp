@@ -1,4 +1,4 @@
-// Experiment `energy`: where the energy goes in a hundred thousand steps, and what does not add up.
+// Experiment `energy`: energies, losses and the residual of their balance in runs of up to a hundred thousand steps.
 
 #include <fmt/format.h>
 
@@ -34,16 +34,18 @@ Scene everything() {
       "all-at-once");
 }
 
-/// Steps of the scene's step that each method's run is given, so that all cover the same time: as many as Bullet's
-/// explicit world, the slower one of those with a step as short, takes in a budget. A full run's allows all
-/// on a cloth of 10 x 10.
+/// Steps of the scene's step that each method's run is given, so that all cover the same time: as many as the slowest
+/// engine's representative takes in a budget. A full run's allows all on a cloth of 10 x 10.
 long steps_for(const Request& request, const Scene& scene) {
   const double budget = request.full ? 2.5 : 0.9;  // s
-  const double of_all = estimated_seconds(find_method("bullet/deformable-explicit"), scene, all_steps);
+  double of_all = 0;
+  for (const Method& method : builtin_methods())
+    if (method.family().by_default() && method.name == method.family().representative)
+      of_all = std::max(of_all, estimated_seconds(method, scene, all_steps));
   return std::clamp(static_cast<long>(all_steps * budget / of_all) / samples * samples, 1000l, all_steps);
 }
 
-void long_run(const Request& request, const Scene& scene, const Method& method, Rows& rows) {
+void long_run(const Request& request, const Scene& scene, const Method& method, TableSet& tables) {
   Table summary = table_of<EnergyRow>();
   Table table = table_of<SceneLedgerRow>(scene.name + "-ledger");
   const long steps = steps_for(request, scene);
@@ -54,25 +56,25 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
   run.timed = false;
   run.step = request.step == 0 && method.implicit ? longer * step : step;
   if (steps < all_steps)
-    rows.notes.push_back(fmt::format("energy takes {} steps instead of {} on {}: its {} particles cost much{}", steps,
-                                     all_steps, scene.name, scene.model.particles.size(),
-                                     request.full ? "" : "; --full takes more"));
+    tables.notes.push_back(fmt::format("energy takes {} steps instead of {} on {}: its {} particles cost much{}", steps,
+                                       all_steps, scene.name, scene.model.particles.size(),
+                                       request.full ? "" : "; --full takes more"));
 
   // how many steps an adaptive rule takes is its own choice: stiff springs take millions
   if (const double seconds = method.adaptive ? estimated_as_it_begins(method, scene, run) : 0; seconds > 30) {
-    rows.notes.push_back(
+    tables.notes.push_back(
         fmt::format("energy leaves out {} on {}: as it begins, its {:.3g} s would cost about {:.0f} s of CPU time",
                     method.name, scene.name, run.duration, seconds));
     return;
   }
 
-  // some ten thousand looks are enough to find the largest residual, and cost less than the steps
+  // some ten thousand observations are enough to find the largest residual, and cost less than the steps
   ThinnedLedger ledger(scene.model, method.contact, std::max(1l, steps / 20000));
   const Outcome out = run_method(method, scene, run, {&ledger});
   const auto& seen = ledger.rows();
   const bool nothing = out.verdict == Verdict::unsupported || seen.empty();
   if (nothing && out.verdict == Verdict::ok)
-    rows.notes.push_back(fmt::format("energy leaves out {} on {}: it gave no velocities", method.name, scene.name));
+    tables.notes.push_back(fmt::format("energy leaves out {} on {}: it gave no velocities", method.name, scene.name));
   const Model& model = scene.model;
   const bool undamped = !model.find<Drag>() && !model.find<Dashpots>() && !model.find<Spheres>();
   const bool claimed = !ledger.contact_inferred();
@@ -130,8 +132,8 @@ void long_run(const Request& request, const Scene& scene, const Method& method, 
     if (claimed) kept_row.residual = residual, kept_row.largest_residual = worst;
     add(table, kept_row);
   }
-  rows.add(summary);
-  rows.add(table);
+  tables.add(summary);
+  tables.add(table);
 }
 
 }  // namespace
@@ -142,8 +144,8 @@ std::vector<Point> energy_points(const Request& request) {
   std::vector<Point> points;
   for (const Scene& scene : scenes) {
     if (scene.model.first_order()) {
-      points.push_back({"energy: " + scene.name, content_of(request, scene), [name = scene.name](Rows& rows) {
-                          rows.notes.push_back(
+      points.push_back({"energy: " + scene.name, content_of(request, scene), [name = scene.name](TableSet& tables) {
+                          tables.notes.push_back(
                               fmt::format("energy leaves out {}: a first-order system has no energy", name));
                         }});
       continue;
@@ -152,7 +154,7 @@ std::vector<Point> energy_points(const Request& request) {
       Request alone = request;
       alone.methods = {method};
       points.push_back({fmt::format("energy: {} by {}", scene.name, method.name), content_of(alone, scene),
-                        [=](Rows& rows) { long_run(alone, scene, method, rows); }});
+                        [=](TableSet& tables) { long_run(alone, scene, method, tables); }});
     }
   }
   const Scene oscillator = undamped_oscillator();
@@ -161,7 +163,7 @@ std::vector<Point> energy_points(const Request& request) {
     Request alone = request;
     alone.methods = {method};
     points.push_back({fmt::format("energy: numerical damping of {}", method.name), content_of(alone, oscillator),
-                      [=, full = request.full](Rows& rows) { add_damping(method, full, rows); }});
+                      [=, full = request.full](TableSet& tables) { add_damping(method, full, tables); }});
   }
   return points;
 }

@@ -113,7 +113,7 @@ MeasuredDamping measured_damping(const Method& method, double h, int steps) {
   return found;
 }
 
-void add_damping(const Method& method, bool full, Rows& rows) {
+void add_damping(const Method& method, bool full, TableSet& tables) {
   Table table = table_of<DampingRow>();
   std::vector<double> sizes = {0.02, 0.05, 0.1, 0.2, 0.5, 1, 1.5, 3};
   if (full) sizes = {0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3, 5};
@@ -129,7 +129,7 @@ void add_damping(const Method& method, bool full, Rows& rows) {
                           .equivalent_drag = found.rate,
                           .by_theory = damping_by_theory(method, h, omega)});
   }
-  rows.add(table);
+  tables.add(table);
 }
 
 }  // namespace crosscheck

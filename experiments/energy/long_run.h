@@ -63,6 +63,6 @@ struct MeasuredDamping {
 MeasuredDamping measured_damping(const Method& method, double h, int steps);
 
 /// Table energy-damping: both, over a range of steps, for every method with fixed steps.
-void add_damping(const Method& method, bool full, Rows& rows);
+void add_damping(const Method& method, bool full, TableSet& tables);
 
 }  // namespace crosscheck

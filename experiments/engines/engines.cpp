@@ -38,32 +38,33 @@ std::optional<double> predicted_limit(const Method& method, const Scene& scene, 
 }
 
 /// Table SCENE-statistics: what perturbed runs have in common.
-void add_statistics(const Request& request, const Scene& scene, const Run& run, Results& answers, Rows& rows) {
+void add_statistics(const Request& request, const Scene& scene, const Run& run, MethodResults& results,
+                    TableSet& tables) {
   Table table = table_of<StatisticRow>(scene.name + "-statistics");
   // the rules that stand for the engines: sixteen runs of every method would show no more
   for (const MethodFamily& family : method_families()) {
     if (!family.by_default()) continue;
     const auto methods = methods_of(request, scene);
-    const auto asked =
+    const auto method =
         std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == family.representative; });
-    if (asked == methods.end()) continue;
-    if (!request.full && estimated_seconds(*asked, scene, run) > 0.3) {
-      rows.notes.push_back(fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them",
-                                       family.representative, scene.name));
+    if (method == methods.end()) continue;
+    if (!request.full && estimated_seconds(*method, scene, run) > 0.3) {
+      tables.notes.push_back(fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them",
+                                         family.representative, scene.name));
       continue;
     }
     // a method that refuses the scene, or failed on it, has no statistics
-    const Result& answer = result_of(request, scene, *asked, answers);
-    if (answer.outcome.verdict != Verdict::ok) continue;
-    for (const Statistic& s : contact_statistics(*asked, scene, run))
-      add(table, StatisticRow{asked->name, s.quantity, s.unit, s.mean, s.deviation});
+    const MethodResult& result = result_of(request, scene, *method, results);
+    if (result.outcome.verdict != Verdict::ok) continue;
+    for (const Statistic& s : contact_statistics(*method, scene, run))
+      add(table, StatisticRow{method->name, s.quantity, s.unit, s.mean, s.deviation});
   }
-  if (!table.rows.empty()) rows.add(table);
+  if (!table.rows.empty()) tables.add(table);
 }
 
 }  // namespace
 
-void engines_on(const Request& request, const Scene& scene, Results& answers, Rows& rows) {
+void engines_on(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables) {
   Table summary = table_of<EngineRow>();
   Table cost = table_of<EngineCostRow>();
 
@@ -71,7 +72,7 @@ void engines_on(const Request& request, const Scene& scene, Results& answers, Ro
   Table table = table_of<EngineTimeRow>(scene.name + "-engines");
   const auto truth = truth_of(scene, run);
   // differences from a run that failed would say nothing
-  const Result& by_rule = result_of(request, scene, find_method(std::string(subject().representative)), answers);
+  const MethodResult& by_rule = result_of(request, scene, find_method(std::string(subject().representative)), results);
   const Trajectory reference = by_rule.outcome.verdict == Verdict::ok ? by_rule.trajectory : Trajectory{};
   const Method probe = find_method(reference.frames() > 0 ? std::string(subject().representative) : scene.method);
   const Growth growing = growth_of(probe, scene, run, reference.frames() > 0 ? &reference : nullptr);
@@ -82,19 +83,20 @@ void engines_on(const Request& request, const Scene& scene, Results& answers, Ro
   const double motion = motion_of(truth && !of_rule ? truth->trajectory : reference);
 
   for (const Method& method : methods_of(request, scene)) {
-    Result& answer = result_of(request, scene, method, answers);
-    Outcome& out = answer.outcome;
+    MethodResult& result = result_of(request, scene, method, results);
+    Outcome& out = result.outcome;
     if (out.verdict != Verdict::unsupported && !method.stepper) {
-      rows.certificates.push_back(certify(method.name, scene, out));
-      if (rows.certificates.back().mismatch()) {
+      tables.certificates.push_back(certify(method.name, scene, out));
+      if (tables.certificates.back().mismatch()) {
         // a run of another scene is no result: no number of it is kept
         out.verdict = Verdict::unsupported;
         out.reason = "it built another scene, see its parity certificate";
       }
     }
-    if (out.verdict == Verdict::unsupported) answer.trajectory = {};
-    const Trajectory& path = answer.trajectory;
+    if (out.verdict == Verdict::unsupported) result.trajectory = {};
+    const Trajectory& path = result.trajectory;
     const bool unsupported = out.verdict == Verdict::unsupported;
+    if (request.on_runs && path.frames() > 0) request.on_runs({"engines", scene, method.name, {{out, path}}});
     std::vector<EngineTimeRow> samples;
     double lowest = 1e300;
     for (int i = 0; i < path.frames() && !unsupported; ++i) {
@@ -137,70 +139,71 @@ void engines_on(const Request& request, const Scene& scene, Results& answers, Ro
       if (path.frames()) row.creep = creep(scene, path.t.back(), path.x.back(), path.v.back());
     }
     add(summary, row);
-    if (!out.remark.empty()) rows.notes.push_back(fmt::format("{} on {}: {}", method.name, scene.name, out.remark));
+    if (!out.remark.empty()) tables.notes.push_back(fmt::format("{} on {}: {}", method.name, scene.name, out.remark));
     // an outside program need not report its own time
-    const bool told = out.process_seconds == 0 || out.cpu_seconds > 0;
+    const bool time_reported = out.process_seconds == 0 || out.cpu_seconds > 0;
     if (unsupported) continue;
     EngineCostRow spent{.scene = scene.name, .method = method.name};
-    if (told) spent.cpu = out.cpu_seconds;
-    if (told && out.steps) spent.cpu_per_step = out.cpu_seconds / static_cast<double>(out.steps);
+    if (time_reported) spent.cpu = out.cpu_seconds;
+    if (time_reported && out.steps) spent.cpu_per_step = out.cpu_seconds / static_cast<double>(out.steps);
     if (out.cpu_seconds > 0) spent.simulated_per_cpu = out.end / out.cpu_seconds;
     if (out.process_seconds > 0) spent.process_cpu = out.process_seconds;
     add(cost, spent);
   }
-  rows.add(table);
+  tables.add(table);
   if (scene.model.find<Spheres>() && scene.model.particles.size() > 1)
-    add_statistics(request, scene, run, answers, rows);
-  rows.add(summary);
-  rows.add(cost);
-  add_energies(request, scene, answers, rows);
+    add_statistics(request, scene, run, results, tables);
+  tables.add(summary);
+  tables.add(cost);
+  add_energies(request, scene, results, tables);
 }
 
 std::vector<Point> engines_points(const Request& request) {
-  return one_point_per_scene(request, "engines", [](const Request& alone, const Scene& scene, Rows& rows) {
-    Results answers;
-    engines_on(alone, scene, answers, rows);
+  return one_point_per_scene(request, "engines", [](const Request& alone, const Scene& scene, TableSet& tables) {
+    MethodResults results;
+    engines_on(alone, scene, results, tables);
   });
 }
 
-void add_energies(const Request& request, const Scene& scene, Results& answers, Rows& rows) {
+void add_energies(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables) {
   Table summary = table_of<EngineEnergyRow>();
   if (scene.model.first_order()) {
-    rows.notes.push_back(fmt::format("energies leave out {}: a first-order system has no energy", scene.name));
-    rows.add(summary);
+    tables.notes.push_back(fmt::format("energies leave out {}: a first-order system has no energy", scene.name));
+    tables.add(summary);
     return;
   }
   Table table = table_of<SceneEnergyRow>(scene.name + "-energy");
   for (const Method& method : methods_of(request, scene)) {
-    const Result& answer = result_of(request, scene, method, answers);
-    const Outcome& out = answer.outcome;
+    const MethodResult& result = result_of(request, scene, method, results);
+    const Outcome& out = result.outcome;
     if (out.verdict == Verdict::unsupported) continue;
-    if (answer.ledger.empty()) {
-      rows.notes.push_back(fmt::format("energies leave out {} on {}: it gave no velocities", method.name, scene.name));
+    if (result.ledger.empty()) {
+      tables.notes.push_back(
+          fmt::format("energies leave out {} on {}: it gave no velocities", method.name, scene.name));
       continue;
     }
-    const double start = answer.ledger.front().balance();
+    const double start = result.ledger.front().balance();
     double worst = 0, energy_scale = 0;
-    add_ledger(table, method.name, answer.ledger, answer.contact_inferred);
-    for (const LedgerRow& row : answer.ledger) {
+    add_ledger(table, method.name, result.ledger, result.contact_inferred);
+    for (const LedgerRow& row : result.ledger) {
       worst = std::max(worst, std::abs(row.balance() - start));
       energy_scale = std::max({energy_scale, row.energy.kinetic,
-                               std::abs(row.energy.gravitational - answer.ledger[0].energy.gravitational)});
+                               std::abs(row.energy.gravitational - result.ledger[0].energy.gravitational)});
     }
     EngineEnergyRow row{.scene = scene.name,
                         .method = method.name,
                         .verdict = out.verdict,
                         .end = out.end,
                         .turned_over = energy_scale,
-                        .contact_inferred = answer.contact_inferred};
-    if (out.verdict == Verdict::ok && !answer.contact_inferred) {
+                        .contact_inferred = result.contact_inferred};
+    if (out.verdict == Verdict::ok && !result.contact_inferred) {
       row.balance_error = worst;
       if (energy_scale > 0) row.relative_balance_error = worst / energy_scale;
     }
     add(summary, row);
   }
-  rows.add(table);
-  rows.add(summary);
+  tables.add(table);
+  tables.add(summary);
 }
 
 }  // namespace crosscheck

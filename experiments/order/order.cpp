@@ -49,19 +49,19 @@ std::string why_not(const Scene& scene) {
   return "";
 }
 
-void order_on(const Request& request, const Scene& scene, Rows& rows) {
+void order_on(const Request& request, const Scene& scene, TableSet& tables) {
   Table points = table_of<OrderRow>();
   Table slopes = table_of<OrderSlopeRow>();
   std::set<std::string> adaptive;  // left out, said once
   const int halvings = request.full ? 9 : 7;
   if (const std::string why = why_not(scene); !why.empty()) {
-    rows.notes.push_back(fmt::format("order leaves out {}: {}", scene.name, why));
+    tables.notes.push_back(fmt::format("order leaves out {}: {}", scene.name, why));
     return;
   }
   const Run base = run_of(request, scene);
   const auto truth = truth_of(scene, base);
   if (!truth) {
-    rows.notes.push_back(fmt::format("order leaves out {}: no truth is known for it", scene.name));
+    tables.notes.push_back(fmt::format("order leaves out {}: no truth is known for it", scene.name));
     return;
   }
   const double motion = motion_of(truth->trajectory);
@@ -107,12 +107,13 @@ void order_on(const Request& request, const Scene& scene, Rows& rows) {
     if (const auto fit = asymptotic_order(good))
       add(slopes, OrderSlopeRow{scene.name, method.name, method.stepper->order, fit->order, fit->from, fit->to});
     else
-      rows.notes.push_back(fmt::format("order sees no steady slope of {} on {}", method.name, scene.name));
+      tables.notes.push_back(fmt::format("order sees no steady slope of {} on {}", method.name, scene.name));
   }
   if (!adaptive.empty())
-    rows.notes.push_back(fmt::format("order leaves out {}: steps that follow a tolerance", fmt::join(adaptive, ", ")));
-  rows.add(points);
-  rows.add(slopes);
+    tables.notes.push_back(
+        fmt::format("order leaves out {}: steps that follow a tolerance", fmt::join(adaptive, ", ")));
+  tables.add(points);
+  tables.add(slopes);
 }
 
 }  // namespace

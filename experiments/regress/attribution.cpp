@@ -216,13 +216,13 @@ std::string speed_accuracy_of(const SpeedComparison& speed, std::span<const Comp
 }
 
 std::vector<std::string> explain_speeds(std::vector<SpeedComparison>& speeds, std::span<const Comparison> quantities) {
-  std::vector<std::string> told;
+  std::vector<std::string> sentences;
   for (SpeedComparison& speed : speeds) {
     speed.sentence = speed_accuracy_of(speed, quantities);
     if (!speed.sentence.empty())
-      told.push_back(fmt::format("{} under {}: {}", speed.scene, speed.method, speed.sentence));
+      sentences.push_back(fmt::format("{} under {}: {}", speed.scene, speed.method, speed.sentence));
   }
-  return told;
+  return sentences;
 }
 
 }  // namespace crosscheck

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "experiments/tables/table.h"
+#include "mysim/base/csv.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 

@@ -270,14 +270,14 @@ void error_against_truth(const Observation& seen, Quantities& out) {
 /// The settings that the engine reports. Six digits: single precision rounds its input.
 void settings(const Observation& seen, Quantities& out) {
   if (!seen.case_run.outcome.readback) return;
-  const Readback& told = *seen.case_run.outcome.readback;
+  const Readback& readback = *seen.case_run.outcome.readback;
   const auto add = [&out](const std::string& name, const std::string& word) {
     if (!word.empty()) out.push_back({setting_prefix + name, "word", 0, word});
   };
-  add("precision", told.precision);
-  if (told.may_sleep) add("sleeping", *told.may_sleep ? "on" : "off");
-  if (told.margin) add("margin", fmt::format("{:.6g} m", *told.margin));
-  for (const auto& [name, value] : told.settings) add(name, value);
+  add("precision", readback.precision);
+  if (readback.may_sleep) add("sleeping", *readback.may_sleep ? "on" : "off");
+  if (readback.margin) add("margin", fmt::format("{:.6g} m", *readback.margin));
+  for (const auto& [name, value] : readback.settings) add(name, value);
 }
 
 constexpr void (*table[])(const Observation&, Quantities&) = {settings,

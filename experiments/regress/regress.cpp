@@ -38,7 +38,7 @@ struct QuantityRow {
 Point point_of(const Job& job) {
   const auto& [test_case, name, tolerances] = job;
   return {name, test_case.scene.hash + test_case.method.fingerprint + (tolerances ? " tolerances" : ""),
-          [job](Rows& rows) {
+          [job](TableSet& tables) {
             std::vector<QuantityWithTolerance> all;
             if (job.with_tolerances)
               all = with_tolerances(job.test_case);
@@ -48,7 +48,7 @@ Point point_of(const Job& job) {
             Table table = table_of<QuantityRow>();
             for (const auto& [q, tolerance, derivation] : all)
               add(table, QuantityRow{job.name, q.name, q.unit, q.value, q.word, q.count, tolerance, derivation});
-            rows.add(table);
+            tables.add(table);
           },
           false};
 }
@@ -71,8 +71,8 @@ JobResults run_jobs(const std::vector<Job>& all, const std::filesystem::path& ou
   JobResults results;
   results.failures = run_points(points, {jobs, {}}, store, progress);
   for (const Point& point : points) {
-    const auto rows = store.find(point.hash());
-    if (const Table* table = rows ? rows->table(std::string(QuantityRow::table)) : nullptr)
+    const auto found = store.find(point.hash());
+    if (const Table* table = found ? found->table(std::string(QuantityRow::table)) : nullptr)
       results.quantities[point.name] = quantities_of(*table);
   }
   return results;

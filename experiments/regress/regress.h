@@ -38,8 +38,6 @@ const QuantityWithTolerance* find(const std::vector<QuantityWithTolerance>& all,
 /// Without their tolerances.
 std::vector<Quantity> quantities_in(const std::vector<QuantityWithTolerance>& all);
 
-// Regression: runs the selected cases and compares the results with baselines or with another method's.
-
 struct Regression {
   Selection selection;
   std::optional<Method> against;    // instead of baselines; then exactly one method is selected

@@ -14,6 +14,8 @@
 #include "experiments/scenes/cloths.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/tables/table.h"
+#include "experiments/timing/timing.h"
+#include "mysim/base/csv.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/random.h"
 #include "mysim/base/this_process.h"
@@ -28,8 +30,8 @@ PlainLoop::PlainLoop(const Scene& scene) : h_(1e-3 * scene.step) {
   start_v_.resize(3 * n);  // first-order scenes have none
   force_.resize(3 * n);
   for (size_t i = 0; i < n; ++i) {
-    per_mass_.push_back(particles.pinned[i] ? 0 : 1 / particles.mass[static_cast<Eigen::Index>(i)]);
-    falls_.push_back(particles.pinned[i] ? 0 : 1);
+    inverse_mass_.push_back(particles.pinned[i] ? 0 : 1 / particles.mass[static_cast<Eigen::Index>(i)]);
+    gravity_factor_.push_back(particles.pinned[i] ? 0 : 1);
   }
   if (const auto* springs = scene.model.find<Springs>())
     for (const Spring& s : springs->list) edges_.push_back({s.a, s.b, s.k, s.rest});
@@ -39,11 +41,7 @@ PlainLoop::PlainLoop(const Scene& scene) : h_(1e-3 * scene.step) {
 
 double PlainLoop::seconds_of(long steps) {
   x_ = start_x_, v_ = start_v_;
-  CpuClock clock;
-  clock.start();
-  advance(steps);
-  clock.stop();
-  return clock.seconds();
+  return cpu_time_of([&] { advance(steps); });
 }
 
 // aligned: what stands before it in the program must not change how fast it is
@@ -61,7 +59,7 @@ double PlainLoop::seconds_of(long steps) {
       on_b[0] += pull * dx, on_b[1] += pull * dy, on_b[2] += pull * dz;
     }
     for (size_t i = 0; i < numbers; ++i) {
-      v_[i] += h_ * (force_[i] * per_mass_[i / 3] + gravity_[i % 3] * falls_[i / 3]);
+      v_[i] += h_ * (force_[i] * inverse_mass_[i / 3] + gravity_[i % 3] * gravity_factor_[i / 3]);
       x_[i] += h_ * v_[i];
     }
   }
@@ -86,19 +84,12 @@ bool ends_well(const Method& method, const SpeedCase& q) {
   return run_method(method, q.scene, q.run, {&timeout}).verdict == Verdict::ok;
 }
 
-double mean_seconds(double resolution, const std::function<double()>& run) {
-  double sum = 0;
-  int count = 0;
-  do sum += run();
-  while (++count < 1000 && sum < resolution);
-  return sum / count;
-}
-
 double seconds_of(const Method& method, const SpeedCase& q, double resolution) {
-  return mean_seconds(resolution, [&] {
+  const auto one_run = [&] {
     NullObserver null_observer;
     return method.engine(q.scene, q.run, null_observer).cpu_seconds;
-  });
+  };
+  return mean_time(one_run, resolution);
 }
 
 /// Takes small pieces of memory and gives some of them back, so that what is allocated next comes to lie elsewhere: a
@@ -166,15 +157,15 @@ std::vector<SpeedCase> speed_cases(const Selection& selection, const std::option
   return all;
 }
 
-std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const SpeedOptions& plan, int seed) {
+std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const SpeedOptions& options, int seed) {
   std::mt19937_64 engine(static_cast<uint64_t>(seed));
   std::vector<PreparedCase> prepared_cases;
-  for (const SpeedCase& q : cases) prepared_cases.emplace_back(q, plan.resolution);
+  for (const SpeedCase& q : cases) prepared_cases.emplace_back(q, options.resolution);
   std::vector<Ratios> all(cases.size());
-  for (int round = 0; round < plan.rounds; ++round) {
+  for (int round = 0; round < options.rounds; ++round) {
     const HeapShuffle shuffled(engine);
     for (size_t i = 0; i < prepared_cases.size(); ++i)
-      if (prepared_cases[i].runs) measure_once(cases[i], prepared_cases[i], plan.resolution, all[i]);
+      if (prepared_cases[i].runs) measure_once(cases[i], prepared_cases[i], options.resolution, all[i]);
   }
   return all;
 }
@@ -220,7 +211,7 @@ std::string text_of(const SpeedFile& file) {
   const std::vector<Machine> machines = machines_of(file.speeds);
   for (size_t i = 0; i < machines.size(); ++i)
     out += fmt::format("# machine {}: {} | {} | {}\n", i + 1, machines[i].cpu, machines[i].compiler,
-                       machines[i].yardstick);
+                       machines[i].reference_loop);
   out += fmt::format("# rows: {}\n", file.speeds.size());
   out += "# ratio: CPU time of the method over that of as many steps of the plain loop on the same scene, in turns;\n";
   out +=

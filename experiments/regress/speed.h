@@ -26,8 +26,8 @@ class PlainLoop {
   /// CPU time of so many steps from the scene's start, s. They are so short that no scene blows up: what a step costs
   /// does not depend on its length, but sums of nan cost something else.
   double seconds_of(long steps);
-  /// Where it is, three numbers for each particle, m.
-  const std::vector<double>& places() const { return x_; }
+  /// Three numbers for each particle, m.
+  const std::vector<double>& positions() const { return x_; }
   double step() const { return h_; }  // s
 
  private:
@@ -39,12 +39,10 @@ class PlainLoop {
 
   std::vector<Edge> edges_;
   std::vector<double> start_x_, start_v_, x_, v_, force_;  // three for each particle
-  std::vector<double> per_mass_, falls_;                   // 1/kg, and 1; 0 where pinned
+  std::vector<double> inverse_mass_, gravity_factor_;      // 1/kg; 1, or 0 where pinned
   double gravity_[3] = {0, 0, 0};                          // m/s^2
   double h_;                                               // s
 };
-
-// Speeds of methods, as ratios to a plain loop on the same scene in the same rounds.
 
 /// One scene under one method, over its first steps; against another method where one is named.
 struct SpeedCase {
@@ -79,7 +77,7 @@ using MeasureSpeeds = std::function<std::vector<Ratios>(const std::vector<SpeedC
 
 /// In each round each case is run between two runs of the plain loop, so that a slow spell of the machine falls
 /// on both, and with everything elsewhere in memory, as drawn from the seed: what that changes is noise, too.
-std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const SpeedOptions& plan, int seed);
+std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const SpeedOptions& options, int seed);
 
 // Blessed speeds: the cost of each method over that of the plain loop at the last blessing. One file.
 
@@ -88,7 +86,7 @@ std::vector<Ratios> measured_ratios(const std::vector<SpeedCase>& cases, const S
 struct Machine {
   std::string cpu,
       compiler;  // processor_kind() (experiments/timing/machine.h), empty where that is not known; with its flags
-  std::string yardstick;  // which plain loop
+  std::string reference_loop;  // which plain loop
   bool operator==(const Machine&) const = default;
 };
 

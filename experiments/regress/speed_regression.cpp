@@ -30,18 +30,18 @@ double middle(std::vector<double> values) { return timing_of(std::move(values)).
 /// The differences of a machine from this one, in words; empty where there are none.
 std::string differences_of(const Machine& there, const Machine& here) {
   std::string text;
-  const auto tell = [&](const char* part, const std::string& is, const std::string& would_be) {
+  const auto add_difference = [&](const char* part, const std::string& is, const std::string& would_be) {
     if (is == would_be) return;
     text += fmt::format("{}on another {} ({}; this is {})", text.empty() ? "" : " and ", part, is, would_be);
   };
-  tell("processor", there.cpu, here.cpu);
-  tell("compiler", there.compiler, here.compiler);
-  tell("yardstick", there.yardstick, here.yardstick);
+  add_difference("processor", there.cpu, here.cpu);
+  add_difference("compiler", there.compiler, here.compiler);
+  add_difference("yardstick", there.reference_loop, here.reference_loop);
   return text;
 }
 
 int parts_apart(const Machine& a, const Machine& b) {
-  return (a.cpu != b.cpu) + (a.compiler != b.compiler) + (a.yardstick != b.yardstick);
+  return (a.cpu != b.cpu) + (a.compiler != b.compiler) + (a.reference_loop != b.reference_loop);
 }
 
 /// The case's blessed speed under other circumstances, in words: on the machine that is most like this one.
@@ -208,16 +208,16 @@ struct RatiosRow {
                  column("was", "1", &RatiosRow::was, "the same of the method that it stands beside")};
 };
 
-Point point_of(const std::vector<SpeedCase>& cases, const SpeedOptions& plan, int count) {
+Point point_of(const std::vector<SpeedCase>& cases, const SpeedOptions& options, int count) {
   return {fmt::format("speed, measurement {}", count), "",
-          [&cases, plan, count](Rows& rows) {
-            const std::vector<Ratios> all = measured_ratios(cases, plan, count);
+          [&cases, options, count](TableSet& tables) {
+            const std::vector<Ratios> all = measured_ratios(cases, options, count);
             Table ratios = table_of<RatiosRow>();
             for (size_t i = 0; i < all.size(); ++i)
               for (size_t k = 0; k < all[i].is.size(); ++k)
                 add(ratios, RatiosRow{static_cast<long>(i), all[i].is[k],
                                       all[i].was.empty() ? std::nullopt : std::optional(all[i].was[k])});
-            rows.add(ratios);
+            tables.add(ratios);
           },
           true};
 }
@@ -234,7 +234,7 @@ std::string nothing_selected(const SpeedRun& run) {
              : fmt::format("no speed: {} is no method inside this program, and has a clock of its own", outside);
 }
 
-void tell_what_is_not_compared(Speeds& speeds) {
+void note_what_is_not_compared(Speeds& speeds) {
   std::vector<std::pair<std::string, int>> reasons;
   for (const SpeedComparison& row : speeds.rows) {
     if (row.state != SpeedStatus::added && row.state != SpeedStatus::elsewhere) continue;
@@ -256,16 +256,16 @@ bool Speeds::passed() const {
          std::none_of(rows.begin(), rows.end(), [](const SpeedComparison& row) { return failed(row.state); });
 }
 
-std::vector<Ratios> SpeedMeasurement::operator()(const std::vector<SpeedCase>& cases, const SpeedOptions& plan) {
+std::vector<Ratios> SpeedMeasurement::operator()(const std::vector<SpeedCase>& cases, const SpeedOptions& options) {
   std::this_thread::sleep_until(begun_ + std::chrono::seconds(1));
   begun_ = std::chrono::steady_clock::now();
   const Store store(out_ / "speed-points");
   store.clear();
-  const Point point = point_of(cases, plan, ++count_);
+  const Point point = point_of(cases, options, ++count_);
   progress_.expect(1);
   for (const FailedPoint& f : run_points({&point, 1}, {}, store, progress_)) throw std::runtime_error(f.why);
-  const auto rows = store.find(point.hash());
-  const Table* table = rows ? rows->table(std::string(RatiosRow::table)) : nullptr;
+  const auto found = store.find(point.hash());
+  const Table* table = found ? found->table(std::string(RatiosRow::table)) : nullptr;
   if (!table) throw std::runtime_error("what was measured is gone");
   std::vector<Ratios> all(cases.size());
   for (const RatiosRow& row : rows_of<RatiosRow>(*table)) {
@@ -281,7 +281,7 @@ Speeds compared_speeds(const std::vector<SpeedCase>& cases, const SpeedFile* ble
   Speeds speeds;
   speeds.rows = first_measurement(cases, blessed, machine, measure);
   confirm(speeds.rows, cases, measure);
-  tell_what_is_not_compared(speeds);
+  note_what_is_not_compared(speeds);
   return speeds;
 }
 

@@ -86,7 +86,7 @@ class SpeedMeasurement {
  public:
   SpeedMeasurement(std::filesystem::path out, Progress& progress) : out_(std::move(out)), progress_(progress) {}
   /// Throws std::runtime_error where the process died.
-  std::vector<Ratios> operator()(const std::vector<SpeedCase>& cases, const SpeedOptions& plan);
+  std::vector<Ratios> operator()(const std::vector<SpeedCase>& cases, const SpeedOptions& options);
 
  private:
   std::filesystem::path out_;

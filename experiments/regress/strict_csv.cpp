@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "mysim/base/csv.h"
 #include "mysim/base/errors.h"
 
 namespace crosscheck {
@@ -21,25 +22,11 @@ Blessing blessing_from(const std::string& text) {
 }
 
 std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields{""};
-  bool quoted = false;
-  for (size_t i = 0; i < line.size(); ++i) {
-    if (quoted) {
-      if (line[i] != '"')
-        fields.back() += line[i];
-      else if (i + 1 < line.size() && line[i + 1] == '"')
-        fields.back() += line[i++];
-      else
-        quoted = false;
-    } else if (line[i] == '"') {
-      quoted = true;
-    } else if (line[i] == ',') {
-      fields.emplace_back();
-    } else {
-      fields.back() += line[i];
-    }
-  }
-  if (quoted) throw InputError("expected a closing quote");
+  size_t at = 0;
+  const auto record = csv_record(line, at);
+  if (!record) throw InputError("expected a closing quote");
+  std::vector<std::string> fields;
+  for (const CsvField& field : *record) fields.push_back(field.text);
   return fields;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-bool solves(const Method& method) { return method.implicit && !method.family().single_precision; }
+bool solves(const Method& method) { return method.implicit && method.family().in_process(); }
 
 bool single(const Method& method, const CaseRun& case_run) {
   if (case_run.outcome.readback) return case_run.outcome.readback->precision == "single";

@@ -33,7 +33,7 @@ Run Setting::applied_to(Run run) const {
   return run;
 }
 
-std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run& run, bool full, int* dropped) {
+std::vector<Setting> settings_of(const Method& method, const Scene& scene, const Run& run, bool full, int* dropped) {
   std::vector<Setting> settings;
   if (method.adaptive) {
     for (double tolerance = 1e-2; tolerance > (full ? 5e-11 : 5e-9); tolerance /= 100)
@@ -63,10 +63,11 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
   const bool touches = scene.model.find<Spheres>();  // that may cost more than falling
   if (method.adaptive && touches) return {run};
   const double enough = 0.02;  // s: a hundred thousand ticks of the clock
+  const double cheap = 0.2;    // s: shorter runs are timed whole; all of them together take a few seconds more for it
   const double all_of_it =
       method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run);
   const double share = std::min(1., enough / all_of_it);
-  const bool whole = share > 0.7 || touches;
+  const bool whole = all_of_it < cheap || touches;
   if (method.adaptive) {
     if (whole) return {run};
     run.samples = std::max(1, static_cast<int>(std::ceil(share * run.samples)));
@@ -76,8 +77,8 @@ TimedPart part_of(const Method& method, const Scene& scene, const Run& base, con
   // the clock is read at each sample, which takes 0.3 microseconds: one in 100 is often enough to detect a blow-up
   const long all = static_cast<long>(time_grid(run).steps_per_sample) * run.samples;
   long steps = whole ? all : std::min(all, std::max(20L, std::lround(share * static_cast<double>(all))));
-  const int samples =
-      std::clamp(static_cast<int>(share * all_of_it / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
+  int samples = std::clamp(static_cast<int>(share * all_of_it / 1e-4), 1, static_cast<int>(std::min(200L, steps)));
+  while (whole && steps % samples != 0) --samples;  // the last step is timed too
   steps = steps / samples * samples;
   return {{time_grid(run).h, time_grid(run).h * static_cast<double>(steps), samples},
           static_cast<double>(steps) / static_cast<double>(all)};
@@ -108,12 +109,12 @@ struct SettingRun {
 /// The runs of one method; empty where it does not take the scene, or built another one. A note says where it took some
 /// settings and refused others.
 std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const Run& base,
-                                const std::vector<Setting>& ladder, bool watched, std::vector<std::string>& notes) {
-  const double omega = watched && !scene.model.first_order() ? highest_frequency(scene.model, scene.start) : 0;
+                                const std::vector<Setting>& settings, bool recorded, std::vector<std::string>& notes) {
+  const double omega = recorded && !scene.model.first_order() ? highest_frequency(scene.model, scene.start) : 0;
   std::vector<SettingRun> tries;
   std::string refusal;
   size_t refused = 0;
-  for (const Setting& setting : ladder) {
+  for (const Setting& setting : settings) {
     Recorder recorder;
     Outcome out = run_method(method, scene, setting.applied_to(base), {&recorder});
     if (out.verdict == Verdict::unsupported) {  // at this step, perhaps not at others
@@ -127,12 +128,12 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
     }
     // its last frames take a run of their own: observing every step makes adaptive methods take other steps
     LastFrames last(omega, setting.tolerance ? 0 : setting.value);
-    if (watched && out.verdict != Verdict::ok) run_method(method, scene, setting.applied_to(base), {&last});
+    if (recorded && out.verdict != Verdict::ok) run_method(method, scene, setting.applied_to(base), {&last});
     tries.push_back({setting, std::move(out), std::move(recorder.trajectory), last.path()});
   }
   if (refused > 0 && !tries.empty())
     notes.push_back(fmt::format("speed-accuracy leaves out {} of {} runs of {} on {}, which it refuses: {}", refused,
-                                ladder.size(), method.name, scene.name, refusal));
+                                settings.size(), method.name, scene.name, refusal));
   return tries;
 }
 
@@ -155,7 +156,7 @@ std::string why_not(const Scene& scene, double motion) {
 
 }  // namespace
 
-void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
+void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tables) {
   const Run base = run_of(request, scene);
   const auto truth = truth_of(scene, base);
   const bool of_rule = truth && truth->under_contact_rule;
@@ -163,11 +164,11 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
   if (!truth) run_method(find_method(scene.method), scene, base, {&plain});
   const double motion = motion_of(truth ? truth->trajectory : plain.trajectory);
   if (const std::string why = why_not(scene, motion); !why.empty()) {
-    rows.notes.push_back(fmt::format("speed-accuracy leaves out {}: {}", scene.name, why));
+    tables.notes.push_back(fmt::format("speed-accuracy leaves out {}: {}", scene.name, why));
     return;
   }
   if (!truth)
-    rows.notes.push_back(
+    tables.notes.push_back(
         fmt::format("speed-accuracy knows no truth of {}: only distances to each method's own finest run", scene.name));
   const double until = truth ? std::min(scene.window, truth->until) : scene.window;
   const std::string tier = truth ? std::string(name_of(truth->tier)) + (of_rule ? ", in-house contact rule" : "") : "";
@@ -176,13 +177,13 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
   std::vector<std::string> shortened;
   for (const Method& method : methods_for(request, scene)) {
     int dropped = 0;
-    const auto settings = ladder(method, scene, base, request.full, &dropped);
-    const std::vector<SettingRun> tries = runs_at(method, scene, base, settings, bool(request.watch), rows.notes);
+    const auto settings = settings_of(method, scene, base, request.full, &dropped);
+    const std::vector<SettingRun> tries = runs_at(method, scene, base, settings, bool(request.on_runs), tables.notes);
     if (!tries.empty() && dropped > 0) shortened.push_back(fmt::format("{} ({})", method.name, dropped));
-    if (request.watch && !tries.empty()) {
-      WatchedRuns watched{"speed-accuracy", scene, method.name, {}};
-      for (const SettingRun& run : tries) watched.runs.push_back({run.outcome, run.ok() ? run.trajectory : run.end});
-      request.watch(watched);
+    if (request.on_runs && !tries.empty()) {
+      RecordedRuns recorded{"speed-accuracy", scene, method.name, {}};
+      for (const SettingRun& run : tries) recorded.runs.push_back({run.outcome, run.ok() ? run.trajectory : run.end});
+      request.on_runs(recorded);
     }
     for (const SettingRun& run : tries) {
       const Outcome& out = run.outcome;
@@ -196,7 +197,7 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
       SpeedAccuracyRow row{.scene = scene.name,
                            .method = method.name,
                            .setting = run.setting.kind(),
-                           .asked = run.setting.value,
+                           .requested = run.setting.value,
                            .step = out.step,
                            .steps = out.steps,
                            .evaluations = out.evaluations,
@@ -213,12 +214,12 @@ void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows) {
     }
   }
   if (!shortened.empty())
-    rows.notes.push_back(fmt::format("speed-accuracy on {} leaves out runs that would cost much{}: {}", scene.name,
-                                     request.full ? "" : "; --full has more of them", fmt::join(shortened, ", ")));
-  rows.add(table);
+    tables.notes.push_back(fmt::format("speed-accuracy on {} leaves out runs that would cost much{}: {}", scene.name,
+                                       request.full ? "" : "; --full has more of them", fmt::join(shortened, ", ")));
+  tables.add(table);
 }
 
-void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows) {
+void time_speed_accuracy(const Request& request, const Scene& scene, TableSet& tables) {
   const Run base = run_of(request, scene);
   struct Timed {
     std::string method;
@@ -231,7 +232,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
   MotionBoundsCache bounds;  // short runs are repeated a thousand times
   const std::vector<Method> methods = methods_for(request, scene);
   for (const Method& method : methods)
-    for (const Setting& setting : ladder(method, scene, base, request.full)) {
+    for (const Setting& setting : settings_of(method, scene, base, request.full)) {
       const TimedPart part = part_of(method, scene, base, setting);
       // run until it accepts the scene once: it may refuse the longest steps alone
       if (timed.empty() || timed.back().method != method.name)
@@ -251,13 +252,13 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
     const Timing t = timing_of(times[i]);
     if (!(t.median > 0)) {
       if (timed[i].evaluations > 0)
-        rows.notes.push_back(fmt::format("{} does not tell what CPU time it took", timed[i].method));
+        tables.notes.push_back(fmt::format("{} does not tell what CPU time it took", timed[i].method));
       continue;
     }
     add(table, SpeedAccuracyTimingRow{.scene = scene.name,
                                       .method = timed[i].method,
                                       .setting = timed[i].setting.kind(),
-                                      .asked = timed[i].setting.value,
+                                      .requested = timed[i].setting.value,
                                       .part = timed[i].share,
                                       .evaluations = timed[i].evaluations,
                                       .cpu = t.median,
@@ -266,7 +267,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows)
                                       .repetitions = t.repetitions,
                                       .noise = noise});
   }
-  rows.add(table);
+  tables.add(table);
 }
 
 std::string build_of(const std::string& method) { return std::string(family_of(method).build_text); }

@@ -25,8 +25,8 @@ struct Setting {
 /// one. Tolerances from 1e-2 to 1e-8 (full: 1e-10). Left out is what, by an estimate that is the same on every machine,
 /// would take more than 0.35 s of CPU time (1.8 s at the run's own step and longer ones); without `full` 0.7 times as
 /// much. `dropped` counts those.
-std::vector<Setting> ladder(const Method& method, const Scene& scene, const Run& run, bool full,
-                            int* dropped = nullptr);
+std::vector<Setting> settings_of(const Method& method, const Scene& scene, const Run& run, bool full,
+                                 int* dropped = nullptr);
 
 /// The timed part of a run: the whole, or its first part.
 struct TimedPart {
@@ -37,8 +37,6 @@ struct TimedPart {
 /// something may be touched (that may cost more than falling), and of outside programs.
 TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting);
 
-// Experiment `speed-accuracy`: error against cost of every method on a scene, at many steps or tolerances.
-
 /// Distance of two runs over the samples that both have, up to a time: RMS over the particles, m.
 struct TrajectoryDistance {
   double largest = 0;    // over time
@@ -47,10 +45,10 @@ struct TrajectoryDistance {
 TrajectoryDistance distance_over_time(const Trajectory& a, const Trajectory& b, double until);
 
 /// Rows of `speed-accuracy`: no time in them. Notes say what was left out.
-void speed_accuracy_on(const Request& request, const Scene& scene, Rows& rows);
+void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tables);
 /// Rows of `speed-accuracy-timing-cost`: the same runs timed in turns. Long runs are timed over their first part, as
 /// each evaluation of a scene without contact costs the same.
-void time_speed_accuracy(const Request& request, const Scene& scene, Rows& rows);
+void time_speed_accuracy(const Request& request, const Scene& scene, TableSet& tables);
 
 /// The build of the code whose time is measured.
 std::string build_of(const std::string& method);

@@ -23,10 +23,10 @@ std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> poin
 }
 
 const WorkPrecisionPoint* cheapest(const std::vector<WorkPrecisionPoint>& points, double bound,
-                                   bool (MethodFamily::*asked)() const) {
+                                   const FamilyFilter& is_eligible) {
   const WorkPrecisionPoint* best = nullptr;
   for (const WorkPrecisionPoint& p : points)
-    if (p.ok && p.error && *p.error <= bound && (!asked || (family_of(p.method).*asked)()) &&
+    if (p.ok && p.error && *p.error <= bound && (!is_eligible || is_eligible(family_of(p.method))) &&
         (!best || p.cost < best->cost))
       best = &p;
   return best;
@@ -61,7 +61,7 @@ std::vector<SceneRuns> runs_of(const Table& table) {
       scenes.push_back({row.scene, row.motion, row.truth_bar, difference ? Measure::difference : Measure::error, {}});
     }
     SceneRuns& s = scenes.back();
-    s.points.push_back({row.method, row.setting, row.asked, row.verdict == Verdict::ok,
+    s.points.push_back({row.method, row.setting, row.requested, row.verdict == Verdict::ok,
                         s.measure == Measure::difference ? row.difference : row.error,
                         static_cast<double>(row.evaluations)});
   }
@@ -74,7 +74,8 @@ std::vector<WorkPrecisionPoint> timed_points(const SceneRuns& s, const std::vect
   std::vector<WorkPrecisionPoint> points;
   for (const WorkPrecisionPoint& p : s.points)
     for (const SpeedAccuracyTimingRow& row : timing) {
-      if (row.scene != s.scene || row.method != p.method || row.setting != p.setting || row.asked != p.asked) continue;
+      if (row.scene != s.scene || row.method != p.method || row.setting != p.setting || row.requested != p.requested)
+        continue;
       const auto measured = static_cast<double>(row.evaluations);
       // a failed run ended earlier than its timed twin, which had no observer, or later
       const double factor = measured > 0 && p.cost > 0 ? p.cost / measured : 1 / row.part;
@@ -86,7 +87,7 @@ std::vector<WorkPrecisionPoint> timed_points(const SceneRuns& s, const std::vect
       add(cost, SpeedAccuracyCostRow{.scene = s.scene,
                                      .method = p.method,
                                      .setting = p.setting,
-                                     .asked = p.asked,
+                                     .requested = p.requested,
                                      .verdict = p.ok ? RunEnd::ok : RunEnd::failed,
                                      .cpu = timed.cost,
                                      .cpu_low = timed.time->low,
@@ -104,7 +105,13 @@ template <Cost kind>
 void add_pareto(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& points, Table& table) {
   if (!s.error_bar) return;
   for (const WorkPrecisionPoint& p : pareto_line(points, *s.error_bar))
-    add(table, ParetoRow<kind>{s.scene, p.cost, *p.error, p.method, p.setting, p.asked});
+    add(table, ParetoRow<kind>{s.scene, p.cost, *p.error, p.method, p.setting, p.requested});
+}
+
+/// Of a solver that counts its steps alone, what it takes for each would pass for nothing.
+bool counts_evaluations(const std::string& method) {
+  const Method* known = builtin_without_options(method);
+  return !known || known->counts_evaluations;
 }
 
 constexpr double parts_of_motion[] = {0.1, 0.01, 0.001};
@@ -116,16 +123,15 @@ void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& poi
     // the truth may err as well: what is met is met whatever the truth is within its bar
     const double bound = part * s.motion, left = bound - *s.error_bar;
     CheapestRow<kind> row{.scene = s.scene, .part_of_motion = part, .bound = bound, .measure = s.measure};
-    const WorkPrecisionPoint *best = cheapest(points, left),
-                             *bullet = cheapest(points, left, &MethodFamily::is_default_peer),
+    const WorkPrecisionPoint *best = cheapest(points, left), *bullet = cheapest(points, left, is_first_peer),
                              *ours = cheapest(points, left, &MethodFamily::is_subject);
     if (best) {
-      row.method = best->method, row.setting = best->setting, row.asked = best->asked, row.cost = best->cost;
+      row.method = best->method, row.setting = best->setting, row.requested = best->requested, row.cost = best->cost;
       row.distance = best->error;
       row.tied = fmt::format("{}", fmt::join(statistically_tied(points, *best, left, noise), ", "));
     }
     if (bullet) {
-      row.bullet = bullet->method, row.bullet_setting = bullet->setting, row.bullet_asked = bullet->asked;
+      row.bullet = bullet->method, row.bullet_setting = bullet->setting, row.bullet_requested = bullet->requested;
       row.bullet_cost = bullet->cost, row.bullet_distance = bullet->error;
     }
     if (ours && bullet) row.bullet_over_mysim = bullet->cost / ours->cost;
@@ -139,23 +145,19 @@ void add_cheapest(const SceneRuns& s, const std::vector<WorkPrecisionPoint>& poi
 
 }  // namespace
 
-void conclude_speed_accuracy(Rows& rows) {
-  const Table* results = rows.table(std::string(SpeedAccuracyRow::table));
+void conclude_speed_accuracy(TableSet& tables) {
+  const Table* results = tables.table(std::string(SpeedAccuracyRow::table));
   if (!results) return;  // a part of a sweep
   std::vector<SpeedAccuracyTimingRow> timing;
-  const Table* timed = rows.table(std::string(SpeedAccuracyTimingRow::table));
+  const Table* timed = tables.table(std::string(SpeedAccuracyTimingRow::table));
   if (timed) timing = rows_of<SpeedAccuracyTimingRow>(*timed);
   Table pareto = table_of<ParetoRow<Cost::evaluations>>(), pareto_time = table_of<ParetoRow<Cost::cpu>>(),
         best = table_of<CheapestRow<Cost::evaluations>>(), best_time = table_of<CheapestRow<Cost::cpu>>(),
         cost = table_of<SpeedAccuracyCostRow>(), engines = table_of<EngineSpeedRow>();
   for (const SceneRuns& s : runs_of(*results)) {
-    // an outside program need not count its evaluations, and of Bullet's implicit and position-based worlds the steps
-    // alone are known: what their solvers take for each would pass for nothing
+    // an outside program need not count its evaluations
     std::vector<WorkPrecisionPoint> counted = s.points;
-    std::erase_if(counted, [](const WorkPrecisionPoint& p) {
-      return !(p.cost > 0) || p.method.find("/deformable-implicit") != std::string::npos ||
-             p.method.find("/pbd") != std::string::npos;
-    });
+    std::erase_if(counted, [](const WorkPrecisionPoint& p) { return !(p.cost > 0) || !counts_evaluations(p.method); });
     add_pareto<Cost::evaluations>(s, counted, pareto);
     add_cheapest<Cost::evaluations>(s, counted, 0, best);
     if (!timed) continue;
@@ -166,10 +168,16 @@ void conclude_speed_accuracy(Rows& rows) {
     for (const double part : parts_of_motion)
       if (s.error_bar) add_by_engine(s.scene, part, s.measure, part * s.motion - *s.error_bar, points, engines);
   }
-  for (const Table& table : {pareto, best, cost, pareto_time, best_time, engines}) rows.add(table);
+  for (const Table& table : {pareto, best, cost, pareto_time, best_time, engines}) tables.add(table);
 }
 
-std::string engine_of(const std::string& method) { return method.substr(0, method.find('/')); }
+std::string engine_of(const std::string& method) {
+  return family_of(method).role == Role::outside ? method : method.substr(0, method.find('/'));
+}
+
+std::string name_beside_engine(const std::string& method) {
+  return family_of(method).role == Role::outside ? method : method.substr(method.find('/') + 1);
+}
 
 void add_by_engine(const std::string& scene, double part_of_motion, Measure measure, double bound,
                    const std::vector<WorkPrecisionPoint>& points, Table& table) {
@@ -190,7 +198,7 @@ void add_by_engine(const std::string& scene, double part_of_motion, Measure meas
                        .engine = engine,
                        .method = best->method,
                        .setting = best->setting,
-                       .asked = best->asked,
+                       .requested = best->requested,
                        .cpu = best->cost,
                        .distance = *best->error,
                        .part_timed = best->part};

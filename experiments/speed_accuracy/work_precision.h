@@ -17,7 +17,7 @@ namespace crosscheck {
 struct WorkPrecisionPoint {
   std::string method;
   SettingKind setting;
-  double asked;  // s or 1
+  double requested;  // s or 1
   bool ok;
   std::optional<double> error;      // m; of runs that are ok
   double cost;                      // evaluations, or s
@@ -29,9 +29,9 @@ struct WorkPrecisionPoint {
 /// below the floor (m) counts as the floor: those below it are equal.
 std::vector<WorkPrecisionPoint> pareto_line(std::vector<WorkPrecisionPoint> points, double floor);
 
-/// The cheapest run with an error of at most `bound`, of the families asked for; null where there is none.
+/// The cheapest run with an error of at most `bound`, of the families that are eligible; null where there is none.
 const WorkPrecisionPoint* cheapest(const std::vector<WorkPrecisionPoint>& points, double bound,
-                                   bool (MethodFamily::*asked)() const = nullptr);
+                                   const FamilyFilter& is_eligible = {});
 
 /// Other methods whose cheapest run within the bound cannot be distinguished from the best one's by their times, given
 /// the noise (relative).
@@ -40,8 +40,11 @@ std::vector<std::string> statistically_tied(const std::vector<WorkPrecisionPoint
 
 // The cheapest run of each engine within an accuracy, compared with mysim's.
 
-/// The engine of a method: "mysim" of "mysim/leapfrog".
+/// The engine of a method: "mysim" of "mysim/leapfrog". A program or a trajectory of the reader's is one itself:
+/// "exec:./a".
 std::string engine_of(const std::string& method);
+/// What a method is called where its engine is named as well: "leapfrog", "exec:./a".
+std::string name_beside_engine(const std::string& method);
 
 /// Adds an EngineSpeedRow for each engine that has a timed run within `bound` (m), what the truth's bar takes off
 /// included: its cheapest, and how many times as long as mysim's cheapest it takes, from `low` to `high` the widest

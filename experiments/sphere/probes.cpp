@@ -191,14 +191,14 @@ std::optional<ConeResult> cone(const Method& method, double degrees, double fric
   if (out.verdict != Verdict::ok) return std::nullopt;
   const Trajectory& path = recorder.trajectory;
   const double angle = degrees * std::numbers::pi / 180, t = scene.duration;
-  ConeResult answer{(path.x.back() - path.x.front()).norm(),
+  ConeResult result{(path.x.back() - path.x.front()).norm(),
                     std::max(0.0, gravity * (std::sin(angle) - friction * std::cos(angle))) * t * t / 2,
                     ContactState::neither};
-  if (answer.way < 1e-3)
-    answer.state = ContactState::sticks;
-  else if (std::abs(answer.way - answer.coulomb) < 0.1 * answer.coulomb + 1e-3)
-    answer.state = ContactState::slides;
-  return answer;
+  if (result.distance < 1e-3)
+    result.state = ContactState::sticks;
+  else if (std::abs(result.distance - result.coulomb) < 0.1 * result.coulomb + 1e-3)
+    result.state = ContactState::slides;
+  return result;
 }
 
 namespace {

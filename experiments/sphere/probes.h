@@ -61,9 +61,9 @@ Leaving leaving_by_theory();
 /// A particle at rest on a slope (degrees), as the side of a ball so large that it is flat here.
 Scene on_slope(double degrees, double friction);
 struct ConeResult {
-  double way;          // m, in 0.5 s
+  double distance;     // m, in 0.5 s
   double coulomb;      // m, by Coulomb's law: 0 within the cone, else g (sin - mu cos) t^2 / 2
-  ContactState state;  // sticks: less than 1 mm; slides: Coulomb's way within a tenth (and 1 mm)
+  ContactState state;  // sticks: less than 1 mm; slides: Coulomb's distance within a tenth (and 1 mm)
 };
 std::optional<ConeResult> cone(const Method& method, double degrees, double friction, double step, Outcome& out);
 

@@ -13,7 +13,7 @@
 namespace crosscheck {
 namespace {
 
-void rebounds(const Request& request, const Method& method, Rows& rows) {
+void rebounds(const Request& request, const Method& method, TableSet& tables) {
   Table table = table_of<ReboundRow>();
   std::vector<double> parts = {0, 0.5, 0.9};
   if (request.full) parts = {0, 0.25, 0.5, 0.75, 0.9, 1};
@@ -29,10 +29,10 @@ void rebounds(const Request& request, const Method& method, Rows& rows) {
                             .rebound = height,
                             .by_theory = 0.3 * e * e});
     }
-  rows.add(table);
+  tables.add(table);
 }
 
-void leavings(const Request& request, const Method& method, Rows& rows) {
+void leavings(const Request& request, const Method& method, TableSet& tables) {
   Table table = table_of<LeavingRow>();
   const Leaving exact = leaving_by_theory();
   std::vector<double> steps = {1. / 240, 1e-3, 1e-4};
@@ -49,10 +49,10 @@ void leavings(const Request& request, const Method& method, Rows& rows) {
     if (found) row.angle = found->angle, row.speed = found->speed;
     add(table, row);
   }
-  rows.add(table);
+  tables.add(table);
 }
 
-void cones(const Request& request, const Method& method, Rows& rows) {
+void cones(const Request& request, const Method& method, TableSet& tables) {
   Table table = table_of<ConeRow>();
   std::vector<double> steps = {1e-3};
   if (request.full) steps = {1. / 60, 1. / 240, 1e-3};
@@ -67,24 +67,25 @@ void cones(const Request& request, const Method& method, Rows& rows) {
       for (const double mu : frictions) {
         Outcome out;
         const auto found = cone(method, degrees, mu, h, out);
-        const double asked = std::max(0.0, 9.81 * (std::sin(std::atan(limit)) - mu * std::cos(std::atan(limit))) / 8);
+        const double sliding_distance =
+            std::max(0.0, 9.81 * (std::sin(std::atan(limit)) - mu * std::cos(std::atan(limit))) / 8);
         ConeRow row{.method = method.name,
                     .verdict = out.verdict,
                     .reason = out.reason,
                     .step = h,
                     .angle = degrees,
                     .friction = mu,
-                    .way_by_theory = asked,
-                    .answer_by_theory = mu < limit ? ContactState::slides : ContactState::sticks};
-        if (found) row.way = found->way, row.answer = found->state;
+                    .distance_by_theory = sliding_distance,
+                    .state_by_theory = mu < limit ? ContactState::slides : ContactState::sticks};
+        if (found) row.distance = found->distance, row.state = found->state;
         add(table, row);
       }
     }
-  rows.add(table);
+  tables.add(table);
 }
 
 /// One run of a scene with balls: how deep, how long, where it ends.
-void drape(const Scene& scene, const Method& method, double step, Rows& rows) {
+void drape(const Scene& scene, const Method& method, double step, TableSet& tables) {
   Table summary = table_of<DrapeRow>();
   Table deep = table_of<PenetrationRow>();
   Table table = table_of<DrapeTimeRow>(scene.name + "-drape");
@@ -153,9 +154,9 @@ void drape(const Scene& scene, const Method& method, double step, Rows& rows) {
   }
   add(summary, row);
   add(deep, depth);
-  rows.add(summary);
-  rows.add(deep);
-  rows.add(table);
+  tables.add(summary);
+  tables.add(deep);
+  tables.add(table);
 }
 
 }  // namespace
@@ -167,27 +168,27 @@ std::vector<Point> sphere_points(const Request& request) {
     alone.scenes.clear();
     alone.methods = {method};
     points.push_back({fmt::format("sphere: {} by {}", what, method.name), content_of(alone, scene),
-                      [=](Rows& rows) { compute(alone, method, rows); }});
+                      [=](TableSet& tables) { compute(alone, method, tables); }});
   };
   const Scene centred = drop_centred(), aside = drop_aside();
   for (const Scene& scene : {aside, centred})
     for (const Method& method : methods_of(request, scene))
       if (!request.scenes_only)
-        add(scene.name, method, scene, [scene](const Request& alone, const Method& m, Rows& rows) {
+        add(scene.name, method, scene, [scene](const Request& alone, const Method& m, TableSet& tables) {
           std::vector<double> steps = {2e-3, 1e-3};
           if (alone.full) steps = {4e-3, 2e-3, 1e-3, 5e-4, 2.5e-4};
-          for (const double h : steps) drape(scene, m, h, rows);
+          for (const double h : steps) drape(scene, m, h, tables);
         });
   for (const Scene& scene : request.scenes) {
     if (!scene.model.find<Spheres>()) {
-      points.push_back({"sphere: " + scene.name, content_of(request, scene), [name = scene.name](Rows& rows) {
-                          rows.notes.push_back(fmt::format("sphere leaves out {}: it has none", name));
+      points.push_back({"sphere: " + scene.name, content_of(request, scene), [name = scene.name](TableSet& tables) {
+                          tables.notes.push_back(fmt::format("sphere leaves out {}: it has none", name));
                         }});
       continue;
     }
     for (const Method& method : methods_of(request, scene))
-      add(scene.name, method, scene, [scene](const Request& alone, const Method& m, Rows& rows) {
-        drape(scene, m, run_of(alone, scene).step, rows);
+      add(scene.name, method, scene, [scene](const Request& alone, const Method& m, TableSet& tables) {
+        drape(scene, m, run_of(alone, scene).step, tables);
       });
   }
   if (request.scenes_only) return points;

@@ -47,15 +47,15 @@ class LeapfrogMatrix {
     const auto n = k_.rows();
     y.topRows(n) += h / 2 * y.bottomRows(n);
     const Eigen::MatrixXd old = y.bottomRows(n), pull = -(k_ * y.topRows(n));
-    Eigen::MatrixXd middle = old, fresh;
+    Eigen::MatrixXd middle = old, next;
     for (int pass = 0; pass < passes; ++pass) {
-      if (pass > 0) middle = (old + fresh) / 2;
+      if (pass > 0) middle = (old + next) / 2;
       const Eigen::MatrixXd a = pull - dashpots_ * middle;
-      fresh = (1 + h / 2 * drag_.array()).inverse().matrix().asDiagonal() *
-              ((1 - h / 2 * drag_.array()).matrix().asDiagonal() * old + h * a);
+      next = (1 + h / 2 * drag_.array()).inverse().matrix().asDiagonal() *
+             ((1 - h / 2 * drag_.array()).matrix().asDiagonal() * old + h * a);
     }
-    y.bottomRows(n) = fresh;
-    y.topRows(n) += h / 2 * fresh;
+    y.bottomRows(n) = next;
+    y.topRows(n) += h / 2 * next;
   }
 
  private:
@@ -325,11 +325,11 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
   const double unit = s.omega > 0 ? 1 / s.omega : base.scene.step;
   const bool damped = base.scene.model.find<Drag>() || base.scene.model.find<Dashpots>();
   std::map<double, std::string> refused;  // by step
-  bool answered = false;
+  bool accepted = false;
   const auto holds = [&](double h) {
     const PerturbedRun trial = run_perturbed(method, base, h, steps, perturbation);
     if (trial.unsupported()) refused[h] = trial.reason;
-    answered |= !trial.unsupported();
+    accepted |= !trial.unsupported();
     return trial.held();
   };
   // without drag a rule that grows at h omega = 1/64 does so at every step; with drag of a millionth of omega its limit
@@ -339,7 +339,7 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
   // (suzuki4 at 4.05 radians, above its limit of 2.72), and doubling would step over it
   MeasuredLimit m = largest_step(holds, std::clamp(base.scene.step, lowest, highest), lowest, highest, precision, unit);
   if (refused.empty()) return m;
-  if (!answered) return {MeasuredLimit::unsupported, 0, 0, refused.begin()->second};
+  if (!accepted) return {MeasuredLimit::unsupported, 0, 0, refused.begin()->second};
   m.reason = fmt::format("a step of {:.3g} s is refused: {}", refused.begin()->first, refused.begin()->second);
   if (m.kind == MeasuredLimit::found && refused.contains(m.failed)) m.kind = MeasuredLimit::refused_above, m.failed = 0;
   return m;

@@ -37,23 +37,23 @@ std::span<const MapKind> map_kinds() {
   return table;
 }
 
-void add_map(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows,
-             const RunCallback& watch) {
+void add_map(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, TableSet& tables,
+             const RunCallback& on_runs) {
   Table cells = table_of<MapRow>(), limits = table_of<MapLimitRow>(), check = table_of<MapCheckRow>();
   const std::string map(kind.name);
   const BaseState as_it_is = base_state_of(scene);
   const double omega = as_it_is.spectrum.omega;
   if (!(omega > 0)) return;
   const auto no_map = [&](const std::string& why) {
-    rows.notes.push_back(fmt::format("stability draws no map of step and {}, {} on {}: it refuses every cell: {}",
-                                     kind.name, method.name, scene.name, why));
+    tables.notes.push_back(fmt::format("stability draws no map of step and {}, {} on {}: it refuses every cell: {}",
+                                       kind.name, method.name, scene.name, why));
   };
   // what a method lacks it lacks in every cell: tried once, at the shortest step
   if (const PerturbedRun first = run_perturbed(method, as_it_is, step_at(0, omega), 1, {}); first.unsupported())
     return no_map(first.reason);
-  long changed = 0, answered = 0;
+  long changed = 0, accepted = 0;
   std::string refusal;
-  WatchedRuns watched{map + "-map", scene, method.name, {}};
+  RecordedRuns recorded{map + "-map", scene, method.name, {}};
   for (int r = 0; r < size.rows; ++r) {
     const double value = kind.value(static_cast<double>(r) / (size.rows - 1), omega);
     const BaseState base = base_state_of(kind.with(scene, value));
@@ -64,10 +64,10 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
       const double h = step_at(static_cast<double>(c) / (size.columns - 1), omega);
       LastFrames pictures(base.spectrum.omega, h);
       const PerturbedRun trial = run_perturbed(method, base, h, size.steps, perturbation,
-                                               watch ? std::vector<Observer*>{&pictures} : std::vector<Observer*>{});
+                                               on_runs ? std::vector<Observer*>{&pictures} : std::vector<Observer*>{});
       const bool refused = trial.unsupported();
-      if (watch)
-        watched.runs.push_back({{.verdict = trial.verdict, .end = trial.end}, pictures.path(), base.scene.start.x});
+      if (on_runs)
+        recorded.runs.push_back({{.verdict = trial.verdict, .end = trial.end}, pictures.path(), base.scene.start.x});
       MapRow cell{scene.name, method.name, map, value, h, trial.effective_verdict(), {}, {}};
       if (!refused) cell.end = trial.end;
       if (!refused && std::isfinite(trial.growth)) cell.growth = trial.growth;
@@ -76,7 +76,7 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
         refusal = trial.reason;
         continue;
       }
-      ++answered;
+      ++accepted;
       if (failed == 0) (trial.held() ? held : failed) = h;
       if (size.check) changed += run_perturbed(method, base, h, 10 * size.steps, perturbation).held() != trial.held();
     }
@@ -92,13 +92,13 @@ void add_map(const MapKind& kind, const Scene& scene, const Method& method, cons
     if (failed > 0) limit.failed = failed;
     add(limits, limit);
   }
-  if (answered == 0) return no_map(refusal);
-  if (watch) watch(watched);
-  rows.add(cells);
-  rows.add(limits);
+  if (accepted == 0) return no_map(refusal);
+  if (on_runs) on_runs(recorded);
+  tables.add(cells);
+  tables.add(limits);
   if (size.check) {
-    add(check, MapCheckRow{scene.name, method.name, map, size.steps, answered, changed});
-    rows.add(check);
+    add(check, MapCheckRow{scene.name, method.name, map, size.steps, accepted, changed});
+    tables.add(check);
   }
 }
 

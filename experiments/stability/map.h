@@ -1,5 +1,5 @@
-// Maps: over step and stiffness, or step and drag, one run in each cell with what became of it; and the limit, measured
-// and predicted, on every row.
+// Stability maps over step and stiffness, or step and drag: the verdict of one run in each cell, and on each row the
+// largest stable step, measured and predicted.
 #pragma once
 
 #include "experiments/experiment.h"
@@ -26,10 +26,10 @@ struct MapSize {
 std::optional<MapSize> map_size(const Method& method, const Scene& scene, bool full);
 
 /// Tables stability-map (cells), stability-map-limit (limits of the rows) and, where requested, stability-map-check. A
-/// cell that the method refuses says so; where it refuses all there is no map, and a note. `watch` is shown the last
+/// cell that the method refuses says so; where it refuses all there is no map, and a note. `on_runs` is given the last
 /// pictures of each cell's run.
-void add_map(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, Rows& rows,
-             const RunCallback& watch = {});
+void add_map(const MapKind& kind, const Scene& scene, const Method& method, const MapSize& size, TableSet& tables,
+             const RunCallback& on_runs = {});
 
 /// The scene that maps of a scene are made of: itself, if it has at most 64 particles; else of a cloth the
 /// same with 6 particles along its longer side, "NAME-6"; else itself in a full run, or nothing.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/estimate.h"
@@ -11,6 +12,8 @@
 #include "experiments/stability/map.h"
 #include "experiments/stability/margin.h"
 #include "experiments/tables/stability.h"
+#include "mysim/model/energy.h"
+#include "mysim/run/observers.h"
 
 namespace crosscheck {
 namespace {
@@ -25,7 +28,7 @@ PredictionKind kind_of(const PredictedLimit& p) {
 /// Growth per step of the binding mode around the limit, or at a few steps where none is stable: the excess is tiny
 /// next to the step's own factor, and runs to a blow-up would take millions of steps.
 void add_growth(const Method& method, const Stepper& rule, const BaseState& base, const PredictedLimit& predicted,
-                Rows& rows) {
+                TableSet& tables) {
   const Spectrum& s = base.spectrum;
   if (!base.at_rest || !s.commuting || s.modes.empty() || !is_runge_kutta(rule)) return;
   const int mode = predicted.mode >= 0 ? predicted.mode : static_cast<int>(s.modes.size()) - 1;
@@ -55,14 +58,69 @@ void add_growth(const Method& method, const Stepper& rule, const BaseState& base
     if (predicted.limit > 0) row.share_of_limit = h / predicted.limit;
     add(table, row);
   }
-  rows.add(table);
+  tables.add(table);
 }
+
+/// The rule whose failure is shown: the cheapest of order two, which is the one to take where steps are bound by
+/// stability.
+bool shows_failure(const Method& method) {
+  return method.family().is_subject() && method.stepper &&
+         method.name == fmt::format("{}/{}", subject().name, method.stepper->name) && method.stepper->order == 2 &&
+         method.stepper->evaluations == 1 && method.stepper->symplectic;
+}
+
+/// What the run above its limit is at, in one sample a step, as far as it comes.
+Trajectory steps_of(const Method& method, const Scene& scene, double h, int per_sample, int samples) {
+  Recorder recorder;
+  Run run{h / per_sample, h * samples, samples};
+  run.timed = false;
+  run_method(method, scene, run, {&recorder});
+  return std::move(recorder.trajectory);
+}
+
+}  // namespace
+
+void add_failure(const Scene& scene, const Method& method, double limit, std::optional<double> growth,
+                 TableSet& tables) {
+  constexpr int most = 400, shown = 16;
+  const double h = failing_step(limit);
+  const Trajectory run = steps_of(method, scene, h, 1, most);
+  if (run.frames() > most) return;  // nothing grew from the start as it is
+  const Trajectory holds = steps_of(method, scene, h, 4, run.frames() - 1);
+  // pictures: the last moment at which no particle is further off than half of the scene, and some steps before
+  const auto strayed = [&](int i) {
+    return i >= holds.frames() || !run.x[i].allFinite() || largest_column(run.x[i] - holds.x[i]) > 0.5 * scene.size();
+  };
+  int last = 0;
+  while (last + 1 < run.frames() && !strayed(last + 1)) ++last;
+  const auto kinetic = [&](const Trajectory& of, int i) {
+    return energy_of(scene.model, State{of.t[i], of.x[i], of.v[i]}).kinetic;
+  };
+  Table table = table_of<FailureRow>();
+  for (int i = std::max(1, std::min(last - 4, run.frames() - shown)); i < run.frames(); ++i) {
+    FailureRow row{.scene = scene.name,
+                   .method = method.name,
+                   .h = h,
+                   .limit = limit,
+                   .growth = growth,
+                   .step = i,
+                   .t = run.t[i],
+                   .kinetic = kinetic(run, i),
+                   .still = i == last - 4 || i == last - 2 || i == last - 1 || i == last};
+    if (!std::isfinite(row.kinetic)) break;
+    if (i < holds.frames()) row.holding = kinetic(holds, i);
+    add(table, row);
+  }
+  tables.add(table);
+}
+
+namespace {
 
 /// The reason why a method is not measured, or nothing.
 std::string why_not(const Method& method) {
   if (method.family().role == Role::truth) return "truth takes no steps";
   if (method.adaptive) return "steps that follow a tolerance";
-  if (method.name.ends_with("+sticky")) return "its contact rule changes no limit";
+  if (method.sticky_contact) return "its contact rule changes no limit";
   return "";
 }
 
@@ -72,15 +130,23 @@ bool is_dear(const Method& method, const Scene& scene) {
   return !is_small(scene) && (!rule || std::isinf(rule->limit(1, 0)));
 }
 
-/// The methods whose maps are drawn: the explicit rules that differ, and the peers' methods.
-bool mapped(const Request& request, const Method& method) {
-  if (!request.methods.empty() || request.full) return true;
-  if (!method.family().is_subject()) return method.family().by_default();
-  const std::string rule = short_name(method.name);
-  return rule == "explicit-euler" || rule == "rk4" || rule == "symplectic-euler";
+/// Whether two rules break alike: both symplectic or neither, and both or neither stable at some step without drag.
+bool same_stability_class(const Stepper& a, const Stepper& b) {
+  return a.symplectic == b.symplectic && (a.limit(1, 0) > 0) == (b.limit(1, 0) > 0);
 }
 
+bool has_linear_limit(const Stepper& rule) { return std::isfinite(rule.limit(1, 0)); }
+
 }  // namespace
+
+bool is_mapped(const Method& method) {
+  if (!method.family().is_subject()) return method.family().by_default();
+  const Stepper& rule = *method.stepper;
+  if (!has_linear_limit(rule)) return false;
+  const auto first = std::ranges::find_if(
+      steppers(), [&](const Stepper& s) { return has_linear_limit(s) && same_stability_class(s, rule); });
+  return first->name == rule.name && method.name == fmt::format("{}/{}", subject().name, rule.name);
+}
 
 Effort effort_for(const Method& method, const Scene& scene, bool full) {
   const Effort least = is_dear(method, scene)              ? Effort{100, 0.5}  // whether a step fails at all
@@ -93,7 +159,7 @@ Effort effort_for(const Method& method, const Scene& scene, bool full) {
   return {std::min(20000L, steps), std::min(least.precision, steps < 4000 ? 0.005 : 0.001)};
 }
 
-void add_limit(const Scene& scene, const Method& method, const Effort& effort, Rows& rows) {
+void add_limit(const Scene& scene, const Method& method, const Effort& effort, TableSet& tables) {
   Table table = table_of<LimitRow>();
   const BaseState base = base_state_of(scene);
   const PredictedLimit predicted = predicted_limit(method, base.spectrum);
@@ -125,9 +191,15 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, R
     row.omega = binding.omega, row.gamma = binding.gamma;
   }
   add(table, row);
-  rows.add(table);
+  tables.add(table);
+  if (measured.kind == MeasuredLimit::found && shows_failure(method)) {
+    std::optional<double> growth;
+    if (row.omega)
+      growth = std::pow(growth_per_step(*method.stepper, {*row.omega, *row.gamma}, failing_step(measured.limit())), 2);
+    add_failure(scene, method, measured.limit(), growth, tables);
+  }
   if (const Stepper* rule = stepper_of(method); rule && measured.kind != MeasuredLimit::unsupported)
-    add_growth(method, *rule, base, predicted, rows);
+    add_growth(method, *rule, base, predicted, tables);
 }
 
 std::vector<Point> stability_points(const Request& request) {
@@ -137,8 +209,8 @@ std::vector<Point> stability_points(const Request& request) {
     for (const Method& method : methods_of(request, scene)) {
       const std::string name = fmt::format("{} on {}", method.name, scene.name);
       if (const std::string why = why_not(method); !why.empty()) {
-        points.push_back({"stability: " + name, "", [=](Rows& rows) {
-                            rows.notes.push_back(fmt::format("stability leaves out {}: {}", method.name, why));
+        points.push_back({"stability: " + name, "", [=](TableSet& tables) {
+                            tables.notes.push_back(fmt::format("stability leaves out {}: {}", method.name, why));
                           }});
         continue;
       }
@@ -146,32 +218,35 @@ std::vector<Point> stability_points(const Request& request) {
       alone.methods = {method};
       if (request.methods.empty() && !request.full && is_dear(method, scene)) {
         points.push_back(
-            {"stability: " + name, "", [name](Rows& rows) {
-               rows.notes.push_back(fmt::format(
+            {"stability: " + name, "", [name](TableSet& tables) {
+               tables.notes.push_back(fmt::format(
                    "stability leaves out {}: no linear limit, and every run costs much; --full has it", name));
              }});
       } else {
-        points.push_back({"stability: " + name, content_of(alone, scene), [=, full = request.full](Rows& rows) {
-                            add_limit(scene, method, effort_for(method, scene, full), rows);
+        points.push_back({"stability: " + name, content_of(alone, scene), [=, full = request.full](TableSet& tables) {
+                            add_limit(scene, method, effort_for(method, scene, full), tables);
                           }});
       }
-      if (!small || !mapped(request, method) || scene.model.first_order()) continue;
+      const bool all = !request.methods.empty() || request.full;
+      if (!small || !(all || is_mapped(method)) || scene.model.first_order()) continue;
       const auto size = map_size(method, *small, request.full);
       if (!size) {
-        points.push_back({"stability: maps, " + name, "", [name](Rows& rows) {
-                            rows.notes.push_back(fmt::format("stability draws no map of {}: its runs cost much", name));
+        points.push_back({"stability: maps, " + name, "", [name](TableSet& tables) {
+                            tables.notes.push_back(
+                                fmt::format("stability draws no map of {}: its runs cost much", name));
                           }});
         continue;
       }
       const std::string content = content_of(alone, *small);
       for (const MapKind& kind : map_kinds())
-        points.push_back(
-            {fmt::format("stability: map of step and {}, {}", kind.name, name), content,
-             [=, &kind, watch = request.watch](Rows& rows) { add_map(kind, *small, method, *size, rows, watch); }});
+        points.push_back({fmt::format("stability: map of step and {}, {}", kind.name, name), content,
+                          [=, &kind, on_runs = request.on_runs](TableSet& tables) {
+                            add_map(kind, *small, method, *size, tables, on_runs);
+                          }});
     }
     if (!small && scene.model.find<Springs>())
-      points.push_back({"stability: maps of " + scene.name, "", [name = scene.name](Rows& rows) {
-                          rows.notes.push_back(fmt::format(
+      points.push_back({"stability: maps of " + scene.name, "", [name = scene.name](TableSet& tables) {
+                          tables.notes.push_back(fmt::format(
                               "stability draws no map of {}: its hundreds of runs cost much; --full has them", name));
                         }});
   }

@@ -53,8 +53,6 @@ inline std::string reason_for(const BaseState& base, const Method& method, const
   }
 }
 
-// The largest stable step of one method on one scene, as a row.
-
 /// The effort of a search.
 struct Effort {
   long steps;        // of each run
@@ -68,6 +66,18 @@ Effort effort_for(const Method& method, const Scene& scene, bool full);
 inline bool is_small(const Scene& scene) { return scene.start.x.cols() <= 50; }
 
 /// A row of table stability, and rows of stability-growth where steps multiply modes.
-void add_limit(const Scene& scene, const Method& method, const Effort& effort, Rows& rows);
+void add_limit(const Scene& scene, const Method& method, const Effort& effort, TableSet& tables);
+
+/// A step at which runs fail within some steps, and not in one.
+inline double failing_step(double limit) { return 1.75 * limit; }
+
+/// Rows of stability-failure: the last steps of a run at that step from the scene's own start, which four of them are
+/// to be seen in pictures, and a run that holds beside it. None where it does not fail within some hundred steps.
+void add_failure(const Scene& scene, const Method& method, double limit, std::optional<double> growth,
+                 TableSet& tables);
+
+/// Whether the method's maps are drawn unasked: those of the peers, and of the subject's first rule of each kind that
+/// breaks in its own way.
+bool is_mapped(const Method& method);
 
 }  // namespace crosscheck

@@ -57,13 +57,13 @@ Table single_links(bool full, double h) {
 /// Three masses: their sag over the exact one, against k h^2 / mu of the links between masses (mu = m / 2).
 Table networks(bool full, int n) {
   Table table = table_of<NetworkStiffnessRow>();
-  const double mass = 0.1, k = 1000, g = 0.0981, asked = mass * g / k * 6;  // strain 3e-5 at most
+  const double mass = 0.1, k = 1000, g = 0.0981, expected = mass * g / k * 6;  // strain 3e-5 at most
   std::vector<double> steps = {1. / 60, 1. / 120, 1. / 240, 1. / 480, 1. / 960, 1. / 1920};
   if (full) steps.push_back(1. / 3840);
   for (const double h : steps) {
     // drag of 20/s: e^-20 of the sag is left after 2 s
     const double found = sag(hanging_chain(3, mass, k, g, 20, 2, h), fmt::format("bullet/pbd+n={}", n));
-    add(table, NetworkStiffnessRow{k * h * h / (mass / 2), h, n, asked, found, found / asked - 1});
+    add(table, NetworkStiffnessRow{k * h * h / (mass / 2), h, n, expected, found, found / expected - 1});
   }
   return table;
 }
@@ -77,10 +77,10 @@ std::vector<Point> stiffness_points(const Request& request) {
   std::vector<Point> points;
   for (const double h : {1. / 60, 1. / 240, 1. / 1000})
     points.push_back({fmt::format("stiffness: one link at {:.3g} s", h), content,
-                      [=](Rows& rows) { rows.add(single_links(full, h)); }});
+                      [=](TableSet& tables) { tables.add(single_links(full, h)); }});
   for (const int n : {1, 10})
-    points.push_back(
-        {fmt::format("stiffness: chain, {} iterations", n), content, [=](Rows& rows) { rows.add(networks(full, n)); }});
+    points.push_back({fmt::format("stiffness: chain, {} iterations", n), content,
+                      [=](TableSet& tables) { tables.add(networks(full, n)); }});
   return points;
 }
 

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -14,15 +12,15 @@
 namespace crosscheck {
 
 PointList point_list_of(std::vector<std::string> experiments, std::span<const Point> points, Provenance provenance) {
-  PointList plan{std::move(experiments), {}, std::move(provenance)};
-  for (const Point& point : points) plan.points.push_back({point.name, point.hash()});
-  return plan;
+  PointList list{std::move(experiments), {}, std::move(provenance)};
+  for (const Point& point : points) list.points.push_back({point.name, point.hash()});
+  return list;
 }
 
-void write_point_list(const PointList& plan, const std::filesystem::path& folder) {
-  Json json{{"experiments", plan.experiments}, {"provenance", Json::list()}, {"points", {}}};
-  for (const auto& [key, value] : plan.provenance) json["provenance"].push(Json::list(key, value));
-  for (const PointList::Entry& p : plan.points) json["points"].push({{"name", p.name}, {"hash", p.hash}});
+void write_point_list(const PointList& list, const std::filesystem::path& folder) {
+  Json json{{"experiments", list.experiments}, {"provenance", Json::list()}, {"points", {}}};
+  for (const auto& [key, value] : list.provenance) json["provenance"].push(Json::list(key, value));
+  for (const PointList::Entry& p : list.points) json["points"].push({{"name", p.name}, {"hash", p.hash}});
   write_file(folder / "plan.json", json.dump(1) + "\n");
 }
 
@@ -32,12 +30,12 @@ PointList read_point_list(const std::filesystem::path& folder) {
     throw InputError(fmt::format("{}: expected the plan of a sweep, written by `experiment --shard`", file.string()));
   try {
     const JsonField json = JsonField::parse_file(file.string());
-    PointList plan{json["experiments"].texts(), {}, {}};
+    PointList list{json["experiments"].texts(), {}, {}};
     for (const JsonField& line : json["provenance"].elements())
-      plan.provenance.emplace_back(line[0].text(), line[1].text());
+      list.provenance.emplace_back(line[0].text(), line[1].text());
     if (const JsonField points = json["points"]; !points.is_null())
-      for (const JsonField& p : points.elements()) plan.points.push_back({p["name"].text(), p["hash"].text()});
-    return plan;
+      for (const JsonField& p : points.elements()) list.points.push_back({p["name"].text(), p["hash"].text()});
+    return list;
   } catch (const InputError& error) {
     throw InputError(fmt::format("expected experiments, provenance and points of a sweep: {}", error.what()));
   }
@@ -83,9 +81,9 @@ Parity parity_of(const JsonField& field) {
 
 }  // namespace
 
-std::string rows_json(const Rows& rows) {
+std::string table_set_json(const TableSet& set) {
   Json certificates = Json::list(), tables = Json::list();
-  for (const Table& table : rows.tables) {
+  for (const Table& table : set.tables) {
     Json columns = Json::list(), lines = Json::list();
     for (const Column& c : table.columns) columns.push(Json::list(c.name, c.unit));
     for (const auto& row : table.rows) {
@@ -94,20 +92,20 @@ std::string rows_json(const Rows& rows) {
     }
     tables.push({{"columns", std::move(columns)}, {"name", table.name}, {"rows", std::move(lines)}});
   }
-  for (const Certificate& c : rows.certificates) {
+  for (const Certificate& c : set.certificates) {
     Json lines = Json::list();
     for (const CertificateRow& r : c.rows)
-      lines.push(Json::list(r.quantity, r.asked, r.mapped, r.read_back, name_of(r.parity)));
+      lines.push(Json::list(r.quantity, r.requested, r.mapped, r.read_back, name_of(r.parity)));
     certificates.push({{"method", c.method}, {"rows", std::move(lines)}, {"scene", c.scene}});
   }
-  const Json all{{"certificates", std::move(certificates)}, {"notes", rows.notes}, {"tables", std::move(tables)}};
+  const Json all{{"certificates", std::move(certificates)}, {"notes", set.notes}, {"tables", std::move(tables)}};
   return all.dump() + "\n";
 }
 
-Rows read_rows(const std::string& text) {
+TableSet read_table_set(const std::string& text) {
   try {
     const JsonField in = JsonField::parse(text, "rows");
-    Rows rows;
+    TableSet set;
     for (const JsonField& t : in["tables"].elements()) {
       Table table{t["name"].text(), {}, {}};
       for (const JsonField& c : t["columns"].elements()) table.columns.push_back({c[0].text(), c[1].text()});
@@ -117,45 +115,33 @@ Rows read_rows(const std::string& text) {
         if (row.size() != table.columns.size()) line.fail("as many cells as columns");
         table.rows.push_back(std::move(row));
       }
-      rows.tables.push_back(std::move(table));
+      set.tables.push_back(std::move(table));
     }
     for (const JsonField& c : in["certificates"].elements()) {
       Certificate certificate{c["method"].text(), c["scene"].text(), {}};
       for (const JsonField& r : c["rows"].elements())
         certificate.rows.push_back({r[0].text(), r[1].text(), r[2].text(), r[3].text(), parity_of(r[4])});
-      rows.certificates.push_back(std::move(certificate));
+      set.certificates.push_back(std::move(certificate));
     }
-    rows.notes = in["notes"].texts();
-    return rows;
+    set.notes = in["notes"].texts();
+    return set;
   } catch (const InputError& error) {
     throw InputError(fmt::format("expected JSON of tables, certificates and notes: {}", error.what()));
   }
 }
 
-namespace {
-
-std::optional<std::string> content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-}  // namespace
-
-std::optional<Rows> Store::find(const std::string& hash) const {
-  const auto text = content_of(file_of(hash));
+std::optional<TableSet> Store::find(const std::string& hash) const {
+  const auto text = try_read_file(file_of(hash));
   if (!text) return std::nullopt;
   try {
-    return read_rows(*text);
+    return read_table_set(*text);
   } catch (const InputError&) {
     return std::nullopt;
   }
 }
 
-void Store::keep(const std::string& hash, const Rows& rows) const {
-  write_file(file_of(hash), rows_json(rows));
+void Store::keep(const std::string& hash, const TableSet& set) const {
+  write_file(file_of(hash), table_set_json(set));
   forget_failure(hash);
 }
 
@@ -169,7 +155,7 @@ void Store::keep_failure(const std::string& hash, const std::string& why) const 
 }
 
 std::optional<std::string> Store::failure_of(const std::string& hash) const {
-  return content_of(failure_file_of(hash));
+  return try_read_file(failure_file_of(hash));
 }
 
 }  // namespace crosscheck

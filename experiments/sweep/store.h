@@ -1,4 +1,4 @@
-// Files of a sweep: its list of points, and the rows of each as JSON.
+// Files of a sweep: its list of points, and the tables of each as JSON.
 #pragma once
 
 #include <filesystem>
@@ -25,18 +25,18 @@ struct PointList {
 
 PointList point_list_of(std::vector<std::string> experiments, std::span<const Point> points, Provenance provenance);
 
-void write_point_list(const PointList& plan, const std::filesystem::path& folder);
+void write_point_list(const PointList& list, const std::filesystem::path& folder);
 /// Throws InputError that names the file and what was expected.
 PointList read_point_list(const std::filesystem::path& folder);
 
 /// The folder for the points of a sweep with that output folder.
 std::filesystem::path store_in(const std::filesystem::path& folder);
 
-// Rows as JSON, and back to the same bits: how a finished point is kept.
+// A table set as JSON, read back to the same bits: the form in which a finished point is kept.
 
-std::string rows_json(const Rows& rows);
-/// Throws InputError, "expected ...", when the text is no rows.
-Rows read_rows(const std::string& text);
+std::string table_set_json(const TableSet& set);
+/// Throws InputError, "expected ...", when the text is no table set.
+TableSet read_table_set(const std::string& text);
 
 // The folder in which a sweep keeps its points' rows: one file per point, by its hash.
 
@@ -45,9 +45,9 @@ class Store {
   explicit Store(std::filesystem::path folder) : folder_(std::move(folder)) {}
   bool has(const std::string& hash) const { return find(hash).has_value(); }
   /// Nothing where the point is not there; a file that cannot be read counts as not there.
-  std::optional<Rows> find(const std::string& hash) const;
+  std::optional<TableSet> find(const std::string& hash) const;
   /// Written under another name and renamed: a killed run leaves whole files only.
-  void keep(const std::string& hash, const Rows& rows) const;
+  void keep(const std::string& hash, const TableSet& tables) const;
   /// Stores why a point failed, in its own file; it does not count as there, and the next keep() or run replaces it.
   void keep_failure(const std::string& hash, const std::string& why) const;
   void forget_failure(const std::string& hash) const;

@@ -112,9 +112,9 @@ class Batch {
       if (point.timed) pin_to_one_core();
       const MachineLock lock(point.timed ? MachineLock::Mode::exclusive : MachineLock::Mode::shared);
       try {
-        Rows rows;
-        point.compute(rows);
-        store_.keep(point.hash(), rows);
+        TableSet tables;
+        point.compute(tables);
+        store_.keep(point.hash(), tables);
       } catch (const std::exception& error) {
         store_.keep_failure(point.hash(), error.what());
       }
@@ -166,27 +166,27 @@ std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOp
   return failed;
 }
 
-Rows joined(const PointList& plan, std::span<const Store> stores, std::vector<std::string>& missing) {
-  Rows all;
-  for (const PointList::Entry& point : plan.points) {
-    std::optional<Rows> rows;
-    for (size_t i = 0; i < stores.size() && !rows; ++i) rows = stores[i].find(point.hash);
-    if (rows)
-      all.append(*rows);
+TableSet joined(const PointList& list, std::span<const Store> stores, std::vector<std::string>& missing) {
+  TableSet all;
+  for (const PointList::Entry& point : list.points) {
+    std::optional<TableSet> tables;
+    for (size_t i = 0; i < stores.size() && !tables; ++i) tables = stores[i].find(point.hash);
+    if (tables)
+      all.append(*tables);
     else
       missing.push_back(point.name);
   }
-  for (const std::string& name : plan.experiments)
+  for (const std::string& name : list.experiments)
     if (const Experiment& experiment = find_experiment(name); experiment.conclude) experiment.conclude(all);
   return all;
 }
 
-Rows computed(std::span<const Point> points) {
-  Rows all;
+TableSet computed(std::span<const Point> points) {
+  TableSet all;
   for (const Point& point : points) {
-    Rows rows;
-    point.compute(rows);
-    all.append(rows);
+    TableSet tables;
+    point.compute(tables);
+    all.append(tables);
   }
   return all;
 }

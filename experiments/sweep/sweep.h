@@ -36,9 +36,9 @@ std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOp
 
 /// The rows of all points of the list in their order, each from the first store that has it, and what the list's
 /// experiments conclude from them; the names of points that no store has are added to `missing`.
-Rows joined(const PointList& plan, std::span<const Store> stores, std::vector<std::string>& missing);
+TableSet joined(const PointList& list, std::span<const Store> stores, std::vector<std::string>& missing);
 
 /// Computes all points here and now, without a store: for a few, and for tests. Lets exceptions through.
-Rows computed(std::span<const Point> points);
+TableSet computed(std::span<const Point> points);
 
 }  // namespace crosscheck

@@ -41,7 +41,7 @@ struct EnumRange<ScalingQuantity> {
 
 /// A model of a scene without some of its ingredients.
 struct AdequacyRow {
-  std::string scene, rung, left_out;
+  std::string scene, model, left_out;
   ModelKind kind = ModelKind::full;
   std::optional<double> error = {};
   double tolerance = 0;
@@ -55,7 +55,7 @@ struct AdequacyRow {
   static constexpr std::string_view table = "adequacy";
   static constexpr auto columns = std::tuple{
       column("scene", "1", &AdequacyRow::scene, "scene"),
-      column("rung", "1", &AdequacyRow::rung, "name of the model"),
+      column("rung", "1", &AdequacyRow::model, "name of the model"),
       column("left out", "1", &AdequacyRow::left_out, "ingredients that it lacks, with commas between"),
       column("kind", "1", &AdequacyRow::kind, "whether one ingredient is left out, or this one after those before it"),
       column("error", "m", &AdequacyRow::error,

@@ -73,7 +73,7 @@ struct EqualErrorRow {
   std::string scene, peer;
   PeerModel model = PeerModel::same;
   SettingKind setting = SettingKind::step;
-  double asked = 0;
+  double requested = 0;
   Verdict verdict = Verdict::ok;
   std::optional<double> error;
   double truth_bar = 0;
@@ -93,7 +93,7 @@ struct EqualErrorRow {
       column("peer", "1", &EqualErrorRow::peer, "method of the peer"),
       column("model", "1", &EqualErrorRow::model, "whether the peer converges to the scene's springs"),
       column("setting", "1", &EqualErrorRow::setting, "what was set, and its unit"),
-      column("asked", "see setting", &EqualErrorRow::asked, "step or tolerance that was asked for"),
+      column("asked", "see setting", &EqualErrorRow::requested, "step or tolerance that was asked for"),
       column("verdict", "1", &EqualErrorRow::verdict, "how the run ended"),
       column("error", "m", &EqualErrorRow::error, "RMS position error at the end"),
       column("truth bar", "m", &EqualErrorRow::truth_bar, "error bar of the truth"),

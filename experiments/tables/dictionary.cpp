@@ -5,6 +5,7 @@
 
 #include "experiments/tables/adequacy.h"
 #include "experiments/tables/bench.h"
+#include "experiments/tables/certificates.h"
 #include "experiments/tables/cost.h"
 #include "experiments/tables/disagreements.h"
 #include "experiments/tables/energy.h"
@@ -18,18 +19,18 @@
 namespace crosscheck {
 namespace {
 
-using AllRows = std::tuple<                                                   //
-    EngineRow, EngineCostRow, EngineTimeRow, EngineEnergyRow, StatisticRow,   //
-    SceneEnergyRow, SceneLedgerRow, EnergyRow, DampingRow,                    //
-    ReboundRow, LeavingRow, ConeRow, DrapeRow, PenetrationRow, DrapeTimeRow,  //
-    AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,              //
-    OrderRow, OrderSlopeRow,                                                  //
-    LinkStiffnessRow, NetworkStiffnessRow,                                    //
-    DisagreementRow, DisagreementCurveRow, ContactAngleRow,                   //
+using AllRows = std::tuple<                                                               //
+    EngineRow, EngineCostRow, EngineTimeRow, EngineEnergyRow, StatisticRow, AttestedRow,  //
+    SceneEnergyRow, SceneLedgerRow, EnergyRow, DampingRow,                                //
+    ReboundRow, LeavingRow, ConeRow, DrapeRow, PenetrationRow, DrapeTimeRow,              //
+    AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,                          //
+    OrderRow, OrderSlopeRow,                                                              //
+    LinkStiffnessRow, NetworkStiffnessRow,                                                //
+    DisagreementRow, DisagreementCurveRow, ContactAngleRow,                               //
     SpeedAccuracyRow, SpeedAccuracyTimingRow, SpeedAccuracyCostRow, ParetoRow<Cost::evaluations>,
     ParetoRow<Cost::cpu>,                                                    //
     CheapestRow<Cost::evaluations>, CheapestRow<Cost::cpu>, EngineSpeedRow,  //
-    LimitRow, GrowthRow, MapRow, MapLimitRow, MapCheckRow,                   //
+    LimitRow, FailureRow, GrowthRow, MapRow, MapLimitRow, MapCheckRow,       //
     SizeCostRow, PhaseCostRow, RooflineRow,                                  //
     KernelRow, SceneKernelRow, EqualErrorRow, OwnRunRow, SameStepRow, ImplicitStepRow, ThreadsRow>;
 
@@ -101,6 +102,20 @@ Table dictionary(std::span<const Table> present) {
     ((is_among<Row>(present) ? describe<Row>(some) : void()), ...);
   }(std::type_identity<AllRows>());
   return some;
+}
+
+Table with_declared_types(Table read) {
+  const auto retype = [&]<class Row>(std::type_identity<Row>) {
+    if (!is_among<Row>({&read, 1}) || read.columns != columns_of<Row>()) return false;
+    Table typed = table_of<Row>(read.name);
+    for (const Row& row : rows_of<Row>(read)) add(typed, row);
+    read = std::move(typed);
+    return true;
+  };
+  [&]<class... Row>(std::type_identity<std::tuple<Row...>>) {
+    (retype(std::type_identity<Row>{}) || ...);
+  }(std::type_identity<AllRows>());
+  return read;
 }
 
 }  // namespace crosscheck

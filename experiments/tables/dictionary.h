@@ -13,4 +13,8 @@ Table dictionary();
 /// The same of those tables only that are among `present`.
 Table dictionary(std::span<const Table> present);
 
+/// A table that was read from a file, with the types that its rows declare: a file writes a number that happens to be
+/// whole like a count. A table of a name that no row type has stays as it is. Throws InputError as rows_of().
+Table with_declared_types(Table read);
+
 }  // namespace crosscheck

@@ -34,7 +34,7 @@ enum class Cost { evaluations, cpu };
 struct SpeedAccuracyRow {
   std::string scene, method;
   SettingKind setting = SettingKind::step;
-  double asked = 0, step = 0;
+  double requested = 0, step = 0;
   long steps = 0, evaluations = 0;
   Verdict verdict = Verdict::ok;
   double end = 0;
@@ -50,7 +50,7 @@ struct SpeedAccuracyRow {
       std::tuple{column("scene", "1", &SpeedAccuracyRow::scene, "scene"),
                  column("method", "1", &SpeedAccuracyRow::method, "method"),
                  column("setting", "1", &SpeedAccuracyRow::setting, "what was set, and its unit"),
-                 column("asked", "see setting", &SpeedAccuracyRow::asked, "step or tolerance that was asked for"),
+                 column("asked", "see setting", &SpeedAccuracyRow::requested, "step or tolerance that was asked for"),
                  column("step", "s", &SpeedAccuracyRow::step, "time step used; the mean of adaptive methods"),
                  column("steps", "1", &SpeedAccuracyRow::steps, "time steps taken"),
                  column("evaluations", "1", &SpeedAccuracyRow::evaluations, "force evaluations"),
@@ -75,7 +75,7 @@ struct SpeedAccuracyRow {
 struct SpeedAccuracyTimingRow {
   std::string scene, method;
   SettingKind setting = SettingKind::step;
-  double asked = 0, part = 0;
+  double requested = 0, part = 0;
   long evaluations = 0;
   double cpu = 0, cpu_low = 0, cpu_high = 0;
   long repetitions = 0;
@@ -87,7 +87,7 @@ struct SpeedAccuracyTimingRow {
       column("scene", "1", &SpeedAccuracyTimingRow::scene, "scene"),
       column("method", "1", &SpeedAccuracyTimingRow::method, "method"),
       column("setting", "1", &SpeedAccuracyTimingRow::setting, "what was set, and its unit"),
-      column("asked", "see setting", &SpeedAccuracyTimingRow::asked, "step or tolerance that was asked for"),
+      column("asked", "see setting", &SpeedAccuracyTimingRow::requested, "step or tolerance that was asked for"),
       column("part of the run", "1", &SpeedAccuracyTimingRow::part, "part of the run that was timed"),
       column("evaluations", "1", &SpeedAccuracyTimingRow::evaluations, "force evaluations in that part"),
       column("cpu", "s", &SpeedAccuracyTimingRow::cpu, "CPU time of that part, median"),
@@ -100,7 +100,7 @@ struct SpeedAccuracyTimingRow {
 struct SpeedAccuracyCostRow {
   std::string scene, method;
   SettingKind setting = SettingKind::step;
-  double asked = 0;
+  double requested = 0;
   RunEnd verdict = RunEnd::ok;
   double cpu = 0, cpu_low = 0, cpu_high = 0;
   long repetitions = 0;
@@ -112,7 +112,7 @@ struct SpeedAccuracyCostRow {
       column("scene", "1", &SpeedAccuracyCostRow::scene, "scene"),
       column("method", "1", &SpeedAccuracyCostRow::method, "method"),
       column("setting", "1", &SpeedAccuracyCostRow::setting, "what was set, and its unit"),
-      column("asked", "see setting", &SpeedAccuracyCostRow::asked, "step or tolerance that was asked for"),
+      column("asked", "see setting", &SpeedAccuracyCostRow::requested, "step or tolerance that was asked for"),
       column("verdict", "1", &SpeedAccuracyCostRow::verdict, "whether the run ended well"),
       column("cpu", "s", &SpeedAccuracyCostRow::cpu, "CPU time of the whole run, median"),
       column("cpu low", "s", &SpeedAccuracyCostRow::cpu_low, "lower end of its 90 % interval"),
@@ -129,7 +129,7 @@ struct ParetoRow {
   double cost = 0, distance = 0;
   std::string method;
   SettingKind setting = SettingKind::step;
-  double asked = 0;
+  double requested = 0;
 
   static constexpr bool timed = kind == Cost::cpu;
   static constexpr std::string_view table = timed ? "speed-accuracy-pareto-cost" : "speed-accuracy-pareto",
@@ -141,7 +141,7 @@ struct ParetoRow {
                  column("distance", "m", &ParetoRow::distance, "largest RMS position error or difference"),
                  column("method", "1", &ParetoRow::method, "method"),
                  column("setting", "1", &ParetoRow::setting, "what was set, and its unit"),
-                 column("asked", "see setting", &ParetoRow::asked, "step or tolerance that was asked for")};
+                 column("asked", "see setting", &ParetoRow::requested, "step or tolerance that was asked for")};
 };
 
 template <Cost kind>
@@ -151,10 +151,10 @@ struct CheapestRow {
   Measure measure = Measure::error;
   std::optional<std::string> method;
   std::optional<SettingKind> setting;
-  std::optional<double> asked, cost, distance;
+  std::optional<double> requested, cost, distance;
   std::optional<std::string> bullet;
   std::optional<SettingKind> bullet_setting;
-  std::optional<double> bullet_asked, bullet_cost, bullet_distance, bullet_over_mysim;
+  std::optional<double> bullet_requested, bullet_cost, bullet_distance, bullet_over_mysim;
   std::optional<std::string> tied, remark;
 
   static constexpr bool timed = kind == Cost::cpu;
@@ -167,13 +167,13 @@ struct CheapestRow {
       column("measure", "1", &CheapestRow::measure, "distance that is bounded"),
       column("method", "1", &CheapestRow::method, "method of the cheapest run"),
       column("setting", "1", &CheapestRow::setting, "what was set, and its unit"),
-      column("asked", "see setting", &CheapestRow::asked, "step or tolerance that was asked for"),
+      column("asked", "see setting", &CheapestRow::requested, "step or tolerance that was asked for"),
       column(timed ? "cpu" : "evaluations", timed ? "s" : "1", &CheapestRow::cost,
              timed ? "CPU time of the run" : "force evaluations"),
       column("distance", "m", &CheapestRow::distance, "its largest RMS position error or difference"),
       column("best of Bullet", "1", &CheapestRow::bullet, "method of Bullet's cheapest run"),
       column("setting of Bullet", "1", &CheapestRow::bullet_setting, "what was set in Bullet, and its unit"),
-      column("asked of Bullet", "see setting", &CheapestRow::bullet_asked, "step that was asked for in Bullet"),
+      column("asked of Bullet", "see setting", &CheapestRow::bullet_requested, "step that was asked for in Bullet"),
       column(timed ? "cpu of Bullet" : "evaluations of Bullet", timed ? "s" : "1", &CheapestRow::bullet_cost,
              timed ? "CPU time of Bullet's run" : "force evaluations of Bullet's run"),
       column("distance of Bullet", "m", &CheapestRow::bullet_distance,
@@ -189,7 +189,7 @@ struct EngineSpeedRow {
   Measure measure = Measure::error;
   std::string engine, method;
   SettingKind setting = SettingKind::step;
-  double asked = 0, cpu = 0, distance = 0;
+  double requested = 0, cpu = 0, distance = 0;
   std::optional<double> times_mysim, times_mysim_low, times_mysim_high;
   double part_timed = 0;
   std::optional<double> part_timed_of_mysim;
@@ -203,7 +203,7 @@ struct EngineSpeedRow {
       column("engine", "1", &EngineSpeedRow::engine, "engine"),
       column("method", "1", &EngineSpeedRow::method, "method of its cheapest run"),
       column("setting", "1", &EngineSpeedRow::setting, "what was set, and its unit"),
-      column("asked", "see setting", &EngineSpeedRow::asked, "step or tolerance that was asked for"),
+      column("asked", "see setting", &EngineSpeedRow::requested, "step or tolerance that was asked for"),
       column("cpu", "s", &EngineSpeedRow::cpu, "CPU time of the run"),
       column("distance", "m", &EngineSpeedRow::distance, "its largest RMS position error or difference"),
       column("times mysim", "1", &EngineSpeedRow::times_mysim, "CPU time over that of mysim's cheapest run"),

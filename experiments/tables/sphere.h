@@ -5,7 +5,7 @@
 
 namespace crosscheck {
 
-/// The behaviour of a particle on a slope: sticks (moves by less than 1 mm), slides (Coulomb's way), or neither.
+/// The behaviour of a particle on a slope: sticks (moves by less than 1 mm), slides (Coulomb's distance), or neither.
 enum class ContactState { sticks, slides, neither };
 constexpr std::string_view name_of(ContactState state) {
   return state == ContactState::sticks ? "sticks" : state == ContactState::slides ? "slides" : "neither";
@@ -64,10 +64,10 @@ struct ConeRow {
   Verdict verdict = Verdict::ok;
   std::string reason;
   double step = 0, angle = 0, friction = 0;
-  std::optional<double> way = {};
-  double way_by_theory = 0;
-  std::optional<ContactState> answer = {};
-  ContactState answer_by_theory = ContactState::sticks;
+  std::optional<double> distance = {};
+  double distance_by_theory = 0;
+  std::optional<ContactState> state = {};
+  ContactState state_by_theory = ContactState::sticks;
 
   static constexpr std::string_view table = "sphere-cone";
   static constexpr auto columns =
@@ -77,10 +77,10 @@ struct ConeRow {
                  column("step", "s", &ConeRow::step, "time step asked for"),
                  column("angle", "degrees", &ConeRow::angle, "of the slope"),
                  column("friction", "1", &ConeRow::friction, "Coulomb's coefficient of friction"),
-                 column("way", "m", &ConeRow::way, "way down the slope in 0.5 s"),
-                 column("way by theory", "m", &ConeRow::way_by_theory, "the same by Coulomb's law"),
-                 column("answer", "1", &ConeRow::answer, "whether the particle stuck or slid"),
-                 column("answer by theory", "1", &ConeRow::answer_by_theory, "the same by Coulomb's law")};
+                 column("way", "m", &ConeRow::distance, "way down the slope in 0.5 s"),
+                 column("way by theory", "m", &ConeRow::distance_by_theory, "the same by Coulomb's law"),
+                 column("answer", "1", &ConeRow::state, "whether the particle stuck or slid"),
+                 column("answer by theory", "1", &ConeRow::state_by_theory, "the same by Coulomb's law")};
 };
 
 /// The final state of a cloth on a ball.

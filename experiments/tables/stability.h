@@ -80,6 +80,31 @@ struct LimitRow {
                  column("precision", "1", &LimitRow::precision, "width of the bracket from held to failed, over held")};
 };
 
+/// One step of a run above its method's limit, from the scene's own start.
+struct FailureRow {
+  std::string scene, method;
+  double h = 0, limit = 0;
+  std::optional<double> growth;
+  long step = 0;
+  double t = 0, kinetic = 0;
+  std::optional<double> holding;
+  bool still = false;
+
+  static constexpr std::string_view table = "stability-failure", about = "The last steps of a run above its limit.";
+  static constexpr auto columns = std::tuple{
+      column("scene", "1", &FailureRow::scene, "scene"),
+      column("method", "1", &FailureRow::method, "method"),
+      column("time step", "s", &FailureRow::h, "time step of the run"),
+      column("measured limit", "s", &FailureRow::limit, "largest stable step, from table stability"),
+      column("growth by theory", "1", &FailureRow::growth, "factor of the energy of the fastest vibration in a step"),
+      column("step", "1", &FailureRow::step, "steps since the start"),
+      column("t", "s", &FailureRow::t, "time"),
+      column("kinetic energy", "J", &FailureRow::kinetic, "kinetic energy of the free particles"),
+      column("kinetic energy below", "J", &FailureRow::holding,
+             "the same at a quarter of the time step, where the run holds"),
+      column("still", "1", &FailureRow::still, "whether the report shows a picture of this moment")};
+};
+
 struct GrowthRow {
   std::string scene, method;
   double omega = 0, gamma = 0, step = 0, h_omega = 0;

@@ -25,7 +25,7 @@ struct LinkStiffnessRow {
 struct NetworkStiffnessRow {
   double stiffness = 0, step = 0;
   long iterations = 0;
-  double sag_asked = 0, sag = 0, deviation = 0;
+  double expected_sag = 0, sag = 0, deviation = 0;
 
   static constexpr std::string_view table = "stiffness-network";
   static constexpr auto columns =
@@ -33,7 +33,7 @@ struct NetworkStiffnessRow {
                         "stiffness k of the links, made dimensionless by the step h and the reduced mass mu"),
                  column("step", "s", &NetworkStiffnessRow::step, "time step"),
                  column("iterations", "1", &NetworkStiffnessRow::iterations, "how often the link is solved in a step"),
-                 column("sag asked", "m", &NetworkStiffnessRow::sag_asked, "sag by Hooke's law"),
+                 column("sag asked", "m", &NetworkStiffnessRow::expected_sag, "sag by Hooke's law"),
                  column("sag", "m", &NetworkStiffnessRow::sag, "measured sag of the chain"),
                  column("deviation", "1", &NetworkStiffnessRow::deviation, "measured over asked, less 1")};
 };

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
+#include "mysim/base/csv.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 
@@ -29,16 +29,6 @@ std::string in_one_line(const std::string& value) {
 }
 
 }  // namespace
-
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
 
 std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
 
@@ -77,57 +67,30 @@ void write_csv(const Table& table, const Provenance& provenance, const std::file
 
 namespace {
 
-struct Field {
-  std::string text;
-  bool quoted = false;
-};
-
-/// One character after the other, with the line it stands in.
+/// One record after the other.
 class Reader {
  public:
   Reader(std::string text, std::filesystem::path file) : text_(std::move(text)), file_(std::move(file)) {}
 
   bool at_end() const { return at_ == text_.size(); }
   bool comment() const { return !at_end() && text_[at_] == '#'; }
-  void skip_line() {
-    while (!at_end() && text_[at_] != '\n') ++at_;
-    if (!at_end()) ++at_, ++line_;
-  }
-  std::vector<Field> record() {
-    std::vector<Field> fields(1);
-    for (; !at_end() && text_[at_] != '\n'; ++at_) {
-      if (text_[at_] == ',')
-        fields.emplace_back();
-      else if (text_[at_] == '"')
-        quoted(fields.back());
-      else
-        fields.back().text += text_[at_];
-    }
+  void skip_line() { at_ = std::min(text_.find('\n', at_), text_.size() - 1) + 1; }
+  std::vector<CsvField> record() {
+    std::optional<std::vector<CsvField>> fields = csv_record(text_, at_);
+    if (!fields) fail("a closing quote");
     if (at_end()) fail("a line feed at the end of the row");
-    ++at_, ++line_;
-    return fields;
+    ++at_;
+    return *std::move(fields);
   }
   [[noreturn]] void fail(const std::string& expected) const {
-    throw InputError(fmt::format("{}:{}: expected {}", file_.string(), line_, expected));
+    const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
+    throw InputError(fmt::format("{}:{}: expected {}", file_.string(), line, expected));
   }
 
  private:
-  /// From an opening quote to the closing one.
-  void quoted(Field& field) {
-    field.quoted = true;
-    for (++at_;; ++at_) {
-      if (at_end()) fail("a closing quote");
-      if (text_[at_] == '"' && (at_ + 1 == text_.size() || text_[at_ + 1] != '"')) return;
-      if (text_[at_] == '"') ++at_;
-      if (text_[at_] == '\n') ++line_;
-      field.text += text_[at_];
-    }
-  }
-
   std::string text_;
   std::filesystem::path file_;
   size_t at_ = 0;
-  int line_ = 1;
 };
 
 template <class Number>
@@ -148,18 +111,17 @@ Column column_of(const Reader& reader, const std::string& head) {
 }  // namespace
 
 Table read_csv(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream bytes;
-  if (!in || !(bytes << in.rdbuf())) throw InputError(fmt::format("{}: expected a table", file.string()));
-  Reader reader(bytes.str(), file);
+  const std::string bytes = try_read_file(file).value_or("");
+  if (bytes.empty()) throw InputError(fmt::format("{}: expected a table", file.string()));
+  Reader reader(bytes, file);
   while (reader.comment()) reader.skip_line();
   Table table{file.stem().string(), {}, {}};
-  for (const Field& head : reader.record()) table.columns.push_back(column_of(reader, head.text));
-  std::vector<std::vector<Field>> records;
+  for (const CsvField& head : reader.record()) table.columns.push_back(column_of(reader, head.text));
+  std::vector<std::vector<CsvField>> records;
   std::vector<bool> text(table.columns.size(), false), any(text);
   while (!reader.at_end()) {
     records.push_back(reader.record());
-    const std::vector<Field>& record = records.back();
+    const std::vector<CsvField>& record = records.back();
     if (record.size() != table.columns.size()) reader.fail(fmt::format("{} cells in the row", table.columns.size()));
     for (size_t i = 0; i < record.size(); ++i) any[i] = any[i] || !record[i].text.empty();
     for (size_t i = 0; i < record.size(); ++i)

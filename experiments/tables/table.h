@@ -11,8 +11,6 @@
 
 namespace crosscheck {
 
-// Tables: columns with units, rows of cells, written as CSV with their provenance.
-
 /// Empty means not applicable. nan and inf are allowed in failed rows only.
 using Cell = std::variant<std::monostate, std::string, double, long>;
 inline Cell cell_of(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
@@ -37,9 +35,6 @@ struct Table {
 
 /// Text of a number: 17 significant digits, so that it reads back to the same bits.
 std::string exact_text(double value);
-
-/// A field of CSV, in quotes where it needs them.
-std::string csv_field(const std::string& text);
 
 /// A row of it, without the line feed.
 std::string csv_row(const std::vector<Cell>& row);

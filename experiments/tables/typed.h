@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -92,7 +93,9 @@ requires std::is_enum_v<Enum>
 struct CellOf<Enum> {
   static Cell write(Enum value) { return std::string(name_of(value)); }
   static Enum read(const Cell& cell) {
-    const std::string word = CellOf<std::string>::read(cell);
+    // a file whose column holds this word alone, or nothing, reads it as a number
+    const auto* number = std::get_if<double>(&cell);
+    const std::string word = number && std::isnan(*number) ? "nan" : CellOf<std::string>::read(cell);
     for (int i = static_cast<int>(EnumRange<Enum>::first); i <= static_cast<int>(EnumRange<Enum>::last); ++i)
       if (name_of(static_cast<Enum>(i)) == word) return static_cast<Enum>(i);
     throw InputError(fmt::format("unknown word '{}'", word));

@@ -30,7 +30,9 @@ size_t rank_of_bound(size_t n) {
   return std::max<size_t>(1, k);
 }
 
-double once(const std::function<double()>& run, double resolution) {
+}  // namespace
+
+double mean_time(const std::function<double()>& run, double resolution) {
   double sum = 0;
   int count = 0;
   // 1000: what takes hardly any time must end too
@@ -38,8 +40,6 @@ double once(const std::function<double()>& run, double resolution) {
   while (++count < 1000 && sum < resolution);
   return sum / count;
 }
-
-}  // namespace
 
 Timing timing_of(std::vector<double> seconds) {
   if (seconds.empty()) throw std::invalid_argument("timing_of: no times");
@@ -65,7 +65,7 @@ std::vector<std::vector<double>> time_round_robin(std::span<const std::function<
       const double spent = std::accumulate(times[i].begin(), times[i].end(), 0.);
       const auto repetitions = static_cast<int>(times[i].size());
       if (repetitions < plan.least || (repetitions < plan.most && spent < plan.enough))
-        times[i].push_back(once(runs[i], plan.resolution));
+        times[i].push_back(mean_time(runs[i], plan.resolution));
     }
   return times;
 }

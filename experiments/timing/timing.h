@@ -28,6 +28,9 @@ struct Timing {
 /// five times cannot guarantee that: there it is smallest to largest. Throws std::invalid_argument without times.
 Timing timing_of(std::vector<double> seconds);
 
+/// The mean time of a run that says what time it took, s, and is repeated until all have taken `resolution`.
+double mean_time(const std::function<double()>& run, double resolution);
+
 struct TimingOptions {
   int least = 5, most = 11;    // repetitions of each run
   double enough = 0.2;         // s: a run that has taken as much is repeated `least` times only

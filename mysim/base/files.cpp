@@ -78,27 +78,27 @@ void StreamingFile::fail(const std::string& why) const {
   throw InputError(fmt::format("{}: cannot be written{}", file_.string(), why));
 }
 
-namespace fs = std::filesystem;
-
 void write_file(const fs::path& file, std::string_view content) {
   StreamingFile growing(file);
   growing.append(content);
   growing.finish();
 }
 
-std::string read_file(const fs::path& file, std::string_view expected) {
-  std::error_code unknown;
-  const bool folder = fs::is_directory(file, unknown);
-  errno = 0;
+std::optional<std::string> try_read_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
+  const bool nothing_there = in.peek() == std::ifstream::traits_type::eof();  // << takes nothing for a failure
   std::stringstream text;
-  if (!folder && in && in.peek() == std::ifstream::traits_type::eof()) return "";  // << takes nothing for a failure
-  if (folder || !in || !(text << in.rdbuf()))
-    throw InputError(fmt::format("{}: cannot be read; expected {}{}", file.string(), expected,
-                                 folder       ? ", got a folder"
-                                 : errno != 0 ? fmt::format(" ({})", std::strerror(errno))
-                                              : ""));
-  return text.str();
+  if (!in.fail() && (nothing_there || text << in.rdbuf())) return std::move(text).str();
+  return std::nullopt;
+}
+
+std::string read_file(const fs::path& file, std::string_view expected) {
+  errno = 0;
+  if (std::optional<std::string> text = try_read_file(file)) return *std::move(text);
+  const std::string why = errno != 0 ? fmt::format(" ({})", std::strerror(errno)) : "";
+  std::error_code unknown;
+  throw InputError(fmt::format("{}: cannot be read; expected {}{}", file.string(), expected,
+                               fs::is_directory(file, unknown) ? ", got a folder" : why));
 }
 
 void require_writable(const fs::path& folder) {
@@ -116,7 +116,6 @@ std::string file_name_of(std::string_view text) {
   return name;
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 /// The start of a process in clock ticks since the boot; empty where there is none of that number.

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -44,6 +45,9 @@ class StreamingFile {
 /// Writes under a temporary name next to the file and renames it. Makes the folder where it is missing.
 /// Throws InputError that names the file when it cannot be written.
 void write_file(const std::filesystem::path& file, std::string_view content);
+
+/// The whole content of a file; nothing where it cannot be read.
+std::optional<std::string> try_read_file(const std::filesystem::path& file);
 
 /// The whole content of a file. Throws InputError that names it and what was expected there ("a scene file (TOML)").
 std::string read_file(const std::filesystem::path& file, std::string_view expected);

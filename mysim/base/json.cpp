@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <fstream>
 #include <numeric>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 
 namespace crosscheck {
 
@@ -86,8 +86,8 @@ struct Json::Parts {
     switch (json.kind_) {
       case Kind::null:
         return nullptr;
-      case Kind::truth:
-        return json.truth_;
+      case Kind::boolean:
+        return json.boolean_;
       case Kind::whole:
         return json.whole_;
       case Kind::natural:
@@ -123,20 +123,20 @@ struct Json::Parts {
                : json.dump();
   }
 
-  /// Appends the way from a value that holds the other to it; false: it does not.
-  static bool way(const Json& from, const Json& to, std::string& place) {
+  /// Appends the path from a value to one inside of it; false: it is not inside.
+  static bool find_path(const Json& from, const Json& to, std::string& place) {
     if (&from == &to) return true;
     const size_t length = place.size();
     if (from.kind_ == Kind::list)
       for (size_t i = 0; i < from.list_->size(); ++i) {
         place += fmt::format("[{}]", i);
-        if (way((*from.list_)[i], to, place)) return true;
+        if (find_path((*from.list_)[i], to, place)) return true;
         place.resize(length);
       }
     if (from.kind_ == Kind::object)
       for (const auto& [key, value] : *from.object_) {
         place += (place.empty() ? "" : ".") + key;
-        if (way(value, to, place)) return true;
+        if (find_path(value, to, place)) return true;
         place.resize(length);
       }
     return false;
@@ -291,22 +291,17 @@ JsonField JsonField::parse(std::string_view text, std::string name, const char* 
 JsonField JsonField::parse(std::string_view text, std::string name) { return parse(text, std::move(name), "JSON"); }
 
 JsonField JsonField::parse_file(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text, part(1 << 16, '\0');
-  do {
-    in.read(part.data(), static_cast<std::streamsize>(part.size()));
-    text.append(part, 0, static_cast<size_t>(in.gcount()));
-  } while (in);
-  if (!in.eof()) throw InputError(fmt::format("{}: cannot be read; expected a JSON file", file));
+  const std::optional<std::string> text = try_read_file(file);
+  if (!text) throw InputError(fmt::format("{}: cannot be read; expected a JSON file", file));
   const char* expected = "one JSON object";
-  JsonField root = parse(text, file, expected);
+  JsonField root = parse(*text, file, expected);
   if (!root.is_object()) root.fail(expected);
   return root;
 }
 
 std::string JsonField::place_of(const Json& value) const {
   std::string place;
-  Json::Parts::way(document_->root, value, place);
+  Json::Parts::find_path(document_->root, value, place);
   return place;
 }
 
@@ -392,9 +387,9 @@ std::uint64_t JsonField::natural() const {
   return value_->natural_;
 }
 
-bool JsonField::truth() const {
-  if (kind() != Json::Kind::truth) fail("true or false");
-  return value_->truth_;
+bool JsonField::boolean() const {
+  if (kind() != Json::Kind::boolean) fail("true or false");
+  return value_->boolean_;
 }
 
 std::string JsonField::text() const {

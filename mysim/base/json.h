@@ -26,7 +26,7 @@ class Json {
   template <std::integral T>  // bool is true or false, all others are numbers, char too
   Json(T value) : Json() {
     if constexpr (std::same_as<T, bool>)
-      kind_ = Kind::truth, truth_ = value;
+      kind_ = Kind::boolean, boolean_ = value;
     else if constexpr (std::signed_integral<T>)
       kind_ = Kind::whole, whole_ = value;
     else
@@ -79,7 +79,7 @@ class Json {
  private:
   friend class JsonField;
   struct Parts;  // what json.cpp alone knows of the insides
-  enum class Kind : std::uint8_t { null, truth, whole, natural, real, text, list, object };
+  enum class Kind : std::uint8_t { null, boolean, whole, natural, real, text, list, object };
 
   explicit Json(Kind kind);
   void swap(Json& other) noexcept;
@@ -92,7 +92,7 @@ class Json {
 
   Kind kind_ = Kind::null;
   union {
-    bool truth_;
+    bool boolean_;
     std::int64_t whole_;
     std::uint64_t natural_;
     double real_;
@@ -126,7 +126,7 @@ class JsonField {
 
   bool is_null() const { return kind() == Json::Kind::null; }
   bool is_text() const { return kind() == Json::Kind::text; }
-  bool is_boolean() const { return kind() == Json::Kind::truth; }
+  bool is_boolean() const { return kind() == Json::Kind::boolean; }
   bool is_list() const { return kind() == Json::Kind::list; }
   bool is_object() const { return kind() == Json::Kind::object; }
   bool is_number() const { return is_integer() || kind() == Json::Kind::real; }
@@ -139,7 +139,7 @@ class JsonField {
   int whole_number(int from, int to) const;  // both included
   long whole() const;
   std::uint64_t natural() const;  // a whole number not below zero
-  bool truth() const;
+  bool boolean() const;
   std::string text() const;
   std::vector<double> numbers() const;
   std::vector<int> indices(int count) const;        // each from 0 to count - 1

@@ -8,7 +8,6 @@
 #include <array>
 #include <ctime>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
 #include <string_view>
@@ -140,7 +139,6 @@ std::vector<std::string> paths_in(const fs::path& folder) {
   return paths;
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 struct KnownCommand {
@@ -173,11 +171,6 @@ const std::regex& known_patterns() {
   return all;
 }
 
-std::string text_in(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 bool is_our_table(const fs::path& file) {
   if (file.extension() != ".csv") return false;
   std::ifstream in(file);
@@ -190,12 +183,13 @@ bool is_our_table(const fs::path& file) {
 std::optional<Manifest> adopt_version_0_1(const fs::path& folder, const std::string& command, std::string& foreign) {
   const bool known = std::any_of(known_commands.begin(), known_commands.end(), [&](const KnownCommand& k) {
     return k.command == command && fs::is_regular_file(fs::symlink_status(folder / k.sign)) &&
-           text_in(folder / k.sign).find(k.mark) != std::string::npos;
+           try_read_file(folder / k.sign).value_or("").find(k.mark) != std::string::npos;
   });
   if (!known) return std::nullopt;
   // pictures and what belongs to a figure are named by the figure's table, or by the page or list of what was made
-  std::string told;
-  for (const char* list : {"index.html", "report.json", "figures.json"}) told += text_in(folder / list);
+  std::string lists;
+  for (const char* list : {"index.html", "report.json", "figures.json"})
+    lists += try_read_file(folder / list).value_or("");
   Manifest manifest = Manifest::begun(command);
   manifest.finished = true;
   for (const std::string& path : paths_in(folder)) {
@@ -205,7 +199,7 @@ std::optional<Manifest> adopt_version_0_1(const fs::path& folder, const std::str
     const bool ours = fs::is_regular_file(fs::symlink_status(file)) &&
                       (known_names.contains(name) || std::regex_match(path, known_patterns()) || is_our_table(file) ||
                        is_our_table(fs::path(file).replace_extension(".csv")) ||
-                       told.find("\"" + file.stem().string() + "\"") != std::string::npos);
+                       lists.find("\"" + file.stem().string() + "\"") != std::string::npos);
     if (!ours) {
       foreign = path;
       return std::nullopt;

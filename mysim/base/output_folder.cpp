@@ -66,7 +66,7 @@ bool same_file(int handle, const fs::path& file) {
 
 }  // namespace
 
-OutputPlace::OutputPlace(const fs::path& given) : asked(given) {
+OutputPlace::OutputPlace(const fs::path& given) : requested(given) {
   try {
     target = fs::weakly_canonical(fs::absolute(given));
     if (!target.has_filename()) target = target.parent_path();
@@ -90,7 +90,7 @@ bool OutputPlace::exchangeable() const {
 }
 
 void OutputPlace::refuse(const std::string& why) const {
-  throw InputError(fmt::format("--out {}: {}", asked.string(),
+  throw InputError(fmt::format("--out {}: {}", requested.string(),
                                why.empty() ? "expected a folder that can be made and written to" : why));
 }
 
@@ -103,17 +103,17 @@ OutputLock::OutputLock(const OutputPlace& place, const std::string& command) : p
   work_ = place.writable_beside() ? place.beside : place.inside;
   const fs::path file = work_ / "lock";
   // one that was killed lets go when the processes that it had started are gone too, which is soon
-  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(3);
   for (;; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
     fs::create_directories(work_, error);
     handle_ = open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (handle_ < 0 && errno == ENOENT && std::chrono::steady_clock::now() < patience) continue;  // gone just now
+    if (handle_ < 0 && errno == ENOENT && std::chrono::steady_clock::now() < deadline) continue;  // gone just now
     if (handle_ < 0) place.refuse();
     if (flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       const Holder holder = holder_in(handle_);
       close(handle_);
       const bool alive = holder.process > 0 && (kill(static_cast<pid_t>(holder.process), 0) == 0 || errno == EPERM);
-      if (!alive && std::chrono::steady_clock::now() < patience) continue;
+      if (!alive && std::chrono::steady_clock::now() < deadline) continue;
       place.refuse(holder.process > 0
                        ? fmt::format("process {} (crosscheck {}) has been writing into it since {}; wait "
                                      "for it, or give another folder",
@@ -145,7 +145,6 @@ OutputLock::~OutputLock() {
 
 bool OutputLock::own() const { return process_ == getpid(); }
 
-namespace fs = std::filesystem;
 namespace {
 
 constexpr auto new_result = "new", old_list = "old", journal = "journal";

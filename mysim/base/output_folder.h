@@ -14,12 +14,12 @@ namespace crosscheck {
 /// A folder for results, and its working folders.
 struct OutputPlace {
   /// Throws InputError where there is a file of that name.
-  explicit OutputPlace(const std::filesystem::path& asked);
+  explicit OutputPlace(const std::filesystem::path& requested);
 
-  std::filesystem::path asked;   // as given
-  std::filesystem::path target;  // absolute, without links
-  std::filesystem::path beside;  // PARENT/.NAME.crosscheck
-  std::filesystem::path inside;  // TARGET/.crosscheck, where nothing can be made beside it
+  std::filesystem::path requested;  // as given
+  std::filesystem::path target;     // absolute, without links
+  std::filesystem::path beside;     // PARENT/.NAME.crosscheck
+  std::filesystem::path inside;     // TARGET/.crosscheck, where nothing can be made beside it
 
   bool writable_beside() const;
   /// Whether another folder can take its name: it is no mount point, and no process that can be seen works in it.

@@ -1,11 +1,10 @@
-// fork, posix_spawn, waitpid, pipes and sockets; PR_SET_PDEATHSIG is Linux's.
+// fork, waitpid, pipes and sockets; PR_SET_PDEATHSIG is Linux's.
 #include "mysim/base/process.h"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -49,17 +48,100 @@ std::vector<char*> c_strings(const std::vector<std::string>& texts) {
   return all;
 }
 
+double cpu_seconds(const rusage& usage) {
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+CannotStart::CannotStart(const std::string& program, const std::string& why)
+    : std::runtime_error("cannot start " + program + ": " + why), reason(why) {}
+
 namespace {
 
-using Clock = std::chrono::steady_clock;
-constexpr size_t kept_bytes = 65536;
+constexpr size_t kept_bytes = 65536;  // of a program that is not trusted
 
-[[noreturn]] void fail(const std::string& what, int error) {
-  throw std::runtime_error(what + ": " + std::strerror(error));
+/// The two ends of a pipe, closed however the scope is left and never handed on to other programs.
+struct Pipe {
+  int read_end = -1, write_end = -1;  // -1: closed
+  /// Throws std::runtime_error with the system's reason.
+  Pipe() {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("pipe: ") + std::strerror(errno));
+    read_end = ends[0], write_end = ends[1];
+  }
+  ~Pipe() { close_end(read_end), close_end(write_end); }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  static void close_end(int& end) {
+    if (end >= 0) close(end);
+    end = -1;
+  }
+};
+
+/// What becomes stdin, stdout and stderr of a program; -1: /dev/null.
+using StandardFiles = std::array<int, 3>;
+
+bool set_standard_files(const StandardFiles& files) {
+  for (int number = 0; number < 3; ++number) {
+    const int file = files[number] >= 0 ? files[number] : open("/dev/null", O_RDWR | O_CLOEXEC);
+    if ((file == number ? fcntl(file, F_SETFD, 0) : dup2(file, number)) < 0) return false;
+  }
+  return true;
+}
+
+/// Starts argv[0]; one that is not trusted in a process group of its own, that does not outlive this thread.
+pid_t start(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
+            const std::vector<std::string>& extra_env, const StandardFiles& files, bool trusted) {
+  const std::vector<std::string> entries = program_environment(extra_env);
+  const std::vector<char*> words = c_strings(argv), environment = c_strings(entries);
+  const auto exec = argv[0].find('/') == std::string::npos ? execvpe : execve;
+  Pipe exec_error;
+  const pid_t parent = getpid(), child = fork();
+  if (child == 0) {  // from here on only what is allowed between fork and exec
+    if (!trusted) {
+      setpgid(0, 0);
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (getppid() != parent) _exit(127);
+      signal(SIGPIPE, SIG_DFL);
+    }
+    if (chdir(cwd.c_str()) == 0 && set_standard_files(files)) exec(words[0], words.data(), environment.data());
+    const int error = errno;
+    [[maybe_unused]] const ssize_t told = write(exec_error.write_end, &error, sizeof error);
+    _exit(127);
+  }
+  if (child < 0) throw CannotStart(argv[0], std::strerror(errno));
+  Pipe::close_end(exec_error.write_end);
+  int error = 0;
+  ssize_t bytes;
+  while ((bytes = read(exec_error.read_end, &error, sizeof error)) < 0 && errno == EINTR) continue;
+  if (bytes != sizeof error) return child;
+  waitpid(child, nullptr, 0);
+  throw CannotStart(argv[0], std::strerror(error));
+}
+
+void wait_for(pid_t child, ProgramResult& result) {
+  int status = 0;
+  rusage usage{};
+  while (wait4(child, &status, 0, &usage) < 0 && errno == EINTR) continue;
+  result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  result.status = result.signal != 0 ? 128 + result.signal : WEXITSTATUS(status);
+  result.cpu_seconds = cpu_seconds(usage);
+}
+
+/// The child stays a zombie, so that its number still names its group.
+bool has_ended(pid_t child) {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == child;
+}
+
+void keep_last(std::string& text, size_t most) {
+  if (text.size() > most) text.erase(0, text.size() - most);
 }
 
 /// Takes what is there without waiting; closes at the end of the stream.
-void drain(Pipe& pipe, std::string& text) {
+void drain(Pipe& pipe, std::string& text, bool whole) {
   std::array<char, 4096> chunk;
   while (pipe.read_end >= 0) {
     const ssize_t n = read(pipe.read_end, chunk.data(), chunk.size());
@@ -67,157 +149,54 @@ void drain(Pipe& pipe, std::string& text) {
     if (n < 0 && errno == EAGAIN) return;
     if (n <= 0) return Pipe::close_end(pipe.read_end);
     text.append(chunk.data(), static_cast<size_t>(n));
-    if (text.size() > 2 * kept_bytes) text.erase(0, text.size() - kept_bytes);
-  }
-}
-
-/// In the child; only what is allowed between fork and exec. An error goes back as its number.
-[[noreturn]] void exec_child(char* const* argv, char* const* environment, pid_t parent, int in, const Pipe& out,
-                             const Pipe& err, const Pipe& exec_error) {
-  setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(127);
-  signal(SIGPIPE, SIG_DFL);
-  if (dup2(in, 0) >= 0 && dup2(out.write_end, 1) >= 0 && dup2(err.write_end, 2) >= 0)
-    execve(argv[0], argv, environment);
-  const int error = errno;
-  [[maybe_unused]] const ssize_t told = write(exec_error.write_end, &error, sizeof error);
-  _exit(127);
-}
-
-/// Kills the group and takes the dead leader away, however the scope is left.
-class Child {
- public:
-  explicit Child(pid_t pid) : pid_(pid) {}
-  ~Child() { kill_and_reap(); }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  /// The leader stays a zombie, so that its number still names the group.
-  bool ended() const {
-    siginfo_t info{};
-    return waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == pid_;
-  }
-  void kill_and_reap() {
-    if (pid_ <= 0) return;
-    kill(-pid_, SIGKILL);
-    kill(pid_, SIGKILL);  // should it not have come to setpgid yet
-    while (wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) {
-    }
-    pid_ = 0;
-  }
-  int status = 0;
-  rusage usage{};
-
- private:
-  pid_t pid_;
-};
-
-double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
-
-}  // namespace
-
-ProcessResult run_process(const std::vector<std::string>& words, double timeout) {
-  const std::vector<std::string> entries = program_environment();
-  const std::vector<char*> argv = c_strings(words), environment = c_strings(entries);
-  Pipe out, err, exec_error;
-  int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
-  if (in < 0) fail("/dev/null", errno);
-  const pid_t parent = getpid(), pid = fork();
-  const int fork_error = errno;
-  if (pid == 0) exec_child(argv.data(), environment.data(), parent, in, out, err, exec_error);
-  Pipe::close_end(in);
-  if (pid < 0) fail(words[0] + " cannot be started", fork_error);
-  Child child(pid);
-  Pipe::close_end(out.write_end), Pipe::close_end(err.write_end), Pipe::close_end(exec_error.write_end);
-  int error = 0;
-  if (read(exec_error.read_end, &error, sizeof error) == sizeof error) fail(words[0] + " cannot be started", error);
-  for (const Pipe* pipe : {&out, &err}) fcntl(pipe->read_end, F_SETFL, O_NONBLOCK);
-
-  ProcessResult end;
-  const Clock::time_point limit =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout));
-  Clock::time_point grace_end{};  // how long a child of the ended program may take to close its output
-  for (int pause = 1;; pause = std::min(20, pause + 1)) {
-    const bool ended = child.ended();
-    drain(out, end.out), drain(err, end.err);
-    const Clock::time_point now = Clock::now();
-    if (ended) {
-      if (out.read_end < 0 && err.read_end < 0) break;
-      if (grace_end == Clock::time_point{}) grace_end = now + std::chrono::milliseconds(200);
-      if ((end.left_children = now >= grace_end)) break;
-    } else if ((end.timed_out = now >= limit)) {
-      break;
-    }
-    pollfd wait[2] = {{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}};
-    poll(wait, 2, pause);  // ms; the end of a program that closed its output is seen by looking again
-  }
-  child.kill_and_reap();
-  drain(out, end.out), drain(err, end.err);
-  for (std::string* text : {&end.out, &end.err})
-    if (text->size() > kept_bytes) text->erase(0, text->size() - kept_bytes);
-  end.cpu_seconds = seconds(child.usage.ru_utime) + seconds(child.usage.ru_stime);
-  if (WIFSIGNALED(child.status)) end.signal = WTERMSIG(child.status);
-  if (WIFEXITED(child.status)) end.status = WEXITSTATUS(child.status);
-  return end;
-}
-
-pid_t spawn(const std::vector<std::string>& argv, const FileActions& actions,
-            const std::vector<std::string>& extra_env) {
-  pid_t child = 0;
-  const int failed = posix_spawnp(&child, argv[0].c_str(), &actions.list, nullptr, c_strings(argv).data(),
-                                  c_strings(program_environment(extra_env)).data());
-  if (failed) throw std::runtime_error("cannot start " + argv[0] + ": " + std::strerror(failed));
-  return child;
-}
-
-int wait_for(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-namespace {
-
-/// Reads both pipes until both are at their end: reading one after the other could block the program for ever.
-void read_all(Pipe& out, std::string& out_text, Pipe& err, std::string& err_text) {
-  std::array<char, 4096> chunk;
-  while (out.read_end >= 0 || err.read_end >= 0) {
-    pollfd wait[2] = {{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}};
-    if (poll(wait, 2, -1) < 0) {
-      if (errno == EINTR) continue;
-      throw std::runtime_error(std::string("poll: ") + std::strerror(errno));
-    }
-    for (int i = 0; i < 2; ++i) {
-      if (wait[i].fd < 0 || wait[i].revents == 0) continue;
-      Pipe& from = i == 0 ? out : err;
-      const ssize_t n = read(from.read_end, chunk.data(), chunk.size());
-      if (n > 0) (i == 0 ? out_text : err_text).append(chunk.data(), static_cast<std::size_t>(n));
-      if (n == 0 || (n < 0 && errno != EINTR)) Pipe::close_end(from.read_end);
-    }
+    if (!whole && text.size() > 2 * kept_bytes) keep_last(text, kept_bytes);
   }
 }
 
 }  // namespace
 
 ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
-                          const std::vector<std::string>& extra_env) {
+                          const std::vector<std::string>& extra_env, std::optional<double> timeout) {
   if (argv.empty()) throw std::runtime_error("run_program: no program named");
+  const bool trusted = !timeout;
   Pipe out, err;
-  FileActions actions;
-  posix_spawn_file_actions_addopen(&actions.list, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions.list, out.write_end, 1);
-  posix_spawn_file_actions_adddup2(&actions.list, err.write_end, 2);
-  posix_spawn_file_actions_addchdir_np(&actions.list, cwd.c_str());
-
-  const pid_t child = spawn(argv, actions, extra_env);
-  Pipe::close_end(out.write_end), Pipe::close_end(err.write_end);
-
+  const pid_t child = start(argv, cwd, extra_env, {-1, out.write_end, err.write_end}, trusted);
+  for (Pipe* pipe : {&out, &err}) {
+    Pipe::close_end(pipe->write_end);
+    fcntl(pipe->read_end, F_SETFL, O_NONBLOCK);
+  }
+  using Clock = std::chrono::steady_clock;
   ProgramResult result;
-  read_all(out, result.out, err, result.err);
-  result.status = wait_for(child);
+  const auto drain_both = [&] { drain(out, result.out, trusted), drain(err, result.err, trusted); };
+  const Clock::time_point limit =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout.value_or(0)));
+  Clock::time_point grace_end{};  // how long a child of the ended program may take to close its output
+  for (int pause = 1;; pause = std::min(20, pause + 1)) {
+    const bool ended = !trusted && has_ended(child);
+    drain_both();
+    const bool closed = out.read_end < 0 && err.read_end < 0;
+    if (closed && (trusted || ended)) break;
+    const Clock::time_point now = Clock::now();
+    if (ended) {
+      if (grace_end == Clock::time_point{}) grace_end = now + std::chrono::milliseconds(200);
+      if ((result.left_children = now >= grace_end)) break;
+    } else if ((result.timed_out = !trusted && now >= limit)) {
+      break;
+    }
+    pollfd wait[2] = {{out.read_end, POLLIN, 0}, {err.read_end, POLLIN, 0}};
+    poll(wait, 2, trusted ? -1 : pause);  // ms; the end of a program that closed its output is seen by looking again
+  }
+  if (!trusted) kill(-child, SIGKILL);
+  wait_for(child, result);
+  drain_both();
+  if (!trusted) keep_last(result.out, kept_bytes), keep_last(result.err, kept_bytes);
   return result;
+}
+
+int run_in_terminal(const std::vector<std::string>& argv) {
+  ProgramResult result;
+  wait_for(start(argv, ".", {}, {0, 1, 2}, true), result);
+  return result.status;
 }
 
 bool on_path(const std::string& program) {
@@ -248,12 +227,8 @@ ProcessWithInput::ProcessWithInput(const std::vector<std::string>& argv) {
     if (err_ >= 0) close(err_);
     throw std::runtime_error("cannot feed " + argv[0] + ": " + why);
   }
-  FileActions actions;
-  posix_spawn_file_actions_adddup2(&actions.list, ends[1], 0);
-  posix_spawn_file_actions_addopen(&actions.list, 1, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions.list, err_, 2);
   try {
-    child_ = spawn(argv, actions);
+    child_ = start(argv, ".", {}, {ends[1], -1, err_}, true);
   } catch (...) {
     for (const int file : {ends[0], ends[1], err_}) close(file);
     throw;
@@ -264,7 +239,7 @@ ProcessWithInput::ProcessWithInput(const std::vector<std::string>& argv) {
 
 ProcessWithInput::~ProcessWithInput() {
   if (input_ >= 0) close(input_);
-  if (child_ > 0) kill(child_, SIGKILL), wait_for(child_);
+  if (child_ > 0) kill(child_, SIGKILL), waitpid(child_, nullptr, 0);
   close(err_);
 }
 
@@ -281,7 +256,7 @@ bool ProcessWithInput::write_input(const void* data, size_t bytes) {
 ProgramResult ProcessWithInput::finish() {
   close(input_), input_ = -1;
   ProgramResult result;
-  result.status = wait_for(child_), child_ = 0;
+  wait_for(child_, result), child_ = 0;
   lseek(err_, 0, SEEK_SET);
   std::array<char, 4096> chunk;
   for (ssize_t n; (n = read(err_, chunk.data(), chunk.size())) > 0;)

@@ -22,7 +22,7 @@ std::string progress_line(const ProgressSnapshot& seen);
 /// "34 s", "12 min", "3.4 h", "5 days", "1e+05 years".
 std::string format_duration(double seconds);
 
-/// A thread of its own looks a few times a second and writes; the working thread only stores a number.
+/// A thread of its own writes the line a few times a second; the working thread only stores a number.
 class Progress {
  public:
   /// total: how many steps of work there will be, for the estimate.

@@ -43,27 +43,29 @@ bool has_part(const std::string& name, const std::string& word) {
 }  // namespace
 
 std::string closest_match(std::string_view word, const std::vector<std::string>& names) {
-  const std::string asked = folded_word(word.substr(0, 100));
+  const std::string folded = folded_word(word.substr(0, 100));
   const std::string* best = nullptr;
   std::size_t fewest = 0;
   for (const std::string& name : names) {
     const std::string candidate = folded_word(name);
-    const std::size_t longer = std::max(asked.size(), candidate.size()), letters = edit_distance(asked, candidate);
-    if (letters > std::max<std::size_t>(1, longer / 3) || letters >= std::min(asked.size(), candidate.size())) continue;
+    const std::size_t longer = std::max(folded.size(), candidate.size()), letters = edit_distance(folded, candidate);
+    if (letters > std::max<std::size_t>(1, longer / 3) || letters >= std::min(folded.size(), candidate.size()))
+      continue;
     if (!best || letters < fewest) best = &name, fewest = letters;
   }
   if (!best)
     for (const std::string& name : names)
-      if (has_part(folded_word(name), asked) && (!best || name.size() < best->size())) best = &name;
+      if (has_part(folded_word(name), folded) && (!best || name.size() < best->size())) best = &name;
   if (!best)
     for (const std::string& name : names)
-      if (name.size() >= 4 && has_part(asked, folded_word(name)) && (!best || name.size() > best->size())) best = &name;
+      if (name.size() >= 4 && has_part(folded, folded_word(name)) && (!best || name.size() > best->size()))
+        best = &name;
   std::size_t longest = 4;  // letters of a beginning that are no chance
   if (!best)
     for (const std::string& name : names) {
       const std::string candidate = folded_word(name);
       const auto alike = static_cast<std::size_t>(
-          std::mismatch(asked.begin(), asked.end(), candidate.begin(), candidate.end()).first - asked.begin());
+          std::mismatch(folded.begin(), folded.end(), candidate.begin(), candidate.end()).first - folded.begin());
       if (alike > longest) best = &name, longest = alike;
     }
   return best ? *best : "";
@@ -91,11 +93,6 @@ std::vector<std::string> split(std::string_view text, char separator) {
   return parts;
 }
 
-namespace {
-
-bool is_control(unsigned char c) { return c < 32 || c == 127; }
-
-/// The length of the UTF-8 character that begins at `at`; 0 where none does.
 size_t utf8_length(std::string_view text, size_t at) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(at + i < text.size() ? text[at + i] : 0); };
   const unsigned char first = byte(0);
@@ -112,6 +109,10 @@ size_t utf8_length(std::string_view text, size_t at) {
     return 0;
   return length;
 }
+
+namespace {
+
+bool is_control(unsigned char c) { return c < 32 || c == 127; }
 
 std::string escaped(std::string_view word) {
   std::string out = "$'";
@@ -148,7 +149,10 @@ std::string shell_quote(const std::string& word) {
     i += std::max<size_t>(1, length);
   }
   if (!one_line) return escaped(word);
-  if (plain) return word;
+  return plain ? word : shell_single_quote(word);
+}
+
+std::string shell_single_quote(const std::string& word) {
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
   return out + "'";

@@ -28,11 +28,17 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
 /// The parts between the separators, one more than there are of these.
 std::vector<std::string> split(std::string_view text, char separator);
 
+/// The length of the UTF-8 character that begins at `at`; 0 where none does.
+std::size_t utf8_length(std::string_view text, std::size_t at);
+
 // Command lines as text that a shell reads back to the same words.
 
 /// The word as bash reads it, on one line whatever is in it: plain where it can be, otherwise in quotes, and with
 /// control characters and what is no UTF-8 as $'\n' or $'\377'.
 std::string shell_quote(const std::string& word);
+
+/// The word in single quotes, as every shell reads it, line feeds as they are.
+std::string shell_single_quote(const std::string& word);
 
 /// The words with blanks between them.
 std::string shell_join(std::span<const std::string> words);

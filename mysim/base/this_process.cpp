@@ -151,16 +151,16 @@ void signal_children(int number) {
   for (pid_t child; all >> child && !all.eof();) kill(child, number);
 }
 
-/// Orphans became children of this process. It may tidy up first.
+/// Ends all descendants: orphans became children of this process. Each has two seconds to tidy up before it is killed.
 void end_descendants() {
   using Clock = std::chrono::steady_clock;
-  const auto patience = Clock::now() + std::chrono::seconds(2), despair = patience + std::chrono::seconds(10);
+  const auto kill_after = Clock::now() + std::chrono::seconds(2), give_up_after = kill_after + std::chrono::seconds(10);
   for (bool first = true;; first = false) {
     pid_t ended;
     while ((ended = waitpid(-1, nullptr, WNOHANG)) > 0) {
     }
-    if (ended < 0 || Clock::now() > despair) return;
-    if (first || Clock::now() > patience) signal_children(first ? SIGTERM : SIGKILL);
+    if (ended < 0 || Clock::now() > give_up_after) return;
+    if (first || Clock::now() > kill_after) signal_children(first ? SIGTERM : SIGKILL);
     usleep(2000);
   }
 }

@@ -22,6 +22,16 @@ class CpuClock {
   double begin_ = 0, total_ = 0;
 };
 
+/// CPU time of the work, s.
+template <class Work>
+double cpu_time_of(const Work& work) {
+  CpuClock clock;
+  clock.start();
+  work();
+  clock.stop();
+  return clock.seconds();
+}
+
 // Free memory and disk, and refusals of what does not fit.
 
 /// Bytes that this process can still take: what the system says is available (MemAvailable), less where a control group

@@ -231,15 +231,15 @@ std::unique_ptr<World> make_cloth_grid_world(const Stepper& stepper, ContactRule
                                              const Execution& execution, const Observer& observer) {
   const Model& model = scene.model;
   const auto* springs = model.find<Springs>();
-  if (execution.precision == Precision::plain || !stepper.composition || !springs || !has_only_supported_terms(model))
+  if (execution.path == ExecutionPath::general || !stepper.composition || !springs || !has_only_supported_terms(model))
     return nullptr;
   const KickDriftComposition composition = stepper.composition();
   if (model.find<Spheres>() && (contact != ContactRule::coulomb || composition.fractions.size() > 1)) return nullptr;
   const auto topology = find_grid_topology(*springs, model.particles.size());
   if (!topology) return nullptr;
-  if (execution.precision == Precision::single)
+  if (execution.path == ExecutionPath::single_precision)
     return make_world<float>(*topology, composition, scene, h, true, execution.threads, observer);
-  const bool fast = execution.precision == Precision::fastest;
+  const bool fast = execution.path == ExecutionPath::fastest;
   return make_world<double>(*topology, composition, scene, h, fast, execution.threads, observer);
 }
 

@@ -13,11 +13,11 @@ std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction ac
   Vec3 friction = Vec3::Zero();   // of contacts that last, m/s
   double impacts = 0, given = 0;  // m^2/s^2; by moving spheres, times the step
   for (const Sphere& sphere : spheres.list) {
-    const Vec3 centre = sphere.centre_at(t), way = centre - sphere.centre_at(t_n);
+    const Vec3 centre = sphere.centre_at(t), displacement = centre - sphere.centre_at(t_n);
     const Vec3 velocity = sphere.motion ? velocity_at(*sphere.motion, t) : Vec3::Zero();
     const Vec3 x_before = x, v_before = v;
     Vec3 relative = v - velocity;
-    if (!(act(sphere, centre, x_n + way, x, relative) > 0)) continue;
+    if (!(act(sphere, centre, x_n + displacement, x, relative) > 0)) continue;
     touched = true;
     v = relative + velocity;
 
@@ -30,7 +30,7 @@ std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction ac
     const Vec3 normal = (x - centre).normalized();
     const Vec3 along = impulse.dot(normal) * normal;
     friction += impulse - along;
-    given += along.dot(way);
+    given += along.dot(displacement);
   }
   if (!touched) return std::nullopt;
   return impacts - (friction.dot(x - x_n) + given) / (t - t_n);

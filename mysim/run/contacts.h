@@ -5,9 +5,9 @@
 // made of it:
 //   An impact is where |J| > 3 (1 + e) |a| h: what came in faster than those forces explain. It lies at one moment and
 //   takes -J . (v* + v') / 2 + a . (x' - x*), the kinetic energy with which the particle met the surface, which lies
-//   x' - x* before the end of its way.
-//   Any other contact lasted through the step. Its normal part does no work but what a moving sphere does by its way s
-//   in the step; friction works over the particle's way: -(J_t . (x' - x_n) + J_n . s) / h.
+//   x' - x* before the end of its displacement.
+//   Any other contact lasted through the step. Its normal part does no work but what a moving sphere does by its
+//   displacement s in the step; friction works over the particle's displacement: -(J_t . (x' - x_n) + J_n . s) / h.
 // Hence 0 for what rests on a sphere at rest, whatever the stepper proposes in each step. What the free step and the
 // push out of the sphere do to the energy of a particle that touches is an error of the method, not a loss, and is left
 // to the balance. The 3: explicit Euler holds a resting particle in every other step, by |J| = 2 |a| h.

@@ -25,10 +25,10 @@ class PairSchedule {
         steps_per_sample_(steps_per_sample) {}
   StatePairObserver& observer() const { return *observer_; }
   /// Of the state so many steps after a sample: the first of a pair.
-  bool is_earlier(int step) const { return between(step) && !observer_->closely() && steps_left(step) == 2; }
-  /// The second of a pair, or any state where the observer looks closely.
+  bool is_earlier(int step) const { return between(step) && !observer_->needs_every_state() && steps_left(step) == 2; }
+  /// The second of a pair, or any state where the observer needs every state.
   bool is_later(int step) const {
-    return between(step) && (observer_->closely() || (step >= 2 && steps_left(step) == 0));
+    return between(step) && (observer_->needs_every_state() || (step >= 2 && steps_left(step) == 0));
   }
 
  private:
@@ -42,9 +42,9 @@ class PairSchedule {
 
 }  // namespace
 
-Outcome run_loop(World& world, const Run& asked, Observer& observer) {
+Outcome run_loop(World& world, const Run& requested, Observer& observer) {
   const bool every_step = observer.every_step();
-  Run run = asked;
+  Run run = requested;
   if (world.chooses_steps() && !every_step) run.step = run.duration / run.samples;
   const TimeGrid grid = time_grid(run);
   assert(grid.h > 0 && grid.steps_per_sample >= 1 && grid.samples >= 1);
@@ -280,7 +280,7 @@ Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene
   require_supported(stepper, scene.model);
   const auto world = make_world(stepper, contact, scene, run, observer, execution);
   Outcome out = run_loop(*world, run, observer);
-  if (execution.precision == Precision::single && !world->work().single_precision)
+  if (execution.path == ExecutionPath::single_precision && !world->work().single_precision)
     out.remark = "computed in double precision: single is for regular cloths of 33 columns or more";
   return out;
 }

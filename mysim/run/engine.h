@@ -29,8 +29,8 @@ class World {
   /// The scene as the engine built it, read once after the first step.
   virtual std::optional<Readback> read_back() { return std::nullopt; }
   virtual Work work() const { return {}; }
-  /// Whether the world crosses any interval in steps of its own: the run's step is then only the grid on which
-  /// observers of every step look.
+  /// Whether the world crosses any interval in steps of its own: the run's step is then only the grid of what
+  /// observers of every step are shown.
   virtual bool chooses_steps() const { return false; }
 };
 
@@ -38,12 +38,12 @@ class World {
 /// alone.
 Outcome run_loop(World& world, const Run& run, Observer& observer);
 
-/// How mysim computes: on regular cloths reproducible (the same bits with AVX2 and AVX-512), as fast as the machine
-/// can, or in single precision; plain is the general engine, whatever the scene.
-enum class Precision { reproducible, fastest, single, plain };
+/// The code that steps a scene: on regular cloths the fused step, reproducible (the same bits with AVX2 and AVX-512),
+/// as fast as the machine can, or in single precision; `general` is the engine for any scene.
+enum class ExecutionPath { reproducible, fastest, single_precision, general };
 
 struct Execution {
-  Precision precision = Precision::reproducible;
+  ExecutionPath path = ExecutionPath::reproducible;
   int threads = 1;  // at most: small cloths are stepped by fewer; the same bits, however many
 };
 

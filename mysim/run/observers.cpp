@@ -80,7 +80,7 @@ class MotionBoundsObserver : public Observer {
     const Particles& particles = scene_.model.particles;
     for (int i = 0; i < particles.size(); ++i)
       if (!particles.pinned[i]) bounds.speed = std::max(bounds.speed, state.v.col(i).norm());
-    bounds.stretch = std::max(bounds.stretch, largest_stretch(scene_.model, scene_.start, state.x));
+    bounds.stretch = std::max(bounds.stretch, largest_length_ratio(scene_.model, scene_.start, state.x));
     return Verdict::ok;
   }
   MotionBounds bounds;
@@ -105,7 +105,7 @@ double fastest_decay(const Model& model) {
 
 }  // namespace
 
-double largest_stretch(const Model& model, const State& start, const Points& x) {
+double largest_length_ratio(const Model& model, const State& start, const Points& x) {
   const auto* springs = model.find<Springs>();
   double most = 0;
   if (springs)
@@ -148,12 +148,12 @@ DivergenceMonitor::DivergenceMonitor(const Model& model, const State* start) : m
       if (s.motion) {
         // a particle leaves at (1 + e) times the sphere's speed at most; as much energy again may go into springs
         const double speed = (1 + s.restitution) * max_speed(*s.motion);
-        moving_spheres_ += model.particles.mass.sum() * speed * speed;
+        moving_sphere_energy_ += model.particles.mass.sum() * speed * speed;
       }
   // an engine that pushes a resting particle out of a contact hands it a little speed: that of a fall by a millimetre
   if (const auto* gravity = model.find<Gravity>(); gravity && model.find<Spheres>()) {
-    contact_ = 1e-3 * model.particles.mass.sum() * gravity->acceleration.norm();
-    slowest_ = std::sqrt(2e-3 * gravity->acceleration.norm());
+    contact_energy_ = 1e-3 * model.particles.mass.sum() * gravity->acceleration.norm();
+    contact_speed_ = std::sqrt(2e-3 * gravity->acceleration.norm());
   }
   if (model.find<Wind>() || model.find<Aerodynamics>() || model.particles.move)
     ledger_.emplace(model, ContactLoss::reported);
@@ -166,27 +166,27 @@ void DivergenceMonitor::begin(const State& state) {
   State& start = *start_;
   const Particles& particles = model_.particles;
   const Energy energy = energy_of(model_, start);
-  given_ = energy.kinetic + energy.elastic + moving_spheres_ + contact_;
-  weight_0_ = energy.gravitational;
+  initial_energy_ = energy.kinetic + energy.elastic + moving_sphere_energy_ + contact_energy_;
+  initial_gravitational_ = energy.gravitational;
   System system(model_);
   Points a(3, start.x.cols());
   system.acceleration(start, a);
   // engines in single precision know a position to 6e-8 of its coordinates, and five such roundings in two steps are
   // no motion
-  const double known = rounded_ = 5 * 6e-8 * start.x.cwiseAbs().maxCoeff();
+  const double known = position_rounding_ = 5 * 6e-8 * start.x.cwiseAbs().maxCoeff();
   for (int i = 0; i < particles.size(); ++i)
     if (!particles.pinned[i]) {
-      pull_ += particles.mass[i] * a.col(i).squaredNorm();
-      rounding_ += particles.mass[i] / 2 * 3 * known * known;
+      squared_acceleration_ += particles.mass[i] * a.col(i).squaredNorm();
+      squared_rounding_ += particles.mass[i] / 2 * 3 * known * known;
     }
-  at_start_ = std::max(1., largest_stretch(model_, start, start.x));
+  initial_length_ratio_ = std::max(1., largest_length_ratio(model_, start, start.x));
   if (ledger_) ledger_->observe(start, false);
 }
 
 bool DivergenceMonitor::frozen(const State& state) {
   const State start = std::move(*first_);
   first_.reset();
-  asked_ = true;
+  freeze_checked_ = true;
   if (model_.find<Constraints>()) return false;
   for (int i = 0; i < start.x.cols(); ++i)
     if (!model_.particles.pinned[i] && (state.x.col(i) != start.x.col(i) || state.v.col(i) != start.v.col(i)))
@@ -196,7 +196,7 @@ bool DivergenceMonitor::frozen(const State& state) {
   Points a(3, stage.x.cols());
   system.acceleration(stage, a);
   const auto* spheres = model_.find<Spheres>();
-  // what moves must be seen in the last bit: a way of 1e-12 of the coordinates, well above their rounding
+  // what moves must be seen in the last bit: a displacement of 1e-12 of the coordinates, well above their rounding
   const double seen = 1e-12 * (1 + start.x.cwiseAbs().maxCoeff()), t = state.t - start.t;
   for (int i = 0; i < start.x.cols(); ++i)
     if (!model_.particles.pinned[i] && (start.v.col(i) * t + a.col(i) * (t * t / 2)).norm() > seen &&
@@ -216,39 +216,42 @@ Verdict DivergenceMonitor::moves_too_fast(const State& state) {
       kinetic += particles.mass[i] / 2 * square, furthest = std::max(furthest, square);
     }
   kinetic /= span * span;
-  fastest_ = std::max(fastest_, (std::sqrt(furthest) - rounded_) / span);
+  largest_speed_ = std::max(largest_speed_, (std::sqrt(furthest) - position_rounding_) / span);
   if (const auto* gravity = model_.find<Gravity>())
-    sunk_ = std::max(sunk_, std::abs(potential_energy(*gravity, particles, state) - weight_0_));
+    gravitational_change_ = std::max(gravitational_change_,
+                                     std::abs(potential_energy(*gravity, particles, state) - initial_gravitational_));
   if (ledger_) {
     State middle{last_.t, last_.x, (state.x - before_.x) / span};
     particles.place_pins(middle);
     ledger_->observe(middle, false);
     const LedgerRow row = ledger_->now(middle);
-    worked_ = std::max(worked_, std::abs(row.wind + row.pins));
+    external_work_ = std::max(external_work_, std::abs(row.wind + row.pins));
   }
-  const double had = given_ + sunk_ + worked_ + 2 * h * h * pull_ + rounding_ / (span * span);
-  if (!std::isfinite(kinetic) || !std::isfinite(had)) return Verdict::nan;
-  if (had > 0) most_ = std::max(most_, kinetic / had);
-  if (kinetic > (true_motion_bounds_ ? blown_up : suspect) * had) return Verdict::energy;
+  const double available = initial_energy_ + gravitational_change_ + external_work_ +
+                           2 * h * h * squared_acceleration_ + squared_rounding_ / (span * span);
+  if (!std::isfinite(kinetic) || !std::isfinite(available)) return Verdict::nan;
+  if (available > 0) largest_ratio_ = std::max(largest_ratio_, kinetic / available);
+  if (kinetic > (true_motion_bounds_ ? ratio_blown_up : ratio_suspect) * available) return Verdict::energy;
   return bounds_ && beyond_bounds() == Verdict::energy ? Verdict::energy : Verdict::ok;
 }
 
 Verdict DivergenceMonitor::beyond_bounds() const {
-  if (fastest_ > allowed * std::max(bounds_->speed, slowest_)) return Verdict::energy;
-  return longest_ > allowed * std::max(bounds_->stretch, 1.) ? Verdict::stretch : Verdict::ok;
+  if (largest_speed_ > allowed * std::max(bounds_->speed, contact_speed_)) return Verdict::energy;
+  return largest_length_ratio_ > allowed * std::max(bounds_->stretch, 1.) ? Verdict::stretch : Verdict::ok;
 }
 
 Verdict DivergenceMonitor::goes_too_far(const State& state) {
-  longest_ = std::max(longest_, largest_stretch(model_, *start_, state.x));
-  if (true_motion_bounds_ && !bounds_ && (most_ > in_order || longest_ > longer * at_start_)) {
+  largest_length_ratio_ = std::max(largest_length_ratio_, largest_length_ratio(model_, *start_, state.x));
+  if (true_motion_bounds_ && !bounds_ &&
+      (largest_ratio_ > ratio_in_order || largest_length_ratio_ > length_bound * initial_length_ratio_)) {
     bounds_ = true_motion_bounds_();
     if (!bounds_) true_motion_bounds_ = nullptr;
   }
   if (bounds_) return beyond_bounds();
   if (true_motion_bounds_) return Verdict::ok;
   // no true motion to compare with
-  if (most_ > suspect) return Verdict::energy;
-  return longest_ > allowed * longer * at_start_ ? Verdict::stretch : Verdict::ok;
+  if (largest_ratio_ > ratio_suspect) return Verdict::energy;
+  return largest_length_ratio_ > allowed * length_bound * initial_length_ratio_ ? Verdict::stretch : Verdict::ok;
 }
 
 void DivergenceMonitor::earlier(const State& state) {
@@ -268,10 +271,10 @@ Verdict DivergenceMonitor::observe(const State& state, bool sample) {
     ++seen_;
   }
   paired_ = false;
-  if (!closely_ && !every_step() && most_ > in_order) closely_ = true, seen_ = 0;
+  if (!needs_every_state_ && !every_step() && largest_ratio_ > ratio_in_order) needs_every_state_ = true, seen_ = 0;
   if (!sample || moves != Verdict::ok) return moves;
   if (state.v.cols() == state.x.cols()) {
-    if (!first_ && !asked_)
+    if (!first_ && !freeze_checked_)
       first_ = state;
     else if (first_ && frozen(state))
       return Verdict::frozen;

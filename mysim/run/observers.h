@@ -41,7 +41,7 @@ class Recorder : public Observer {
   Trajectory trajectory;
 };
 
-// The energy ledger: what a run has, what it lost, what it was given, and what does not add up.
+// The energy ledger: energies of a run, losses, work done on it, and the residual of the balance.
 
 /// Integral of a quantity sampled at equal steps, to fourth order: Simpson's 3/8 rule over the first three steps, then
 /// the Adams-Moulton weights (9, 19, -5, 1) h / 24.
@@ -104,7 +104,7 @@ struct MotionBounds {
 };
 
 /// The largest length of a spring over its length at rest; 0 without springs.
-double largest_stretch(const Model& model, const State& start, const Points& x);
+double largest_length_ratio(const Model& model, const State& start, const Points& x);
 
 /// Leapfrog over the run's duration at a quarter of its limit on the fastest vibration there can be, where a
 /// vibration's speed is right to 3 %. Nothing where leapfrog does not take the scene, or fails.
@@ -169,18 +169,18 @@ class DivergenceMonitor : public StatePairObserver {
   bool every_step() const override { return ledger_.has_value(); }
   Verdict observe(const State& state, bool sample) override;
   /// Where K^ has passed B.
-  bool closely() const override { return closely_; }
+  bool needs_every_state() const override { return needs_every_state_; }
   void earlier(const State& state) override;
   Verdict later(const State& state) override;
 
   /// The largest K^ / B so far.
-  double most() const { return most_; }
+  double largest_ratio() const { return largest_ratio_; }
   /// A run that has not failed goes less than so many times as fast and as far as the true motion.
   static constexpr double allowed = 10;
   /// Bounds of K^ / B: in order up to; without a true motion failed, with one blown up beyond.
-  static constexpr double in_order = 1, suspect = 10, blown_up = 1000;
+  static constexpr double ratio_in_order = 1, ratio_suspect = 10, ratio_blown_up = 1000;
   /// The bound of lengths over the longest of the start, or of springs at rest.
-  static constexpr double longer = 3;
+  static constexpr double length_bound = 3;
 
  private:
   struct Seen {
@@ -201,25 +201,25 @@ class DivergenceMonitor : public StatePairObserver {
   std::optional<State> start_;
   std::optional<Ledger> ledger_;  // only where wind or moved pins do work
   std::optional<State> first_;    // until the sample after it
-  bool asked_ = false;            // whether anything moved
+  bool freeze_checked_ = false;   // whether frozen() was called
   bool begun_ = false;
   Seen before_, last_;  // of the states shown; `paired_`: before_ is two steps before the next
   int seen_ = 0;
-  bool paired_ = false, closely_ = false;
-  double moving_spheres_ = 0;  // J, the most that moving spheres are expected to give
-  double contact_ = 0;         // J, what corrections at contacts may give
-  double given_ = 0;           // J, kinetic and elastic at the start and what moving spheres and contacts may give
-  double weight_0_ = 0;        // J, gravitational at the start
-  double sunk_ = 0;            // J, the largest change of it
-  double worked_ = 0;          // J, the largest work of wind and moved pins so far
-  double pull_ = 0;            // kg m^2/s^4, sum of m |a_0|^2
-  double rounding_ = 0;        // kg m^2, sum of m/2 |rounding of a position|^2
-  double slowest_ = 0;         // m/s, what an engine may hand to what rests: roundings apart
-  double rounded_ = 0;         // m, of a position
-  double most_ = 0;
-  double fastest_ = 0;   // m/s, of a free particle, less what roundings may be
-  double at_start_ = 1;  // 1, the longest spring of the start, or 1
-  double longest_ = 0;   // 1
+  bool paired_ = false, needs_every_state_ = false;
+  double moving_sphere_energy_ = 0;  // J, the most that moving spheres are expected to give
+  double contact_energy_ = 0;        // J, what corrections at contacts may give
+  double initial_energy_ = 0;  // J, kinetic and elastic at the start and what moving spheres and contacts may give
+  double initial_gravitational_ = 0;  // J, gravitational at the start
+  double gravitational_change_ = 0;   // J, the largest change of it
+  double external_work_ = 0;          // J, the largest work of wind and moved pins so far
+  double squared_acceleration_ = 0;   // kg m^2/s^4, sum of m |a_0|^2
+  double squared_rounding_ = 0;       // kg m^2, sum of m/2 |rounding of a position|^2
+  double contact_speed_ = 0;          // m/s, what a contact may hand to what rests
+  double position_rounding_ = 0;      // m, of a position
+  double largest_ratio_ = 0;
+  double largest_speed_ = 0;         // m/s, of a free particle, less what roundings may be
+  double initial_length_ratio_ = 1;  // 1, the longest spring of the start, or 1
+  double largest_length_ratio_ = 0;  // 1
 };
 
 /// Other observers and a monitor as one. The monitor sees the same states whichever other observers see every step, so
@@ -230,7 +230,7 @@ class MonitoredObservers : public StatePairObserver {
       : monitor_(monitor), others_(std::move(others)) {}
   bool every_step() const override { return monitor_.every_step() || others_.every_step(); }
   Verdict observe(const State& state, bool sample) override;
-  bool closely() const override { return monitor_.closely(); }
+  bool needs_every_state() const override { return monitor_.needs_every_state(); }
   void contact(double lost) override { others_.contact(lost); }
   void earlier(const State& state) override;
   Verdict later(const State& state) override;

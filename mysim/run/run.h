@@ -12,8 +12,6 @@
 
 namespace crosscheck {
 
-// One run: its settings (Run), its observers (Observer), its results (Outcome). Every engine has the same type.
-
 enum class Verdict {
   ok,
   energy,       // over ten times as fast as the true motion ever is (run/observers.h)
@@ -115,7 +113,7 @@ struct Readback {
   std::optional<Vec3> gravity;              // m/s^2
   std::optional<std::vector<double>> drag;  // 1/s, drag rate gamma of each free particle
   std::optional<std::vector<Ball>> spheres;
-  std::optional<Places> later;                  // what a prescribed motion leads, at a later time
+  std::optional<Places> later;                  // what a prescribed motion moves, at a later time
   std::optional<double> margin;                 // m, half the thickness of the cloth
   std::optional<State> start;                   // positions and velocities that the first step began from
   std::optional<double> step;                   // s
@@ -143,7 +141,7 @@ struct Outcome {
 
 using Engine = std::function<Outcome(const Scene&, const Run&, Observer&)>;
 
-// Looking at a run by pairs of states two steps apart, without looking at every step.
+// Pairs of states two steps apart, for observers that need differences but not every step.
 
 /// An observer of samples that is also shown, by the run loop, the state two steps before each sample (where a sampling
 /// interval has two steps or more), and such a pair every `steps_between_pairs` steps before it, whichever observers
@@ -152,11 +150,11 @@ class StatePairObserver : public Observer {
  public:
   static constexpr int steps_between_pairs = 16;
   /// Once true it stays so: later() is then shown every state between two samples, and earlier() none.
-  virtual bool closely() const { return false; }
+  virtual bool needs_every_state() const { return false; }
   /// The state two steps before the next that is shown.
   virtual void earlier(const State& state) = 0;
-  /// The state two steps after that one, or any where looking closely, between two samples. Anything but Verdict::ok
-  /// ends the run.
+  /// The state two steps after that one, or any where every state is needed, between two samples. Anything but
+  /// Verdict::ok ends the run.
   virtual Verdict later(const State& state) = 0;
 };
 

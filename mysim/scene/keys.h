@@ -7,8 +7,6 @@
 
 namespace crosscheck {
 
-// The keys that a TOML file may have, as one visible table, and the check of a whole file against it.
-
 /// One key of a table.
 struct Key {
   enum class Kind { value, table, tables, table_or_tables };  // = ..., [name], [[name]], either

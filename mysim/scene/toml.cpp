@@ -121,6 +121,10 @@ std::shared_ptr<const toml::table> parse(std::string_view text, const std::strin
   }
 }
 
+std::string full_key(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+}
+
 }  // namespace
 
 struct TomlTable::Node {
@@ -133,9 +137,7 @@ struct TomlTable::Node {
   mutable std::vector<std::shared_ptr<Node>> children;  // so that finish() sees what was read below
   mutable std::map<std::string, std::vector<std::shared_ptr<Node>>, std::less<>> made;
 
-  std::string full(std::string_view key) const {
-    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-  }
+  std::string full(std::string_view key) const { return full_key(path, key); }
 
   [[noreturn]] void fail_at(const toml::source_region& where, std::string_view key, const std::string& expected) const {
     throw InputError(fmt::format("{}:{}: {}: {}", file, where.begin.line, full(key), expected));
@@ -324,7 +326,7 @@ class KeyCheck {
     for (const Key& key : keys) {
       const toml::node* n = table.get(key.name);
       if (!n || key.kind == Key::Kind::value) continue;
-      const std::string below = full(path, key.name);
+      const std::string below = full_key(path, key.name);
       if (n->is_table()) check(*n->as_table(), below, key.below);
       if (const toml::array* list = n->as_array())
         for (std::size_t i = 0; i < list->size(); ++i)
@@ -334,12 +336,9 @@ class KeyCheck {
   }
 
  private:
-  static std::string full(const std::string& path, std::string_view key) {
-    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
-  }
   /// The key as it is written, and its value.
   static std::string written(const std::string& path, const Key& key) {
-    std::string name = full(path, key.name), keys, more;
+    std::string name = full_key(path, key.name), keys, more;
     // [[sphere]] holds [sphere.motion], without an index
     while (name.find('[') != std::string::npos) name.erase(name.find('['), name.find(']') - name.find('[') + 1);
     if (key.kind == Key::Kind::value) return fmt::format("{} = {}", key.name, key.expected);
@@ -358,7 +357,7 @@ class KeyCheck {
               std::vector<Owned>& out) const {
     for (const Key& k : keys) {
       if (path != here) out.emplace_back(k.name, table);
-      const std::string below = full(path, k.name);
+      const std::string below = full_key(path, k.name);
       if (k.kind != Key::Kind::value)
         owners(k.below, below, k.kind == Key::Kind::tables ? "[[" + below + "]]" : "[" + below + "]", here, out);
     }
@@ -387,9 +386,9 @@ class KeyCheck {
     return !key.required || (!key.unless.empty() && std::any_of(around_.begin(), around_.end(), has));
   }
 
-  static std::string unless_told(const Key& key) {
-    const bool told = key.unless.empty() || key.expected.find(key.unless) != std::string_view::npos;
-    return told ? "" : fmt::format(", unless the file has '{}'", key.unless);
+  static std::string unless_clause(const Key& key) {
+    const bool included = key.unless.empty() || key.expected.find(key.unless) != std::string_view::npos;
+    return included ? "" : fmt::format(", unless the file has '{}'", key.unless);
   }
 
   /// Unknown keys and missing ones, which often are one and the same.
@@ -419,19 +418,19 @@ class KeyCheck {
           hint = there;
         std::erase_if(missing, [&](const Key* k) { return k->name == meant; });
       }
-      unknown.emplace_back(key.source().begin.line, fmt::format("{}: unknown key{}", full(path, key.str()), hint));
+      unknown.emplace_back(key.source().begin.line, fmt::format("{}: unknown key{}", full_key(path, key.str()), hint));
     }
     // keys that stand here and belong to a missing table: its header is what is missing
     const auto only_header = [&](const Key& key) {
       return std::any_of(unknown.begin(), unknown.end(), [&](const auto& one) {
-        return one.second.ends_with(fmt::format("; it belongs to [{}]", full(path, key.name)));
+        return one.second.ends_with(fmt::format("; it belongs to [{}]", full_key(path, key.name)));
       });
     };
     std::string lacking;
     for (const Key* key : missing) {
-      lacking +=
-          (lacking.empty() ? "" : ", ") +
-          (only_header(*key) ? fmt::format("the line [{}] above them", full(path, key->name)) : written(path, *key));
+      lacking += (lacking.empty() ? "" : ", ") +
+                 (only_header(*key) ? fmt::format("the line [{}] above them", full_key(path, key->name))
+                                    : written(path, *key));
       for (const Key& other : keys)
         if (other.name == key->unless && other.kind != Key::Kind::value)
           lacking += fmt::format(" (or {} in its place)", written(path, other));
@@ -446,11 +445,11 @@ class KeyCheck {
     }
     if (missing.empty()) return;
     std::string which;
-    for (const Key* key : missing) which += (which.empty() ? "" : ", ") + full(path, key->name);
+    for (const Key* key : missing) which += (which.empty() ? "" : ", ") + full_key(path, key->name);
     const bool one_value = missing.size() == 1 && missing[0]->kind == Key::Kind::value;
     fail(table.source().begin.line,
          fmt::format("{}: {} missing; expected {}", which, missing.size() == 1 ? "is" : "are",
-                     one_value ? std::string(missing[0]->expected) + unless_told(*missing[0]) : lacking));
+                     one_value ? std::string(missing[0]->expected) + unless_clause(*missing[0]) : lacking));
   }
 
   /// Tables that are none, or single ones that should be several.
@@ -463,7 +462,7 @@ class KeyCheck {
                         : key.kind == Key::Kind::tables ? tables
                                                         : n->is_table() || tables;
       if (good) continue;
-      const std::string name = full(path, key.name);
+      const std::string name = full_key(path, key.name);
       std::string got = as_written(*n, text_), hint;
       if (n->is_table() && !n->as_table()->is_inline()) {
         got = fmt::format("[{}]", name);

@@ -294,7 +294,7 @@ std::optional<TomlError> standing_twice(const std::vector<BareLine>& lines, int 
 
 TomlError diagnose_toml(std::string_view text, int line, std::string_view description) {
   const std::vector<BareLine> lines = bare_lines(text);
-  const auto told = [&](TomlError fault) {
+  const auto with_line = [&](TomlError fault) {
     const std::string& shown = lines[std::clamp(fault.line - 1, 0, static_cast<int>(lines.size()) - 1)].shown;
     std::string printable;
     for (const char c : shown.substr(0, 80)) printable += static_cast<unsigned char>(c) < 32 ? ' ' : c;
@@ -304,21 +304,21 @@ TomlError diagnose_toml(std::string_view text, int line, std::string_view descri
                      fmt::format("{}; the line is: {}{}", fault.what, printable, shown.size() > 80 ? "..." : "")};
   };
   if (const auto strange = strange_characters(text))
-    return strange->what.find("UTF-") == std::string::npos ? told(*strange) : *strange;
-  if (const auto again = standing_twice(lines, line, description)) return told(*again);
+    return strange->what.find("UTF-") == std::string::npos ? with_line(*strange) : *strange;
+  if (const auto again = standing_twice(lines, line, description)) return with_line(*again);
   // a text that is not closed ends where it begins
   for (int i = 0; i < std::min(line, static_cast<int>(lines.size())); ++i)
-    if (lines[i].open) return told({i + 1, wrong_with_line(lines[i])});
-  if (const auto list = open_list(lines, line)) return told(*list);
+    if (lines[i].open) return with_line({i + 1, wrong_with_line(lines[i])});
+  if (const auto list = open_list(lines, line)) return with_line(*list);
   if (lines[std::clamp(line - 1, 0, static_cast<int>(lines.size()) - 1)].inside || lines.back().inside)
     for (int i = static_cast<int>(lines.size()); i-- > 0;)
       if (!lines[i].inside && lines[i].code.find("___") != std::string::npos)
-        return told(
+        return with_line(
             {i + 1, "the text of several lines that begins here has no closing quotes; expected the same three again"});
   for (const int at : {line, line - 1})
     if (at >= 1 && at <= static_cast<int>(lines.size()) && !trimmed_line(lines[at - 1].code).empty())
-      if (const std::string wrong = wrong_with_line(lines[at - 1]); !wrong.empty()) return told({at, wrong});
-  return told({line, std::string(description)});
+      if (const std::string wrong = wrong_with_line(lines[at - 1]); !wrong.empty()) return with_line({at, wrong});
+  return with_line({line, std::string(description)});
 }
 
 }  // namespace crosscheck

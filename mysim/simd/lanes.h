@@ -6,6 +6,10 @@
 // x y z x y z: add_points turns lanes of x, of y and of z into that. A record is four numbers, x y z and one more that
 // is 0; Records are as many of them as there are lanes. They are loaded as wholes, wherever they lie, and only the sums
 // of their squares go to lanes.
+//
+// This is not Highway: Debian's (1.0.3) has no SSE2 target, so that the build that every machine runs would have one
+// lane and take 1.9 to 2.7 times as long (measured on 1 - 1 / sqrt(s)); and it has no estimate of 1 / sqrt in double
+// precision.
 #pragma once
 
 #include <immintrin.h>

@@ -53,6 +53,13 @@ struct KickDriftComposition {
   bool kick_first = false;
 };
 
+/// The look of a method in charts, the same in all of them: "#RRGGBB", and gnuplot's dash type and point type.
+struct CurveStyle {
+  std::string_view colour = {};  // empty: none of its own
+  std::string_view dash = {};
+  int marker = 0;
+};
+
 struct Stepper {
   std::string_view name;
   StepFunction step;
@@ -67,6 +74,7 @@ struct Stepper {
   bool hard_constraints = false;   // keeps fixed distances
   StepFunction linear = nullptr;   // the rule behind the option +linear
   KickDriftComposition (*composition)() = nullptr;  // where it is one
+  CurveStyle style = {};
 };
 
 void explicit_euler(System& f, State& s, double h, Workspace& w);

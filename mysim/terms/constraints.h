@@ -18,7 +18,7 @@ struct Constraints {
 };
 
 /// The largest | |x_a - x_b| / length - 1 | (1).
-inline double largest_stretch(const Constraints& constraints, const Points& x) {
+inline double largest_constraint_error(const Constraints& constraints, const Points& x) {
   double largest = 0;
   for (const auto& [a, b, length] : constraints.list)
     largest = std::max(largest, std::abs((x.col(a) - x.col(b)).norm() / length - 1));

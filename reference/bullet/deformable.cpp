@@ -154,13 +154,13 @@ std::optional<double> one_dashpot_each(const Springs* springs, const Dashpots* d
 DeformableForces::DeformableForces(const Scene& scene, double h, bool implicit, bool shipped, SoftBody& body,
                                    btDeformableMultiBodyDynamicsWorld& world)
     : scene_(scene), h_(h), implicit_(implicit), soft_body_(body) {
-  SceneForce::CarriedTerms asked, ours;
+  SceneForce::CarriedTerms in_scene, ours;
   const Gravity* gravity = nullptr;
   const Overloaded take{
       [&](const Gravity& t) { gravity = &t; },
-      [&](const Springs& t) { asked.springs = &t; },
-      [&](const Dashpots& t) { asked.dashpots = &t; },
-      [&](const Drag& t) { asked.drag = &t; },
+      [&](const Springs& t) { in_scene.springs = &t; },
+      [&](const Dashpots& t) { in_scene.dashpots = &t; },
+      [&](const Drag& t) { in_scene.drag = &t; },
       [&](const Wind& t) {
         ours.wind = &t;
         mapped_["wind"] = "force class of our own: Bullet's deformable world has no wind";
@@ -174,8 +174,8 @@ DeformableForces::DeformableForces(const Scene& scene, double h, bool implicit, 
   };
   for (const Term& term : scene.model.terms) std::visit(take, term);
   ours.implicit = implicit;
-  carry_drag(asked.drag, ours);
-  carry_springs(asked.springs, asked.dashpots, ours, shipped);
+  carry_drag(in_scene.drag, ours);
+  carry_springs(in_scene.springs, in_scene.dashpots, ours, shipped);
   if (spring_force_) world.addForce(&body.body(), spring_force_.get());
   if (ours.any()) {
     scene_force_ = std::make_unique<SceneForce>(ours, scene, body);

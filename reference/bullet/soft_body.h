@@ -14,10 +14,8 @@
 
 namespace crosscheck::bullet {
 
-// A scene as one Bullet soft body: the part that all Bullet worlds share.
-//
-// Traps met here (all measured): pinned nodes go last, since the implicit world shifts its contact prediction by one
-// node for each pin before; the first step overwrites rest lengths unless the update flag is cleared; bodies slower
+// Pitfalls of Bullet (all measured): pinned nodes go last, since the implicit world shifts its contact prediction by
+// one node for each pin before; the first step overwrites rest lengths unless the update flag is cleared; bodies slower
 // than 0.04 m/s fall asleep unless that is disabled; a disconnected spring graph hangs the builder of the node tree;
 // the body's margin is 0.25 m unless set; the explicit world clamps speeds to the diagonal of the body's box over the
 // step.
@@ -167,11 +165,9 @@ class Obstacles {
 /// by half a voxel's turn at its faces.
 std::string normal_error_text(const Scene& scene, double voxel);
 
-// The part that all Bullet worlds share: a body and its obstacles go in, states come out, and all is taken down in the
-// right order.
-
-/// BulletWorld: a soft-body world of Bullet. The derived class makes world_ and soft_body_, calls add_to_world(), and
-/// calls remove_all() in its destructor, since its forces and solvers must outlive the world.
+/// The part that all Bullet worlds share: a soft body and its obstacles are put into a world, which is destroyed in the
+/// right order. BulletWorld: a soft-body world of Bullet. The derived class makes world_ and soft_body_, calls
+/// add_to_world(), and calls remove_all() in its destructor, since its forces and solvers must outlive the world.
 template <class BulletWorld>
 class SoftBodyWorld : public World {
  public:
@@ -184,7 +180,7 @@ class SoftBodyWorld : public World {
   void add_to_world() {
     obstacles_.add_to_world(*world_);
     world_->addSoftBody(&body());
-    world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the spheres are fixed or led
+    world_->setGravity(btVector3(0, 0, 0));  // of rigid bodies only; the spheres are fixed or kinematic
   }
 
   /// Pins and spheres of a prescribed motion, at a time at which no round frequency has brought it back.

@@ -70,7 +70,7 @@ WorldChoice deformable_implicit(const Options& options) {
 
 WorldChoice pbd(const Options& options) {
   PbdSettings settings;
-  int asked = 0;  // iterations
+  int iterations = 0;
   for (const std::string& option : options) {
     if (read_voxel(option, settings.voxel)) continue;
     const char *begin = option.data() + 2, *end = option.data() + option.size();
@@ -82,14 +82,14 @@ WorldChoice pbd(const Options& options) {
       settings.defaults.rest = true;
     else if (option == "default-voxel")
       settings.voxel = 0.25;
-    else if (!option.starts_with("n=") || asked != 0 || std::from_chars(begin, end, asked).ptr != end || asked < 1 ||
-             asked > 1000)
+    else if (!option.starts_with("n=") || iterations != 0 || std::from_chars(begin, end, iterations).ptr != end ||
+             iterations < 1 || iterations > 1000)
       refuse_option(
           "bullet/pbd", option,
           "+n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest, +default-voxel, +voxel=0.0001 to +voxel=1 "
           "(m) or none");
   }
-  settings.iterations = asked > 0 ? asked : settings.demo ? 10 : 1;
+  settings.iterations = iterations > 0 ? iterations : settings.demo ? 10 : 1;
   return {"Bullet's position-based world, stiffness mapped per link; different link and friction laws", "",
           [settings](const Scene& scene, const Run& run, Observer& observer) {
             return run_pbd(scene, run, observer, settings);
@@ -97,13 +97,16 @@ WorldChoice pbd(const Options& options) {
           false, true};
 }
 
-// the table: a name, and how its world is made from the options
+// the table: a name, how its world is made from the options, and its look in charts in double and in single precision
 struct Row {
   std::string_view name;
   WorldChoice (*make)(const Options&);
+  CurveStyle style, style_in_single;
 };
 constexpr Row table[] = {
-    {"deformable-explicit", deformable_explicit}, {"deformable-implicit", deformable_implicit}, {"pbd", pbd}};
+    {"deformable-explicit", deformable_explicit, {"#9A4200", "(3,2)", 5}, {"#D08050", "(14,2,2,2)", 4}},
+    {"deformable-implicit", deformable_implicit, {"#AA4499", "(20,3,4,3)", 11}, {"#B080C0", "(12,2,1,2)", 10}},
+    {"pbd", pbd, {"#D66A08", "(8,4)", 13}, {"#B08050", "(4,2,1,2)", 6}}};
 
 }  // namespace
 
@@ -115,7 +118,11 @@ std::vector<std::string> world_names() {
 
 WorldChoice choose_world(const std::string& world, const std::vector<std::string>& options) {
   for (const Row& row : table)
-    if (row.name == world) return row.make(options);
+    if (row.name == world) {
+      WorldChoice choice = row.make(options);
+      choice.style = row.style, choice.style_in_single = row.style_in_single;
+      return choice;
+    }
   throw InputError(
       fmt::format("unknown world '{}' of Bullet; expected one of: {}", world, fmt::join(world_names(), ", ")));
 }

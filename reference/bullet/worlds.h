@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mysim/run/run.h"
+#include "mysim/steppers/steppers.h"
 
 namespace crosscheck::bullet {
 
@@ -15,6 +16,7 @@ struct WorldChoice {
   std::string rule;  // of mysim's stepper that it must equal to round-off in contact-free scenes; may be empty
   Engine engine;
   bool implicit = false, position_based = false;
+  CurveStyle style = {}, style_in_single = {};
 };
 
 /// "deformable-explicit", "deformable-implicit", "pbd".

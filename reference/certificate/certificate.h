@@ -18,7 +18,7 @@ enum class Parity {
 std::string_view name_of(Parity parity);
 
 struct CertificateRow {
-  std::string quantity, asked, mapped, read_back;
+  std::string quantity, requested, mapped, read_back;
   Parity parity;
 };
 

@@ -50,8 +50,8 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
       return !(particles.pinned[pair.a] && particles.pinned[pair.b]) && !pulls(pair);
     });
   };
-  auto compare = [&](const std::string& quantity, const std::string& asked, const auto& term, const Points& reported,
-                     long force_free) {
+  auto compare = [&](const std::string& quantity, const std::string& requested, const auto& term,
+                     const Points& reported, long force_free) {
     Forces ours{Points::Zero(3, particles.size()), 0};
     add_force(term, particles, probed, ours);
     Points others = reported;  // a force on a pin moves nothing, and some engines leave it out
@@ -61,10 +61,10 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
     // forces are differences of lengths at a tenth of stretch: that costs a digit, sums of a dozen springs another
     const bool same = off <= 100 * w.tolerance() * scale;
     if (same && force_free > 0)
-      w.row(quantity, asked, fmt::format("{}; {} of {} have none there", found, force_free, term.list.size()),
+      w.row(quantity, requested, fmt::format("{}; {} of {} have none there", found, force_free, term.list.size()),
             Parity::unattested);
     else
-      w.row(quantity, asked, found, same);
+      w.row(quantity, requested, found, same);
   };
   if (springs && !springs->list.empty() && r.probe && r.probe->springs.size() > 0) {
     // a stretch by less than a thousandth shows no law: all laws are straight lines there
@@ -85,16 +85,16 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
   }
   double low = 1e300, high = 0;
   for (const auto& d : dashpots->list) low = std::min(low, d.c), high = std::max(high, d.c);
-  const std::string asked = fmt::format("{} of {}", dashpots->list.size(), range_of(low, high, "N s/m"));
+  const std::string requested = fmt::format("{} of {}", dashpots->list.size(), range_of(low, high, "N s/m"));
   if (!r.probe || r.probe->dashpots.size() == 0) {
-    w.add_unattested("dashpots", asked);
+    w.add_unattested("dashpots", requested);
     return;
   }
   probed.v = r.probe->v;
   const long force_free = count_force_free(dashpots->list, [&](const Dashpots::Dashpot& d) {
     return (probed.v.col(d.a) - probed.v.col(d.b)).dot(probed.x.col(d.a) - probed.x.col(d.b)) != 0;
   });
-  compare("dashpots", asked, *dashpots, r.probe->dashpots, force_free);
+  compare("dashpots", requested, *dashpots, r.probe->dashpots, force_free);
 }
 
 }  // namespace
@@ -102,9 +102,9 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
 void certify_springs(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const auto* springs = scene.model.find<Springs>();
   const auto* constraints = scene.model.find<Constraints>();
-  const size_t asked = springs ? springs->list.size() : 0, hard = constraints ? constraints->list.size() : 0;
-  if (r.links.size() != asked + hard) {
-    w.row("links", fmt::format("{}", asked + hard), fmt::format("{}", r.links.size()), false);
+  const size_t requested = springs ? springs->list.size() : 0, hard = constraints ? constraints->list.size() : 0;
+  if (r.links.size() != requested + hard) {
+    w.row("links", fmt::format("{}", requested + hard), fmt::format("{}", r.links.size()), false);
     return;
   }
   if (hard > 0) {
@@ -112,7 +112,7 @@ void certify_springs(const Scene& scene, const Readback& r, CertificateWriter& w
     double off = 0, scale = 0;
     for (size_t i = 0; i < hard; ++i) {
       const auto& [a, b, length] = constraints->list[i];
-      const Readback::Link& link = r.links[asked + i];
+      const Readback::Link& link = r.links[requested + i];
       ends = ends && link.a == a && link.b == b;
       off = max_or_nan(off, std::abs(link.rest - length));
       scale = std::max(scale, length);
@@ -131,18 +131,19 @@ void certify_springs(const Scene& scene, const Readback& r, CertificateWriter& w
 namespace {
 
 void certify_spheres(const Spheres* spheres, const Readback& r, CertificateWriter& w) {
-  const size_t asked = spheres ? spheres->list.size() : 0;
+  const size_t requested = spheres ? spheres->list.size() : 0;
   if (!r.spheres) {
-    if (asked > 0) w.add_unattested("spheres", fmt::format("{}", asked));
+    if (requested > 0) w.add_unattested("spheres", fmt::format("{}", requested));
     return;
   }
-  if (asked > 0 || !r.spheres->empty())
-    w.row("spheres", fmt::format("{}", asked), fmt::format("{}", r.spheres->size()), r.spheres->size() == asked);
-  if (r.spheres->size() != asked) return;
-  for (size_t i = 0; i < asked; ++i) {
+  if (requested > 0 || !r.spheres->empty())
+    w.row("spheres", fmt::format("{}", requested), fmt::format("{}", r.spheres->size()),
+          r.spheres->size() == requested);
+  if (r.spheres->size() != requested) return;
+  for (size_t i = 0; i < requested; ++i) {
     const Sphere& s = spheres->list[i];
     const Readback::Ball& ball = (*r.spheres)[i];
-    const std::string of = asked > 1 ? fmt::format(" of sphere {}", i + 1) : "";
+    const std::string of = requested > 1 ? fmt::format(" of sphere {}", i + 1) : "";
     auto vector = [](const Vec3& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", v.x(), v.y(), v.z()); };
     w.row("centre" + of, vector(s.centre), vector(ball.centre),
           (ball.centre - s.centre).norm() <= w.tolerance() * (s.centre.norm() + s.radius));
@@ -171,11 +172,11 @@ void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
     return;
   }
   const WindSignal& wind_signal = wind ? wind->acceleration : air->velocity;
-  const std::string asked = fmt::format("mean ({:.6g}, {:.6g}, {:.6g}) {}{}{}", wind_signal.mean.x(),
-                                        wind_signal.mean.y(), wind_signal.mean.z(), wind ? "m/s^2" : "m/s on triangles",
-                                        wind_signal.gusts ? ", gusts" : "", wind && air ? ", and on triangles" : "");
+  const std::string requested = fmt::format(
+      "mean ({:.6g}, {:.6g}, {:.6g}) {}{}{}", wind_signal.mean.x(), wind_signal.mean.y(), wind_signal.mean.z(),
+      wind ? "m/s^2" : "m/s on triangles", wind_signal.gusts ? ", gusts" : "", wind && air ? ", and on triangles" : "");
   if (!reported) {
-    w.add_unattested("wind", asked);
+    w.add_unattested("wind", requested);
     return;
   }
   State probed = scene.start;
@@ -190,7 +191,7 @@ void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
   const double scale = largest_column(ours.f), off = largest_column(ours.f - reported_forces);
   // left over when the springs are taken from the sum: their forces' rounding
   const double springs = r.probe->springs.size() > 0 ? largest_column(r.probe->springs) : 0;
-  w.row("wind", asked, fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off),
+  w.row("wind", requested, fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off),
         off <= 100 * w.tolerance() * (scale + springs));
 }
 
@@ -210,17 +211,17 @@ void certify_gravity(const Gravity& gravity, const Readback& r, CertificateWrite
 void certify_drag(const Drag& drag, const Particles& particles, const Readback& r, CertificateWriter& w) {
   const Eigen::ArrayXd rates = drag.c.array() / particles.mass.array();
   const double low = rates.minCoeff(), high = rates.maxCoeff();
-  const std::string asked =
+  const std::string requested =
       high - low < 1e-12 * high ? fmt::format("{:.6g} /s", high) : fmt::format("{:.6g} to {:.6g} /s", low, high);
   if (!r.drag || static_cast<int>(r.drag->size()) != particles.size()) {
-    w.add_unattested("drag", asked);
+    w.add_unattested("drag", requested);
     return;
   }
   double worst = 0;
   for (int i = 0; i < particles.size(); ++i)
     if (!particles.pinned[i]) worst = max_or_nan(worst, std::abs((*r.drag)[i] - rates[i]));
   // gamma comes back from 1 - exp(-gamma h): eps / (gamma h) is left
-  w.row("drag", asked, fmt::format("largest deviation {:.2g} /s", worst),
+  w.row("drag", requested, fmt::format("largest deviation {:.2g} /s", worst),
         worst <= std::max(w.tolerance(), 1e-9) * high);
 }
 

@@ -19,22 +19,23 @@ class CertificateWriter {
   CertificateWriter(Certificate& certificate, const Outcome& outcome)
       : certificate_(certificate), outcome_(outcome), readback_(*outcome.readback) {}
 
-  void row(const std::string& quantity, std::string asked, std::string read_back, Parity parity) {
+  void row(const std::string& quantity, std::string requested, std::string read_back, Parity parity) {
     auto how = readback_.mapped.find(quantity);
     if (how == readback_.mapped.end() && quantity.ends_with("stiffness")) how = readback_.mapped.find("stiffness");
     if (how == readback_.mapped.end() && quantity == "wind") how = readback_.mapped.find("wind on triangles");
-    certificate_.rows.push_back({quantity, std::move(asked), how == readback_.mapped.end() ? "as it is" : how->second,
-                                 std::move(read_back), parity});
+    certificate_.rows.push_back({quantity, std::move(requested),
+                                 how == readback_.mapped.end() ? "as it is" : how->second, std::move(read_back),
+                                 parity});
   }
-  void row(const std::string& quantity, std::string asked, std::string read_back, bool same) {
-    row(quantity, std::move(asked), std::move(read_back), same ? Parity::match : Parity::mismatch);
+  void row(const std::string& quantity, std::string requested, std::string read_back, bool same) {
+    row(quantity, std::move(requested), std::move(read_back), same ? Parity::match : Parity::mismatch);
   }
-  void add_unattested(const std::string& quantity, std::string asked) {
-    row(quantity, std::move(asked), "not told", Parity::unattested);
+  void add_unattested(const std::string& quantity, std::string requested) {
+    row(quantity, std::move(requested), "not told", Parity::unattested);
   }
   /// A quantity compared by its largest deviation, relative to its scale.
-  void deviation(const std::string& quantity, std::string asked, double largest, double scale) {
-    row(quantity, std::move(asked), fmt::format("largest deviation {:.2g}", scale > 0 ? largest / scale : largest),
+  void deviation(const std::string& quantity, std::string requested, double largest, double scale) {
+    row(quantity, std::move(requested), fmt::format("largest deviation {:.2g}", scale > 0 ? largest / scale : largest),
         largest <= tolerance() * scale);
   }
   /// Whether the engine says by itself that it has the ingredient under another law: a row of its own says which.

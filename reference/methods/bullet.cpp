@@ -13,10 +13,20 @@
 namespace crosscheck {
 namespace {
 
+/// What a world is, in either precision.
+void describe(Method& method, const bullet::WorldChoice& chosen) {
+  method.implicit = chosen.implicit, method.position_based = chosen.position_based;
+  method.counts_evaluations = !chosen.implicit && !chosen.position_based;
+  if (!chosen.position_based) return;
+  method.spring_law = SpringLaw::bullet_link;
+  method.own_friction = true;
+}
+
 Method in_double_precision(const std::string& world, const MethodOptions& options) {
   bullet::WorldChoice chosen = bullet::choose_world(world, options);
   Method method{"bullet/" + world, chosen.what, chosen.rule, chosen.engine, ContactLoss::inferred};
-  method.implicit = chosen.implicit, method.position_based = chosen.position_based;
+  describe(method, chosen);
+  method.style = chosen.style;
   method.splits_dashpots = !chosen.implicit && !chosen.position_based;
   // one Newton step, and a link let fall and pulled back, are backward Euler there
   if (!method.splits_dashpots) method.on_one_spring = "implicit-euler";
@@ -33,10 +43,11 @@ Method in_single_precision(const std::string& world, const MethodOptions& option
                   if (!std::filesystem::exists(program.path))
                     throw Unsupported(fmt::format("{} is not there; it is the build's target bullet32_engine",
                                                   program.path.string()));
-                  return run_program(program, scene, run, observer);
+                  return run_outside_engine(program, scene, run, observer);
                 },
                 ContactLoss::sampled};
-  method.implicit = chosen.implicit, method.position_based = chosen.position_based;
+  describe(method, chosen);
+  method.style = chosen.style_in_single;
   return method;
 }
 

@@ -34,11 +34,11 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
     else if (option == "linear" && stepper.linear)
       rule.step = stepper.linear, same_as += "+linear";
     else if (option == "plain" && stepper.composition)
-      execution.precision = Precision::plain;
+      execution.path = ExecutionPath::general;
     else if (option == "fast" && stepper.composition)
-      execution.precision = Precision::fastest;
+      execution.path = ExecutionPath::fastest;
     else if (option == "single" && stepper.composition)
-      execution.precision = Precision::single;
+      execution.path = ExecutionPath::single_precision;
     else if (const auto threads = threads_in(option); threads && stepper.composition)
       execution.threads = *threads;
     else
@@ -47,25 +47,28 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
                     : stepper.composition ? "+sticky, +fast, +single, +plain, +threads=N or none"
                                           : "+sticky or none");
   }
-  return {name,
-          fmt::format("{} (order {}{}; {})", stepper.what, stepper.order, stepper.symplectic ? ", symplectic" : "",
-                      stepper.limit_formula),
-          same_as,
-          [rule, contact, execution](const Scene& scene, const Run& run, Observer& observer) {
-            Outcome out = simulate(rule, contact, scene, run, observer, execution);
-            if (contact == ContactRule::sticky && scene.model.find<Spheres>())
-              out.different_law.push_back(
-                  "contact: a touching particle is put back to where it came from and loses all its velocity");
-            return out;
-          },
-          ContactLoss::reported,
-          &stepper,
-          stepper.adaptive,
-          stepper.evaluations == 0,
-          stepper.hard_constraints,
-          false,
-          false,
-          stepper.hard_constraints || rule.step == stepper.linear ? "implicit-euler" : ""};
+  Method method{name,
+                fmt::format("{} (order {}{}; {})", stepper.what, stepper.order,
+                            stepper.symplectic ? ", symplectic" : "", stepper.limit_formula),
+                same_as,
+                [rule, contact, execution](const Scene& scene, const Run& run, Observer& observer) {
+                  Outcome out = simulate(rule, contact, scene, run, observer, execution);
+                  if (contact == ContactRule::sticky && scene.model.find<Spheres>())
+                    out.different_law.push_back(
+                        "contact: a touching particle is put back to where it came from and loses all its velocity");
+                  return out;
+                },
+                ContactLoss::reported,
+                &stepper,
+                stepper.adaptive,
+                stepper.evaluations == 0,
+                stepper.hard_constraints,
+                false,
+                false,
+                stepper.hard_constraints || rule.step == stepper.linear ? "implicit-euler" : ""};
+  method.sticky_contact = contact == ContactRule::sticky;
+  method.style = stepper.style;
+  return method;
 }
 
 }  // namespace

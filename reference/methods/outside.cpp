@@ -23,7 +23,7 @@ Method exec_method(const std::string& text) {
           .what = "an outside program that speaks the engine protocol",
           .rule = "",
           .engine = [program](const Scene& scene, const Run& run,
-                              Observer& observer) { return run_program(program, scene, run, observer); },
+                              Observer& observer) { return run_outside_engine(program, scene, run, observer); },
           .contact = ContactLoss::sampled,
           .fingerprint = fingerprint_of(program.path)};
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
 #include "reference/method.h"
@@ -54,11 +56,13 @@ Method discrete_method(const MethodOptions& options) {
   if (options.size() > 1) refuse_option(name, options[1], known);
   for (const DiscreteStepper& rule : discrete_steppers())
     if (rule.name == options[0])
-      return {name, fmt::format("closed form of what {} should produce, on linear scenes", rule.name), "",
-              [&rule](const Scene& scene, const Run& run, Observer& observer) {
-                return replay(discrete_truth(rule, scene, run), run, observer);
-              },
-              ContactLoss::inferred};
+      return {.name = name,
+              .what = fmt::format("closed form of what {} should produce, on linear scenes", rule.name),
+              .rule = "",
+              .engine = [&rule](const Scene& scene, const Run& run,
+                                Observer& observer) { return replay(discrete_truth(rule, scene, run), run, observer); },
+              .contact = ContactLoss::inferred,
+              .implicit = std::ranges::find(steppers(), rule.name, &Stepper::name)->evaluations == 0};
   refuse_option(name, options[0], known);
 }
 

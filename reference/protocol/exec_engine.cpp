@@ -76,7 +76,6 @@ Program find_program(const std::string& text) {
   return program;
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 /// The last line that says something: valid UTF-8, no control characters, not too long for a table.
@@ -93,12 +92,12 @@ std::string last_line(const std::string& text) {
   return line;
 }
 
-std::string exit_text(const ProcessResult& end) {
+std::string exit_text(const ProgramResult& end) {
   if (end.signal != 0) return fmt::format("was ended by signal {} ({})", end.signal, strsignal(end.signal));
   return fmt::format("ended with exit status {}", end.status);
 }
 
-Outcome failed(Outcome out, Verdict verdict, const std::string& what, const ProcessResult& end) {
+Outcome failed(Outcome out, Verdict verdict, const std::string& what, const ProgramResult& end) {
   const std::string last_stderr_line = last_line(end.err);
   out.verdict = verdict;
   out.reason =
@@ -125,7 +124,7 @@ Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, 
 
 }  // namespace
 
-Outcome run_program(const Program& program, const Scene& scene, const Run& run, Observer& observer) {
+Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& run, Observer& observer) {
   const TemporaryFolder folder("engine");
   const fs::path task = folder.path / "scene.json", results = folder.path / "out";
   write_file(task, scene_json(scene, run, program.options));
@@ -133,12 +132,12 @@ Outcome run_program(const Program& program, const Scene& scene, const Run& run, 
 
   Outcome out;
   out.step = time_grid(run).h;
-  ProcessResult end;
+  ProgramResult end;
   try {
-    end = run_process({program.path.string(), task.string(), results.string()}, program.timeout);
-  } catch (const std::runtime_error& error) {
+    end = run_program({program.path.string(), task.string(), results.string()}, ".", {}, program.timeout);
+  } catch (const CannotStart& error) {
     out.verdict = Verdict::crash;
-    out.reason = error.what();
+    out.reason = fmt::format("{} cannot be started: {}", program.path.string(), error.reason);
     return out;
   }
   out.process_seconds = end.cpu_seconds;

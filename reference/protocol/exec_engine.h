@@ -23,6 +23,6 @@ Program find_program(const std::string& text);
 /// Runs the program on the scene and plays what it delivered to the observer. Verdict::timeout and Verdict::crash, with
 /// the reason, when it does not deliver; throws Unsupported when it says so. What a good run wrote on stderr is the
 /// outcome's remark. Without velocities the states have none.
-Outcome run_program(const Program& program, const Scene& scene, const Run& run, Observer& observer);
+Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& run, Observer& observer);
 
 }  // namespace crosscheck

@@ -100,7 +100,7 @@ Readback readback_of(const JsonField& f) {
                        optional_number(link, "stiffness")});
   r.precision = f["precision"].text();
   if (r.precision != "double" && r.precision != "single") f["precision"].fail("double or single");
-  if (const auto sleep = f.find("may_sleep")) r.may_sleep = sleep->truth();
+  if (const auto sleep = f.find("may_sleep")) r.may_sleep = sleep->boolean();
   r.step = optional_number(f, "step");
   if (const auto gravity = f.find("gravity")) r.gravity = vec3_of(*gravity);
   if (const auto drag = f.find("drag")) r.drag = drag->numbers();

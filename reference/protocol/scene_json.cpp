@@ -306,7 +306,7 @@ EngineTask read_scene_json(const std::filesystem::path& path) {
   scene.step = task.run.step;
   scene.window = file["window"].number();
   scene.tolerance = file["tolerance"].number();
-  read_particles(file, file["first_order"].truth(), scene);
+  read_particles(file, file["first_order"].boolean(), scene);
   for (const JsonField& term : file["terms"].elements()) scene.model.terms.push_back(term_of(term, scene));
   if (const auto triangles = file.find("triangles")) scene.triangles = triangles_of(*triangles, scene);
   scene.hash = hash_of(scene);

@@ -11,7 +11,7 @@
 
 namespace crosscheck {
 
-// Values in JSON files of scenes and runs besides plain ones: vectors and places.
+// Vectors and points in the JSON files of scenes and runs.
 
 /// Of three numbers. Throws InputError as JsonField does.
 Vec3 vec3_of(const JsonField& field);

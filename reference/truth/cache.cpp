@@ -11,7 +11,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -180,11 +179,10 @@ void remove_old_files(const fs::path& folder) {
 
 /// The stored truth, or nothing where there is none or it is damaged.
 std::optional<std::optional<Truth>> load_file(const fs::path& file, const std::string& key) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  const std::string content((std::istreambuf_iterator<char>(in)), {});
+  const std::optional<std::string> content = try_read_file(file);
+  if (!content) return std::nullopt;
   try {
-    return deserialized(key, content);
+    return deserialized(key, *content);
   } catch (const CorruptFile&) {
     return std::nullopt;
   }

@@ -9,8 +9,6 @@
 
 namespace crosscheck {
 
-// The best solution known for a scene, with its tier and its error bar.
-
 enum class Tier { exact = 1, exact_discrete = 2, converged = 3, another_engine = 4 };
 std::string_view name_of(Tier tier);
 

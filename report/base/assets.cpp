@@ -1,18 +1,18 @@
 // Assets are read from the source tree that the program was built from.
 #include "report/base/assets.h"
 
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
+
+#include "mysim/base/files.h"
 
 namespace crosscheck {
 
-std::string asset(const std::string& name) {
-  std::ifstream in(std::string(CROSSCHECK_REPORT) + "/" + name, std::ios::binary);
-  std::stringstream text;
-  if (!in || !(text << in.rdbuf()))
-    throw std::runtime_error("cannot read " + std::string(CROSSCHECK_REPORT) + "/" + name);
-  return text.str();
+std::string asset(const std::string& name) { return content_of_file(std::string(CROSSCHECK_REPORT) + "/" + name); }
+
+std::string content_of_file(const std::filesystem::path& file) {
+  const std::string bytes = try_read_file(file).value_or("");
+  if (bytes.empty()) throw std::runtime_error("cannot read " + file.string());
+  return bytes;
 }
 
 }  // namespace crosscheck

@@ -5,7 +5,7 @@
 
 namespace crosscheck::render {
 
-/// Opened before the work, so that a bad place is known at once; what is not whole in the end is taken away.
+/// Opened before the work, so that a bad path is found at once; removed unless it becomes whole.
 class AtomicFile {
  public:
   /// Throws std::runtime_error that names the file when it cannot be written.
@@ -15,7 +15,7 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   const std::filesystem::path& temporary() const { return temporary_; }
-  /// Gives it its name. Throws std::runtime_error that names the file.
+  /// Renames the file to its own name. Throws std::runtime_error that names the file.
   void finish();
 
  private:

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -15,8 +14,7 @@
 namespace crosscheck {
 
 void erase_pdf_date(const std::filesystem::path& pdf) {
-  std::ifstream in(pdf, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text = try_read_file(pdf).value_or("");
   const std::string key = "/CreationDate (D:", date = "19700101000000";
   const size_t at = text.find(key);
   if (at == std::string::npos) return;
@@ -34,14 +32,13 @@ std::string wrong_with_drawn_file(const std::filesystem::path& file) {
   };
   static constexpr std::array<Format, 3> formats{
       {{"\x89PNG", "IEND\xAE\x42\x60\x82"}, {"%PDF-", "%%EOF"}, {"<?xml", "</svg>"}}};
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return "was not written";
-  const std::string content{std::istreambuf_iterator<char>(in), {}};
-  if (content.empty()) return "is empty";
+  const std::optional<std::string> content = try_read_file(file);
+  if (!content) return "was not written";
+  if (content->empty()) return "is empty";
   for (const Format& format : formats)
-    if (content.starts_with(format.begin)) {
-      const size_t last = content.find_last_not_of("\r\n");
-      return std::string_view(content).substr(0, last + 1).ends_with(format.end) ? "" : "is cut off";
+    if (content->starts_with(format.begin)) {
+      const size_t last = content->find_last_not_of("\r\n");
+      return std::string_view(*content).substr(0, last + 1).ends_with(format.end) ? "" : "is cut off";
     }
   return "";
 }
@@ -64,6 +61,12 @@ std::string run_gnuplot(const std::string& script, const std::filesystem::path& 
       throw std::runtime_error(
           fmt::format("{}: gnuplot: {} {}{}{}", what, file, wrong, said.empty() ? "" : ": ", said));
   return said;
+}
+
+std::string single_quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? "''" : std::string(1, c);
+  return out + "'";
 }
 
 void print_warnings(const std::string& warnings, const std::string& what) {

@@ -1,4 +1,4 @@
-// Gathers provenance.
+// Asks git, the compiler's macros and the processor.
 #include "report/base/provenance.h"
 
 #include <fmt/chrono.h>

@@ -6,10 +6,10 @@
 
 namespace crosscheck {
 
-/// Everything but the scenes. `command` is the command line as given.
+/// All lines but those of scenes. `command` is the command line as given.
 Provenance provenance(const std::string& command);
 
-/// The same with the hash of the scene, and of each scene.
+/// The same lines with the hash of the scene, or of each scene.
 Provenance with_scene(Provenance lines, const Scene& scene);
 Provenance with_scenes(Provenance lines, const std::vector<Scene>& scenes);
 

@@ -1,4 +1,4 @@
-// advise: fits what is unset to the scene's wishes, then finds the cheapest model, method and step for a tolerance.
+// advise: fits values of "fit" to the scene's wishes, then finds the cheapest model, method and step for a tolerance.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,15 +33,15 @@ struct AdviseOptions {
   std::string command_line;
 };
 
-/// Error against cost of everything that was tried, the requested tolerance as a line, the advised run marked; failed
-/// runs as crosses at the cost they had spent.
+/// A work-precision diagram of all trials, with the requested tolerance as a line and the advised run marked; failed
+/// runs are crosses at the cost they had spent.
 Figure advice_figure(const Advice& a, const std::string& commit) {
   Figure f;
   f.name = a.scene.name + "-advice";
-  f.title = fmt::format("{}: error against cost of everything tried", a.scene.name);
+  f.title = fmt::format("{}: work-precision diagram of all trials", a.scene.name);
   f.x = {"force evaluations × springs", true, std::nullopt, std::nullopt};
-  f.y = {a.under_contact_rule ? "largest RMS difference / m" : "largest RMS error / m", true, std::nullopt,
-         std::nullopt};
+  f.y = {a.under_contact_rule ? "largest RMS position difference / m" : "largest RMS position error / m", true,
+         std::nullopt, std::nullopt};
   double highest = a.tolerance;
   for (const Trial& t : a.trials)
     if (t.error && *t.error > a.error_bar) highest = std::max(highest, *t.error);
@@ -56,7 +56,7 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
           {title + ": " + failure_class(std::string(name_of(t.outcome.verdict))), style, t.cost(), 3 * highest});
       continue;
     }
-    if (!(*t.error > a.error_bar)) continue;  // below its error bar the truth says nothing
+    if (!(*t.error > a.error_bar)) continue;  // errors below the truth's error bar are not known
     auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == title; });
     if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {title, style, {}, true, true});
     curve->points.emplace_back(t.cost(), *t.error);
@@ -66,10 +66,10 @@ Figure advice_figure(const Advice& a, const std::string& commit) {
   double lowest = *chosen.error;
   for (const Curve& c : f.curves)
     for (const auto& [x, y] : c.points) lowest = std::min(lowest, y);
-  // a line down from it to the axis, as a marker among many would be lost
+  // a line from the advised run down to the axis is easier to find than a marker
   const double error = std::max(*chosen.error, a.error_bar);
   f.curves.push_back({"advised", {"#000000", "1", 3}, {{chosen.cost(), error}, {chosen.cost(), lowest / 2}}, true});
-  f.floor = {fmt::format("asked: {}", nice_length(a.tolerance)), a.tolerance};
+  f.floor = {fmt::format("tolerance: {}", nice_length(a.tolerance)), a.tolerance};
   f.finding = fmt::format("{} at {} meets {} at the least cost.", chosen.method,
                           chosen.relative > 0 ? fmt::format("a relative tolerance of {:.2g}", chosen.relative)
                                               : fmt::format("a step of {:.4g} s", chosen.step),
@@ -174,10 +174,10 @@ void print(const Advice& a) {
   for (const std::string& c : a.caveats) fmt::print("  note: {}\n", c);
 }
 
-void print(const Fitted& fitted) {
+void print(const FitResult& fitted) {
   fmt::print("{} fitted to its wishes\n", fitted.scene.name);
   for (const Unknown& u : fitted.unknowns) fmt::print("  {} = {:.6g} {}\n", u.name, u.value, u.unit);
-  for (const Wished& w : fitted.wishes)
+  for (const WishResult& w : fitted.wishes)
     fmt::print("  {}: wished {:.6g}{}, reached {:.6g} ({:+.2g} %)\n", w.name, w.wished,
                w.unit == "1" ? "" : " " + w.unit, w.reached, 100 * (w.reached / w.wished - 1));
 }
@@ -190,7 +190,7 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
     if (has_unknowns(text, options.scene)) {
       Progress progress(1);
       progress.begin(fmt::format("fitting {}", options.scene));
-      Fitted fitted = fit_to_wishes(text, options.scene);
+      FitResult fitted = fit_to_wishes(text, options.scene);
       fitted.scene.name = file_name_of(std::filesystem::path(options.scene).stem().string());
       progress.done();
       print(fitted);
@@ -251,12 +251,17 @@ int advise_command(const AdviseOptions& options) {
 
 void add_advise(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<AdviseOptions>();
-  auto* advise = app.add_subcommand("advise", "cheapest model, method and step that meet a tolerance, with the proof");
-  advise->add_option("SCENE", options->scene, "a shipped scene or a TOML file; \"fit\" values follow its [wish]")
+  auto* advise = app.add_subcommand(
+      "advise", "finds the cheapest model, method and time step that meet a tolerance, and proves it");
+  advise
+      ->add_option("SCENE", options->scene,
+                   "a shipped scene or a TOML file; values of \"fit\" are found from its [wish]")
       ->required();
-  advise->add_option("--tolerance", options->tolerance, "m, RMS over the particles; may be left out when fitting")
+  advise
+      ->add_option("--tolerance", options->tolerance,
+                   "largest RMS position error, m; not needed to fit a scene's values alone")
       ->check(above_zero());
-  advise->add_option("--methods", options->methods, "A,B,... (default: all of mysim)");
+  advise->add_option("--methods", options->methods, "methods to try: A,B,... (default: all of mysim)");
   advise->add_option("--out", options->out, "folder (out/advise)");
   advise->callback([options, &call] {
     options->command_line = call.line;

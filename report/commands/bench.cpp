@@ -1,4 +1,4 @@
-// bench: speed, as ratios against the peers, in one run.
+// bench: speed, as ratios to other implementations, in one run.
 #include "report/commands/bench.h"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ BenchRatio ratio_of(const Row& row) {
   return {row.ratio, row.ratio_low, row.ratio_high};
 }
 
-/// A row of the other path of mysim belongs to the last line.
+/// Whether a row is of mysim's SSE2 path; it is then added to the last line.
 template <class Row>
 bool is_second_path(const Row& row, std::vector<BenchLine>& lines) {
   if (row.path == "best") return false;
@@ -37,7 +37,7 @@ bool is_second_path(const Row& row, std::vector<BenchLine>& lines) {
   return true;
 }
 
-void add_same_step(const Rows& rows, std::vector<BenchLine>& lines) {
+void add_same_step(const TableSet& rows, std::vector<BenchLine>& lines) {
   for (const SameStepRow& row : rows_of<SameStepRow>(rows)) {
     if (is_second_path(row, lines)) continue;
     const bool own = row.force.starts_with("force class");
@@ -53,7 +53,7 @@ void add_same_step(const Rows& rows, std::vector<BenchLine>& lines) {
   }
 }
 
-void add_implicit_steps(const Rows& rows, std::vector<BenchLine>& lines) {
+void add_implicit_steps(const TableSet& rows, std::vector<BenchLine>& lines) {
   for (const ImplicitStepRow& row : rows_of<ImplicitStepRow>(rows)) {
     if (is_second_path(row, lines)) continue;
     BenchLine& line = lines.emplace_back();
@@ -66,7 +66,7 @@ void add_implicit_steps(const Rows& rows, std::vector<BenchLine>& lines) {
   }
 }
 
-void add_threads(const Rows& rows, std::vector<BenchLine>& lines) {
+void add_threads(const TableSet& rows, std::vector<BenchLine>& lines) {
   for (const ThreadsRow& row : rows_of<ThreadsRow>(rows)) {
     BenchLine& line = lines.emplace_back();
     line.group = "two threads beside one: leapfrog, time on the wall";
@@ -86,7 +86,7 @@ using simd::InstructionSet;
 constexpr auto naive = "naive loop";
 constexpr InstructionSet plainest = InstructionSet::sse2;
 
-void add_kernels(const Rows& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
+void add_kernels(const TableSet& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
   const std::vector<KernelRow> rows = rows_of<KernelRow>(all_rows);
   std::vector<long> sides;
   for (const KernelRow& row : rows)
@@ -120,7 +120,7 @@ void add_kernels(const Rows& all_rows, InstructionSet best, std::vector<BenchLin
 }
 
 /// The scene where the engine's own kernel (the fused step where there is one) gains least over the naive loop.
-void add_scenes(const Rows& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
+void add_scenes(const TableSet& all_rows, InstructionSet best, std::vector<BenchLine>& lines) {
   const std::vector<SceneKernelRow> rows = rows_of<SceneKernelRow>(all_rows);
   std::optional<BenchLine> least;
   int slower = 0, all = 0;
@@ -148,7 +148,7 @@ void add_scenes(const Rows& all_rows, InstructionSet best, std::vector<BenchLine
   lines.push_back(*least);
 }
 
-void add_equal_error(const Rows& rows, std::vector<BenchLine>& lines) {
+void add_equal_error(const TableSet& rows, std::vector<BenchLine>& lines) {
   const size_t begin = lines.size();
   std::vector<std::string> subject;  // scene and peer of each line
   for (const EqualErrorRow& row : rows_of<EqualErrorRow>(rows)) {
@@ -178,7 +178,7 @@ void add_equal_error(const Rows& rows, std::vector<BenchLine>& lines) {
 
 }  // namespace
 
-static InstructionSet best_of(const Rows& rows) {
+static InstructionSet best_of(const TableSet& rows) {
   for (const SameStepRow& row : rows_of<SameStepRow>(rows))
     if (row.path == "best") return row.instructions;
   for (const EqualErrorRow& row : rows_of<EqualErrorRow>(rows))
@@ -186,9 +186,9 @@ static InstructionSet best_of(const Rows& rows) {
   return plainest;
 }
 
-std::string best_instruction_set(const Rows& rows) { return std::string(name_of(best_of(rows))); }
+std::string best_instruction_set(const TableSet& rows) { return std::string(name_of(best_of(rows))); }
 
-std::vector<BenchLine> bench_lines(const Rows& rows) {
+std::vector<BenchLine> bench_lines(const TableSet& rows) {
   std::vector<BenchLine> lines;
   const InstructionSet best = best_of(rows);
   add_kernels(rows, best, lines);
@@ -212,15 +212,15 @@ std::optional<DotPlot::Dot> dot_of(const std::optional<BenchRatio>& ratio) {
 DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& instructions, const std::string& commit) {
   DotPlot f;
   f.name = "bench-ratios";
-  f.title = "CPU time of others over mysim's";
-  f.label = "how many times mysim's time";
+  f.title = "CPU time relative to mysim";
+  f.label = "CPU time / CPU time of mysim";
   f.from_costs = true;
   f.series = {{fmt::format("mysim with {}", instructions), {"#0072B2", "1", 7}, {}},
               {"mysim with SSE2 alone", {"#D55E00", "1", 6}, {}}};
   std::string heading;
   const BenchLine* least = nullptr;
   for (const BenchLine& line : lines) {
-    // the plain loop is nothing that mysim runs, and the axis is one of CPU time
+    // the plain loop is no peer, and wall times are not CPU times
     if (!line.representative || !line.best || line.wall || line.label.starts_with("plain loop")) continue;
     if (line.heading != heading) f.headings.emplace_back(f.names.size(), line.heading);
     heading = line.heading;
@@ -241,10 +241,10 @@ DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& ins
 
 namespace {
 
-/// The builds of what is timed.
+/// The builds of all programs that are timed.
 Provenance build_lines() {
   Provenance lines{
-      {"build of mysim", CROSSCHECK_COMPILER "; the sweep once for each of x86-64, x86-64-v3 and x86-64-v4, -O3"},
+      {"build of mysim", CROSSCHECK_COMPILER "; the fused step once for each of x86-64, x86-64-v3 and x86-64-v4, -O3"},
       {"build of Bullet", CROSSCHECK_BULLET_VERSION " (double), Debian's library: generic x86-64, -O2"},
       {"build of odeint", odeint_version() + ", headers compiled in this build: " CROSSCHECK_COMPILER}};
   if (const auto version = sundials_version())
@@ -273,9 +273,9 @@ void print(const std::vector<BenchLine>& lines, const std::string& instructions)
 
 int bench_command(const BenchOptions& options, const BenchSuite& plan) {
   OutputFolder folder(options.out, "bench");
-  const Rows rows = bench(plan);
+  const TableSet rows = bench(plan);
   std::vector<Scene> scenes = load_scenes(plan.scenes);
-  for (const BenchSuite::PeerCloth& asked : plan.sheets) scenes.push_back(asked.scene());
+  for (const BenchSuite::PeerCloth& cloth : plan.cloths) scenes.push_back(cloth.scene());
   for (const int side : plan.threads.sides) scenes.push_back(hanging_cloth(side));
   scenes.push_back(hanging_cloth(plan.same_step.side));
   scenes.push_back(hanging_cloth_of_two_stiffnesses(plan.same_step.side));
@@ -297,7 +297,7 @@ int bench_command(const BenchOptions& options, const BenchSuite& plan) {
 
 void add_bench(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<BenchOptions>();
-  auto* bench = app.add_subcommand("bench", "speed, as ratios against the peers, in one run");
+  auto* bench = app.add_subcommand("bench", "measures speed as ratios to other implementations, in one run");
   bench->add_option("--out", options->out, "folder (out/bench)");
   add_quick_and_full(*bench, options->full);
   bench->callback([options, &call] {

@@ -22,7 +22,7 @@ struct BenchRatio {
 };
 
 struct BenchLine {
-  std::string group;                      // what is compared, a heading
+  std::string group;                      // a heading: the comparison
   std::string heading;                    // the same in few words, for the figure
   std::string label;                      // the peer, and at which accuracy
   std::string detail;                     // times or rates behind the ratio; of the best path
@@ -34,10 +34,10 @@ struct BenchLine {
 
 /// From the tables of bench(). Kernels on the middle one of the selected cloths; of the shipped scenes the one where
 /// the engine's own kernel gains least; all runs of all peers; two threads against one.
-std::vector<BenchLine> bench_lines(const Rows& rows);
+std::vector<BenchLine> bench_lines(const TableSet& rows);
 
 /// The name of the best instructions in the tables: "avx512".
-std::string best_instruction_set(const Rows& rows);
+std::string best_instruction_set(const TableSet& rows);
 
 inline std::string nice_seconds(double seconds) {
   if (seconds >= 0.1) return fmt::format("{:.2f} s", seconds);

@@ -46,8 +46,8 @@ CLI::Validator above_zero() { return number(false); }
 CLI::Validator not_below_zero() { return number(true); }
 
 void add_quick_and_full(CLI::App& command, bool& full) {
-  auto* quick = command.add_flag("--quick")->description("the short form (the default)");
-  command.add_flag("--full", full, "more points and finer pictures")->excludes(quick);
+  auto* quick = command.add_flag("--quick")->description("few scenes and measurements (default)");
+  command.add_flag("--full", full, "more scenes, more measurements and finer pictures")->excludes(quick);
 }
 
 std::string version_text() {

@@ -35,25 +35,25 @@ struct CompareOptions {
 void print(const Certificate& certificate) {
   fmt::print("\nparity of {} with the scene {}\n", certificate.method, certificate.scene);
   for (const CertificateRow& r : certificate.rows)
-    fmt::print("  {:<14} {:<14} asked: {}; handed over: {}; read back: {}\n", name_of(r.parity), r.quantity, r.asked,
-               r.mapped, r.read_back);
+    fmt::print("  {:<14} {:<14} asked: {}; handed over: {}; read back: {}\n", name_of(r.parity), r.quantity,
+               r.requested, r.mapped, r.read_back);
   fmt::print("  {}\n", summary_of(certificate));
 }
 
 std::string shown(std::optional<double> value) { return value ? fmt::format("{:.3g}", *value) : "-"; }
 
-/// Prints what the same rules differ by; true when one differs by more than allowed.
-bool equal_rules_differ(const Request& request, const Scene& scene, Results& answers) {
+/// Prints the differences between methods with the same stepper; true where one is larger than allowed.
+bool equal_rules_differ(const Request& request, const Scene& scene, MethodResults& answers) {
   const std::vector<Method> methods = methods_of(request, scene);
   bool differ = false;
   for (size_t i = 0; i < methods.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
       const std::string& rule = methods[i].rule;
-      const Result &a = result_of(request, scene, methods[i], answers),
-                   &b = result_of(request, scene, methods[j], answers);
+      const MethodResult &a = result_of(request, scene, methods[i], answers),
+                         &b = result_of(request, scene, methods[j], answers);
       if (rule.empty() || rule != methods[j].rule || methods[i].name == methods[j].name) continue;
       if (a.outcome.verdict != Verdict::ok || b.outcome.verdict != Verdict::ok) continue;
-      if (!a.outcome.different_law.empty() || !b.outcome.different_law.empty()) continue;  // contact, for one
+      if (!a.outcome.different_law.empty() || !b.outcome.different_law.empty()) continue;  // such as contact
       double largest = 0;
       for (int k = 0;
            k < std::min(a.trajectory.frames(), b.trajectory.frames()) && a.trajectory.t[k] <= scene.window * (1 + 1e-9);
@@ -78,16 +78,16 @@ int compare_command(const CompareOptions& options) {
   if (!options.methods.empty()) request.methods = find_methods(options.methods);
   request.step = options.step;
   if (!options.trajectory.empty()) {
-    const Scene& asked = request.scenes[0];
-    if (request.methods.empty()) request.methods = methods_of(request, asked);
-    request.methods.push_back(trajectory_method(options.trajectory, asked, run_of(request, asked)));
+    const Scene& scene = request.scenes[0];
+    if (request.methods.empty()) request.methods = methods_of(request, scene);
+    request.methods.push_back(trajectory_method(options.trajectory, scene, run_of(request, scene)));
   }
   const Scene& scene = request.scenes[0];
   require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
   OutputFolder folder(options.out, "compare");
 
-  Results answers;
-  Rows result;
+  MethodResults answers;
+  TableSet result;
   Progress progress(static_cast<int>(methods_of(request, scene).size()) + 1);
   for (const Method& method : methods_of(request, scene)) {
     Request shown = request;
@@ -126,10 +126,10 @@ int compare_command(const CompareOptions& options) {
     if (run.verdict == Verdict::unsupported || run.verdict == Verdict::crash || run.verdict == Verdict::timeout)
       fmt::print("    {}\n", run.reason);
   }
-  for (const Result& answer : answers)
+  for (const MethodResult& answer : answers)
     if (!answer.outcome.remark.empty()) fmt::print("\n{}: {}\n", answer.method, answer.outcome.remark);
   for (const Method& method : methods_of(request, scene))
-    for (const Result& answer : answers)
+    for (const MethodResult& answer : answers)
       if (answer.method == method.name && answer.outcome.verdict == Verdict::ok)
         if (const std::string outlook = stability_warning(method, scene, answer.outcome.step); !outlook.empty())
           fmt::print("\n{}: {}\n", method.name, outlook);
@@ -148,11 +148,13 @@ int compare_command(const CompareOptions& options) {
 
 void add_compare(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<CompareOptions>();
-  auto* compare = app.add_subcommand("compare", "parity certificate, then methods side by side");
+  auto* compare = app.add_subcommand(
+      "compare", "checks that methods run the same scene (parity certificate), and compares their results");
   compare->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
-  compare->add_option("--methods", options->methods, "A,B,...");
-  compare->add_option("--step", options->step, "s")->check(above_zero());
-  compare->add_option("--trajectory", options->trajectory, "FILE.npy of an engine that cannot be driven");
+  compare->add_option("--methods", options->methods, "methods to compare: A,B,...");
+  compare->add_option("--step", options->step, "time step, s")->check(above_zero());
+  compare->add_option("--trajectory", options->trajectory,
+                      "FILE.npy: positions computed by another program, compared with the methods");
   compare->add_option("--out", options->out, "folder (out/compare)");
   compare->callback([options, &call] {
     options->command_line = call.line;

@@ -5,9 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <thread>
 
 #include "mysim/base/errors.h"
@@ -48,12 +46,9 @@ bool cmake(const std::vector<std::string>& words, const std::string& what) {
   return false;
 }
 
-/// Under a temporary name first, so that no half program is ever started.
+/// Copies the program under a temporary name and renames it, so that no half program is ever started.
 void install(const fs::path& program, const fs::path& as) {
-  std::ifstream in(program, std::ios::binary);
-  std::stringstream content;
-  content << in.rdbuf();
-  write_file(as, content.str());
+  write_file(as, read_file(program, "a program"));
   fs::permissions(as, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
                           fs::perms::others_exec);
 }
@@ -92,10 +87,11 @@ int engine_command(const EngineOptions& options) {
 
 void add_engine(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<EngineOptions>();
-  auto* engine = app.add_subcommand("engine", "builds the Bullet adapter against another Bullet tree, for exec:");
+  auto* engine =
+      app.add_subcommand("engine", "builds Bullet's adapter against another version of Bullet, as a program for exec:");
   engine->add_option("NAME", options->what, "bullet")->required();
   engine->add_option("--prefix", options->prefix, "an installation or a source tree of Bullet")->required();
-  engine->add_option("-o", options->program, "PROG")->required();
+  engine->add_option("-o", options->program, "PROG: the program to write")->required();
   engine->callback([options, &call] { call.status = engine_command(*options); });
 }
 

@@ -41,20 +41,20 @@ std::string file_of(const Certificate& c) {
   return fmt::format("certificate-{}-{}.json", c.scene, file_name_of(c.method));
 }
 
-std::vector<std::string> files_of(const Rows& rows) {
+std::vector<std::string> files_of(const TableSet& rows) {
   std::vector<std::string> files{"dictionary.csv"};
   for (const Table& table : rows.tables) files.push_back(table.name + ".csv");
   for (const Certificate& c : rows.certificates) files.push_back(file_of(c));
   return files;
 }
 
-void write_tables(const Rows& rows, const Provenance& lines, const std::filesystem::path& out) {
+void write_tables(const TableSet& rows, const Provenance& lines, const std::filesystem::path& out) {
   for (const Table& table : rows.tables) write_csv(table, lines, out);
   write_csv(dictionary(rows.tables), lines, out);
   for (const Certificate& c : rows.certificates) write_file(out / file_of(c), certificate_json(c));
 }
 
-void print_tables(const Rows& rows, const std::filesystem::path& out) {
+void print_tables(const TableSet& rows, const std::filesystem::path& out) {
   for (const Table& table : rows.tables)
     fmt::print("{}  {} rows\n", (out / (table.name + ".csv")).string(), table.rows.size());
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
@@ -116,7 +116,7 @@ int experiment_command(const ExperimentOptions& options) {
     return failed.empty() ? 0 : 1;
   }
   std::vector<std::string> missing;
-  const Rows rows = joined(plan, {&store, 1}, missing);
+  const TableSet rows = joined(plan, {&store, 1}, missing);
   folder.announce(files_of(rows));
   write_tables(rows, plan.provenance, options.out);
   folder.finish();
@@ -135,7 +135,7 @@ int merge_command(const MergeOptions& options) {
     stores.emplace_back(store_in(folder));
   }
   std::vector<std::string> missing;
-  const Rows rows = joined(plan, stores, missing);
+  const TableSet rows = joined(plan, stores, missing);
   if (!missing.empty()) {
     for (const std::string& name : missing) fmt::print(stderr, "crosscheck: missing: {}\n", name);
     fmt::print(stderr, "crosscheck: {} of {} points are missing; nothing is written\n", missing.size(),
@@ -156,13 +156,14 @@ void add_experiment(CLI::App& app, Invocation& call) {
   auto* experiment = app.add_subcommand("experiment", "runs experiments and writes their tables");
   experiment
       ->add_option("NAME", options->names,
-                   "experiments, then scenes (default: those that stand for the others; all with --full)")
+                   "experiments, then scenes (default: representative scenes; with --full all of them)")
       ->required();
-  experiment->add_option("--methods", options->methods, "A,B,...");
+  experiment->add_option("--methods", options->methods, "methods to run: A,B,...");
   experiment->add_option("--out", options->out, "folder (out/experiment)");
-  experiment->add_option("--shard", options->shard, "I/N: only this part of the points; join with merge");
-  experiment->add_flag("--resume", options->resume, "keep the points that an earlier run finished");
-  experiment->add_option("--jobs", options->jobs, "processes at a time (one per core)")->check(CLI::Range(1, 256));
+  experiment->add_option("--shard", options->shard, "I/N: computes part I of N; `merge` joins the parts");
+  experiment->add_flag("--resume", options->resume, "keeps the results of an earlier run that was stopped");
+  experiment->add_option("--jobs", options->jobs, "number of processes at a time (default: one per core)")
+      ->check(CLI::Range(1, 256));
   add_quick_and_full(*experiment, options->full);
   experiment->callback([options, &call] {
     options->command_line = call.line;
@@ -172,7 +173,7 @@ void add_experiment(CLI::App& app, Invocation& call) {
 
 void add_merge(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<MergeOptions>();
-  auto* merge = app.add_subcommand("merge", "joins the shards of an experiment into its tables");
+  auto* merge = app.add_subcommand("merge", "joins the parts of an experiment into its tables");
   merge->add_option("DIR", options->folders, "output folders of `experiment --shard`")->required();
   merge->add_option("--out", options->out, "folder")->required();
   merge->callback([options, &call] { call.status = merge_command(*options); });

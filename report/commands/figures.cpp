@@ -19,15 +19,17 @@
 #include "report/commands/commands.h"
 #include "report/figures/figure_set.h"
 #include "report/findings/evidence.h"
+#include "report/page/assemble.h"
 
 namespace crosscheck {
 namespace {
 
 struct FiguresOptions {
   std::vector<std::string> names;   // of experiments; empty: all
-  std::vector<std::string> scenes;  // empty: those that stand for the others
+  std::vector<std::string> scenes;  // empty: the representative ones
   std::string set = "paper", width;
   bool full = false;
+  std::filesystem::path from = {};  // a report whose data are drawn; empty: experiments are run
   std::filesystem::path out = "out/figures";
   std::string command_line;
 };
@@ -50,8 +52,8 @@ const Experiment* experiment_named(const std::string& name) {
   return nullptr;
 }
 
-/// The scenes that the user named, or those that stand for the others.
-std::vector<PictureRequest> scenes_asked(const FiguresOptions& options) {
+/// The scenes that the user named, or the representative ones.
+std::vector<PictureRequest> requested_pictures(const FiguresOptions& options) {
   std::vector<PictureRequest> all;
   const std::vector<Scene> scenes = scenes_for({}, options.scenes, options.full);
   for (size_t i = 0; i < scenes.size(); ++i)
@@ -64,11 +66,11 @@ PictureRequest picture_named(const std::string& name, const FiguresOptions& opti
     const std::string scene = name.substr(0, name.size() - picture_suffix.size());
     return {load_scene(scene), scene};
   }
-  const std::vector<PictureRequest> all = scenes_asked(options);
+  const std::vector<PictureRequest> all = requested_pictures(options);
   std::vector<std::string> names;
-  for (const PictureRequest& asked : all) {
-    if (name == picture_name(asked.scene)) return asked;
-    names.push_back(picture_name(asked.scene));
+  for (const PictureRequest& request : all) {
+    if (name == picture_name(request.scene)) return request;
+    names.push_back(picture_name(request.scene));
   }
   throw InputError(fmt::format("{}: expected a picture of a scene that --scene names: {}{}", name,
                                fmt::join(names, ", "), did_you_mean(name, names)));
@@ -82,47 +84,52 @@ PictureRequest picture_named(const std::string& name, const FiguresOptions& opti
 }
 
 /// Names are experiments, or SCENE-picture of a scene that --scene names or that comes with Crosscheck; no names are
-/// all experiments, and pictures of the named scenes or of those that stand for the others. Throws InputError that
+/// all experiments, and pictures of the named scenes or of the representative ones. Throws InputError that
 /// lists what there is.
 FigureSelection select_figures(const FiguresOptions& options) {
-  FigureSelection asked;
+  FigureSelection selection;
   if (options.names.empty()) {
-    for (const Experiment& e : experiments()) asked.experiments.push_back(&e);
-    asked.pictures = scenes_asked(options);
+    for (const Experiment& e : experiments()) selection.experiments.push_back(&e);
+    selection.pictures = requested_pictures(options);
   }
   for (size_t i = 0; i < options.names.size(); ++i) {
     const std::string& name = options.names[i];
     if (std::count(options.names.begin(), options.names.end(), name) > 1)
       throw InputError(fmt::format("{}: expected each name once", name));
     if (const Experiment* experiment = experiment_named(name))
-      asked.experiments.push_back(experiment);
+      selection.experiments.push_back(experiment);
     else if (name.ends_with(picture_suffix))
-      asked.pictures.push_back(picture_named(name, options));
+      selection.pictures.push_back(picture_named(name, options));
     else
       fail(name);
   }
-  return asked;
+  return selection;
 }
 
-/// Everything that there is to compute, and what it is of.
+/// The points of all requested experiments.
 struct Work {
   std::vector<std::string> experiments;
   std::vector<Scene> scenes;  // of the experiments
   std::vector<Point> points;  // of the experiments
 };
 
-Work work_of(const FigureSelection& asked, const FiguresOptions& options) {
+Work work_of(const FigureSelection& selection, const FiguresOptions& options) {
   Work work;
   Request request;
   request.full = options.full;
   request.scenes_only = !options.scenes.empty();
-  for (const Experiment* experiment : asked.experiments) {
+  for (const Experiment* experiment : selection.experiments) {
     work.experiments.emplace_back(experiment->name);
     request.scenes = scenes_for(*experiment, options.scenes, options.full);
     for (const Scene& scene : request.scenes)
       require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
     add_missing(work.scenes, request.scenes);
-    for (Point& point : experiment->points(request)) work.points.push_back(std::move(point));
+    // an experiment may add small systems of its own, which say nothing of the scenes that are named
+    for (Point& point : experiment->points(request))
+      if (options.scenes.empty() || std::ranges::any_of(request.scenes, [&](const Scene& scene) {
+            return point.name.find(scene.name) != std::string::npos;
+          }))
+        work.points.push_back(std::move(point));
   }
   return work;
 }
@@ -133,18 +140,18 @@ std::string script_of(const PictureRequest& picture, const FiguresOptions& optio
   return fmt::format(
       "#!/bin/sh\n# Draws {0} again; to be started where crosscheck is. $1: the folder\n"
       "./crosscheck figures {0} --scene {1} --set {2} --width {3:g}cm{4} --out \"${{1:-{0}}}\"\n",
-      name, shell_quoted(picture.given), options.set, size.width, options.full ? " --full" : "");
+      name, shell_single_quote(picture.given), options.set, size.width, options.full ? " --full" : "");
 }
 
 /// Draws the picture of a scene into the folder, and returns its entry of the catalogue.
 Point picture_point(const PictureRequest& picture, const FiguresOptions& options, const FigureSize& size,
                     const Provenance& lines) {
-  return {"picture: " + picture_name(picture.scene), content_of(picture.scene), [&, size](Rows& rows) {
+  return {"picture: " + picture_name(picture.scene), content_of(picture.scene), [&, size](TableSet& rows) {
             const Scene& scene = picture.scene;
-            Results answers;
-            std::vector<const Result*> shown;
+            MethodResults answers;
+            std::vector<const MethodResult*> shown;
             for (const std::string& name : pictured_methods(scene)) {
-              const Result& a = result_of({}, scene, find_method(name), answers);
+              const MethodResult& a = result_of({}, scene, find_method(name), answers);
               if (a.trajectory.frames() > 0) shown.push_back(&a);
             }
             const FigureInfo words = picture_info(scene, shown, size, value_of(lines, "commit"));
@@ -177,72 +184,111 @@ class Problems {
   bool any_ = false;
 };
 
-int figures_command(const FiguresOptions& asked_for) {
-  FiguresOptions options = asked_for;
+/// The charts of a report that is there, by name; all where none is named. Throws InputError that lists what there is.
+std::vector<Chart> charts_of_report(const ReportData& data, const std::vector<std::string>& names) {
+  const AllFindings findings = all_findings(data.scenes, data.rows);
+  std::vector<Chart> charts =
+      all_charts({data.scenes, findings.facts, data.rows, value_of(data.provenance, "commit"), data.each_has_charts()});
+  std::erase_if(charts, [](const Chart& chart) { return !figure_info(chart); });
+  if (names.empty()) return charts;
+  std::vector<std::string> known;
+  for (const Chart& chart : charts) known.push_back(figure_info(chart)->name);
+  for (const std::string& name : names)
+    if (std::ranges::find(known, name) == known.end())
+      throw InputError(fmt::format("unknown figure '{}'; the report has: {}{}", name, fmt::join(known, ", "),
+                                   did_you_mean(name, known)));
+  std::erase_if(charts,
+                [&](const Chart& chart) { return std::ranges::find(names, figure_info(chart)->name) == names.end(); });
+  return charts;
+}
+
+/// Draws charts, several at a time, and returns their entries of the catalogue.
+std::vector<FigureInSet> draw_charts(std::vector<Chart>& charts, const FigureSize& size, const Provenance& lines,
+                                     const std::filesystem::path& folder, const Store& store, Problems& problems) {
+  std::vector<Point> drawings;
+  for (Chart& chart : charts) {
+    resize(chart, size);
+    drawings.push_back({"figure: " + figure_info(chart)->name, figure_info(chart)->name,
+                        [&](TableSet&) { draw_figure(chart, lines, folder); }});
+  }
+  problems.compute(drawings, store);
+  std::vector<FigureInSet> drawn;
+  for (size_t i = 0; i < charts.size(); ++i)
+    if (store.find(drawings[i].hash())) drawn.push_back({*figure_info(charts[i]), charts[i].scene, chart_endings});
+  return drawn;
+}
+
+/// Writes captions and the catalogue, and says what was drawn.
+int finish(std::vector<FigureInSet>& drawn, const FigureSize& size, const Provenance& lines,
+           const FiguresOptions& given, OutputFolder& folder, const std::vector<std::string>& notes,
+           Problems& problems) {
+  for (const FigureInSet& figure : drawn) write_captions(figure.words, folder.path());
+  write_catalogue(drawn, lines, folder.path());
+  folder.finish();
+  if (drawn.empty()) problems.tell("there is nothing to draw");
+  for (const std::string& note : notes) fmt::print("note: {}\n", note);
+  fmt::print("{} figures, {:g} cm wide, letters of {:g} pt\n{}\n", drawn.size(), size.width, size.font,
+             (given.out / "figures.json").string());
+  return problems.any() ? 1 : 0;
+}
+
+int figures_from_report(const FiguresOptions& options) {
   const FigureSize size = figure_size(options.set, options.width);
-  const FigureSelection asked = select_figures(options);
-  const Work work = work_of(asked, options);
+  recover_output(options.from);
+  const ReportData data = read_report(options.from);
+  std::vector<Chart> charts = charts_of_report(data, options.names);
+  OutputFolder folder(options.out, "figures");
+  const Store store(store_in(folder.path()));
+  store.clear();
+  Problems problems;
+  std::vector<FigureInSet> drawn = draw_charts(charts, size, data.provenance, folder.path(), store, problems);
+  store.clear();
+  return finish(drawn, size, data.provenance, options, folder, {}, problems);
+}
+
+int figures_command(const FiguresOptions& given) {
+  FiguresOptions options = given;
+  const FigureSize size = figure_size(options.set, options.width);
+  const FigureSelection selection = select_figures(options);
+  const Work work = work_of(selection, options);
   OutputFolder folder(options.out, "figures");
   options.out = folder.path();
   std::vector<Scene> scenes = work.scenes;
-  for (const PictureRequest& picture : asked.pictures) add_missing(scenes, {picture.scene});
+  for (const PictureRequest& picture : selection.pictures) add_missing(scenes, {picture.scene});
   const Provenance plain = provenance(options.command_line), lines = with_scenes(plain, scenes);
   const Store store(store_in(options.out));
   store.clear();
   Problems problems;
   std::vector<Point> points;  // the pictures first, which take longest
-  for (const PictureRequest& picture : asked.pictures) points.push_back(picture_point(picture, options, size, plain));
+  for (const PictureRequest& picture : selection.pictures)
+    points.push_back(picture_point(picture, options, size, plain));
   const size_t pictures = points.size();
   points.insert(points.end(), work.points.begin(), work.points.end());
   problems.compute(points, store);
   std::vector<std::string> missing;  // reported already
-  const Rows rows = joined(point_list_of(work.experiments, work.points, lines), {&store, 1}, missing);
+  const TableSet rows = joined(point_list_of(work.experiments, work.points, lines), {&store, 1}, missing);
 
   std::vector<FigureInSet> drawn;
   for (size_t i = 0; i < pictures; ++i)
     if (const auto found = store.find(points[i].hash())) {
       const Table& words = *found->table("words");
       const auto text = [&](const char* column) { return std::get<std::string>(words.at(0, column)); };
-      const Scene& scene = asked.pictures[i].scene;
+      const Scene& scene = selection.pictures[i].scene;
       drawn.push_back({{picture_name(scene), text("title"), text("caption"), "", text("finding"), false, size},
                        scene.name,
                        picture_endings});
     }
   std::vector<Chart> charts;
-  if (!asked.experiments.empty()) {
+  if (!selection.experiments.empty()) {
     const AllFindings findings = all_findings(work.scenes, rows);
     charts = all_charts(
         {work.scenes, findings.facts, rows, value_of(lines, "commit"), options.full || !options.scenes.empty()});
-    std::erase_if(charts, [&](Chart& chart) { return !resize(chart, size); });
+    std::erase_if(charts, [](const Chart& chart) { return !figure_info(chart); });
   }
-  std::vector<Point> drawings;
-  for (Chart& chart : charts)
-    drawings.push_back({"figure: " + figure_info(chart)->name, figure_info(chart)->name, [&](Rows& letters) {
-                          draw_in_size(chart, size, lines, options.out);
-                          Table table{"letters", {{"font", "pt"}}, {}};
-                          table.add({figure_info(chart)->size.font});
-                          letters.add(table);
-                        }});
-  problems.compute(drawings, store);
-  int smaller = 0;  // letters, where there was no room
-  for (size_t i = 0; i < charts.size(); ++i)
-    if (const auto found = store.find(drawings[i].hash())) {
-      FigureSize its = size;
-      its.font = std::get<double>(found->table("letters")->at(0, "font"));
-      smaller += its.font < size.font;
-      resize(charts[i], its);
-      drawn.push_back({*figure_info(charts[i]), charts[i].scene, chart_endings});
-    }
+  for (FigureInSet& chart : draw_charts(charts, size, lines, options.out, store, problems))
+    drawn.push_back(std::move(chart));
   store.clear();
-  for (const FigureInSet& figure : drawn) write_captions(figure.words, options.out);
-  write_catalogue(drawn, lines, options.out);
-  folder.finish();
-  if (drawn.empty()) problems.tell("there is nothing to draw");
-  for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
-  fmt::print("{} figures, {:g} cm wide, letters of {:g} pt{}\n{}\n", drawn.size(), size.width, size.font,
-             smaller ? fmt::format(" (smaller in {} that have no room for them)", smaller) : "",
-             (asked_for.out / "figures.json").string());
-  return problems.any() ? 1 : 0;
+  return finish(drawn, size, lines, given, folder, rows.notes, problems);
 }
 
 }  // namespace
@@ -250,16 +296,19 @@ int figures_command(const FiguresOptions& asked_for) {
 void add_figures(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<FiguresOptions>();
   auto* figures =
-      app.add_subcommand("figures", "charts and pictures fit to print, with captions, for a paper or a lecture");
-  figures->add_option("NAME", options->names, "experiments whose charts are asked for, or SCENE-picture; default: all");
-  figures->add_option("--scene", options->scenes, "a shipped scene or a TOML file; again for more");
-  figures->add_option("--set", options->set, "paper (8.5 cm, 8 pt) or lecture (24 cm, 20 pt)");
-  figures->add_option("--width", options->width, "8.5cm, 85mm, 3.3in");
+      app.add_subcommand("figures", "draws charts and pictures for print, with captions, for a paper or a lecture");
+  figures->add_option("NAME", options->names,
+                      "experiments whose charts are drawn, or SCENE-picture for a picture of a scene (default: all)");
+  figures->add_option("--scene", options->scenes,
+                      "a shipped scene or a TOML file, whose charts and picture are drawn; may be repeated");
+  figures->add_option("--set", options->set, "paper (8.5 cm, 7.5 pt) or lecture (24 cm, 20 pt)");
+  figures->add_option("--width", options->width, "width on paper, such as 8.5cm, 85mm or 3.3in");
   figures->add_option("--out", options->out, "folder (out/figures)");
   add_quick_and_full(*figures, options->full);
+  figures->add_option("--from", options->from, "DIR: figures of the report in it, by their names, nothing is run");
   figures->callback([options, &call] {
     options->command_line = call.line;
-    call.status = figures_command(*options);
+    call.status = options->from.empty() ? figures_command(*options) : figures_from_report(*options);
   });
 }
 

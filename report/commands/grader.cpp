@@ -1,5 +1,5 @@
-// grade, assignment and list assignments: the grader, a program of its own, does them. Charts of a student's code are
-// made here, since the grader knows no other engine.
+// grade, assignment and list assignments start the grader, a program of its own. Charts of a student's code are made
+// here, since the grader knows no other engine.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,7 +48,7 @@ int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   std::vector<std::string> command{grader().string()};
   command.insert(command.end(), words.begin(), words.end());
   std::fflush(nullptr);
-  if (const int status = wait_for(spawn(command, {})); status != 0 || !fs::exists(engines)) return status;
+  if (const int status = run_in_terminal(command); status != 0 || !fs::exists(engines)) return status;
   ReportOptions options;
   options.scenes = {"spring", "pendulum"};
   options.experiments = {"engines", "speed-accuracy", "stability"};
@@ -81,8 +81,8 @@ int grader_command(const std::vector<std::string>& words) {
 }
 
 void add_grader(CLI::App& app, Invocation&) {
-  app.add_subcommand("grade", "grades coursework: a submission, or a class with --all");
-  app.add_subcommand("assignment", "writes the hand-out of an assignment, or the package of a grading service");
+  app.add_subcommand("grade", "grades a submission of coursework, or with --all those of a class");
+  app.add_subcommand("assignment", "writes the hand-out of an assignment, or its package for a grading service");
 }
 
 }  // namespace crosscheck

@@ -9,7 +9,7 @@ std::string certificate_json(const Certificate& certificate) {
   Json rows = Json::list();
   for (const CertificateRow& r : certificate.rows)
     rows.push({{"quantity", r.quantity},
-               {"asked", r.asked},
+               {"asked", r.requested},
                {"mapped", r.mapped},
                {"read_back", r.read_back},
                {"verdict", name_of(r.parity)}});
@@ -44,7 +44,7 @@ Json json_of(const Table& table) {
 
 }  // namespace
 
-std::string tables_json(const Rows& rows, const Provenance& provenance) {
+std::string tables_json(const TableSet& rows, const Provenance& provenance) {
   Json lines = Json::list(), tables = Json::object();
   for (const auto& [key, value] : provenance) lines.push({{"key", key}, {"value", value}});
   for (const Table& table : rows.tables) tables[table.name] = json_of(table);

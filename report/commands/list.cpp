@@ -20,7 +20,7 @@
 namespace crosscheck {
 namespace {
 
-/// For people also what is no name yet; programs get names that can be run.
+/// The methods; without --json also the form of names of outside programs.
 std::vector<std::pair<std::string, std::string>> method_rows(bool json) {
   std::vector<std::pair<std::string, std::string>> rows;
   for (const Method& method : all_methods()) rows.emplace_back(method.name, method.what);
@@ -105,16 +105,15 @@ void add_list(CLI::App& app, Invocation& call) {
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  auto* list = app.add_subcommand("list", "what there is: scenes, methods, experiments, assignments");
+  auto* list = app.add_subcommand("list", "lists scenes, methods, experiments or assignments");
   list->add_option("WHAT", options->what, "scenes, methods, experiments or assignments")->required();
-  list->add_flag("--json", options->json, "for programs");
+  list->add_flag("--json", options->json, "prints JSON");
   list->callback([options, &call] { call.status = list_command(options->what, options->json); });
 }
 
 void add_doctor(CLI::App& app, Invocation& call) {
-  app.add_subcommand("doctor", "what is installed, what is missing, what each is for")->callback([&call] {
-    call.status = doctor_command();
-  });
+  app.add_subcommand("doctor", "lists the programs and libraries that Crosscheck uses, and which are missing")
+      ->callback([&call] { call.status = doctor_command(); });
 }
 
 }  // namespace crosscheck

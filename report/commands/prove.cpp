@@ -1,4 +1,4 @@
-// regress --prove, --prove-builds, --prove-speed: regress tried on wrong changes, other builds, and itself.
+// regress --prove, --prove-builds, --prove-speed: tests of regress on mutants, on other builds, and against itself.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,7 +23,7 @@ namespace crosscheck {
 namespace fs = std::filesystem;
 namespace {
 
-/// A build of Crosscheck in which nothing may be found to have moved, as nothing has but the rounding.
+/// A build of Crosscheck that differs in rounding alone: every case must pass.
 struct BuildVariant {
   std::string name;
   std::string compiler, package;  // Debian's package; both empty: the program as it is, in another environment
@@ -127,7 +127,7 @@ Proof proof_of(const Mutation& mutation, const std::filesystem::path& program, c
     throw std::runtime_error(fmt::format("{}: {}: no verdict: {}", program.string(), mutation.name, ended.err));
   const JsonField verdict = JsonField::parse_file((out / "regress.json").string());
   Proof proof;
-  proof.caught = !verdict["passed"].truth();
+  proof.caught = !verdict["passed"].boolean();
   proof.failures = verdict["failures"].size() + verdict["without_answer"].size();
   proof.cause = verdict["cause"].text();
   proof.wrongly_named = proof.caught && !may_be_named(proof.cause, mutation);
@@ -136,8 +136,8 @@ Proof proof_of(const Mutation& mutation, const std::filesystem::path& program, c
 
 }  // namespace
 
-int prove_command(const RegressOptions& asked) {
-  RegressOptions options = asked;
+int prove_command(const RegressOptions& given) {
+  RegressOptions options = given;
   const std::filesystem::path program = std::filesystem::path(CROSSCHECK_BINARY_DIR) / "crosscheck-mutants";
   if (!std::filesystem::exists(program))
     throw InputError(
@@ -163,7 +163,7 @@ int prove_command(const RegressOptions& asked) {
     throw InputError(fmt::format("--mutant {}: no such mutation; expected one of those in {}{}", options.mutant,
                                  CROSSCHECK_MUTATIONS, did_you_mean(options.mutant, names)));
   }
-  // that nothing is caught where nothing is wrong
+  // the unchanged program must pass
   const Proof unchanged = proof_of({"none", "", {}, "", ""}, program, options);
   fmt::print("{:<8} {:<32} {:>6} failures\n", unchanged.caught ? "CAUGHT" : "passed", "(mysim as it is)",
              unchanged.failures);
@@ -178,9 +178,9 @@ namespace {
 struct BuildFinding {
   std::string state;  // as printed
   long quantities = 0, identical = 0, differing = 0, failures = 0;
-  std::optional<double> off;  // tolerances, of what differs most
-  std::string furthest;       // what that is
-  std::string note;           // why there is nothing to be said
+  std::optional<double> off;  // largest deviation, in tolerances
+  std::string furthest;       // the quantity with that deviation
+  std::string note;           // why there is no verdict
 };
 
 constexpr auto passed = "passed", alarm = "FALSE ALARM", not_here = "not here", not_built = "NOT BUILT",
@@ -194,7 +194,7 @@ std::string in_words(const JsonField& row) {
 }
 
 BuildFinding finding_of(const JsonField& verdict) {
-  BuildFinding finding{verdict["passed"].truth() ? passed : alarm};
+  BuildFinding finding{verdict["passed"].boolean() ? passed : alarm};
   finding.quantities = verdict["quantities"].whole();
   finding.identical = verdict["identical"].whole();
   finding.differing = verdict["differing"].whole();
@@ -212,7 +212,7 @@ const std::string& filter_of(const BuildVariant& build, const RegressOptions& op
 }
 
 /// Runs the build's program over the baselines.
-BuildFinding asked(const fs::path& program, const BuildVariant& build, const RegressOptions& options) {
+BuildFinding regressed(const fs::path& program, const BuildVariant& build, const RegressOptions& options) {
   const fs::path out = options.out / build.name;
   std::vector<std::string> words{program.string(), "regress",     "--no-speed",
                                  "--figures",      "0",           "--out",
@@ -240,7 +240,7 @@ BuildFinding found(const BuildVariant& build, const RegressOptions& options) {
     program = done.program;
   }
   fmt::print(stderr, "crosscheck: asking {}\n", build.name);
-  return asked(program, build, options);
+  return regressed(program, build, options);
 }
 
 void print_finding(const BuildVariant& build, const RegressOptions& options, const BuildFinding& f) {
@@ -295,12 +295,12 @@ void require_known(const std::string& name) {
 
 }  // namespace
 
-int prove_builds_command(const RegressOptions& asked_for) {
-  RegressOptions options = asked_for;
+int prove_builds_command(const RegressOptions& given) {
+  RegressOptions options = given;
   require_known(options.build);
-  Selection asked{options.scenes, options.full, options.filter, {}};
-  if (!options.methods.empty()) asked.methods = find_methods(options.methods);
-  cases(asked);  // refuses what no build could run
+  Selection selection{options.scenes, options.full, options.filter, {}};
+  if (!options.methods.empty()) selection.methods = find_methods(options.methods);
+  cases(selection);  // throws InputError for a selection that no build could run
   if (options.baselines.empty()) options.baselines = CROSSCHECK_BASELINES;
   OutputFolder folder(options.out, "regress");
   options.out = folder.path();
@@ -320,7 +320,7 @@ int prove_builds_command(const RegressOptions& asked_for) {
              count[alarm], wrong, count[not_here]);
   if (count[alarm] > 1 && count[passed] == 0)
     fmt::print("all of them say so: then something did move; `crosscheck regress` says what\n");
-  fmt::print("{}\n", (asked_for.out / "builds.csv").string());
+  fmt::print("{}\n", (given.out / "builds.csv").string());
   return count[passed] > 0 && count[alarm] == 0 && wrong == 0 ? 0 : 1;
 }
 
@@ -335,10 +335,10 @@ struct Tally {
 void look(const std::vector<SpeedCase>& cases, const SpeedFile& blessed, const Machine& machine,
           const MeasureSpeeds& measure, Tally& tally) {
   int measurements = 0;
-  const MeasureSpeeds counted = [&](const std::vector<SpeedCase>& asked, const SpeedOptions& plan) {
+  const MeasureSpeeds counted = [&](const std::vector<SpeedCase>& measured, const SpeedOptions& plan) {
     // all that are measured again after the first look are under suspicion
-    if (++measurements == 2) tally.suspicions += static_cast<int>(asked.size());
-    return measure(asked, plan);
+    if (++measurements == 2) tally.suspicions += static_cast<int>(measured.size());
+    return measure(measured, plan);
   };
   for (const SpeedComparison& row : compared_speeds(cases, &blessed, machine, counted).rows) {
     const double change = std::max(row.change.median, 1 / row.change.median);
@@ -355,13 +355,13 @@ void look(const std::vector<SpeedCase>& cases, const SpeedFile& blessed, const M
 
 int prove_speed_command(const RegressOptions& options) {
   OutputFolder folder(options.out, "regress");
-  Selection asked;
-  asked.filter = options.filter;
-  if (!options.methods.empty()) asked.methods = find_methods(options.methods);
-  const std::vector<SpeedCase> cases = speed_cases(asked, {});
+  Selection selection;
+  selection.filter = options.filter;
+  if (!options.methods.empty()) selection.methods = find_methods(options.methods);
+  const std::vector<SpeedCase> cases = speed_cases(selection, {});
   if (cases.empty()) throw InputError("--prove-speed: no speed is asked of what the filter leaves");
   Machine machine = machine_of(provenance(options.command_line));
-  if (machine.cpu.empty()) machine.cpu = "this one";  // nothing of it is kept
+  if (machine.cpu.empty()) machine.cpu = "this one";  // the name is not stored
   Progress progress(0);
   const MeasureSpeeds measure = SpeedMeasurement(folder.path(), progress);
   SpeedFile blessed;

@@ -24,7 +24,7 @@
 
 namespace crosscheck {
 
-bool speed_is_asked(const RegressOptions& options) { return !options.no_speed && (!options.bisect || options.speed); }
+bool measures_speed(const RegressOptions& options) { return !options.no_speed && (!options.bisect || options.speed); }
 
 Machine machine_of(const Provenance& lines) {
   std::string compiler = value_of(lines, "compiler");
@@ -36,10 +36,10 @@ SpeedRun speed_run_of(const Regression& regression, const Provenance& lines) {
   return {regression.selection, regression.against, regression.baselines, regression.out, machine_of(lines)};
 }
 
-Speeds speeds_beside(const Regression& regression, const Provenance& lines, const std::vector<Comparison>& answers,
+Speeds speeds_beside(const Regression& regression, const Provenance& lines, const std::vector<Comparison>& comparisons,
                      Progress& progress) {
   Speeds speeds = compared_speeds(speed_run_of(regression, lines), progress);
-  speeds.explanations = explain_speeds(speeds.rows, answers);
+  speeds.explanations = explain_speeds(speeds.rows, comparisons);
   return speeds;
 }
 
@@ -98,7 +98,7 @@ long count_of(const std::vector<Comparison>& rows, Status state) {
   return std::count_if(rows.begin(), rows.end(), [&](const Comparison& row) { return row.state == state; });
 }
 
-int told(const RegressionResult& result, const std::string& cause, const std::filesystem::path& out) {
+int print_result(const RegressionResult& result, const std::string& cause, const std::filesystem::path& out) {
   const std::vector<Comparison> worst = worst_comparisons(result.rows);
   for (const Comparison& row : worst) print_row(row);
   for (const FailedPoint& f : result.failures) fmt::print("no answer  {}: {}\n", f.name, f.why);
@@ -118,13 +118,13 @@ int told(const RegressionResult& result, const std::string& cause, const std::fi
 
 using Figures = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;  // drawn as, kept as
 
-/// A page of what changes, and of each scene in which something moved the curve that is stored next to its baseline.
+/// Writes a page of the changes; returns for each scene with a change the figure that is stored next to its baseline.
 Figures before_and_after(const Regression& regression, const RegressOptions& options, const BlessResult& result,
                          const Provenance& lines) {
   RegressionResult changes;
   std::copy_if(result.changed.begin(), result.changed.end(), std::back_inserter(changes.rows),
                [](const Comparison& row) { return row.state == Status::moved; });
-  if (changes.rows.empty()) return {};  // what is new has no before
+  if (changes.rows.empty()) return {};  // new quantities have no earlier curve
   const Speeds none;
   VerdictPage page{changes, none};
   page.blessed = options.reason, page.beside = "what was blessed before";
@@ -161,7 +161,7 @@ int blessed(const Regression& regression, const RegressOptions& options, const P
   fmt::print("\n{} quantities blessed: {}\n", result.changed.size(), options.reason);
   for (const auto& file : result.files) fmt::print("{}\n", file.first.string());
   for (const auto& figure : drawn) fmt::print("{}\n", figure.second.string());
-  if (speed_is_asked(options)) bless_and_print_speeds(regression, blessing, lines);
+  if (measures_speed(options)) bless_and_print_speeds(regression, blessing, lines);
   return 0;
 }
 
@@ -190,7 +190,7 @@ int regressed(const RegressOptions& options) {
   Progress progress(0);
   const RegressionResult result = regress(regression, progress);
   Speeds speeds;
-  if (speed_is_asked(options)) speeds = speeds_beside(regression, lines, result.rows, progress);
+  if (measures_speed(options)) speeds = speeds_beside(regression, lines, result.rows, progress);
   progress.done();
   const std::vector<Case> selected = cases(regression.selection);
   const std::string cause = attribution_of(selected, result.rows);
@@ -202,12 +202,12 @@ int regressed(const RegressOptions& options) {
     write_verdict_page(page, selected, regression, options.figures);
   }
   folder.finish();
-  const int status = told(result, cause, options.out);
+  const int status = print_result(result, cause, options.out);
   print_speeds(speeds);
   return speeds.passed() ? status : 1;
 }
 
-/// 0 all the same; 1 something moved; with `bisect` 125 where nothing can be said.
+/// 0 where every case passes, 1 where one fails; with `bisect` 125 where the build cannot be judged.
 int regress_command(const RegressOptions& options) {
   try {
     return regressed(options);
@@ -223,36 +223,41 @@ int regress_command(const RegressOptions& options) {
 
 void add_regress(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<RegressOptions>();
-  auto* regress = app.add_subcommand("regress", "what moved since somebody last said that it is right");
-  regress->add_option("scenes", options->scenes, "names or files (default: all that come with Crosscheck)");
-  regress->add_option("--filter", options->filter, "GLOB on SCENE or SCENE/METHOD");
-  regress->add_option("--method", options->methods, "A,B,... (default: all of mysim and Bullet)");
-  auto* against =
-      regress->add_option("--against", options->against, "a method to set --method beside, instead of baselines");
-  regress->add_option("--baselines", options->baselines, "folder (default: those that come with Crosscheck)");
-  auto* bless = regress->add_flag("--bless", options->bless, "makes today's answers the baseline");
-  regress->add_option("--reason", options->reason, "why they are right")->needs(bless);
-  regress->add_option("--figures", options->figures, "of so many failed questions (6); 0: no page")
+  auto* regress = app.add_subcommand("regress", "compares the results and speeds of this build with stored baselines");
+  regress->add_option("scenes", options->scenes, "scenes or TOML files (default: all that come with Crosscheck)");
+  regress->add_option("--filter", options->filter, "GLOB: only cases whose SCENE or SCENE/METHOD it matches");
+  regress->add_option("--method", options->methods, "methods to run: A,B,... (default: all of mysim and Bullet)");
+  auto* against = regress->add_option("--against", options->against,
+                                      "a method that --method is compared with, instead of baselines");
+  regress->add_option("--baselines", options->baselines,
+                      "folder of baselines (default: those that come with Crosscheck)");
+  auto* bless = regress->add_flag("--bless", options->bless, "stores the results of this run as baselines");
+  regress->add_option("--reason", options->reason, "with --bless: why these results are right")->needs(bless);
+  regress
+      ->add_option("--figures", options->figures,
+                   "number of failed cases that are drawn (default: 6); 0 writes no page")
       ->check(CLI::Range(0, 100));
-  regress->add_flag("--bisect", options->bisect, "exit 125 where nothing can be said, for git bisect run");
+  regress->add_flag("--bisect", options->bisect,
+                    "exits with 125 where a build cannot be judged, as `git bisect run` expects");
   auto* prove =
-      regress->add_flag("--prove", options->prove, "runs wrong changes to mysim: all must be caught")->excludes(bless);
-  regress->add_option("--mutant", options->mutant, "only this one of them")->needs(prove);
-  auto* no_speed = regress->add_flag("--no-speed", options->no_speed, "answers only");
-  regress->add_flag("--speed", options->speed, "with --bisect: speeds too")->excludes(no_speed);
+      regress->add_flag("--prove", options->prove, "runs every mutant of mysim: all must be detected")->excludes(bless);
+  regress->add_option("--mutant", options->mutant, "with --prove: only this mutant")->needs(prove);
+  auto* no_speed = regress->add_flag("--no-speed", options->no_speed, "compares results only");
+  regress->add_flag("--speed", options->speed, "with --bisect: compares speeds too")->excludes(no_speed);
   auto* prove_speed = regress->add_flag("--prove-speed", options->prove_speed,
-                                        "measures this program's speeds beside its own: none should differ");
+                                        "measures this program against itself: no speed may differ");
   prove_speed->excludes(bless)->excludes(prove)->excludes(no_speed);
-  regress->add_option("--repetitions", options->repetitions, "how often (200)")
+  regress
+      ->add_option("--repetitions", options->repetitions, "with --prove-speed: number of measurements (default: 200)")
       ->needs(prove_speed)
       ->check(CLI::Range(1, 100000));
   auto* prove_builds = regress
                            ->add_flag("--prove-builds", options->prove_builds,
-                                      "builds with other compilers and options, and runs each: all must pass")
+                                      "builds with other compilers and options, and runs each build: all must pass")
                            ->excludes(bless)
                            ->excludes(prove)
                            ->excludes(against);
-  regress->add_option("--build", options->build, "only this one of the builds")->needs(prove_builds);
+  regress->add_option("--build", options->build, "with --prove-builds: only this build")->needs(prove_builds);
   regress->add_option("--out", options->out, "folder (out/regress)");
   add_quick_and_full(*regress, options->full);
   regress->callback([options, &call] {

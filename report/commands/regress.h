@@ -37,7 +37,7 @@ Machine machine_of(const Provenance& lines);
 SpeedRun speed_run_of(const Regression& regression, const Provenance& lines);
 
 /// Measures, compares, and explains each change.
-Speeds speeds_beside(const Regression& regression, const Provenance& lines, const std::vector<Comparison>& answers,
+Speeds speeds_beside(const Regression& regression, const Provenance& lines, const std::vector<Comparison>& comparisons,
                      Progress& progress);
 
 /// One line for each change, and what was not compared and why.

@@ -36,46 +36,46 @@ Series offsets_of(const Trajectory& path) {
   return series;
 }
 
-Result answer_for_pictures(const Case& test_case, const CaseRun& case_run, const std::string& who) {
+MethodResult result_for_pictures(const Case& test_case, const CaseRun& case_run, const std::string& who) {
   return {test_case.scene.name, who, case_run.outcome, case_run.trajectory};
 }
 
 bool owns(const Case& q) { return q.without.empty() && q.method.name == find_method(q.scene.method).name; }
 
-/// From the numbers that a baseline holds: eight times or fewer.
+/// Reads the old run from a baseline, which holds at most eight times of it.
 void beside_baseline(FailureDetails& e, const Regression& regression) {
   for (const double t : times_of(e.test_case)) {
     const Comparison *offset = row_named(e.rows, offset_at(t)), *places = row_named(e.rows, places_at(t));
     if (offset && offset->was) e.was.emplace_back(t, *offset->was);
-    // places differ where means over the particles agree
+    // positions may differ where means over the particles agree
     if (!places || !places->was || !places->is || !std::isfinite(*places->is)) continue;
     e.difference.emplace_back(t, std::abs(*places->is - *places->was));
     e.tolerance.emplace_back(t, places->tolerance);
     if (!e.first_divergence && e.difference.back().second > places->tolerance) e.first_divergence = t;
   }
-  if (!owns(e.test_case) || !e.new_answer) return;
+  if (!owns(e.test_case) || !e.new_result) return;
   const auto shape = read_shape(regression.baselines, e.test_case.scene.name, e.test_case.scene.model.particles.size());
   if (!shape) return;
-  e.old_answer = Result{e.test_case.scene.name, "was: " + e.test_case.method.name, {}, {}};
-  e.old_answer->trajectory.t = {shape->t};
-  e.old_answer->trajectory.x = {shape->x};
+  e.old_result = MethodResult{e.test_case.scene.name, "was: " + e.test_case.method.name, {}, {}};
+  e.old_result->trajectory.t = {shape->t};
+  e.old_result->trajectory.x = {shape->x};
 }
 
-/// From both runs, at every sample; tolerances at those of the quantities.
+/// Compares both runs at every sample, with the tolerances at the times of the quantities.
 void beside_other(FailureDetails& e, const Method& against) {
   Case old = e.test_case;
   old.method = against;
   const CaseRun case_run = comparable_part(run_case(old));
   e.was = offsets_of(case_run.trajectory);
   e.was_sampled = true;
-  if (!case_run.trajectory.x.empty()) e.old_answer = answer_for_pictures(old, case_run, "was: " + against.name);
+  if (!case_run.trajectory.x.empty()) e.old_result = result_for_pictures(old, case_run, "was: " + against.name);
   for (const double t : times_of(e.test_case))
     if (const Comparison* offset = row_named(e.rows, offset_at(t))) e.tolerance.emplace_back(t, offset->tolerance);
-  if (!e.new_answer || e.tolerance.empty()) return;
-  const Trajectory &now = e.new_answer->trajectory, &before = case_run.trajectory;
+  if (!e.new_result || e.tolerance.empty()) return;
+  const Trajectory &now = e.new_result->trajectory, &before = case_run.trajectory;
   for (int i = 1; i < std::min(now.frames(), before.frames()); ++i) {
     const double distance = rms_distance(now.x[i], before.x[i]);
-    // of the next time at which the tolerance is known
+    // the tolerance of the next time at which there is one
     const auto known = std::find_if(e.tolerance.begin(), e.tolerance.end(),
                                     [&](const auto& at) { return at.first >= now.t[i] * (1 - 1e-9); });
     if (!std::isfinite(distance) || known == e.tolerance.end()) break;
@@ -97,7 +97,7 @@ FailureDetails failure_details(const Case& test_case, const std::vector<Comparis
   const CaseRun case_run = comparable_part(run_case(test_case));
   e.is = offsets_of(case_run.trajectory);
   if (!case_run.trajectory.x.empty())
-    e.new_answer = answer_for_pictures(test_case, case_run, "is: " + test_case.method.name);
+    e.new_result = result_for_pictures(test_case, case_run, "is: " + test_case.method.name);
   if (regression.against)
     beside_other(e, *regression.against);
   else
@@ -154,9 +154,9 @@ FigureInfo words_for(const FailureDetails& e, const std::string& what, const std
 
 std::optional<Figure> curves(const FailureDetails& e, const Provenance& lines) {
   Figure f;
-  static_cast<FigureInfo&>(f) = words_for(e, "curve", "how far the particles are from their start", lines);
+  static_cast<FigureInfo&>(f) = words_for(e, "curve", "RMS displacement of the particles", lines);
   f.x = {"t / s"};
-  f.y = {"RMS distance from the start / m"};
+  f.y = {"RMS displacement / m"};
   if (!e.was.empty()) f.curves.push_back({"was", old_style, e.was, e.was_sampled, !e.was_sampled});
   if (!e.is.empty()) f.curves.push_back({"is", new_style, e.is});
   const auto finite = [](const Curve& c) {
@@ -177,9 +177,9 @@ std::optional<Figure> difference(const FailureDetails& e, const Provenance& line
     return series;
   };
   Figure f;
-  static_cast<FigureInfo&>(f) = words_for(e, "difference", "how far is and was are apart", lines);
+  static_cast<FigureInfo&>(f) = words_for(e, "difference", "difference from the baseline", lines);
   f.x = {"t / s"};
-  f.y = {e.was_sampled ? "RMS distance / m" : "difference of places / m", true};
+  f.y = {e.was_sampled ? "RMS position difference / m" : "position difference / m", true};
   f.curves.push_back({"difference", new_style, above_floor(e.difference), true, !e.was_sampled});
   f.curves.push_back({"tolerance", tolerance_style, above_floor(e.tolerance)});
   f.caption += fmt::format(" Drawn no lower than {}, a tenth of the smallest tolerance.", nice_length(floor));
@@ -189,23 +189,23 @@ std::optional<Figure> difference(const FailureDetails& e, const Provenance& line
 
 /// Both shapes in one view, coloured by their distance where an eye could see it.
 std::optional<PageImage> shapes(const FailureDetails& e, const fs::path& folder) {
-  if (!e.new_answer || e.new_answer->trajectory.x.empty() || e.test_case.scene.model.first_order()) return std::nullopt;
+  if (!e.new_result || e.new_result->trajectory.x.empty() || e.test_case.scene.model.first_order()) return std::nullopt;
   Shot shot;
   shot.quality = render::Quality::fast;
   shot.width = 1120, shot.height = 420;
-  std::vector<const Result*> shown;
-  if (e.old_answer) {
-    shown.push_back(&*e.old_answer);
-    shot.at = std::min(e.old_answer->trajectory.t.back(), e.new_answer->trajectory.t.back());
-    const Points &was = e.old_answer->trajectory.x.back(), &is = e.new_answer->trajectory.x.back();
+  std::vector<const MethodResult*> shown;
+  if (e.old_result) {
+    shown.push_back(&*e.old_result);
+    shot.at = std::min(e.old_result->trajectory.t.back(), e.new_result->trajectory.t.back());
+    const Points &was = e.old_result->trajectory.x.back(), &is = e.new_result->trajectory.x.back();
     if (rms_distance(was, is) > 1e-4 * e.test_case.scene.size()) shot.mode = Mode::difference;
   }
-  shown.push_back(&*e.new_answer);
+  shown.push_back(&*e.new_result);
   PageImage image;
   image.file = folder / (words_for(e, "shape", "", {}).name + ".png");
   render::write_png(picture_of(e.test_case.scene, shown, shot), image.file);
-  image.alt = e.old_answer ? "the last shape as it was and as it is" : "the last shape as it is";
-  image.caption = e.old_answer ? "The last shape as it was and as it is."
+  image.alt = e.old_result ? "the last shape as it was and as it is" : "the last shape as it is";
+  image.caption = e.old_result ? "The last shape as it was and as it is."
                                : "The last shape as it is. Of the old run no shape is kept (a baseline has that of the "
                                  "scene's own method; with --against both are drawn).";
   return image;

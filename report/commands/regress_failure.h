@@ -17,26 +17,26 @@ using Series = std::vector<std::pair<double, double>>;  // over time, s
 
 struct FailureDetails {
   Case test_case;
-  std::vector<Comparison> rows;                  // of the case, those that failed first
-  Series was, is;                                // RMS distance of the particles from where they started, m
-  bool was_sampled = false;                      // of the old run the whole curve is known, not a few points of it
-  Series difference, tolerance;                  // how far the two differ, and what they may, m
-  std::optional<double> first_divergence;        // s: the first time at which they differ by more than the tolerance
-  std::optional<Result> old_answer, new_answer;  // for pictures; of a baseline the scene's own method only
+  std::vector<Comparison> rows;            // of the case, those that failed first
+  Series was, is;                          // RMS displacement of the particles, m
+  bool was_sampled = false;                // the whole old curve is known, not a few points of it
+  Series difference, tolerance;            // of positions, m
+  std::optional<double> first_divergence;  // s: the first time at which they differ by more than the tolerance
+  std::optional<MethodResult> old_result, new_result;  // for pictures; of a baseline the scene's own method only
 };
 
 /// Runs the case again, with --against under both methods. Everything may be empty: a refused run has no curve.
 FailureDetails failure_details(const Case& test_case, const std::vector<Comparison>& rows,
                                const Regression& regression);
 
-/// The failed cases that are worth a picture, at most `most`: of each scene one first, its own method before
-/// others, of scenes as they are before those without an ingredient, then those that are off most.
+/// At most `most` failed cases to draw: first one of each scene, its own method before others, whole scenes before
+/// those without an ingredient, then those with the largest deviations.
 std::vector<Case> failures_to_draw(const std::vector<Case>& all, const std::vector<Comparison>& rows, int most);
 
 // Figures and pictures of a failed case.
 
 /// Draws into OUT/figures the details: both curves, the difference over time with its tolerance, and both
-/// shapes side by side. What cannot be drawn is said in `problems`.
+/// shapes side by side. What cannot be drawn is added to `problems`.
 std::vector<PageImage> failure_figures(const FailureDetails& details, const Provenance& lines,
                                        const std::filesystem::path& out, std::vector<std::string>& problems);
 

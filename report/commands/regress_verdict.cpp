@@ -11,7 +11,6 @@
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
 #include "report/commands/regress_failure.h"
-#include "report/page/inline_svg.h"
 #include "report/page/page.h"
 
 namespace crosscheck {
@@ -223,8 +222,8 @@ std::string where(const Comparison& row) {
 }
 
 PageTable table_of(const std::string& caption, const std::vector<Comparison>& rows, bool with_question) {
-  PageTable table{caption, {"quantity", "was", "is", "unit", "tolerance", "tolerances off", "verdict"}, {}};
-  if (with_question) table.header.insert(table.header.begin(), "question");
+  PageTable table{caption, {"quantity", "was", "is", "unit", "tolerance", "difference / tolerance", "verdict"}, {}};
+  if (with_question) table.header.insert(table.header.begin(), "case");
   for (const Comparison& row : rows) {
     std::vector<std::string> cells{row.quantity,
                                    shown(row.was, row.was_word),
@@ -239,7 +238,7 @@ PageTable table_of(const std::string& caption, const std::vector<Comparison>& ro
   return table;
 }
 
-/// The cases to look at first.
+/// The cases with the largest deviations first.
 std::vector<Comparison> by_size(std::vector<Comparison> rows, size_t most) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Comparison& a, const Comparison& b) { return a.rank() > b.rank(); });
@@ -264,22 +263,22 @@ std::string headline(const VerdictPage& page) {
   return fmt::format("{} of {} quantities failed", wrong, page.result.rows.size());
 }
 
-/// Empty where no method is new.
+/// The section on new methods; empty without one.
 std::string new_methods_section(const RegressionResult& result) {
-  PageTable table{"Methods that the baselines do not know", {"method", "scenes", "quantities", "bless with"}, {}};
+  PageTable table{"Methods without baselines", {"method", "scenes", "quantities", "bless with"}, {}};
   for (const NewMethod& m : new_methods(result.rows))
     table.rows.push_back({m.method, std::to_string(m.scenes), std::to_string(m.quantities),
                           fmt::format("crosscheck regress --filter '*/{}' --bless --reason TEXT", m.method)});
   if (table.rows.empty()) return "";
-  return "<section class=\"chapter\"><h2>What is new</h2>\n" + page_table_html(table, true) + "</section>\n";
+  return "<section class=\"chapter\"><h2>New methods</h2>\n" + page_table_html(table) + "</section>\n";
 }
 
-/// CPU times over those of a plain loop; empty where none was measured.
+/// The section on speed: CPU times over those of a plain loop; empty where none was measured.
 std::string speed_section(const Speeds& speeds) {
   if (speeds.rows.empty() && speeds.notes.empty()) return "";
   PageTable table{fmt::format("Speed of {} runs: CPU time over that of a plain loop of springs and gravity, in turns",
                               speeds.rows.size()),
-                  {"run", "was", "is", "is / was", "interval", "noise", "verdict", "at what price"},
+                  {"run", "was", "is", "is / was", "90 % interval", "noise", "verdict", "change of accuracy"},
                   {}};
   for (const SpeedComparison& row : speeds.rows)
     table.rows.push_back({row.scene + " under " + row.method, row.was ? fmt::format("{:.3g}", *row.was) : "",
@@ -287,9 +286,9 @@ std::string speed_section(const Speeds& speeds) {
                           row.was ? fmt::format("{:.3f} to {:.3f}", row.change.low, row.change.high) : "",
                           row.was ? fmt::format("{:.0f} %", 100 * row.noise) : "", std::string(name_of(row.state)),
                           row.sentence.empty() ? row.note : row.sentence});
-  std::string out = "<section class=\"chapter\"><h2>Speed beside accuracy</h2>\n";
+  std::string out = "<section class=\"chapter\"><h2>Speed and accuracy</h2>\n";
   for (const std::string& note : speeds.notes) out += fmt::format("<p class=\"note\">{}</p>\n", escaped(note));
-  return out + (table.rows.empty() ? "" : page_table_html(table, !speeds.explanations.empty())) + "</section>\n";
+  return out + (table.rows.empty() ? "" : page_table_html(table)) + "</section>\n";
 }
 
 void first_screen(const VerdictPage& page, std::string& out) {
@@ -363,17 +362,17 @@ std::string verdict_html(const VerdictPage& page) {
   const std::vector<Comparison> worst = worst_comparisons(page.result.rows);
   if (!worst.empty())
     out +=
-        "<section class=\"chapter\"><h2>What failed</h2>\n<p class=\"note\">Of each question the quantity that is off "
+        "<section class=\"chapter\"><h2>Failed quantities</h2>\n<p class=\"note\">Of each case the quantity that is "
+        "off "
         "most. All quantities: <code>regress.csv</code> beside this page.</p>\n" +
         page_table_html(
-            table_of(some_of(std::min<size_t>(worst.size(), 15), worst.size(), "questions"), by_size(worst, 15), true),
-            true) +
+            table_of(some_of(std::min<size_t>(worst.size(), 15), worst.size(), "cases"), by_size(worst, 15), true)) +
         "</section>\n";
   if (page.blessed.empty()) out += new_methods_section(page.result);
   out += speed_section(page.speeds);
   if (!page.parts.empty() && page.parts.size() < worst.size())
     out += fmt::format(
-        "<p class=\"note\">Drawn below: {} of {} questions, of each scene that which is off most first "
+        "<p class=\"note\">Drawn below: {} of {} cases, of each scene that which is off most first "
         "(more with --figures N).</p>\n",
         page.parts.size(), worst.size());
   for (const FailurePart& part : page.parts) {
@@ -386,12 +385,11 @@ std::string verdict_html(const VerdictPage& page) {
       if (image.file.extension() == ".png") out += image_html(image, "render");
     out += "<div class=\"chapter\">" + page_table_html(part.table) + "</div></section>\n";
   }
-  return deduplicate_markers(
-      out +
-      "<section class=\"made\"><h2>How this was made</h2>\n<p>A tolerance is what rounding can do to the "
-      "quantity in that engine, measured by moving the start a little; each row of a baseline says how. A "
-      "cause is named only where it alone fits all that moved and all that held.</p>\n" +
-      provenance_html(page.lines) + "</section>\n</main></body></html>\n");
+  return out +
+         "<section class=\"made\"><h2>How this was made</h2>\n<p>A tolerance is what rounding can do to the "
+         "quantity in that engine, measured by moving the start a little; each row of a baseline says how. A "
+         "cause is named only where it alone fits all that moved and all that held.</p>\n" +
+         provenance_html(page.lines) + "</section>\n</main></body></html>\n";
 }
 
 }  // namespace crosscheck

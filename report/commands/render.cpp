@@ -21,7 +21,7 @@ namespace {
 
 struct RenderOptions {
   std::string scene, methods, mode = "shaded", size = "1280x720";
-  std::string quality;  // empty: still, of clips fast
+  std::string quality;  // empty: still for a picture, fast for a clip
   double at = -1;       // s; negative: the end
   std::filesystem::path file;
 };
@@ -55,9 +55,9 @@ Shot shot_of(const RenderOptions& options, const Scene& scene, bool clip) {
 }
 
 /// The methods' results; methods without one are reported.
-std::vector<Result> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run,
-                               Progress& progress) {
-  std::vector<Result> answers;
+std::vector<MethodResult> answers_of(const Scene& scene, const std::vector<Method>& methods, const Run& run,
+                                     Progress& progress) {
+  std::vector<MethodResult> answers;
   for (const Method& method : methods) {
     Recorder recorder;
     Outcome out = run_method(with_progress(method, progress), scene, run, {&recorder});
@@ -91,11 +91,11 @@ int render_command(const RenderOptions& options) {
   const Run run = clip ? clip_run(scene) : default_run(scene);
   require_resources_to_keep(methods, scene, run);
   Progress progress(static_cast<int>(methods.size()) + (clip ? 0 : 1));
-  const std::vector<Result> answers = answers_of(scene, methods, run, progress);
+  const std::vector<MethodResult> answers = answers_of(scene, methods, run, progress);
   progress.done();
   if (answers.empty()) return 1;
-  std::vector<const Result*> shown;
-  for (const Result& a : answers) shown.push_back(&a);
+  std::vector<const MethodResult*> shown;
+  for (const MethodResult& a : answers) shown.push_back(&a);
   if (clip)
     write_clip(scene, shown, shot, options.file);
   else
@@ -109,13 +109,13 @@ int render_command(const RenderOptions& options) {
 
 void add_render(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<RenderOptions>();
-  auto* render = app.add_subcommand("render", "a picture of a scene, or a clip of its run, methods side by side");
+  auto* render = app.add_subcommand("render", "draws a picture of a scene, or a clip of its run, methods side by side");
   render->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
-  render->add_option("--methods", options->methods, "A,B,...");
+  render->add_option("--methods", options->methods, "methods to draw: A,B,...");
   render->add_option("--mode", options->mode, "shaded (default), stretch, springs, difference or strip");
-  render->add_option("--at", options->at, "s (default: the end)")->check(not_below_zero());
-  render->add_option("--quality", options->quality, "fast or still (default: still; of clips fast)");
-  render->add_option("--size", options->size, "WxH, pixels (1280x720)");
+  render->add_option("--at", options->at, "time, s (default: the end)")->check(not_below_zero());
+  render->add_option("--quality", options->quality, "fast or still (default: still for a picture, fast for a clip)");
+  render->add_option("--size", options->size, "WxH in pixels (default: 1280x720)");
   render->add_option("-o", options->file, "FILE.png, or FILE.mp4: 30 frames for each second of the scene")->required();
   render->callback([options, &call] { call.status = render_command(*options); });
 }

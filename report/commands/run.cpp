@@ -109,12 +109,12 @@ int run_command(const RunOptions& options) {
 
 void add_run(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<RunOptions>();
-  auto* run = app.add_subcommand("run", "one run: trajectory, energies, verdict");
+  auto* run = app.add_subcommand("run", "runs one method on a scene and writes trajectory, energies and verdict");
   run->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
-  run->add_option("--method", options->method, "default: the scene's own");
-  run->add_option("--step", options->step, "s, of fixed-step methods")->check(above_zero());
-  run->add_option("--tol", options->tolerance, "relative, of adaptive methods")->check(above_zero());
-  run->add_option("--duration", options->duration, "s")->check(above_zero());
+  run->add_option("--method", options->method, "the method (default: the scene's own)");
+  run->add_option("--step", options->step, "time step of fixed-step methods, s")->check(above_zero());
+  run->add_option("--tol", options->tolerance, "relative tolerance of adaptive methods")->check(above_zero());
+  run->add_option("--duration", options->duration, "simulated time, s")->check(above_zero());
   run->add_option("--out", options->out, "folder (out/run)");
   run->callback([options, &call] {
     options->command_line = call.line;

@@ -32,39 +32,40 @@ struct SceneSummary {
   std::string warning;
 };
 
-SceneSummary facts_of(Scene scene) {
-  SceneSummary facts{std::move(scene), {}, 0, {}, {}, {}, 0, false, ""};
-  const Model& model = facts.scene.model;
+SceneSummary summary_of(Scene scene) {
+  SceneSummary summary{std::move(scene), {}, 0, {}, {}, {}, 0, false, ""};
+  const Model& model = summary.scene.model;
   if (const auto* springs = model.find<Springs>())
-    for (const Spring& spring : springs->list) ++facts.springs[spring.family];
-  if (!model.first_order()) facts.omega = highest_frequency(model, facts.scene.start);
-  facts.gamma = uniform_drag_rate(model);
+    for (const Spring& spring : springs->list) ++summary.springs[spring.family];
+  if (!model.first_order()) summary.omega = highest_frequency(model, summary.scene.start);
+  summary.gamma = uniform_drag_rate(model);
   for (const Stepper& rule : steppers()) {
     // rules that solve equations are stable at every step, adaptive ones choose their own
-    if (rule.evaluations == 0 || rule.adaptive || !facts.gamma || (facts.omega == 0 && *facts.gamma == 0)) continue;
-    if (const double limit = rule.limit(facts.omega, *facts.gamma); std::isfinite(limit))
-      facts.critical.emplace_back(rule.name, limit);
+    if (rule.evaluations == 0 || rule.adaptive || !summary.gamma || (summary.omega == 0 && *summary.gamma == 0))
+      continue;
+    if (const double limit = rule.limit(summary.omega, *summary.gamma); std::isfinite(limit))
+      summary.critical.emplace_back(rule.name, limit);
   }
-  const Method method = find_method(facts.scene.method);
-  facts.demand = resource_estimate_of(method, facts.scene, default_run(facts.scene));
-  facts.adaptive = method.adaptive;
+  const Method method = find_method(summary.scene.method);
+  summary.demand = resource_estimate_of(method, summary.scene, default_run(summary.scene));
+  summary.adaptive = method.adaptive;
   if (const Stepper* rule = stepper_of(method)) {
-    facts.evaluations = rule->evaluations;
-    for (const auto& [name, limit] : facts.critical)
-      if (name == rule->name && facts.scene.step > limit)
-        facts.warning = limit > 0 ? fmt::format(
-                                        "the step of {:.3g} s is above {}'s critical step of {:.3g} s: the run "
-                                        "will blow up",
-                                        facts.scene.step, name, limit)
-                                  : fmt::format("{} is stable at no step without drag: its energy grows", name);
+    summary.evaluations = rule->evaluations;
+    for (const auto& [name, limit] : summary.critical)
+      if (name == rule->name && summary.scene.step > limit)
+        summary.warning = limit > 0 ? fmt::format(
+                                          "the step of {:.3g} s is above {}'s critical step of {:.3g} s: the run "
+                                          "will blow up",
+                                          summary.scene.step, name, limit)
+                                    : fmt::format("{} is stable at no step without drag: its energy grows", name);
   }
-  return facts;
+  return summary;
 }
 
-std::string listed_springs(const SceneSummary& facts) {
+std::string listed_springs(const SceneSummary& summary) {
   long all = 0;
   std::vector<std::string> families;
-  for (const auto& [family, count] : facts.springs) {
+  for (const auto& [family, count] : summary.springs) {
     all += count;
     families.push_back(fmt::format("{} {}", count, name_of(family)));
   }
@@ -77,13 +78,13 @@ std::size_t length_of_term(const Model& model) {
   return term ? term->list.size() : 0;
 }
 
-void print_facts(const SceneSummary& f, const std::string& asked) {
-  const Model& model = f.scene.model;
+void print_summary(const SceneSummary& s, const std::string& given) {
+  const Model& model = s.scene.model;
   const auto line = [](const char* name, const std::string& text) { fmt::print("  {:<16} {}\n", name, text); };
-  fmt::print("{}: a good scene\n", asked);
+  fmt::print("{}: a good scene\n", given);
   line("particles", fmt::format("{}, {} of them pinned{}", model.particles.size(), model.particles.pins.size(),
                                 model.particles.move ? " and moved" : ""));
-  line("springs", listed_springs(f));
+  line("springs", listed_springs(s));
   if (const auto count = length_of_term<Dashpots>(model)) line("dashpots", fmt::format("{}", count));
   if (const auto count = length_of_term<Constraints>(model)) line("hard distances", fmt::format("{}", count));
   if (const auto count = length_of_term<Spheres>(model)) line("spheres", fmt::format("{}", count));
@@ -93,71 +94,71 @@ void print_facts(const SceneSummary& f, const std::string& asked) {
   line("ingredients", terms.empty() ? model.find<Springs>() ? "springs alone" : "none: nothing acts on the particles"
                                     : fmt::format("{}", fmt::join(terms, ", ")));
   line("largest omega", model.first_order() ? "none: a first-order scene"
-                        : f.omega > 0 ? fmt::format("{:.4g} rad/s, of the stiffness at the start with pins held; a "
+                        : s.omega > 0 ? fmt::format("{:.4g} rad/s, of the stiffness at the start with pins held; a "
                                                     "period of {:.3g} s",
-                                                    f.omega, 6.283185307179586 / f.omega)
+                                                    s.omega, 6.283185307179586 / s.omega)
                                       : "0: nothing vibrates");
-  if (!f.gamma)
+  if (!s.gamma)
     line("critical steps", "not told: the particles' drag rates differ");
-  else if (f.critical.empty())
+  else if (s.critical.empty())
     line("critical steps", "none: nothing vibrates");
-  for (std::size_t i = 0; i < f.critical.size(); ++i) {
-    const auto& [name, limit] = f.critical[i];
+  for (std::size_t i = 0; i < s.critical.size(); ++i) {
+    const auto& [name, limit] = s.critical[i];
     line(i == 0 ? "critical steps" : "",
          fmt::format("{:<18} {}", name, limit > 0 ? fmt::format("{:.4g} s", limit) : "stable at no step without drag"));
   }
-  if (!f.critical.empty())
+  if (!s.critical.empty())
     line("", fmt::format("from omega{}; {}longer springs than at the start change omega",
-                         *f.gamma > 0 ? fmt::format(" and the drag rate of {:.3g} 1/s", *f.gamma) : "",
+                         *s.gamma > 0 ? fmt::format(" and the drag rate of {:.3g} 1/s", *s.gamma) : "",
                          length_of_term<Dashpots>(model) > 0 ? "dashpots are left out, and make them shorter; " : ""));
   line("default run",
-       fmt::format("{}, {:.6g} s in {}, {} samples", f.scene.method, f.scene.duration,
-                   f.adaptive ? "steps of its own choice"
-                              : fmt::format("{:.0f} steps of at most {:.4g} s", f.demand.steps, f.scene.step),
-                   f.scene.samples));
+       fmt::format("{}, {:.6g} s in {}, {} samples", s.scene.method, s.scene.duration,
+                   s.adaptive ? "steps of its own choice"
+                              : fmt::format("{:.0f} steps of at most {:.4g} s", s.demand.steps, s.scene.step),
+                   s.scene.samples));
   line("  memory", fmt::format("about {}, from the numbers of particles and springs; {} are free",
-                               format_bytes(f.demand.memory), format_bytes(free_memory())));
-  line("  disk", fmt::format("{} of frames", format_bytes(f.demand.frames)));
+                               format_bytes(s.demand.memory), format_bytes(free_memory())));
+  line("  disk", fmt::format("{} of frames", format_bytes(s.demand.frames)));
   line("  time",
        fmt::format("about {:.2g} s of CPU time, good to a factor of 3: steps x {} x (particles + springs) x a "
                    "cost measured once",
-                   f.demand.seconds,
-                   f.evaluations > 0 ? fmt::format("{} force evaluation{}", f.evaluations, f.evaluations > 1 ? "s" : "")
+                   s.demand.seconds,
+                   s.evaluations > 0 ? fmt::format("{} force evaluation{}", s.evaluations, s.evaluations > 1 ? "s" : "")
                                      : "the evaluations that its equations take"));
-  if (!f.warning.empty()) line("warning", f.warning);
+  if (!s.warning.empty()) line("warning", s.warning);
 }
 
-Json json_of(const SceneSummary& f, const std::string& asked) {
+Json json_of(const SceneSummary& s, const std::string& given) {
   Json families = Json::object(), critical = Json::object();
-  for (const auto& [family, count] : f.springs) families[name_of(family)] = count;
-  for (const auto& [name, limit] : f.critical) critical[name] = limit;
-  return {{"scene", asked},
+  for (const auto& [family, count] : s.springs) families[name_of(family)] = count;
+  for (const auto& [name, limit] : s.critical) critical[name] = limit;
+  return {{"scene", given},
           {"valid", true},
-          {"hash", f.scene.hash},
-          {"particles", f.scene.model.particles.size()},
-          {"pins", f.scene.model.particles.pins.size()},
+          {"hash", s.scene.hash},
+          {"particles", s.scene.model.particles.size()},
+          {"pins", s.scene.model.particles.pins.size()},
           {"springs", std::move(families)},
-          {"dashpots", length_of_term<Dashpots>(f.scene.model)},
-          {"constraints", length_of_term<Constraints>(f.scene.model)},
-          {"spheres", length_of_term<Spheres>(f.scene.model)},
-          {"largest_omega", f.omega},
+          {"dashpots", length_of_term<Dashpots>(s.scene.model)},
+          {"constraints", length_of_term<Constraints>(s.scene.model)},
+          {"spheres", length_of_term<Spheres>(s.scene.model)},
+          {"largest_omega", s.omega},
           {"critical_steps", std::move(critical)},
-          {"method", f.scene.method},
-          {"step", f.scene.step},
-          {"steps", std::llround(f.demand.steps)},
-          {"memory_bytes", std::llround(f.demand.memory)},
-          {"disk_bytes", std::llround(f.demand.frames)},
-          {"cpu_seconds", f.demand.seconds},
-          {"warning", f.warning.empty() ? Json() : Json(f.warning)}};
+          {"method", s.scene.method},
+          {"step", s.scene.step},
+          {"steps", std::llround(s.demand.steps)},
+          {"memory_bytes", std::llround(s.demand.memory)},
+          {"disk_bytes", std::llround(s.demand.frames)},
+          {"cpu_seconds", s.demand.seconds},
+          {"warning", s.warning.empty() ? Json() : Json(s.warning)}};
 }
 
 /// One step by the scene's own method, unless that is a program from outside. Throws InputError where it refuses.
-void require_taken(const Scene& scene, const std::string& asked) {
+void require_taken(const Scene& scene, const std::string& given) {
   const Method method = find_method(scene.method);
   if (method.family().role == Role::outside) return;
   const Outcome out = run_method(method, scene, {scene.step, scene.step, 1, 1e-3, false}, {});
   if (out.verdict == Verdict::unsupported)
-    throw InputError(fmt::format("{}: time.method: expected a method that can run it; {} cannot: {}", asked,
+    throw InputError(fmt::format("{}: time.method: expected a method that can run it; {} cannot: {}", given,
                                  method.name, out.reason));
 }
 
@@ -168,24 +169,24 @@ int validate_command(const std::vector<std::string>& scenes, bool json) {
   int status = 0;
   Json entries = Json::list();
   Progress progress(static_cast<int>(scenes.size()));
-  for (const std::string& asked : scenes) {
-    progress.begin("checking " + asked);
+  for (const std::string& given : scenes) {
+    progress.begin("checking " + given);
     std::string fault;
-    std::optional<SceneSummary> facts;
+    std::optional<SceneSummary> summary;
     try {
-      facts = facts_of(load_scene(asked));
-      require_taken(facts->scene, asked);
+      summary = summary_of(load_scene(given));
+      require_taken(summary->scene, given);
     } catch (...) {
-      facts.reset();
+      summary.reset();
       fault = in_words(std::current_exception());
       status = 2;
     }
     progress.done();
-    if (!facts) fmt::print(stderr, "crosscheck: {}\n", fault);
+    if (!summary) fmt::print(stderr, "crosscheck: {}\n", fault);
     if (json)
-      entries.push(facts ? json_of(*facts, asked) : Json{{"scene", asked}, {"valid", false}, {"fault", fault}});
-    else if (facts)
-      print_facts(*facts, asked);
+      entries.push(summary ? json_of(*summary, given) : Json{{"scene", given}, {"valid", false}, {"fault", fault}});
+    else if (summary)
+      print_summary(*summary, given);
   }
   if (json) fmt::print("{}\n", Json{{"format", 1}, {"scenes", std::move(entries)}}.dump(2));
   return status;
@@ -199,9 +200,10 @@ void add_validate(CLI::App& app, Invocation& call) {
     bool json = false;
   };
   const auto options = std::make_shared<Options>();
-  auto* validate = app.add_subcommand("validate", "what a scene is, and whether its file is good; runs nothing");
+  auto* validate =
+      app.add_subcommand("validate", "checks scene files and describes their scenes, without running them");
   validate->add_option("SCENE", options->scenes, "shipped scenes or TOML files")->required();
-  validate->add_flag("--json", options->json, "for programs");
+  validate->add_flag("--json", options->json, "prints JSON");
   validate->callback([options, &call] { call.status = validate_command(options->scenes, options->json); });
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "experiments/speed_accuracy/work_precision.h"
 #include "experiments/tables/table.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
@@ -18,9 +19,9 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
   constexpr double top = 10;
   Figure f;
   f.name = "scoreboard";
-  f.title = "Error of each method at the scene's own step";
+  f.title = "Error of each method at the scene's own time step";
   f.x = {"", false, -0.6, std::nullopt};
-  f.y = {"largest RMS error / motion of the scene", true, std::nullopt, top};
+  f.y = {"RMS position error / motion of the scene", true, std::nullopt, top};
   double x = 0, lowest = 1;
   std::set<std::string> methods;
   std::vector<std::string> cut;
@@ -66,18 +67,18 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
 namespace {
 
 /// An engine's name, and its style.
-struct EngineLook {
+struct EngineStyle {
   std::string name;
   MethodStyle style;
 };
-EngineLook look_of(const std::string& engine) {
+EngineStyle style_of_engine(const std::string& engine) {
   const MethodFamily& family = family_of(engine);
   return family.representative.empty()
-             ? EngineLook{engine, style_of(engine)}
-             : EngineLook{std::string(family.title), style_of(std::string(family.representative))};
+             ? EngineStyle{engine, style_of(engine)}
+             : EngineStyle{std::string(family.title), style_of(std::string(family.representative))};
 }
 
-/// Of how many quotients a time is not of the whole run; empty where of none.
+/// Says how many quotients have a time that was scaled from a part of its run; empty where none has.
 std::string scaled_text(const Table& t) {
   int all = 0, scaled = 0;
   for (size_t i = 0; i < t.rows.size(); ++i) {
@@ -92,7 +93,7 @@ std::string scaled_text(const Table& t) {
              : fmt::format("in {} of {} quotients a time is scaled from the first part of its run; ", scaled, all);
 }
 
-/// The engines that have a marker, mysim among them, as methods begin.
+/// The engines that have a marker, and mysim, each as the first part of a method's name.
 std::vector<std::string> drawn_engines(const std::vector<std::string>& engines) {
   std::vector<std::string> methods{std::string(subject().name) + "/"};
   for (const std::string& engine : engines) methods.push_back(engine + "/");
@@ -108,21 +109,21 @@ std::optional<size_t> row_of(const Table& t, const std::string& scene, const std
   return std::nullopt;
 }
 
-/// Every scene: the run of each engine within 1 % of the motion, and how many times as long as mysim's it takes.
+/// A row for each scene: the cheapest run of each engine within 1 % of the motion, and its CPU time over mysim's.
 PageTable table_of(const Table& t, const std::vector<std::string>& engines) {
   PageTable page{
-      "The cheapest run of each engine with an error of at most 1 % of the motion, with its step or tolerance; × how "
-      "many times the CPU time of mysim's it takes",
+      "The cheapest run of each engine with an error of at most 1 % of the motion, with its time step or "
+      "tolerance; ×: its CPU time over that of mysim's",
       {"scene", "mysim", "CPU time"},
       {}};
   for (const std::string& engine : engines) {
-    page.header.push_back(look_of(engine).name);
+    page.header.push_back(style_of_engine(engine).name);
     page.header.emplace_back("×");
   }
   const auto run = [&](const std::optional<size_t>& row) {
     if (!row) return std::string();
     const std::string& method = text_at(t, *row, "method");  // the column names the engine
-    return fmt::format("{}, {}", method.substr(method.find('/') + 1),
+    return fmt::format("{}, {}", name_beside_engine(method),
                        setting_text(text_at(t, *row, "setting"), *number_at(t, *row, "asked")));
   };
   for (const std::string& scene : distinct(t, "scene")) {
@@ -137,7 +138,6 @@ PageTable table_of(const Table& t, const std::vector<std::string>& engines) {
     }
     page.rows.push_back(std::move(cells));
   }
-  page.open = true;
   return page;
 }
 
@@ -175,10 +175,11 @@ std::vector<Chart> cheapest_charts(const ChartInput& input) {
   std::ranges::stable_partition(engines, [](const std::string& engine) { return family_of(engine).is_engine(); });
   DotPlot f;
   f.name = "cheapest-1-percent-cost";
-  f.title = "CPU time for 1 % error, over mysim's";
-  f.label = "times mysim's CPU time";
+  f.title = "CPU time for 1 % error, relative to mysim";
+  f.label = "CPU time / CPU time of mysim";
   f.from_costs = true;
-  for (const std::string& engine : engines) f.series.push_back({look_of(engine).name, look_of(engine).style, {}});
+  for (const std::string& engine : engines)
+    f.series.push_back({style_of_engine(engine).name, style_of_engine(engine).style, {}});
   bool any = false;
   for (const std::string& scene : distinct(*t, "scene")) {
     std::vector<std::optional<DotPlot::Dot>> dots;
@@ -208,7 +209,7 @@ std::vector<Chart> cheapest_charts(const ChartInput& input) {
       "intervals allow; {}a scene without a marker has no such run of that engine; {}; commit {}.",
       scaled_text(*t), builds_text(drawn_engines(engines)), input.commit);
   f.tier = "each scene's truth, its error bar taken off the 1 %";
-  return {{"", f, "speed-accuracy", "", "Who is fastest at 1 %?", {table_of(*t, engines)}}};
+  return {{"", f, "speed-accuracy", "", "CPU time for 1 % error", {table_of(*t, engines)}}};
 }
 
 }  // namespace crosscheck

@@ -10,14 +10,16 @@
 #include "experiments/scenes/scenes.h"
 #include "experiments/tables/table.h"
 #include "report/figures/charts.h"
+#include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
 
 namespace crosscheck {
 namespace {
 
-const MethodStyle looks[] = {{"#0072B2", "1", 7},           {"#D55E00", "(6,3)", 5},  {"#009E73", "(2,2)", 9},
-                             {"#CC79A7", "(10,3,2,3)", 13}, {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
+const MethodStyle scene_styles[] = {{"#0072B2", "1", 7},      {"#D55E00", "(6,3)", 5},
+                                    {"#009E73", "(2,2)", 9},  {"#CC79A7", "(10,3,2,3)", 13},
+                                    {"#E69F00", "(4,2)", 11}, {"#332288", "(12,3,3,3)", 12}};
 
 std::set<double> values_of(const Table& t, const char* column) {
   std::set<double> values;
@@ -54,14 +56,14 @@ bool sag_runs_on(const Table& t, const std::string& scene) {
   return growth.size() > 1 && growth.front() > 1e-4 && growth.back() > 0.7 * growth.front();
 }
 
-/// The distance from the finest grid against the grid, scene by scene.
-std::string motion_sentence(const Table& grids, const Rows& rows, const std::vector<Curve>& curves) {
-  std::vector<std::string> falls, others, endless;
-  size_t fewest = 4;  // below which a power is a hint
+/// How the difference from the finest grid falls with the number of cells, scene by scene.
+std::string motion_sentence(const Table& grids, const TableSet& rows, const std::vector<Curve>& curves) {
+  std::vector<std::string> falls, others, unbounded;
+  size_t fewest = 4;  // fewer points than these only hint at a power
   for (const Curve& c : curves) fewest = std::min(fewest, c.points.size());
   for (const Curve& c : curves)
     if (sag_runs_on(grids, c.title))
-      endless.push_back(c.title);
+      unbounded.push_back(c.title);
     else if (const auto power = power_of(rows, c.title, motion_against_cells))
       (power->exponent + 2 * power->deviation < 0 && still_falls(c) ? falls : others)
           .push_back(fmt::format("{} on {} ({} grids)", power_text(*power), c.title, c.points.size()));
@@ -75,16 +77,17 @@ std::string motion_sentence(const Table& grids, const Rows& rows, const std::vec
   if (!others.empty())
     text += fmt::format("{}Up to the last refinement no nearing is seen where the power is {}.",
                         text.empty() ? "" : " ", joined(others));
-  if (!endless.empty())
+  if (!unbounded.empty())
     text += fmt::format(
         "{}On {} the sag at rest grows with the logarithm of the number of cells and does not slow down: no grid is "
         "near a limit there, and the distance falls only since the finest of these grids is what it is measured from.",
-        text.empty() ? "" : " ", joined(endless));
+        text.empty() ? "" : " ", joined(unbounded));
   return text.empty() ? "Distances of the motion from that of the finest grid." : text;
 }
 
 PageTable sags_of(const Table& t) {
-  PageTable page{"Sag at rest, pins standing still, without wind: lowest below highest point.", {"particles"}, {}};
+  PageTable page{
+      "Sag at rest with fixed pins and without wind: height of the highest point above the lowest.", {"particles"}, {}};
   const std::vector<std::string> scenes = distinct(t, "scene");
   page.header.insert(page.header.end(), scenes.begin(), scenes.end());
   for (const double n : values_of(t, "particles along a side")) {
@@ -102,20 +105,20 @@ PageTable sags_of(const Table& t) {
   return page;
 }
 
-Chart grids(const Table& t, const Rows& rows, const std::string& commit) {
+Chart grids(const Table& t, const TableSet& rows, const std::string& commit) {
   Figure f;
   f.name = "adequacy-resolution";
-  f.title = "The same cloth on other grids";
+  f.title = "Grid refinement at constant spring stiffness";
   f.x = {"particles along the longer side", true, std::nullopt, std::nullopt};
-  f.y = {"largest RMS distance from the finest grid / m", true, std::nullopt, std::nullopt};
+  f.y = {"RMS difference from the finest grid / m", true, std::nullopt, std::nullopt};
   for (const double n : values_of(t, "particles along a side")) f.categories.emplace_back(n, fmt::format("{:g}", n));
   std::map<std::string, MethodStyle> style;
   double furthest = 0;
   for (const std::string& scene : distinct(t, "scene")) {
-    const size_t look = style.size() % std::size(looks);
-    Curve c = column_of(t, scene, "error against the finest", style.emplace(scene, looks[look]).first->second);
+    const size_t index = style.size() % std::size(scene_styles);
+    Curve c = column_of(t, scene, "error against the finest", style.emplace(scene, scene_styles[index]).first->second);
     for (const auto& [n, error] : c.points) furthest = std::max(furthest, error);
-    // nothing to compare with where the finest run fails
+    // where the finest run failed there is no reference
     if (!c.points.empty()) f.curves.push_back(std::move(c));
   }
   std::vector<std::string> failed;
@@ -144,19 +147,20 @@ Chart grids(const Table& t, const Rows& rows, const std::string& commit) {
   return chart;
 }
 
-/// Nothing where neither sags nor droops were found.
-std::optional<Chart> scaling(const Table& t, const Rows& rows, const std::string& commit) {
+/// The stiffness that keeps sag and deflection on other grids; empty where neither was found.
+std::optional<Chart> scaling(const Table& t, const TableSet& rows, const std::string& commit) {
   Figure f;
   f.name = "adequacy-scaling";
-  f.title = "Stiffness for the same cloth on another grid";
+  f.title = "Spring stiffness under grid refinement";
   f.x = {"cells along the longer side", true, std::nullopt, std::nullopt};
   f.y = {"stiffness / stiffness on the coarsest grid", true, 0.5, std::nullopt};
   for (const double n : values_of(t, "cells")) f.categories.emplace_back(n, fmt::format("{:g}", n));
   size_t style = 0;
   for (const std::string& scene : distinct(t, "scene")) {
-    Curve c = column_of(t, scene, "stiffness factor for the finest's sag", looks[style++ % std::size(looks)]);
+    Curve c =
+        column_of(t, scene, "stiffness factor for the finest's sag", scene_styles[style++ % std::size(scene_styles)]);
     if (c.points.empty()) continue;
-    c.title = fmt::format("{}: all springs, for the same sag", scene);
+    c.title = fmt::format("{}: all springs, for equal sag", scene);
     const double first = c.points.front().second;
     for (auto& [x, y] : c.points) x -= 1, y /= first;
     f.curves.push_back(std::move(c));
@@ -164,8 +168,8 @@ std::optional<Chart> scaling(const Table& t, const Rows& rows, const std::string
       f.finding += fmt::format("{}: all stiffnesses as cells to the power {}. ", scene, power_text(*power));
   }
   if (const Table* bending = rows.table("adequacy-bending"); bending && !bending->rows.empty()) {
-    Curve measured{"bend springs of a clamped sheet, for the same droop", {"#000000", "1", 7}, {}, false, true},
-        derived{"derived for many cells: to the power 4", {"#777777", "(6,3)", -1}, {}};
+    Curve measured{"bend springs of a clamped sheet, for equal deflection", {"#000000", "1", 7}, {}, false, true},
+        derived{"limit of many cells: power 4", {"#777777", "(6,3)", -1}, {}};
     const double k0 = *number_at(*bending, 0, "stiffness of bend springs"), n0 = *number_at(*bending, 0, "cells");
     for (size_t i = 0; i < bending->rows.size(); ++i) {
       const double n = *number_at(*bending, i, "cells");
@@ -176,7 +180,7 @@ std::optional<Chart> scaling(const Table& t, const Rows& rows, const std::string
     f.curves.push_back(std::move(measured));
   }
   if (f.curves.empty()) return std::nullopt;
-  f.finding += bend_sentence(rows);
+  f.finding += sentences_of(bend_findings(rows));
   if (f.finding.empty()) f.finding = "Too few grids to tell a power.";
   f.tier =
       "for bend springs the power that is derived for many cells (dashed); measured powers have their standard errors";
@@ -188,8 +192,8 @@ std::optional<Chart> scaling(const Table& t, const Rows& rows, const std::string
       "of cells, where these are many. With one stiffness on all grids a finer sheet folds more freely."};
 }
 
-/// The same cloth on other grids, and how stiffness must follow the grid.
-std::vector<Chart> grid_charts(const Rows& rows, const std::string& commit) {
+/// Grid refinement at constant stiffness, and the stiffness that makes up for it.
+std::vector<Chart> grid_charts(const TableSet& rows, const std::string& commit) {
   const Table* t = rows.table("adequacy-resolution");
   if (!t || t->rows.empty()) return {};
   std::vector<Chart> charts{grids(*t, rows, commit)};
@@ -206,9 +210,10 @@ std::string last_of(const std::string& list) {
 std::string error_text(const std::optional<double>& error) { return error ? nice_length(*error) : "fails"; }
 
 PageTable least_of(const Table& least, const std::string& scene) {
-  PageTable page{"The least model, held again against the full one from three starts that it has not seen.",
-                 {"tolerance", "least model", "error", "from unseen starts", "cost", "holds"},
-                 {}};
+  PageTable page{
+      "The least model against the full one, also from three initial states that were not used to find it.",
+      {"tolerance", "least model", "error", "error from unseen initial states", "cost / full model", "meets tolerance"},
+      {}};
   for (size_t i = 0; i < least.rows.size(); ++i) {
     if (text_at(least, i, "scene") != scene) continue;
     std::vector<std::string> unseen;
@@ -229,37 +234,38 @@ PageTable least_of(const Table& least, const std::string& scene) {
   return page;
 }
 
-Chart ladder(const Table& t, const Table* least, const std::string& scene, const std::string& commit) {
+Chart removal_chart(const Table& t, const Table* least, const std::string& scene, const std::string& commit) {
   Figure f;
   f.name = scene + "-adequacy";
   f.title = scene + ": error of each smaller model";
   f.x = {"", false, -0.6, std::nullopt};
-  f.y = {"largest RMS error of the model / m", true, std::nullopt, std::nullopt};
-  Curve single{"this one left out", {"#0072B2", "1", 7}, {}, false, true},
-      cumulative{"this one too, after those before it", {"#D55E00", "(6,3)", 5}, {}, true, true},
-      full{"nothing left out (error of the rule and step)", {"#666666", "1", 4}, {}, false, true};
-  double x = 0, tolerance = 0, error_bar = 0;
+  f.y = {"RMS position error of the model / m", true, std::nullopt, std::nullopt};
+  Curve single{"this ingredient removed", {"#0072B2", "1", 7}, {}, false, true},
+      cumulative{"removed in addition to those before it", {"#D55E00", "(6,3)", 5}, {}, true, true},
+      full{"full model (error of stepper and time step)", {"#666666", "1", 4}, {}, false, true};
+  double x = 0, tolerance = 0, error_bar = 0, motion = 0;
   std::string truth, smallest;
   double of_smallest = INFINITY;
-  std::vector<std::string> within, unanswered;
+  std::vector<std::string> within, without_result;
   for (size_t i = 0; i < t.rows.size(); ++i) {
     if (text_at(t, i, "scene") != scene) continue;
     const std::string kind = text_at(t, i, "kind"), out = text_at(t, i, "left out");
     const auto error = number_at(t, i, "error");
-    tolerance = *number_at(t, i, "tolerance"), error_bar = *number_at(t, i, "truth bar"),
-    truth = text_at(t, i, "truth");
+    motion = number_at(t, i, "motion", 0), tolerance = *number_at(t, i, "tolerance"),
+    error_bar = *number_at(t, i, "truth bar"), truth = text_at(t, i, "truth");
     f.categories.emplace_back(x, kind == "full" ? "full" : kind == "single" ? out : "… and " + last_of(out));
-    if (kind == "cumulative") cumulative.title = fmt::format("this one too, after {}", out.substr(0, out.find(", ")));
+    if (kind == "cumulative")
+      cumulative.title = fmt::format("removed in addition, after {}", out.substr(0, out.find(", ")));
     Curve& curve = kind == "full" ? full : kind == "single" ? single : cumulative;
     if (error && *error > 0) {
       curve.points.emplace_back(x, *error);
       if (kind == "single" && *error < of_smallest) of_smallest = *error, smallest = out;
     } else if (!error) {
-      f.failures.push_back({"no answer: " + failure_class(text_at(t, i, "verdict")),
+      f.failures.push_back({"no result: " + failure_class(text_at(t, i, "verdict")),
                             {"#CC3311", "1", 2},
                             x,
                             std::max(3 * *number_at(t, i, "motion"), tolerance)});
-      unanswered.push_back(out);
+      without_result.push_back(out);
     }
     if (kind == "single" && error && *error <= tolerance) within.push_back(out);
     x += 1;
@@ -268,6 +274,8 @@ Chart ladder(const Table& t, const Table* least, const std::string& scene, const
   for (Curve* c : {&full, &single, &cumulative})
     if (!c->points.empty()) f.curves.push_back(*c);
   f.floor = {"tolerance of the scene", tolerance};
+  for (const int percent : {10, 1})
+    if (motion > 0) f.guides.push_back({false, percent / 100. * motion, fmt::format("{} % of the motion", percent)});
   f.finding =
       !within.empty() ? fmt::format("Within {} each of these can be left out alone: {}.", nice_length(tolerance),
                                     fmt::join(within, ", "))
@@ -278,13 +286,14 @@ Chart ladder(const Table& t, const Table* least, const std::string& scene, const
   f.caption = fmt::format("Scene {}; commit {}.", scene, commit);
   f.tier = fmt::format("the truth of the full scene: {}, error bar {}", truth, nice_length(error_bar));
   Chart chart{"", std::monostate{}, "adequacy"};
-  // where nothing moves no removal has an error, and there is nothing to draw
+  // in a scene at rest no removal has an error
   if (!f.curves.empty())
     chart.figure = std::move(f);
-  else if (unanswered.empty())
+  else if (without_result.empty())
     chart.text = "No removal changes the motion.";
   else
-    chart.text = fmt::format("No answer without {}; no other removal changes the motion.", fmt::join(unanswered, ", "));
+    chart.text =
+        fmt::format("No answer without {}; no other removal changes the motion.", fmt::join(without_result, ", "));
   chart.heading = scene;
   if (least) chart.tables.push_back(least_of(*least, scene));
   return chart;
@@ -298,21 +307,23 @@ void add_question(Chart& chart, const std::vector<Scene>& shown, const std::stri
     chart.text = load_scene(scene).question + (chart.text.empty() ? "" : " ") + chart.text;
 }
 
-/// Scenes without a chart of their own: what each of their ingredients is worth, a line each.
-PageTable removals_of(const Table& t, const std::vector<std::string>& scenes) {
-  PageTable page{"What leaving out one ingredient costs, in parts of the scene's motion",
-                 {"scene", "left out", "error", "in parts of the motion"},
-                 {}};
-  for (const std::string& scene : scenes)
+/// The removal that costs least on each of the scenes that have no chart of their own.
+PageTable least_removals_of(const Table& t, const std::vector<std::string>& scenes) {
+  PageTable page{"The removal that costs least", {"scene", "removed", "error", "error / motion"}, {}};
+  for (const std::string& scene : scenes) {
+    std::optional<size_t> least;
     for (size_t i = 0; i < t.rows.size(); ++i) {
-      if (text_at(t, i, "scene") != scene || text_at(t, i, "kind") != "single") continue;
-      const auto error = number_at(t, i, "error");
-      const double motion = *number_at(t, i, "motion");
-      page.rows.push_back({scene, text_at(t, i, "left out"), error_text(error),
-                           !error || !(motion > 0) ? failure_class(text_at(t, i, "verdict"))
-                           : *error > 10 * motion  ? "over 1000 %"
-                                                   : percent(*error, motion)});
+      if (text_at(t, i, "scene") != scene || text_at(t, i, "kind") != "single" || !number_at(t, i, "error")) continue;
+      if (!least || *number_at(t, i, "error") < *number_at(t, *least, "error")) least = i;
     }
+    if (!least) {
+      page.rows.push_back({scene, "every removal fails", "", ""});
+      continue;
+    }
+    const double error = *number_at(t, *least, "error"), motion = number_at(t, *least, "motion", 0);
+    page.rows.push_back(
+        {scene, text_at(t, *least, "left out"), error_text(error), motion > 0 ? percent(error, motion) : ""});
+  }
   return page;
 }
 
@@ -324,7 +335,7 @@ std::vector<Chart> adequacy_charts(const ChartInput& input) {
   if (const Table* t = input.result.table("adequacy")) {
     for (const std::string& scene : distinct(*t, "scene"))
       if (has_own_charts("adequacy", scene, input.all))
-        charts.push_back(ladder(*t, input.result.table("adequacy-least"), scene, input.commit)),
+        charts.push_back(removal_chart(*t, input.result.table("adequacy-least"), scene, input.commit)),
             add_question(charts.back(), input.scenes, scene);
       else
         others.push_back(scene);
@@ -333,8 +344,8 @@ std::vector<Chart> adequacy_charts(const ChartInput& input) {
                         std::monostate{},
                         "adequacy",
                         "Figures of these: --full, or a report of them alone.",
-                        "The other scenes",
-                        {removals_of(*t, others)}});
+                        "Other scenes",
+                        {least_removals_of(*t, others)}});
   }
   for (Chart& chart : grid_charts(input.result, input.commit)) charts.push_back(std::move(chart));
   return charts;

@@ -15,12 +15,12 @@ namespace crosscheck {
 /// The step of the table that is nearest to a millisecond, s.
 double usual_step(const Table& table);
 
-/// Coulomb's law on slopes: the way that a particle slides, against friction / tan(slope); and a table of results.
+/// Coulomb's law on slopes: distance slid over friction coefficient / tan(slope), and a table of results.
 Chart cone_law(const Table& cones, const std::string& commit);
 /// Methods that stick, slide or creep, cell by cell; empty where none of the methods shown was run.
 std::optional<Chart> cone_map(const Table& cones, const std::string& commit);
 Chart rebound_chart(const Table& rebounds, const std::string& commit);
-Chart leaving_chart(const Table& leavings, const std::string& commit);
+std::optional<Chart> leaving_chart(const Table& leavings, const std::string& commit);
 
 /// Maps over step and stiffness, step and drag, one for each scene and kind.
 std::vector<Chart> map_charts(const Table& cells, const Table& limits, const std::string& commit);

@@ -8,6 +8,7 @@
 #include <concepts>
 #include <stdexcept>
 
+#include "mysim/base/files.h"
 #include "report/findings/findings_text.h"
 
 namespace crosscheck {
@@ -32,7 +33,7 @@ std::string builds_text(const std::vector<std::string>& methods) {
 
 namespace {
 
-/// A figure that does not say what it rests on is not shown.
+/// Adds the tier to the figure's caption. Throws std::logic_error where it has none.
 void append_tier(Chart& chart) {
   std::visit(
       []<class F>(F& figure) {
@@ -70,6 +71,50 @@ void draw_figure(const Chart& chart, const Provenance& provenance, const std::fi
         if constexpr (std::derived_from<F, FigureInfo>) draw(drawing_of(figure), provenance, folder);
       },
       chart.figure);
+}
+
+void write_figure_data(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder) {
+  std::visit(
+      [&]<class F>(const F& figure) {
+        if constexpr (std::derived_from<F, FigureInfo>) {
+          const Drawing drawing = drawing_of(figure);
+          write_csv(drawing.data, provenance, folder);
+          write_file(folder / (drawing.name + ".gp"), drawing.script);
+        }
+      },
+      chart.figure);
+}
+
+std::string method_in(const std::string& title) {
+  const std::string name = title.substr(0, title.find_first_of(", "));
+  const std::string method = name.ends_with(":") ? name.substr(0, name.size() - 1) : name;
+  const bool named = method.find_first_of("/:") != std::string::npos && method.find("//") == std::string::npos;
+  const bool outside = family_of(method).role == Role::outside && method.find(':') != std::string::npos;
+  return named && (builtin_without_options(method) || outside) ? method : "";
+}
+
+std::vector<std::string> methods_in(const Chart& chart) {
+  std::vector<std::string> titles;
+  std::visit(
+      [&]<class F>(const F& figure) {
+        if constexpr (std::same_as<F, Figure>) {
+          for (const Curve& curve : figure.curves) titles.push_back(curve.title);
+          for (const FailureMark& mark : figure.failures) titles.push_back(mark.title);
+        } else if constexpr (std::same_as<F, HeatMap>) {
+          for (const HeatMap::Panel& panel : figure.panels) titles.push_back(panel.title);
+        } else if constexpr (std::derived_from<F, FigureInfo>) {
+          titles = figure.names;
+        }
+        if constexpr (std::same_as<F, DotPlot>)
+          for (const DotPlot::Series& series : figure.series) titles.push_back(series.title);
+      },
+      chart.figure);
+  std::vector<std::string> methods;
+  for (const std::string& title : titles)
+    if (const std::string method = method_in(title);
+        !method.empty() && std::ranges::find(methods, method) == methods.end())
+      methods.push_back(method);
+  return methods;
 }
 
 std::vector<std::pair<double, double>> points_of(const Table& table, const std::string& method,

@@ -1,4 +1,4 @@
-// Charts: from the experiments' tables to figures.
+// Charts: figures made from the experiments' tables.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "report/figures/figure.h"
+#include "report/figures/step_limits.h"
 #include "report/findings/report_data.h"
 #include "report/pictures/scene_picture.h"
 
@@ -26,9 +27,9 @@ inline constexpr auto scaled_times = "time scaled from a part of the run";
 struct ChartInput {
   const std::vector<Scene>& scenes;
   const std::vector<SceneData>& facts;  // one per scene
-  const Rows& result;
+  const TableSet& result;
   std::string commit;
-  bool all = true;  // scenes were named, or the run is a full one: each has charts of its own
+  bool all = true;  // every scene has charts of its own: scenes were named, or the run is full
 };
 
 /// A small table on the page, in words and numbers as people read them.
@@ -36,7 +37,6 @@ struct PageTable {
   std::string caption;
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
-  bool open = false;  // also where it is long
 };
 
 /// A render that belongs to a chapter: runs of a scene side by side.
@@ -50,23 +50,33 @@ struct Snapshot {
   Scene scene;
   std::vector<Panel> panels;
   Shot shot;
+  /// Not at the shot's time but at these (s), each a bare picture in a file of its own with its caption.
+  std::vector<std::pair<double, std::string>> moments = {};
 };
 
 /// A piece of a scene's part, of a chapter, or of the front: a figure, a small table, renders, or several of these.
 struct Chart {
-  std::string scene;  // where it belongs; empty: the front of the report, or a chapter
-  std::variant<Figure, StackedBars, DotPlot, HeatMap, std::monostate>
+  std::string scene;  // the scene whose part shows it; empty: the first screen, or a chapter
+  std::variant<Figure, StackedBars, DotPlot, HeatMap, StepLimits, std::monostate>
       figure;                // a new kind of figure is a struct and its drawing_of()
   std::string chapter = {};  // of the report, by its id (report/page/contents.cpp); empty: none
-  std::string text = {};     // in a chapter: what it is about, before it
+  std::string text = {};     // in a chapter: the text before it
   std::string heading = {};  // in a chapter; empty: the figure's title
   std::vector<PageTable> tables = {};
   std::vector<Snapshot> snapshots = {};
+  bool shown = false;  // in its chapter, not folded away
 };
-/// The words of its figure, or null.
+/// Name, title and texts of the chart's figure, or null.
 const FigureInfo* figure_info(const Chart& chart);
 /// Writes and draws its figure, if it has one, as draw() does.
 void draw_figure(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder);
+
+/// Writes its data and its script alone: NAME.csv and NAME.gp.
+void write_figure_data(const Chart& chart, const Provenance& provenance, const std::filesystem::path& folder);
+/// The method that a title names, or begins with; empty where it names none.
+std::string method_in(const std::string& title);
+/// The methods that its figure shows.
+std::vector<std::string> methods_in(const Chart& chart);
 
 std::vector<Chart> scoreboard_charts(const ChartInput& input);  // error of every method on every scene
 std::vector<Chart> error_charts(const ChartInput& input);       // error over time, per scene with a truth
@@ -75,15 +85,15 @@ std::vector<Chart> contact_charts(const ChartInput& input);     // centres of ma
 std::vector<Chart> balance_charts(const ChartInput& input);     // balance error or contact loss over time
 std::vector<Chart> order_charts(const ChartInput& input);       // error against step
 
-std::vector<Chart> energy_charts(const ChartInput& input);        // where it went, drift, numerical damping
+std::vector<Chart> energy_charts(const ChartInput& input);        // budget, drift, numerical damping
 std::vector<Chart> sphere_charts(const ChartInput& input);        // contact: friction, rebound, depth, drapes
 std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links
 std::vector<Chart> disagreement_charts(const ChartInput& input);  // where Bullet solves another problem
 std::vector<Chart> cheapest_charts(const ChartInput& input);      // the fastest method at an accuracy, over all scenes
-std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // error against cost, chapter of its own
+std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // work-precision diagrams
 std::vector<Chart> cost_charts(const ChartInput& input);            // of a step
-std::vector<Chart> adequacy_charts(const ChartInput& input);        // what each ingredient and the grid are worth
-std::vector<Chart> stability_charts(const ChartInput& input);       // where methods break
+std::vector<Chart> adequacy_charts(const ChartInput& input);        // errors from removals and grids
+std::vector<Chart> stability_charts(const ChartInput& input);       // critical time steps, stability maps
 
 std::vector<Chart> all_charts(const ChartInput& input);
 

@@ -46,7 +46,9 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
     f.caption = fmt::format("Scene {}, hash {}; commit {}.", name, text_at(*summary, row, "scene hash"), input.commit);
     f.tier = "the curve of mysim or of the closed form in the same scene; the effect is measured in this run";
     f.x = {"t / s", false, 0.0, std::nullopt};
-    f.y = {fmt::format("{} / {}", quantity.name, quantity.unit), false, std::nullopt, std::nullopt};
+    f.y = {quantity.unit.find('/') == std::string::npos ? fmt::format("{} / {}", quantity.name, quantity.unit)
+                                                        : fmt::format("{} / ({})", quantity.name, quantity.unit),
+           false, std::nullopt, std::nullopt};
     const auto found = std::find_if(known.begin(), known.end(), [&](const Disagreement& d) { return d.name == name; });
     f.y.logarithmic = found != known.end() && !found->value;
     Styles styles;
@@ -54,7 +56,7 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
       const std::string& curve = text_at(table, i, "curve");
       if (f.curves.empty() || f.curves.back().title != curve)
         f.curves.push_back({curve, styles.of(text_at(table, i, "method")), {}});
-      const double t = std::get<double>(table.at(i, "t")), y = std::get<double>(table.at(i, quantity.name));
+      const double t = *number_at(table, i, "t"), y = *number_at(table, i, quantity.name);
       if (y > 0 || !f.y.logarithmic) f.curves.back().points.emplace_back(t, y);
       const std::string& verdict = text_at(table, i, "verdict");
       const bool last = i + 1 == table.rows.size() || text_at(table, i + 1, "curve") != curve;
@@ -62,7 +64,8 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
         f.failures.push_back({fmt::format("{}: {}", curve, failure_class(verdict)), f.curves.back().style,
                               f.curves.back().points.back().first, f.curves.back().points.back().second});
     }
-    std::erase_if(f.curves, [](const Curve& c) { return c.points.empty(); });  // what is held against itself
+    std::erase_if(f.curves,
+                  [](const Curve& c) { return c.points.empty(); });  // the curve that the others are compared with
     charts.push_back({"", std::move(f), "disagreements",
                       fmt::format("{}: {}", text_at(*summary, row, "world"), text_at(*summary, row, "cause"))});
   }

@@ -18,11 +18,11 @@ std::vector<StackedBars::Part> parts_for(size_t bars) {
                                           {"dashpots", "#56B4E9", false, {}},
                                           {"contact", "#D55E00", false, {}},
                                           {"contact (inferred)", "#D55E00", true, {}},
-                                          {"left: motion and springs", "#009E73", false, {}},
-                                          {"does not add up", "#CC79A7", false, {}},
+                                          {"kinetic+elastic (end)", "#BFE6D6", false, {}},
+                                          {"energy residual", "#CC79A7", false, {}},
                                           {"gravity", "#999999", false, {}},
-                                          {"at the start", "#333333", false, {}},
-                                          {"wind", "#E69F00", false, {}},
+                                          {"kinetic+elastic (start)", "#333333", false, {}},
+                                          {"wind", "#F3C14B", false, {}},
                                           {"moved pins", "#7A3B00", false, {}}};
   for (StackedBars::Part& part : parts) part.height.assign(bars, 0);
   return parts;
@@ -39,7 +39,7 @@ std::string length_text(const Table& table, const std::string& scene) {
   return fmt::format("{:.4g} s, up to {} steps of {}", end, steps, step_text(step));
 }
 
-/// StackedBars of a scene in which something takes or gives energy; empty of others.
+/// The energy budget of a scene with dissipation or supplied energy; empty for other scenes.
 std::optional<Chart> budget_chart(const Table& table, const std::string& scene, const std::string& commit) {
   std::vector<size_t> shown;
   std::string failed;
@@ -55,8 +55,8 @@ std::optional<Chart> budget_chart(const Table& table, const std::string& scene, 
   if (shown.empty()) return std::nullopt;
   StackedBars bars;
   bars.name = scene + "-energy-budget";
-  bars.title = scene + ": where energy came from and went";
-  bars.label = "energy / J (left of zero: came in)";
+  bars.title = scene + ": energy budget";
+  bars.label = "energy / J";
   bars.parts = parts_for(shown.size());
   bool inferred = false;
   for (size_t b = 0; b < shown.size(); ++b) {
@@ -106,75 +106,65 @@ std::string capital(std::string text) {
 Chart drift_chart(const Table& table, const Table& rows, const std::string& scene, const std::string& commit) {
   Figure f;
   f.name = scene + "-energy-drift";
-  f.title = scene + ": energy that does not add up, over a long time";
+  f.title = scene + ": long-time energy drift";
   f.x = {"t / s", true, std::nullopt, std::nullopt};
-  f.y = {"largest |residual| so far / energy turned over", true, std::nullopt, 3.0};
-  PageTable page{fmt::format("{}: what becomes of the energy in {}", scene, length_text(table, scene)),
-                 {"method", "step", "residual", "largest / energy turned over",
-                  "largest / that of the first tenth (10: grows like time)", "equivalent drag / (1/s)"},
-                 {}};
+  f.y = {"largest relative energy residual so far", true, std::nullopt, 3.0};
   double lowest = 1;
-  std::vector<std::pair<std::string, std::vector<std::string>>> fates;  // what becomes of it, and by which methods
+  std::vector<std::string> absent;  // no curve, and why
+  const std::vector<EnergyRow> runs = rows_of<EnergyRow>(table);
+  std::vector<std::pair<std::string, std::vector<std::string>>> classes;  // class of the residual, its methods
   for (size_t i = 0; i < table.rows.size(); ++i) {
     if (text_at(table, i, "scene") != scene) continue;
     const std::string& method = text_at(table, i, "method");
     if (text_at(table, i, "verdict") == "unsupported") {
-      page.rows.push_back({method, "", "cannot: " + text_at(table, i, "reason"), "", "", ""});
+      absent.push_back(fmt::format("{} (cannot: {})", method, text_at(table, i, "reason")));
       continue;
     }
     if (!flag_at(table, i, "closure claimed") || !number_at(table, i, "energy turned over")) {
-      page.rows.push_back({method, step_text(number_at(table, i, "step", 0)), "no closure claimed", "", "", ""});
+      absent.push_back(method + " (no closure claimed)");
       continue;
     }
     if (!(number_at(table, i, "energy turned over", 0) > 0)) {
-      page.rows.push_back({method, step_text(number_at(table, i, "step", 0)), "nothing moves", "", "", ""});
+      absent.push_back(method + " (nothing moves)");
       continue;
     }
-    const bool symplectic = flag_at(table, i, "symplectic");
-    const std::string title = method + (symplectic ? " (symplectic)" : "");
     const double turned = number_at(table, i, "energy turned over", 0), end = number_at(table, i, "end", 0);
-    const std::string what = residual_class(table, i);
-    auto fate = std::find_if(fates.begin(), fates.end(), [&](const auto& each) { return each.first == what; });
-    if (fate == fates.end()) fate = fates.insert(fates.end(), {what, {}});
-    fate->second.push_back(method);
+    const std::string what = residual_class(runs[i]);
+    auto entry = std::find_if(classes.begin(), classes.end(), [&](const auto& each) { return each.first == what; });
+    if (entry == classes.end()) entry = classes.insert(classes.end(), {what, {}});
+    entry->second.push_back(method);
     const bool ok = text_at(table, i, "verdict") == "ok";
-    const double share = number_at(table, i, "largest residual", 0) / turned;
-    page.rows.push_back(
-        {method, step_text(number_at(table, i, "step", 0)), ok ? what : fmt::format("{} at {:.3g} s", what, end),
-         std::isfinite(share) ? nice(share) : "",
-         ok ? fmt::format("{:.3g}", std::pow(10, number_at(table, i, "growth of the residual", 0))) : "",
-         ok ? nice(number_at(table, i, "equivalent drag", 0)) : ""});
-    Curve curve{title, style_of(method), {}};
+    Curve curve{method, style_of(method), {}};
     for (const auto& [t, worst] : points_of(rows, method, "largest residual", true))
       if (const double y = worst / turned; t > 0 && y > 1e-17 && y < 3) {
         curve.points.emplace_back(t, y);
         lowest = std::min(lowest, y);
       }
-    if (!ok) f.failures.push_back({title + ": " + what, style_of(method), end, 1});
+    if (!ok) f.failures.push_back({method + ": " + what, style_of(method), end, 1});
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
   f.finding = "What becomes of the energy that does not add up.";
-  for (const auto& [what, methods] : fates) f.finding += fmt::format(" {}: {}.", capital(what), joined(methods));
+  for (const auto& [what, methods] : classes) f.finding += fmt::format(" {}: {}.", capital(what), joined(methods));
   f.tier = "exact (it is zero), to the rounding of the sums";
   f.caption = fmt::format(
       "Scene {}, nothing damps it; {}; rules that solve the whole step at ten times the step; "
       "commit {}.",
       scene, length_text(table, scene), commit);
-  Chart chart{"", std::monostate{}, "energy", "", f.title};
+  if (!absent.empty()) f.caption += fmt::format(" Not drawn: {}.", joined(absent));
   // nothing can be drawn of a scene at rest, or of engines that claim no closure
+  Chart chart{"", std::monostate{}, "energy", f.curves.empty() ? f.caption : "", f.title};
   if (!f.curves.empty()) chart.figure = std::move(f);
-  chart.tables.push_back(std::move(page));
   return chart;
 }
 
-/// The drag that rules add by themselves.
+/// The numerical damping of steppers.
 Chart damping_chart(const Table& table, const std::string& commit) {
   Figure f;
   f.name = "energy-damping";
-  f.title = "Numerical damping: the drag that a rule adds by itself";
-  f.x = {"step times frequency, h ω", true, std::nullopt, std::nullopt};
-  f.y = {"equivalent drag / ω", true, 1e-9, 3.0};
+  f.title = "Numerical damping of each stepper";
+  f.x = {"time step × angular frequency, h ω", true, std::nullopt, std::nullopt};
+  f.y = {"equivalent drag rate / ω", true, 1e-9, 3.0};
   constexpr double omega = 10;  // rad/s, of the table's oscillator
   double worst = 0;
   size_t checked = 0;
@@ -199,7 +189,7 @@ Chart damping_chart(const Table& table, const std::string& commit) {
         worst = std::max(worst, std::abs(rate / theory - 1)), ++checked;
         if (damped.empty() || damped.back() != method) damped.push_back(method);
       }
-      // what theory puts at zero is the slope of an oscillation, that is noise
+      // where theory gives zero the measured slope is noise
       if (number_at(table, i, "by theory") ? theory > 0 && rate > 0 : rate > 1e-3)
         curve.points.emplace_back(size, rate / omega);
     }
@@ -222,11 +212,11 @@ Chart damping_chart(const Table& table, const std::string& commit) {
           "function."};
 }
 
-/// The longest time and its steps, of any run of the scene: "100 s, 100000 steps of 0.001 s".
 }  // namespace
 
 std::vector<Chart> energy_charts(const ChartInput& input) {
   std::vector<Chart> charts;
+  bool any_shown = false;
   if (const Table* table = input.result.table("energy")) {
     for (const std::string& scene : distinct(*table, "scene"))
       if (auto chart = budget_chart(*table, scene, input.commit)) charts.push_back(std::move(*chart));
@@ -235,7 +225,10 @@ std::vector<Chart> energy_charts(const ChartInput& input) {
       bool undamped = false;
       for (size_t i = 0; i < table->rows.size(); ++i)
         undamped |= text_at(*table, i, "scene") == scene && flag_at(*table, i, "undamped");
-      if (undamped && rows) charts.push_back(drift_chart(*table, *rows, scene, input.commit));
+      if (undamped && rows) {
+        charts.push_back(drift_chart(*table, *rows, scene, input.commit));
+        charts.back().shown = !any_shown && figure_info(charts.back()), any_shown |= charts.back().shown;
+      }
     }
   }
   if (const Table* table = input.result.table("energy-damping")) charts.push_back(damping_chart(*table, input.commit));

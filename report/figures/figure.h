@@ -18,16 +18,20 @@ struct MethodStyle {
   int marker;          // gnuplot point type
 };
 MethodStyle style_of(const std::string& method);
+/// The style of the built-in engines' method, counted from 0, that brings none: no other method has it.
+MethodStyle spare_style(size_t place);
 
 /// The tooltip and the run of a marker or a cell on the page.
 struct Tooltip {
-  std::string words;     // to a pointer above it
+  std::string words;     // shown while a pointer is above it
   std::string run = {};  // what a click plays (FigureInfo::runs): the method, a blank, the place among its runs
 };
 
+inline constexpr int no_marker = 0;  // gnuplot's dot
+
 struct Curve {
   std::string title;  // shown in the key
-  MethodStyle style;
+  MethodStyle style;  // with no_marker: what a method is compared with
   std::vector<std::pair<double, double>> points;
   bool line = true;                    // joined by a line
   bool markers = false;                // a marker on every point; otherwise on a few
@@ -54,21 +58,47 @@ struct Axis {
 struct FigureSize {
   double width = 17;   // cm
   double font = 8.5;   // pt, on paper
-  bool titled = true;  // false: the caption says what it shows
+  bool titled = true;  // false: the caption has the title's text
   /// Its width where a font is 12 high.
   double units() const { return width / 2.54 * 72 * 12 / font; }
 };
+/// Of its PNG: 300, fewer above 30 cm, since a poster is seen from afar.
+double pixels_per_inch(const FigureSize& size);
 
 /// The parts of every figure, whatever it draws.
 struct FigureInfo {
   std::string name;         // file name without ending
-  std::string title;        // what it shows
+  std::string title;        // above the plot
   std::string caption;      // scene, step, commit; all_charts() adds the tier
-  std::string tier;         // against what it is held, and how well that is known: "exact (Coulomb's law)"
-  std::string finding;      // what one sees in it, in a sentence: the alternative text
+  std::string tier;         // the reference and how well it is known: "exact (Coulomb's law)"
+  std::string finding;      // one sentence, also the alternative text
   bool from_costs = false;  // drawn from timings: not the same in each run
   FigureSize size = {};
   std::string runs = {};  // the set of runs that its markers or cells play; empty: none
+};
+
+/// A line at a place of an axis, with its name.
+struct Guide {
+  bool of_x = false;
+  double at = 0;
+  std::string text;
+};
+
+/// What the page alone shows of a figure.
+struct OnPage {
+  struct Take {
+    double x = 0, y = 0;
+    std::string name, more;
+  };
+  struct Critical {
+    double x = 0;
+    std::string name, beyond;  // beyond: in the shade left of it
+  };
+  std::optional<double> motion;    // m: y stands in % of it
+  std::optional<double> duration;  // s: x stands in times real time too
+  std::optional<Take> take;        // the run to take, ringed
+  std::optional<Critical> critical;
+  bool flat = false;  // beside pictures: less high than wide
 };
 
 /// Curves, points and crosses over two axes.
@@ -78,11 +108,14 @@ struct Figure : FigureInfo {
   std::vector<FailureMark> failures;
   std::vector<std::pair<double, double>> pareto;           // thick stairs beneath the curves, from left to right
   std::optional<std::pair<std::string, double>> floor;     // horizontal line: name, y
-  std::optional<std::pair<double, std::string>> window;    // grey from x on: x, why
+  std::optional<std::pair<double, std::string>> window;    // grey from x on: x, its label
   std::vector<std::pair<double, std::string>> categories;  // tick texts on x instead of numbers
+  std::vector<Guide> guides;
+  std::optional<double> cut;  // lower values lie on the axis
+  OnPage on_page = {};
 };
 
-/// A figure made ready: its data, and the script that draws NAME.svg, NAME.pdf and NAME.png from NAME.csv.
+/// A figure's data, and the script that draws NAME.svg, NAME.pdf and NAME.png from NAME.csv.
 struct Drawing {
   std::string name;
   Table data;
@@ -90,35 +123,17 @@ struct Drawing {
 };
 /// Throws std::runtime_error that names the figure when there is nothing to draw or a number is not finite.
 Drawing drawing_of(const Figure& figure);
-/// The tooltips of the markers of each element of its plot, in the order of the script.
-std::vector<std::vector<Tooltip>> tooltips_of(const Figure& figure);
-
-/// gnuplot found no room for the letters of a figure.
-struct LabelsOverlap : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// Writes and draws it into the folder (style.gp is put next to it); what gnuplot warns of is reported on stderr.
 /// Throws std::runtime_error that names the figure when gnuplot fails, or a form of it is missing, empty or cut off.
 void draw(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
 
-/// The end of a script: the terminals for a figure so much taller than the usual one, each with the plot command.
-std::string terminals(const FigureInfo& figure, double tall, const std::string& plot);
+/// The end of a script: the terminals for a figure so many units high, each with the plot command.
+std::string terminals(const FigureInfo& figure, double height, const std::string& plot);
 /// The same for a block that draws everything, reset and style included, so many units high.
 std::string terminals_of_block(const FigureInfo& figure, double height, const std::string& block);
-/// The command for its title, or none.
-std::string title_command(const FigureInfo& figure);
-/// Text in gnuplot's single quotes.
-std::string single_quoted(const std::string& text);
-/// Commands for label, scale and range of the axis x, y or cb.
-std::string axis_commands(const Axis& axis, const std::string& letter);
 
-// Figures whose letters must find room.
-
-/// Draws as draw() does, but throws LabelsOverlap, with no file written, where gnuplot finds no room for the letters.
-void draw_if_labels_fit(const Drawing& drawing, const Provenance& provenance, const std::filesystem::path& folder);
-
-// Stacked bars: one line per method, what came in to the left of zero, where it went to the right.
+// Stacked bars: one line per method; supplied energy left of zero, the rest right of it.
 
 struct StackedBars : FigureInfo {
   struct Part {
@@ -183,7 +198,5 @@ struct HeatMap : FigureInfo {
 
 /// Throws std::runtime_error that names the figure when there is nothing to draw or a value is not above zero.
 Drawing drawing_of(const HeatMap& map);
-/// The tooltips of its cells, in the order of the script.
-std::vector<Tooltip> tooltips_of(const HeatMap& map);
 
 }  // namespace crosscheck

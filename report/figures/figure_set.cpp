@@ -34,7 +34,7 @@ double centimetres(const std::string& width) {
 FigureSize figure_size(const std::string& set, const std::string& width) {
   FigureSize size;
   if (set == "paper")
-    size = {8.5, 8, false};
+    size = {8.5, 7.5, false};
   else if (set == "lecture")
     size = {24, 20, true};
   else
@@ -86,30 +86,6 @@ bool resize(Chart& chart, const FigureSize& size) {
       chart.figure);
 }
 
-void draw_in_size(Chart& chart, FigureSize size, const Provenance& provenance, const std::filesystem::path& folder) {
-  constexpr double least = 5;  // pt
-  for (;;) {
-    resize(chart, size);
-    const double smaller = std::round(9.2 * size.font) / 10;
-    if (smaller < least) return draw_figure(chart, provenance, folder);  // gnuplot says what does not fit
-    try {
-      return std::visit(
-          [&]<class F>(const F& figure) {
-            if constexpr (std::derived_from<F, FigureInfo>) draw_if_labels_fit(drawing_of(figure), provenance, folder);
-          },
-          chart.figure);
-    } catch (const LabelsOverlap&) {
-      size.font = smaller;
-    }
-  }
-}
-
-std::string shell_quoted(const std::string& word) {
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return out + "'";
-}
-
 void write_captions(const FigureInfo& figure, const std::filesystem::path& folder) {
   write_file(folder / (figure.name + ".txt"), fmt::format("{}\n{} {}\n", figure.title, figure.finding, figure.caption));
   write_file(folder / (figure.name + ".tex"),
@@ -152,10 +128,10 @@ namespace {
 
 constexpr double inch = 2.54;  // cm
 
-Table positions(const std::string& name, const Scene& scene, const std::vector<const Result*>& answers,
+Table positions(const std::string& name, const Scene& scene, const std::vector<const MethodResult*>& answers,
                 const Shot& shot) {
   Table table{name, {{"method", "1"}, {"t", "s"}, {"particle", "1"}, {"x", "m"}, {"y", "m"}, {"z", "m"}}, {}};
-  for (const Result* a : answers) {
+  for (const MethodResult* a : answers) {
     const int frame = frame_shown(scene, *a, shot);
     const Points& x = a->trajectory.x[frame];
     for (Eigen::Index i = 0; i < x.cols(); ++i)
@@ -168,11 +144,6 @@ Table positions(const std::string& name, const Scene& scene, const std::vector<c
 
 std::string picture_name(const Scene& scene) { return file_name_of(scene.name) + "-picture"; }
 
-double pixels_per_inch(const FigureSize& size) {
-  // a poster is seen from afar, and more pixels take minutes
-  return std::min(300.0, 300 * 30 / size.width);
-}
-
 Shot shot_for_print(const Scene& scene, const FigureSize& size, bool full) {
   Shot shot = usual_shot(scene, full);
   shot.width = static_cast<int>(std::lround(pixels_per_inch(size) * size.width / inch));
@@ -180,10 +151,10 @@ Shot shot_for_print(const Scene& scene, const FigureSize& size, bool full) {
   return shot;
 }
 
-FigureInfo picture_info(const Scene& scene, const std::vector<const Result*>& answers, const FigureSize& size,
+FigureInfo picture_info(const Scene& scene, const std::vector<const MethodResult*>& answers, const FigureSize& size,
                         const std::string& commit) {
   std::vector<std::string> shown, failed;
-  for (const Result* a : answers) {
+  for (const MethodResult* a : answers) {
     shown.push_back(a->method);
     if (a->outcome.verdict != Verdict::ok)
       failed.push_back(fmt::format("{} {} at {:.3g} s", a->method,
@@ -202,7 +173,7 @@ FigureInfo picture_info(const Scene& scene, const std::vector<const Result*>& an
   return words;
 }
 
-void write_printed(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot,
+void write_printed(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                    const FigureInfo& words, const Provenance& provenance, const std::filesystem::path& folder) {
   write_csv(positions(words.name, scene, answers, shot), provenance, folder);
   render::write_print(picture_of(scene, answers, shot), pixels_per_inch(words.size), folder / (words.name + ".png"),

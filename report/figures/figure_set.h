@@ -12,8 +12,8 @@
 
 namespace crosscheck {
 
-/// "paper" (8.5 cm, 8 pt, no titles) or "lecture" (24 cm, 20 pt); `width` as "8.5cm", "85mm" or "3.3in", or empty: the
-/// set's own. Throws InputError that says what was expected.
+/// "paper" (8.5 cm, 7.5 pt, no titles) or "lecture" (24 cm, 20 pt); `width` as "8.5cm", "85mm" or "3.3in", or empty:
+/// the set's own. Throws InputError that says what was expected.
 FigureSize figure_size(const std::string& set, const std::string& width);
 
 /// Text for LaTeX: its special characters escaped, Greek letters and signs in mathematics.
@@ -21,13 +21,6 @@ std::string latex(const std::string& text);
 
 /// Gives the chart's figure a size; false where it has none.
 bool resize(Chart& chart, const FigureSize& size);
-
-/// Draws the chart's figure in this size, where its letters find no room with smaller ones (but no smaller than 5 pt,
-/// where what does not fit is reported on stderr), and leaves it with the size that it has. Throws as draw() does.
-void draw_in_size(Chart& chart, FigureSize size, const Provenance& provenance, const std::filesystem::path& folder);
-
-/// A word that a shell takes as it is.
-std::string shell_quoted(const std::string& word);
 
 /// NAME.txt and NAME.tex next to the files of a figure: caption as text, and a figure environment.
 void write_captions(const FigureInfo& figure, const std::filesystem::path& folder);
@@ -51,15 +44,14 @@ std::string picture_name(const Scene& scene);
 
 /// A shot of the scene for this width, 300 pixels an inch (fewer above 30 cm), with letters of this size on paper.
 Shot shot_for_print(const Scene& scene, const FigureSize& size, bool full);
-double pixels_per_inch(const FigureSize& size);
 
-/// Its caption.
-FigureInfo picture_info(const Scene& scene, const std::vector<const Result*>& answers, const FigureSize& size,
+/// The picture's caption.
+FigureInfo picture_info(const Scene& scene, const std::vector<const MethodResult*>& answers, const FigureSize& size,
                         const std::string& commit);
 
 /// NAME.png, NAME.pdf (a page of its size, letters as letters) and NAME.csv, the positions that it shows. Throws as
 /// write_png() does.
-void write_printed(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot,
+void write_printed(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                    const FigureInfo& words, const Provenance& provenance, const std::filesystem::path& folder);
 
 }  // namespace crosscheck

@@ -8,7 +8,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "report/figures/figure.h"
+#include "report/base/gnuplot.h"
+#include "report/figures/plot_layout.h"
 
 namespace crosscheck {
 namespace {
@@ -29,7 +30,7 @@ struct MapGrid {
   double left, right, bottom, top;  // ends of the cells
 };
 
-/// Of one panel: others may have more cells over the same axes.
+/// The grid of one panel; other panels may have more cells over the same axes.
 MapGrid grid_of(const HeatMap& map, const HeatMap::Panel& panel) {
   std::set<double> xs, ys;
   for (const HeatMap::HeatCell& c : panel.cells) {
@@ -92,92 +93,73 @@ std::string panel_plot(const HeatMap& map, const HeatMap::Panel& p) {
           fmt::format("{}:5:6:7:8 with boxxyerror fs solid 1 border lc rgb \"#FFFFFF\" lw 0.4 fc rgb \"{}\" notitle",
                       rows_of(map, p.title, map.kinds[k].title), map.kinds[k].colour));
   if (!p.predicted.empty())
-    for (const char* look : {"lc rgb \"#FFFFFF\" lw 5 dt 1", "lc rgb \"#000000\" lw 2 dt (6,4)"})
-      parts.push_back(fmt::format("{} with lines {} notitle", rows_of(map, p.title, "predicted limit"), look));
+    for (const char* style : {"lc rgb \"#FFFFFF\" lw 5 dt 1", "lc rgb \"#000000\" lw 2 dt (6,4)"})
+      parts.push_back(fmt::format("{} with lines {} notitle", rows_of(map, p.title, "predicted limit"), style));
   if (!p.measured.empty())
-    for (const char* look : {"lc rgb \"#FFFFFF\" pt 7 ps 0.9", "lc rgb \"#000000\" pt 7 ps 0.6"})
-      parts.push_back(fmt::format("{} with points {} notitle", rows_of(map, p.title, "measured limit"), look));
+    for (const char* style : {"lc rgb \"#FFFFFF\" pt 7 ps 0.9", "lc rgb \"#000000\" pt 7 ps 0.6"})
+      parts.push_back(fmt::format("{} with points {} notitle", rows_of(map, p.title, "measured limit"), style));
   std::string out = "plot ";
   for (size_t i = 0; i < parts.size(); ++i) out += (i ? ", \\\n     " : "") + parts[i];
   return out + "\n";
 }
 
-/// Only what occurs is explained.
-std::string key_plot(const HeatMap& map) {
-  std::string out = "plot [0:1][0:1] -1 notitle";
+/// The classes that occur, and the limits.
+std::vector<KeyEntry> key_of(const HeatMap& map) {
+  std::vector<KeyEntry> key;
+  const auto any = [&](auto has) { return std::ranges::any_of(map.panels, has); };
   for (size_t k = 0; k < map.kinds.size(); ++k)
-    if (std::any_of(map.panels.begin(), map.panels.end(), [&](const HeatMap::Panel& p) {
-          return std::any_of(p.cells.begin(), p.cells.end(),
-                             [&](const auto& c) { return c.kind == static_cast<int>(k); });
+    if (any([&](const HeatMap::Panel& p) {
+          return std::ranges::any_of(p.cells, [&](const auto& c) { return c.kind == static_cast<int>(k); });
         }))
-      out += fmt::format(", \\\n     keyentry with boxes fs solid 1 fc rgb \"{}\" title {}", map.kinds[k].colour,
-                         single_quoted(map.kinds[k].title));
-  const auto any = [&](auto line) {
-    return std::any_of(map.panels.begin(), map.panels.end(), [&](const auto& p) { return !(p.*line).empty(); });
-  };
-  if (any(&HeatMap::Panel::predicted))
-    out += ", \\\n     keyentry with lines lc rgb \"#000000\" lw 2 dt (6,4) title 'limit by theory'";
-  if (any(&HeatMap::Panel::measured))
-    out += ", \\\n     keyentry with points lc rgb \"#000000\" pt 7 ps 0.6 title 'limit as measured'";
-  return out + "\n";
+      key.push_back({map.kinds[k].title, KeyEntry::Kind::box, {map.kinds[k].colour, "1", -1}});
+  if (any([](const HeatMap::Panel& p) { return !p.predicted.empty(); }))
+    key.push_back({"predicted limit", KeyEntry::Kind::line, {"#000000", "(6,4)", -1}});
+  if (any([](const HeatMap::Panel& p) { return !p.measured.empty(); }))
+    key.push_back({"measured limit", KeyEntry::Kind::mark, {"#000000", "1", 7}});
+  return key;
 }
 
 }  // namespace
 
-std::vector<Tooltip> tooltips_of(const HeatMap& map) {
-  std::vector<Tooltip> all;
-  for (const HeatMap::Panel& p : map.panels)
-    for (size_t k = 0; k < map.kinds.size(); ++k)
-      for (const HeatMap::HeatCell& c : p.cells)
-        if (c.kind == static_cast<int>(k)) all.push_back(c.tooltips);
-  return all;
-}
-
 Drawing drawing_of(const HeatMap& map) {
   const MapGrid grid = axes_of(map);
-  const int columns = columns_of(map);
-  const int panels = static_cast<int>(map.panels.size()), across = std::min(columns, panels),
-            down = (panels + columns - 1) / columns;
-  // heights of the title, a row of panels, the axis below, and the key, which takes more lines where it is narrow
-  const double wide = map.size.units(), title = map.size.titled ? 40 : 16,
-               row = (across == 1   ? 340
-                      : across == 2 ? 270
-                                    : 205) *
-                     wide / (columns == 3 ? 680 : 590),
-               axis = 46, key = 62 * std::max(1.0, 680 / wide);
-  const double tall = title + down * row + axis + key;
-  std::string block = map.size.titled ? fmt::format("set multiplot title {} font \"DejaVu Sans:Bold,13\" noenhanced\n",
-                                                    single_quoted(map.title))
-                                      : "set multiplot\n";
+  const int panels = static_cast<int>(map.panels.size()), across = std::min(columns_of(map), panels),
+            down = (panels + across - 1) / across;
+  const std::vector<KeyEntry> key = key_of(map);
+  const double wide = map.size.units(), heading = map.size.titled ? 22 : 4, gap = 12;
+  // the panels' height follows from their width, and that from the widest number beside them
+  const std::vector<Tick> y_ticks = ticks_of(grid.bottom, grid.top, true, 0.72 * wide / (across + 0.4), true);
+  double widest = 0;
+  for (const Tick& t : y_ticks) widest = std::max(widest, width_of(t.text));
+  const double left = widest + 30, panel = (wide - left - 10 + gap) / across - gap, height = 0.72 * panel,
+               row = height + 20, below = 37 + key_height(key, wide - 16) + 4, tall = heading + down * row + below;
+  const std::vector<Tick> x_ticks = ticks_of(grid.left, grid.right, true, panel, false);
+  std::vector<Tick> x_bare = x_ticks, y_bare = y_ticks;
+  for (Tick& t : x_bare) t.text.clear();
+  for (Tick& t : y_bare) t.text.clear();
+  const Sheet sheet(wide, tall);
+
+  std::string block = "set multiplot\n";
   block += fmt::format("set logscale xy 10\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", grid.left,
                        grid.right, grid.bottom, grid.top);
   block += "unset key\nunset grid\nset border 15 front\n";
   for (int i = 0; i < panels; ++i) {
-    const int r = i / columns, c = i % columns;
-    const double left = 76 + c * (wide - 76 - 12) / across, right = left + (wide - 76 - 12) / across - 14;
-    const double top = tall - title - r * row - 20, bottom = tall - title - (r + 1) * row + 6;
-    const bool lowest = i + columns >= panels;
-    block += fmt::format(
-        "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\nset tmargin at screen {:.4f}\n"
-        "set bmargin at screen {:.4f}\n",
-        left / wide, right / wide, top / tall, bottom / tall);
-    block += fmt::format("set title {} font \"DejaVu Sans,10\" offset 0,-0.8 noenhanced\n",
-                         single_quoted(map.panels[i].title));
-    block += lowest ? fmt::format("set format x \"10^{{%L}}\"\nset xlabel {}\n", single_quoted(map.x_label))
-                    : "set format x \"\"\nunset xlabel\n";
-    block += c == 0 ? "set format y \"10^{%L}\"\n" : "set format y \"\"\n";
-    // of three rows and more the middle one says it for all: below each other the words would meet
-    const bool named = c == 0 && (down < 3 || r == down / 2);
-    block += named ? fmt::format("set ylabel {}\n", single_quoted(map.y_label)) : "unset ylabel\n";
-    block += panel_plot(map, map.panels[i]);
+    const int r = i / across, c = i % across;
+    const double x = left + c * (panel + gap), top = tall - heading - r * row - 17;
+    block += sheet.margins({x, x + panel, top - height, top});
+    block +=
+        "unset label\n" + sheet.text({x + panel / 2, top + 9},
+                                     shortened(reader_name(map.panels[static_cast<size_t>(i)].title), panel + gap - 4),
+                                     "center", "#111111");
+    block += tick_command("x", i + across >= panels ? x_ticks : x_bare) + tick_command("y", c == 0 ? y_ticks : y_bare);
+    block += panel_plot(map, map.panels[static_cast<size_t>(i)]);
   }
-  block += fmt::format(
-      "unset logscale\nunset border\nunset tics\nunset xlabel\nunset ylabel\nunset title\n"
-      "set lmargin at screen 0.02\nset rmargin at screen 0.98\nset bmargin at screen 0.005\nset tmargin at screen "
-      "{:.4f}\nset key center center horizontal Left reverse noenhanced samplen 2 width 1\n",
-      key / tall);
-  block += key_plot(map) + "unset multiplot\n";
-
+  block += "unset label\nunset logscale\nunset border\nunset tics\n" + sheet.margins({1, 2, 1, 2});
+  block += title_command(sheet, map, {wide / 2, tall - 11});
+  block += sheet.text({9, below + down * row / 2}, shortened(map.y_label, tall - 8), "center rotate by 90", "#111111");
+  block += sheet.text({(left + wide) / 2, below - 28}, shortened(map.x_label, wide - 8), "center", "#111111");
+  block += key_commands(sheet, key, {8, below - 37}, wide - 16);
+  block += "plot [0:1][0:1] -1 notitle\nunset multiplot\n";
   const std::string script =
       fmt::format("# {}\n# Draw again: gnuplot {}.gp\n", map.title, map.name) + terminals_of_block(map, tall, block);
   return {map.name, data_of(map), script};

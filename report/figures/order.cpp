@@ -1,5 +1,5 @@
-// Error against step, with the method's order as its slope; and the distance from the same method's own finest run:
-// where the two part, the method converges to something else.
+// Error against step, with the method's order as its slope; and the difference from the same method's own finest run:
+// where the two differ, the method converges to something else.
 
 #include <fmt/format.h>
 
@@ -46,15 +46,15 @@ std::vector<std::string> methods_in(const Table& points, const std::string& scen
   return names;
 }
 
-/// The error at the smallest step over the last distance to it: about 1 for a method that converges to the truth at
-/// order 1, less at higher orders; large where it converges to something else.
-double astray(const Points2& errors, const Points2& own) {
+/// The error at the smallest step over the difference of the last two steps: about 1 for a method that converges to the
+/// truth at order 1, less at higher orders; large where it converges to something else.
+double error_over_difference(const Points2& errors, const Points2& own) {
   return errors.empty() || own.empty() ? 0 : errors.back().second / own.back().second;
 }
 
-/// The distance of a scene's measured slopes from the declared orders.
+/// Compares the measured orders on a scene with the declared ones.
 std::string slopes_sentence(const Table& slopes, const std::string& scene) {
-  constexpr double close = 0.1;  // what the finest three steps of a smooth scene still carry of the next order
+  constexpr double close = 0.1;  // contribution of the next order at the finest three steps of a smooth scene
   std::vector<std::string> other;
   int seen = 0;
   double off = 0;
@@ -86,9 +86,9 @@ std::vector<Chart> order_charts(const ChartInput& input) {
   for (size_t i = 0; i < input.scenes.size() && points && slopes; ++i) {
     const Scene& scene = input.scenes[i];
     Figure f;
-    f.title = scene.name + ": error against step";
-    f.x = {"step / s", true, std::nullopt, std::nullopt};
-    f.y = {"largest RMS error / m", true, std::nullopt, std::nullopt};
+    f.title = scene.name + ": error against time step";
+    f.x = {"time step / s", true, std::nullopt, std::nullopt};
+    f.y = {"largest RMS position error / m", true, std::nullopt, std::nullopt};
     f.name = scene.name + "-order";
     std::vector<std::string> elsewhere;
     size_t first = 0;  // row of this scene
@@ -100,8 +100,8 @@ std::vector<Chart> order_charts(const ChartInput& input) {
       Points2 errors = column_of(*points, scene.name, method, "error");
       Points2 own = column_of(*points, scene.name, method, "distance to own finest");
       // 4: a rule of first order with last two errors e and 2 e is at 1; a slower start may make it 2
-      const bool else_where = astray(errors, own) > 4 && errors.back().second > 10 * error_bar;
-      // below its error bar the truth says nothing
+      const bool converges_elsewhere = error_over_difference(errors, own) > 4 && errors.back().second > 10 * error_bar;
+      // errors below the truth's error bar are not known
       std::erase_if(errors, [&](const auto& p) { return p.second <= error_bar; });
       curve.points = std::move(errors);
       // a mark is named after its curve, if there is one
@@ -113,18 +113,18 @@ std::vector<Chart> order_charts(const ChartInput& input) {
                                   *number_at(*points, row, "step"), 10 * scene.size(), failure_class(verdict)});
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
       // where a method converges to the truth both curves are nearly one: only the others' are drawn
-      if (else_where) {
+      if (converges_elsewhere) {
         elsewhere.push_back(method);
         MethodStyle open = style_of(method);
         open.dash = "(1,3)";
         open.marker = 6;
-        f.curves.push_back({method + ": from its own finest run", open, std::move(own), true, true});
+        f.curves.push_back({method + ": difference from its own finest run", open, std::move(own), true, true});
       }
     }
     if (f.curves.empty() && f.failures.empty()) continue;
     f.floor = {"error bar of the truth", error_bar};
     f.caption = caption_of(scene, input.commit);
-    SceneData truth;  // no other experiment need have run
+    SceneData truth;  // from this table alone: other experiments may not have run
     truth.tier = text_at(*points, first, "truth tier"), truth.truth = text_at(*points, first, "truth"),
     truth.error_bar = error_bar;
     f.tier = tier_of(truth);

@@ -20,12 +20,12 @@ std::vector<Chart> error_charts(const ChartInput& input) {
     if (facts.tier.empty() || !(facts.motion > 0) || !table) continue;
     Figure f;
     f.name = scene.name + "-error";
-    f.title = scene.name + ": distance from the truth";
+    f.title = scene.name + ": error against the truth";
     f.caption = caption_of(scene, input.commit);
     f.tier = tier_of(facts);
     f.x = {"t / s", false, 0.0, scene.duration};
     const double top = 10 * facts.motion;
-    f.y = {"RMS error / m", true, std::max(facts.error_bar, 1e-16) / 3, top};
+    f.y = {"RMS position error / m", true, std::max(facts.error_bar, 1e-16) / 3, top};
     std::vector<std::string> failed, cut;
     for (const MethodData& m : facts.methods) {
       if (!m.supported()) continue;
@@ -34,7 +34,7 @@ std::vector<Chart> error_charts(const ChartInput& input) {
       for (const auto& [t, error] : points_of(*table, m.method, "error", true)) {
         above |= error >= top;
         if (error < top)
-          curve.points.emplace_back(t, std::max(error, facts.error_bar));  // below the bar nothing is known
+          curve.points.emplace_back(t, std::max(error, facts.error_bar));  // errors below the bar are not known
       }
       if (above) cut.push_back(m.method);
       if (!m.ok()) {
@@ -65,23 +65,27 @@ std::vector<Chart> agreement_charts(const ChartInput& input) {
     if (!table) continue;
     Figure f;
     f.name = scene.name + "-agreement";
-    f.title = scene.name + ": distance from mysim/symplectic-euler";
+    f.title = scene.name + ": difference from mysim/symplectic-euler";
     f.caption = caption_of(scene, input.commit);
     f.tier = another_engine(facts);
     f.x = {"t / s", false, 0.0, scene.duration};
-    f.y = {"RMS difference / m", true, 1e-17, std::nullopt};  // below round-off nothing is known
+    f.y = {"RMS position difference / m", true, 1e-17,
+           std::nullopt};  // the least difference that is more than round-off
     for (const MethodData& m : facts.methods) {
       if (!m.ok() || family_of(m.method).is_subject()) continue;
       Curve curve{m.method, style_of(m.method), points_of(*table, m.method, "difference", true)};
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }
     if (f.curves.empty()) continue;
-    if (scene.window < scene.duration) f.window = {scene.window, "single positions are not comparable from here"};
-    const MethodData* same = facts.find(theirs);
-    f.finding = same && same->difference
-                    ? fmt::format("Bullet's explicit deformable world stays within {} of mysim until {:.3g} s.",
-                                  nice_length(*same->difference), scene.window)
-                    : "Differences from mysim over time.";
+    if (scene.window < scene.duration) f.window = {scene.window, "end of pointwise comparison"};
+    for (const MethodFamily* peer : default_peers()) {
+      const MethodData* its = facts.find(std::string(peer->representative));
+      if (!its || !its->difference) continue;
+      f.finding += fmt::format("{}{} stays within {} of mysim until {:.3g} s.", f.finding.empty() ? "" : " ",
+                               peer->representative_title.empty() ? peer->representative : peer->representative_title,
+                               nice_length(*its->difference), scene.window);
+    }
+    if (f.finding.empty()) f.finding = "Differences from mysim over time.";
     charts.push_back({scene.name, std::move(f)});
   }
   return charts;
@@ -101,15 +105,16 @@ struct Quantity {
 };
 
 constexpr Quantity quantities[] = {
-    {"difference from converged contact", "converged", "distance from the converged in-house contact rule",
-     "RMS difference / mm", 1e3, true,
+    {"difference from converged contact", "converged", "difference from the converged in-house contact rule",
+     "RMS position difference / mm", 1e3, true,
      "How far each method is from what the in-house contact rule converges to in the step. Other rules converge to "
      "something else: these are differences, no errors.",
      "what the in-house contact rule converges to in the step"},
     {"difference of centres", "centres", "distance of the centre of mass from mysim/symplectic-euler",
-     "distance of centres / mm", 1e3, true, "How far the centres of mass of the engines are apart over time.", nullptr},
-    {"clearance", "clearance", "smallest distance from the contact surface", "clearance / mm (negative: inside)", 1e3,
-     false, "How far the lowest particle stays off the contact surface, or sinks into it.",
+     "distance of centres of mass / mm", 1e3, true, "How far the centres of mass of the engines are apart over time.",
+     nullptr},
+    {"clearance", "clearance", "smallest distance from the contact surface", "clearance / mm", 1e3, false,
+     "How far the lowest particle stays off the contact surface, or sinks into it.",
      "exact (zero where it touches), from each method's own positions"},
     {"creep", "creep", "mean sliding speed of the touching particles", "sliding speed / (mm/s)", 1e3, true,
      "How fast the touching particles slide, and whether they come to rest.",
@@ -137,7 +142,7 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
         if (!m.ok()) continue;
         Curve curve{m.method, style_of(m.method), points_of(*table, m.method, q.column, q.logarithmic)};
         for (auto& point : curve.points) point.second *= q.factor;
-        // while the cloth falls the clearance is large and of no interest
+        // a falling cloth is not shown
         if (std::string(q.column) == "clearance")
           std::erase_if(curve.points, [](const auto& p) { return p.second > 1; });
         if (!curve.points.empty()) f.curves.push_back(std::move(curve));
@@ -145,11 +150,11 @@ std::vector<Chart> contact_charts(const ChartInput& input) {
       if (!f.curves.empty() && std::string(q.column) == "difference from converged contact") {
         const SceneData& facts = input.facts[i];
         f.x.high = *facts.contact_until;
-        f.floor = {"what is left to converge", facts.error_bar * q.factor};
+        f.floor = {"error bar of the converged contact rule", facts.error_bar * q.factor};
         f.tier += fmt::format(", known until {:.3g} s to {} ({})", *facts.contact_until, nice_length(facts.error_bar),
                               facts.truth);
       }
-      // lines on zero make no figure: what is nearest to the surface is said in the text
+      // curves that are zero throughout are left to the text
       const bool flat = std::ranges::all_of(f.curves, [](const Curve& c) {
         return std::ranges::all_of(c.points, [](const auto& p) { return std::abs(p.second) < 1e-9; });
       });
@@ -172,9 +177,9 @@ double turned_over(const std::vector<EngineEnergyRow>& rows, const std::string& 
 Figure balance_figure(const Scene& scene, const SceneData& facts, const Table& table, double scale) {
   Figure f;
   f.name = scene.name + "-energy";
-  f.title = scene.name + ": energy that does not add up";
+  f.title = scene.name + ": relative energy residual";
   f.x = {"t / s", false, 0.0, scene.duration};
-  f.y = {"|balance error| / energy turned over", true, 1e-16, 10};
+  f.y = {"relative energy residual", true, 1e-16, 10};
   constexpr double top = 3;
   double lowest = 1;
   bool above = false;
@@ -200,7 +205,7 @@ Figure balance_figure(const Scene& scene, const SceneData& facts, const Table& t
   return f;
 }
 
-/// How far a curve falls below what it had reached.
+/// The largest fall of a curve below its earlier maximum.
 double largest_fall(const std::vector<std::pair<double, double>>& points) {
   double top = -INFINITY, fall = 0;
   for (const auto& [t, y] : points) top = std::max(top, y), fall = std::max(fall, top - y);
@@ -210,12 +215,12 @@ double largest_fall(const std::vector<std::pair<double, double>>& points) {
 Figure contact_figure(const Scene& scene, const SceneData& facts, const Table& table) {
   Figure f;
   f.name = scene.name + "-energy";
-  f.title = scene.name + ": energy lost in contact";
+  f.title = scene.name + ": energy dissipated in contact";
   f.x = {"t / s", false, 0.0, scene.duration};
   f.tier =
       "another engine: how much a contact takes is not known otherwise, but that friction and inelastic contact of a "
       "still ball take and never give";
-  f.y = {"energy lost in contact / J", false, std::nullopt, std::nullopt};
+  f.y = {"energy dissipated in contact / J", false, std::nullopt, std::nullopt};
   std::vector<std::string> guessed, left_out, gave;
   for (const MethodData& m : facts.methods) {
     if (!m.supported()) continue;
@@ -257,7 +262,7 @@ std::vector<Chart> balance_charts(const ChartInput& input) {
     if (!table || !(scale > 0)) continue;
     Figure f = input.facts[i].touched() ? contact_figure(scene, input.facts[i], *table)
                                         : balance_figure(scene, input.facts[i], *table, scale);
-    // after it: what is not drawn
+    // the caption ends with what is not drawn
     f.caption = caption_of(scene, input.commit) + f.caption;
     if (!f.curves.empty() || !f.failures.empty()) charts.push_back({scene.name, std::move(f)});
   }

@@ -7,8 +7,11 @@
 #include <cmath>
 #include <set>
 
+#include "experiments/tables/stability.h"
 #include "experiments/tables/table.h"
 #include "report/figures/charts.h"
+#include "report/findings/answers.h"
+#include "report/findings/summaries.h"
 
 namespace crosscheck {
 namespace {
@@ -19,8 +22,8 @@ bool same_run(const Table& a, size_t i, const Table& b, size_t j) {
   return true;
 }
 
-/// The two costs of a chart.
-struct Cost {
+/// The cost on the x axis of a chart: CPU time or force evaluations.
+struct CostAxis {
   bool time;
   std::string suffix() const { return time ? "-cost" : ""; }
   std::string column() const { return time ? "cpu" : "evaluations"; }
@@ -29,7 +32,7 @@ struct Cost {
   }
 };
 
-/// The summary of one scene's rows.
+/// The rows of one scene, and its truth.
 struct SceneRows {
   const Table& runs;
   const Table* cost;  // of CPU times
@@ -45,11 +48,11 @@ struct SceneRows {
                           : "largest error";
   }
   std::string measure() const {
-    return !error_bar     ? "distance from own finest run"
+    return !error_bar     ? "difference from own finest run"
            : difference() ? "difference from the in-house contact rule"
                           : "error";
   }
-  std::optional<double> cost_of(size_t row, const Cost& kind) const {
+  std::optional<double> cost_of(size_t row, const CostAxis& kind) const {
     if (!kind.time) return number_at(runs, row, "evaluations");
     for (size_t i = 0; cost && i < cost->rows.size(); ++i)
       if (same_run(runs, row, *cost, i)) return number_at(*cost, i, "cpu");
@@ -83,10 +86,10 @@ std::string run_of(const SceneRows& s, size_t row) {
   return fmt::format("{} {}", text_or_none(s.runs, row, "method"), place);
 }
 
-/// A run in three lines, for a pointer above it.
+/// The tooltip of a run, in three lines.
 Tooltip tooltips(const SceneRows& s, size_t row, const std::string& outcome) {
   std::string cost;
-  for (const Cost kind : {Cost{false}, Cost{true}})
+  for (const CostAxis kind : {CostAxis{false}, CostAxis{true}})
     if (const auto value = s.cost_of(row, kind); value && *value > 0)
       cost += fmt::format("{}{} {}", cost.empty() ? "" : ", ", kind.text_of(*value),
                           !kind.time          ? "evaluations"
@@ -103,17 +106,51 @@ constexpr int scaled_ring = 6;  // gnuplot's open circle
 
 int cross_of(const std::string& word) { return word == "blew up" ? 2 : word == "solver gave up" ? 1 : 3; }
 
-Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) {
+/// "2/ω": a limit in h omega over the frequency.
+std::string over_omega(double h_omega) {
+  return (std::abs(h_omega - 2) < 0.005 ? std::string("2") : nice(h_omega)) + "/ω";
+}
+
+/// Where the page puts the run to take, the critical step of its rule, and its two units of each axis.
+OnPage on_page(const SceneRows& s, const CostAxis& kind, const ChartInput& input) {
+  OnPage page;
+  page.motion = s.motion;
+  const auto scene = std::ranges::find(input.scenes, s.scene, &Scene::name);
+  if (kind.time && scene != input.scenes.end()) page.duration = scene->duration;
+  const auto run = recommended_run(s.scene, 0.01, input.result);
+  if (!run) return page;
+  for (const size_t i : s.rows) {
+    const std::string setting(name_of(run->setting));
+    const auto cost = s.cost_of(i, kind);
+    if (!cost || text_or_none(s.runs, i, "method") != run->method || text_or_none(s.runs, i, "setting") != setting ||
+        number_at(s.runs, i, "asked") != run->requested)
+      continue;
+    page.take = {*cost, std::max(run->error, s.error_bar.value_or(0)),
+                 "take this: " + setting_text(setting, run->requested),
+                 fmt::format("{}, {}", percent(run->error, run->motion), kind.text_of(*cost))};
+    if (!kind.time) page.take->more += " evaluations";
+    for (const LimitRow& limit : rows_of<LimitRow>(input.result))
+      if (run->setting == SettingKind::step && limit.scene == s.scene && limit.method == run->method &&
+          limit.predicted && *limit.predicted > 0 && limit.omega)
+        page.critical = {
+            *cost * run->requested / *limit.predicted,
+            fmt::format("h = {} = {}", over_omega(*limit.predicted * *limit.omega), step_text(*limit.predicted)),
+            fmt::format("beyond the critical step of {}", short_name(run->method))};
+  }
+  return page;
+}
+
+Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& input) {
   Figure f;
   f.name = s.scene + "-speed-accuracy" + kind.suffix();
   f.from_costs = kind.time;
   f.runs = s.scene + "-speed-accuracy";
-  f.title = fmt::format("{}: {} against {}", s.scene, s.measure(), kind.time ? "CPU time" : "force evaluations");
+  f.title = fmt::format("{}: work-precision diagram over {}", s.scene, kind.time ? "CPU time" : "force evaluations");
   f.x = {kind.time ? "CPU time of the run / s" : "force evaluations of the run", true, std::nullopt, std::nullopt};
   const double top = 10 * s.motion, highest = 3 * s.motion;
   double lowest = s.error_bar ? std::max(*s.error_bar, 1e-16) : 1, furthest = 0;
   int failed = 0, good = 0, beyond = 0, uncounted = 0;
-  // in a look that no method has, and beneath them all, so that a pointer meets the run
+  // in a style of its own, and beneath all methods, so that a pointer meets the run
   Curve scaled{scaled_times, {"#777777", "1", scaled_ring}, {}, false, true};
   std::set<std::string> methods;
   for (const size_t i : s.rows) {
@@ -138,7 +175,7 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     if (!apart || (!s.error_bar && !(*apart > 0))) continue;
     auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
     if (curve == f.curves.end()) curve = f.curves.insert(f.curves.end(), {method, style_of(method), {}, true, true});
-    // below its error bar the truth says nothing
+    // errors below the truth's error bar are not known
     const double y = std::min(highest, s.error_bar ? std::max(*apart, *s.error_bar) : *apart);
     beyond += *apart > highest;
     curve->points.emplace_back(*cost, y);
@@ -147,17 +184,21 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     lowest = std::min(lowest, y);
     ++good;
   }
-  f.y = {fmt::format("largest RMS {} / m", s.difference() ? "difference"
-                                           : s.error_bar  ? "error"
-                                                          : "distance"),
-         true, lowest / 3, top};
+  f.y = {fmt::format("largest RMS position {} / m", s.error_bar && !s.difference() ? "error" : "difference"), true,
+         lowest / 3, top};
   if (const Table* pareto = input.result.table("speed-accuracy-pareto" + kind.suffix()))
     for (size_t i = 0; i < pareto->rows.size(); ++i)
       if (text_or_none(*pareto, i, "scene") == s.scene)
         f.pareto.emplace_back(*number_at(*pareto, i, kind.column().c_str()),
                               std::min(highest, *number_at(*pareto, i, "distance")));
   if (!f.pareto.empty()) f.pareto.emplace_back(furthest, f.pareto.back().second);
-  if (s.error_bar) f.floor = {s.difference() ? "how far that answer is known" : "error bar of the truth", *s.error_bar};
+  if (s.error_bar && s.motion > 0) {
+    f.cut = 2e-6 * s.motion;
+    f.on_page = on_page(s, kind, input);
+    if (f.on_page.duration) f.guides.push_back({true, *f.on_page.duration, "real time"});
+  }
+  if (s.error_bar)
+    f.floor = {s.difference() ? "error bar of the converged contact rule" : "error bar of the truth", *s.error_bar};
   f.finding = fmt::format("{} runs of {} methods; {} failed.", good + failed, methods.size(), failed);
   std::string drawn;
   if (beyond > 0)
@@ -166,7 +207,7 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
     f.x.label = "CPU time of the run, ringed: scaled from a part of it / s";
     drawn += fmt::format(
         "{} of {} times are not of the whole run: the first part of it was timed, and scaled by the force evaluations "
-        "(of Bullet's implicit and position-based worlds by the steps) of the whole, ringed; ",
+        "(of Bullet's implicit and position-based worlds by the steps) of the whole (open marks); ",
         scaled.points.size(), good + failed);
     f.curves.insert(f.curves.begin(), std::move(scaled));
   }
@@ -182,17 +223,42 @@ Figure figure_of(const SceneRows& s, const Cost& kind, const ChartInput& input) 
   return f;
 }
 
+/// Of the first peer's cheapest run, which has columns in the table: name, setting, cost, times mysim's.
+std::vector<std::string> cells_of_first_peer(const Table& t, size_t i, const CostAxis& kind) {
+  const auto asked = number_at(t, i, "asked of Bullet"), factor = number_at(t, i, "Bullet / mysim");
+  return {asked ? text_or_none(t, i, "best of Bullet") : "",
+          asked ? setting_text(text_or_none(t, i, "setting of Bullet"), *asked) : "",
+          asked ? kind.text_of(*number_at(t, i, (kind.column() + " of Bullet").c_str())) : "",
+          factor ? fmt::format("{:.3g}", *factor) : ""};
+}
+
+/// The same of another peer's, by its row in the table of engines.
+std::vector<std::string> cells_of_engine(const Table& engines, const std::optional<size_t>& i, const CostAxis& kind) {
+  if (!i) return std::vector<std::string>(4);
+  const auto factor = number_at(engines, *i, "times mysim");
+  return {text_at(engines, *i, "method"),
+          setting_text(text_at(engines, *i, "setting"), *number_at(engines, *i, "asked")),
+          kind.text_of(*number_at(engines, *i, "cpu")), factor ? fmt::format("{:.3g}", *factor) : ""};
+}
+
 /// The table "cheapest that meets 10 %, 1 %, 0.1 % of the motion".
-std::optional<PageTable> cheapest_of(const SceneRows& s, const Cost& kind, const ChartInput& input) {
+std::optional<PageTable> cheapest_of(const SceneRows& s, const CostAxis& kind, const ChartInput& input) {
   const Table* t = input.result.table("speed-accuracy-cheapest" + kind.suffix());
   if (!t || !s.error_bar) return std::nullopt;
   PageTable page;
   page.caption = fmt::format("The cheapest run of those tried with {} of at most a part of the motion ({}), in {}",
                              s.difference() ? "a difference" : "an error", nice_length(s.motion),
                              kind.time ? "CPU time" : "force evaluations");
-  page.header = {"at most",        "cheapest", "step",     "cost",
-                 "best of Bullet", "its step", "its cost", "times as much as mysim's"};
-  if (kind.time) page.header.emplace_back("as cheap, within noise");
+  // by evaluations only the first peer's runs are known
+  const Table* engines = kind.time ? input.result.table("speed-accuracy-engines-cost") : nullptr;
+  std::vector<const MethodFamily*> peers = default_peers();
+  if (!engines) peers.resize(1);
+  page.header = {"error at most", "cheapest method", "time step or tolerance", "cost"};
+  for (const MethodFamily* peer : peers)
+    for (const std::string& head : {fmt::format("cheapest of {}", peer->title), std::string("its time step"),
+                                    std::string("its cost"), std::string("cost / cost of mysim")})
+      page.header.push_back(head);
+  if (kind.time) page.header.emplace_back("equal within noise");
   const std::string column = kind.column();
   for (size_t i = 0; i < t->rows.size(); ++i) {
     if (text_or_none(*t, i, "scene") != s.scene) continue;
@@ -200,53 +266,18 @@ std::optional<PageTable> cheapest_of(const SceneRows& s, const Cost& kind, const
         fmt::format("{:g} % ({})", 100 * *number_at(*t, i, "part of motion"), nice_length(*number_at(*t, i, "bound")))};
     const std::string remark = text_or_none(*t, i, "remark");
     row.push_back(remark.empty() ? text_or_none(*t, i, "method") : remark);
-    const auto asked = number_at(*t, i, "asked"), theirs = number_at(*t, i, "asked of Bullet");
+    const auto asked = number_at(*t, i, "asked");
     row.push_back(asked ? setting_text(text_or_none(*t, i, "setting"), *asked) : "");
     row.push_back(asked ? kind.text_of(*number_at(*t, i, column.c_str())) : "");
-    row.push_back(theirs ? text_or_none(*t, i, "best of Bullet") : "");
-    row.push_back(theirs ? setting_text(text_or_none(*t, i, "setting of Bullet"), *theirs) : "");
-    row.push_back(theirs ? kind.text_of(*number_at(*t, i, (column + " of Bullet").c_str())) : "");
-    const auto factor = number_at(*t, i, "Bullet / mysim");
-    row.push_back(factor ? fmt::format("{:.3g}", *factor) : "");
+    for (const MethodFamily* peer : peers)
+      for (std::string& cell : is_first_peer(*peer)
+                                   ? cells_of_first_peer(*t, i, kind)
+                                   : cells_of_engine(*engines, row_of_peer(*peer, *engines, *t, i), kind))
+        row.push_back(std::move(cell));
     if (kind.time) row.push_back(text_or_none(*t, i, "as cheap within noise"));
     page.rows.push_back(std::move(row));
   }
   if (page.rows.empty()) return std::nullopt;
-  return page;
-}
-
-/// Every run: a row for each method, a column for each step or tolerance.
-std::optional<PageTable> all_runs(const SceneRows& s, const std::string& setting) {
-  std::set<double, std::greater<>> values;
-  std::vector<std::string> methods;
-  for (const size_t i : s.rows) {
-    if (text_or_none(s.runs, i, "setting") != setting) continue;
-    values.insert(*number_at(s.runs, i, "asked"));
-    if (const std::string m = text_or_none(s.runs, i, "method"); methods.empty() || methods.back() != m)
-      methods.push_back(m);
-  }
-  if (methods.empty()) return std::nullopt;
-  PageTable page;
-  page.caption = fmt::format("All runs at {}: largest RMS {}, or how the run failed and when",
-                             setting.starts_with("tolerance") ? "a tolerance" : "fixed steps", s.measure());
-  page.header = {"method"};
-  for (const double value : values) page.header.push_back(setting_text(setting, value));
-  for (const std::string& method : methods) {
-    std::vector<std::string> row(values.size() + 1);
-    row[0] = method;
-    for (const size_t i : s.rows) {
-      if (text_or_none(s.runs, i, "setting") != setting || text_or_none(s.runs, i, "method") != method) continue;
-      const std::string verdict = text_or_none(s.runs, i, "verdict");
-      const auto apart = number_at(s.runs, i, s.column());
-      const auto at = std::distance(values.begin(), values.find(*number_at(s.runs, i, "asked")));
-      row[static_cast<size_t>(at) + 1] =
-          verdict != "ok" ? fmt::format("{} at {:.3g} s", failure_class(verdict), *number_at(s.runs, i, "end"))
-          : !apart        ? "the finest"
-          : s.error_bar && *apart < *s.error_bar ? "< " + nice_length(*s.error_bar)
-                                                 : nice_length(*apart);
-    }
-    page.rows.push_back(std::move(row));
-  }
   return page;
 }
 
@@ -259,15 +290,12 @@ std::vector<Chart> speed_accuracy_charts(const ChartInput& input) {
     if (!has_own_charts("speed-accuracy", input.scenes[i].name, input.all)) continue;
     const SceneRows s = rows_of(input, *runs, input.scenes[i].name);
     if (s.rows.empty()) continue;
-    for (const Cost kind : {Cost{true}, Cost{false}}) {
+    for (const CostAxis kind : {CostAxis{true}, CostAxis{false}}) {
       Figure f = figure_of(s, kind, input);
       if (f.curves.empty() && f.failures.empty()) continue;
       Chart chart{"", std::move(f), "speed-accuracy"};
       if (kind.time) chart.text = input.scenes[i].question;
       if (auto table = cheapest_of(s, kind, input)) chart.tables.push_back(std::move(*table));
-      if (!kind.time)
-        for (const char* setting : {"step [s]", "tolerance [1]"})
-          if (auto table = all_runs(s, setting)) chart.tables.push_back(std::move(*table));
       charts.push_back(std::move(chart));
     }
   }

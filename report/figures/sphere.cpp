@@ -9,27 +9,26 @@
 #include "experiments/sphere/probes.h"
 #include "experiments/tables/table.h"
 #include "report/figures/chapter_parts.h"
+#include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
 
 namespace crosscheck {
 namespace {
 
-/// In %; what rounding makes of a particle on the surface is none.
+/// A depth in %; rounding on the surface counts as zero.
 std::string depth_text(double percent) { return percent < 1e-9 ? "0" : nice(percent); }
 
-/// Deepest particle and deepest triangle of a scene, by method and step; empty where nothing was inside.
+/// Penetration depth of particles and triangles by method and time step; empty where nothing penetrates.
 std::optional<Chart> depth_chart(const Table& table, const std::string& scene, const std::string& commit) {
   Figure f;
   f.name = scene + "-penetration";
-  f.title = scene + ": deepest inside the contact surface";
+  f.title = scene + ": largest penetration depth";
   f.x = {"", false, std::nullopt, std::nullopt};
-  f.y = {"depth / % of the radius", true, 1e-3, 10};
-  PageTable page{scene + ": depth inside the contact surface in % of its radius",
-                 {"method", "step", "particles", "triangles", "particles at end", "triangles at end"},
-                 {}};
+  f.y = {"penetration depth / % of the radius", true, 1e-3, 10};
   double place = 0;
-  std::pair<double, double> deepest[2] = {};  // of mysim, of Bullet: particles and triangles, %
+  std::vector<std::string> failed;                                   // without a mark
+  std::map<const MethodFamily*, std::pair<double, double>> deepest;  // particles and triangles, %
   std::map<double, std::pair<Curve, Curve>> by_step;
   const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"};
   for (const std::string& method : distinct(table, "method")) {
@@ -40,26 +39,21 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
       any = true;
       const auto h = number_at(table, i, "step"), nodes = number_at(table, i, "particles"),
                  triangles = number_at(table, i, "triangles");
-      auto said = [&](const char* column) {
-        const auto value = number_at(table, i, column);
-        return value ? depth_text(*value) : std::string("");
-      };
-      if (text_at(table, i, "verdict") != "ok") {
-        page.rows.push_back(
-            {method, step_text(h.value_or(0)), failure_class_or_cannot(text_at(table, i, "verdict")), "", "", ""});
+      if (const std::string& verdict = text_at(table, i, "verdict"); verdict != "ok") {
+        const std::string which = fmt::format("{} ({})", method, failure_class_or_cannot(verdict));
+        if (std::ranges::find(failed, which) == failed.end()) failed.push_back(which);
         continue;
       }
-      page.rows.push_back({method, step_text(*h), said("particles"), said("triangles"), said("particles at end"),
-                           said("triangles at end")});
       if (method != sticky_sphere && family_of(method).by_default()) {
-        auto& [particles, flat] = deepest[!family_of(method).is_subject()];
+        auto& [particles, flat] = deepest[&family_of(method)];
         particles = std::max(particles, nodes.value_or(0)), flat = std::max(flat, triangles.value_or(0));
       }
-      if (method.find("dopri5") != std::string::npos) continue;  // its steps are its own
+      if (const Method* m = builtin_without_options(method); m && m->adaptive)
+        continue;  // an adaptive method has no fixed step
       if (!by_step.contains(*h)) {
         const std::string colour = colours[by_step.size() % std::size(colours)];
-        by_step[*h] = {{fmt::format("particles, step {}", step_text(*h)), {colour, "1", 6}, {}, false, true},
-                       {fmt::format("triangles, step {}", step_text(*h)), {colour, "1", 9}, {}, false, true}};
+        by_step[*h] = {{fmt::format("particles, time step {}", step_text(*h)), {colour, "1", 6}, {}, false, true},
+                       {fmt::format("triangles, time step {}", step_text(*h)), {colour, "1", 9}, {}, false, true}};
       }
       if (nodes && *nodes > 1e-3) by_step[*h].first.points.emplace_back(place - 0.12, *nodes);
       if (triangles && *triangles > 1e-3) by_step[*h].second.points.emplace_back(place + 0.12, *triangles);
@@ -70,36 +64,41 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
       if (!curve->points.empty()) f.curves.push_back(std::move(*curve));
   if (f.curves.empty()) return std::nullopt;
   f.x.low = 0.4, f.x.high = place + 0.6;
+  std::string particles_of_peers, triangles_of_peers;
+  for (const MethodFamily* peer : default_peers()) {
+    particles_of_peers += fmt::format(", of {} by {} %", peer->title, depth_text(deepest[peer].first));
+    triangles_of_peers += fmt::format(", {} % in {}", depth_text(deepest[peer].second), peer->title);
+  }
   f.finding = fmt::format(
-      "Particles of mysim are inside by at most {} % of the radius, of Bullet by {} %; the triangles between them cut "
-      "into the ball by what a chord is below its arc, also where no particle is inside: by {} % in mysim, {} % in "
-      "Bullet. "
+      "Particles of mysim are inside by at most {} % of the radius{}; the triangles between them cut "
+      "into the ball by what a chord is below its arc, also where no particle is inside: by {} % in mysim{}. "
       "Below 0.001 % nothing is drawn.",
-      depth_text(deepest[0].first), depth_text(deepest[1].first), depth_text(deepest[0].second),
-      depth_text(deepest[1].second));
+      depth_text(deepest[&subject()].first), particles_of_peers, depth_text(deepest[&subject()].second),
+      triangles_of_peers);
   f.caption =
-      fmt::format("Scene {}, largest at any sample, in per cent of the contact radius; commit {}.", scene, commit);
+      fmt::format("Scene {}, largest at any sample, in per cent of the contact radius; commit {}.{}", scene, commit,
+                  failed.empty() ? "" : fmt::format(" Without a mark at some steps: {}.", joined(failed)));
   f.tier = "exact (a ball's surface), from each method's own positions";
-  Chart chart{"", std::move(f), "sphere"};
-  chart.tables.push_back(std::move(page));
-  return chart;
+  return Chart{"", std::move(f), "sphere"};
 }
 
-/// The final state of a scene with a draped body, by method and step.
+/// The final state of a scene with a draped body, by method, at the step that all share (usual_step()); methods that
+/// choose their steps stand at their own.
 PageTable drape_table(const Table& table, const std::string& scene) {
-  PageTable page{scene + ": how it ends",
-                 {"method", "step", "settled after / s", "centre height / m", "moved aside / mm", "creep / (mm/s)",
-                  "contact took / J", "asymmetry / m"},
+  const double step = usual_step(table);
+  PageTable page{fmt::format("{}: final state, at time steps of {}", scene, step_text(step)),
+                 {"method", "settled after / s", "height of the centre of mass / m", "sideways displacement / mm",
+                  "creep / (mm/s)", "dissipated in contact / J", "asymmetry / m"},
                  {}};
   for (size_t i = 0; i < table.rows.size(); ++i) {
-    if (text_at(table, i, "scene") != scene) continue;
+    if (text_at(table, i, "scene") != scene || std::abs(number_at(table, i, "step", step) / step - 1) > 1e-6) continue;
     const std::string& method = text_at(table, i, "method");
     if (text_at(table, i, "verdict") != "ok") {
       const std::string why = text_at(table, i, "verdict") == "unsupported"
                                   ? "cannot: " + text_at(table, i, "reason")
                                   : fmt::format("{} at {:.3g} s", failure_class(text_at(table, i, "verdict")),
                                                 number_at(table, i, "end").value_or(0));
-      page.rows.push_back({method, step_text(number_at(table, i, "step").value_or(0)), why, "", "", "", "", ""});
+      page.rows.push_back({method, why, "", "", "", "", ""});
       continue;
     }
     auto said = [&](const char* column, double factor, const char* otherwise) {
@@ -107,9 +106,8 @@ PageTable drape_table(const Table& table, const std::string& scene) {
       return value ? nice(factor * *value) : std::string(otherwise);
     };
     const bool inferred = flag_at(table, i, "contact inferred");
-    page.rows.push_back({method, step_text(*number_at(table, i, "step")), said("settled after", 1, "not at rest"),
-                         said("centre height", 1, ""), said("centre moved aside", 1e3, ""),
-                         said("creep", 1e3, "off the ball"),
+    page.rows.push_back({method, said("settled after", 1, "not at rest"), said("centre height", 1, ""),
+                         said("centre moved aside", 1e3, ""), said("creep", 1e3, "off the ball"),
                          said("contact took", 1, "") + (inferred ? " (inferred)" : ""), said("asymmetry", 1, "")});
   }
   return page;
@@ -121,23 +119,24 @@ Chart drape_snapshot(const Table& table) {
   s.name = "sphere-drop-aside";
   s.scene = drop_aside();
   Run run = default_run(s.scene);
-  // before it has fallen out of the picture
+  // ends before the cloth leaves the picture
   run.duration = 1.16, run.samples = 58;
-  for (const std::string& method : {ours, theirs, position_based(), sticky_sphere})
+  for (const std::string& method : representatives_in_contact())
     if (const auto all = distinct(table, "method"); std::find(all.begin(), all.end(), method) != all.end())
       s.panels.push_back({method, run});
   s.shot.mode = Mode::stretch;
   s.shot.width = 1440, s.shot.height = 480;
   s.caption =
       "The cloth that is dropped 0.12 m aside with a friction of 0.25, after 1.16 s: by Coulomb's law it slides off. " +
-      drape_end_sentence(drape_ends(table));
-  Chart chart{"", std::monostate{}, "sphere", "Dropped aside of the middle, with a friction that cannot hold it.",
+      sentences_of(drape_findings(table));
+  Chart chart{"", std::monostate{}, "sphere",
+              "Dropped beside the middle, with a friction coefficient that cannot hold it.",
               "A cloth that should slide off"};
   if (!s.panels.empty()) chart.snapshots.push_back(std::move(s));
   return chart;
 }
 
-struct Course {
+struct TimeSeries {
   const char *column, *name, *title, *label;
   double factor;
   bool logarithmic;
@@ -145,8 +144,8 @@ struct Course {
 };
 
 /// A quantity over time, at the usual step.
-std::optional<Chart> course(const Table& table, const std::string& scene, const Course& what,
-                            const std::string& finding, const std::string& commit) {
+std::optional<Chart> time_series_chart(const Table& table, const std::string& scene, const TimeSeries& what,
+                                       const std::string& finding, const std::string& commit) {
   Figure f;
   f.name = fmt::format("{}-{}", scene, what.name);
   f.title = fmt::format("{}: {}", scene, what.title);
@@ -177,7 +176,7 @@ double end_of(const Table& table) {
   return end;
 }
 
-/// The methods under which it slides on at the end, at the usual step.
+/// Says which methods still slide at the end, at the usual step.
 std::string still_sliding(const Table& table, double end) {
   const double step = usual_step(table);
   std::vector<std::string> sliding;
@@ -227,7 +226,7 @@ double usual_step(const Table& table) {
 
 std::vector<Chart> sphere_charts(const ChartInput& input) {
   std::vector<Chart> charts;
-  const Rows& rows = input.result;
+  const TableSet& rows = input.result;
   const auto add = [&](std::optional<Chart> chart) {
     if (chart) charts.push_back(std::move(*chart));
   };
@@ -242,9 +241,7 @@ std::vector<Chart> sphere_charts(const ChartInput& input) {
   for (const std::string& scene : distinct(*drapes, "scene")) {
     const Table* over_time = rows.table(scene + "-drape");
     if (scene == "drop-aside") {
-      Chart picture = drape_snapshot(*drapes);
-      picture.tables.push_back(drape_table(*drapes, scene));
-      add(std::move(picture));
+      add(drape_snapshot(*drapes));
     }
     bool cloth = false, symmetric = false;
     for (size_t i = 0; i < over_time->rows.size(); ++i) {
@@ -252,22 +249,22 @@ std::vector<Chart> sphere_charts(const ChartInput& input) {
       symmetric |= number_at(*over_time, i, "asymmetry").has_value();
     }
     if (!cloth) continue;  // single particles have their scenes' own parts of the page
-    add(course(*over_time, scene,
-               {"creep", "sliding", "sliding speed of what touches", "speed / (mm/s)", 1e3, true,
-                "another engine: contact rules differ, so that these are differences and no errors"},
-               "How fast the touching particles slide. " + still_sliding(*over_time, end_of(*over_time)),
-               input.commit));
+    add(time_series_chart(
+        *over_time, scene,
+        {"creep", "sliding", "sliding speed of the particles in contact", "sliding speed / (mm/s)", 1e3, true,
+         "another engine: contact rules differ, so that these are differences and no errors"},
+        "How fast the touching particles slide. " + still_sliding(*over_time, end_of(*over_time)), input.commit));
     if (symmetric) {
-      add(course(*over_time, scene,
-                 {"asymmetry", "asymmetry", "how far it is from its own mirror image", "asymmetry / m", 1, true,
-                  "exact (zero)"},
-                 "The scene is symmetric in two planes: a rule that looks at all particles alike parts from it by "
-                 "rounding only, which grows. " +
-                     broken_symmetry(*over_time),
-                 input.commit));
+      add(time_series_chart(
+          *over_time, scene,
+          {"asymmetry", "asymmetry", "distance from its mirror image", "asymmetry / m", 1, true, "exact (zero)"},
+          "The scene is symmetric in two planes: a rule that looks at all particles alike parts from it by "
+          "rounding only, which grows. " +
+              broken_symmetry(*over_time),
+          input.commit));
     }
     if (scene != "drop-aside") {
-      Chart ends{"", std::monostate{}, "sphere", "", scene + ": how it ends"};
+      Chart ends{"", std::monostate{}, "sphere", "", scene + ": final state"};
       ends.tables.push_back(drape_table(*drapes, scene));
       add(std::move(ends));
     }

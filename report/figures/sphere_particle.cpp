@@ -7,6 +7,7 @@
 
 #include "experiments/tables/table.h"
 #include "report/figures/chapter_parts.h"
+#include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
 
@@ -15,9 +16,10 @@ namespace {
 
 constexpr double degree = 0.017453292519943295;
 
-/// Methods that stand for the others, and methods with different results.
+/// Representative methods, and methods with different results.
 bool shown_always(const std::string& method) {
-  return method == ours || method == theirs || method == position_based() || method == sticky_sphere;
+  const std::vector<std::string> shown = representatives_in_contact();
+  return std::ranges::find(shown, method) != shown.end();
 }
 
 }  // namespace
@@ -25,14 +27,14 @@ bool shown_always(const std::string& method) {
 Chart cone_law(const Table& table, const std::string& commit) {
   Figure f;
   f.name = "sphere-cone";
-  f.title = "Coulomb's law on a slope: how far it slides";
-  f.x = {"friction / tan(slope)", false, 0.0, 2.5};
-  f.y = {"way / way without friction", false, -0.05, 1.05};
+  f.title = "Coulomb friction on a slope: distance slid";
+  f.x = {"friction coefficient / tan(slope)", false, 0.0, 2.5};
+  f.y = {"distance slid / frictionless distance", false, -0.05, 1.05};
   const double step = usual_step(table);
   Curve exact{"Coulomb, exact", {"#555555", "1", -1}, {{0, 1}, {1, 0}, {2.5, 0}}};
   f.curves.push_back(std::move(exact));
-  PageTable page{fmt::format("Stick or slide, at a step of {}", step_text(step)),
-                 {"method", "sticks or slides as it should", "of", "wrong answers"},
+  PageTable page{fmt::format("Stick or slide, at a time step of {}", step_text(step)),
+                 {"method", "correct cases", "cases", "wrong cases"},
                  {}};
   std::vector<std::string> differing;
   for (const std::string& method : distinct(table, "method")) {
@@ -49,11 +51,11 @@ Chart cone_law(const Table& table, const std::string& commit) {
       }
       const double angle = *number_at(table, i, "angle") * degree, mu = *number_at(table, i, "friction");
       curve.points.emplace_back(mu / std::tan(angle), *number_at(table, i, "way") / (9.81 * std::sin(angle) / 8));
-      const std::string& answer = text_at(table, i, "answer");
+      const std::string& outcome = text_at(table, i, "answer");
       ++all;
-      right += answer == text_at(table, i, "answer by theory");
-      creeping += answer == "neither";
-      stuck += answer == "sticks" && text_at(table, i, "answer by theory") == "slides";
+      right += outcome == text_at(table, i, "answer by theory");
+      creeping += outcome == "neither";
+      stuck += outcome == "sticks" && text_at(table, i, "answer by theory") == "slides";
     }
     std::erase_if(curve.points, [](const auto& p) { return p.first > 2.5; });
     std::string wrong;
@@ -84,26 +86,27 @@ Chart cone_law(const Table& table, const std::string& commit) {
 std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
   Figure f;
   f.name = "sphere-cone-map";
-  f.title = "Who sticks, who slides, who creeps";
+  f.title = "Sticking, sliding and creep by method";
   f.x = {"slope / degrees", false, 5.0, 55.0};
-  f.y = {"friction", false, -0.05, 1.25};
+  f.y = {"friction coefficient", false, -0.05, 1.25};
   Curve limit{"tan(slope), exact", {"#555555", "1", -1}, {}};
-  // flat across the methods of a slope, which stand side by side
+  // constant over the methods of one slope, which are drawn side by side
   for (const double slope : {10., 20., 30., 40., 50.})
     for (const double side : {-4., 4.}) limit.points.emplace_back(slope + side, std::tan(slope * degree));
   f.curves.push_back(std::move(limit));
   const double step = usual_step(table);
-  const std::string shown[] = {ours, theirs, position_based(), sticky_sphere};
-  const std::pair<const char*, int> answers[] = {{"sticks", 7}, {"slides", 6}, {"neither", 9}};
-  for (size_t m = 0; m < std::size(shown); ++m)
-    for (const auto& [answer, marker] : answers) {
-      const std::string word = std::string(answer) == "neither" ? "creeps" : answer;
+  const std::vector<std::string> shown = representatives_in_contact();
+  const std::pair<const char*, int> outcomes[] = {{"sticks", 7}, {"slides", 6}, {"neither", 9}};
+  for (size_t m = 0; m < shown.size(); ++m)
+    for (const auto& [outcome, marker] : outcomes) {
+      const std::string word = std::string(outcome) == "neither" ? "creeps" : outcome;
       Curve curve{fmt::format("{} {}", shown[m], word), {style_of(shown[m]).colour, "1", marker}, {}, false, true};
       for (size_t i = 0; i < table.rows.size(); ++i) {
         if (text_at(table, i, "method") != shown[m] || number_at(table, i, "step") != step ||
-            text_at(table, i, "verdict") != "ok" || text_at(table, i, "answer") != answer)
+            text_at(table, i, "verdict") != "ok" || text_at(table, i, "answer") != outcome)
           continue;
-        curve.points.emplace_back(*number_at(table, i, "angle") + 1.7 * (static_cast<double>(m) - 1.5),
+        curve.points.emplace_back(*number_at(table, i, "angle") +
+                                      1.7 * (static_cast<double>(m) - (static_cast<double>(shown.size()) - 1) / 2),
                                   *number_at(table, i, "friction"));
       }
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
@@ -112,29 +115,20 @@ std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
   f.finding =
       "Above the line it must stick (filled), below it slide (open); a triangle does neither: it moves at a "
       "steady creep.";
-  f.caption = fmt::format("The same runs as above, methods side by side at each slope; step {}; commit {}.",
-                          step_text(step), commit);
+  f.caption = fmt::format(
+      "The same runs as above, methods side by side at each slope, in the order of the key; step {}; commit {}.",
+      step_text(step), commit);
   f.tier = "exact (Coulomb's law)";
   return Chart{"", std::move(f), "sphere"};
 }
 
-namespace {
-
-/// Degrees off; what rounds to nothing has no sign.
-std::string off_text(double degrees) {
-  const std::string text = fmt::format("{:+.2f}", degrees);
-  return text.substr(1) == "0.00" ? "0.00" : text;
-}
-
-}  // namespace
-
 Chart rebound_chart(const Table& table, const std::string& commit) {
   Figure f;
   f.name = "sphere-rebound";
-  f.title = "Rebound of a particle: error of its height";
-  f.x = {"step / s", true, std::nullopt, std::nullopt};
-  f.y = {"|rebound - e² 0.3 m| / mm", true, 1e-2, 1e3};
-  PageTable page{"Rebound height in mm at a step of 1/240 s", {"method"}, {}};
+  f.title = "Rebound of a particle: error of the height";
+  f.x = {"time step / s", true, std::nullopt, std::nullopt};
+  f.y = {"|rebound height - e² 0.3 m| / mm", true, 1e-2, 1e3};
+  PageTable page{"Rebound height in mm at a time step of 1/240 s", {"method"}, {}};
   std::vector<double> parts;
   for (size_t i = 0; i < table.rows.size(); ++i)
     if (const double e = *number_at(table, i, "restitution"); std::find(parts.begin(), parts.end(), e) == parts.end())
@@ -143,8 +137,10 @@ Chart rebound_chart(const Table& table, const std::string& commit) {
   for (const std::string& method : distinct(table, "method")) {
     Curve curve{method, style_of(method), {}, true, true};
     std::vector<std::string> row{method};
-    double of_curve = 0.5;  // Bullet returns nothing: its own rebound where the scene has none
-    if (family_of(method).is_default_peer()) of_curve = 0;
+    bool refused = false;  // to return any speed: then its own rebound is drawn, where the scene has none
+    for (size_t i = 0; i < table.rows.size(); ++i)
+      refused |= text_at(table, i, "method") == method && text_at(table, i, "verdict") == "unsupported";
+    const double of_curve = refused ? 0 : 0.5;
     for (const double e : parts) {
       std::string said = "";
       for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -159,7 +155,7 @@ Chart rebound_chart(const Table& table, const std::string& commit) {
       row.push_back(said);
     }
     page.rows.push_back(std::move(row));
-    if (family_of(method).is_default_peer()) curve.title += " (e = 0)";
+    if (refused) curve.title += " (e = 0)";
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.finding =
@@ -170,21 +166,19 @@ Chart rebound_chart(const Table& table, const std::string& commit) {
   f.caption = fmt::format("Dropped by 0.3 m on a ball, e = 0.5 where nothing is said; commit {}.", commit);
   f.tier = "exact (parabolas)";
   Chart chart{"", std::monostate{}, "sphere",
-              "A ball that returns the part e of the speed throws back to e² of the height.", f.title};
+              "With a coefficient of restitution e a particle rebounds to e² of the height.", f.title};
   if (!f.curves.empty()) chart.figure = std::move(f);  // none where all are within 0.01 mm, or fail
   chart.tables.push_back(std::move(page));
   return chart;
 }
 
-Chart leaving_chart(const Table& table, const std::string& commit) {
+/// Empty where no particle leaves.
+std::optional<Chart> leaving_chart(const Table& table, const std::string& commit) {
   Figure f;
   f.name = "sphere-leaving";
-  f.title = "Where a particle without friction leaves the ball";
-  f.x = {"step / s", true, std::nullopt, std::nullopt};
-  f.y = {"angle less the exact one / degrees", false, std::nullopt, std::nullopt};
-  PageTable page{"Angle and speed where the gap passes 1 mm",
-                 {"method", "step", "angle / degrees", "less the exact one / degrees", "speed / (m/s)"},
-                 {}};
+  f.title = "Separation angle of a frictionless particle on a ball";
+  f.x = {"time step / s", true, std::nullopt, std::nullopt};
+  f.y = {"error of separation angle / degrees", false, std::nullopt, std::nullopt};
   double exact = 0, speed = 0;
   for (const std::string& method : distinct(table, "method")) {
     Curve curve{method, style_of(method), {}, true, true};
@@ -192,32 +186,22 @@ Chart leaving_chart(const Table& table, const std::string& commit) {
       if (text_at(table, i, "method") != method) continue;
       exact = *number_at(table, i, "angle by theory"), speed = *number_at(table, i, "speed by theory");
       const auto angle = number_at(table, i, "angle");
-      const double h = *number_at(table, i, "step");
-      page.rows.push_back(
-          {method, step_text(h),
-           angle                                  ? fmt::format("{:.2f}", *angle)
-           : text_at(table, i, "verdict") == "ok" ? "does not leave"
-                                                  : failure_class_or_cannot(text_at(table, i, "verdict")),
-           angle ? off_text(*angle - exact) : "", angle ? fmt::format("{:.3f}", *number_at(table, i, "speed")) : ""});
-      if (angle) curve.points.emplace_back(h, *angle - exact);
+      if (angle) curve.points.emplace_back(*number_at(table, i, "step"), *angle - exact);
     }
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
-  page.rows.insert(page.rows.begin(), {"exact", "", fmt::format("{:.2f}", exact), "0", fmt::format("{:.3f}", speed)});
+  if (f.curves.empty()) return std::nullopt;
   f.floor = {"exact", 0};
   f.finding = fmt::format(
       "Contact ends at 48.2 degrees, where cos = 2/3; the gap must pass 1 mm at {:.2f} degrees and {:.3f} m/s. {} A "
       "particle that never comes off, as on the sticky sphere, has no point here.",
-      exact, speed, leaving_sentence(table));
+      exact, speed, sentences_of(leaving_findings(table)));
   f.caption = fmt::format(
       "A ball of 1.02 m, no friction, started 1 degree off its top; the gap of 1 mm is compared, as some engines let "
       "the particle hop before it leaves; commit {}.",
       commit);
   f.tier = "exact (energy on the ball, then free flight)";
-  Chart chart{"", std::monostate{}, "sphere", "", f.title};
-  if (!f.curves.empty()) chart.figure = std::move(f);  // none where no particle leaves
-  chart.tables.push_back(std::move(page));
-  return chart;
+  return Chart{"", std::move(f), "sphere"};
 }
 
 }  // namespace crosscheck

@@ -1,36 +1,39 @@
-// Where methods break: largest stable steps, the moment of failure, and growth too slow to be seen.
+// Critical time steps, the moment of failure, and growth that is too slow to be seen in a run.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <set>
 
 #include "experiments/stability/limit.h"
 #include "experiments/tables/table.h"
 #include "report/figures/chapter_parts.h"
+#include "report/figures/step_limits.h"
+#include "report/findings/answers.h"
+#include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
 
 namespace crosscheck {
 namespace {
 
-/// The word for what became of a run; empty where there was none.
-std::string fate_text(const std::string& verdict) {
+/// The outcome of a run in a word; empty without a run.
+std::string outcome_text(const std::string& verdict) {
   if (verdict.empty()) return "";
-  return verdict == "ok" ? "holds" : failure_class_or_cannot(verdict);
+  return verdict == "ok" ? "stable" : failure_class_or_cannot(verdict);
 }
 
-/// How finely the search ended, in parts of the limit: half of what lies between what held and what failed.
+/// Half of the bracket in which the search ended, in parts of the limit.
 double half_bracket(const Table& table, size_t row) {
   const auto held = number_at(table, row, "held"), failed = number_at(table, row, "failed");
   return held && failed ? (*failed / *held - 1) / 2 : 0;
 }
 
-/// Rows of one scene as people read them.
+/// The critical time steps on one scene as a table for readers.
 PageTable limits_table(const Table& table, const std::string& scene) {
-  PageTable page{fmt::format("The largest stable step on {}.", scene),
-                 {"method", "by theory", "as measured", "apart", "a twentieth above", "why apart"},
+  PageTable page{fmt::format("Critical time step on {}.", scene),
+                 {"method", "predicted", "measured", "difference", "5 % above", "reason of the difference"},
                  {}};
   for (size_t i = 0; i < table.rows.size(); ++i) {
     if (text_at(table, i, "scene") != scene) continue;
@@ -49,12 +52,12 @@ PageTable limits_table(const Table& table, const std::string& scene) {
                          : found == "held up to a refusal" ? "at least " + step_text(number_at(table, i, "held", 0))
                                                            : found,
                          off ? deviation_text(*off, half_bracket(table, i)) : "",
-                         fate_text(text_or_none(table, i, "verdict above")), text_or_none(table, i, "reason")});
+                         outcome_text(text_or_none(table, i, "verdict above")), text_or_none(table, i, "reason")});
   }
   return page;
 }
 
-/// How long the runs were, and how finely they found what they looked for.
+/// Says how long the runs were, and how fine the search was.
 std::string effort_text(const Table& table) {
   double shortest = INFINITY, longest = 0, finest = INFINITY, coarsest = 0;
   for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -74,54 +77,27 @@ std::string effort_text(const Table& table) {
   return text;
 }
 
-constexpr double lowest_drawn = 0.05;  // %
-
-/// Size of the deviation of every method on every scene that theory has a limit for; no curves where there is none.
-Figure deviations(const Table& table, const std::string& commit) {
-  Figure f;
-  f.name = "stability-limits";
-  f.title = "Largest stable step: measurement beside theory";
-  f.x = {"", false, std::nullopt, std::nullopt};
-  f.y = {"difference from theory / %", true, std::nullopt, std::nullopt};
-  std::map<std::string, int> scene_at;
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    const auto off = number_at(table, i, "deviation");
-    if (!off) continue;
-    const std::string &scene = text_at(table, i, "scene"), &method = text_at(table, i, "method");
-    if (scene_at.try_emplace(scene, static_cast<int>(scene_at.size())).second)
-      f.categories.emplace_back(scene_at[scene], scene);
-    auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == method; });
-    if (curve == f.curves.end()) {
-      f.curves.push_back({method, style_of(method), {}, false, true});
-      curve = f.curves.end() - 1;
-    }
-    curve->points.emplace_back(scene_at[scene],
-                               100 * std::max({lowest_drawn / 100, half_bracket(table, i), std::abs(*off)}));
-  }
-  // side by side, so that no marker hides another
-  for (size_t c = 0; c < f.curves.size(); ++c)
-    for (auto& point : f.curves[c].points)
-      point.first += 0.6 * ((static_cast<double>(c) + 0.5) / static_cast<double>(f.curves.size()) - 0.5);
-  f.x.low = -0.5, f.x.high = static_cast<double>(f.categories.size()) - 0.5;
-  f.floor = {"1 %", 1};
-  for (const StepLimitSummary& summary : step_limit_summaries(table))
-    f.finding += (f.finding.empty() ? "" : " ") + summary.sentence;
+/// The limits in h omega, with the words that go with them.
+StepLimits limits_figure(const Table& table, const std::string& scene, const std::string& commit) {
+  StepLimits f = step_limits_of(rows_of<LimitRow>(table), scene);
+  TableSet rows;
+  rows.add(table);
+  f.finding = sentences_of(limit_findings(rows));
   f.caption = fmt::format(
-      "Differences below {} %, or below what the search could tell, are drawn there; rows in which only one of the two "
-      "is a step stand in the tables. Theory "
-      "looks at small motion about rest, or about the start where a scene has no rest; commit {}.",
-      lowest_drawn, commit);
+      "Times are on {}, in ms. Divided by the fastest vibration ω of its scene, a rule's limit is one number. Theory "
+      "looks at small motion about rest.{} Commit {}.",
+      f.columns_of, effort_text(table), commit);
   f.tier =
       "exact for small motion under the discrete rule (its stability function at the scene's eigenvalues); measured "
       "limits are as fine as their search";
   return f;
 }
 
-/// The limits of all scenes: size of the deviation from theory as a figure, where there is one, and a table for each
-/// scene. Empty where the table has no rows.
-std::vector<Chart> limit_charts(const Table& stability, const std::string& commit) {
+/// The limits of all scenes as a figure, where theory knows one in h omega, and a table for each scene. Empty where the
+/// table has no rows.
+std::vector<Chart> limit_charts(const Table& stability, const std::string& scene, const std::string& commit) {
   if (stability.rows.empty()) return {};
-  Figure f = deviations(stability, commit);
+  StepLimits f = limits_figure(stability, scene, commit);
   Chart chart{
       "", std::monostate{}, "stability",
       "Theory takes the scene's Jacobian, its eigenvalues, and for each of them the step at which the method "
@@ -132,9 +108,9 @@ std::vector<Chart> limit_charts(const Table& stability, const std::string& commi
       "step its growth is judged, beside that of all motion. Where growth begins by theory it is not told." +
           effort_text(stability),
       f.title};
-  for (const std::string& scene : distinct(stability, "scene")) chart.tables.push_back(limits_table(stability, scene));
+  for (const std::string& each : distinct(stability, "scene")) chart.tables.push_back(limits_table(stability, each));
   // a method without theory has a limit all the same: it stands in the tables
-  if (!f.curves.empty()) chart.figure = std::move(f);
+  if (!f.rows.empty()) chart.figure = std::move(f);
   return {std::move(chart)};
 }
 
@@ -147,25 +123,21 @@ std::string signed_text(double value) {
   return text;
 }
 
-/// Growth where no step is stable, or close to a limit.
-PageTable growth_table(const Table& table, bool without_limit) {
-  PageTable page{without_limit ? "Growth of the fastest vibration in each step, where no step is stable."
-                               : "Growth (+) or decay (-) of the binding vibration in each step, beside the limit.",
-                 {"scene", "method", without_limit ? "h ω" : "step over limit", "by theory", "as measured"},
+/// Growth where no step is stable; that beside limits stands in the table's file.
+PageTable growth_table(const Table& table) {
+  PageTable page{"Growth of the fastest vibration per time step, where no time step is stable.",
+                 {"scene", "method", "h ω", "predicted", "measured"},
                  {}};
   for (size_t i = 0; i < table.rows.size(); ++i) {
-    const auto share = number_at(table, i, "share of limit");
-    if (share.has_value() != without_limit)
+    if (!number_at(table, i, "share of limit"))
       page.rows.push_back({text_at(table, i, "scene"), text_at(table, i, "method"),
-                           nice(without_limit ? *number_at(table, i, "h omega") : *share),
-                           signed_text(*number_at(table, i, "predicted growth")),
+                           nice(*number_at(table, i, "h omega")), signed_text(*number_at(table, i, "predicted growth")),
                            signed_text(*number_at(table, i, "measured growth"))});
   }
   return page;
 }
 
-/// Two rules gain so little in a step that runs do not show it: only their rows are shown, and how many others there
-/// are is said.
+/// The rows of the two rules that are unstable at every step; they gain too little in a step for runs to show it.
 Table slow_blow_ups(const Table& growth) {
   Table slow{growth.name, growth.columns, {}};
   for (size_t i = 0; i < growth.rows.size(); ++i)
@@ -188,50 +160,81 @@ std::optional<Chart> growth_chart(const Table& all) {
   Chart chart{"", std::monostate{}, chapter,
               "Explicit Euler and the explicit trapezoidal rule have no stable step without drag. At short steps they "
               "gain so little in each that a run may look fine: the growth of one vibration is measured instead.",
-              "Slow blow-ups"};
+              "Slowly growing instabilities"};
   if (off >= 0) chart.text += fmt::format(" It differs from theory by at most {} ({}).", percent(off, 1), which);
   if (const size_t others = all.rows.size() - growth.rows.size(); others > 0)
     chart.text +=
         fmt::format(" {} rows of other rules, beside their limits, stand in the table {} alone.", others, all.name);
-  for (const bool without_limit : {true, false})
-    if (PageTable page = growth_table(growth, without_limit); !page.rows.empty())
-      chart.tables.push_back(std::move(page));
+  if (PageTable page = growth_table(growth); !page.rows.empty()) chart.tables.push_back(std::move(page));
   return chart;
 }
 
-/// Cloth by symplectic Euler, a twentieth below its limit and a twentieth above.
-std::optional<Chart> moment_of_failure(const ChartInput& input, const Table& table) {
-  constexpr auto scene_name = "cloth-hang";
-  constexpr double seconds = 0.6;
-  const auto scene =
-      std::find_if(input.scenes.begin(), input.scenes.end(), [](const Scene& each) { return each.name == scene_name; });
+/// "3 mJ", "1.5 kJ"
+std::string energy_text(double energy) {
+  const auto [factor, unit] = energy < 0.1    ? std::pair{1e3, "mJ"}
+                              : energy < 1000 ? std::pair{1., "J"}
+                                              : std::pair{1e-3, "kJ"};
+  return fmt::format("{:.2g} {}", factor * energy, unit);
+}
+
+/// A run above its limit on the scene, or the first scene that has one: its last steps as a curve and in pictures.
+std::optional<Chart> failure_chart(const ChartInput& input, const std::string& preferred) {
+  std::vector<FailureRow> rows = rows_of<FailureRow>(input.result);
+  // of the scenes that fail slowly enough to be seen
+  std::set<std::string> seen;
+  for (const FailureRow& row : rows)
+    if (row.still) seen.insert(row.scene);
+  if (seen.empty()) return std::nullopt;
+  const std::string name = seen.contains(preferred) ? preferred : *seen.begin();
+  std::erase_if(rows, [&](const FailureRow& row) { return row.scene != name; });
+  const auto scene = std::ranges::find(input.scenes, name, &Scene::name);
   if (scene == input.scenes.end()) return std::nullopt;
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    const auto limit = number_at(table, i, "measured limit");
-    if (text_at(table, i, "scene") != scene_name || text_at(table, i, "method") != ours || !limit) continue;
-    Snapshot s;
-    s.name = "stability-moment";
-    s.scene = *scene;
-    for (const double part : {0.95, 1.05}) {
-      // one step per sample: the run must not shorten it
-      const double h = part * *limit;
-      const int samples = std::max(1, static_cast<int>(seconds / h));
-      s.panels.push_back({ours, {h, h * samples, samples}});
+  const FailureRow& first = rows.front();
+  const std::string rule = first.method.substr(first.method.find('/') + 1);
+  Figure f;
+  f.name = "stability-failure";
+  f.title = fmt::format("One step too large: {} on {} at {}, {} times its limit", rule, name, step_text(first.h),
+                        nice(first.h / first.limit));
+  f.x = {"step", false, std::nullopt, std::nullopt};
+  f.y = {"kinetic energy / J", true, std::nullopt, std::nullopt};
+  f.curves = {{first.method, style_of(first.method), {}, true, true},
+              {"a quarter step", {"#777777", "(4,4)", no_marker}, {}, true, false}};
+  f.on_page.flat = true;
+  double least = INFINITY, most = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const FailureRow& row = rows[i];
+    const auto at = static_cast<double>(row.step);
+    if (row.kinetic > 0) {
+      f.curves[0].points.emplace_back(at, row.kinetic);
+      f.curves[0].tooltips.push_back(
+          {fmt::format("{}, step {}\n{}", step_text(row.t), row.step, energy_text(row.kinetic))});
     }
-    s.caption = fmt::format(
-        "Scene {} from its start by symplectic Euler, at steps a twentieth below the measured limit of {} (left) and a "
-        "twentieth above (right): at the moment at which the first of them fails, or after {} s if none does.",
-        scene_name, step_text(*limit), seconds);
-    s.shot.mode = Mode::stretch;
-    s.shot.at_first_failure = true;
-    s.shot.width = 1280;
-    s.shot.height = 560;
-    Chart chart{"", std::monostate{}, chapter, "What a limit means: the same cloth at steps a tenth apart.",
-                "Below and above a limit"};
-    chart.snapshots.push_back(std::move(s));
-    return chart;
+    if (row.holding && *row.holding > 0) f.curves[1].points.emplace_back(at, *row.holding);
+    if (i == 0 || !rows[i - 1].holding || !row.holding || !(row.kinetic > 10 * *row.holding)) continue;
+    least = std::min(least, row.kinetic / rows[i - 1].kinetic),
+    most = std::max(most, row.kinetic / rows[i - 1].kinetic);
   }
-  return std::nullopt;
+  if (f.curves[0].points.empty()) return std::nullopt;
+  if (first.growth) f.finding = fmt::format("Energy grows {} times in a step by theory", times_text(*first.growth));
+  if (most > 0)
+    f.finding += fmt::format("{} {} to {} times here", f.finding.empty() ? "Energy grows" : ",", times_text(least),
+                             times_text(most));
+  f.finding += f.finding.empty() ? "It fails." : ".";
+  f.caption = fmt::format("Beside it the same run at a quarter of the step. Scene {}; commit {}.", name, input.commit);
+  f.tier = "measured";
+  Snapshot s{
+      .name = "stability-failure", .caption = "", .scene = *scene, .panels = {}, .shot = usual_shot(*scene, false)};
+  const int last = static_cast<int>(rows.back().step);
+  s.panels.push_back({first.method, {first.h, first.h * last, last}});
+  s.shot.mode = Mode::shaded, s.shot.width = 240, s.shot.height = 176;
+  for (const FailureRow& row : rows)
+    if (row.still)
+      s.moments.emplace_back(row.t,
+                             fmt::format("{}, step {}\n{}", step_text(row.t), row.step, energy_text(row.kinetic)));
+  Chart chart{"", std::move(f), chapter};
+  chart.snapshots.push_back(std::move(s));
+  chart.shown = true;
+  return chart;
 }
 
 }  // namespace
@@ -239,8 +242,9 @@ std::optional<Chart> moment_of_failure(const ChartInput& input, const Table& tab
 std::vector<Chart> stability_charts(const ChartInput& input) {
   const Table* table = input.result.table("stability");
   if (!table) return {};
-  std::vector<Chart> charts = limit_charts(*table, input.commit);
-  if (auto moment = moment_of_failure(input, *table)) charts.push_back(std::move(*moment));
+  const Scene* main = main_scene(input.scenes, input.result);
+  std::vector<Chart> charts = limit_charts(*table, main ? main->name : "", input.commit);
+  if (auto failure = failure_chart(input, main ? main->name : "")) charts.push_back(std::move(*failure));
   const Table *cells = input.result.table("stability-map"), *limits = input.result.table("stability-map-limit");
   if (cells && limits)
     for (Chart& chart : map_charts(*cells, *limits, input.commit)) charts.push_back(std::move(chart));

@@ -1,4 +1,4 @@
-// Maps of what becomes of runs, over step and stiffness and over step and drag.
+// Stability maps: the outcome of runs over time step and stiffness, and over time step and drag.
 
 #include <fmt/ranges.h>
 
@@ -14,28 +14,28 @@
 namespace crosscheck {
 namespace {
 
-/// The kinds of cells, from whole to broken; and the words that verdicts have in the key.
-struct Fate {
+/// A verdict with its colour and its text in the key.
+struct CellClass {
   const char *verdict, *title, *colour;
 };
-constexpr Fate fates[] = {
-    {"ok", "holds", "#D8E8F0"},
+constexpr CellClass cell_classes[] = {
+    {"ok", "stable", "#D8E8F0"},
     {"energy", "blows up", "#D55E00"},
     {"nan", "not a number", "#5B1A4F"},
     {"stretch", "overstretched", "#E9B44C"},
     {"solver", "solver gives up", "#7F7F7F"},
     {"frozen", "frozen", "#56B4E9"},
-    {"timeout", "out of time", "#009E73"},
+    {"timeout", "time limit", "#009E73"},
     {"crash", "program fails", "#222222"},
-    {"unsupported", "refuses", "#F7F5EE"},
+    {"unsupported", "unsupported", "#F7F5EE"},
 };
 int kind_of(const std::string& verdict) {
-  for (size_t i = 0; i < std::size(fates); ++i)
-    if (verdict == fates[i].verdict) return static_cast<int>(i);
+  for (size_t i = 0; i < std::size(cell_classes); ++i)
+    if (verdict == cell_classes[i].verdict) return static_cast<int>(i);
   return 1;
 }
 
-/// Rows of a map of which theory says something, against where runs begin to fail.
+/// Compares the predicted limit of each row of a map with the steps at which runs begin to fail.
 class RowsAgainstTheory {
  public:
   explicit RowsAgainstTheory(std::string kind) : kind_(std::move(kind)) {}
@@ -50,10 +50,10 @@ class RowsAgainstTheory {
       if (held > longest_) longest_ = held, by_ = text_at(limits, i, "method");
       return;
     }
-    // left of the map, or right of it
+    // both limits lie left of the map, or right of it
     if ((held == 0 && failed >= *predicted) || (std::isinf(failed) && held <= *predicted)) return;
     ++compared_;
-    // a row that holds or fails at every step is as far off as can be
+    // a row that is stable, or fails, at every step has no measured limit
     const double off =
         held > 0 && std::isfinite(failed) ? std::abs(std::sqrt(held * failed) / *predicted - 1) : INFINITY;
     if (off > near)
@@ -104,11 +104,11 @@ HeatMap map_of(const Table& cells, const Table& limits, const std::string& scene
                const std::string& commit) {
   HeatMap map;
   map.name = fmt::format("{}-{}-map", scene, kind);
-  map.title = kind == "drag" ? fmt::format("{}: what becomes of a run, over step and drag", scene)
-                             : fmt::format("{}: what becomes of a run, over step and stiffness", scene);
-  map.x_label = "step / s";
-  map.y_label = kind == "drag" ? "drag rate / (1/s)" : "stiffness / the scene's own";
-  for (const Fate& fate : fates) map.kinds.push_back({fate.title, fate.colour});
+  map.title = kind == "drag" ? fmt::format("{}: stability over time step and drag", scene)
+                             : fmt::format("{}: stability over time step and stiffness", scene);
+  map.x_label = "time step / s";
+  map.y_label = kind == "drag" ? "drag rate / (1/s)" : "stiffness / nominal stiffness";
+  for (const CellClass& cell_class : cell_classes) map.kinds.push_back({cell_class.title, cell_class.colour});
   const auto panel = [&](const std::string& method) -> HeatMap::Panel& {
     for (HeatMap::Panel& p : map.panels)
       if (p.title == method) return p;
@@ -123,8 +123,8 @@ HeatMap map_of(const Table& cells, const Table& limits, const std::string& scene
     const double value = *number_at(cells, i, "value");
     const std::string& method = text_at(cells, i, "method");
     const std::string outcome =
-        verdict == "ok"            ? "holds"
-        : verdict == "unsupported" ? "refused"
+        verdict == "ok"            ? "stable"
+        : verdict == "unsupported" ? "unsupported"
                                    : fmt::format("{} at {:.3g} s", failure_class(verdict), *number_at(cells, i, "end"));
     HeatMap::Panel& own = panel(method);
     own.cells.push_back({step,

@@ -1,4 +1,4 @@
-// Stiffness of position-based links: the formula over the measurement, and where it stops holding in a network.
+// Stiffness of position-based links: formula and measurement, for one link and for a chain.
 
 #include <fmt/format.h>
 
@@ -34,8 +34,8 @@ Chart single_links(const Table& table, const std::string& commit) {
   Figure f;
   f.name = "stiffness";
   f.title = "Stiffness of one position-based link";
-  f.x = {"kLST", true, std::nullopt, std::nullopt};
-  f.y = {"k h² / μ", true, std::nullopt, std::nullopt};
+  f.x = {"link stiffness setting kLST", true, std::nullopt, std::nullopt};
+  f.y = {"dimensionless stiffness k h² / μ", true, std::nullopt, std::nullopt};
   size_t style = 0;
   double worst = 0;
   for (const long n : iterations_of(table)) {
@@ -70,15 +70,15 @@ Chart single_links(const Table& table, const std::string& commit) {
   return {
       "", std::move(f), "stiffness",
       "Bullet's position-based links have no stiffness in N/m. Relaxed n times in a step of h, a link between masses "
-      "of reduced mass μ acts like a spring in an implicit Euler step; this is how the suite hands stiffness over."};
+      "of reduced mass μ acts like a spring in an implicit Euler step; this is how the suite maps stiffness."};
 }
 
 Chart networks(const Table& table, const std::string& commit) {
   Figure f;
   f.name = "stiffness-network";
-  f.title = "Sag of a chain of three position-based links";
-  f.x = {"k h² / μ", true, std::nullopt, std::nullopt};
-  f.y = {"sag above what is asked / %", true, std::nullopt, std::nullopt};
+  f.title = "Excess sag of a chain of three position-based links";
+  f.x = {"dimensionless stiffness k h² / μ", true, std::nullopt, std::nullopt};
+  f.y = {"excess sag / %", true, std::nullopt, std::nullopt};
   size_t style = 0;
   double holds = 0;
   std::vector<std::string> most;

@@ -1,4 +1,4 @@
-// The evidence of a finding: the formula of its rule, and rows of tables with fingerprints.
+// The evidence of a finding: rows of the tables, with fingerprints that show whether they are still the same.
 #pragma once
 
 #include <string>
@@ -9,25 +9,8 @@
 
 namespace crosscheck {
 
-// The derivation of each kind of finding from the tables: the formula behind its sentence, and where its rows stand.
-
-struct FindingRule {
-  std::string_view name;
-  std::string_view formula;  // over columns of the tables, for a reader with the tables at hand
-  std::vector<std::string_view> tables;
-  std::string_view figure = {};  // that shows it: "{}" is the finding's scene, "*" any; empty: a table does
-};
-
-/// All of them; a new kind of finding is a row.
-const std::vector<FindingRule>& finding_rules();
-
-/// Throws std::logic_error with the name where there is none.
-const FindingRule& finding_rule(std::string_view name);
-
-/// The figure that shows a finding, of those that there are; of several the last. Empty where there is none.
+/// The one of these figures that shows a finding, the last of several; empty where none does.
 std::string figure_of(std::string_view rule, const std::string& scene, const std::vector<std::string>& figures);
-
-// The evidence of a finding: rows of the tables, with fingerprints that show whether they are still the same.
 
 struct Evidence {
   std::string table;
@@ -36,8 +19,8 @@ struct Evidence {
 };
 
 /// Rows of the tables of the finding's rule: those of its scene, or all where it speaks of all scenes.
-std::vector<Evidence> evidence_of(const Finding& finding, const Rows& result);
-/// Of a whole table.
+std::vector<Evidence> evidence_of(const Finding& finding, const TableSet& result);
+/// The evidence of a whole table.
 Evidence evidence_of(const Table& table);
 
 /// All findings of a report: those on all scenes together, then those of each scene.
@@ -45,7 +28,9 @@ struct AllFindings {
   std::vector<SceneData> facts;  // of each scene
   std::vector<Finding> overall;
   std::vector<std::vector<Finding>> of_scenes;
+  /// Of all of them, in this order.
+  std::vector<const Finding*> each() const;
 };
-AllFindings all_findings(const std::vector<Scene>& scenes, const Rows& result);
+AllFindings all_findings(const std::vector<Scene>& scenes, const TableSet& result);
 
 }  // namespace crosscheck

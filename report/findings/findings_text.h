@@ -1,9 +1,8 @@
-// Words and numbers that findings share.
+// Names, numbers and lists as findings write them.
 #pragma once
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,61 +11,57 @@
 
 namespace crosscheck {
 
-// the methods that stand for the subject and for its peer
-inline const std::string ours(subject().representative),
-    sticky_sphere = sticky_method(),
-    theirs(std::ranges::find_if(method_families(), &MethodFamily::is_default_peer)->representative);
+// the methods that stand for the subject and for the first of its peers
+inline const std::string ours(subject().representative), sticky_sphere = sticky_method(),
+                                                         theirs(default_peers().front()->representative);
 
-/// The peer's position-based method.
-inline const std::string& position_based() {
-  static const std::string name = [] {
-    for (const Method& m : all_methods())
-      if (m.position_based && m.family().is_default_peer()) return m.name;
-    return std::string();
-  }();
-  return name;
-}
+/// A peer's position-based method, or an empty name.
+std::string position_based(const MethodFamily& peer = *default_peers().front());
 
-inline std::string percent(double part, double whole) {
-  const double value = 100 * part / whole;
-  if (value < 1e-4) return nice(value) + " %";
-  return value < 99.5 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
-}
+/// The methods that stand for the engines, and the peers' position-based ones, which differ from them.
+std::vector<std::string> representatives();
+/// The same with the sticky sphere, for scenes with contact.
+std::vector<std::string> representatives_in_contact();
 
+/// Whether findings speak of the method by name where they speak of a few: it stands for its engine, or is a program of
+/// the reader's.
+bool stands_for_its_engine(const std::string& method);
+/// Whether it belongs to another engine than mysim, and is no truth.
+bool is_another_engine(const std::string& method);
+
+/// The same without others' integrators on our right-hand side.
+bool is_rival(const std::string& method);
+
+/// Whether the method that stands for a peer has the rule of the subject's.
+bool has_our_rule(const MethodFamily& peer);
+
+inline bool is_implicit(const Stepper& s) { return s.evaluations == 0; }
+inline bool never_stable_undamped(const Stepper& s) { return s.order == 1 && s.limit(1, 0) == 0; }
+inline bool is_symplectic_of_second_order(const Stepper& s) { return s.symplectic && s.order == 2 && !is_implicit(s); }
+
+/// A method or an engine: "leapfrog", "Bullet's pbd", "Bullet", "odeint/dopri5", and of programs the base name.
+std::string name_in_sentence(const std::string& name);
+
+std::string percent(double part, double whole);
 /// "100 000"
-inline std::string count_text(long count) {
-  std::string text = std::to_string(count);
-  for (size_t at = text.size(); at > 3 && text.size() > 4; at -= 3) text.insert(at - 3, " ");
-  return text;
+std::string count_text(long count);
+/// "1 scene", "8 scenes"
+inline std::string counted(size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
-
 /// How many times as much: two digits, written plainly ("160", "2.4").
-inline std::string times_text(double factor) {
-  if (!(factor >= 100)) return fmt::format("{:.2g}", factor);
-  const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
-  return fmt::format("{:.0f}", std::round(factor / unit) * unit);
-}
-
-inline std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (size_t i = 0; i < words.size(); ++i) out += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  return out;
-}
-
+std::string times_text(double factor);
+/// "a, b and c"
+std::string joined(const std::vector<std::string>& words);
+/// The same, of more than `most` the first ones and "2 more".
+std::string listed(std::vector<std::string> words, size_t most = 3);
 /// "0.12 % to 66 %", or one of them where both read the same.
 inline std::string range(const std::string& low, const std::string& high) {
   return low == high ? low : low + " to " + high;
 }
 
-/// True where no contact, no other law and no chaos excuses it: the same rule, more than round-off apart.
-inline bool same_rule_differs(const SceneData& facts) {
-  const MethodData* b = facts.find(theirs);
-  return b && b->ok() && b->difference && !facts.touched() && b->different_law.empty() && facts.round_off &&
-         *b->difference > *facts.round_off;
-}
-
-inline std::string growth_text(double growth) {
-  return growth < 2 ? "a perturbation hardly grows" : fmt::format("a perturbation grows {}-fold", nice(growth));
-}
+/// True where no contact, no other law and no chaos excuses it: a peer's method of the same rule, more than round-off
+/// apart.
+bool same_rule_differs(const SceneData& data, const MethodFamily& peer);
 
 }  // namespace crosscheck

@@ -1,31 +1,52 @@
-// Methods recommended for scenes: a row of the table that the report opens with, and the finding that vouches for it.
+// Which run to take for a scene.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/tables/speed_accuracy.h"
 #include "report/findings/findings.h"
 
 namespace crosscheck {
 
-struct RecommendationCell {
-  std::string text = "–";          // as it is: nothing was run, or can be said
-  const char* css_class = "none";  // class of the page: "best", "failed", "none" or ""
-  bool empty() const { return text == "–"; }
+/// The scene that stands for the others where one must: the last cloth without contact that was timed, else the last
+/// scene that was; null where none was.
+const Scene* main_scene(const std::vector<Scene>& scenes, const TableSet& rows);
+
+/// The cheapest run of another engine within the same accuracy.
+struct EngineBeside {
+  std::string engine;
+  double times = 0, low = 0, high = 0;  // its CPU time over that of mysim's cheapest, and what both intervals allow
 };
 
-/// A column of the table; a new one is a row in recommendation.cpp.
-struct RecommendationColumn {
-  const char *head, *term;  // the term of the glossary (page/contents.cpp) that explains it
-  RecommendationCell (*cell)(const Scene& scene, const SceneData& facts, const Rows& result);
-  bool timed = false;  // rests on timings, which another finding reports
+/// A run to take for a scene.
+struct RecommendedRun {
+  std::string method;
+  SettingKind setting = SettingKind::step;
+  double requested = 0;              // s, or a tolerance
+  double error = 0, motion = 0;      // m
+  double error_bar = 0;              // m, of the truth
+  std::string tier;                  // of the truth
+  double cost = 0;                   // s of CPU time
+  std::vector<std::string> tied;     // others that the clock cannot tell from it, each further from the truth
+  std::vector<EngineBeside> beside;  // where mysim has a run within the accuracy, too
+  std::string_view bound;            // what keeps the step from being longer: stability, accuracy or sampling
 };
-const std::vector<RecommendationColumn>& recommendation_columns();
 
-/// The scene's cells, one for each column.
-std::vector<RecommendationCell> recommendations_of(const Scene& scene, const SceneData& facts, const Rows& result);
+/// The cheapest run within a part of the motion (0.1, 0.01, 0.001), in CPU time; of runs that the clock cannot tell
+/// apart the nearest to the truth. Empty where there is none, or no truth.
+std::optional<RecommendedRun> recommended_run(const std::string& scene, double part_of_motion, const TableSet& rows);
 
-/// The same in a sentence, so that it is verified like any other; the page shows it as the table's row. Timed columns
-/// are left out.
-Finding recommendation_finding(const Scene& scene, const SceneData& facts, const Rows& result);
-/// Its topic.
-inline constexpr auto recommendation_topic = "choice";
+/// "step 2 ms", or "tolerance 1.0e-6".
+std::string setting_of(const RecommendedRun& run);
+/// "160 times faster", than real time.
+std::string speed_text(const RecommendedRun& run, const Scene& scene);
+
+/// What is said of it in the part of its scene; the page shows it as a row of a table.
+std::vector<Finding> recommendation_findings(const Scene& scene, const TableSet& rows);
+/// The topic of these.
+inline constexpr std::string_view recommendation_topic = "choice";
 
 }  // namespace crosscheck

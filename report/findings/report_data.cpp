@@ -41,7 +41,7 @@ bool is_useless(const MethodData& run, const SceneData& scene) {
   return run.judged() && *run.error > 0.1 * scene.motion;
 }
 
-SceneData scene_data(const std::string& scene, const Rows& result) {
+SceneData scene_data(const std::string& scene, const TableSet& result) {
   SceneData facts;
   facts.scene = scene;
   // where no run of any scene came to a row, the page says why among what is missing
@@ -81,10 +81,10 @@ SceneData scene_data(const std::string& scene, const Rows& result) {
   return facts;
 }
 
-const MethodData* most_accurate(const SceneData& scene, bool (MethodFamily::*asked)() const) {
+const MethodData* most_accurate(const SceneData& scene, const FamilyFilter& asked) {
   const MethodData* best = nullptr;
   for (const MethodData& m : scene.methods)
-    if (m.judged() && (!asked || (family_of(m.method).*asked)()) && (!best || *m.error < *best->error)) best = &m;
+    if (m.judged() && (!asked || asked(family_of(m.method))) && (!best || *m.error < *best->error)) best = &m;
   return best;
 }
 
@@ -134,12 +134,12 @@ std::string step_text(double seconds) {
 
 std::string own_step_text(const Scene& scene) {
   const double taken = time_grid(default_run(scene)).h;
-  const std::string asked = step_text(scene.step), text = step_text(taken);
-  return text == asked ? asked : fmt::format("{} (of the {} asked for)", text, asked);
+  const std::string requested = step_text(scene.step), text = step_text(taken);
+  return text == requested ? requested : fmt::format("{} (of the {} asked for)", text, requested);
 }
 
-std::string setting_text(const std::string& setting, double asked) {
-  return setting.starts_with("tolerance") ? "tolerance " + nice(asked) : step_text(asked);
+std::string setting_text(const std::string& setting, double value) {
+  return setting.starts_with("tolerance") ? "tolerance " + nice(value) : step_text(value);
 }
 
 std::string scene_class(const Scene& scene) {

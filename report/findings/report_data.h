@@ -15,7 +15,7 @@ namespace crosscheck {
 
 /// The rows of the table Row::table; none where it is not there.
 template <class Row>
-std::vector<Row> rows_of(const Rows& rows) {
+std::vector<Row> rows_of(const TableSet& rows) {
   const Table* table = rows.table(std::string(Row::table));
   return table ? rows_of<Row>(*table) : std::vector<Row>();
 }
@@ -68,7 +68,7 @@ struct SceneData {
 };
 
 /// The most accurate run of the selected families, or null.
-const MethodData* most_accurate(const SceneData& scene, bool (MethodFamily::*asked)() const = nullptr);
+const MethodData* most_accurate(const SceneData& scene, const FamilyFilter& asked = {});
 /// Whether a run is as near to the truth as another: errs by at most 5 % more, or below the truth's error bar.
 bool ties_with(const MethodData& run, const MethodData& other, const SceneData& scene);
 
@@ -76,7 +76,7 @@ bool ties_with(const MethodData& run, const MethodData& other, const SceneData& 
 bool is_useless(const MethodData& run, const SceneData& scene);
 
 /// Facts of a scene from the tables `engines`, `engines-cost` and `engines-energy`.
-SceneData scene_data(const std::string& scene, const Rows& result);
+SceneData scene_data(const std::string& scene, const TableSet& result);
 
 /// Whether a method of that name chooses its steps by itself: the scene's own step is none of its.
 bool is_adaptive(const std::string& method);
@@ -91,7 +91,7 @@ std::string step_text(double seconds);
 /// for)".
 std::string own_step_text(const Scene& scene);
 /// "2 ms", or "tolerance 1.0e-6": a run's setting, "step [s]" or "tolerance [1]".
-std::string setting_text(const std::string& setting, double asked);
+std::string setting_text(const std::string& setting, double value);
 
 // The class of a scene, in a word for tables and sentences.
 

@@ -1,11 +1,12 @@
-// Sentences on experiment `sphere`.
+// Findings of experiment `sphere`, and of what engines do after contact.
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
-#include "experiments/tables/table.h"
+#include "experiments/speed_accuracy/work_precision.h"
+#include "experiments/tables/engines.h"
+#include "experiments/tables/sphere.h"
 #include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
@@ -13,44 +14,13 @@
 namespace crosscheck {
 namespace {
 
-void cone(const Table& table, std::vector<Finding>& out) {
-  struct Count {
-    std::string method;
-    int right = 0, all = 0;
-  } counts[] = {{ours}, {theirs}, {position_based()}, {sticky_sphere}};
-  for (size_t i = 0; i < table.rows.size(); ++i)
-    for (Count& count : counts)
-      if (text_at(table, i, "method") == count.method && text_at(table, i, "verdict") == "ok") {
-        ++count.all;
-        count.right += text_at(table, i, "answer") == text_at(table, i, "answer by theory");
-      }
-  std::vector<std::string> parts;
-  for (const Count& count : counts)
-    if (count.all > 0) parts.push_back(fmt::format("{} in {} of {}", count.method, count.right, count.all));
-  if (!parts.empty())
-    out.push_back({"", "contact",
-                   "On slopes a particle sticks or slides as Coulomb's law says with " + joined(parts) + " cases.",
-                   "exact", "cone"});
-}
-
-void leaving(const Table& table, std::vector<Finding>& out) {
-  if (const std::string sentence = leaving_sentence(table); !sentence.empty())
-    out.push_back({"", "contact", sentence, "exact", "leaving"});
-}
-
-/// The cloth that should slide off, at the finest step.
-void slide_off(const Table& table, std::vector<Finding>& out) {
-  const std::vector<DrapeEnd> ends = drape_ends(table);
-  if (ends.size() < 2 || ends[0].method != ours || !(ends[0].height < 0)) return;
-  std::vector<std::string> parts;
-  for (size_t i = 1; i < ends.size(); ++i)
-    parts.push_back(ends[i].creep ? fmt::format("with {} it {}", ends[i].method, ends[i].contact_text())
-                                  : fmt::format("with {} it is off the ball as well (centres {} apart)", ends[i].method,
-                                                nice_length(std::abs(ends[i].height - ends[0].height))));
-  out.push_back({"", "contact",
-                 fmt::format("A cloth dropped aside with too little friction slides off the ball in {}; {}.", ours,
-                             joined(parts)),
-                 "another engine", "slide-off"});
+void cone(const TableSet& rows, std::vector<Finding>& out) {
+  for (const ConeCount& count : cone_counts(rows))
+    if (count.method == sticky_sphere || stands_for_its_engine(count.method))
+      out.push_back({.rule = "cone",
+                     .method = count.method,
+                     .value = static_cast<double>(count.right),
+                     .words = {{"cases", std::to_string(count.all)}}});
 }
 
 /// Largest difference from mysim/symplectic-euler that each method's rows of a scene show, m, by method.
@@ -66,81 +36,128 @@ std::map<std::string, double> differences_over_run(const Table& rows) {
 
 /// Single positions after the window: mysim's own rules of an order above one, which share its contact
 /// rule, say whether they can be predicted. They part by what their steps err and by what grows of it; where that stays
-/// small against the difference of Bullet, it is Bullet's result that differs, and no chance.
-void after_contact(const Rows& result, const Table& engines, std::vector<Finding>& out) {
-  for (const std::string& scene : distinct(engines, "scene")) {
-    const Table* rows = result.table(scene + "-engines");
-    std::set<std::string> rules;
-    double window = 0, duration = 0;
-    bool touched = false, bullet = false;
-    for (size_t i = 0; i < engines.rows.size(); ++i) {
-      if (text_at(engines, i, "scene") != scene || text_at(engines, i, "verdict") != "ok") continue;
-      const std::string& method = text_at(engines, i, "method");
-      window = number_at(engines, i, "window", 0), duration = std::max(duration, number_at(engines, i, "end", 0));
-      touched |= number_at(engines, i, "smallest clearance", 1) < 1e-3;
-      bullet |= method == theirs;
-      if (const Method* m = builtin_method(method); m && m->stepper && m->stepper->order >= 2) rules.insert(method);
+/// small against the difference of another engine, it is its result that differs, and no chance.
+void after_contact(const TableSet& rows, std::vector<Finding>& out) {
+  std::map<std::string, std::vector<EngineRow>> runs;  // by scene
+  std::vector<std::string> scenes;
+  for (EngineRow& run : rows_of<EngineRow>(rows))
+    if (run.verdict == Verdict::ok) {
+      if (!runs.contains(run.scene)) scenes.push_back(run.scene);
+      runs[run.scene].push_back(std::move(run));
     }
-    if (!rows || !touched || !bullet || rules.size() < 2 || !(window < duration * (1 - 1e-9))) continue;
-    const auto apart = differences_over_run(*rows);
-    if (!apart.contains(theirs)) continue;
-    double own = 0;
-    for (const std::string& rule : rules)
-      if (const auto found = apart.find(rule); found != apart.end()) own = std::max(own, found->second);
-    const double other = apart.at(theirs);
-    // three times: beyond what one more rule of the kind might add
-    const std::string said =
-        other > 3 * own ? fmt::format("single positions can be predicted there, and it is {} that differs, by up to {}",
-                                      theirs, nice_length(other))
-                        : fmt::format("{} differs by up to {}: no more can be said of single positions", theirs,
-                                      nice_length(other));
-    out.push_back(
-        {"", "contact",
-         fmt::format("On {}, beyond {:.3g} s and up to {:.3g} s, {} of mysim's rules stay within {} of {}; {}.", scene,
-                     window, duration, rules.size(), nice_length(own), ours, said),
-         "another engine", "after-contact"});
+  for (const std::string& scene : scenes) {
+    const Table* over_time = rows.table(scene + "-engines");
+    double duration = 0, own = 0;
+    bool touched = false;
+    size_t rules = 0;
+    for (const EngineRow& run : runs[scene])
+      duration = std::max(duration, run.end), touched |= run.clearance.value_or(1) < 1e-3;
+    const double window = runs[scene][0].window;
+    if (!over_time || !touched || !(window < duration * (1 - 1e-9))) continue;
+    const auto apart = differences_over_run(*over_time);
+    for (const EngineRow& run : runs[scene])
+      if (const Method* m = builtin_method(run.method); m && m->stepper && m->stepper->order >= 2) {
+        ++rules;
+        if (const auto found = apart.find(run.method); found != apart.end()) own = std::max(own, found->second);
+      }
+    if (rules < 2) continue;
+    for (const EngineRow& run : runs[scene])
+      if (const auto other = apart.find(run.method); other != apart.end() && is_another_engine(run.method) &&
+                                                     stands_for_its_engine(run.method) &&
+                                                     run.method != position_based(family_of(run.method)))
+        // three times: beyond what one more rule of the kind might add
+        out.push_back(
+            {.rule = other->second > 3 * own ? "after-contact" : "after-contact-open",
+             .scene = scene,
+             .method = ours,
+             .other = run.method,
+             .value = other->second,
+             .words = {{"window", step_text(window)}, {"rules", std::to_string(rules)}, {"own", nice_length(own)}}});
   }
 }
 
-void depth(const Table& table, std::vector<Finding>& out) {
-  double particles = 0, triangles = 0, their_triangles = 0, longest = 0;
-  std::map<std::string, double> of_bullet;
-  bool any = false;
-  for (size_t i = 0; i < table.rows.size(); ++i) {
-    if (text_at(table, i, "verdict") != "ok") continue;
-    const std::string& method = text_at(table, i, "method");
-    const double nodes = number_at(table, i, "particles", NAN);
-    longest = std::max(longest, number_at(table, i, "step", 0));
-    if (family_of(method).is_default_peer())
-      their_triangles = std::max(their_triangles, number_at(table, i, "triangles", 0));
-    if (family_of(method).is_default_peer() && nodes > 1e-9) of_bullet[method] = std::max(of_bullet[method], nodes);
-    if (!family_of(method).is_subject() || method == sticky_sphere) continue;
-    any = true;
-    particles = std::max(particles, nodes);
-    triangles = std::max(triangles, number_at(table, i, "triangles", 0));
+/// By engine, the deepest of its methods.
+void penetration(const TableSet& rows, std::vector<Finding>& out) {
+  std::vector<Finding> all;
+  std::vector<double> triangles;
+  for (const PenetrationRow& row : rows_of<PenetrationRow>(rows)) {
+    if (row.verdict != Verdict::ok || !row.particles || row.method == sticky_sphere) continue;
+    auto f = std::ranges::find_if(
+        all, [&](const Finding& other) { return engine_of(other.method) == engine_of(row.method); });
+    if (f == all.end()) f = all.insert(all.end(), {.rule = "penetration", .value = -1}), triangles.push_back(0);
+    double& deepest = triangles[static_cast<size_t>(f - all.begin())];
+    deepest = std::max(deepest, row.triangles.value_or(0));
+    const double depth = *row.particles < 1e-9 ? 0 : *row.particles;  // round-off
+    if (depth > f->value) f->value = depth, f->method = row.method;
+    f->words = {{"triangles", percent(deepest, 100)}};
   }
-  if (!any || of_bullet.empty()) return;
-  std::vector<std::string> theirs_told;
-  for (const auto& [method, most] : of_bullet) theirs_told.push_back(fmt::format("{} {:.2g} %", method, most));
-  out.push_back({"", "contact",
-                 fmt::format("On a ball {}, the triangles between them by up to {:.2g} % of the radius; particles of "
-                             "Bullet's worlds sink in by up to: {}, triangles by {:.2g} %{}.",
-                             particles < 1e-9 ? "no particle of mysim sinks in but for rounding"
-                                              : fmt::format("particles of mysim sink in by up to {:.2g} %", particles),
-                             triangles, joined(theirs_told), their_triangles,
-                             longest > 0 ? fmt::format(" (at steps of up to {})", step_text(longest)) : ""),
-                 "measured", "penetration"});
+  for (size_t i = 0; i < all.size(); ++i)
+    if (all[i].value == 0)
+      all[i] = {.rule = "penetration-of-triangles", .method = engine_of(all[i].method), .value = triangles[i]};
+  out.insert(out.end(), all.begin(), all.end());
 }
 
 }  // namespace
 
-std::vector<Finding> sphere_findings(const Rows& result) {
+std::vector<Finding> leaving_findings(const Table& table) {
+  std::map<std::string, std::map<double, double>> offs;  // by method and step: degrees
+  std::vector<std::string> methods;
+  double finest = INFINITY;
+  for (const LeavingRow& row : rows_of<LeavingRow>(table)) {
+    finest = std::min(finest, row.step);
+    if (!row.angle) continue;
+    if (!offs.contains(row.method)) methods.push_back(row.method);
+    offs[row.method][row.step] = *row.angle - row.angle_by_theory;
+  }
   std::vector<Finding> out;
-  if (const Table* t = result.table("engines")) after_contact(result, *t, out);
-  if (const Table* table = result.table("sphere-cone")) cone(*table, out);
-  if (const Table* table = result.table("sphere-leaving")) leaving(*table, out);
-  if (const Table* table = result.table("sphere-drape")) slide_off(*table, out);
-  if (const Table* table = result.table("sphere-penetration")) depth(*table, out);
+  for (const std::string& method : methods) {
+    const auto [step, off] = *offs[method].begin();
+    const double at_longest = offs[method].rbegin()->second;
+    if (step != finest) continue;
+    Finding f{.rule = "leaving", .method = method, .value = off};
+    f.words = {{"step", step_text(step)},
+               {"off", fmt::format("{:.2g} degrees too {}", std::abs(off), off < 0 ? "early" : "late")},
+               {"which", family_of(method).is_subject() ? ", the furthest of mysim" : ""},
+               {"worse", std::abs(off) > std::abs(at_longest) ? ": shorter steps make it worse" : ""}};
+    // of mysim's the furthest
+    const auto same = std::ranges::find_if(
+        out, [&](const Finding& g) { return family_of(method).is_subject() && family_of(g.method).is_subject(); });
+    if (same == out.end())
+      out.push_back(std::move(f));
+    else if (std::abs(off) > std::abs(same->value))
+      *same = std::move(f);
+  }
+  return out;
+}
+
+std::vector<Finding> drape_findings(const Table& table) {
+  std::vector<DrapeRow> ends = rows_of<DrapeRow>(table);
+  std::erase_if(ends, [](const DrapeRow& row) {
+    return row.scene != "drop-aside" || row.verdict != Verdict::ok ||
+           (row.method != sticky_sphere && !stands_for_its_engine(row.method));
+  });
+  double finest = INFINITY;
+  for (const DrapeRow& row : ends)
+    if (row.method == ours) finest = std::min(finest, row.step);
+  std::vector<Finding> out;
+  for (const DrapeRow& row : ends)
+    if (std::abs(row.step / finest - 1) < 1e-6)
+      out.push_back({.rule = row.creep ? "still-touches" : "slides-off",
+                     .method = row.method,
+                     .value = row.creep ? (*row.creep < 1e-6 ? 0 : *row.creep) : row.centre_height.value_or(0),
+                     .words = {{"end", step_text(row.end)}}});
+  return out;
+}
+
+std::vector<Finding> sphere_findings(const TableSet& rows) {
+  std::vector<Finding> out;
+  after_contact(rows, out);
+  cone(rows, out);
+  for (const auto& [name, findings_of_table] :
+       {std::pair{LeavingRow::table, &leaving_findings}, {DrapeRow::table, &drape_findings}})
+    if (const Table* table = rows.table(std::string(name)))
+      for (Finding& f : findings_of_table(*table)) out.push_back(std::move(f));
+  penetration(rows, out);
   return out;
 }
 

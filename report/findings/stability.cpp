@@ -1,62 +1,78 @@
 // Findings of the search for the largest stable steps.
 
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
-#include "experiments/tables/table.h"
 #include "report/findings/findings.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
 
 namespace crosscheck {
+
+std::vector<Finding> limit_findings(const TableSet& rows) {
+  const std::vector<LimitRow> table = rows_of<LimitRow>(rows);
+  const StepLimitCounts rest = step_limit_counts(table, LimitState::rest),
+                        start = step_limit_counts(table, LimitState::start);
+  const auto limits = [](size_t count, const char* lies, const char* lie) {
+    return fmt::format("{} {}", count, count == 1 ? lies : lie);
+  };
+  std::vector<Finding> out;
+  if (rest.agreeing > 0)
+    out.push_back({.rule = "step-limits",
+                   .value = 100 * rest.within,
+                   .words = {{"limits", limits(rest.agreeing, "measured largest stable step lies",
+                                               "measured largest stable steps lie")},
+                             {"scenes", listed(rest.scenes)}}});
+  if (rest.coarse > 0)
+    out.push_back({.rule = "step-limits-coarse",
+                   .value = 100 * rest.widest,
+                   .words = {{"limits", limits(rest.coarse, "lies", "lie")}}});
+  if (rest.apart > 0)
+    out.push_back(
+        {.rule = "step-limits-apart",
+         .method = rest.method,
+         .value = static_cast<double>(rest.apart),
+         .words = {
+             {"limits", limits(rest.apart, "limit lies", "limits lie")}, {"where", rest.where}, {"how", rest.how}}});
+  if (const size_t all = start.agreeing + start.coarse + start.apart; all > 0)
+    out.push_back({.rule = "step-limits-at-start",
+                   .value = static_cast<double>(start.apart),
+                   .words = {{"all", counted(all, "limit")}}});
+  return out;
+}
+
 namespace {
 
-/// Methods that fail at every step, as theory says; and the rates at which they do.
-void without_stable_step(const Table& table, const Table* growth, std::vector<Finding>& out) {
-  std::map<std::string, std::set<std::string>> scenes_of;  // by method
-  for (size_t i = 0; i < table.rows.size(); ++i)
-    if (text_at(table, i, "state") == "rest" && text_at(table, i, "prediction") == "no stable step" &&
-        text_at(table, i, "measurement") == "no stable step")
-      scenes_of[text_at(table, i, "method")].insert(text_at(table, i, "scene"));
-  if (scenes_of.empty()) return;
-  std::map<std::set<std::string>, std::vector<std::string>> methods_of;  // by the scenes that they fail on
-  for (const auto& [method, scenes] : scenes_of) methods_of[scenes].push_back(method);
-  std::string who;
-  for (const auto& [scenes, methods] : methods_of)
-    who += fmt::format("{}{} {} no stable step at all on {}", who.empty() ? "" : "; ", joined(methods),
-                       methods.size() == 1 ? "has" : "have", joined({scenes.begin(), scenes.end()}));
-  double off = -1;
-  std::string which;
-  for (size_t i = 0; growth && i < growth->rows.size(); ++i) {
-    const double deviation = std::abs(number_at(*growth, i, "deviation", NAN));
-    // close to a limit other things are measured
-    if (number_at(*growth, i, "share of limit") || !(deviation > off)) continue;
-    off = deviation;
-    which = fmt::format("{} on {}", text_at(*growth, i, "method"), text_at(*growth, i, "scene"));
-  }
-  std::string rate;
-  if (off >= 0 && off <= 0.01)
-    rate = fmt::format(": vibrations grow in every step, at the rate that theory gives (to {})", percent(off, 1));
-  if (off > 0.01)
-    rate = fmt::format("; the growth in a step differs from theory by up to {} ({})", percent(off, 1), which);
-  out.push_back({"", "failure", fmt::format("{}, as theory says{}.", who, rate), "measured", "no-stable-step"});
+/// Methods that fail at every step, as theory says.
+void without_stable_step(const TableSet& rows, std::vector<Finding>& out) {
+  std::map<std::string, std::vector<std::string>> scenes_of;  // by method
+  for (const LimitRow& row : rows_of<LimitRow>(rows))
+    if (row.state == LimitState::rest && row.prediction == PredictionKind::no_step &&
+        row.measurement == MeasuredLimit::no_step)
+      scenes_of[row.method].push_back(row.scene);
+  for (const auto& [method, scenes] : scenes_of)
+    out.push_back({.rule = "no-stable-step",
+                   .method = method,
+                   .value = static_cast<double>(scenes.size()),
+                   .words = {{"where", listed(scenes)}}});
+}
+
+/// The rates at which vibrations grow.
+void growth(const TableSet& rows, std::vector<Finding>& out) {
+  Finding f{.rule = "growth", .value = -1};
+  for (const GrowthRow& row : rows_of<GrowthRow>(rows))
+    // growth near a limit is measured elsewhere
+    if (const double off = 100 * std::abs(row.deviation); !row.share_of_limit && off > f.value)
+      f.value = off, f.method = row.method, f.words = {{"where", row.scene}};
+  if (f.value >= 0) out.push_back(f);
 }
 
 }  // namespace
 
-std::vector<Finding> stability_findings(const Rows& rows) {
-  std::vector<Finding> out;
-  const Table* table = rows.table("stability");
-  if (!table) return out;
-  for (const StepLimitSummary& summary : step_limit_summaries(*table))
-    out.push_back({"",
-                   summary.theory_holds ? "agreement"
-                   : summary.at_rest    ? "failure"
-                                        : "accuracy",
-                   summary.sentence, "measured", "step-limits"});
-  without_stable_step(*table, rows.table("stability-growth"), out);
+std::vector<Finding> stability_findings(const TableSet& rows) {
+  std::vector<Finding> out = limit_findings(rows);
+  without_stable_step(rows, out);
+  growth(rows, out);
   return out;
 }
 

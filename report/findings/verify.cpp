@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "experiments/tables/table.h"
@@ -27,8 +28,8 @@ JsonField read_json(const fs::path& file) {
   }
 }
 
-Rows read_tables(const JsonField& report, const fs::path& data, Verification& found) {
-  Rows rows;
+TableSet read_tables(const JsonField& report, const fs::path& data, Verification& found) {
+  TableSet rows;
   for (const JsonField& claimed : report["tables"].elements()) {
     const std::string name = claimed["name"].text();
     rows.tables.push_back(read_csv(data / (name + ".csv")));
@@ -52,13 +53,19 @@ std::vector<Scene> read_scenes(const JsonField& report, const fs::path& data, Ve
   return scenes;
 }
 
-void compare(const JsonField& claimed, const Finding& now, const Rows& rows, Verification& found) {
+void compare(const JsonField& claimed, const Finding& now, const TableSet& rows, Verification& found) {
   const std::string sentence = claimed["sentence"].text();
   const auto differs = [&](const std::string& how) {
     found.mismatches.push_back(fmt::format("\"{}\": {}", sentence, how));
   };
-  if (sentence != now.sentence) return differs(fmt::format("the data say \"{}\"", now.sentence));
-  if (claimed["tier"].text() != now.tier) return differs(fmt::format("it rests on \"{}\"", now.tier));
+  if (sentence != sentence_of(now)) return differs(fmt::format("the data say \"{}\"", sentence_of(now)));
+  if (claimed["tier"].text() != tier_of(now)) return differs(fmt::format("it rests on \"{}\"", tier_of(now)));
+  const JsonField all = JsonField::parse(json_of(now).dump(), "the data");
+  for (const auto& [key, value] : all.items()) {
+    const auto said = claimed.find(key);  // none of null
+    if ((said ? said->dump() : "null") != value.dump())
+      return differs(fmt::format("the data say {}: {}", key, value.dump()));
+  }
   const std::vector<Evidence> evidence = evidence_of(now, rows);
   const std::vector<JsonField> rests_on = claimed["evidence"].elements();
   if (rests_on.size() != evidence.size()) return differs("it rests on other tables");
@@ -74,35 +81,41 @@ void compare(const JsonField& claimed, const Finding& now, const Rows& rows, Ver
 Verification verify_report(const fs::path& folder) {
   Verification found;
   const JsonField report = read_json(folder / "report.json");
-  const Rows rows = read_tables(report, folder / "data", found);
+  const TableSet rows = read_tables(report, folder / "data", found);
   const std::vector<Scene> scenes = read_scenes(report, folder / "data", found);
+  found.of_data = found.mismatches.size();
   const AllFindings all = all_findings(scenes, rows);
-  std::vector<Finding> now = all.overall;
-  for (const auto& of_scene : all.of_scenes) now.insert(now.end(), of_scene.begin(), of_scene.end());
+  const std::vector<const Finding*> now = all.each();
   const std::vector<JsonField> claimed = report["findings"].elements();
   found.findings = static_cast<int>(claimed.size());
   if (claimed.size() != now.size())
     found.mismatches.push_back(fmt::format("{} findings, but the data give {}", claimed.size(), now.size()));
-  for (size_t i = 0; i < std::min(claimed.size(), now.size()); ++i) compare(claimed[i], now[i], rows, found);
+  for (size_t i = 0; i < std::min(claimed.size(), now.size()); ++i) compare(claimed[i], *now[i], rows, found);
   return found;
 }
 
 namespace {
 
-/// Sentences by scene and rule.
-using SentencesByRule = std::map<std::pair<std::string, std::string>, std::vector<std::string>>;
+/// Sentences by scene, rule, and who they are about.
+using Key = std::array<std::string, 4>;
+using SentencesByKey = std::map<Key, std::vector<std::string>>;
 
-SentencesByRule findings_in(const std::filesystem::path& old) {
-  const std::filesystem::path file = old / "report.json";
-  SentencesByRule by_rule;
+SentencesByKey findings_in(const fs::path& old) {
+  SentencesByKey by_key;
   try {
-    const JsonField json = JsonField::parse_file(file.string());
-    for (const JsonField& finding : json["findings"].elements())
-      by_rule[{finding["scene"].text(), finding["rule"].text()}].push_back(finding["sentence"].text());
+    const JsonField json = JsonField::parse_file((old / "report.json").string());
+    for (const JsonField& finding : json["findings"].elements()) {
+      const auto text_or_none = [&](const char* key) {  // reports of older versions do not have all
+        const auto found = finding.find(key);
+        return found ? found->text() : std::string();
+      };
+      by_key[{finding["scene"].text(), finding["rule"].text(), text_or_none("method"), text_or_none("other_method")}]
+          .push_back(finding["sentence"].text());
+    }
   } catch (const InputError& error) {
     throw InputError(fmt::format("expected a finished report whose findings name their rules: {}", error.what()));
   }
-  return by_rule;
+  return by_key;
 }
 
 bool rests_on_timings(const std::string& rule) {
@@ -114,33 +127,29 @@ bool rests_on_timings(const std::string& rule) {
 
 }  // namespace
 
-std::vector<Change> changes_since(const std::filesystem::path& old, const AllFindings& now) {
-  const SentencesByRule before = findings_in(old);
-  SentencesByRule after;
-  std::vector<std::pair<std::string, std::string>> order;  // of this report, then what is gone
-  const auto take = [&](const Finding& f) {
-    auto& sentences = after[{f.scene, f.rule}];
-    if (sentences.empty()) order.emplace_back(f.scene, f.rule);
-    sentences.push_back(f.sentence);
-  };
-  for (const Finding& f : now.overall) take(f);
-  for (const auto& of_scene : now.of_scenes)
-    for (const Finding& f : of_scene) take(f);
+std::vector<Change> changes_since(const fs::path& old, const AllFindings& now) {
+  const SentencesByKey before = findings_in(old);
+  SentencesByKey after;
+  std::vector<Key> order;  // of this report, then what is gone
+  for (const Finding* f : now.each()) {
+    auto& sentences = after[{f->scene, f->rule, f->method, f->other}];
+    if (sentences.empty()) order.push_back({f->scene, f->rule, f->method, f->other});
+    sentences.push_back(sentence_of(*f));
+  }
   for (const auto& [key, sentences] : before)
     if (!after.contains(key)) order.push_back(key);
 
   std::vector<Change> changes;
-  for (const auto& key : order) {
-    const SentencesByRule::const_iterator was = before.find(key), is = after.find(key);
-    const auto sentence = [&](const SentencesByRule& by_rule, SentencesByRule::const_iterator at, size_t i) {
-      return at != by_rule.end() && i < at->second.size() ? at->second[i] : std::string();
+  for (const Key& key : order) {
+    const auto of = [&](const SentencesByKey& by_key) {
+      const auto found = by_key.find(key);
+      return found == by_key.end() ? std::vector<std::string>() : found->second;
     };
-    const size_t count =
-        std::max(was == before.end() ? 0 : was->second.size(), is == after.end() ? 0 : is->second.size());
-    for (size_t i = 0; i < count; ++i) {
-      Change change{key.first, sentence(before, was, i), sentence(after, is, i), rests_on_timings(key.second)};
-      if (change.before != change.now) changes.push_back(std::move(change));
-    }
+    std::vector<std::string> was = of(before), is = of(after);
+    const size_t count = std::max(was.size(), is.size());
+    was.resize(count), is.resize(count);
+    for (size_t i = 0; i < count; ++i)
+      if (was[i] != is[i]) changes.push_back({key[0], was[i], is[i], rests_on_timings(key[1])});
   }
   return changes;
 }

@@ -14,11 +14,13 @@ namespace crosscheck {
 struct Verification {
   int findings = 0;                     // in report.json
   int rows = 0;                         // of all tables
-  std::vector<std::string> mismatches;  // for people, one a line
+  std::vector<std::string> mismatches;  // for people, one a line; those of tables and scenes first
+  size_t of_data = 0;                   // so many of them are of tables and scenes
 };
 
 /// Reads DIR/report.json, DIR/data/*.csv and DIR/data/scenes/*.toml, computes every finding anew from these tables, and
-/// holds it against what report.json says: sentence, tier, and the fingerprints of the rows that it rests on. A row
+/// holds it against what report.json says: sentence, tier, value and interval, and the fingerprints of the rows that
+/// it rests on. A row
 /// that no finding rests on is held against its table's fingerprint. Throws InputError where a file is missing or
 /// cannot be read.
 Verification verify_report(const std::filesystem::path& folder);
@@ -31,8 +33,8 @@ struct Change {
   bool timed = false;       // rests on timings, which are never the same twice
 };
 
-/// Findings of OLD/report.json compared with these, those of one rule and scene in their order; what stayed is left
-/// out. Throws InputError where OLD holds no finished report.
+/// Findings of OLD/report.json compared with these, those of one rule, scene and method in their order; what stayed is
+/// left out. Throws InputError where OLD holds no finished report.
 std::vector<Change> changes_since(const std::filesystem::path& old, const AllFindings& now);
 
 }  // namespace crosscheck

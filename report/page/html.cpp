@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "mysim/base/text.h"
-#include "report/page/inline_svg.h"
 #include "report/page/page.h"
 
 namespace crosscheck {
@@ -46,7 +43,7 @@ std::string with_whole_exponents(const std::string& text) {
       out += text[i++];
       continue;
     }
-    out += "<span class=\"n\">" + text.substr(i, end - i) + "</span>";
+    out += "<span class=\"n\">\u00a0×\u00a010<sup>−" + text.substr(i + 2, end - i - 2) + "</sup></span>";
     i = end;
   }
   return out;
@@ -67,13 +64,6 @@ std::string prose(const std::string& text) {
       out += text[i];
   }
   return with_whole_exponents(escaped(out));
-}
-
-std::string content_of_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream bytes;
-  if (!in || !(bytes << in.rdbuf())) throw std::runtime_error("cannot read " + file.string());
-  return bytes.str();
 }
 
 std::string escaped(const std::string& text) {
@@ -108,18 +98,16 @@ unsigned png_number(const std::string& bytes, size_t at) {
 
 std::string image_tag(const PageImage& image) {
   const std::string bytes = content_of_file(image.file);
-  if (image.file.extension() == ".svg") return inline_svg(bytes, image.alt, image.tooltips);
+  if (image.file.extension() == ".svg")
+    return fmt::format("<img src=\"data:image/svg+xml;base64,{}\" alt=\"{}\">", base64(bytes), escaped(image.alt));
   // so that a page does not move while it loads
   return fmt::format("<img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">", base64(bytes),
                      png_number(bytes, 16), png_number(bytes, 20), escaped(image.alt));
 }
 
 std::string image_html(const PageImage& image, const std::string& css_class) {
-  const std::string runs = image.runs.empty() ? "" : fmt::format(" data-runs=\"{}\"", escaped(image.runs));
-  const std::string id =
-      image.file.extension() == ".svg" ? fmt::format(" id=\"figure-{}\"", escaped(image.file.stem().string())) : "";
-  return fmt::format("<figure class=\"{}\"{}{}>{}<figcaption>{}</figcaption></figure>\n", css_class, id, runs,
-                     image_tag(image), prose(image.caption));
+  return fmt::format("<figure class=\"{}\">{}<figcaption>{}</figcaption></figure>\n", css_class, image_tag(image),
+                     prose(image.caption));
 }
 
 }  // namespace crosscheck

@@ -1,77 +1,62 @@
 // The page from top to bottom, and report.json.
 #include "report/page/page.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
+#include <regex>
 
-#include "mysim/base/json.h"
+#include "experiments/speed_accuracy/work_precision.h"
+#include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/base/provenance.h"
-#include "report/findings/evidence.h"
-#include "report/page/inline_svg.h"
+#include "report/figures/chart_json.h"
+#include "report/figures/plot_layout.h"
+#include "report/findings/findings_text.h"
 #include "report/page/player_html.h"
+#include "report/page/shown_runs.h"
+#include "report/player/packed_numbers.h"
 
 namespace crosscheck {
 namespace {
 
-/// Sentences with their tiers, each with a way to what shows it.
-std::string finding_list(const std::vector<Finding>& findings, const std::vector<std::string>& figures,
-                         const std::string& css_class) {
-  std::string out = fmt::format("<ul class=\"{}\">\n", css_class);
-  for (const Finding& f : findings) {
-    const std::string figure = figure_of(f.rule, f.scene, figures);
-    const std::string link = !figure.empty()     ? fmt::format("; <a href=\"#figure-{}\">figure</a>", escaped(figure))
-                             : !f.scene.empty()  ? ""
-                             : f.chapter.empty() ? "; <a href=\"#scenes\">scenes</a>"
-                                                 : fmt::format("; <a href=\"#{}\">figures</a>", f.chapter);
-    out +=
-        fmt::format("<li class=\"{}\">{} <span class=\"tier\">{}{}</span></li>\n", f.topic, prose(f.sentence),
-                    f.tier == "measured" || f.tier == "see each scene" ? f.tier : "against: " + escaped(f.tier), link);
-  }
+/// A figure's frame, which chart.js fills; below it what it says, and the ways to its files.
+std::string figure_html(const PageFigure& figure, const PageContent& page) {
+  std::string ways;
+  for (const char* form : {"pdf", "csv", "gp"})
+    if (std::filesystem::exists(page.figures / (figure.name + "." + form)))
+      ways += fmt::format("<a href=\"figures/{}.{}\">{}</a>", escaped(figure.name), form, form);
+  return fmt::format(
+      "<figure class=\"chart\" id=\"figure-{0}\"{1}><div class=\"drawn\" data-chart=\"{0}\"></div><figcaption>{2}"
+      "</figcaption><p class=\"ways\">{3}</p></figure>\n",
+      escaped(figure.name), figure.runs.empty() ? "" : fmt::format(" data-runs=\"{}\"", escaped(figure.runs)),
+      prose(figure.caption), ways);
+}
+
+/// Contents that stand in the page when they are asked for.
+std::string fold_html(const std::string& heading, const std::string& kind, const std::string& contents,
+                      const std::string& id = "") {
+  return fmt::format(
+      "<details class=\"fold\"{}><summary><span>{}</span><span class=\"kind\">{}</span></summary><template>{}"
+      "</template></details>\n",
+      id.empty() ? "" : fmt::format(" id=\"{}\"", id), prose(heading), kind, contents);
+}
+
+std::string findings_html(const std::vector<Finding>& findings) {
+  std::string out = "<ul class=\"findings\">\n";
+  for (const Finding& f : findings)
+    out += fmt::format(
+        "<li>{} <span class=\"tier\">{}</span></li>\n", prose(sentence_of(f)),
+        tier_of(f) == "measured" || tier_of(f) == "see each scene" ? tier_of(f) : "against: " + escaped(tier_of(f)));
   return out + "</ul>\n";
-}
-
-/// The findings on the front: those of no chapter, and the first of each chapter.
-std::vector<Finding> front_of(const std::vector<Finding>& findings) {
-  std::vector<Finding> front;
-  for (const Finding& f : findings)
-    if (f.chapter.empty() ||
-        std::none_of(front.begin(), front.end(), [&](const Finding& other) { return other.chapter == f.chapter; }))
-      front.push_back(f);
-  return front;
-}
-
-std::vector<Finding> of_chapter(const std::vector<Finding>& findings, const std::string& id) {
-  std::vector<Finding> own;
-  for (const Finding& f : findings)
-    if (f.chapter == id) own.push_back(f);
-  return own;
-}
-
-/// A question and the findings that answer it: of a chapter, or of a topic where they have none.
-struct Question {
-  const char* text;
-  std::vector<std::string> topics, chapters;
-  bool answered_by(const Finding& f) const {
-    const std::vector<std::string>& asked = f.chapter.empty() ? topics : chapters;
-    return std::find(asked.begin(), asked.end(), f.chapter.empty() ? f.topic : f.chapter) != asked.end();
-  }
-};
-const std::vector<Question>& questions() {
-  static const std::vector<Question> all = {{"Do they agree?", {"agreement", "contact"}, {"sphere"}},
-                                            {"Who is more accurate?", {"accuracy", "order"}, {}},
-                                            {"Who is faster?", {"cost"}, {"speed-accuracy", "cost"}},
-                                            {"Where does each fail?", {"failure"}, {"stability", "disagreements"}},
-                                            {"Who keeps the energy?", {"energy"}, {"energy"}},
-                                            {"How little model is enough?", {"adequacy"}, {"adequacy"}}};
-  return all;
 }
 
 /// The changes against an earlier report.
 std::string changes_html(const PageContent& c) {
   if (c.against.empty()) return "";
-  std::string out = fmt::format("<section id=\"changes\"><h2>What changed since {}</h2>\n", escaped(c.against));
+  std::string out =
+      fmt::format("<section class=\"chapter\" id=\"changes\"><h2>What changed since {}</h2>\n", escaped(c.against));
   int timed = 0;
   std::string rows;
   for (const Change& change : c.changes) {
@@ -94,55 +79,278 @@ std::string changes_html(const PageContent& c) {
   return out + "</section>\n";
 }
 
-/// Contact is where engines differ most: the picture of its chapter, where there is one.
-const PageImage* front_picture(const PageContent& c) {
-  for (const Chapter& chapter : c.chapters)
-    for (const Chapter::Entry& entry : chapter.entries)
-      for (const PageImage& image : entry.images)
-        if (chapter.id == "sphere" && image.file.extension() == ".png") return &image;
-  return c.hero.empty() ? nullptr : &c.hero[0];
+// The first screen.
+
+/// The scenes that move there: the main one, and the last cloth with contact.
+std::vector<const ScenePart*> heroes(const PageContent& c) {
+  const ScenePart *main = nullptr, *contact = nullptr;
+  for (const ScenePart& part : c.scenes) {
+    if (part.motions.empty() || part.thumbnail.empty()) continue;
+    if (part.scene->name == c.main_scene || !main) main = &part;
+    if (!part.scene->triangles.empty() && part.scene->model.find<Spheres>()) contact = &part;
+  }
+  std::vector<const ScenePart*> all;
+  if (main) all.push_back(main);
+  if (contact && contact != main) all.push_back(contact);
+  return all;
+}
+
+/// Whose view it is, and its error: the largest, which the player replaces by that of its time.
+std::string readouts(const ScenePart& part) {
+  const SceneData& facts = *part.facts;
+  std::string out = "<div class=\"readouts\">";
+  const auto add = [&](const std::string& whose, const std::string& value) {
+    out += fmt::format("<span><span class=\"whose\">{}</span>{}</span>", prose(whose), value);
+  };
+  for (const ShownRun& run : part.runs)
+    if (run.beside)
+      add(fmt::format("{}{}, {}", family_of(run.method).is_subject() ? "mysim " : "", reader_name(run.method),
+                      run.setting),
+          !run.error ? "–"
+                     : fmt::format("<span data-key=\"{}\" data-method=\"{}\"><b>{}</b> {}</span>", escaped(run.key),
+                                   escaped(run.method), prose(nice_length(*run.error)),
+                                   facts.tier.empty() ? "from that limit"
+                                   : facts.motion > 0 ? percent(*run.error, facts.motion) + " off"
+                                                      : "off"));
+  if (!facts.tier.empty())
+    add("truth", fmt::format("<b>± {}</b> {}", prose(nice_length(facts.error_bar)), escaped(facts.tier)));
+  else if (facts.contact_until)
+    add("the contact rule's limit", "as the step goes to zero");
+  return out + "</div>\n";
+}
+
+std::string hero_html(const PageContent& c) {
+  std::string out;
+  for (const ScenePart* part : heroes(c)) {
+    Json keys = Json::list();
+    std::vector<std::string> names;
+    for (const ShownRun& run : part->runs)
+      if (run.beside) keys.push(run.key), names.push_back(run.method);
+    if (!part->facts->tier.empty() || part->facts->contact_until) keys.push("truth"), names.emplace_back("truth");
+    out += fmt::format(
+        "<div class=\"views\"><div class=\"stage\">{}</div><span class=\"where\">{}</span><motion-player "
+        "data-scene=\"{}\" data-shown=\"{}\"></motion-player></div>\n{}",
+        image_tag({part->hero.empty() ? part->thumbnail : part->hero,
+                   fmt::format("{} by {}", part->scene->name, joined(names)), ""}),
+        escaped(part->scene->name), escaped(part->scene->name), escaped(keys.dump()), readouts(*part));
+  }
+  if (out.empty()) return "";
+  return "<figure class=\"hero\">" + out +
+         "<div class=\"clockwork\"><button type=\"button\" aria-label=\"Play\">▶</button><input type=\"range\" "
+         "min=\"0\" "
+         "max=\"1000\" value=\"0\" aria-label=\"time\"><span class=\"clock\"></span></div></figure>\n";
+}
+
+std::string certificates_matched(const PageContent& c) {
+  size_t all = 0, matched = 0;
+  for (const ScenePart& part : c.scenes)
+    for (const Certificate* certificate : part.certificates) ++all, matched += !certificate->mismatch();
+  return all == 0 ? "chapter" : fmt::format("certificate, {} of {}", matched, all);
+}
+
+/// Whether that chapter shows anything; the first one has the certificates.
+bool has_contents(const PageContent& c, std::string_view chapter) {
+  const auto at = std::ranges::find(c.chapters, chapter, &Chapter::id);
+  return chapter == "same-answer" || (at != c.chapters.end() && !at->entries.empty());
+}
+
+/// " beside Bullet and mine": the engines that the scenes were run by.
+std::string beside_mysim(const PageContent& c) {
+  std::vector<std::string> names;
+  for (const ScenePart& part : c.scenes)
+    for (const MethodData& m : part.facts->methods)
+      if (const std::string name = name_in_sentence(engine_of(m.method));
+          is_rival(m.method) && std::ranges::find(names, name) == names.end())
+        names.push_back(name);
+  return names.empty() ? "" : " beside " + joined(names);
 }
 
 std::string first_screen(const PageContent& c) {
-  std::string out =
-      "<header><h1>Crosscheck: mysim beside Bullet</h1>\n<p class=\"lead\">An in-house mass-spring and cloth engine "
-      "beside Bullet's soft bodies, each built from the same particles and springs.</p></header>\n" +
-      contents_html(c) + "<main>\n";
-  if (!c.scenes.empty()) out += recommendation_table_html(c.scenes);
-  out += "<section class=\"answer\"><div class=\"questions\">\n";
-  const std::vector<Finding> front = front_of(c.findings);
-  // the picture ends the left column
-  size_t before_picture = 2;
-  for (const Question& question : questions()) {
-    std::vector<Finding> answers;
-    for (const Finding& f : front)
-      if (question.answered_by(f)) answers.push_back(f);
-    if (!answers.empty())
-      out +=
-          fmt::format("<div><h2>{}</h2>\n{}</div>\n", question.text, finding_list(answers, figures_of(c), "findings"));
-    if (--before_picture == 0)
-      if (const PageImage* picture = front_picture(c)) out += image_html(*picture, "hero");
-  }
-  out += "</div>\n";
+  std::string out = "<section class=\"first\" id=\"top\">\n" + hero_html(c) +
+                    "<div class=\"questions\"><h1>Two engines, the same scene: which answer can you trust?</h1>\n"
+                    "<p>Crosscheck runs its engine mysim" +
+                    escaped(beside_mysim(c)) +
+                    ", from the same particles and springs, against a "
+                    "known answer.</p>\n";
+  for (const Question& question : questions())
+    if (const Finding* answer = answer_to(question, c.findings))
+      out += fmt::format("<div class=\"question\"><h3><span>{}</span><a href=\"#{}\">{} →</a></h3><p>{}</p></div>\n",
+                         question.text, has_contents(c, question.chapter) ? question.chapter : "scenes",
+                         question.chapter == "same-answer" ? certificates_matched(c) : std::string(question.link),
+                         prose_with_bold_numbers(sentence_of(*answer)));
   for (const std::string& problem : c.problems)
     out += fmt::format("<p class=\"problem\">Missing: {}</p>\n", escaped(problem));
-  out += "<div class=\"heroes\">\n";
-  for (size_t i = 1; i < c.hero.size(); ++i) out += image_html(c.hero[i], "hero");
-  return out + "</div></section>\n" + changes_html(c);
+  return out + "</div></section>\n";
 }
 
-std::string scene_section(const ScenePart& part, const std::vector<std::string>& figures) {
+// Chapters.
+
+bool matches(const std::string& name, const std::string& pattern) {
+  const size_t star = pattern.find('*');
+  if (star == std::string::npos) return name == pattern;
+  return name.size() + 1 >= pattern.size() && name.starts_with(pattern.substr(0, star)) &&
+         name.ends_with(pattern.substr(star + 1));
+}
+
+/// A figure that opens a chapter.
+struct Lead {
+  const Chapter::Entry* entry;
+  size_t figure;       // of the entry's
+  std::string choice;  // what its name has in place of the pattern's star
+};
+
+/// The figures of the first pattern that any has; that of the main scene before the others.
+std::vector<Lead> leads_of(const Chapter& chapter, const PageContent& c) {
+  for (const std::string& pattern : chapter.leads) {
+    std::vector<Lead> leads;
+    for (const Chapter::Entry& entry : chapter.entries)
+      for (size_t i = 0; i < entry.figures.size(); ++i)
+        if (const std::string& name = entry.figures[i].name; matches(name, pattern))
+          leads.push_back({&entry, i, name.substr(0, name.size() + 1 - std::min(name.size() + 1, pattern.size()))});
+    std::ranges::stable_partition(leads, [&](const Lead& lead) { return lead.choice == c.main_scene; });
+    if (!leads.empty()) return leads;
+  }
+  return {};
+}
+
+/// One of them at a time, with buttons to choose.
+std::string leads_html(const std::vector<Lead>& leads, const PageContent& c) {
+  std::string out;
+  if (leads.size() > 1) {
+    out += "<div class=\"choices\">";
+    for (const Lead& lead : leads)
+      out += fmt::format("<button type=\"button\" data-figure=\"figure-{}\" aria-pressed=\"{}\">{}</button>",
+                         escaped(lead.entry->figures[lead.figure].name), &lead == &leads.front(), escaped(lead.choice));
+    out += "</div>\n";
+  }
+  for (const Lead& lead : leads) {
+    std::string figure = figure_html(lead.entry->figures[lead.figure], c);
+    if (&lead != &leads.front()) figure.insert(std::string_view("<figure").size(), " hidden");
+    out += figure;
+  }
+  return out;
+}
+
+std::string entry_html(const Chapter::Entry& entry, const PageContent& c) {
+  std::string out = entry.text.empty() ? "" : fmt::format("<p class=\"soft\">{}</p>\n", prose(entry.text));
+  for (const PageFigure& figure : entry.figures) out += figure_html(figure, c);
+  for (const PageImage& image : entry.images)
+    if (std::filesystem::exists(image.file)) out += image_html(image, "render");  // why not, is among the problems
+  for (const PageTable& table : entry.tables) out += page_table_html(table);
+  return out;
+}
+
+/// Pictures in a row, and the chart that belongs to them beside them.
+std::string shown_html(const Chapter::Entry& entry, const PageContent& c) {
+  std::string pictures;
+  for (const PageImage& image : entry.images)
+    if (std::filesystem::exists(image.file)) pictures += image_html(image, "render");
+  for (const PageFigure& figure : entry.figures) pictures += figure_html(figure, c);
+  return fmt::format("<h3>{}</h3>\n{}\n", prose(entry.heading),
+                     entry.images.empty() ? "<div class=\"lead\"><div>" + pictures + "</div></div>"
+                                          : "<div class=\"moments\">" + pictures + "</div>");
+}
+
+std::string kind_of(const Chapter::Entry& entry) {
+  return !entry.figures.empty() ? "chart" : !entry.images.empty() ? "picture" : "table";
+}
+
+/// The drawing of a lead figure for readers without JavaScript, unchanged.
+std::string drawing_without_script(const PageFigure& lead, const PageContent& c) {
+  const std::filesystem::path file = c.figures / (lead.name + ".svg");
+  if (!std::filesystem::exists(file)) return "";
+  return fmt::format("<noscript><img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\"></noscript>", escaped(lead.title),
+                     base64(content_of_file(file)));
+}
+
+/// "{critical}" in a formula becomes the fastest frequency and the critical step of the main scene, where both are
+/// known: leapfrog's limit is 2 / omega, whatever the drag.
+std::string with_critical_step(std::string formula, const PageContent& c) {
+  static constexpr std::string_view mark = "{critical}";
+  const size_t at = formula.find(mark);
+  if (at == std::string::npos) return formula;
+  std::string text;
+  for (const ScenePart& part : c.scenes) {
+    const MethodData* m = part.facts->find(subject_method(is_symplectic_of_second_order));
+    if (part.scene->name == c.main_scene && m && m->limit && *m->limit > 0)
+      text = fmt::format(". On {}: <em>ω</em> = {:.3g} /s, so <em>h</em> &lt; {:.3g} ms", escaped(c.main_scene),
+                         2 / *m->limit, 1e3 * *m->limit);
+  }
+  return formula.replace(at, mark.size(), text);
+}
+
+std::string chapter_html(const Chapter& chapter, size_t number, const PageContent& c) {
+  std::string out =
+      fmt::format("<section class=\"chapter\" id=\"{}\">\n<p class=\"of\">Chapter {} of {}</p><h2>{}</h2>\n",
+                  chapter.id, number, c.chapters.size(), prose(chapter.title));
+  const auto question = std::ranges::find(questions(), chapter.id, &Question::chapter);
+  if (const Finding* answer = question == questions().end() ? nullptr : answer_to(*question, c.findings))
+    out += fmt::format("<p class=\"answer\">{}</p>\n", prose_with_bold_numbers(sentence_of(*answer)));
+  const std::vector<Lead> leads = leads_of(chapter, c);
+  out += "<div class=\"lead\"><div>";
+  if (chapter.id == "same-answer") out += parity_html(c.scenes);
+  if (!leads.empty()) out += leads_html(leads, c) + drawing_without_script(leads[0].entry->figures[leads[0].figure], c);
+  out += fmt::format("</div><div class=\"teach\">{}{}</div></div>\n",
+                     chapter.formula.empty()
+                         ? ""
+                         : fmt::format("<div class=\"formula\">{}</div>", with_critical_step(chapter.formula, c)),
+                     chapter.teaching);
+  for (const Chapter::Entry& entry : chapter.entries)
+    if (entry.shown) out += shown_html(entry, c);
+  std::string folds;
+  std::vector<Finding> said;
+  for (const Finding& f : c.findings)
+    if (const FindingRule& rule = finding_rule(f.rule);
+        rule.topic != "answer" &&
+        (rule.chapter == chapter.id || std::ranges::find(chapter.joins, rule.chapter) != chapter.joins.end()))
+      said.push_back(f);
+  if (!said.empty())
+    folds += fold_html("What was found", fmt::format("{} finding{}", said.size(), said.size() == 1 ? "" : "s"),
+                       findings_html(said));
+  for (const Chapter::Entry& entry : chapter.entries) {
+    if (entry.shown) continue;
+    Chapter::Entry rest = entry;
+    if (const auto lead = std::ranges::find(leads, &entry, &Lead::entry); lead != leads.end()) {
+      rest.figures.erase(rest.figures.begin() + static_cast<long>(lead->figure)), rest.text.clear();
+      if (rest.figures.empty() && rest.images.empty() && rest.tables.empty()) continue;
+    }
+    folds += fold_html(entry.heading, kind_of(rest), entry_html(rest, c));
+  }
+  return out + (folds.empty() ? "" : "<div class=\"folds\">\n" + folds + "</div>\n") + "</section>\n";
+}
+
+// Scenes.
+
+std::string card_html(const ScenePart& part) {
+  const std::string name = escaped(part.scene->name);
+  return fmt::format(
+      "<a class=\"card\" href=\"#{0}\" data-scene=\"{0}\">{1}<b>{0}</b><span>{2}</span>{3}</a>\n", name,
+      part.thumbnail.empty() ? "" : image_tag({part.thumbnail, part.scene->name, ""}), prose(part.scene->question),
+      part.take ? fmt::format("<span class=\"take\"><span>{}, {}</span><span>{}</span></span>",
+                              escaped(name_in_sentence(part.take->method)),
+                              prose(setting_text(std::string(name_of(part.take->setting)), part.take->requested)),
+                              prose(percent(part.take->error, part.take->motion)))
+                : "");
+}
+
+std::string scene_html(const ScenePart& part, const PageContent& c) {
   const Scene& scene = *part.scene;
-  std::string out = fmt::format("<section class=\"scene\" id=\"{0}\">\n<h2>{0}</h2>\n<p class=\"question\">{1}</p>\n",
-                                escaped(scene.name), prose(scene.question));
+  std::string out =
+      fmt::format("<header><h3>{}</h3><span class=\"soft\">{}</span><a href=\"#scenes\">all scenes</a></header>\n",
+                  escaped(scene.name), prose(scene.question));
   std::vector<Finding> shown = part.findings;
-  std::erase_if(shown, [](const Finding& f) { return f.topic == recommendation_topic; });  // its table has it
-  out += finding_list(shown, figures, "findings");
-  for (const PageImage& image : part.pictures)
-    out += &image == part.pictures.data() && !part.motions.empty() ? player_html(image, part.motions)
-                                                                   : image_html(image, "render");
-  out += "<div class=\"figures\">\n";
-  for (const PageImage& image : part.figures) out += image_html(image, "chart");
+  std::erase_if(shown, [](const Finding& f) { return finding_rule(f.rule).topic == recommendation_topic; });
+  out += findings_html(shown);
+  if (!part.motions.empty() && !part.runs.empty()) {
+    // the run recommended beside the first other engine's
+    const auto other = std::ranges::find_if(part.runs, [&](const ShownRun& run) {
+      return run.beside && family_of(run.method).name != family_of(part.runs[0].method).name;
+    });
+    out += player_html(scene.name, part.runs[0].key, other == part.runs.end() ? "truth" : other->key) +
+           shown_runs_html(part);
+  }
+  out += "<div class=\"charts\">\n";
+  for (const PageFigure& figure : part.figures) out += figure_html(figure, c);
   out += "</div>\n" + run_table_html(part);
   if (part.statistics) out += statistics_html(*part.statistics);
   for (const Certificate* certificate : part.certificates) out += certificate_html(*certificate);
@@ -152,35 +360,73 @@ std::string scene_section(const ScenePart& part, const std::vector<std::string>&
           ? fmt::format("it passes a thousandfold after {:.3g} s: single positions are not predictable from there on",
                         facts.measured_window)
           : "it stays below a thousandfold over the whole run";
-  out += fmt::format(
-      "<p class=\"parameters\"><b>Parameters.</b> {} Step {}, {:.3g} s of motion; pointwise comparison up to {:.3g} "
-      "s, where a perturbation of 1e-10 m has grown {}-fold; {}. Scene hash {}.</p>\n</section>\n",
-      prose(scene.parameters), own_step_text(scene), scene.duration, scene.window, nice(facts.growth), predictable,
-      scene.hash);
-  return out;
+  return out +
+         fmt::format(
+             "<p class=\"note\">{} Step {}, {:.3g} s of motion; pointwise comparison up to {:.3g} s, where a "
+             "perturbation of 1e-10 m has grown {}-fold; {}. Scene hash {}.</p>\n<p class=\"call\"><code>./crosscheck "
+             "compare {}</code></p>\n",
+             prose(scene.parameters), own_step_text(scene), scene.duration, scene.window, nice(facts.growth),
+             predictable, scene.hash, escaped(scene.name));
 }
 
-std::string chapter_section(const Chapter& chapter, const std::vector<Finding>& findings,
-                            const std::vector<std::string>& figures) {
-  std::string out = fmt::format("<section class=\"chapter\" id=\"{}\">\n<h2>{}</h2>\n<p class=\"question\">{}</p>\n",
-                                chapter.id, prose(chapter.title), prose(chapter.intro));
-  if (const auto own = of_chapter(findings, chapter.id); !own.empty()) out += finding_list(own, figures, "findings");
-  out += "<div class=\"figures\">\n";
-  for (const Chapter::Entry& entry : chapter.entries) {
-    // a long table with nothing above it is open, and has the whole width
-    const bool wide = entry.images.empty() && std::any_of(entry.tables.begin(), entry.tables.end(),
-                                                          [](const PageTable& t) { return t.rows.size() > 6; });
-    out += fmt::format("<article{}><h3>{}</h3><p>{}</p>\n", wide ? " class=\"wide\"" : "", prose(entry.heading),
-                       prose(entry.text));
-    for (const PageImage& image : entry.images)
-      out += image_html(image, image.file.extension() == ".png" ? "render" : "chart");
-    for (const PageTable& table : entry.tables) out += page_table_html(table, entry.images.empty());
-    out += "</article>\n";
+std::string scenes_html(const PageContent& c) {
+  if (c.scenes.empty()) return "";
+  std::string out = fmt::format(
+      "<section class=\"chapter\" id=\"scenes\"><h2>Scenes</h2>\n<p class=\"answer\">{} scene{}, each with one "
+      "question. A card opens its motion, its charts, all its runs and its certificates.</p>\n<div "
+      "class=\"cards\">\n",
+      c.scenes.size(), c.scenes.size() == 1 ? "" : "s");
+  for (const ScenePart& part : c.scenes) out += card_html(part);
+  out += "</div>\n";
+  for (const ScenePart& part : c.scenes)
+    out += fmt::format("<template data-scene=\"{}\">{}</template>\n", escaped(part.scene->name), scene_html(part, c));
+  return out + "</section>\n";
+}
+
+/// "order leaves out slide, bounce: contact": notes of one experiment with the same reason as one.
+std::vector<std::string> with_joined_reasons(const std::vector<std::string>& notes) {
+  constexpr std::string_view verb = " leaves out ";
+  std::vector<std::string> joined_notes;
+  std::map<std::pair<std::string, std::string>, size_t> place;  // by experiment and reason
+  for (const std::string& note : notes) {
+    const size_t begins = note.find(verb), ends = note.find(": ");
+    if (begins == std::string::npos || ends == std::string::npos || ends < begins) {
+      joined_notes.push_back(note);
+      continue;
+    }
+    const auto [at, is_new] = place.emplace(std::pair{note.substr(0, begins), note.substr(ends)}, joined_notes.size());
+    const size_t from = begins + verb.size();
+    if (is_new)
+      joined_notes.push_back(note);
+    else  // before the reason
+      joined_notes[at->second].insert(joined_notes[at->second].size() - (note.size() - ends),
+                                      ", " + note.substr(from, ends - from));
   }
-  return out + "</div>\n</section>\n";
+  return joined_notes;
+}
+
+std::string made_html(const PageContent& c) {
+  std::string out =
+      "<p>The error bar of a converged truth is the difference of its two routes, or, where that is more, three times "
+      "what the order at which refining goes down leaves of the last change. A difference is the distance between two "
+      "engines, or from what the in-house contact rule converges to. The second route is odeint's extrapolation on a "
+      "right-hand side written apart from mysim's. Data, figures and scripts lie beside this page in "
+      "<code>data/</code> and <code>figures/</code>; <code>report --verify</code> recomputes every sentence from "
+      "them.</p>\n";
+  for (const std::string& note : with_joined_reasons(c.notes))
+    out += fmt::format("<p class=\"note\">{}.</p>\n", prose(note));
+  return out + provenance_html(c.provenance);
 }
 
 }  // namespace
+
+std::string prose_with_bold_numbers(const std::string& text) {
+  // a number that stands by itself, with its unit
+  static const std::regex number(
+      "(^|[ (±])(\\d+(?:\\.\\d+)?(?:<span "
+      "class=\"n\">[^/]*</sup></span>)?(?:\u00a0(?:%|mm|µm|nm|ms|µs|m|s|times))?)(?![\\w</])");
+  return std::regex_replace(prose(text), number, "$1<b>$2</b>");
+}
 
 std::string page_head(const std::string& title, const std::string& more) {
   return fmt::format(
@@ -200,51 +446,50 @@ std::string provenance_html(const Provenance& lines) {
 
 std::vector<std::string> figures_of(const PageContent& c) {
   std::vector<std::string> names;
-  const auto add = [&](const std::vector<PageImage>& images) {
-    for (const PageImage& image : images)
-      if (image.file.extension() == ".svg") names.push_back(image.file.stem().string());
-  };
-  add(c.hero);
-  for (const ScenePart& part : c.scenes) add(part.figures);
   for (const Chapter& chapter : c.chapters)
-    for (const Chapter::Entry& entry : chapter.entries) add(entry.images);
+    for (const Chapter::Entry& entry : chapter.entries)
+      for (const PageFigure& figure : entry.figures) names.push_back(figure.name);
+  for (const ScenePart& part : c.scenes)
+    for (const PageFigure& figure : part.figures) names.push_back(figure.name);
   return names;
 }
 
-std::string page_html(const PageContent& c) {
-  const std::vector<std::string> figures = figures_of(c);
-  const bool plays = !c.runs.empty() || std::any_of(c.scenes.begin(), c.scenes.end(),
-                                                    [](const ScenePart& part) { return !part.motions.empty(); });
-  std::string out = page_head("Crosscheck: mysim beside Bullet", plays ? player_head() : "") + first_screen(c);
-  for (const Chapter& chapter : c.chapters)
-    if (!chapter.entries.empty()) out += chapter_section(chapter, c.findings, figures);
-  for (const ScenePart& part : c.scenes) out += scene_section(part, figures);
+bool opens_a_chapter(const PageContent& c, const std::string& figure) {
+  return std::ranges::any_of(c.chapters, [&](const Chapter& chapter) {
+    const std::vector<Lead> leads = leads_of(chapter, c);
+    return !leads.empty() && leads[0].entry->figures[leads[0].figure].name == figure;
+  });
+}
 
-  out +=
-      glossary_html() +
-      "<section class=\"made\" id=\"made\"><h2>How this was made</h2>\n<p>The error bar of a converged truth is the "
-      "difference of its two routes, or, where that is more, three times what the order at which refining goes down "
-      "leaves of the last change. A difference is the "
-      "distance between two engines, or from what the in-house contact rule converges to. Data, figures and scripts "
-      "lie beside this page in <code>data/</code> and <code>figures/</code>; <code>report --verify</code> recomputes "
-      "every sentence from them.</p>\n";
-  out += "<p>The second route is odeint's extrapolation on a right-hand side written apart from mysim's.</p>\n";
-  for (const std::string& note : c.notes) out += fmt::format("<p class=\"note\">Note: {}.</p>\n", prose(note));
-  out += provenance_html(c.provenance) + "</section>\n</main>\n";
+std::string page_html(const PageContent& c) {
+  std::string out = page_head("Crosscheck: mysim" + beside_mysim(c), player_styles()) + contents_html(c) + "<main>\n" +
+                    first_screen(c) + changes_html(c);
+  for (size_t i = 0; i < c.chapters.size(); ++i)
+    if (!c.chapters[i].entries.empty() || c.chapters[i].id == "same-answer")
+      out += chapter_html(c.chapters[i], i + 1, c);
+  out += recommendation_table_html(c.scenes) + scenes_html(c) +
+         "<section class=\"chapter\" id=\"words\"><h2>Words</h2>\n" +
+         fold_html("The words that this page uses", "explained", glossary_html()) +
+         fold_html("All methods", "table", methods_html(), "methods") +
+         fold_html("How this was made", "provenance", made_html(c), "made") + "</section>\n</main>\n";
+  out += fmt::format("<script type=\"text/plain\" id=\"charts\">{}</script>\n", base64(gzipped(c.charts.dump())));
+  out += script_json("id=\"methods-data\"", method_looks_json(c.methods).dump());
+  for (const ScenePart& part : c.scenes)
+    if (!part.motions.empty())
+      out += script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", escaped(part.scene->name)),
+                         content_of_file(part.motions));
   for (const PlayableRuns& runs : c.runs) out += runs_html(runs);
-  return deduplicate_pictures(
-      deduplicate_markers(out + "<script>\n" + asset("page/page.js") + "</script>\n</body></html>\n"));
+  return out + player_scripts() + "<script>\n" + asset("page/chart.js") + asset("page/page.js") +
+         "</script>\n</body></html>\n";
 }
 
 namespace {
 
 Json evidence_json(const Evidence& e) { return {{"table", e.table}, {"rows", e.rows}, {"fingerprint", e.fingerprint}}; }
 
-Json finding_json(const Finding& f, const Rows& result, const std::vector<std::string>& figures) {
-  Json json = {{"scene", f.scene},       {"topic", f.topic},
-               {"sentence", f.sentence}, {"tier", f.tier},
-               {"chapter", f.chapter},   {"figure", figure_of(f.rule, f.scene, figures)},
-               {"rule", f.rule},         {"formula", finding_rule(f.rule).formula}};
+Json finding_json(const Finding& f, const TableSet& result, const std::vector<std::string>& figures) {
+  Json json = json_of(f);
+  json["figure"] = figure_of(f.rule, f.scene, figures);
   json["evidence"] = Json::list();
   for (const Evidence& e : evidence_of(f, result)) json["evidence"].push(evidence_json(e));
   return json;
@@ -253,15 +498,14 @@ Json finding_json(const Finding& f, const Rows& result, const std::vector<std::s
 }  // namespace
 
 std::string report_json(const PageContent& page, const AllFindings& findings, const std::vector<Chart>& charts,
-                        const Rows& result) {
+                        const TableSet& result, std::string_view extent) {
   Json json;
+  json["extent"] = extent;
   for (const auto& [key, value] : page.provenance)
     if (key != "scene") json["provenance"][key] = value;
   const std::vector<std::string> figures = figures_of(page);
   json["findings"] = Json::list();
-  for (const Finding& f : findings.overall) json["findings"].push(finding_json(f, result, figures));
-  for (const auto& of_scene : findings.of_scenes)
-    for (const Finding& f : of_scene) json["findings"].push(finding_json(f, result, figures));
+  for (const Finding* f : findings.each()) json["findings"].push(finding_json(*f, result, figures));
   json["scenes"] = Json::object();
   for (const ScenePart& part : page.scenes)
     json["scenes"][part.scene->name] = {

@@ -1,66 +1,89 @@
-// The page: one self-contained HTML file that opens with the summary; and report.json, the same as data.
+// The page: one self-contained HTML file. First the answers, beside something that moves; then a chapter for each
+// question; then which method to take for which scene, and the scenes as cards, each of which opens in its place.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "mysim/base/json.h"
 #include "report/figures/charts.h"
+#include "report/findings/answers.h"
 #include "report/findings/evidence.h"
 #include "report/findings/findings.h"
 #include "report/findings/recommendation.h"
 #include "report/findings/verify.h"
-#include "report/page/inline_svg.h"
 
 namespace crosscheck {
 
-/// A picture or a figure already on disk.
+/// A picture already on disk.
 struct PageImage {
   std::filesystem::path file;  // .png or .svg
   std::string alt, caption;
-  Tooltips tooltips = {};  // of .svg
-  std::string runs = {};   // which runs its markers or cells play: the key of PlayableRuns; empty: none
 };
 
-/// The runs of a figure, as the player has them: one file of JSON for each method (report/player/run_motions.h).
+/// A chart that the page draws (chart.js), or on paper gnuplot (the files of its name in figures/).
+struct PageFigure {
+  std::string name, title, caption;
+  std::string runs = {};  // which runs its markers or cells play: the key of PlayableRuns; empty: none
+};
+
+/// The runs of a figure, as the player has them: one file of JSON for each method (report/player/motions.h).
 struct PlayableRuns {
   std::string key;
   std::string scene;  // the scene of the player's data that they are added to
-  std::string stage;  // or JSON of a stage of their own (report/player/player_data.h)
+  std::string stage;  // or JSON of a stage of their own (report/player/motions.h)
   std::vector<std::filesystem::path> methods;
+  std::vector<std::string> names = {};  // of them
+};
+
+/// A run that the page shows by itself.
+struct ShownRun {
+  std::string key;  // its method, and its place among the method's runs of the chart; or "own": at the scene's own step
+  std::string method, setting;
+  std::optional<double> error, cpu;  // m, s
+  bool beside = false;               // the others on the first screen
 };
 
 struct ScenePart {
   const Scene* scene;
   const SceneData* facts;
   std::vector<Finding> findings;
-  std::vector<PageImage> pictures;  // renders
-  std::filesystem::path
-      motions;  // what plays over the first picture (report/player/player_data.h); empty: it stays a picture
-  std::vector<PageImage> figures;  // charts
+  std::filesystem::path motions;          // what the player shows (report/player/motions.h); empty: pictures alone
+  std::filesystem::path thumbnail, hero;  // .png, or empty
+  std::vector<PageFigure> figures;
   std::vector<const Certificate*> certificates;
-  const Table* statistics = nullptr;                     // of perturbed runs, where there is contact
-  std::vector<RecommendationCell> recommendations = {};  // which method for it
+  const Table* statistics = nullptr;   // of perturbed runs, where there is contact
+  std::optional<RecommendedRun> take;  // within 1 %
+  std::vector<ShownRun> runs = {};     // in the small table of its card
 };
 
-/// A part of the report that belongs to no scene of its own.
+/// A chapter of the page: it answers a question.
 struct Chapter {
   struct Entry {
+    std::string part;  // the id of the chart's own chapter, of those that this one joins
     std::string heading, text;
+    std::vector<PageFigure> figures;
     std::vector<PageImage> images;
     std::vector<PageTable> tables;
+    bool shown = false;  // not folded away
   };
-  std::string id, title, intro;
-  std::vector<Entry> entries;
-  std::string label = {};  // in the line of contents; empty: the title
+  std::string id, title, label;    // label: in the line of contents
+  std::vector<std::string> joins;  // ids that charts name as their chapter
+  std::vector<std::string> leads;  // figures that open it, "*" for any: the first that there is
+  std::string formula, teaching;   // HTML; what a reader learns from it; "{critical}": the main scene's numbers
+  std::vector<Entry> entries = {};
 };
 
 struct PageContent {
   std::vector<Finding> findings;  // of the whole report
-  std::vector<PageImage> hero;    // next to the summary: a picture, and the figures of the whole report
   std::vector<ScenePart> scenes;
   std::vector<Chapter> chapters;
+  Json charts = Json::object();       // by the names of figures: what they draw (report/figures/chart_json.h)
+  std::vector<std::string> methods;   // that stand in it
   std::vector<PlayableRuns> runs;     // that figures play
+  std::string main_scene;             // stands for the others; empty: none
+  std::filesystem::path figures;      // the folder of the figures for paper
   std::vector<std::string> notes;     // what was left out, and why
   std::vector<std::string> problems;  // what failed to be made
   std::string against;                // an earlier report, or empty
@@ -68,8 +91,10 @@ struct PageContent {
   Provenance provenance;
 };
 
-/// Names of the figures that are drawings, in order: each is at #figure-NAME.
+/// Names of its figures, in order: each is at #figure-NAME.
 std::vector<std::string> figures_of(const PageContent& content);
+/// Whether the figure of that name opens a chapter, so that it is drawn for paper and for readers without scripts.
+bool opens_a_chapter(const PageContent& content, const std::string& figure);
 
 /// The whole page. Throws std::runtime_error when an image or motions cannot be read.
 std::string page_html(const PageContent& content);
@@ -79,18 +104,18 @@ std::string page_html(const PageContent& content);
 std::string page_head(const std::string& title, const std::string& more = "");
 std::string provenance_html(const Provenance& lines);
 
-/// All bytes of a file. Throws std::runtime_error that names it.
-std::string content_of_file(const std::filesystem::path& file);
 /// Text made safe for HTML.
 std::string escaped(const std::string& text);
 /// The same for reading: numbers and their units stay on one line.
 std::string prose(const std::string& text);
+/// The same with each number and its unit in bold.
+std::string prose_with_bold_numbers(const std::string& text);
 
 /// The chapters of the report, in order, without entries. A new one is a row.
 std::vector<Chapter> chapters();
 
 /// A long table is folded unless it is to be open.
-std::string page_table_html(const PageTable& table, bool open = false);
+std::string page_table_html(const PageTable& table);
 
 /// <img> with the image inside the page; and a <figure> of it with its caption.
 std::string image_tag(const PageImage& image);
@@ -101,21 +126,23 @@ std::string run_table_html(const ScenePart& part);
 /// Means and spreads over perturbed runs.
 std::string statistics_html(const Table& statistics);
 std::string certificate_html(const Certificate& certificate);
-/// The table on the first screen: one row per scene.
+/// All certificates in one picture: a dot for each quantity of each scene, in a column for each method.
+std::string parity_html(const std::vector<ScenePart>& scenes);
+/// One recommendation a scene: the method to take for 1 % of the motion, with step, error, cost and what binds the
+/// step.
 std::string recommendation_table_html(const std::vector<ScenePart>& scenes);
 
 /// The way through the page.
 std::string contents_html(const PageContent& content);
-/// The words that the page uses; and a link to one of them, by its id. Throws std::logic_error where none has that id.
+/// The words that the page uses.
 std::string glossary_html();
 /// All methods, a line each.
 std::string methods_html();
-std::string term_link(const std::string& id);
 
 // report.json: what a report says, as data, and what each sentence rests on.
 
 /// Findings with formula, rows and fingerprints; scenes; tables with their fingerprints; figures, notes, problems.
 std::string report_json(const PageContent& page, const AllFindings& findings, const std::vector<Chart>& charts,
-                        const Rows& result);
+                        const TableSet& result, std::string_view extent);
 
 }  // namespace crosscheck

@@ -1,6 +1,6 @@
 // Tables of the page: recommendations, chapters, runs of a scene, certificates, methods.
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ std::string length_cell(const std::optional<double>& value, double floor = 0) {
   return fmt::format("<td>{}</td>", nice_length(*value));
 }
 
-/// A clearance: negative inside; round-off is neither.
+/// A clearance, negative inside; round-off counts as zero.
 std::string signed_length(double metres) { return std::abs(metres) < 1e-12 ? "0 m" : nice_length(metres); }
 
 std::string verdict_cell(const MethodData& m, const SceneData& facts) {
@@ -34,7 +34,7 @@ std::string verdict_cell(const MethodData& m, const SceneData& facts) {
   return fmt::format("<td class=\"failed\" title=\"{}\">{} at {:.3g} s</td>", what, m.failure(), m.end);
 }
 
-/// The mean to the digits that its spread leaves it.
+/// The mean with as many digits as its deviation allows.
 std::string with_digits_of(double mean, double spread) {
   if (std::abs(mean) < 1e-12) return "0";
   if (!(spread > 0) || std::abs(mean) < 1e-3) return nice(mean);
@@ -42,12 +42,12 @@ std::string with_digits_of(double mean, double spread) {
   return fmt::format("{:.{}f}", mean, decimals);
 }
 
-/// "1.0e-7 m": whatever else breaks, this does not.
+/// Whether a cell is a number with its unit ("1.0e-7 m"), which is not broken over lines.
 bool is_number(const std::string& cell) {
   return cell.size() <= 12 && cell.find_first_of("0123456789") <= 2 && !cell.starts_with("1/");
 }
 
-/// Names of methods may break behind the slash: in half a page's width eight columns have to stand.
+/// Lets names of methods break behind the slash, so that eight columns fit half a page.
 std::string narrow(const std::string& cell) {
   std::string out;
   bool in_tag = false;
@@ -61,40 +61,41 @@ std::string narrow(const std::string& cell) {
 
 }  // namespace
 
-std::string page_table_html(const PageTable& table, bool open) {
-  // long ones open on a click: the figure above has said most of it
-  const bool shut = !open && !table.open && table.rows.size() > 6;
-  std::string out = shut ? fmt::format("<details><summary>{}</summary>\n", prose(table.caption)) : "";
-  out += "<div class=\"scroll\"><table>";
-  if (!shut) out += fmt::format("<caption>{}</caption>", prose(table.caption));
-  out += "<thead><tr>";
-  for (const std::string& head : table.header) out += fmt::format("<th>{}</th>", prose(head));
+std::string page_table_html(const PageTable& table) {
+  const auto has_cells = [&](size_t column) {  // an empty column says nothing
+    return std::ranges::any_of(table.rows, [&](const auto& row) { return !row[column].empty(); });
+  };
+  std::string out = fmt::format("<div class=\"scroll\"><table><caption>{}</caption><thead><tr>", prose(table.caption));
+  for (size_t i = 0; i < table.header.size(); ++i)
+    if (has_cells(i)) out += fmt::format("<th>{}</th>", prose(table.header[i]));
   out += "</tr></thead><tbody>\n";
   for (const auto& row : table.rows) {
-    out += "<tr>";
+    out += builtin_method(row[0]) ? fmt::format("<tr data-method=\"{}\">", escaped(row[0])) : "<tr>";
     for (size_t i = 0; i < row.size(); ++i)
-      out += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", narrow(row[i]))
-                    : fmt::format("<td{}>{}</td>",
-                                  row[i].empty()      ? " class=\"none\""
-                                  : is_number(row[i]) ? " class=\"number\""
-                                                      : "",
-                                  row[i].empty() ? "–" : narrow(row[i]));
+      if (has_cells(i))
+        out += i == 0 ? fmt::format("<th scope=\"row\">{}</th>", narrow(row[i]))
+                      : fmt::format("<td{}>{}</td>",
+                                    row[i].empty()      ? " class=\"none\""
+                                    : is_number(row[i]) ? " class=\"number\""
+                                                        : "",
+                                    row[i].empty() ? "–" : narrow(row[i]));
     out += "</tr>\n";
   }
-  return out + "</tbody></table></div>\n" + (shut ? "</details>\n" : "");
+  return out + "</tbody></table></div>\n";
 }
 
 std::string run_table_html(const ScenePart& part) {
   const bool contact = part.scene->model.find<Spheres>();
   std::string out = fmt::format(
-      "<div class=\"scroll\"><table><thead><tr><th>method</th><th>verdict</th><th>error from truth</th><th>away from "
-      "symplectic "
-      "Euler</th>{}<th>energy off</th><th>evaluations</th><th title=\"of the run as it is watched at every step; the "
-      "chapter on cost times steps alone\">CPU, watched / s</th></tr></thead><tbody>\n",
-      contact ? "<th>centres apart</th><th>clearance</th><th>creep at end</th>" : "");
+      "<div class=\"scroll\"><table><thead><tr><th>method</th><th>verdict</th><th>RMS position "
+      "error</th><th>difference "
+      "from symplectic Euler</th>{}<th>relative energy residual</th><th>force evaluations</th><th title=\"of the run "
+      "with "
+      "all its observers; the chapter on cost times steps alone\">CPU time / s</th></tr></thead><tbody>\n",
+      contact ? "<th>distance between centres of mass</th><th>clearance</th><th>creep at end</th>" : "");
   for (const MethodData& m : part.facts->methods) {
     out += fmt::format(
-        "<tr><th scope=\"row\">{}{}</th>{}{}{}", escaped(m.method),
+        "<tr data-method=\"{0}\"><th scope=\"row\">{0}{1}</th>{2}{3}{4}", escaped(m.method),
         m.different_law.empty()
             ? ""
             : fmt::format("<span class=\"law\" title=\"{}\">different law</span>", escaped(m.different_law)),
@@ -113,7 +114,7 @@ std::string run_table_html(const ScenePart& part) {
 }
 
 std::string statistics_html(const Table& table) {
-  std::string out = "<div class=\"scroll\"><table><thead><tr><th>mean over 16 perturbed runs ± their spread</th>";
+  std::string out = "<div class=\"scroll\"><table><thead><tr><th>mean ± standard deviation of 16 perturbed runs</th>";
   std::vector<std::string> quantities, methods;
   auto note = [](std::vector<std::string>& list, const Cell& cell) {
     const auto& text = std::get<std::string>(cell);
@@ -146,13 +147,13 @@ std::string certificate_html(const Certificate& certificate) {
   std::string out = fmt::format(
       "<details{}><summary>Is it the same scene? {}: {}</summary><div "
       "class=\"scroll\"><table><thead><tr><th>quantity"
-      "</th><th>asked</th><th>handed over</th><th>read back</th><th>verdict</th></tr></thead><tbody>\n",
+      "</th><th>requested</th><th>mapped</th><th>read back</th><th>verdict</th></tr></thead><tbody>\n",
       bad ? " open" : "", escaped(certificate.method), escaped(summary_of(certificate)));
   for (const CertificateRow& r : certificate.rows)
     out += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td class=\"text\">{}</td><td "
         "class=\"text\">{}</td><td class=\"{}\">{}</td></tr>\n",
-        escaped(r.quantity), escaped(r.asked), escaped(r.mapped), escaped(r.read_back),
+        escaped(r.quantity), escaped(r.requested), escaped(r.mapped), escaped(r.read_back),
         r.parity == Parity::mismatch     ? "failed"
         : r.parity == Parity::unattested ? "none"
                                          : "ok",
@@ -160,35 +161,86 @@ std::string certificate_html(const Certificate& certificate) {
   return out + "</tbody></table></div></details>\n";
 }
 
-std::string recommendation_table_html(const std::vector<ScenePart>& scenes) {
+std::string parity_html(const std::vector<ScenePart>& scenes) {
+  std::vector<std::string> methods;
+  size_t all = 0, matched = 0;
+  for (const ScenePart& part : scenes)
+    for (const Certificate* certificate : part.certificates) {
+      if (std::ranges::find(methods, certificate->method) == methods.end()) methods.push_back(certificate->method);
+      for (const CertificateRow& row : certificate->rows) ++all, matched += row.parity == Parity::match;
+    }
+  if (methods.empty()) return "";
   std::string out =
-      "<section id=\"scenes\">\n<h2>Which method for which scene?</h2>\n<div class=\"scroll\"><table "
-      "class=\"choice\"><thead><tr><th>scene</th>";
-  // a column in which nothing stands is left out
-  std::vector<size_t> shown;
-  for (size_t i = 0; i < recommendation_columns().size(); ++i)
-    if (std::any_of(scenes.begin(), scenes.end(),
-                    [i](const ScenePart& part) { return !part.recommendations.at(i).empty(); }))
-      shown.push_back(i);
-  for (const size_t i : shown) out += fmt::format("<th>{}</th>", prose(recommendation_columns()[i].head));
+      "<figure class=\"parity-figure\"><div class=\"scroll\"><table class=\"parity\"><thead><tr><th>scene</th>";
+  for (const std::string& method : methods) out += fmt::format("<th class=\"text\">{}</th>", escaped(method));
   out += "</tr></thead><tbody>\n";
   for (const ScenePart& part : scenes) {
-    out += fmt::format("<tr><th scope=\"row\"><a href=\"#{0}\" title=\"{1}\">{0}</a></th>", escaped(part.scene->name),
-                       escaped(part.scene->question));
-    for (const size_t i : shown)
-      out += fmt::format("<td class=\"{}\">{}</td>", part.recommendations[i].css_class,
-                         prose(part.recommendations[i].text));
+    if (part.certificates.empty()) continue;
+    out += fmt::format("<tr><th scope=\"row\"><a href=\"#{0}\">{0}</a></th>", escaped(part.scene->name));
+    for (const std::string& method : methods) {
+      const auto own =
+          std::ranges::find_if(part.certificates, [&](const Certificate* c) { return c->method == method; });
+      if (own == part.certificates.end()) {
+        out += "<td class=\"none\">cannot</td>";
+        continue;
+      }
+      // equal neighbours are one element, as wide as they are many
+      out += fmt::format("<td title=\"{}\">", escaped(summary_of(**own)));
+      for (const CertificateRow& row : (*own)->rows)
+        out += fmt::format("<i class=\"{}\" title=\"{}: {}\"></i>",
+                           row.parity == Parity::match           ? "match"
+                           : row.parity == Parity::mismatch      ? "mismatch"
+                           : row.parity == Parity::different_law ? "law"
+                                                                 : "unattested",
+                           escaped(row.quantity), name_of(row.parity));
+      out += "</td>";
+    }
     out += "</tr>\n";
   }
-  out +=
-      "</tbody></table></div>\n<p class=\"note\">Errors at the scene's own step, in % of its motion (*: by steps of "
-      "the method's own); in bold who is "
-      "nearest, or within 5 % of the nearest; – where nothing was asked, or cannot be said. What each <a "
-      "href=\"#methods\">method</a> is; what "
-      "is meant by";
-  const char* mark = " ";
-  for (const size_t i : shown) out += std::exchange(mark, ", ") + term_link(recommendation_columns()[i].term);
-  return out + ".</p>\n</section>\n";
+  return out + fmt::format(
+                   "</tbody></table></div><figcaption>Parity certificates: a dot for each quantity that was read "
+                   "back from the engine's memory. Full: it matches, {} of {}; ring: another law, or not "
+                   "attested; red square: mismatch.</figcaption></figure>\n",
+                   matched, all);
+}
+
+std::string recommendation_table_html(const std::vector<ScenePart>& scenes) {
+  std::string rows;
+  std::vector<std::string> engines;  // beside mysim; where there is one, the column is named after it
+  for (const ScenePart& part : scenes)
+    for (const EngineBeside& other : part.take ? part.take->beside : std::vector<EngineBeside>())
+      if (std::ranges::find(engines, other.engine) == engines.end()) engines.push_back(other.engine);
+  for (const ScenePart& part : scenes) {
+    if (!part.take) continue;
+    const RecommendedRun& run = *part.take;
+    std::vector<std::string> tied, beside;
+    for (const std::string& method : run.tied) tied.push_back(name_in_sentence(method));
+    for (const EngineBeside& other : run.beside)
+      beside.push_back((engines.size() == 1 ? "" : name_in_sentence(other.engine) + " ") + times_text(other.times));
+    const double factor = part.scene->duration / run.cost;
+    rows += fmt::format(
+        "<tr data-method=\"{}\"><th scope=\"row\"><a href=\"#{}\">{}</a></th><td class=\"text\"><b>{}</b>{}</td><td "
+        "class=\"number\">{}</td><td>{}</td><td class=\"number\">{}</td><td>{}</td><td>{}</td><td "
+        "class=\"text\">{}</td></tr>\n",
+        escaped(run.method), escaped(part.scene->name), escaped(part.scene->name),
+        escaped(name_in_sentence(run.method)),
+        tied.empty() ? "" : " <span class=\"soft\">tied in speed: " + escaped(joined(tied)) + "</span>",
+        prose(setting_text(std::string(name_of(run.setting)), run.requested)), prose(percent(run.error, run.motion)),
+        prose(step_text(run.cost)), factor >= 10 ? times_text(factor) : fmt::format("{:.2g}", factor),
+        beside.empty() ? "–" : escaped(fmt::format("{}", fmt::join(beside, ", "))), run.bound);
+  }
+  if (rows.empty()) return "";
+  return "<section class=\"chapter\" id=\"which-method\"><h2>Which method for which scene</h2>\n<p "
+         "class=\"answer\">The "
+         "cheapest run with an error of at most 1 % of the motion; where the clock cannot tell runs apart, the nearest "
+         "to the truth.</p>\n<div class=\"scroll\"><table><thead><tr><th>scene</th><th "
+         "class=\"text\">take</th><th>step or "
+         "tolerance</th><th>error</th><th>CPU time</th><th>× real time</th><th>" +
+         escaped(engines.size() == 1 ? name_in_sentence(engines[0]) : "others") +
+         " / mysim</th><th "
+         "class=\"text\">step "
+         "bound by</th></tr></thead><tbody>\n" +
+         rows + "</tbody></table></div>\n</section>\n";
 }
 
 namespace {
@@ -223,12 +275,14 @@ std::string row_of(const Method& method) {
 
 std::string methods_html() {
   std::string out =
-      "<h3 id=\"methods\">Methods</h3>\n<div class=\"scroll\"><table "
-      "class=\"methods\"><thead><tr><th>method</th><th>what it is</th><th>order</th><th>force evaluations a step</th>"
-      "<th>stable while (ω: fastest vibration, γ: drag, h: step)</th></tr></thead><tbody>\n";
+      "<div class=\"scroll\"><table "
+      "class=\"methods\"><thead><tr><th>method</th><th>what it is</th><th>order</th><th>force evaluations per time "
+      "step</th>"
+      "<th>stable for (ω: largest angular frequency, γ: drag rate, h: time step)</th></tr></thead><tbody>\n";
   for (const Method& method : all_methods())
-    if (method.family().role != Role::truth) out += row_of(method);
-  return out + "</tbody></table></div>\n";
+    if (method.family().role != Role::truth && !method.family().single_precision) out += row_of(method);
+  return out +
+         "</tbody></table></div>\n<p class=\"note\">Bullet's worlds in single precision are called bullet32.</p>\n";
 }
 
 }  // namespace crosscheck

@@ -31,7 +31,7 @@ void require_clip(const Shot& shot) {
   render::require_encoder();
 }
 
-void write_clip(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot,
+void write_clip(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                 const std::filesystem::path& file) {
   require_clip(shot);
   const int last = clip_run(scene).samples;

@@ -14,7 +14,7 @@ Run clip_run(const Scene& scene);
 /// Writes the results of clip_run() as an MP4; `shot.at` has no meaning. Failed runs stand still and say so. Shows
 /// progress. Throws InputError for mode strip, sizes of odd numbers, and where nothing can be shown; Unsupported
 /// without ffmpeg.
-void write_clip(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot,
+void write_clip(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                 const std::filesystem::path& file);
 
 /// Whether a clip of this shot is possible: throws as write_clip() does, before any run.

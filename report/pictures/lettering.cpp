@@ -17,16 +17,6 @@
 namespace crosscheck::render {
 namespace {
 
-/// In single quotes nothing is special to gnuplot but the quote itself.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char letter : text) {
-    const bool control = static_cast<unsigned char>(letter) < 32;
-    result += control ? std::string(" ") : letter == '\'' ? std::string("''") : std::string(1, letter);
-  }
-  return result + "'";
-}
-
 /// Letters, boxes and lines as gnuplot commands, at places in pixels from the top left of a page.
 class GnuplotPage {
  public:
@@ -70,9 +60,11 @@ GnuplotPage::GnuplotPage(int width, int height, const PageFormat& paper, const s
 void GnuplotPage::label(double x, double y, const char* side, const std::string& text, double size, bool bold,
                         unsigned colour) {
   if (text.empty()) return;
-  for (const std::string& words : lines_of(text)) {
+  for (std::string words : lines_of(text)) {
+    std::ranges::replace_if(
+        words, [](unsigned char letter) { return letter < 32; }, ' ');
     line(fmt::format("set label {} at {} {} noenhanced front font 'DejaVu Sans{},{:.2f}' textcolor rgb '#{:06X}'",
-                     quoted(words), at(x, y), side, bold ? ":Bold" : "", points_ * size, colour));
+                     single_quoted(words), at(x, y), side, bold ? ":Bold" : "", points_ * size, colour));
     y += line_height * size;
   }
 }

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 
+#include "mysim/base/files.h"
 #include "report/base/atomic_file.h"
 #include "report/base/gnuplot.h"
 #include "report/pictures/layout.h"
@@ -34,8 +34,7 @@ std::string chunk(const std::string& type_and_data) {
 }
 
 std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::string bytes = try_read_file(file).value_or("");
   if (bytes.size() < header) throw std::runtime_error("cannot read " + file.string());
   return bytes;
 }

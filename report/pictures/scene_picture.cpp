@@ -50,7 +50,7 @@ bool is_thread(const Spring& s) { return s.family == Family::structural; }
 
 }  // namespace
 
-render::Body body_of(const Scene& scene, const Result& answer, int frame, Mode mode, const Points* base) {
+render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, Mode mode, const Points* base) {
   render::Body body;
   body.x = answer.trajectory.x[frame];
   body.pinned = scene.model.particles.pins;
@@ -173,13 +173,13 @@ render::View view_of(const Scene& scene, const std::vector<Points>& shown, const
 }
 
 /// The method, and its step where another picture is of the same method.
-std::string title_of(const Result& answer, const std::vector<const Result*>& all) {
-  const auto same = std::ranges::count(all, answer.method, &Result::method);
+std::string title_of(const MethodResult& answer, const std::vector<const MethodResult*>& all) {
+  const auto same = std::ranges::count(all, answer.method, &MethodResult::method);
   return same > 1 ? fmt::format("{}, step {}", answer.method, step_text(answer.outcome.step)) : answer.method;
 }
 
 /// In a clip of steady width, and without word of a failure that is still to come.
-std::string time_text(const Result& answer, int frame, const Shot& shot) {
+std::string time_text(const MethodResult& answer, int frame, const Shot& shot) {
   const double time = answer.trajectory.t[frame];
   const std::string t = shot.in_clip ? fmt::format("t = {:.2f} s", time) : fmt::format("t = {:.3g} s", time);
   const bool to_come = shot.in_clip && frame_at(answer.trajectory, shot.at) + 1 < answer.trajectory.frames();
@@ -189,9 +189,10 @@ std::string time_text(const Result& answer, int frame, const Shot& shot) {
                            answer.outcome.end);
 }
 
-std::vector<const Result*> usable_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot) {
-  std::vector<const Result*> usable;
-  for (const Result* a : answers)
+std::vector<const MethodResult*> usable_of(const Scene& scene, const std::vector<const MethodResult*>& answers,
+                                           const Shot& shot) {
+  std::vector<const MethodResult*> usable;
+  for (const MethodResult* a : answers)
     if (a->trajectory.frames() > 0) usable.push_back(a);
   if (usable.empty())
     throw InputError(
@@ -237,8 +238,9 @@ struct Seen {
 };
 
 /// The picture but for its view and the top of its scale.
-render::Picture panels_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot, Seen& seen) {
-  const std::vector<const Result*> usable = usable_of(scene, answers, shot);
+render::Picture panels_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
+                          Seen& seen) {
+  const std::vector<const MethodResult*> usable = usable_of(scene, answers, shot);
   render::Picture picture;
   picture.width = shot.width;
   picture.height = shot.height;
@@ -250,13 +252,13 @@ render::Picture panels_of(const Scene& scene, const std::vector<const Result*>& 
       shot.mode == Mode::stretch && !scene.model.find<Springs>() && !scene.model.find<Constraints>();
   const Mode mode = strip || no_stretch ? Mode::shaded : shot.mode;
   Shot when = shot;
-  for (const Result* a : usable)
+  for (const MethodResult* a : usable)
     if (shot.at_first_failure && a->outcome.verdict != Verdict::ok)
       when.at = when.at < 0 ? a->outcome.end : std::min(when.at, a->outcome.end);
   const auto base_frames = frames_of(scene, usable[0]->trajectory, when);
   seen.trails.clear();  // a later time's hold those of earlier ones
   if (!strip) picture.rows.emplace_back();
-  for (const Result* a : usable) {
+  for (const MethodResult* a : usable) {
     if (strip) picture.rows.emplace_back();
     const std::vector<int> frames = frames_of(scene, a->trajectory, when);
     for (size_t c = 0; c < frames.size(); ++c) {
@@ -288,7 +290,7 @@ CameraPlacement camera_placement(const Scene& scene, const std::vector<Points>& 
   return {towards_eye(scene, is_flat(scene, shown)), view_of(scene, shown, balls, 1).floor};
 }
 
-int frame_shown(const Scene& scene, const Result& answer, const Shot& shot) {
+int frame_shown(const Scene& scene, const MethodResult& answer, const Shot& shot) {
   return drawable(scene, answer.trajectory, frame_at(answer.trajectory, shot.at));
 }
 
@@ -311,15 +313,17 @@ std::vector<std::string> pictured_methods(const Scene& scene) {
   std::vector<std::string> names;
   for (const Method& m : all_methods()) {
     const bool representative = m.name == m.family().representative;
-    const bool asked = first_order ? m.stepper && m.stepper->first_order && !m.adaptive
+    const bool shown = first_order ? m.stepper && m.stepper->first_order && !m.adaptive
                        : hard      ? m.position_based
                                    : representative || (m.position_based && !m.family().is_subject());
-    if (asked && m.family().by_default()) names.push_back(m.name);
+    if (shown && m.family().by_default()) names.push_back(m.name);
   }
   if (first_order || hard) return names;
   // what is meant for long steps first, and what fails there next to it
   if (!scene.method.starts_with(program_prefix) && find_method(scene.method).implicit)
-    names = {find_method(scene.method).name, "mysim/implicit-midpoint", std::string(subject().representative)};
+    names = {find_method(scene.method).name,
+             subject_method([](const Stepper& s) { return s.evaluations == 0 && s.symplectic; }),
+             std::string(subject().representative)};
   if (scene.model.find<Spheres>()) names.push_back(sticky_method());
   return names;
 }
@@ -335,7 +339,8 @@ Shot usual_shot(const Scene& scene, bool full) {
   return shot;
 }
 
-CommonView common_view(const Scene& scene, const std::vector<const Result*>& answers, const std::vector<Shot>& shots) {
+CommonView common_view(const Scene& scene, const std::vector<const MethodResult*>& answers,
+                       const std::vector<Shot>& shots) {
   Seen seen;
   render::Picture last;
   bool failures_count = false;
@@ -348,7 +353,7 @@ CommonView common_view(const Scene& scene, const std::vector<const Result*>& ans
   return {view_of(scene, seen.shown(), seen.balls, render::panel_aspect(last)), round_up(most)};
 }
 
-render::Picture picture_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot,
+render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                            const CommonView& common) {
   Seen unused;
   render::Picture picture = panels_of(scene, answers, shot, unused);
@@ -361,7 +366,7 @@ render::Picture picture_of(const Scene& scene, const std::vector<const Result*>&
   return picture;
 }
 
-render::Picture picture_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot) {
+render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot) {
   return picture_of(scene, answers, shot, common_view(scene, answers, {shot}));
 }
 

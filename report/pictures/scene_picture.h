@@ -41,7 +41,7 @@ Shot usual_shot(const Scene& scene, bool full);
 /// Results of one scene side by side, in one view. Results without frames are left out; a failed run is shown at its
 /// last finite frame and says so. In mode difference the others are compared with the first one.
 /// Throws InputError when nothing can be shown.
-render::Picture picture_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot);
+render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot);
 
 /// The common view of pictures that are to be compared, like those of a clip.
 struct CommonView {
@@ -49,8 +49,9 @@ struct CommonView {
   double top;  // of the scale, in its unit
 };
 /// The one that suits all of these shots, which are of one mode and size, in the order of their times.
-CommonView common_view(const Scene& scene, const std::vector<const Result*>& answers, const std::vector<Shot>& shots);
-render::Picture picture_of(const Scene& scene, const std::vector<const Result*>& answers, const Shot& shot,
+CommonView common_view(const Scene& scene, const std::vector<const MethodResult*>& answers,
+                       const std::vector<Shot>& shots);
+render::Picture picture_of(const Scene& scene, const std::vector<const MethodResult*>& answers, const Shot& shot,
                            const CommonView& common);
 
 /// From where a scene is seen, and the ground below all that it does.
@@ -63,13 +64,13 @@ CameraPlacement camera_placement(const Scene& scene, const std::vector<Points>& 
                                  const std::vector<double>& times);
 
 /// The frame of the result that such a shot shows (not of mode strip).
-int frame_shown(const Scene& scene, const Result& answer, const Shot& shot);
+int frame_shown(const Scene& scene, const MethodResult& answer, const Shot& shot);
 
 /// The methods that a picture of the scene shows when none is named.
 std::vector<std::string> pictured_methods(const Scene& scene);
 
 /// The body at one of the result's frames; in mode difference coloured by the distance from `base`.
-render::Body body_of(const Scene& scene, const Result& answer, int frame, Mode mode, const Points* base);
+render::Body body_of(const Scene& scene, const MethodResult& answer, int frame, Mode mode, const Points* base);
 
 /// The families that the scene's springs belong to, in the order of the legend.
 std::vector<Family> families_of(const Scene& scene);

@@ -22,7 +22,7 @@ class Video {
   ~Video();
   /// Throws std::runtime_error with ffmpeg's words, like finish().
   void add(const Image& image);
-  /// The file is seen from then on, and not at all without.
+  /// Ends the file and gives it its name; without this call there is no file.
   void finish();
 
  private:

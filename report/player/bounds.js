@@ -1,4 +1,4 @@
-// How much room a scene takes: what the camera has to hold, and the ball around it that light and shadow need.
+// The bounds of a scene: the bodies that the camera has to hold, and the ball around them for light and shadow.
 
 /** Towards the key light, from the left behind the viewer, for a viewer in this direction. */
 function keyDirection(from) {
@@ -7,17 +7,19 @@ function keyDirection(from) {
   return unit(plus(plus([0, 1, 0], -0.3, right), 0.44, back));
 }
 
-/** Where the light's ray through a place meets the ground. */
+/** The point in which the light's ray through a position meets the ground. */
 const footOf = (at, floor, key) => plus(at, -(at[1] - floor) / key[1], key);
 
 /** Of some particles in some frames of the runs that went well, of obstacles and of shadows:
     `held` as Orbit.fit takes it, `key` towards the light, `size`, `middle` and `reach` (m) of the box and ball around. */
 function boundsOf(scene, motions) {
-  const held = [], well = motions.filter(m => !m.method.failure);
-  const stride = Math.max(1, Math.floor(scene.particles / 300));
+  const held = [], well = motions.filter(motion => motion.well);
+  const stride = Math.max(1, Math.floor(scene.particles / 300)), places = new Float32Array(3 * scene.particles);
   for (const motion of well.length ? well : motions)
-    for (let f = 0; f < motion.method.frames; f += Math.max(1, Math.floor(motion.method.frames / 12)))
-      for (let i = 0; i < scene.particles; i += stride) held.push({at: motion.place(f, i), radius: 0, margin: 0.07});
+    for (let f = 0; f <= 12; ++f) {
+      motion.placesAt(motion.begin + f / 12 * (motion.end - motion.begin), places);
+      for (let i = 0; i < scene.particles; i += stride) held.push({at: [...places.subarray(3 * i, 3 * i + 3)], radius: 0, margin: 0.07});
+    }
   for (const sphere of scene.spheres)
     for (const at of sphere.centres) held.push({at, radius: sphere.radius, margin: 0.07});
   const most = of => held.reduce((far, h) => Math.max(far, of(h)), -Infinity);

@@ -1,4 +1,4 @@
-// What stands below the pictures: play, slider, choices, the list of methods and the plot.
+// The controls below the pictures: play, slider, choices, the list of methods and the plot.
 
 const make = (name, attributes = {}, ...children) => {
   const element = document.createElement(name);
@@ -7,7 +7,7 @@ const make = (name, attributes = {}, ...children) => {
   return element;
 };
 
-const choice = (label, options, chosen) => {
+const dropdown = (label, options, chosen) => {
   const select = make(
       'select', {'aria-label': label},
       ...options.map(([value, text]) => make('option', value === chosen ? {value, selected: ''} : {value}, text)));
@@ -33,128 +33,138 @@ const short = value => {
   return (value < 0 ? '−' : '') + text;
 };
 
-/** A length in the unit that suits it. */
+/** The unit that suits a length: its name and its size, m. */
+const unitOf = metres => [['m', 1], ['mm', 1e-3], ['µm', 1e-6], ['nm', 1e-9]].find(([, size]) => metres >= size) ?? ['m', 1];
+/** A length in it. */
 const length = metres => {
-  for (const [unit, size] of [['m', 1], ['mm', 1e-3], ['µm', 1e-6], ['nm', 1e-9]])
-    if (metres >= size) return `${Number((metres / size).toPrecision(2))} ${unit}`;
-  return `${short(metres)} m`;
+  const [name, size] = metres > 0 ? unitOf(metres) : ['mm', 1e-3], value = metres / size;
+  return `${value === 0 ? 0 : value < 1e-3 ? short(value) : Number(value.toPrecision(2))} ${name}`;
+};
+
+/** Smallest 1, 2 or 5 times a power of ten that is not below a value. */
+function roundUp(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return Number(([1, 2, 5, 10].find(s => s * power >= value * (1 - 1e-9)) * power).toPrecision(1));
+}
+
+/** A method as engine and rule; a program goes by its own name. */
+const inTwo = method => {
+  const {engine, rule} = looksOfPage[method] ?? {};
+  if (engine) return [engine, rule];
+  const [first, second = ''] = method.split('/');
+  return [first, second.replace(/-/g, ' ')];
+};
+
+/** What was asked of a run: "980 µs", "tolerance 1e-6". */
+const settingOf = ({step, tolerance}) => {
+  if (tolerance) return `tolerance ${short(tolerance)}`;
+  const [unit, size] = step < 1e-3 ? ['µs', 1e-6] : step < 1 ? ['ms', 1e-3] : ['s', 1];
+  return step ? `${Number((step / size).toPrecision(3))} ${unit}` : '';
 };
 
 const pointerHelp = 'Drag to turn. With the picture in focus (click it, or Tab) the wheel zooms, arrow keys turn, + and − ' +
     'zoom, 0 resets.';
 
+/** Two selects, method and step, among the runs of a scene; `chosen` is called with the key of a run. */
+class Picker {
+  constructor(letter, scene, keys, chosen) {
+    Object.assign(this, {letter, scene, keys});
+    const engines = new Map();
+    for (const method of keys.keys()) {
+      const [engine] = inTwo(method);
+      engines.set(engine, [...(engines.get(engine) ?? []), make('option', {value: method}, method === 'truth' ? 'truth' : inTwo(method).join(' '))]);
+    }
+    this.method = make('select', {'aria-label': `${letter}: method`}, ...[...engines].map(([engine, options]) => make('optgroup', {label: engine}, ...options)));
+    this.step = make('select', {'aria-label': `${letter}: step`});
+    this.box = make('div', {class: `pick ${letter.toLowerCase()}`}, make('b', {}, letter), this.method, this.step);
+    this.method.addEventListener('change', () => chosen(this.keys.get(this.method.value)[0]));
+    this.step.addEventListener('change', () => chosen(this.step.value));
+  }
+
+  show(key) {
+    const method = key === 'truth' ? key : parts(key).method;
+    this.method.value = method;
+    this.step.hidden = method === 'truth';
+    this.step.replaceChildren(...(this.keys.get(method) ?? []).map(each => {
+      const {run} = runOf(this.scene, each), own = parts(each).place === 'own';
+      return make('option', each === key ? {value: each, selected: ''} : {value: each},
+          `${settingOf(run)}${own ? ' (own)' : ''}${run.failure ? `: ${run.failure}` : ''}`);
+    }));
+    this.box.style.setProperty('--own', lookOf(method).css);
+    this.box.dataset.method = method;
+  }
+}
+
+/** The controls of a player. `act` has the functions that they call: toggle, seek (s), speed, look, reset, pick. */
 class Controls {
-  /** `act` has what the controls call: toggle, seek (s), speed, look, reset. */
-  constructor(box, scene, look, act) {
-    Object.assign(this, {
-      scene,
-      end: scene.times[scene.times.length - 1],
-      largest: Math.max(...scene.methods.flatMap(method => method.plotted.map(Math.abs)))
-    });
-    const {methods} = scene;
+  constructor(player, scene, look, act) {
+    Object.assign(this, {scene, player});
     this.play = make('button', {type: 'button', class: 'play'});
-    this.slider = make('input', {
-      type: 'range',
-      min: 0,
-      max: scene.times.length - 1,
-      step: 1,
-      value: 0,
-      'aria-label': `time in ${scene.scene}`
-    });
+    this.slider = make('input', {type: 'range', min: 0, max: 300, step: 1, value: 0, 'aria-label': `time in ${scene.scene}`});
     this.clock = make('span', {class: 'clock'});
-    const usual = scene.speed ?? 1, speeds = [0.1, 0.25, 0.5, 1, 2].map(part => part * usual);
-    const [speedLabel, speed] = choice('Speed', speeds.map(v => [String(v), `${Number(v.toPrecision(2))} ×`]), String(usual));
-    const colours = [['plain', 'method']];
-    if (scene.stretch) colours.push(['stretch', 'stretch']);
-    if (scene.distance) colours.push(['distance', scene.distance.name]);
-    const [colourLabel, colour] = choice('Colour', colours, look.colour);
-    const [springLabel, springs] = check('Springs', look.springs);
-    const reset = make('button', {type: 'button', 'aria-label': `Reset view of ${scene.scene}`}, 'Reset view');
-    this.bar = make('div', {class: 'bar'});
-    this.list = make('ul', {class: 'methods'});
-    this.values = methods.map((method, i) => this.row(method, i, look, act));
-    const plot = make('div', {class: 'plot'});
-    box.replaceChildren(
+    const [speedLabel, speed] = dropdown('speed', [0.1, 0.25, 0.5, 1, 2].map(v => [String(v), `${v} ×`]), '1');
+    const colours = [['plain', 'engine'], ['stretch', 'stretch'], ['distance', 'distance to the truth']].filter(
+        ([name]) => name === 'plain' || (name === 'stretch' ? scene.springs.rests?.count : scene.known?.runs[0]));
+    const [colourLabel, colour] = dropdown('colour by', colours, look.colour);
+    const [springLabel, springs] = check('springs', look.springs);
+    const reset = make('button', {type: 'button', 'aria-label': `Reset view of ${scene.scene}`}, 'reset view');
+    this.bar = make('span', {class: 'bar'});
+    this.plots = make('div', {class: 'plots'});
+    this.hint = make('p', {class: 'hint'});
+    this.pickers = act.pick ? ['A', 'B'].map(letter => new Picker(letter, scene, keysOf(scene), key => act.pick(letter.toLowerCase(), key))) : [];
+    this.scale = make('div', {class: 'pick apart'});
+    if (act.pick) player.parentElement.prepend(make('div', {class: 'picks'}, ...this.pickers.map(p => p.box), this.scale));
+    player.replaceChildren(
         make('div', {class: 'time'}, this.play, this.slider, this.clock),
-        make(
-            'div', {class: 'choices'}, speedLabel, colourLabel, ...(scene.springs.families.length ? [springLabel] : []),
-            reset, this.bar),
-        this.list, plot, 
-        make('p', {class: 'hint'}, [
-          scene.caption, pointerHelp, scene.finest && `Places are drawn to within ${length(scene.finest)}.`
-        ].filter(Boolean).join(' ')));
+        make('div', {class: 'looks'}, speedLabel, ...(colours.length > 1 ? [colourLabel] : []), this.bar, ...(scene.springs.families.length ? [springLabel] : []), reset),
+        this.plots, this.hint);
     this.play.addEventListener('click', act.toggle);
-    this.slider.addEventListener('input', () => act.seek(scene.times[this.slider.value]));
-    Object.assign(this, {colour, springs});
+    this.slider.addEventListener('input', () => act.seek(this.begin + this.slider.value / 300 * (this.end - this.begin)));
+    Object.assign(this, {colour, springs, seek: act.seek, curves: []});
+    this.addPlots(act.pick ? 3 : 1);  // their room is there before they are
     speed.addEventListener('change', () => act.speed(Number(speed.value)));
     colour.addEventListener('change', () => act.look({colour: colour.value}));
     springs.addEventListener('change', () => act.look({springs: springs.checked}));
     reset.addEventListener('click', act.reset);
-    this.plot = new Plot(
-        plot, {
-          label: scene.plot.label,
-          title: scene.plot.title,
-          powers: scene.plot.powers,
-          times: scene.times,
-          series: methods.map(
-              m => ({values: m.plotted, colour: m.colour, dash: m.dash, well: !m.failure, failure: m.failed}))
-        },
-        act.seek);
-  }
-
-  /** A method of the list: whether it is shown, its line in the plot, its value, and what became of it. */
-  row(method, i, look, act) {
-    const [label, box] = check('', look.shown.includes(i));
-    const line = svg(
-        'svg', {width: 34, height: 10, 'aria-hidden': 'true'},
-        svg('path', {d: 'M1 5H33', class: 'curve', style: `--own: ${method.colour}`, 'stroke-dasharray': method.dash}));
-    const value = make('span', {class: 'value'});
-    label.append(line, make('b', {}, method.name));
-    this.list.append(make(
-        'li', {}, label, value,
-        ...(method.note ? [make('details', {}, make('summary', {}, 'different law'), method.note)] : []),
-        ...(method.failure ? [make('span', {class: 'failed'}, `${method.failure}: ${method.reason}`)] : [])));
-    box.addEventListener('change', () => {
-      const shown = this.list.querySelectorAll('input');
-      // at least one stays
-      if (![...shown].some(each => each.checked)) box.checked = true;
-      act.look({shown: [...shown].flatMap((each, k) => (each.checked ? [k] : []))});
-    });
-    return value;
   }
 
   setPlaying(playing) {
-    this.play.textContent = playing ? '❚❚ Pause' : '▶ Play';
+    this.play.textContent = playing ? '❚❚' : '▶';
     this.play.setAttribute('aria-label', `${playing ? 'Pause' : 'Play'} ${this.scene.scene}`);
   }
 
-  setLook(look) {
-    this.colour.value = look.colour, this.springs.checked = look.springs;
-    const {scene} = this, scale = look.colour === 'plain' ? null : scene[look.colour];
-    if (scale)
-      this.bar.replaceChildren('0', make('i', {class: 'scale'}), `${scale.top} ${scale.label}`);
-    else if (look.springs && scene.triangles)
-      this.bar.replaceChildren(...scene.springs.families.flatMap(
-          ({name}, k) => [make('i', {class: 'family', style: `--own: #${palette[k]}`}), name]));
-    else
-      this.bar.replaceChildren();
-    this.plot.draw(look.shown);
+  setPicks(picks, top) {
+    this.pickers.forEach((picker, i) => picker.show(picks[i]));
+    this.scale.replaceChildren(make('b', {}, 'A − B'), ...(top > 0 ? ['0', make('i', {class: 'ramp'}), length(top)] : ['no difference']));
   }
 
-  /** Shows a time (s) that lies at a frame (with fraction). */
-  setTime(time, frame) {
-    const {scene, end} = this, nearest = Math.round(frame);
-    this.slider.value = nearest;
-    const text = `${seconds(time, end)} s`;
-    this.slider.setAttribute('aria-valuetext', text);
-    this.clock.textContent = `${seconds(time, end)} / ${seconds(end, end)} s`;
-    this.plot.moveHead(time);
-    scene.methods.forEach((method, i) => {
-      const {unit, powers} = scene.plot, exact = method.plotted[nearest];
-      const value = exact && !powers && Math.abs(exact) < 1e-9 * this.largest ? 0 : exact;  // to rounding
-      this.values[i].textContent =
-          value === undefined || value === null ? '–' : unit === 'm' ? length(powers ? 10 ** value : value) :
-                                                    powers ? `${short(10 ** value)} ${unit}` : `${short(value)} ${unit}`;
-    });
+  /** `scale`: {top, unit} of what colours mean, or null. */
+  setLook(look, scale) {
+    this.colour.value = look.colour, this.springs.checked = look.springs;
+    this.bar.replaceChildren(...(scale ? ['0', make('i', {class: 'scale'}), scale] : []));
   }
+
+  addPlots(count) {
+    while (this.curves.length < count) {
+      const box = make('div', {class: 'plot'});
+      this.plots.append(box);
+      this.curves.push(new Plot(box, time => this.seek(time)));
+    }
+  }
+
+  /** What is drawn over time: a list as Plot takes it. */
+  setPlots(list, begin, end) {
+    Object.assign(this, {begin, end});
+    list.forEach((each, i) => this.curves[i].show({...each, begin, end}));
+  }
+
+  setTime(time) {
+    const {begin = 0, end = 1} = this, text = `${seconds(time, end - begin)} s`;
+    this.slider.value = 300 * (time - begin) / (end - begin);
+    this.slider.setAttribute('aria-valuetext', text);
+    this.clock.textContent = `${seconds(time, end - begin)} / ${seconds(end, end - begin)} s`;
+    for (const curve of this.curves) curve.moveHead(time);
+  }
+
+  setHint(words) { this.hint.textContent = [words, pointerHelp].filter(Boolean).join(' '); }
 }

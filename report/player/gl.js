@@ -1,4 +1,4 @@
-// A little order around WebGL2: programs, buffers and textures of one context.
+// Programs, buffers and textures of one WebGL2 context.
 
 class Gl {
   /** Throws where the context cannot be had. */

@@ -1,6 +1,6 @@
 // A quantity of all methods over time, with a play head; a click or a drag in it moves the head.
 
-// the page names no address, not even that of a name space
+// the name space is taken from the parser, as the page holds no address
 const vectorSpace = (() => {
   const holder = document.createElement('div');
   holder.innerHTML = '<svg></svg>';
@@ -40,84 +40,96 @@ function powerTicks(low, high, count) {
 }
 
 class Plot {
+  /** A box for one quantity; `seek` is called with a time in s. */
+  constructor(box, seek) {
+    this.head = make('p', {class: 'head'}), this.area = make('div', {class: 'area'});
+    Object.assign(this, {box, high: 140, left: 44, series: []});
+    box.append(this.head, this.area);
+    const at = event => seek(this.begin + (event.clientX - this.area.getBoundingClientRect().left - this.left) / this.span * (this.end - this.begin));
+    this.area.addEventListener('pointerdown', event => (this.area.setPointerCapture(event.pointerId), at(event)));
+    this.area.addEventListener('pointermove', event => event.buttons && at(event));
+    new ResizeObserver(() => this.draw()).observe(this.area);
+  }
+
   /**
-   * `series`: {values, colour, dash, well, failure} of each method; with `powers` the values are exponents of ten.
-   * `seek` is called with a time in s.
+   * `series`: {name, css, dash, points: [s, value or null], well} of each run. Lengths are told in the unit that suits
+   * the largest. Where a run grows a hundredfold the axis counts powers of ten. `none` is said where nothing is known.
    */
-  constructor(box, {label, times, series, title, powers}, seek) {
-    Object.assign(this, {box, label, times, series, title, powers, high: 168});
-    this.range();
-    const at = event => {
-      const {left} = box.getBoundingClientRect();
-      seek((event.clientX - left - this.left) / (this.wide - this.left - this.right) * times[times.length - 1]);
-    };
-    box.addEventListener('pointerdown', event => (box.setPointerCapture(event.pointerId), at(event)));
-    box.addEventListener('pointermove', event => event.buttons && at(event));
-    new ResizeObserver(() => this.draw()).observe(box);
+  show({title, unit, series, begin, end, none}) {
+    const all = of => of.flatMap(s => s.points.map(p => p[1])).filter(v => v !== null);
+    const well = series.filter(s => s.well), values = all(well.length ? well : series), most = Math.max(...values, 0);
+    const third = values.slice(0, Math.ceil(values.length / 3));
+    Object.assign(this, {title, series, begin, end, none, powers: series.some(s => !s.well) && most > 100 * Math.max(...third, 0)});
+    [this.unit, this.size] = unit === 'm' && !this.powers ? unitOf(most) : [unit, 1];
+    this.most = 1.08 * most / this.size || 1;
+    const positive = values.filter(v => v > 0);
+    if (this.powers) Object.assign(this, {low: Math.floor(Math.log10(Math.min(...positive))), most: Math.ceil(Math.log10(most))});
+    else this.low = 0;
+    this.known = values.length > 0;
+    this.draw();
   }
 
-  /** From the runs that went well, so that one that failed leaves the others their shape. */
-  range() {
-    const well = this.series.filter(s => s.well);
-    const all = (well.length ? well : this.series).flatMap(s => s.values).filter(v => v !== null);
-    const low = Math.min(...all), high = Math.max(...all), room = 0.06 * (high - low) || 0.05 * Math.abs(high) || 1;
-    Object.assign(this, {low: low - room, most: high + room});
-    if (!all.length) Object.assign(this, {low: 0, most: 1});
-    // at least one whole power is in sight
-    else if (this.powers) Object.assign(this, {low: Math.min(this.low, Math.floor(low)), most: Math.max(this.most, Math.ceil(high))});
-  }
+  at(value) { return this.powers ? Math.log10(Math.max(1e-300, value)) : value / this.size; }
 
-  draw(shown = this.shown) {
-    this.shown = shown;
-    this.wide = this.box.clientWidth;
-    if (!this.wide) return;
-    const end = this.times[this.times.length - 1], yTicks = (this.powers ? powerTicks : ticks)(this.low, this.most, 4);
-    this.left = 14 + 7.2 * Math.max(...yTicks.map(t => t.text.length)) + 16;
-    this.right = 10;
-    const top = 8, foot = this.high - 36;
-    const x = t => this.left + t / end * (this.wide - this.left - this.right);
-    const y = v => foot - (v - this.low) / (this.most - this.low) * (foot - top);
+  draw() {
+    const wide = this.area.clientWidth, {high, left, begin, end, low, most, series} = this;
+    if (!wide || !this.title) return;
+    const names = series.length ? 14 + 8 * series.map(s => s.name).join(', ').length : 0;
+    this.span = wide - left - Math.max(12, names);
+    const top = 6, foot = high - 22, x = t => left + (t - begin) / ((end - begin) || 1) * this.span;
+    const y = v => foot - (v - low) / (most - low || 1) * (foot - top);
     this.x = x;
-    const root = svg('svg', {width: this.wide, height: this.high, role: 'img', 'aria-label': this.title});
-    for (const {value, text} of yTicks)
-      root.append(
-          svg('line', {class: 'grid', x1: this.left, x2: this.wide - this.right, y1: y(value), y2: y(value)}),
-          svg('text', {x: this.left - 6, y: y(value) + 4, 'text-anchor': 'end'}, text));
-    for (const {value, text} of ticks(0, end, Math.max(3, Math.min(10, this.wide / 110))))
-      root.append(
-          svg('line', {class: 'grid', x1: x(value), x2: x(value), y1: top, y2: foot}),
-          svg('text', {x: x(value), y: foot + 15, 'text-anchor': 'middle'}, text));
-    root.append(
-        svg('text', {x: (this.left + this.wide - this.right) / 2, y: this.high - 4, 'text-anchor': 'middle'}, 't / s'),
-        svg('text', {transform: `translate(12 ${(top + foot) / 2}) rotate(-90)`, 'text-anchor': 'middle'}, this.label));
-    // what a failed run did beyond the range is cut off at the frame
-    const inside = svg(
-        'svg', {x: 0, y: top, width: this.wide, height: foot - top, viewBox: `0 ${top} ${this.wide} ${foot - top}`});
-    this.series.forEach((s, i) => {
-      if (shown && !shown.includes(i)) return;
-      const points = s.values.map(
-          (v, f) =>
-              (v === null ? '' : `${x(this.times[f]).toFixed(1)},${Math.max(-1e4, Math.min(1e4, y(v))).toFixed(1)}`));
-      inside.append(
-          svg('polyline',
-              {points: points.join(' '), class: 'curve', style: `--own: ${s.colour}`, 'stroke-dasharray': s.dash}));
-      if (s.failure === null) return;
-      const at = `${x(Math.min(end, s.failure))} ${
-          Math.max(top + 6, Math.min(foot - 6, y(s.values[s.values.length - 1] ?? this.most)))}`;
-      inside.append(svg(
-          'path',
-          {class: 'curve cross', d: 'M-5-5L5 5M-5 5L5-5', transform: `translate(${at})`, style: `--own: ${s.colour}`}));
-    });
-    this.head = svg('line', {class: 'head', y1: top, y2: foot});
-    root.append(
-        inside, svg('path', {class: 'axes', d: `M${this.left} ${top}V${foot}H${this.wide - this.right}`}), this.head);
-    this.box.replaceChildren(root);
-    this.moveHead(this.time ?? 0);
+    const root = svg('svg', {width: wide, height: high, role: 'img', 'aria-label': `${this.title} over time`});
+    this.area.replaceChildren(root);
+    if (!this.known) {
+      root.append(svg('text', {x: 4, y: 40}, this.none));
+      this.cursor = null;
+      return void this.moveHead(this.time ?? begin);
+    }
+    for (const {value, text} of (this.powers ? powerTicks : ticks)(low, most, 3))
+      root.append(svg('line', {class: 'grid', x1: left, x2: left + this.span, y1: y(value), y2: y(value)}),
+          svg('text', {x: left - 6, y: y(value) + 4, 'text-anchor': 'end'}, text));
+    const last = ticks(begin, end, Math.max(2, Math.min(6, wide / 90)));
+    last.forEach(({value, text}, i) => root.append(svg('text', {x: x(value), y: foot + 17, 'text-anchor': 'middle'}, i === last.length - 1 ? `${text} s` : text)));
+    const inside = svg('svg', {x: 0, y: top, width: wide, height: foot - top, viewBox: `0 ${top} ${wide} ${foot - top}`});
+    const ends = [];
+    for (const s of series) {
+      let d = '', pen = 'M';
+      for (const [t, v] of s.points) {
+        if (v === null) pen = 'M';
+        else d += `${pen}${x(t).toFixed(1)} ${Math.max(-1e4, Math.min(1e4, y(this.at(v)))).toFixed(1)}`, pen = 'L';
+      }
+      const final = s.points.findLast(p => p[1] !== null);
+      inside.append(svg('path', {d, class: 'curve', style: `--own: ${s.css}`, 'stroke-dasharray': s.dash ?? ''}));
+      if (!final) continue;
+      const spot = {name: s.name, css: s.css, x: x(final[0]) + 5, y: Math.max(top + 6, Math.min(foot, y(this.at(final[1])))) + 4};
+      const near = ends.find(other => Math.abs(other.y - spot.y) < 13 && Math.abs(other.x - spot.x) < 30);
+      if (near) near.name += `, ${s.name}`;
+      else ends.push(spot);
+    }
+    root.append(inside, svg('path', {class: 'axes', d: `M${left} ${foot}H${left + this.span}`}));
+    for (const {name, css, x: px, y: py} of ends) root.append(svg('text', {x: px, y: py, class: 'end', style: `fill: ${css}`}, name));
+    this.cursor = svg('line', {class: 'cursor', y1: top, y2: foot});
+    root.append(this.cursor);
+    this.moveHead(this.time ?? begin);
   }
 
+  /** The cursor and the values at its time. */
   moveHead(time) {
     this.time = time;
-    if (this.head)
-      for (const end of ['x1', 'x2']) this.head.setAttribute(end, this.x(time));
+    if (this.cursor && this.x)
+      for (const end of ['x1', 'x2']) this.cursor.setAttribute(end, this.x(time));
+    if (!this.title) return;
+    const values = this.series.map(s => [s, valueAt(s.points, time)]).filter(([, v]) => v !== null);
+    this.head.replaceChildren(make('b', {}, this.title), this.known ? ` / ${this.unit}` : '', ...values.flatMap(([s, v]) => [
+      make('span', {style: `color: ${s.css}`}, `${s.name} ${short(v / this.size)}`)]));
   }
+}
+
+/** Between two points of a list: linearly; null beyond it. */
+function valueAt(points, time) {
+  const next = points.findIndex(([t]) => t >= time - 1e-9);
+  if (next < 0) return null;
+  const [t, v] = points[next], [before, was] = points[Math.max(0, next - 1)];
+  return v === null || was === null || t === before ? v : was + (time - before) / (t - before) * (v - was);
 }

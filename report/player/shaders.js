@@ -119,18 +119,29 @@ vec3 colour_of(vec3 own) {
 }
 `;
 
+// a method's own tint goes from dark to light with the light that falls on it
 const clothFragment = coloured + `
+uniform vec3 ramp[3];
 void main() {
   vec3 n = normalize(normal);
   bool behind = dot(n, eye - place) < 0.0;
-  result = shown(colour_of(plain) * (behind ? 0.86 : 1.0) * light_on(behind ? -n : n, 0.22));
+  if (behind) n = -n;
+  if (by_value < 0.5) {
+    float facing = dot(n, key), part = clamp(abs(facing) * (facing < 0.0 ? 0.85 : 1.0), 0.0, 1.0);
+    vec3 tint = part < 0.5 ? mix(ramp[0], ramp[1], 2.0 * part) : mix(ramp[1], ramp[2], 2.0 * part - 1.0);
+    float shade = facing > 0.0 ? 0.72 + 0.28 * lit(place + n * lift, 0.004) : 0.86;
+    result = shown(linear(tint) * (behind ? 0.9 : 1.0) * shade);
+  } else {
+    result = shown(colour_of(plain) * (behind ? 0.86 : 1.0) * light_on(n, 0.22));
+  }
 }
 `;
 
 const threadFragment = `
 uniform float ink;
+uniform vec3 ramp[3];
 out vec4 result;
-void main() { result = vec4(0.08, 0.08, 0.1, ink); }
+void main() { result = vec4(ramp[0] * 0.55, ink); }
 `;
 
 const solidFragment = coloured + `

@@ -23,7 +23,7 @@ function springRows(ends, counts) {
   return rows;
 }
 
-function shapesOf(tools, scene, triangles, springs) {
+function shapesOf(tools, scene, {triangles, springs}) {
   const strip = {
     corners: new Float32Array([0, -1, 1, -1, 0, 1, 1, 1]),
     size: 2,
@@ -34,8 +34,7 @@ function shapesOf(tools, scene, triangles, springs) {
   const rods = rows => tools.shape({...strip, instances: rows});
   const balls = (mesh, list) => tools.shape({...mesh, instances: Int32Array.from(list), slot: 1, ints: 1});
   const small = scene.particles > 60 ? ballMesh(10, 6) : ballMesh(24, 16);
-  const frames = Math.max(...scene.methods.map(m => m.frames));
-  const steps = Array.from({length: frames - 1}, (_, f) => [f, f + 1, 0]).flat();
+  const steps = scene.times.slice(1).flatMap((_, f) => [f, f + 1, 0]);
   const threads = springs.subarray(0, 2 * scene.springs.threads);
   return {
     cloth: tools.shape({index: triangles}),

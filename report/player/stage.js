@@ -1,7 +1,5 @@
 // Draws the methods of one scene side by side, seen by one camera, into one canvas.
 
-const titleHigh = 46;  // pixels of the page above each panel's picture
-
 /** Panels in rows and columns so that the smaller side of each picture is as long as can be; `title` is above each. */
 function gridOf(count, wide, high, title) {
   let best = {columns: 1, least: 0};
@@ -13,20 +11,10 @@ function gridOf(count, wide, high, title) {
 }
 
 class Stage {
-  constructor(canvas, scene, {triangles, springs, motions}) {
-    Object.assign(this, {canvas, scene, triangles});
-    const tools = this.tools = new Gl(canvas), gl = tools.gl, n = scene.particles;
-    const panel = (method, i) => ({
-      motion: new Motion(method, motions[i], n, triangles),
-      points: tools.table(n),
-      normals: triangles.length ? tools.table(n) : null,
-      path: triangles.length ? null : tools.table(method.frames)
-    });
-    this.panels = scene.methods.map(panel);
-    for (const {motion, path} of this.panels.filter(p => p.path)) {
-      for (let f = 0; f < motion.method.frames; ++f) path.data.set([...motion.place(f, n - 1), -1], 4 * f);
-      tools.fill(path);
-    }
+  /** `shared`: triangles, springs and rests of the scene. */
+  constructor(canvas, scene, shared) {
+    Object.assign(this, {canvas, scene, shared, triangles: shared.triangles, panels: []});
+    const tools = this.tools = new Gl(canvas), gl = tools.gl;
     const shade = fragmentCommon;
     this.programs = {
       cloth: tools.program(clothVertex, shade + clothFragment),
@@ -37,48 +25,84 @@ class Stage {
     };
     this.casts = Object.fromEntries(Object.entries({cloth: clothVertex, ball: ballVertex, rod: rodVertex})
                                         .map(([name, text]) => [name, tools.program(text, 'void main() {}')]));
-    this.shapes = shapesOf(tools, scene, triangles, springs);
+    this.shapes = shapesOf(tools, scene, shared);
     this.map = tools.shadowMap(1024);
-    this.scale = tools.colours(scaleBytes());
-    Object.assign(this, boundsOf(scene, this.panels.map(p => p.motion)));
+    this.scales = {heat: tools.colours(scaleBytes(heat)), apart: tools.colours(scaleBytes(purple))};
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.enable(gl.SCISSOR_TEST);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   }
 
+  /** What stands side by side: {motion, look (own colours), other (of which it shows the difference), top (m)}. */
+  show(views) {
+    const {tools, scene, triangles} = this, n = scene.particles, {times} = scene;
+    for (const panel of this.panels)
+      for (const table of [panel.points, panel.normals, panel.path]) if (table) tools.gl.deleteTexture(table.texture);
+    this.panels = views.map(view => ({
+      ...view,
+      points: tools.table(n),
+      normals: triangles.length ? tools.table(n) : null,
+      path: triangles.length || times.length < 2 ? null : tools.table(times.length)
+    }));
+    for (const {motion, path} of this.panels.filter(p => p.path)) {
+      const places = new Float32Array(3 * n);
+      times.forEach((t, f) => path.data.set([...motion.placesAt(t, places).subarray(3 * n - 3), -1], 4 * f));
+      tools.fill(path);
+    }
+    Object.assign(this, boundsOf(scene, this.panels.map(p => p.motion)));
+  }
+
+  /** Writes places and values of a panel's particles (0 to 1, negative for none), four numbers each. */
+  write({motion, other, top, points, normals}, time, colour) {
+    const {scene, triangles} = this, places = motion.placesAt(time), into = points.data;
+    const metres = other ? distances(motion.apartAt(time, other)) : colour.from ? distances(motion.apartAt(time, colour.from)) : null;
+    const values = metres ?? (colour.name === 'stretch' ? stretchOf(scene, this.shared, places) : null);
+    const most = other ? top : colour.top;
+    for (let i = 0; i < scene.particles; ++i) {
+      into.set(places.subarray(3 * i, 3 * i + 3), 4 * i);
+      into[4 * i + 3] = values ? Math.min(1, values[i] / most) : -1;
+    }
+    this.tools.fill(points);
+    if (!normals) return;
+    const sum = normals.data;
+    sum.fill(0);
+    for (let t = 0; t < triangles.length; t += 3) {
+      const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
+      const ux = places[b] - places[a], uy = places[b + 1] - places[a + 1], uz = places[b + 2] - places[a + 2];
+      const vx = places[c] - places[a], vy = places[c + 1] - places[a + 1], vz = places[c + 2] - places[a + 2];
+      const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+      for (const at of [a, b, c]) sum[at / 3 * 4] += x, sum[at / 3 * 4 + 1] += y, sum[at / 3 * 4 + 2] += z;
+    }
+    this.tools.fill(normals);
+  }
+
   /**
-   * Draws the methods `shown` at a frame (with fraction). Returns the panels' places in the canvas, parts of its size.
+   * Draws the panels at a time (s), coloured by `colour`: {name: 'plain', 'stretch' or 'distance', top, from (a motion)};
+   * `title` pixels above each stay free. Returns the panels' places in the canvas, parts of its size.
    */
-  draw({frame, shown, colour, springs, orbit, background}) {
-    const {gl} = this.tools, {canvas, scene} = this;
-    const ratio = canvas.width / canvas.clientWidth;
-    const {columns, rows} = gridOf(shown.length, canvas.width, canvas.height, titleHigh * ratio),
-                    cell = Math.floor(canvas.height / rows);
-    const wide = Math.floor(canvas.width / columns), high = cell - Math.round(titleHigh * ratio), aspect = wide / high;
+  draw({time, colour, springs, orbit, background, title}) {
+    const {gl} = this.tools, {canvas, scene, panels} = this;
+    const ratio = canvas.width / canvas.clientWidth, room = Math.round(title * ratio);
+    const {columns, rows} = gridOf(panels.length, canvas.width, canvas.height, room), cell = Math.floor(canvas.height / rows);
+    const wide = Math.floor(canvas.width / columns), high = cell - room, aspect = wide / high;
     const fit = orbit.fit(this.held, this.middle, aspect), view = orbit.view(fit, aspect);
     gl.scissor(0, 0, canvas.width, canvas.height);
     gl.clearColor(...background, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    return shown.map((which, i) => {
-      const panel = this.panels[which], column = i % columns, row = Math.floor(i / columns);
-      panel.motion.places(frame, colour, panel.points.data);
-      this.tools.fill(panel.points);
-      if (panel.normals) {
-        panel.motion.normals(panel.points.data, panel.normals.data);
-        this.tools.fill(panel.normals);
-      }
+    return panels.map((panel, i) => {
+      const column = i % columns, row = Math.floor(i / columns);
+      this.write(panel, time, colour);
       const pixel = 2 * tangent * fit.distance * orbit.zoom / high * ratio;
       const look = {
         ...view,
-        frame,
-        colour,
+        time,
         springs,
         background,
         pixel,
         panel,
+        valued: panel.other || colour.name !== 'plain',
         surface: this.triangles.length && !springs,
-        plain: rgb(panel.motion.method.colour)
       };
       if (scene.floor !== null) this.castShadows(look);
       const box = [column * wide, canvas.height - (row + 1) * cell, wide, high];
@@ -114,8 +138,9 @@ class Stage {
       key_map: this.map.texture,
       lift: 0.006 * this.reach,
       shadowed: flat ? 0 : 1,
-      scale_map: this.scale,
-      by_value: look.colour === 'plain' ? 0 : 1,
+      scale_map: look.panel.other ? this.scales.apart : this.scales.heat,
+      by_value: look.valued ? 1 : 0,
+      ramp: look.panel.look.ramp.flat(),
       background: look.background,
       by_family: look.surface ? 0 : 1,
       families: palette.flatMap(rgb)
@@ -138,7 +163,7 @@ class Stage {
       ...light,
       points: panel.points.texture,
       normals: panel.normals && panel.normals.texture,
-      plain: look.plain,
+      plain: look.panel.look.plain,
       nearer: 0,
       ball: [0, 0, 0, 0]
     };
@@ -148,7 +173,7 @@ class Stage {
       tools.draw(shapes.cloth, gl.TRIANGLES);
       if (lit) {
         gl.enable(gl.BLEND);
-        tools.use(programs.thread, {...all, nearer: 4e-5, ink: 0.3});
+        tools.use(programs.thread, {...all, nearer: 4e-5, ink: look.valued ? 0.3 : 0.42});
         tools.draw(shapes.threads, gl.LINES);
         gl.disable(gl.BLEND);
       }
@@ -172,17 +197,23 @@ class Stage {
       tools.use(
           programs.rod,
           {...all, points: panel.path.texture, radius: 0.7 * pixel, plain: rgb('6C7A91'), by_value: 0, by_family: 0});
-      tools.draw(shapes.path, gl.TRIANGLES, Math.min(Math.floor(look.frame), panel.motion.method.frames - 1));
+      tools.draw(shapes.path, gl.TRIANGLES, Math.max(0, Math.floor(this.frame(Math.min(look.time, panel.motion.end)))));
     }
-    this.drawObstacles(programs, look.frame, all);
+    this.drawObstacles(programs, look.time, all);
   }
 
-  drawObstacles(programs, frame, all) {
+  /** Frame of the scene at a time, with its fraction. */
+  frame(time) {
+    const {times} = this.scene, last = times.length - 1;
+    return last > 0 ? last * Math.min(1, time / times[last]) : 0;
+  }
+
+  drawObstacles(programs, time, all) {
     const {tools, scene} = this, last = scene.times.length - 1;
-    const time = Math.min(frame, last), first = Math.floor(time), next = Math.min(first + 1, last);
+    const at = this.frame(time), first = Math.floor(at), next = Math.min(first + 1, last);
     for (const {radius, centres} of scene.spheres) {
       const a = centres[Math.min(first, centres.length - 1)], b = centres[Math.min(next, centres.length - 1)];
-      const ball = [...plus(a, time - first, minus(b, a)), radius];
+      const ball = [...plus(a, at - first, minus(b, a)), radius];
       tools.use(programs.ball, {...all, ball, plain: rgb('B6BBC3'), by_value: 0});
       tools.draw(this.shapes.obstacle, tools.gl.TRIANGLES);
     }

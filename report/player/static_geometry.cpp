@@ -1,6 +1,9 @@
 // Writes triangles, springs and obstacles.
 #include "report/player/static_geometry.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace crosscheck {
 
 Json packed_json(const PackedNumbers& p) {
@@ -21,14 +24,16 @@ Json springs_json(const Scene& scene) {
   std::vector<std::uint16_t> ends;
   Json families = Json::list();
   size_t threads = 0;
-  const auto add = [&](int a, int b) {
+  std::vector<double> lengths;
+  const auto add = [&](int a, int b, double length) {
     for (const int end : {a, b}) ends.push_back(static_cast<std::uint16_t>(end));
+    lengths.push_back(length);
   };
   const auto close = [&](std::string_view name, size_t from) {
     if (ends.size() > from) families.push({{"name", name}, {"count", (ends.size() - from) / 2}});
   };
   if (const auto* distances = scene.model.find<Constraints>()) {
-    for (const auto& [a, b, length] : distances->list) add(a, b);
+    for (const auto& [a, b, length] : distances->list) add(a, b, length);
     close("hard distance", 0);
     threads = ends.size() / 2;
   }
@@ -36,11 +41,18 @@ Json springs_json(const Scene& scene) {
     for (const Family family : {Family::structural, Family::shear, Family::bend, Family::single}) {
       const size_t from = ends.size();
       for (const Spring& s : springs->list)
-        if (s.family == family) add(s.a, s.b);
+        if (s.family == family) add(s.a, s.b, s.rest);
       close(name_of(family), from);
       if (family == Family::structural) threads = ends.size() / 2;
     }
-  return {{"ends", packed_json(pack(std::move(ends), 2, 2))}, {"threads", threads}, {"families", families}};
+  const double unit = lengths.empty() ? 1 : std::max(1e-12, std::ranges::max(lengths)) / 65535;
+  std::vector<std::uint16_t> rests;
+  for (const double length : lengths) rests.push_back(static_cast<std::uint16_t>(std::lround(length / unit)));
+  return {{"ends", packed_json(pack(std::move(ends), 2, 2))},
+          {"rests", packed_json(pack_small(rests))},
+          {"rest_unit", unit},
+          {"threads", threads},
+          {"families", families}};
 }
 
 Json spheres_json(const Scene& scene, const std::vector<double>& times) {

@@ -12,7 +12,7 @@ Json vector_json(const Vec3& v);
 
 /// Corners of the surface; null without one.
 Json triangles_json(const Scene& scene);
-/// Ends of hard distances and springs, family after family; those of the surface's threads come first.
+/// Ends and rest lengths of hard distances and springs, family after family; those of the surface's threads come first.
 Json springs_json(const Scene& scene);
 /// Obstacles; the centre of one that moves at each of the times (s).
 Json spheres_json(const Scene& scene, const std::vector<double>& times);

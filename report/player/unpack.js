@@ -8,10 +8,13 @@ function bytesOf(base64) {
   return bytes;
 }
 
+const inflated = base64 => new Response(new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream('gzip')));
+
 /** Whole numbers of 16 bits; sums wrap as the differences did. */
-async function unpack({count, lag, order, data}) {
-  const stream = new Blob([bytesOf(data)]).stream().pipeThrough(new DecompressionStream('gzip'));
-  const planes = new Uint8Array(await new Response(stream).arrayBuffer());
+async function unpack(packed) {
+  if (!packed?.count) return new Uint16Array(0);
+  const {count, lag, order, data} = packed;
+  const planes = new Uint8Array(await inflated(data).arrayBuffer());
   const values = new Uint16Array(count);
   for (let i = 0; i < count; ++i) {
     const zigzag = planes[i] | (planes[count + i] << 8);
@@ -22,33 +25,40 @@ async function unpack({count, lag, order, data}) {
   return values;
 }
 
-/** A place of a lattice from the number that wrapped at 2^16 (packed_numbers.h). */
-const wrapped = number => ((number + 24576) & 0xffff) - 24576;
-
-/** Numbers that were packed less those of another motion; it stays at its last frame. */
-function over(other, numbers, perFrame) {
-  const last = other.length - perFrame;
-  return numbers.map((d, i) => d + other[Math.min(i - i % perFrame, last) + i % perFrame]);
+/** The numbers of a file of runs (motions.h), and where in them those of each run begin; opened once. */
+function opened(set, wide) {
+  return set.opened ??= (async () => {
+    if (set.packed) set.runs ??= await inflated(set.packed).json();
+    const [shapes, paths, values] = await Promise.all([set.shapes, set.paths, set.values].map(unpack));
+    const numbers = {shapes: new Int16Array(shapes.buffer), paths: new Int16Array(paths.buffer), values}, begin = new Map();
+    const at = {shapes: 0, paths: 0, values: 0};
+    for (const run of [set.base, ...set.runs]) {
+      if (!run) continue;
+      begin.set(run, {...at});
+      at.shapes += run.modes * wide, at.paths += run.modes * run.frames, at.values += run === set.base ? 0 : 2 * run.frames;
+    }
+    return {numbers, begin};
+  })();
 }
 
-/**
- * All packed arrays of a scene: what is drawn, and for each method its places, stretch and distances, unless these are
- * given.
- */
-async function unpackScene(scene, given) {
-  const none = new Uint16Array(0);
-  const open = packed => (packed ? unpack(packed) : none);
-  const [triangles, springs] = await Promise.all([open(scene.triangles), open(scene.springs.ends)]);
-  if (given) return {triangles, springs, motions: given};
-  const motions = await Promise.all(scene.methods.map(async method => {
-    const [numbers, stretch, distance] =
-        await Promise.all([open(method.places), open(method.stretch), open(method.distance)]);
-    return {numbers, stretch, distance};
-  }));
-  motions.forEach((motion, m) => {
-    const {over: other} = scene.methods[m];
-    motion.places = other === undefined ? motion.numbers : over(motions[other].numbers, motion.numbers, 3 * scene.particles);
-  });
-  for (const motion of motions) motion.places = Int32Array.from(motion.places, wrapped);
-  return {triangles, springs, motions};
+/** Departures of a run from its base: frames x coordinates, m. */
+async function departuresOf(set, run, wide) {
+  const {numbers: {shapes, paths}, begin} = await opened(set, wide), at = begin.get(run), {modes, frames, unit, path} = run;
+  const out = new Float32Array(frames * wide);
+  for (let k = 0; k < modes; ++k)
+    for (let f = 0; f < frames; ++f) {
+      const size = unit * path * paths[at.paths + k * frames + f], shape = at.shapes + k * wide;
+      if (size !== 0)
+        for (let i = 0; i < wide; ++i) out[f * wide + i] += size * shapes[shape + i];
+    }
+  return out;
+}
+
+/** Values of a run's frames, null where there is none: RMS distance from the truth (m), kinetic energy (J). */
+async function valuesOf(set, run, wide) {
+  const {numbers: {values}, begin} = await opened(set, wide), {frames} = run;
+  const from = begin.get(run).values;
+  const list = kind => Array.from({length: frames}, (_, f) => values[from + kind * frames + f])
+                           .map(v => (v > 1 ? 10 ** ((v - 40000) / 2000) : v === 1 ? 0 : null));
+  return {error: list(0), energy: list(1)};
 }

@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "experiments/regress/mutations.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -28,10 +25,7 @@ int main(int argc, char** argv) {
   if (argc != 5) return 2;
   try {
     const std::string name = argv[3];
-    std::ifstream in(std::filesystem::path(argv[2]) / name);
-    std::stringstream content;
-    content << in.rdbuf();
-    std::string text = content.str();
+    std::string text = read_file(std::filesystem::path(argv[2]) / name, "a source of mysim");
     for (const Mutation& m : read_mutations(argv[1])) {
       if (m.file != name) continue;
       const size_t at = text.find(m.right);

@@ -13,10 +13,10 @@ Kernels kernels(simd::InstructionSet isa) { return SELECT_COMPILED(isa, kernels_
 
 Layout Layout::of(const GridTopology& topology) {
   assert(topology.rows > 0 && topology.columns > 0);
-  // down to one block or three; the rest are empty lanes, a third of them at most
-  int blocks = (topology.columns + lanes - 1) / lanes, times = 1;
-  for (; blocks > 3; blocks = (blocks + 1) / 2) times *= 2;
-  return {topology.rows, topology.columns, blocks * times == 3 ? 4 : blocks * times};
+  // down to one tile or three; the rest are empty lanes, a third of them at most
+  int tiles = (topology.columns + lanes - 1) / lanes, times = 1;
+  for (; tiles > 3; tiles = (tiles + 1) / 2) times *= 2;
+  return {topology.rows, topology.columns, tiles * times == 3 ? 4 : tiles * times};
 }
 
 void Layout::inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& coarse) const {
@@ -24,9 +24,9 @@ void Layout::inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& co
   assert(fine.size() == static_cast<size_t>(rows * row_length()));
   assert(coarse.size() == static_cast<size_t>(to.rows * to.row_length()));
   for (int row = 0; row < to.rows; ++row)
-    for (int block = 0; block < to.blocks; ++block)
-      std::copy_n(fine.data() + 2 * row * row_length() + static_cast<long>(left_halo + 2 * block) * 3 * lanes,
-                  3 * lanes, coarse.data() + row * to.row_length() + static_cast<long>(left_halo + block) * 3 * lanes);
+    for (int tile = 0; tile < to.tiles; ++tile)
+      std::copy_n(fine.data() + 2 * row * row_length() + static_cast<long>(left_halo + 2 * tile) * 3 * lanes, 3 * lanes,
+                  coarse.data() + row * to.row_length() + static_cast<long>(left_halo + tile) * 3 * lanes);
 }
 
 void Layout::put(const Points& points, double factor, AlignedBuffer<double>& field) const {
@@ -59,18 +59,18 @@ Level::Level(const Layout& layout, const GridTopology& topology, double times_lo
   single_inertia_ = AlignedBuffer<float>(all), single_free_ = AlignedBuffer<float>(all),
   single_blocks_ = AlignedBuffer<float>(6 * all);
   single_force_ = AlignedBuffer<float>(3 * row);
-  geometry_ = {layout.rows, layout.blocks, x.data(), {}, {}, false, sums_.data()};
-  exact_ = {layout.rows,  layout.blocks, {}, inertia_.data(), nullptr /* only asked for in single precision */,
+  geometry_ = {layout.rows, layout.tiles, x.data(), {}, {}, false, sums_.data()};
+  exact_ = {layout.rows,  layout.tiles, {}, inertia_.data(), nullptr /* used in single precision only */,
             free_.data(), force_.data()};
-  matrix_ = {layout.rows,         layout.blocks,       {}, single_inertia_.data(), single_blocks_.data(),
+  matrix_ = {layout.rows,         layout.tiles,        {}, single_inertia_.data(), single_blocks_.data(),
              single_free_.data(), single_force_.data()};
   for (int d = 0; d < directions; ++d) {
     if (!topology.families[d]) continue;
-    k_[d] = AlignedBuffer<double>(static_cast<size_t>(layout.blocks) * lanes);
+    k_[d] = AlignedBuffer<double>(static_cast<size_t>(layout.tiles) * lanes);
     springs_[d] = AlignedBuffer<double>(4 * all), single_springs_[d] = AlignedBuffer<float>(4 * all);
     for (int c = 0; c < layout.columns; ++c)
       if (const int to = c + direction[d].right; to >= 0 && to < layout.columns)
-        k_[d].data()[c % layout.blocks * lanes + c / layout.blocks] = topology.families[d]->k;
+        k_[d].data()[c % layout.tiles * lanes + c / layout.tiles] = topology.families[d]->k;
     geometry_.k[d] = k_[d].data(), geometry_.rest[d] = times_longer * topology.families[d]->rest;
     exact_.springs[d] = spring_data_[d] = springs_[d].data();
     matrix_.springs[d] = single_springs_[d].data();
@@ -101,7 +101,7 @@ void Level::linearise_unclamped(const Kernels& f) {
 
 namespace {
 
-/// Chebyshev's rounds against eigenvalues of D^-1 A in [lowest, highest], where it is 2 at most (kernels.h).
+/// Chebyshev's rounds against eigenvalues of D^-1 A in [lowest, highest], where it is 2 at most (multigrid_kernels.h).
 struct ChebyshevSmoother {
   int rounds;
   double lowest, highest = 2;
@@ -149,14 +149,14 @@ VCycle::VCycle(const GridTopology& topology, const std::vector<int>& pins)
 
 VCycle::GridTransfer VCycle::grid_transfer(const Layout& fine, const Layout& coarse) {
   GridTransfer grid_transfer;
-  grid_transfer.right = AlignedBuffer<float>(static_cast<size_t>(coarse.blocks) * lanes);
-  grid_transfer.left = AlignedBuffer<float>(static_cast<size_t>(coarse.blocks) * lanes);
+  grid_transfer.right = AlignedBuffer<float>(static_cast<size_t>(coarse.tiles) * lanes);
+  grid_transfer.left = AlignedBuffer<float>(static_cast<size_t>(coarse.tiles) * lanes);
   for (int c = 0; c < coarse.columns; ++c) {
-    const int at = c % coarse.blocks * lanes + c / coarse.blocks;
+    const int at = c % coarse.tiles * lanes + c / coarse.tiles;
     grid_transfer.right.data()[at] = c + 1 < coarse.columns ? 0.5f : 1;
     grid_transfer.left.data()[at] = c > 0 ? 0.5f : 0;
   }
-  grid_transfer.transfer = {coarse.rows, coarse.blocks, fine.rows, grid_transfer.right.data(),
+  grid_transfer.transfer = {coarse.rows, coarse.tiles, fine.rows, grid_transfer.right.data(),
                             grid_transfer.left.data()};
   return grid_transfer;
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mysim/forces.h"
-#include "mysim/implicit/multigrid/kernels.h"
+#include "mysim/implicit/multigrid/multigrid_kernels.h"
 #include "mysim/model/model.h"
 #include "mysim/simd/cloth_grid/cloth_grid.h"
 #include "mysim/simd/instruction_sets.h"
@@ -72,29 +72,29 @@ using simd::AlignedBuffer;
 using simd::GridTopology;
 
 struct Layout {
-  int rows, columns, blocks;
+  int rows, columns, tiles;
 
-  /// As many blocks as can be halved often, few of them empty.
+  /// As many tiles as can be halved often, few of them empty.
   static Layout of(const GridTopology& topology);
   /// Every second row and column.
-  Layout coarsened() const { return {(rows + 1) / 2, (columns + 1) / 2, blocks / 2}; }
-  bool can_coarsen() const { return blocks % 2 == 0 && rows > 2; }
+  Layout coarsened() const { return {(rows + 1) / 2, (columns + 1) / 2, tiles / 2}; }
+  bool can_coarsen() const { return tiles % 2 == 0 && rows > 2; }
 
-  long all_lanes() const { return static_cast<long>(rows) * blocks * lanes; }
-  long row_length() const { return static_cast<long>(left_halo + blocks + right_halo) * 3 * lanes; }
+  long all_lanes() const { return static_cast<long>(rows) * tiles * lanes; }
+  long row_length() const { return static_cast<long>(left_halo + tiles + right_halo) * 3 * lanes; }
   template <class T>
   AlignedBuffer<T> field() const {
     return AlignedBuffer<T>(static_cast<size_t>(rows) * row_length());
   }
 
-  /// take(index of the particle, place among rows x blocks x lanes, place of its first number in a field).
+  /// take(index of the particle, place among rows x tiles x lanes, place of its first number in a field).
   template <class Take>
   void each(Take take) const {
     for (int row = 0; row < rows; ++row)
       for (int lane = 0, column = 0; column < columns; ++lane)
-        for (int block = 0; block < blocks && column < columns; ++block, ++column)
-          take(row * columns + column, (static_cast<long>(row) * blocks + block) * lanes + lane,
-               row * row_length() + static_cast<long>(left_halo + block) * 3 * lanes + lane);
+        for (int tile = 0; tile < tiles && column < columns; ++tile, ++column)
+          take(row * columns + column, (static_cast<long>(row) * tiles + tile) * lanes + lane,
+               row * row_length() + static_cast<long>(left_halo + tile) * 3 * lanes + lane);
   }
   /// Every second row and column of a field, without the halo.
   void inject(const AlignedBuffer<double>& fine, AlignedBuffer<double>& coarse) const;

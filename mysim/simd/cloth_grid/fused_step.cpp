@@ -63,14 +63,14 @@ struct Number {
 };
 
 template <class T>
-struct Rows {
+struct RowWindow {
   const T* x[3];  // this row and the two below, at tile 0; the last ones of a cloth have no row below
   T* f[3];
 };
 
 /// All springs that begin in a row. Each direction is known when this is compiled.
 template <class T, bool fast>
-FORCE_INLINE void springs_of_row(const ClothGrid<T>& s, const Rows<T>& rows, int rows_below, V<T>& least) {
+FORCE_INLINE void springs_of_row(const ClothGrid<T>& s, const RowWindow<T>& rows, int rows_below, V<T>& least) {
   using L = Lanes<T>;
   for (int b = 0; b < s.tiles; ++b)
     for (int lane = 0; lane < lanes<T>; lane += L::width) {
@@ -143,7 +143,7 @@ FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int 
 
 /// The number of degenerate springs that begin in a row, one by one; called only where a length was 0.
 template <class T>
-[[gnu::noinline]] long count_degenerate_springs(const ClothGrid<T>& s, const Rows<T>& rows, int rows_below) {
+[[gnu::noinline]] long count_degenerate_springs(const ClothGrid<T>& s, const RowWindow<T>& rows, int rows_below) {
   long degenerate_springs = 0;
   for (int d = 0; d < directions; ++d) {
     if (!s.k[d] || direction[d].down > rows_below || !(s.rest[d] > 0)) continue;
@@ -173,7 +173,7 @@ long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
   long degenerate_springs = 0;
   for (int r = 0; r < s.rows - s.trailing_halo; ++r) {
     T* x = s.x + r * length + first;
-    const Rows<T> rows{{x, x + length, x + 2 * length}, {f[0], f[1], f[2]}};
+    const RowWindow<T> rows{{x, x + length, x + 2 * length}, {f[0], f[1], f[2]}};
     V<T> least = L::all(T(1));
     springs_of_row<T, fast>(s, rows, s.rows - 1 - r, least);
     if (r >= s.leading_halo) {

@@ -1,17 +1,17 @@
-// Springs take the kernels that simd/spring_graph/plan.h sorts them into.
+// The forces of springs by the kernels of their partition (simd/spring_graph/spring_layout.h).
 #include "mysim/simd/spring_graph/spring_kernel.h"
 
 #include <cassert>
 #include <optional>
 
-#include "mysim/simd/spring_graph/plan.h"
+#include "mysim/simd/spring_graph/spring_layout.h"
 
 namespace crosscheck {
 
 struct SpringKernel::Impl {
-  spring_graph::Kernels run;
-  std::optional<spring_graph::DiaStorage> diagonals;
-  std::optional<spring_graph::CooStorage> pairs;
+  spring_graph::Kernels kernels;
+  std::optional<spring_graph::DiaStorage> dia;
+  std::optional<spring_graph::CooStorage> coo;
 };
 
 SpringKernel::SpringKernel(const Springs& springs, int particles) {
@@ -20,10 +20,10 @@ SpringKernel::SpringKernel(const Springs& springs, int particles) {
   spring_graph::SpringPartition partition =
       spring_graph::partition_springs(springs.list, particles, spring_graph::costs(isa));
   plain_ = {std::move(partition.plain), law};
-  if (partition.diagonals.empty() && partition.pairs.empty()) return;
+  if (partition.dia.empty() && partition.coo.empty()) return;
   impl_ = std::make_unique<Impl>(Impl{spring_graph::kernels(isa, law), {}, {}});
-  if (!partition.diagonals.empty()) impl_->diagonals.emplace(partition.diagonals, particles);
-  if (!partition.pairs.empty()) impl_->pairs.emplace(partition.pairs, particles);
+  if (!partition.dia.empty()) impl_->dia.emplace(partition.dia, particles);
+  if (!partition.coo.empty()) impl_->coo.emplace(partition.coo, particles);
 }
 
 SpringKernel::SpringKernel(SpringKernel&&) noexcept = default;
@@ -32,11 +32,11 @@ SpringKernel::~SpringKernel() = default;
 void SpringKernel::add_force(const Points& x, Forces& forces) {
   assert(x.cols() == forces.f.cols());
   if (impl_) {
-    auto& [run, diagonals, pairs] = *impl_;
-    if (diagonals && run.diagonals(diagonals->view(), x.data(), forces.f.data()))
-      forces.degenerate_springs += diagonals->degenerate_springs();
-    if (pairs && run.pairs(pairs->view(), x.data(), forces.f.data()))
-      forces.degenerate_springs += pairs->degenerate_springs();
+    auto& [kernels, dia, coo] = *impl_;
+    if (dia && kernels.dia(dia->view(), x.data(), forces.f.data()))
+      forces.degenerate_springs += dia->degenerate_springs();
+    if (coo && kernels.coo(coo->view(), x.data(), forces.f.data()))
+      forces.degenerate_springs += coo->degenerate_springs();
   }
   crosscheck::add_force(plain_, x, forces);
 }

@@ -12,10 +12,10 @@ enum class InstructionSet;
 }
 
 /// Adds the same forces as the plain edge loop of terms/springs.h, in another order. Each spring goes the cheapest of
-/// three ways (simd/spring_graph/plan.h): on a diagonal (simd/spring_graph/kernels.h), in a pair
-/// (simd/spring_graph/kernels.h), or, where there are too few for lanes, through the plain loop itself. On all of them
-/// its force is the same to the last bit. Nothing depends on threads; AVX2 and AVX-512 sort springs alike and give the
-/// same bits.
+/// three ways (simd/spring_graph/spring_layout.h): by its offset (DIA), in a list of edges (COO; both in
+/// simd/spring_graph/dia_coo_kernels.h), or, where there are too few for lanes, through the plain loop itself. On all
+/// of them its force is the same to the last bit. Nothing depends on threads; AVX2 and AVX-512 partition springs alike
+/// and give the same bits.
 class SpringKernel {
  public:
   /// For springs between `particles` particles. The springs' law must be Hooke's or Bullet's link law.
@@ -28,8 +28,8 @@ class SpringKernel {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;  // none where no spring is worth it
-  Springs plain_;               // those that the plain loop is for
+  std::unique_ptr<Impl> impl_;  // null where the plain loop takes all springs
+  Springs plain_;               // those that the plain loop takes
   simd::InstructionSet isa_;
 };
 

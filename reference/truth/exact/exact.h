@@ -1,4 +1,4 @@
-// Closed-form solutions, for scenes that have one, and how such a scene is recognised.
+// Closed-form solutions, for scenes that have one. A scene is recognised by its terms and springs, not by its name.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,6 @@
 #include "mysim/scene/scene.h"
 
 namespace crosscheck {
-
-// Closed-form solutions, for scenes that have one. A scene is recognised by what it is made of, not by its name.
 
 struct ExactSolution {
   std::string formula;                // for people
@@ -62,7 +60,7 @@ std::optional<LinearisedSolution> linearised_solution(const Scene& scene, const 
 /// for k -> infinity.
 double rigid_pendulum_period(double length, double gravity, double theta0);
 
-// Recognising what a scene is made of, for its closed form; and the closed forms by kind.
+// The closed forms by kind, and the tests by which their scenes are recognised.
 
 /// True when the model has no terms but these.
 template <class... Allowed>

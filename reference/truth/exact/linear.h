@@ -75,8 +75,6 @@ class DrivenMotion {
   Oscillator after_ramp_;   // from the ramp's end
 };
 
-// Scenes whose equations of motion are linear, split into modes that are independent.
-
 /// u'' = -omega2 (u - participation d) - drag u' - dashpot (u' - participation d') + forcing, where d(t) is the
 /// displacement of moved pins along the line. The particles are displaced by u(t) times the shape.
 struct Mode {

@@ -1,5 +1,5 @@
-// Integrators of others on a right-hand side written apart from mysim's: methods like any other, and one route of
-// truth.
+// Integrators of libraries (odeint, SUNDIALS) on a right-hand side written apart from mysim's: methods like any other,
+// and one of the two routes to a converged truth.
 #pragma once
 
 #include <optional>

@@ -8,10 +8,10 @@ cmake --build "$build" --target coursework_cheats no_namespaces
 programs=$build/tests/coursework
 export CROSSCHECK_CACHE=$build/cache
 
-echo "== lane bwrap, and archives"
+echo "== sandbox bwrap, and archives"
 "$here/on_all_cores.sh" "$programs/coursework_cheats" --gtest_filter='-*/uid_*'
 
-echo "== lane uid, in a container that forbids namespaces"
+echo "== sandbox uid, in a container that forbids namespaces"
 if [ "$(id -u)" -ne 0 ]; then
   echo "not run: only root can become another user" >&2
   exit 1

@@ -1,4 +1,4 @@
-// What each assignment gives: the student's functions behind one call. C++17, standard library only.
+// One function for all calls of the student's code; each assignment defines it. C++17, standard library only.
 #pragma once
 
 #include <string>

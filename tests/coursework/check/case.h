@@ -1,4 +1,4 @@
-// What is asked of a student's code, and what the right answer is. Shared by the grader and by the hand-out's `check`:
+// A case: a call of the student's code, and the right answer. Shared by the grader and by the hand-out's `check`:
 // C++17, standard library only.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The public tests as a text file: what is asked, and what is right. C++17, standard library only.
+// The public tests as a text file: calls and right answers. C++17, standard library only.
 #pragma once
 
 #include <iosfwd>

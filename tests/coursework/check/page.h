@@ -1,4 +1,4 @@
-// mine.html: each public test with what was said of it, and the student's curve on the right one. C++17, standard
+// mine.html: each public test with its feedback, and the student's curve on the right one. C++17, standard
 // library only.
 #pragma once
 

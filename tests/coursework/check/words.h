@@ -1,4 +1,4 @@
-// What a student reads about one call of his code; the same in the hand-out's `check` and in the grader. C++17,
+// Feedback on one call of a student's code, for the hand-out's `check` and for the grader alike. C++17,
 // standard library only.
 #pragma once
 

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/coursework/grader/build.h"
+
 namespace coursework::classic {
 namespace fs = std::filesystem;
 namespace {
@@ -153,7 +155,6 @@ BuildStep BuildPlan::link(const PartBuild& part, const fs::path& child) const {
 // Lays a submission out so that every include of it is met: the student's files, ours for what is missing, and headers
 // that lead to those written in another case.
 
-namespace fs = std::filesystem;
 namespace {
 
 void write(const fs::path& file, const std::string& content) {
@@ -161,13 +162,6 @@ void write(const fs::path& file, const std::string& content) {
   std::ofstream out(file, std::ios::binary);
   out << content;
   if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
-}
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream content;
-  content << in.rdbuf();
-  return content.str();
 }
 
 bool has_control(const std::string& name) {
@@ -211,12 +205,12 @@ void BuildPlan::add_base(const fs::path& base) {
     for (const auto& [path, words] : tokens_) {
       his = his || lower(base_name(path)) == lower(name);
       for (const char* known : {"ParticleSystem", "TimeStepper", "GLProgram"})
-        his = his || (defines_class(tokens_of(read(entry.path())), known) && defines_class(words, known));
+        his = his || (defines_class(tokens_of(content_of_file(entry.path())), known) && defines_class(words, known));
     }
     if (his) continue;
     const fs::path copy = tree_ / "in" / "base" / name;
-    write(copy, read(entry.path()));
-    ours[copy.string()] = tokens_of(read(copy));
+    write(copy, content_of_file(entry.path()));
+    ours[copy.string()] = tokens_of(content_of_file(copy));
   }
   tokens_.insert(ours.begin(), ours.end());
 }
@@ -256,7 +250,7 @@ void BuildPlan::add_forwarders(const std::vector<std::string>& folders) {
   }
   Files all = files_;
   for (const auto& entry : fs::directory_iterator(tree_ / "in" / "base"))
-    all["../base/" + entry.path().filename().string()] = read(entry.path());
+    all["../base/" + entry.path().filename().string()] = content_of_file(entry.path());
   for (const auto& [path, content] : all)
     for (const std::string& name : includes_of(content)) {
       // nothing that we would make is called so
@@ -286,7 +280,7 @@ void BuildPlan::add_drawing() {
   }
   std::set<std::string> known;
   for (const char* name : {"GL/gl.h", "GL/glu.h", "GL/glut.h", "GLFW/glfw3.h"}) {
-    const std::string text = read(ours_ / "stubs" / name);
+    const std::string text = content_of_file(ours_ / "stubs" / name);
     for (std::string word : tokens_of(text)) known.insert(std::move(word));
     std::istringstream lines(text);
     for (std::string define, word; lines >> define;)

@@ -201,11 +201,6 @@ bool brings_vecmath(const Files& files) {
 
 }  // namespace
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-std::string base_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 std::string folder_name(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "" : path.substr(0, slash);

@@ -34,8 +34,6 @@ struct GlNames {
 /// Names of gl, glu, glut and glfw that are called or used and that the tokens do not define themselves.
 GlNames gl_names_in(const std::vector<std::string>& tokens);
 
-std::string lower(std::string text);
-std::string base_name(const std::string& path);
 std::string folder_name(const std::string& path);
 bool is_header(const std::string& path);
 bool is_source(const std::string& path);

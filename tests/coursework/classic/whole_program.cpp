@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <fstream>
 #include <sstream>
 
 #include "mysim/base/files.h"
@@ -90,10 +89,7 @@ class StepRunner {
         word.replace(at, tree_.string().size(), "@");
       text += word + "\n";
     }
-    std::ifstream in(step.source, std::ios::binary);
-    std::stringstream content;
-    content << in.rdbuf();
-    text += content.str();
+    text += content_of_file(step.source);
     std::stringstream hex;
     hex << std::hex << crosscheck::Fnv1a::of(text) << crosscheck::Fnv1a::of(text + "/");
     return hex.str();
@@ -118,10 +114,7 @@ Files files_below(const fs::path& folder) {
   Files files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
-    std::ifstream in(entry.path(), std::ios::binary);
-    std::stringstream content;
-    content << in.rdbuf();
-    files[entry.path().lexically_relative(folder).generic_string()] = content.str();
+    files[entry.path().lexically_relative(folder).generic_string()] = content_of_file(entry.path());
   }
   return files;
 }
@@ -168,7 +161,6 @@ Programs build_programs(const Files& files, const fs::path& tree, const fs::path
   return made;
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t most_notes = 20;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -135,7 +134,6 @@ Remark first_error(const std::string& file, const std::string& said) {
   return {"build.other", {file, said.substr(0, said.find('\n')).substr(0, 300)}};
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 std::vector<fs::path> files_in(const fs::path& folder, const std::string& begin, const std::string& ending) {
@@ -314,11 +312,8 @@ fs::path solution_of(const Assignment& assignment, const Builder& builder, const
 }
 
 std::string content_of_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream content;
-  content << in.rdbuf();
-  if (!in) throw crosscheck::InputError(fmt::format("{}: cannot be read", file.string()));
-  return content.str();
+  if (std::optional<std::string> content = crosscheck::try_read_file(file)) return *std::move(content);
+  throw crosscheck::InputError(fmt::format("{}: cannot be read", file.string()));
 }
 
 }  // namespace coursework

@@ -15,8 +15,6 @@
 
 namespace coursework {
 
-// The compiler, and the cache of what it made of sources of ours.
-
 /// Compiling may start the compiler's own passes; half a minute of CPU is thirty times what a part takes. The wall is
 /// far off: on a busy machine waiting is not the source's fault.
 constexpr Limits compile_limits{.cpu = 30, .wall = 300, .memory = 4096, .processes = 64, .output = 4096, .file = 64};
@@ -51,13 +49,9 @@ void compile_ours(const Sandbox& trusted, const std::vector<std::string>& comman
 /// Fingerprint of a text, as a file name.
 std::string key_of(const std::string& content);
 
-// A compiler's output in plain words.
-
 /// The first error that concerns the student's `file` (its bare name): where and what. `said` is what g++ or clang++
 /// wrote, in English.
 Remark first_error(const std::string& file, const std::string& said);
-
-// Programs around a part: the student's in a sandbox, ours from a cache.
 
 struct Built {
   std::filesystem::path program;   // empty: there is none

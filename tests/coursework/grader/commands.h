@@ -1,4 +1,4 @@
-// What crosscheck-grade can be asked to do. Each returns the exit status; bad use throws InputError or
+// The commands of crosscheck-grade. Each returns the exit status; bad use throws InputError or
 // std::invalid_argument.
 #pragma once
 

@@ -19,7 +19,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "tests/coursework/grader/spawn.h"
+#include "mysim/base/process.h"
 
 namespace coursework {
 namespace fs = std::filesystem;
@@ -89,7 +89,7 @@ Usage run_in_container(const std::vector<std::string>& command, const std::vecto
   if (file < 0) throw std::runtime_error(log.string() + ": cannot be written");
   // what loses its parent becomes ours: it is counted, and killed at the end
   prctl(PR_SET_CHILD_SUBREAPER, 1);
-  const auto words = pointers_to(command), named = pointers_to(environment);
+  const auto words = crosscheck::c_strings(command), named = crosscheck::c_strings(environment);
   const auto begin = std::chrono::steady_clock::now();
   const pid_t first = fork();
   if (first == 0) exec_on_one_cpu(words.data(), named.data(), file, container.closed);
@@ -112,8 +112,7 @@ Usage run_in_container(const std::vector<std::string>& command, const std::vecto
     int status = 0;
     rusage taken{};
     for (pid_t ended; (ended = wait4(-1, &status, WNOHANG, &taken)) > 0;) {
-      cpu += double(taken.ru_utime.tv_sec + taken.ru_stime.tv_sec) +
-             1e-6 * double(taken.ru_utime.tv_usec + taken.ru_stime.tv_usec);
+      cpu += crosscheck::cpu_seconds(taken);
       if (ended != first) continue;
       running = false;
       used.status = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);

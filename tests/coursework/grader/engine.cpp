@@ -10,6 +10,7 @@
 
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
+#include "mysim/base/text.h"
 #include "reference/protocol/crosscheck_engine.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/commands.h"
@@ -44,13 +45,6 @@ void require_known(const Scene& scene) {
   if (scene.mass.empty()) crosscheck_engine::unsupported("no first-order scenes");
   if (scene.pins_move) crosscheck_engine::unsupported("no pins that move");
   if (scene.spring_law != "hooke") crosscheck_engine::unsupported("no springs but Hooke's");
-}
-
-/// As one word of a shell's, whatever is in it: reports may be named after files that anybody handed in.
-std::string shell_quote(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
 }
 
 }  // namespace
@@ -89,13 +83,14 @@ void keep_engine(const fs::path& program, const std::string& part, const Sandbox
   const fs::path kept = folder / (name + ".program"), script = folder / name;
   fs::copy_file(program, kept, fs::copy_options::overwrite_existing);
   fs::permissions(kept, fs::perms(0755));
-  // one file that changes with the program, as those expect who keep results by it; the two may move together
+  // one file that changes with the program, as those expect who keep results by it; the two may move together; reports
+  // may be named after files that anybody handed in
   crosscheck::write_file(
       script,
       fmt::format("#!/bin/sh\n# {:016x}\nexec {} engine \"$(dirname -- \"$0\")\"/{} {} \"$1\" \"$2\" --lane {}\n",
                   crosscheck::Fnv1a::of(content_of_file(program)),
-                  shell_quote(fs::read_symlink("/proc/self/exe").string()), shell_quote(kept.filename().string()), part,
-                  sandbox.name()));
+                  crosscheck::shell_single_quote(fs::read_symlink("/proc/self/exe").string()),
+                  crosscheck::shell_single_quote(kept.filename().string()), part, sandbox.name()));
   fs::permissions(script, fs::perms(0755));
 }
 

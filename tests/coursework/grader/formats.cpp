@@ -5,41 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <stdexcept>
 
 #include "mysim/base/json.h"
 #include "mysim/base/text.h"
+#include "tests/coursework/check/plot.h"
 #include "tests/coursework/grader/result.h"
 
 namespace coursework {
-namespace {
-
-/// Length of the UTF-8 sequence that begins at i; 0 where none does.
-size_t sequence(const std::string& text, size_t i) {
-  auto byte = [&](size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u; };
-  const unsigned first = byte(i);
-  const size_t length = first < 0x80                      ? 1
-                        : first >= 0xc2 && first < 0xe0   ? 2
-                        : first >= 0xe0 && first < 0xf0   ? 3
-                        : first >= 0xf0 && first <= 0xf4u ? 4
-                                                          : 0;
-  std::uint32_t code = length < 2 ? first : first & (0x7fu >> length);
-  for (size_t k = 1; k < length; ++k) {
-    if ((byte(i + k) & 0xc0) != 0x80) return 0;
-    code = code << 6 | (byte(i + k) & 0x3f);
-  }
-  constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = code >= 0xd800 && code < 0xe000, never = code == 0xfffe || code == 0xffff;
-  return length > 0 && (code < least[length] || code > 0x10ffff || surrogate || never) ? 0 : length;
-}
-
-}  // namespace
-
 std::string clean(const std::string& text) {
   std::string out;
   for (size_t i = 0; i < text.size();) {
-    const size_t length = sequence(text, i);
+    // U+FFFE and U+FFFF are no characters
+    const bool never = text.compare(i, 3, "\xef\xbf\xbe") == 0 || text.compare(i, 3, "\xef\xbf\xbf") == 0;
+    const size_t length = never ? 0 : crosscheck::utf8_length(text, i);
     const unsigned char c = static_cast<unsigned char>(text[i]);
     if (length == 0 || (c < 0x20 && c != '\t' && c != '\n') || c == 0x7f)
       out += "\xef\xbf\xbd";
@@ -149,25 +128,7 @@ namespace {
 
 std::string xml(const std::string& text) {
   std::string out;
-  for (const char c : clean(text)) switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':  // kept in attributes too
-        out += "&#10;";
-        break;
-      default:
-        out += c;
-    }
+  for (const char c : escaped(clean(text))) c == '\n' ? out += "&#10;" : out += c;  // kept in attributes too
   return out;
 }
 

@@ -1,4 +1,4 @@
-// What a grading is written as for the programs that read it: a table of formats, and the plain text that they share.
+// Formats of results for other programs, and the plain text that they share. The table of formats is in formats.cpp.
 #pragma once
 
 #include <span>
@@ -9,8 +9,6 @@
 #include "tests/coursework/grader/result.h"
 
 namespace coursework {
-
-// What a grading is written as for the programs that read it. The table of formats is in formats.cpp.
 
 struct Format {
   std::string_view name;
@@ -32,7 +30,7 @@ std::string junit(const Result& result, const Texts& common);
 /// named "hidden" with those of all hidden tests. The scoreboard has the public points alone.
 std::string autolab(const Result& result, const Texts& common);
 
-// What all formats say of a grading in plain text.
+// The plain text that all formats share.
 
 /// The same text as valid UTF-8 that JSON and XML can carry: bytes that are no UTF-8, and control characters other than
 /// tab and line feed, become U+FFFD. What a student's program threw or printed may hold anything.

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 
+#include "mysim/base/csv.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
@@ -65,7 +66,7 @@ class Grading {
   }
 
  private:
-  /// All of them, nothing earned yet.
+  /// Every test of the assignment, with nothing earned yet.
   void list_tests() {
     for (const bool hidden : {false, true})
       for (const Test& test : assignment_.tests) {
@@ -82,7 +83,7 @@ class Grading {
         one.read = test.read;
         one.said = options_.common.of("not_run");
         result_.tests.push_back(one);
-        asked_.push_back({&test, {}, {}});
+        test_runs_.push_back({&test, {}, {}});
       }
   }
 
@@ -97,12 +98,12 @@ class Grading {
         continue;
       }
       const std::string why = said(options_.common, one.error);
-      // one file that holds several parts is talked about once
+      // a file that holds several parts has one remark
       auto& all = result_.preflight;
       if (std::find(all.begin(), all.end(), why) == all.end()) all.push_back(why);
       unusable_[part] = {one.missing ? How::missing : How::not_compiled, {}, one.missing ? one.error.with.at(0) : why};
     }
-    // last: what keeps a part from running is read first
+    // remarks that keep a part from running stand before these
     for (const auto& [part, one] : built)
       for (const Remark& note : one.notes) result_.preflight.push_back(said(options_.common, note));
   }
@@ -110,45 +111,46 @@ class Grading {
   void run_test(std::size_t i) {
     const auto begin = std::chrono::steady_clock::now();
     TestResult& one = result_.tests[i];
-    TestRun& asked = asked_[i];
-    Random random(one.hidden ? hidden_seed(options_.seed, *asked.test) : public_seed(assignment_, *asked.test));
-    asked.cases = asked.test->cases(random);
+    TestRun& test_run = test_runs_[i];
+    Random random(one.hidden ? hidden_seed(options_.seed, *test_run.test) : public_seed(assignment_, *test_run.test));
+    test_run.cases = test_run.test->cases(random);
     const auto unusable = unusable_.find(one.part);
     if (unusable != unusable_.end())
-      asked.answers.assign(asked.cases.size(), unusable->second);
+      test_run.answers.assign(test_run.cases.size(), unusable->second);
     else
-      asked.answers = run_calls(sandbox_, programs_.at(one.part), asked.cases);
-    for (std::size_t k = 0; k < asked.cases.size(); ++k)
-      asked.answers[k] = reduced(*asked.test, asked.cases[k], asked.answers[k]);
-    judge_test(asked, one);
+      test_run.answers = run_calls(sandbox_, programs_.at(one.part), test_run.cases);
+    for (std::size_t k = 0; k < test_run.cases.size(); ++k)
+      test_run.answers[k] = reduced(*test_run.test, test_run.cases[k], test_run.answers[k]);
+    judge_test(test_run, one);
     one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
-  /// The first call that is not right is what is talked about; where all are, the first one is drawn.
-  void judge_test(const TestRun& asked, TestResult& one) const {
+  /// The feedback is on the first wrong call; where all are right, the plot shows the first one.
+  void judge_test(const TestRun& test_run, TestResult& one) const {
     std::size_t shown = 0;
     one.said.clear();
-    for (std::size_t k = 0; k < asked.cases.size(); ++k) {
-      const Judged judged = judge(asked.cases[k], asked.answers[k]);
+    for (std::size_t k = 0; k < test_run.cases.size(); ++k) {
+      const Judged judged = judge(test_run.cases[k], test_run.answers[k]);
       if (judged.right) continue;
-      one.said = words(options_.common, options_.own, asked.cases[k], asked.answers[k], judged);
+      one.said = words(options_.common, options_.own, test_run.cases[k], test_run.answers[k], judged);
       const bool ran = unusable_.count(one.part) == 0;
-      if (ran && asked.cases.size() > 1)
-        one.said =
-            options_.common.fill("which", std::to_string(k + 1), std::to_string(asked.cases.size())) + " " + one.said;
+      if (ran && test_run.cases.size() > 1)
+        one.said = options_.common.fill("which", std::to_string(k + 1), std::to_string(test_run.cases.size())) + " " +
+                   one.said;
       // after a crash or a loop the test's own hint would lead astray
       if (judged.how == How::answered && options_.own.has(one.id + ".hint"))
         one.said += "\n" + options_.common.fill("hint", options_.own.of(one.id + ".hint"));
       shown = k;
       break;
     }
-    if (asked.cases.empty()) throw std::runtime_error(fmt::format("test {}: it asks nothing", one.id));
+    if (test_run.cases.empty()) throw std::runtime_error(fmt::format("test {}: it asks nothing", one.id));
     if (one.said.empty()) one.earned = one.points;
-    const Case& what = asked.cases[shown];
-    if (asked.answers[shown].how != How::answered || asked.answers[shown].got.size() != what.expected.size()) return;
+    const Case& what = test_run.cases[shown];
+    if (test_run.answers[shown].how != How::answered || test_run.answers[shown].got.size() != what.expected.size())
+      return;
     const std::string x = what.plot_x < 0 ? name_text(options_.own, "row.", what.row) + axis_unit(what)
                                           : column_text(options_.own, what, what.plot_x);
-    one.plot = plot(what, asked.answers[shown].got,
+    one.plot = plot(what, test_run.answers[shown].got,
                     {options_.common.of("legend.right"), options_.common.of("legend.yours"), x,
                      column_text(options_.own, what, what.plot_y)});
   }
@@ -171,11 +173,11 @@ class Grading {
   void look_for_cause(const std::string& part) {
     std::vector<TestRun> of_part;
     std::vector<TestResult*> wrong;
-    for (std::size_t i = 0; i < asked_.size(); ++i) {
+    for (std::size_t i = 0; i < test_runs_.size(); ++i) {
       if (result_.tests[i].part != part) continue;
-      of_part.push_back(asked_[i]);
+      of_part.push_back(test_runs_[i]);
       bool answered = true;
-      for (const Answer& answer : asked_[i].answers) answered = answered && answer.how == How::answered;
+      for (const Answer& answer : test_runs_[i].answers) answered = answered && answer.how == How::answered;
       if (answered && !passed(result_.tests[i])) wrong.push_back(&result_.tests[i]);
     }
     if (wrong.empty() || unusable_.count(part)) return;
@@ -187,14 +189,14 @@ class Grading {
     for (TestResult* test : wrong) test->cause = cause;
   }
 
-  /// Of parts that answered whatever they were asked: others would crash or hang in every one of the charts' runs.
+  /// Keeps the parts that answered every call: others would crash or hang in every run of the charts.
   void keep_engines() const {
     if (options_.engines.empty() || !has_engine(assignment_)) return;
     for (const auto& [part, program] : programs_) {
       bool answered = true;
-      for (const TestRun& asked : asked_)
-        if (asked.test->part == part)
-          for (const Answer& answer : asked.answers) answered = answered && answer.how == How::answered;
+      for (const TestRun& test_run : test_runs_)
+        if (test_run.test->part == part)
+          for (const Answer& answer : test_run.answers) answered = answered && answer.how == How::answered;
       if (answered) keep_engine(program, part, sandbox_, options_.engines);
     }
   }
@@ -208,7 +210,7 @@ class Grading {
   crosscheck::TemporaryFolder scratch_;
   std::map<std::string, fs::path> programs_;  // by part
   std::map<std::string, Answer> unusable_;    // by part: missing, or it does not compile
-  std::vector<TestRun> asked_;                // beside result_.tests
+  std::vector<TestRun> test_runs_;            // beside result_.tests
   Result result_;
 };
 
@@ -223,7 +225,7 @@ std::string said(const Texts& common, const Remark& remark) {
   return common.fill(remark.key, word(0), word(1), word(2));
 }
 
-std::vector<std::string> files_asked_for(const Assignment& assignment) {
+std::vector<std::string> wanted_files(const Assignment& assignment) {
   std::vector<std::string> files;
   if (assignment.takes_whole_program()) return files;
   for (const Part& part : assignment.parts) files.push_back(std::string(part.name) + ".cpp");
@@ -243,7 +245,6 @@ Result grade(const Assignment& assignment, const Submission& submission, const S
   return Grading(assignment, submission, sandbox, options).run();
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 /// What results depend on beside the submission: this program, the assignment, the sandbox, the seed and the language.
@@ -294,13 +295,10 @@ std::vector<std::pair<std::string, double>> by_part(const Assignment& assignment
   return sums;
 }
 
+/// A field of CSV; spreadsheets take what begins like this for a formula.
 std::string quoted(const std::string& text) {
-  // spreadsheets take what begins like this for a formula
   const bool formula = !text.empty() && std::string("=+-@").find(text[0]) != std::string::npos;
-  if (!formula && text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string safe = formula ? "\"'" : "\"";
-  for (const char c : text) safe += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return safe + "\"";
+  return formula ? crosscheck::csv_quoted("'" + text) : crosscheck::csv_field(text);
 }
 
 std::string remark_of(const GradedSubmission& one) {
@@ -340,7 +338,7 @@ std::vector<GradedSubmission> grade_class(const Assignment& assignment, const fs
     try {
       // in a folder that students share, a link would be graded as somebody's who did not write it
       if (fs::is_symlink(entries[i])) throw std::runtime_error("it is a link to something else");
-      const Submission submission = read_submission(entries[i], files_asked_for(assignment));
+      const Submission submission = read_submission(entries[i], wanted_files(assignment));
       const std::string fingerprint = fingerprint_of(submission, surroundings);
       known = finished(base.string() + ".json", std::string(assignment.name), fingerprint, one.result) &&
               fs::exists(base.string() + ".html");

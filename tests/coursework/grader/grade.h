@@ -1,4 +1,4 @@
-// From a submission, or a folder of them, to results.
+// Grades a submission, or a folder of them.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,6 @@
 #include "tests/coursework/grader/submission.h"
 
 namespace coursework {
-
-// From a submission to a Result.
 
 struct GradeOptions {
   std::uint64_t seed = 0;  // of the hidden tests
@@ -33,7 +31,7 @@ Result grade(const Assignment& assignment, const Submission& submission, const S
              const GradeOptions& options);
 
 /// The files that the assignment asks for: one per part; none where it takes a whole program.
-std::vector<std::string> files_asked_for(const Assignment& assignment);
+std::vector<std::string> wanted_files(const Assignment& assignment);
 
 /// The seed that the hand-out's tests are made with; it depends on the assignment and the test alone.
 std::uint64_t public_seed(const Assignment& assignment, const Test& test);

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "tests/coursework/check/texts.h"
+#include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/grade.h"
 
 namespace coursework {
@@ -133,14 +133,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string file_content(const fs::path& file) {
-  std::stringstream content;
-  std::ifstream in(file, std::ios::binary);
-  content << in.rdbuf();
-  if (!in) throw std::runtime_error(file.string() + ": cannot be read");
-  return content.str();
-}
-
 void write_text(const fs::path& file, const std::string& content) {
   std::ofstream out(file, std::ios::binary);
   out << content;
@@ -176,7 +168,7 @@ bool is_of_vecmath(const std::string& name) {
 
 /// A source of the grader's as it stands in `check`, where its headers are in no folders of their own.
 std::string source_in_check(const fs::path& file) {
-  std::string text = file_content(file);
+  std::string text = content_of_file(file);
   for (const std::string folder : {"tests/coursework/classic/", "tests/coursework/check/", "../../check/"})
     for (std::size_t at; (at = text.find("#include \"" + folder)) != std::string::npos;)
       text.erase(at + std::string_view("#include \"").size(), folder.size());
@@ -189,11 +181,12 @@ std::set<fs::path> sorted(const fs::path& folder) { return {fs::directory_iterat
 void write_surroundings(const fs::path& from, const fs::path& folder) {
   fs::create_directories(folder / "vecmath");
   for (const fs::path& file : sorted(from / "stubs"))
-    if (is_of_vecmath(file.filename().string())) write_text(folder / "vecmath" / file.filename(), file_content(file));
+    if (is_of_vecmath(file.filename().string()))
+      write_text(folder / "vecmath" / file.filename(), content_of_file(file));
   for (const char* drawing : {"GL", "GLUT", "OpenGL"}) {
     fs::create_directories(folder / "check/stubs" / drawing);
     for (const fs::path& file : sorted(from / "stubs" / drawing))
-      write_text(folder / "check/stubs" / drawing / file.filename(), file_content(file));
+      write_text(folder / "check/stubs" / drawing / file.filename(), content_of_file(file));
   }
   fs::create_directories(folder / "check/probe");
   for (const fs::path& file : sorted(from / "probe"))
@@ -220,11 +213,11 @@ void write_handout(const Assignment& assignment, const fs::path& folder) {
   const bool whole = assignment.takes_whole_program();
   const PublicTests tests = public_tests(assignment);
   fs::create_directories(check);
-  write_text(folder / "handout.md", file_content(from / "handout.md"));
-  for (const fs::path& file : sorted(from / "starter")) write_text(folder / file.filename(), file_content(file));
+  write_text(folder / "handout.md", content_of_file(from / "handout.md"));
+  for (const fs::path& file : sorted(from / "starter")) write_text(folder / file.filename(), content_of_file(file));
   for (const fs::path& file : sorted(shared))
     if (file.filename() != "child_main.cpp" && !(whole && file.filename() == "as_given.cpp"))
-      write_text(check / file.filename(), file_content(file));
+      write_text(check / file.filename(), content_of_file(file));
   for (const fs::path& file : sorted(from)) {
     const std::string name = file.filename().string();
     if (name.starts_with("texts.") && ends(file, {".txt"})) write_text(check / name, shown_texts(file));

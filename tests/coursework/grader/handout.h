@@ -1,4 +1,4 @@
-// What the students are given: the lecture, the starter, and `check` with the public tests.
+// The hand-out: the lecture, the starter, and `check` with the public tests.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,6 @@
 
 namespace coursework {
 
-// What the students are given: the lecture, the starter, and `check` with the public tests.
-
 /// The cases of every test under its public seed, as they go into the hand-out. A test whose raw numbers are reduced
 /// first has none: the rule that reduces them stays with the grader.
 PublicTests public_tests(const Assignment& assignment);
@@ -20,7 +18,7 @@ PublicTests public_tests(const Assignment& assignment);
 /// written, or the assignment lacks a file.
 void write_handout(const Assignment& assignment, const std::filesystem::path& folder);
 
-// What a hand-out says of itself: how it is built, what its `check` does, what counts.
+// The build file and the README of a hand-out.
 
 /// CMakeLists.txt for an assignment of one file per part. A whole program brings its own in its starter.
 std::string cmake_lists(const Assignment& assignment);

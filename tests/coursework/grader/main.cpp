@@ -21,37 +21,45 @@ int run(int argc, char** argv) {
   GradeCommand command;
   std::uint64_t seed = 0;
   auto* grade = app.add_subcommand("grade", "grades a submission (a folder, zip or tar), or with --all a class");
-  grade->add_option("ASSIGNMENT", command.assignment, "crosscheck list assignments names them")->required();
+  grade
+      ->add_option("ASSIGNMENT", command.assignment,
+                   "name of the assignment (`crosscheck list assignments` shows them)")
+      ->required();
   grade->add_option("SUBMISSION", command.submission, "a folder, a zip or a tar.gz; with --all a folder of these")
       ->required();
-  grade->add_flag("--all", command.all, "every entry of the folder is a submission; goes on where it was stopped");
-  auto* seeded = grade->add_option("--seed", seed, "of the hidden tests (default: from the secret, else a fresh one)");
-  grade->add_option("--secret", command.secret_file, "FILE that the hidden tests' seed is made from")->excludes(seeded);
-  grade->add_option("--report", command.report, "FILE.html: a page with plots");
-  grade->add_option("--engines", command.engines, "DIR: leaves the parts there as programs of the engine protocol")
+  grade->add_flag("--all", command.all, "grades every entry of the folder; continues where an earlier run was stopped");
+  auto* seeded =
+      grade->add_option("--seed", seed, "seed of the hidden tests (default: from the secret, else a new one)");
+  grade->add_option("--secret", command.secret_file, "FILE: the seed of the hidden tests is made from its first line")
+      ->excludes(seeded);
+  grade->add_option("--report", command.report, "FILE.html: writes a page with plots for the student");
+  grade->add_option("--engines", command.engines, "DIR: writes the parts there as programs of the engine protocol")
       ->group("");
   grade->add_option("--charts", command.charts, "the page's link to charts of these")->group("");
   grade->add_option("--out", command.out, "FILE; with --all the folder of results (out/grade/ASSIGNMENT)");
   grade->add_option("--format", command.format, "text, gradescope, autolab or junit");
   grade->add_option("--lang", command.language, "en or zh")->check(CLI::IsMember({"en", "zh"}));
-  grade->add_option("--lane", command.sandbox, "bwrap, uid or bare (default: the first that keeps submissions in)");
-  grade->add_flag("--no-sandbox", command.no_sandbox, "run it as yourself, with limits only");
+  grade->add_option("--lane", command.sandbox,
+                    "sandbox: bwrap, uid or bare (default: the first of bwrap and uid that works here)");
+  grade->add_flag("--no-sandbox", command.no_sandbox, "runs submissions as yourself, with limits only");
   grade->callback([&] {
     if (seeded->count()) command.seed = seed;
     status = grade_command(command);
   });
 
   AssignmentCommand given;
-  auto* assignment = app.add_subcommand("assignment", "what an assignment consists of, for students and for harnesses");
-  assignment->add_option("NAME", given.assignment, "crosscheck list assignments names them")->required();
+  auto* assignment =
+      app.add_subcommand("assignment", "writes an assignment's hand-out, or its package for a grading service");
+  assignment->add_option("NAME", given.assignment, "name of the assignment (`crosscheck list assignments` shows them)")
+      ->required();
   auto* out = assignment->add_option("--out", given.out,
-                                     "the hand-out's folder, empty, new or an earlier one of it; with --pack FILE.zip");
-  assignment->add_option("--pack", given.pack, "the package of a grading service instead")
+                                     "folder of the hand-out: new, empty or an earlier hand-out; with --pack FILE.zip");
+  assignment->add_option("--pack", given.pack, "writes a package for this grading service: gradescope")
       ->check(CLI::IsMember({"gradescope"}))
       ->needs(out);
   assignment->add_option("--secret", given.secret_file,
-                         "FILE that hidden tests are made from (default: a fresh secret)");
-  assignment->add_option("--check", given.check, "FILE.zip: rehearses a package and says whether it is ready")
+                         "FILE: the hidden tests are made from its first line (default: a new secret)");
+  assignment->add_option("--check", given.check, "FILE.zip: rehearses a package and reports whether it is ready")
       ->excludes(out);
   assignment->callback([&] { status = assignment_command(given); });
 
@@ -65,8 +73,8 @@ int run(int argc, char** argv) {
   runs->callback([&] { status = engine_command(engine); });
 
   bool json = false;
-  auto* list = app.add_subcommand("list", "the assignments");
-  list->add_flag("--json", json, "for programs");
+  auto* list = app.add_subcommand("list", "lists the assignments");
+  list->add_flag("--json", json, "prints JSON");
   list->callback([&] { status = list_command(json); });
 
   try {

@@ -1,4 +1,4 @@
-// Reads files of mistakes, and runs them on what the student was asked.
+// Reads files of mistakes, and runs each mistake on the calls of a student's tests.
 #include "tests/coursework/grader/mistakes.h"
 
 #include <fmt/format.h>
@@ -175,12 +175,12 @@ bool agree(const Case& what, const Answer& student, const Answer& mistake) {
   return true;
 }
 
-std::string likely_cause(const Assignment& assignment, const std::string& part, const std::vector<TestRun>& asked,
+std::string likely_cause(const Assignment& assignment, const std::string& part, const std::vector<TestRun>& runs,
                          const std::vector<Mistake>& known, const Builder& builder, const Sandbox& trusted,
                          unsigned jobs) {
-  // what went wrong tells mistakes apart best: it is asked first
+  // failed tests distinguish mistakes best: they run first
   std::vector<const TestRun*> order;
-  for (const TestRun& one : asked) order.push_back(&one);
+  for (const TestRun& one : runs) order.push_back(&one);
   std::stable_partition(order.begin(), order.end(), [](const TestRun* one) { return !all_right(*one); });
   std::vector<const Mistake*> candidates;
   for (const Mistake& mistake : known)

@@ -26,7 +26,7 @@ std::string with_mistake(const std::string& source, const Mistake& mistake);
 
 // Which known mistake a student's answers look like.
 
-/// One test of a part as it was asked, and what came; answers are reduced where the test reduces.
+/// One test of a part: its calls, and the student's answers, reduced where the test reduces.
 struct TestRun {
   const Test* test = nullptr;
   std::vector<Case> cases;
@@ -41,8 +41,8 @@ Answer reduced(const Test& test, const Case& what, Answer raw);
 bool agree(const Case& what, const Answer& student, const Answer& mistake);
 
 /// The name of the one mistake of `known` whose program answers all that was asked as the student's did; empty where
-/// none does, or several. `asked` are all the tests of one part.
-std::string likely_cause(const Assignment& assignment, const std::string& part, const std::vector<TestRun>& asked,
+/// none does, or several. `runs` are all the tests of one part.
+std::string likely_cause(const Assignment& assignment, const std::string& part, const std::vector<TestRun>& runs,
                          const std::vector<Mistake>& known, const Builder& builder, const Sandbox& trusted,
                          unsigned jobs);
 

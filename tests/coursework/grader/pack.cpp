@@ -84,7 +84,6 @@ void unpack_zip(const fs::path& zip, const fs::path& folder) {
     throw std::runtime_error(fmt::format("{}: {}", zip.string(), wrong));
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 /// The quoted includes of a file, relative to `root` or beside the file.
@@ -140,7 +139,6 @@ std::vector<std::string> sources_needed(const fs::path& root, std::vector<std::s
   return {needed.begin(), needed.end()};
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 using Files = std::map<std::string, std::string>;
@@ -257,7 +255,6 @@ void write_package(const Assignment& assignment, const std::string& secret, cons
   write_zip(zip, files);
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 std::string last_lines(const fs::path& log) {

@@ -10,7 +10,7 @@
 
 namespace coursework {
 
-// Zip files of our own making.
+// Zip files.
 
 /// Files by their path inside the archive; those that begin with "#!" can be executed. Throws std::runtime_error where
 /// it cannot be written.
@@ -19,7 +19,7 @@ void write_zip(const std::filesystem::path& zip, const std::map<std::string, std
 /// Unpacks into the folder. Throws std::runtime_error where the zip cannot be read or names a file outside.
 void unpack_zip(const std::filesystem::path& zip, const std::filesystem::path& folder);
 
-// The package that Gradescope takes: an assignment with its grader, which is built where it will run.
+// The package for Gradescope; its grader is built where it will run.
 
 /// Writes the zip: setup.sh (packages, then build.sh), run_autograder, the sources of the grader, of the part of mysim
 /// that it uses and of this assignment, the headers of the libraries that consist of headers, and `secret`, the line

@@ -29,7 +29,7 @@ TestResult test_of(const JsonField& f) {
           .part = f["part"].text(),
           .title = f["title"].text(),
           .heading = f["heading"].text(),
-          .hidden = f["hidden"].truth(),
+          .hidden = f["hidden"].boolean(),
           .points = f["points"].number(),
           .earned = f["earned"].number(),
           .concepts = f["concepts"].texts(),
@@ -76,10 +76,10 @@ Result result_from_json(const std::string& text, const std::string& file, std::s
                   .submission = f["submission"].text(),
                   .sandbox = f["lane"].text(),
                   .seed = f["seed"].natural(),
-                  .secret = f["secret"].truth(),
+                  .secret = f["secret"].boolean(),
                   .preflight = f["preflight"].texts(),
                   .tests = {},
-                  .complete = f["complete"].truth()};
+                  .complete = f["complete"].boolean()};
     for (const JsonField& test : f["tests"].elements()) result.tests.push_back(test_of(test));
     if (const auto found = f.find("fingerprint"); found && fingerprint) *fingerprint = found->text();
     return result;
@@ -136,10 +136,10 @@ std::string total_of(const Result& result, const Texts& common) {
 }
 
 std::string text_of(const Result& result, const Texts& common) {
-  std::string text =
-      common.fill("page.title", result.assignment, printable(result.submission)) + "\n" +
-      common.fill("page.lane", result.secret ? common.of("page.secret") : std::to_string(result.seed), result.sandbox) +
-      "\n";
+  std::string text = common.fill("page.title", result.assignment, printable(result.submission)) + "\n" +
+                     common.fill("page.sandbox", result.secret ? common.of("page.secret") : std::to_string(result.seed),
+                                 result.sandbox) +
+                     "\n";
   for (const std::string& line : result.preflight) text += "! " + printable(line) + "\n";
   std::string part, shown;  // what was said last on the part is not said again test by test
   bool hidden = false;
@@ -189,7 +189,7 @@ std::string page_of(const Result& result, const Texts& common, const Texts& own,
       "<!DOCTYPE html>\n<html><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
       "<title>{0}</title>\n{1}</head><body>\n<h1>{0}</h1>\n<p class=\"total\">{2}</p>\n<p>{3}</p>\n",
       title, style, escaped(total_of(result, common)),
-      escaped(common.fill("page.lane", result.secret ? common.of("page.secret") : std::to_string(result.seed),
+      escaped(common.fill("page.sandbox", result.secret ? common.of("page.secret") : std::to_string(result.seed),
                           result.sandbox)));
   if (!result.complete) page += "<p class=\"remark\">" + escaped(common.of("page.not_done")) + "</p>\n";
   for (const std::string& line : result.preflight) page += "<p class=\"remark\">" + escaped(line) + "</p>\n";

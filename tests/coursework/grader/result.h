@@ -1,4 +1,4 @@
-// What grading one submission gave, as JSON, as text for the terminal and as a page.
+// The result of grading one submission, as JSON, as text for the terminal and as a page.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,9 @@
 
 namespace coursework {
 
-// What grading one submission gave; the formats are made of it.
-
 struct TestResult {
   std::string id, part, title;
-  std::string heading;  // what stands above the tests of a part: the file's name, or the part's title
+  std::string heading;  // above the tests of a part: the file's name, or the part's title
   bool hidden = false;
   double points = 0, earned = 0;
   std::vector<std::string> concepts;
@@ -39,8 +37,8 @@ struct Result {
 /// Whether all its points were earned, on a test that was run.
 bool passed(const TestResult& test);
 
-/// All of it as JSON, and back: how an interrupted class goes on. A fingerprint stands beside it where there is one:
-/// what was graded, and by what. Throws InputError that names the file.
+/// The result as JSON, and back: an interrupted class is continued from it. A fingerprint stands beside it where there
+/// is one: what was graded, and by what. Throws InputError that names the file.
 std::string to_json(const Result& result, const std::string& fingerprint = "");
 Result result_from_json(const std::string& text, const std::string& file, std::string* fingerprint = nullptr);
 

@@ -1,4 +1,4 @@
-// Sandboxes: how a program that nobody trusts is run.
+// Sandboxes run programs that nobody trusts. The table of sandboxes is in sandbox.cpp.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,6 @@
 #include <vector>
 
 namespace coursework {
-
-// Sandboxes: how a program that nobody trusts is run. The table of sandboxes is in sandbox.cpp.
 
 struct Limits {
   double cpu = 2, wall = 5;  // s; cpu is that of all its processes, and each alone is stopped at the next full second

@@ -23,6 +23,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "mysim/base/process.h"
+
 namespace coursework {
 namespace {
 
@@ -162,10 +164,6 @@ void supervise(const ChildSetup& setup) {
 
 namespace {
 
-double seconds(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
 bool says_memory(const ProcessResult& ended) {
   const std::string_view answers = ended.answers;
   constexpr std::string_view word = "memory\n";
@@ -186,7 +184,7 @@ End classify(ProcessResult ended, const Limits& limits, bool shell) {
   const int code = WIFEXITED(ended.status) ? WEXITSTATUS(ended.status) : 0;
   if (shell && code > 128 && code < 128 + NSIG) signal = code - 128;
   end.code = signal ? signal : code;
-  const double cpu = seconds(ended.used.ru_utime) + seconds(ended.used.ru_stime);
+  const double cpu = crosscheck::cpu_seconds(ended.used);
   // ru_maxrss is in kB; what is mapped of the limit is more than what is resident, hence three quarters.
   const bool full = static_cast<double>(ended.used.ru_maxrss) > 0.75 * 1024 * static_cast<double>(limits.memory);
   if (ended.wall)
@@ -318,15 +316,8 @@ ChildStatus communicate(const SpawnOptions& start, pid_t supervisor, Pipe& in, P
 
 }  // namespace
 
-std::vector<char*> pointers_to(const std::vector<std::string>& texts) {
-  std::vector<char*> all;
-  for (const std::string& text : texts) all.push_back(const_cast<char*>(text.c_str()));
-  all.push_back(nullptr);
-  return all;
-}
-
 ProcessResult spawn(const SpawnOptions& start) {
-  const auto command = pointers_to(start.command), environment = pointers_to(start.environment);
+  const auto command = crosscheck::c_strings(start.command), environment = crosscheck::c_strings(start.environment);
   const sock_fprog filter{static_cast<unsigned short>(start.filter.size() / sizeof(sock_filter)),
                           reinterpret_cast<sock_filter*>(const_cast<char*>(start.filter.data()))};
   Pipe in, answers, captured_output, reports;

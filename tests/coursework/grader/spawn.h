@@ -38,7 +38,7 @@ struct ChildStatus {
 /// ended, its descendants are killed, and all processes of `user`.
 [[noreturn]] void supervise(const ChildSetup& setup);
 
-// Runs one program under limits and says how it ended. The sandboxes differ in what they hand over here.
+// The function that runs a program under limits; the sandboxes differ in its options.
 
 struct SpawnOptions {
   std::vector<std::string> command, environment;  // environment as NAME=value
@@ -57,9 +57,6 @@ struct ProcessResult {
   bool wall = false, output = false;  // stopped by us
   std::string answers, captured_output;
 };
-
-/// The texts as exec wants them, with a null pointer behind the last. They must outlive it.
-std::vector<char*> pointers_to(const std::vector<std::string>& texts);
 
 /// Throws std::runtime_error where it cannot be started.
 ProcessResult spawn(const SpawnOptions& start);

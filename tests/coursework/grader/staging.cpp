@@ -89,7 +89,7 @@ PrivateFolder::~PrivateFolder() {
 
 SandboxUser::SandboxUser() {
   // An abstract socket's name is the lock: it goes with the process that holds it, however that ends.
-  for (int patience = 0; patience < 600; ++patience) {
+  for (int attempt = 0; attempt < 600; ++attempt) {
     for (unsigned id = first_user; id < first_user + users; ++id) {
       if (has_name(id)) continue;
       held_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
@@ -123,7 +123,6 @@ ScopedOwner::~ScopedOwner() {
   if (!folder_.empty()) take_back(folder_, user_);
 }
 
-namespace fs = std::filesystem;
 namespace {
 
 /// Plain files and folders, readable for whoever gets to them.

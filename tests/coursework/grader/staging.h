@@ -12,8 +12,6 @@
 
 namespace coursework {
 
-// Folders and users that a run borrows and gives back.
-
 /// A fresh folder under the system's temporary one, removed at the end with all that is in it.
 class PrivateFolder {
  public:

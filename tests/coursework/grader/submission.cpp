@@ -1,4 +1,4 @@
-// Reads folders by the file system and archives by libarchive, and matches the files that were asked for.
+// Reads folders by the file system and archives by libarchive, and matches the wanted files.
 #include "tests/coursework/grader/submission.h"
 
 #include <archive.h>
@@ -19,19 +19,16 @@
 #include "mysim/base/errors.h"
 
 namespace coursework {
-namespace {
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
 }
 
-std::string base_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
-
-}  // namespace
+std::string base_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 bool is_cpp(const std::string& path) {
-  const std::string base = lower(base_of(path));
+  const std::string base = lower(base_name(path));
   const std::size_t dot = base.rfind('.');
   static constexpr const char* endings[] = {"h", "hpp", "hh", "hxx", "inl", "cpp", "cc", "cxx", "c++"};
   return dot != std::string::npos &&
@@ -51,7 +48,7 @@ std::string FileMatcher::match(const std::string& path) const {
   if (path.rfind("__MACOSX/", 0) == 0) return "";
   if (wanted_.empty()) return is_cpp(path) ? path : "";
   if (depth_of(path) > 1) return "";
-  const std::string base = base_of(path);
+  const std::string base = base_name(path);
   for (const std::string& name : wanted_)
     if (lower(name) == lower(base)) return name;
   return "";
@@ -84,7 +81,7 @@ void FileMatcher::into(Submission& submission) const {
       continue;
     }
     // the shallowest first, and the name as it was asked for before one that differs in case
-    auto rank = [&](const Found& f) { return 2 * depth_of(f.path) + (base_of(f.path) != name); };
+    auto rank = [&](const Found& f) { return 2 * depth_of(f.path) + (base_name(f.path) != name); };
     std::vector<Found> found = all->second;
     std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) { return rank(a) < rank(b); });
     const Found& best = found.front();
@@ -94,8 +91,8 @@ void FileMatcher::into(Submission& submission) const {
       submission.missing[name] = {best.refused, {name}};
     else
       submission.files[name] = best.content;
-    if (submission.files.count(name) && base_of(best.path) != name)
-      submission.remarks.push_back({"file.case", {name, base_of(best.path)}});
+    if (submission.files.count(name) && base_name(best.path) != name)
+      submission.remarks.push_back({"file.case", {name, base_name(best.path)}});
   }
 }
 
@@ -224,7 +221,7 @@ void read_archive(const fs::path& file, FileMatcher& matcher) {
     if (++entries > most_entries) throw Refused{too_many()};
     const char* name = archive_entry_pathname_utf8(entry);
     if (!name) name = archive_entry_pathname(entry);
-    std::string path = name ? name : "?";               // a name in no known encoding is none that was asked for
+    std::string path = name ? name : "?";               // a name in an unknown encoding matches no wanted file
     std::replace(path.begin(), path.end(), '\\', '/');  // as some packers on Windows write them
     while (path.rfind("./", 0) == 0) path.erase(0, 2);
     if (path.empty()) continue;

@@ -1,4 +1,4 @@
-// What a student handed in: a folder, zip or tar, from which only the files asked for by name are taken.
+// A submission is a folder, zip or tar, from which only the wanted files are read.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,6 @@
 
 namespace coursework {
 
-// What a student handed in: a folder, zip or tar, from which only the files asked for by name are taken.
-
 /// A sentence to be said: a key of check/common.LANGUAGE.txt and what fills it in.
 struct Remark {
   std::string key;
@@ -19,8 +17,8 @@ struct Remark {
 
 struct Submission {
   std::string name;
-  std::map<std::string, std::string> files;  // content of those that were asked for and found, by name
-  std::map<std::string, Remark> missing;     // why one that was asked for cannot be used
+  std::map<std::string, std::string> files;  // contents of the wanted files that were found, by name
+  std::map<std::string, Remark> missing;     // why a wanted file cannot be used
   std::vector<Remark> remarks;               // on the whole; where it is refused, nothing of it is in `files`
 };
 
@@ -36,13 +34,12 @@ constexpr std::size_t largest_program = 4u << 20;  // byte, of its C++ files tog
 /// InputError when there is nothing at `path`; all that a student may have done wrong becomes a remark instead.
 Submission read_submission(const std::filesystem::path& path, const std::vector<std::string>& wanted);
 
-// Chooses among the names in a submission those that were asked for, or all C++ files where none was. Knows neither
-// folders nor archives.
+// Matches the names in a submission with the wanted files; without wanted files every C++ file matches.
 
 class FileMatcher {
  public:
   explicit FileMatcher(std::vector<std::string> wanted) : wanted_(std::move(wanted)) {}
-  /// Whether the file at this path ("src/rk4.cpp") is one that was asked for and stands where it is looked for.
+  /// Whether the file at this path ("src/rk4.cpp") is a wanted file in one of the folders that are searched.
   bool wants(const std::string& path) const { return !match(path).empty(); }
   void take(const std::string& path, std::string content);
   void refuse(const std::string& path, const std::string& key) { found_[match(path)].push_back({path, key, {}}); }
@@ -65,6 +62,10 @@ class FileMatcher {
 
 /// By its ending.
 bool is_cpp(const std::string& path);
+
+std::string lower(std::string text);
+/// What stands behind the last slash.
+std::string base_name(const std::string& path);
 
 /// Steps below the top folder; src/ counts for nothing.
 int depth_of(const std::string& path);

@@ -182,7 +182,7 @@ TEST(ArchiveCheats, EarnNothingAndHarmNothing) {
     const Canaries canaries;
     const PrivateFolder inbox(0700);
     trick.make(inbox.path() / trick.name, canaries);
-    const Submission submission = read_submission(inbox.path() / trick.name, files_asked_for(few));
+    const Submission submission = read_submission(inbox.path() / trick.name, wanted_files(few));
     GradeOptions options;
     const Result result = graded(few, submission, options);
     for (const TestResult& test : result.tests)
@@ -207,7 +207,7 @@ TEST(ArchiveCheats, NamesLikeOptionsAreNames) {
        {"-o", "-fplugin=euler.cpp", "--version.cpp", "@euler.cpp", "$(touch cheat).cpp", "-rf *.cpp"})
     std::ofstream(folder / name) << "#error never read\n";
   GradeOptions options;
-  const Result result = graded(few, read_submission(folder, files_asked_for(few)), options);
+  const Result result = graded(few, read_submission(folder, wanted_files(few)), options);
   EXPECT_EQ(result.earned(), result.points());
   EXPECT_EQ(canaries.harm(), "");
 }

@@ -193,8 +193,8 @@ class EachCheat : public testing::TestWithParam<const Assignment*> {
   Submission submission(const std::string& at_the_end) const {
     const auto sandbox = choose_sandbox("bare", true);
     const std::string file = builder_for(whole(), *sandbox, *sandbox)->file_of(one_.part);
-    Submission submission = read_submission(whole().folder() / "starter", files_asked_for(whole()));
-    for (const std::string& other : files_asked_for(whole()))
+    Submission submission = read_submission(whole().folder() / "starter", wanted_files(whole()));
+    for (const std::string& other : wanted_files(whole()))
       if (other != file) submission.files.erase(other), submission.missing[other] = {"file.missing", {other}};
     submission.files.at(file) += at_the_end;
     return submission;

@@ -69,7 +69,7 @@ TEST(Classic, OutputAndAMissingFileCostNothingElse) {
   Submission submission = read_submission(whole.folder() / "solution", {});
   std::string& pendulum = submission.files.at("pendulumSystem.cpp");
   const std::string from = "evalF(vector<Vector3f> state) {", to = from + " std::cout << \"all passed\\n\";";
-  pendulum = "#include <iostream>\n" + with_mistake(pendulum, {"chatter", "pendulum", from, to, {}});
+  pendulum = "#include <iostream>\n" + with_mistake(pendulum, {"output", "pendulum", from, to, {}});
   submission.files.erase("ClothSystem.cpp");
   submission.files.erase("ClothSystem.h");
   const Result result = grade(few.assignment, submission, *sandbox, options_for(whole, 7));

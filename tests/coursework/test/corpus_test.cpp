@@ -108,7 +108,7 @@ TEST_P(Corpus, SolutionAndOtherStylesLoseNothing) {
     ++styles;
     const crosscheck::TemporaryFolder scratch("style");
     // a file that a style lacks is the solution's
-    Submission submission = read_submission(style.path(), files_asked_for(assignment_));
+    Submission submission = read_submission(style.path(), wanted_files(assignment_));
     for (const auto& [file, why] : submission.missing)
       submission.files[file] = content_of_file(assignment_.folder() / "solution" / file);
     submission.missing.clear();

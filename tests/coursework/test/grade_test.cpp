@@ -65,7 +65,7 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
       {"memory", "double twice(double x) { std::vector<double> v(20000000000ull, x); return v[1]; }", "more memory"},
       {"exit", "double twice(double) { std::exit(0); }", "ended the program before"},
       {"quick exit", "double twice(double) { std::_Exit(0); }", "ended the program before"},
-      {"chatter", "double twice(double) { for (;;) std::puts(\"all tests passed\"); }", "far too much output"},
+      {"output", "double twice(double) { for (;;) std::puts(\"all tests passed\"); }", "far too much output"},
   };
   for (const Failing& one : table) {
     const std::string source = *one.source ? head + one.source : "";
@@ -146,7 +146,7 @@ using crosscheck::TemporaryFolder;
 using crosscheck::write_file;
 
 void hand_in_solution(const fs::path& folder) {
-  for (const std::string& file : files_asked_for(tiny()))
+  for (const std::string& file : wanted_files(tiny()))
     write_file(folder / file, content_of_file(tiny().folder() / "solution" / file));
 }
 

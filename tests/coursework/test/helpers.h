@@ -27,7 +27,7 @@ inline GradeOptions options_for(const Assignment& assignment, std::uint64_t seed
 inline Submission submission_of(const Assignment& assignment, const std::map<std::string, std::string>& changed = {}) {
   Submission submission;
   submission.name = "somebody";
-  for (const std::string& file : files_asked_for(assignment)) {
+  for (const std::string& file : wanted_files(assignment)) {
     const auto mine = changed.find(file);
     if (mine == changed.end())
       submission.files[file] = content_of_file(assignment.folder() / "solution" / file);

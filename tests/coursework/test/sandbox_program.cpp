@@ -101,7 +101,7 @@ const std::map<std::string, std::function<int(const char*)>> things = {
     {"throw", [](const char* amount) { return std::vector<char>(std::strtoul(amount, nullptr, 10) << 20)[0] + 0; }},
     {"processes", [](const char* amount) { return sleepers(std::atol(amount)) == std::atol(amount) ? 0 : 1; }},
     {"answers", [](const char* amount) { return fill(3, std::atol(amount) << 10); }},
-    {"chatter", [](const char* amount) { return fill(2, std::atol(amount) << 10); }},
+    {"output", [](const char* amount) { return fill(2, std::atol(amount) << 10); }},
     {"file",
      [](const char* amount) {
        return fill(open((std::string(std::getenv("TMPDIR")) + "/big").c_str(), O_CREAT | O_WRONLY, 0600),

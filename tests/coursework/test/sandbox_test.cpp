@@ -23,7 +23,7 @@ namespace {
 using How = End::How;
 
 std::string show(const End& end) {
-  return "code " + std::to_string(end.code) + ", chatter: " + end.captured_output.substr(0, 500);
+  return "code " + std::to_string(end.code) + ", output: " + end.captured_output.substr(0, 500);
 }
 
 bool done(const End& end) { return end.how == How::exited && end.code == 0 && end.answers.ends_with("done\n"); }
@@ -43,8 +43,8 @@ const std::vector<Sides> sides = {
     {"memory", "100", "100000", How::memory, {}},
     {"throw", "100", "100000", How::memory, {}},
     {"answers", "90", "200", How::output, {.output = 100}},
-    {"chatter", "100", "101", How::output, {.output = 100}},
-    {"chatter", "1", "100000", How::output, {.output = 100}},
+    {"output", "100", "101", How::output, {.output = 100}},
+    {"output", "1", "100000", How::output, {.output = 100}},
     {"file", "1000", "1100", How::output, {.file = 1}},
 };
 

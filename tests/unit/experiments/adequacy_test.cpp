@@ -1,4 +1,4 @@
-// The model ladder on small scenes, grids of another resolution, and the least model.
+// Ablations of models on small scenes, grids of another resolution, and the least model.
 
 #include "experiments/adequacy/ablation.h"
 #include "experiments/adequacy/resolution.h"
@@ -33,37 +33,37 @@ TEST(Ingredients, AFileWithoutThemIsTheSceneWithoutThem) {
   }
 }
 
-TEST(Ladder, NothingCanBeLeftOutOfTheAssignmentsScenes) {
+TEST(Ablations, NothingCanBeLeftOutOfTheAssignmentsScenes) {
   for (const auto name : {"circle", "pendulum", "chain"}) {
     SCOPED_TRACE(name);
     const Scene scene = load_scene(name);
     const ReferenceSolution y = reference_solution_of(scene, scene.tolerance);
     EXPECT_LE(y.floor, scene.tolerance / 5);
-    const std::vector<AblatedModel> ladder = ablations_of(scene, y, scene.tolerance);
-    EXPECT_EQ(ladder.size(), 1 + ingredients_of(scene).size());  // no second removal after one that is too much
-    for (const AblatedModel& r : ladder)
+    const std::vector<AblatedModel> models = ablations_of(scene, y, scene.tolerance);
+    EXPECT_EQ(models.size(), 1 + ingredients_of(scene).size());  // no second removal after one that is too much
+    for (const AblatedModel& r : models)
       if (!r.out.empty() && r.error) {
         EXPECT_GT(*r.error, scene.tolerance) << r.name;
       }
-    EXPECT_TRUE(least_model(ladder, scene.tolerance).out.empty());
+    EXPECT_TRUE(least_model(models, scene.tolerance).out.empty());
   }
 }
 
-TEST(Ladder, LeavesOutWhatDoesNotMatterAndOnlyThat) {
+TEST(Ablations, LeavesOutWhatDoesNotMatterAndOnlyThat) {
   // a breath of wind and hardly any drag: x changes by some 1e-6 m and by 1e-3 m in a second
   const Scene scene = small_scene(spring_text("[drag]\ngamma = 0.01\n[wind]\nacceleration = [0, 1e-5, 0]\n"));
   const ReferenceSolution y = reference_solution_of(scene, 1e-4);
-  const std::vector<AblatedModel> ladder = ablations_of(scene, y, 0.02);
-  EXPECT_EQ(least_model(ladder, 1e-6 * 1e-3).name, "full");
-  EXPECT_EQ(least_model(ladder, 1e-4).out, std::vector<std::string>{"wind"});
-  EXPECT_EQ(least_model(ladder, 0.01).out, (std::vector<std::string>{"wind", "drag"}));
-  const AblatedModel& least = least_model(ladder, 0.01);
+  const std::vector<AblatedModel> models = ablations_of(scene, y, 0.02);
+  EXPECT_EQ(least_model(models, 1e-6 * 1e-3).name, "full");
+  EXPECT_EQ(least_model(models, 1e-4).out, std::vector<std::string>{"wind"});
+  EXPECT_EQ(least_model(models, 0.01).out, (std::vector<std::string>{"wind", "drag"}));
+  const AblatedModel& least = least_model(models, 0.01);
   EXPECT_EQ(least.name, "without wind, drag");
   EXPECT_FALSE(least.single);
-  EXPECT_EQ(least.cost(), ladder.front().cost());  // one spring and as many evaluations
+  EXPECT_EQ(least.cost(), models.front().cost());  // one spring and as many evaluations
 }
 
-TEST(Ladder, SaysWhyItHasNoYardstick) {
+TEST(Ablations, SaysWhyItHasNoReference) {
   // a double pendulum of soft springs for a minute: no truth
   const Scene scene = small_scene(
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [1, 0, 0]\nmass = 1\n[[particle]]\n"

@@ -1,4 +1,4 @@
-// One trial of an advice: asked, written, run again from its file, and held against everything that was tried.
+// One trial of an advice: computed, written, run again from its file, and compared with everything that was tried.
 #pragma once
 
 #include "experiments/advise/advice.h"
@@ -30,7 +30,7 @@ inline AdviseCase advise_case(const Scene& scene, double part) {
     const Advice a = advise(scene, c.tolerance, std::move(methods));
     c.promised = true;
     const Scene written = parse_scene(a.toml, scene.name);
-    const MethodRun again = answer(written.method, written, default_run(written));
+    const MethodRun again = run_and_record(written.method, written, default_run(written));
     c.method = written.method;
     c.error = largest_rms_distance(again.trajectory, truth->trajectory, a.until);
     c.met = again.outcome.verdict == Verdict::ok && c.error <= c.tolerance;

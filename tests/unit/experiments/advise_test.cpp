@@ -63,7 +63,7 @@ TEST(Fit, ReachesWishesWithinTwoPercent) {
   };
   for (const Row& row : table) {
     SCOPED_TRACE(row.text);
-    const Fitted fitted = fit_to_wishes(row.text, "wish.toml");
+    const FitResult fitted = fit_to_wishes(row.text, "wish.toml");
     ASSERT_EQ(fitted.unknowns.size(), 1u);
     EXPECT_EQ(fitted.unknowns[0].name, row.unknown);
     EXPECT_NEAR(fitted.wishes[0].reached, fitted.wishes[0].wished, 0.02 * fitted.wishes[0].wished);
@@ -71,15 +71,16 @@ TEST(Fit, ReachesWishesWithinTwoPercent) {
     EXPECT_NEAR(fitted.unknowns[0].value, row.expected, (row.unknown == "drag rate" ? 0.1 : 0.04) * row.expected);
     EXPECT_FALSE(has_unknowns(fitted.toml, "fitted"));
     EXPECT_EQ(parse_scene(fitted.toml, "wish.toml").hash, fitted.scene.hash);
-    EXPECT_EQ(answer(fitted.scene.method, fitted.scene, default_run(fitted.scene)).outcome.verdict, Verdict::ok);
+    EXPECT_EQ(run_and_record(fitted.scene.method, fitted.scene, default_run(fitted.scene)).outcome.verdict,
+              Verdict::ok);
   }
 }
 
 TEST(Fit, FindsTwoAtOnce) {
-  const Fitted f = fit_to_wishes(
+  const FitResult f = fit_to_wishes(
       mass_on_spring("0.5", "\"fit\"", "[drag]\ngamma = \"fit\"\n[wish]\nsag = 0.05\nsettle_time = 3\n"), "two.toml");
   ASSERT_EQ(f.wishes.size(), 2u);
-  for (const Wished& w : f.wishes) EXPECT_NEAR(w.reached, w.wished, 0.02 * w.wished) << w.name;
+  for (const WishResult& w : f.wishes) EXPECT_NEAR(w.reached, w.wished, 0.02 * w.wished) << w.name;
   const auto stiffness =
       std::find_if(f.unknowns.begin(), f.unknowns.end(), [](const auto& u) { return u.name == "stiffness"; });
   ASSERT_NE(stiffness, f.unknowns.end());
@@ -164,7 +165,7 @@ TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
       twice.step = 2 * t.step;
       const double steps = scene.duration / scene.samples / t.step;
       if (steps > 1.5) {
-        EXPECT_GT(sup_rms(answer(method, scene, twice).trajectory, truth->trajectory), tolerance);
+        EXPECT_GT(sup_rms(run_and_record(method, scene, twice).trajectory, truth->trajectory), tolerance);
       }
       EXPECT_EQ(parse_scene(a.toml, name).method, "mysim/" + std::string(method));
     }
@@ -172,7 +173,7 @@ TEST(Advise, TakesTheLongestStepThatMeetsTheTolerance) {
 }
 
 /// Half a kilogram pulled down by 0.1 m on a spring of 1 m, 300 N/m, without gravity, with `samples` samples in twelve
-/// of its periods; in a row of springs, where more are asked for.
+/// of its periods; in a row of springs, where there are more.
 Scene sampled_spring(double samples_in_a_period, int springs = 1) {
   const double period = 2 * std::numbers::pi * std::sqrt(0.5 / 300), duration = 12 * period;
   std::string text = "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n";
@@ -202,7 +203,7 @@ TEST(Advise, KeepsItsPromiseBetweenTheSamples) {
       crosscheck::Run run = default_run(written);
       const Method method = find_method(written.method);
       run.samples = method.adaptive ? 1000 : static_cast<int>(std::lround(run.duration / time_grid(run).h));
-      const Trajectory dense = answer(written.method, written, run).trajectory;
+      const Trajectory dense = run_and_record(written.method, written, run).trajectory;
       Scene finer = scene;
       finer.step /= 4;
       const auto truth = truth_of(finer, {finer.step, run.duration, run.samples});

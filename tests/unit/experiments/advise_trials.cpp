@@ -13,7 +13,7 @@ using namespace crosscheck::testing_tools;
 
 namespace {
 
-/// A sheet of cloth, or a mass on a spring, with values to fit and wishes.
+/// A cloth, or a mass on a spring, with values to fit and wishes.
 struct WishCase {
   std::string name, text;
 };
@@ -46,8 +46,8 @@ std::vector<WishCase> wish_cases() {
 bool fit_all() {
   bool good = true;
   for (const WishCase& c : wish_cases()) try {
-      const Fitted fitted = fit_to_wishes(scene_text(c.text + gravity_text, 2, 1e-3, 20), c.name);
-      for (const Wished& w : fitted.wishes) {
+      const FitResult fitted = fit_to_wishes(scene_text(c.text + gravity_text, 2, 1e-3, 20), c.name);
+      for (const WishResult& w : fitted.wishes) {
         const bool reached = std::abs(w.reached / w.wished - 1) <= 0.02;
         good &= reached;
         fmt::print("{:44} {} {:.4g}, reached {:.4g}{}\n", c.name, w.name, w.wished, w.reached,

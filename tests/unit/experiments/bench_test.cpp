@@ -4,8 +4,8 @@
 #include <set>
 
 #include "experiments/bench/implicit_step.h"
-#include "experiments/bench/kernels.h"
 #include "experiments/bench/peers.h"
+#include "experiments/bench/spring_cost.h"
 #include "experiments/bench/threads.h"
 #include "experiments/metrics.h"
 #include "experiments/scenes/cloths.h"
@@ -15,7 +15,7 @@
 #include "experiments/timing/instruction_sets.h"
 #include "mysim/implicit/newton.h"
 #include "mysim/model/system.h"
-#include "tests/unit/experiments/bench_pieces.h"
+#include "tests/unit/experiments/bench_helpers.h"
 #include "tests/unit/reference/helpers.h"
 
 namespace crosscheck {
@@ -29,7 +29,7 @@ using namespace testing_tools;
 
 const TimedRunOptions hasty_turns{3, 1e-4};
 
-TEST(BenchSheet, IsTheOneThatPeersWereMeasuredOn) {
+TEST(BenchCloth, IsTheOneThatPeersWereMeasuredOn) {
   for (const auto& [n, springs] : {std::pair{32, 5826u}, {64, 23938u}, {128, 97026u}}) {
     const Scene scene = hanging_cloth(n);
     EXPECT_EQ(scene.model.find<Springs>()->list.size(), springs);
@@ -47,7 +47,7 @@ TEST(BenchSheet, IsTheOneThatPeersWereMeasuredOn) {
   }
 }
 
-TEST(BenchSheet, ItsStepIsBelowEveryExplicitLimit) {
+TEST(BenchCloth, ItsStepIsBelowEveryExplicitLimit) {
   for (const Scene& scene : {hanging_cloth(24), hanging_cloth_of_two_stiffnesses(24), hanging_cloth_of_links(24)})
     EXPECT_LT(scene.step, 2 / highest_frequency(scene.model, scene.start));
   std::set<double> stiffnesses;
@@ -73,13 +73,13 @@ TEST(BenchInstructions, AreAsBeforeAfterwards) {
   EXPECT_EQ(value(), "none");
 }
 
-using BenchKernels = BenchMicro;
-using BenchScenes = BenchMicro;
+using BenchKernels = MicrobenchmarkTest;
+using BenchScenes = MicrobenchmarkTest;
 
 TEST_F(BenchKernels, EachOneForEachInstructionSet) {
   const Table table = kernels_table(40, hasty);  // wide enough for single precision
   expect_finite(table);
-  // two loops that are compiled once; for each instruction set the general kernel and three sweeps, two with SSE2
+  // two loops that are compiled once; for each instruction set the general kernel and three fused steps, two with SSE2
   EXPECT_EQ(table.rows.size(), 2 + 4 * simd::supported_instruction_sets().size() - 1);
   std::set<std::string> rows;
   for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -102,7 +102,7 @@ TEST_F(BenchKernels, EachOneForEachInstructionSet) {
   EXPECT_EQ(*number_at(table, 0, "times the naive loop"), 1);
 }
 
-TEST_F(BenchKernels, OnNarrowSheetsWithoutTheSweep) {
+TEST_F(BenchKernels, OnNarrowClothsWithoutTheFusedStep) {
   EXPECT_EQ(kernels_table(8, hasty).rows.size(), 2 + simd::supported_instruction_sets().size());
 }
 
@@ -117,29 +117,29 @@ TEST_F(BenchScenes, EveryOneWithSprings) {
   const Table table = scenes_table(scenes, hasty);
   expect_finite(table);
   EXPECT_EQ(distinct(table, "scene").size(), with_springs);
-  bool swept = false;
+  bool fused = false;
   for (size_t i = 0; i < table.rows.size(); ++i) {
     EXPECT_GE(*number_at(table, i, "springs"), 1);
     EXPECT_LE(*number_at(table, i, "ratio low"), *number_at(table, i, "ratio high"));
-    swept |= text_at(table, i, "kernel").starts_with("sweep");
+    fused |= text_at(table, i, "kernel").starts_with("sweep");
   }
-  EXPECT_TRUE(swept);
+  EXPECT_TRUE(fused);
 }
 
 class BenchEqualError : public testing::Test {
  protected:
-  Rows rows_of(std::vector<Peer> peers) const {
-    Rows rows;
+  TableSet rows_of(std::vector<Peer> peers) const {
+    TableSet tables;
     Progress progress(1);
-    equal_error({scene_, std::move(peers), hasty_turns}, rows, progress);
-    return rows;
+    equal_error({scene_, std::move(peers), hasty_turns}, tables, progress);
+    return tables;
   }
   std::shared_ptr<const Scene> scene_ = std::make_shared<const Scene>(hanging_cloth(20));
 };
 
 TEST_F(BenchEqualError, ARowForEachRunAndPathWithTheRatioOfItsTimes) {
-  const Rows rows = rows_of({{"odeint/rk4", {1, 0.5}}, {"bullet/pbd", {1}, true}, {"odeint/dopri5", {1e-5}}});
-  const Table &table = *rows.table("bench-equal-error-cost"), &own = *rows.table("bench-own-runs-cost");
+  const TableSet tables = rows_of({{"odeint/rk4", {1, 0.5}}, {"bullet/pbd", {1}, true}, {"odeint/dopri5", {1e-5}}});
+  const Table &table = *tables.table("bench-equal-error-cost"), &own = *tables.table("bench-own-runs-cost");
   expect_finite(table);
   expect_finite(own);
   EXPECT_EQ(table.columns, columns_of<EqualErrorRow>());
@@ -174,8 +174,8 @@ TEST_F(BenchEqualError, ARowForEachRunAndPathWithTheRatioOfItsTimes) {
 }
 
 TEST_F(BenchEqualError, APeersRunThatFailsIsARow) {
-  const Rows rows = rows_of({{"odeint/rk4", {3}}});
-  const Table& table = *rows.table("bench-equal-error-cost");
+  const TableSet tables = rows_of({{"odeint/rk4", {3}}});
+  const Table& table = *tables.table("bench-equal-error-cost");
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_NE(text_at(table, 0, "verdict"), "ok");
   EXPECT_EQ(text_at(table, 0, "remark"), "the peer's run failed");
@@ -183,8 +183,8 @@ TEST_F(BenchEqualError, APeersRunThatFailsIsARow) {
 }
 
 /// The errors of one peer, from its first setting to its last.
-std::vector<double> errors_of(const Rows& rows, const std::string& peer) {
-  const Table& table = *rows.table("bench-equal-error-cost");
+std::vector<double> errors_of(const TableSet& tables, const std::string& peer) {
+  const Table& table = *tables.table("bench-equal-error-cost");
   std::vector<double> errors;
   for (size_t i = 0; i < table.rows.size(); ++i)
     if (text_at(table, i, "peer") == peer && text_at(table, i, "path of mysim") == "best")
@@ -201,42 +201,42 @@ void expect_tolerance_followed(const std::vector<double>& errors) {
 
 TEST_F(BenchEqualError, OthersComeToMysimsTruthAsTheirOrdersSay) {
   // all of them on equations written apart, or in Bullet: truth and peers have no code in common
-  const Rows rows = rows_of(
+  const TableSet tables = rows_of(
       {{"odeint/rk4", {0.5, 0.25}}, {"odeint/dopri5", {1e-6, 1e-8}}, {"bullet/deformable-explicit", {0.2, 0.1}}});
-  const auto rk4 = errors_of(rows, "odeint/rk4"), euler = errors_of(rows, "bullet/deformable-explicit");
+  const auto rk4 = errors_of(tables, "odeint/rk4"), euler = errors_of(tables, "bullet/deformable-explicit");
   EXPECT_NEAR(std::log2(rk4[0] / rk4[1]), 4, 0.4);
   EXPECT_NEAR(std::log2(euler[0] / euler[1]), 1, 0.3);
-  expect_tolerance_followed(errors_of(rows, "odeint/dopri5"));
+  expect_tolerance_followed(errors_of(tables, "odeint/dopri5"));
 }
 
 TEST_F(BenchEqualError, SundialsComesToMysimsTruthAsItsToleranceSays) {
   NEEDS_SUNDIALS;
-  const Rows rows = rows_of({{"sundials/arkode+order=4", {1e-6, 1e-8}}});
-  expect_tolerance_followed(errors_of(rows, "sundials/arkode+order=4"));
+  const TableSet tables = rows_of({{"sundials/arkode+order=4", {1e-6, 1e-8}}});
+  expect_tolerance_followed(errors_of(tables, "sundials/arkode+order=4"));
 }
 
 TEST(BenchLinks, PositionBasedOnesComeToTheirOwnLawsTruth) {
-  Rows rows;
+  TableSet tables;
   Progress progress(1);
   equal_error(
-      {std::make_shared<const Scene>(hanging_cloth_of_links(20)), {{"bullet/pbd", {0.125, 0.0625}}}, hasty_turns}, rows,
-      progress);
-  EXPECT_TRUE(rows.notes.empty());
-  const Table& table = *rows.table("bench-equal-error-cost");
+      {std::make_shared<const Scene>(hanging_cloth_of_links(20)), {{"bullet/pbd", {0.125, 0.0625}}}, hasty_turns},
+      tables, progress);
+  EXPECT_TRUE(tables.notes.empty());
+  const Table& table = *tables.table("bench-equal-error-cost");
   for (size_t i = 0; i < table.rows.size(); ++i) {
     EXPECT_EQ(text_at(table, i, "model"), "same");
     EXPECT_TRUE(number_at(table, i, "ratio"));
   }
-  const auto errors = errors_of(rows, "bullet/pbd");
+  const auto errors = errors_of(tables, "bullet/pbd");
   EXPECT_NEAR(slope(errors[0], errors[1]), 1, 0.3);  // of first order, as backward Euler
 }
 
 TEST(BenchThreads, OneIsAtWorkWhereASheetIsSmallAndTheRatioIsThatOfTheTimes) {
-  Rows rows;
+  TableSet tables;
   Progress progress(1);
-  two_threads({{64, 96}, hasty_turns}, rows, progress);
-  const Table* table = rows.table("bench-threads-cost");
-  if (!table) GTEST_SKIP() << "this machine has one core for it: " << rows.notes.at(0);
+  two_threads({{64, 96}, hasty_turns}, tables, progress);
+  const Table* table = tables.table("bench-threads-cost");
+  if (!table) GTEST_SKIP() << "this machine has one core for it: " << tables.notes.at(0);
   expect_finite(*table);
   ASSERT_EQ(table->rows.size(), 2u);
   for (size_t i = 0; i < 2; ++i) {
@@ -252,10 +252,10 @@ TEST(BenchThreads, OneIsAtWorkWhereASheetIsSmallAndTheRatioIsThatOfTheTimes) {
 }
 
 TEST(BenchSameStep, BothEnginesComeToTheSamePlaces) {
-  Rows rows;
+  TableSet tables;
   Progress progress(1);
-  same_step({20, 0.05, hasty_turns}, rows, progress);
-  const Table& table = *rows.table("bench-same-step-cost");
+  same_step({20, 0.05, hasty_turns}, tables, progress);
+  const Table& table = *tables.table("bench-same-step-cost");
   expect_finite(table);
   ASSERT_EQ(table.rows.size(), 4u);
   for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -276,13 +276,13 @@ TEST(BenchSameStep, BothEnginesComeToTheSamePlaces) {
 
 using namespace testing_tools;
 
-using BenchImplicit = BenchMicro;
+using BenchImplicit = MicrobenchmarkTest;
 
 TEST_F(BenchImplicit, BothWaysEndWhereTheOtherDoes) {
-  Rows rows;
+  TableSet tables;
   Progress progress(2);
-  implicit_step({{24}, {60, 240}, hasty}, rows, progress);
-  const Table& table = *rows.table("bench-implicit-step-cost");
+  implicit_step({{24}, {60, 240}, hasty}, tables, progress);
+  const Table& table = *tables.table("bench-implicit-step-cost");
   expect_finite(table);
   ASSERT_EQ(table.rows.size(), 2 * code_paths().size());
   for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -302,7 +302,7 @@ TEST(FactorisedStep, RefusesDragThatIsNoRate) {
 }
 
 TEST(FactorisedStep, IsTheLinearImplicitStepOfAnyScene) {
-  // starts at random, on a net that is no sheet
+  // starts at random, on springs that are no cloth grid
   Scene scene = hanging_cloth(9);
   Random random(3);
   scene.model.find<Springs>()->list.resize(150);

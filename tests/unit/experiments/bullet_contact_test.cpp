@@ -26,7 +26,7 @@ Scene on_slope(double friction) {
   return scene;
 }
 double speed_at_the_end(const std::string& method, const Scene& scene, double step) {
-  const MethodRun a = answer(method, scene, {step, scene.duration, scene.samples});
+  const MethodRun a = run_and_record(method, scene, {step, scene.duration, scene.samples});
   EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
   EXPECT_FALSE(certify(method, scene, a.outcome).mismatch());
   return a.trajectory.v.back().col(0).norm();
@@ -50,7 +50,7 @@ TEST(BulletFriction, OfTheDeformableWorldHoldsAboveTheLimitAndSlidesBelow) {
     const double limit = std::tan(slope_angle);
     auto way = [&](double mu) {
       const Scene scene = on_slope(mu);
-      const Trajectory path = answer(method, scene, {1e-3, scene.duration, scene.samples}).trajectory;
+      const Trajectory path = run_and_record(method, scene, {1e-3, scene.duration, scene.samples}).trajectory;
       return (path.x.back() - path.x.front()).norm();
     };
     EXPECT_LT(way(1.05 * limit), 1e-5);  // it settles into the surface by what Bullet lets stand of the weight
@@ -63,7 +63,7 @@ TEST(BulletFriction, OfTheDeformableWorldHoldsAboveTheLimitAndSlidesBelow) {
 TEST(BulletFriction, OfThePositionBasedWorldIsACreepInProportionToTheStep) {
   for (const double f : {0.1, 0.2, 0.3, 0.5})
     for (const double h : {5e-4, 1e-3, 5e-3}) {
-      const Trajectory path = answer("bullet/pbd", on_slope(f), {h, 0.5, 50}).trajectory;
+      const Trajectory path = run_and_record("bullet/pbd", on_slope(f), {h, 0.5, 50}).trajectory;
       const double creep = g * std::sin(slope_angle) * h * (1 - f) / f;
       // at times a node is not in contact for one step and is faster for some: the median leaves that out
       std::vector<double> speeds;
@@ -72,7 +72,7 @@ TEST(BulletFriction, OfThePositionBasedWorldIsACreepInProportionToTheStep) {
       const double found = speeds[13];
       EXPECT_NEAR(found / creep, 1, 1e-3) << fmt::format("f {} h {}", f, h);
     }
-  // what it is asked to hold it holds; it reads off a speed all the same, of which the watch makes nothing
+  // it holds what it is meant to hold; a speed is reported all the same, which the monitor does not mind
   Recorder recorder;
   find_method("bullet/pbd").engine(on_slope(0.7), {1e-3, 0.5, 50}, recorder);
   EXPECT_LT((recorder.trajectory.x.back() - recorder.trajectory.x.front()).norm(), 1e-5);
@@ -85,13 +85,13 @@ TEST(BulletFriction, AHeldParticleHasNotBlownUpAndAThrownOneHas) {
   const Scene scene = on_slope(0.7);
   for (const double speed :
        {0.1, 3.0}) {  // m/s: 5 mJ and 4.5 J, against 10 (9.8 mJ + m g of its way + 34 mJ of single rounding)
-    DivergenceMonitor watch(scene.model);
+    DivergenceMonitor monitor(scene.model);
     State s = scene.start;
-    Verdict verdict = watch.observe(s, true);
+    Verdict verdict = monitor.observe(s, true);
     for (int i = 0; i < 2 && verdict == Verdict::ok; ++i) {
       s.t += 1e-3, s.x.col(0) += 1e-3 * Vec3(0, speed, 0);
       s.v.col(0) = Vec3(0, speed, 0);
-      verdict = watch.observe(s, true);
+      verdict = monitor.observe(s, true);
     }
     EXPECT_EQ(verdict, speed < 0.2 ? Verdict::ok : Verdict::energy);
   }
@@ -105,7 +105,7 @@ TEST(BulletMovingSphere, CarriesTheClothAlong) {
   ASSERT_GT(moved, 0.25);
   for (const auto method : {"bullet/deformable-explicit", "bullet/pbd"}) {
     SCOPED_TRACE(method);
-    const MethodRun a = answer(method, scene, run);
+    const MethodRun a = run_and_record(method, scene, run);
     ASSERT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
     EXPECT_FALSE(certify(method, scene, a.outcome).mismatch());
     double closest = 0;
@@ -134,11 +134,11 @@ Scene two_balls(const std::string& margin_of_second = "0.02") {
 
 TEST(BulletSpheres, TwoHoldAChainBetweenThem) {
   const Scene scene = two_balls();
-  const Trajectory ours = answer("symplectic-euler", scene, default_run(scene)).trajectory;
+  const Trajectory ours = run_and_record("symplectic-euler", scene, default_run(scene)).trajectory;
   const std::string explicit_world = "bullet/deformable-explicit";
   for (const std::string& method : {explicit_world, std::string("bullet/pbd")}) {
     SCOPED_TRACE(method);
-    const MethodRun a = answer(method, scene, default_run(scene));
+    const MethodRun a = run_and_record(method, scene, default_run(scene));
     ASSERT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
     EXPECT_FALSE(certify(method, scene, a.outcome).mismatch());
     ASSERT_EQ(a.outcome.readback->spheres->size(), 2u);
@@ -165,14 +165,14 @@ TEST(BulletSpheres, WhatABodyOfBulletCannotHaveIsRefused) {
   pieces.model.find<Springs>()->list.pop_back();
   for (const auto method : {"bullet/deformable-explicit", "bullet/deformable-implicit", "bullet/pbd"}) {
     const auto refusal = [&](const Scene& scene) {
-      const Outcome out = answer(method, scene, {1e-3, 2e-3, 1}).outcome;
+      const Outcome out = run_and_record(method, scene, {1e-3, 2e-3, 1}).outcome;
       EXPECT_EQ(out.verdict, Verdict::unsupported);
       return out.reason;
     };
     EXPECT_TRUE(contains(refusal(two_balls("0.03")), "one margin, the scene's spheres have several"));
     EXPECT_TRUE(contains(refusal(bouncing), "no restitution"));
     EXPECT_TRUE(contains(refusal(pieces), "hangs on a body whose springs do not join all particles"));
-    EXPECT_EQ(answer(method, two_balls(), {1e-3, 2e-3, 1}).outcome.verdict, Verdict::ok);
+    EXPECT_EQ(run_and_record(method, two_balls(), {1e-3, 2e-3, 1}).outcome.verdict, Verdict::ok);
   }
 }
 
@@ -188,13 +188,15 @@ using namespace testing_tools;
 Scene trap(const std::string& name) {
   return load_scene(CROSSCHECK_SOURCE "/experiments/scenes/disagreements/" + name + ".toml");
 }
-MethodRun play(const std::string& method, const Scene& scene) { return answer(method, scene, default_run(scene)); }
+MethodRun play(const std::string& method, const Scene& scene) {
+  return run_and_record(method, scene, default_run(scene));
+}
 
 TEST(BulletTraps, ImplicitWorldFreezesWithoutProjectionAndMovesWithIt) {
   for (const Scene& scene : {trap("implicit-freeze"), load_scene("chain"), load_scene("cloth-student")}) {
     const crosscheck::Run run{scene.step, 0.5, 10};
-    const MethodRun frozen = answer("bullet/deformable-implicit+unprojected", scene, run),
-                    moving = answer("bullet/deformable-implicit", scene, run);
+    const MethodRun frozen = run_and_record("bullet/deformable-implicit+unprojected", scene, run),
+                    moving = run_and_record("bullet/deformable-implicit", scene, run);
     EXPECT_EQ(frozen.outcome.verdict, Verdict::frozen) << scene.name;
     EXPECT_EQ(moving.outcome.verdict, Verdict::ok) << moving.outcome.reason;
     EXPECT_EQ(motion_of(frozen.trajectory), 0);
@@ -222,7 +224,7 @@ TEST(BulletTraps, SpeedLimitActsOnlyWithTheDefaultMargin) {
   const Scene scene = trap("speed-clamp");
   const MethodRun open = play("bullet/deformable-explicit+default-margin", scene),
                   closed = play("bullet/deformable-explicit", scene), ours = play("symplectic-euler", scene);
-  // a lone particle's box is a cube of twice the margin: its diagonal in a step, here below the 80 m/s asked
+  // a lone particle's box is a cube of twice the margin: its diagonal in a step, here below the 80 m/s of the scene
   const double limit = 2 * 0.25 * std::sqrt(3) / scene.step;
   for (size_t i = 1; i < open.trajectory.v.size(); ++i)
     EXPECT_LE(open.trajectory.v[i].col(0).norm(), limit * (1 + 1e-12));
@@ -301,11 +303,11 @@ TEST(BulletTraps, SlowBodiesStayAwake) {
 
 TEST(Frozen, IsWhatGetsForcesAndDoesNotMove) {
   const Scene scene = load_scene("chain");
-  DivergenceMonitor watch(scene.model);
+  DivergenceMonitor monitor(scene.model);
   State state = scene.start;
-  EXPECT_EQ(watch.observe(state, true), Verdict::ok);
+  EXPECT_EQ(monitor.observe(state, true), Verdict::ok);
   state.t = 0.01;
-  EXPECT_EQ(watch.observe(state, true), Verdict::frozen);
+  EXPECT_EQ(monitor.observe(state, true), Verdict::frozen);
   // one bit of motion, or of speed, is motion
   for (const bool speed : {false, true}) {
     DivergenceMonitor other(scene.model);
@@ -331,12 +333,12 @@ TEST(Frozen, IsNotWhatIsAtRestByItself) {
                {"lying on a ball", trap("distance-field")}};
   for (const auto& s : still)
     for (const auto method : {"leapfrog", "symplectic-euler", "bullet/deformable-explicit"}) {
-      const MethodRun a = answer(method, s.scene, {1e-3, 0.02, 2});
+      const MethodRun a = run_and_record(method, s.scene, {1e-3, 0.02, 2});
       EXPECT_EQ(a.outcome.verdict, Verdict::ok) << s.what << ", " << method << ": " << a.outcome.reason;
       EXPECT_LT(motion_of(a.trajectory), 1e-5) << s.what << ", " << method;
     }
   // explicit Euler moves nothing in its first step from rest, but it gives speed
-  const MethodRun first = answer("explicit-euler", load_scene("chain"), {1e-3, 1e-3, 1});
+  const MethodRun first = run_and_record("explicit-euler", load_scene("chain"), {1e-3, 1e-3, 1});
   EXPECT_EQ(first.trajectory.x[1], first.trajectory.x[0]);
   EXPECT_GT(largest_column(first.trajectory.v[1]), 0);
   EXPECT_EQ(first.outcome.verdict, Verdict::ok);

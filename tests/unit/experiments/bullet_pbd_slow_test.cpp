@@ -11,30 +11,30 @@ namespace {
 
 using namespace testing_tools;
 
-Rows stiffness() { return computed(find_experiment("stiffness").points({})); }
+TableSet stiffness() { return computed(find_experiment("stiffness").points({})); }
 double number(const Table& table, size_t row, const std::string& column) {
   const Cell& cell = table.at(row, column);
   return std::holds_alternative<long>(cell) ? static_cast<double>(std::get<long>(cell)) : std::get<double>(cell);
 }
 
 TEST(BulletPbdStiffness, OfOneLinkIsTheFormulas) {
-  const Rows result = stiffness();
+  const TableSet result = stiffness();
   const Table& table = *result.table("stiffness");
-  int asked = 0;
+  int count = 0;
   for (size_t row = 0; row < table.rows.size(); ++row) {
     const double share = number(table, row, "kLST"), deviation = number(table, row, "deviation");
     SCOPED_TRACE(
         fmt::format("kLST {}, h {}, n {}", share, number(table, row, "step"), number(table, row, "iterations")));
-    asked += share == 0.1 || share == 0.5;
+    count += share == 0.1 || share == 0.5;
     EXPECT_LT(std::abs(deviation), 2e-3);  // the bound
-    // the last sweep finds the strain 1e-4 / (1 - kLST) and removes more than Hooke's share by half of that
+    // the last Gauss-Seidel pass finds the strain 1e-4 / (1 - kLST) and removes more than Hooke's share by half of that
     EXPECT_NEAR(deviation, 0.5e-4 / (1 - share), 0.02 * 0.5e-4 / (1 - share));
   }
-  EXPECT_EQ(asked, 18);  // 2 shares, 3 steps, 3 iterations
+  EXPECT_EQ(count, 18);  // 2 shares, 3 steps, 3 iterations
 }
 
 TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
-  const Rows result = stiffness();
+  const TableSet result = stiffness();
   const Table& table = *result.table("stiffness-network");
   for (const double n : {1., 10.}) {
     double largest = 0, smallest = INFINITY, at_largest = 0, at_smallest = 0, before = 0, last_slope = 0;
@@ -67,7 +67,7 @@ Scene soft_cloth() {
 
 Trajectory with_law(Scene scene, SpringLaw law, const std::string& method, double step) {
   scene.model.find<Springs>()->law = law;
-  const MethodRun a = answer(method, scene, {step, scene.duration, scene.samples});
+  const MethodRun a = run_and_record(method, scene, {step, scene.duration, scene.samples});
   EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
   return a.trajectory;
 }
@@ -97,7 +97,7 @@ TEST(BulletPbdDrag, OfAFreeParticleIsExact) {
       const Scene scene = small_scene(fmt::format(
           "[[particle]]\nposition = [0, 0, 0]\nmass = 0.3\nvelocity = [1, -2, 0.5]\n[drag]\ngamma = {}\n", gamma));
       const int steps = 60;
-      const Trajectory path = answer("bullet/pbd", scene, {h, steps * h, steps}).trajectory;
+      const Trajectory path = run_and_record("bullet/pbd", scene, {h, steps * h, steps}).trajectory;
       // velocities are differences of positions over h: each step rounds them by an ulp of the way over h
       const double rounding = steps * eps * path.x.back().norm() / h;
       for (int i = 0; i <= steps; ++i)
@@ -114,7 +114,7 @@ TEST(BulletPbdDashpot, ConvergesToTheDampedOscillatorAtFirstOrder) {
   ASSERT_TRUE(truth && truth->tier == Tier::exact);
   std::vector<double> error;
   for (const double h : {2e-3, 1e-3, 5e-4, 2.5e-4})
-    error.push_back(sup_rms(answer("bullet/pbd", scene, {h, 1, 20}).trajectory, truth->trajectory));
+    error.push_back(sup_rms(run_and_record("bullet/pbd", scene, {h, 1, 20}).trajectory, truth->trajectory));
   for (size_t i = 1; i < error.size(); ++i) EXPECT_NEAR(slope(error[i - 1], error[i]), 1, 0.1) << i;
   EXPECT_LT(error.back(), 2e-6);  // a fiftieth of the amplitude
 }

@@ -18,7 +18,7 @@ using namespace testing_tools;
 
 /// The whole run of a method at the scene's own step, which must come to its end.
 MethodRun play(const std::string& method, const Scene& scene) {
-  MethodRun a = answer(method, scene, default_run(scene));
+  MethodRun a = run_and_record(method, scene, default_run(scene));
   EXPECT_EQ(a.outcome.verdict, Verdict::ok) << method << ": " << a.outcome.reason;
   return a;
 }
@@ -154,8 +154,8 @@ struct Comparison {
 };
 
 Comparison compare(const Scene& scene, const crosscheck::Run& run) {
-  const MethodRun ours = answer("symplectic-euler", scene, run),
-                  theirs = answer("bullet/deformable-explicit", scene, run);
+  const MethodRun ours = run_and_record("symplectic-euler", scene, run),
+                  theirs = run_and_record("bullet/deformable-explicit", scene, run);
   EXPECT_EQ(ours.outcome.verdict, Verdict::ok) << ours.outcome.reason;
   EXPECT_EQ(theirs.outcome.verdict, Verdict::ok) << theirs.outcome.reason;
   EXPECT_TRUE(theirs.outcome.different_law.empty());
@@ -209,7 +209,7 @@ TEST(BulletIdentity, OnTwoHundredRandomContactFreeScenes) {
     EXPECT_LE(apart, allowed(growth)) << "growth " << growth;
     EXPECT_LT(growth, 1e3);
     worst = std::max(worst, apart / allowed(growth)), most = std::max(most, growth);
-    const Outcome out = answer("bullet/deformable-explicit", scene, {scene.step, scene.step, 1}).outcome;
+    const Outcome out = run_and_record("bullet/deformable-explicit", scene, {scene.step, scene.step, 1}).outcome;
     by_bullet += out.readback->mapped.at("stiffness").starts_with("Bullet's own");
   }
   EXPECT_GE(by_bullet, 100);
@@ -256,7 +256,7 @@ TEST(BulletIdentity, BitForBitInBulletsOrderOfOperations) {
         with_grid("cloth-hang", 6), without_drag(with_grid("cloth-hang", 8)), load_scene("cloth-student")}) {
     SCOPED_TRACE(scene.name);
     const crosscheck::Run run{scene.step, std::min(scene.duration, 2.0), 20};
-    const Trajectory theirs = answer("bullet/deformable-explicit", scene, run).trajectory;
+    const Trajectory theirs = run_and_record("bullet/deformable-explicit", scene, run).trajectory;
     const std::vector<Points> loop = in_bullets_order(scene, run);
     ASSERT_EQ(theirs.x.size(), loop.size());
     for (size_t i = 0; i < loop.size(); ++i)
@@ -276,15 +276,15 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
     const double until = scene.start.x.cols() > 50 ? std::min(1.0, scene.window) : scene.window;
     const int samples = std::max(2, static_cast<int>(std::lround(scene.samples * until / scene.duration)));
     const crosscheck::Run run{scene.step, until, samples};
-    const MethodRun theirs = answer("bullet32/deformable-explicit", scene, run);
+    const MethodRun theirs = run_and_record("bullet32/deformable-explicit", scene, run);
     if (theirs.outcome.verdict == Verdict::unsupported) {
-      EXPECT_EQ(answer("bullet/deformable-explicit", scene, run).outcome.reason, theirs.outcome.reason);
+      EXPECT_EQ(run_and_record("bullet/deformable-explicit", scene, run).outcome.reason, theirs.outcome.reason);
       continue;
     }
-    const MethodRun ours = answer("symplectic-euler", scene, run);
+    const MethodRun ours = run_and_record("symplectic-euler", scene, run);
     ASSERT_EQ(theirs.outcome.verdict == Verdict::ok, ours.outcome.verdict == Verdict::ok) << theirs.outcome.reason;
     if (ours.outcome.verdict != Verdict::ok) {
-      // a stiff cloth blows up at this step in any precision; Bullet clamps speeds, so that lengths may tell first
+      // a stiff cloth blows up at this step in any precision; Bullet clamps speeds, so that lengths may show it first
       EXPECT_EQ(ours.outcome.verdict, Verdict::energy);
       EXPECT_TRUE(theirs.outcome.verdict == Verdict::energy || theirs.outcome.verdict == Verdict::stretch)
           << theirs.outcome.reason;
@@ -299,7 +299,8 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
     EXPECT_LE(apart, *bound);
     // and it is single precision: half an ulp of the motion is lost at least once, which double precision would not do
     EXPECT_GT(apart, 3e-8 * motion);
-    EXPECT_GT(apart, 1e6 * sup_distance(ours.trajectory, answer("bullet/deformable-explicit", scene, run).trajectory));
+    EXPECT_GT(apart,
+              1e6 * sup_distance(ours.trajectory, run_and_record("bullet/deformable-explicit", scene, run).trajectory));
     ++compared;
   }
   EXPECT_GE(compared, 8);
@@ -308,12 +309,13 @@ TEST(Bullet32, IsSymplecticEulerWithinTheRoundOffOfSinglePrecision) {
 TEST(Bullet32, SaysThatItIsSingleAndPassesOptionsOn) {
   const Scene scene = load_scene("chain");
   const crosscheck::Run run{scene.step, 0.1, 5};
-  const Outcome one = answer("bullet32/pbd", scene, run).outcome, ten = answer("bullet32/pbd+n=10", scene, run).outcome;
+  const Outcome one = run_and_record("bullet32/pbd", scene, run).outcome,
+                ten = run_and_record("bullet32/pbd+n=10", scene, run).outcome;
   ASSERT_TRUE(one.readback && ten.readback);
   EXPECT_EQ(one.readback->precision, "single");
   EXPECT_TRUE(contains(one.readback->mapped.at("stiffness"), "-1/1)"));
   EXPECT_TRUE(contains(ten.readback->mapped.at("stiffness"), "-1/10)"));
-  EXPECT_EQ(one.different_law, answer("bullet/pbd", scene, run).outcome.different_law);
+  EXPECT_EQ(one.different_law, run_and_record("bullet/pbd", scene, run).outcome.different_law);
   EXPECT_GT(one.process_seconds, 0);
   for (const Outcome& out : {one, ten}) {
     const Certificate certificate = certify("bullet32/pbd", scene, out);
@@ -324,8 +326,10 @@ TEST(Bullet32, SaysThatItIsSingleAndPassesOptionsOn) {
     EXPECT_TRUE(said);
   }
   // a contact, and a refusal, come through as they are
-  EXPECT_EQ(answer("bullet32/deformable-explicit", load_scene("slide"), {1e-3, 0.1, 2}).outcome.verdict, Verdict::ok);
-  EXPECT_TRUE(contains(answer("bullet32/pbd", load_scene("circle"), {1e-2, 0.1, 2}).outcome.reason, "first-order"));
+  EXPECT_EQ(run_and_record("bullet32/deformable-explicit", load_scene("slide"), {1e-3, 0.1, 2}).outcome.verdict,
+            Verdict::ok);
+  EXPECT_TRUE(
+      contains(run_and_record("bullet32/pbd", load_scene("circle"), {1e-2, 0.1, 2}).outcome.reason, "first-order"));
 }
 
 TEST(Bullet32, RunsWhenNamedOnly) {

@@ -21,11 +21,11 @@ namespace {
 
 using simd::InstructionSet;
 
-TEST(Strip, TakesTheSameStepsAsTheGeneralEngine) {
+TEST(ClothGrid, TakesTheSameStepsAsTheGeneralEngine) {
   for (const Cloth& cloth : cloths()) {
     const Scene scene = scene_of(cloth);
     ASSERT_TRUE(grid_topology_in(scene)) << cloth.name;
-    for (const char* rule : rules_on_sheets) {
+    for (const char* rule : fused_rules) {
       const Trajectory plain = path_of(std::string(rule) + "+plain", scene);
       const double motion = motion_of(plain);
       // what 200 steps make of a perturbation, measured; summing in another order is one
@@ -47,11 +47,11 @@ TEST(Strip, TakesTheSameStepsAsTheGeneralEngine) {
   }
 }
 
-TEST(Strip, ReproducibleIsTheSameBitsOnAvx2AndAvx512) {
+TEST(ClothGrid, ReproducibleIsTheSameBitsOnAvx2AndAvx512) {
   const auto all = simd::supported_instruction_sets();
   if (all.size() < 3) GTEST_SKIP() << "this machine has no AVX-512 to compare with";
   for (const Cloth& cloth : cloths())
-    for (const char* rule : rules_on_sheets) {
+    for (const char* rule : fused_rules) {
       const Scene scene = scene_of(cloth);
       std::vector<Trajectory> paths;
       for (const InstructionSet isa : {InstructionSet::avx2, InstructionSet::avx512}) {
@@ -65,8 +65,8 @@ TEST(Strip, ReproducibleIsTheSameBitsOnAvx2AndAvx512) {
     }
 }
 
-/// The scenes that the sweep is for are taken, and those that it cannot do are left alone.
-TEST(Strip, RecognisesRegularCloths) {
+/// The fused step takes the scenes that it is for, and leaves those that it cannot do to the general engine.
+TEST(ClothGrid, RecognisesRegularCloths) {
   for (const char* name :
        {"cloth-hang", "cloth-swing", "cloth-sphere", "cloth-wind", "cloth-carried", "flag", "cloth-stiff"})
     EXPECT_TRUE(grid_topology_in(load_scene(name))) << name;
@@ -98,12 +98,12 @@ TEST(Strip, RecognisesRegularCloths) {
     Scene scene = scene_of(cloth);
     change(springs_of(scene).list);
     EXPECT_FALSE(grid_topology_in(scene)) << what;
-    // silently right: the same answer with and without being asked for the general engine
+    // the same result with and without +plain, the general engine
     EXPECT_EQ(path_of("leapfrog", scene).x.back(), path_of("leapfrog+plain", scene).x.back()) << what;
   }
 }
 
-TEST(Strip, SingleSaysWhereItIsDouble) {
+TEST(ClothGrid, SingleSaysWhereItIsDouble) {
   for (const int columns : {20, 40}) {
     const Scene scene = scene_of({"", 5, columns, hang});
     const Outcome out = run_method(find_method("leapfrog+single"), scene, default_run(scene), {});
@@ -111,7 +111,7 @@ TEST(Strip, SingleSaysWhereItIsDouble) {
   }
 }
 
-TEST(Strip, EndsThatMeetPullAtNothingAndAreCounted) {
+TEST(ClothGrid, EndsThatMeetPullAtNothingAndAreCounted) {
   Scene scene = scene_of({"", 5, 20, hang});
   scene.start.x.col(45) = scene.start.x.col(46);
   scene.start.v.col(45) = scene.start.v.col(46);
@@ -130,19 +130,19 @@ TEST(Strip, EndsThatMeetPullAtNothingAndAreCounted) {
   }
 }
 
-TEST(Strip, CountsAndObserversAreThoseOfTheGeneralEngine) {
+TEST(ClothGrid, CountsAndObserversAreThoseOfTheGeneralEngine) {
   const Scene scene = scene_of(cloths()[0]);
-  for (const char* rule : rules_on_sheets) {
+  for (const char* rule : fused_rules) {
     const crosscheck::Run run = default_run(scene);
-    Recorder plain, sheet;
+    Recorder plain, fused;
     const Outcome a = run_method(find_method(std::string(rule) + "+plain"), scene, run, {&plain}),
-                  b = run_method(find_method(rule), scene, run, {&sheet});
+                  b = run_method(find_method(rule), scene, run, {&fused});
     EXPECT_EQ(a.evaluations, b.evaluations);
     EXPECT_EQ(a.steps, b.steps);
-    EXPECT_EQ(plain.trajectory.t, sheet.trajectory.t);
-    EXPECT_EQ(plain.trajectory.x.front(), sheet.trajectory.x.front()) << "the start is the scene's";
+    EXPECT_EQ(plain.trajectory.t, fused.trajectory.t);
+    EXPECT_EQ(plain.trajectory.x.front(), fused.trajectory.x.front()) << "the start is the scene's";
     for (const int pin : scene.model.particles.pins)
-      EXPECT_EQ(plain.trajectory.x.back().col(pin), sheet.trajectory.x.back().col(pin));
+      EXPECT_EQ(plain.trajectory.x.back().col(pin), fused.trajectory.x.back().col(pin));
   }
 }
 
@@ -165,12 +165,12 @@ void expect_good_roots(double low, double high) {
     }
 }
 
-TEST(Strip, InverseRootsAreGoodToTwoUnitsInTheLastPlace) {
+TEST(ClothGrid, InverseRootsAreGoodToTwoUnitsInTheLastPlace) {
   expect_good_roots<double>(1e-12, 1e12);
   expect_good_roots<float>(1e-12, 1e12);
 }
 
-TEST(Strip, InstructionsThatAreNotThereAreNamed) {
+TEST(ClothGrid, InstructionsThatAreNotThereAreNamed) {
   const ScopedInstructionSet as_before(InstructionSet::sse2);  // afterwards
   setenv("CROSSCHECK_INSTRUCTIONS", "mmx", 1);
   try {
@@ -182,7 +182,7 @@ TEST(Strip, InstructionsThatAreNotThereAreNamed) {
   }
 }
 
-/// Large enough for the threads asked for; what rides along reaches into the rows beside every border.
+/// Large enough for the requested threads; the other terms reach into the rows beside every border.
 std::vector<Cloth> large_cloths() {
   return {
       {"hangs and is carried", 131, 101,
@@ -196,7 +196,7 @@ std::vector<Cloth> large_cloths() {
   };
 }
 
-TEST(Strip, ThreadsChangeNoBit) {
+TEST(ClothGrid, ThreadsChangeNoBit) {
   for (const Cloth& cloth : large_cloths()) {
     Scene scene = scene_of(cloth);
     scene.duration = 0.02, scene.samples = 2, scene.step = 2e-4;

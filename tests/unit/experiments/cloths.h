@@ -1,4 +1,4 @@
-// Cloths that the sweep takes, and what it must ride along with.
+// Cloths that the fused step takes, and the other terms of a scene that it must keep.
 #pragma once
 
 #include <fmt/format.h>
@@ -65,7 +65,7 @@ inline Scene scene_of(const Cloth& cloth, const std::string& stiffness = "struct
 
 inline const std::string hang = "[pins]\nparticles = [0, 1]\n" + std::string(gravity_text);
 
-/// Sizes around the lanes (three blocks of 8 or 16), one-row grids, and what rides along.
+/// Sizes around the lanes (three tiles of 8 or 16), one-row grids, and other terms.
 inline std::vector<Cloth> cloths() {
   return {
       {"17 columns: the fewest for double", 5, 17, hang},
@@ -106,6 +106,6 @@ inline Trajectory path_of(const std::string& method, const Scene& scene) {
   return recorder.trajectory;
 }
 
-inline constexpr const char* rules_on_sheets[] = {"symplectic-euler", "leapfrog", "suzuki4"};
+inline constexpr const char* fused_rules[] = {"symplectic-euler", "leapfrog", "suzuki4"};
 
 }  // namespace crosscheck::testing_tools

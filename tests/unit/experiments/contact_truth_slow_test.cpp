@@ -59,9 +59,9 @@ TEST(ContactTruth, IsCalledADifferenceInTheTables) {
   request.scenes[0].samples = 20;
   request.scenes[0].window = 0.4;
   request.methods = find_methods("leapfrog,symplectic-euler");
-  Results answers;
-  Rows result;
-  engines_on(request, request.scenes[0], answers, result);
+  MethodResults results;
+  TableSet result;
+  engines_on(request, request.scenes[0], results, result);
   const Table& summary = *result.table("engines");
   for (size_t i = 0; i < summary.rows.size(); ++i) {
     EXPECT_TRUE(std::holds_alternative<std::monostate>(summary.at(i, "largest error")));
@@ -85,7 +85,7 @@ TEST(ContactStatistics, SpreadIsThatOfThePerturbationAndSeedsAreFixed) {
   const crosscheck::Run run{1e-3, 1, 20};
   const auto first = contact_statistics(method, scene, run), again = contact_statistics(method, scene, run);
   ASSERT_EQ(first.size(), 4u);
-  const Trajectory plain = answer("symplectic-euler", scene, run).trajectory;
+  const Trajectory plain = run_and_record("symplectic-euler", scene, run).trajectory;
   const double plain_values[] = {centre_of_mass(scene, plain.x.back()).y(), 0, 0, 0};
   for (size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(first[i].mean, again[i].mean);

@@ -75,25 +75,25 @@ TEST(Cost, PhasesAreTheDifferencesOfTimings) {
 TEST(Cost, PhasesAreThoseOfTheMethodsThatAreAskedFor) {
   Request request;
   request.methods = find_methods("leapfrog,bullet/deformable-explicit");
-  Rows rows;
-  cost_of_phases(request, 8, rows);
-  const Table& t = *rows.table("phases-cost");
+  TableSet tables;
+  cost_of_phases(request, 8, tables);
+  const Table& t = *tables.table("phases-cost");
   ASSERT_EQ(t.rows.size(), 7u);
   for (size_t i = 0; i < 5; ++i) EXPECT_EQ(std::get<std::string>(t.at(i, "method")), "mysim/leapfrog+plain");
   EXPECT_EQ(std::get<std::string>(t.at(5, "method")), "mysim/leapfrog");
   EXPECT_EQ(std::get<std::string>(t.at(6, "method")), "bullet/deformable-explicit");
-  // phases are timed by themselves and subtracted: that says what a step spends only where it asks for the forces once
+  // phases are timed by themselves and subtracted: that says what a step spends only where it evaluates the forces once
   const Scene scene = sized_cloth(8);
-  const Outcome out = answer("mysim/leapfrog+plain", scene, {scene.step, 10 * scene.step, 1}).outcome;
+  const Outcome out = run_and_record("mysim/leapfrog+plain", scene, {scene.step, 10 * scene.step, 1}).outcome;
   EXPECT_EQ(out.evaluations, out.steps);
 }
 
 TEST(Cost, EveryMethodIsARowAndAdaptiveOnesAreNone) {
   Request request;
   request.methods = find_methods("leapfrog,rk4,dopri5,bullet/pbd");
-  Rows rows;
-  cost_of_size(request, 8, rows);
-  const Table& t = *rows.table("size-cost");
+  TableSet tables;
+  cost_of_size(request, 8, tables);
+  const Table& t = *tables.table("size-cost");
   ASSERT_EQ(t.rows.size(), 3u);
   EXPECT_EQ(std::get<double>(t.at(0, "evaluations per step")), 1);
   EXPECT_EQ(std::get<double>(t.at(1, "evaluations per step")), 4);
@@ -129,7 +129,7 @@ TEST(Cost, PointsAreDistinctAndTheQuickOnesAreAmongAll) {
   ASSERT_EQ(points.size(), others.size());
   for (size_t i = 0; i < points.size(); ++i) {
     EXPECT_TRUE(quick.insert(points[i].name).second && all.contains(points[i].name)) << points[i].name;
-    // what is computed depends on the methods and on how much is asked for, on nothing else
+    // what is computed depends on the methods and on --full, on nothing else
     EXPECT_NE(points[i].content, others[i].content);
     EXPECT_NE(points[i].content, cost_points(full)[i].content);
   }

@@ -58,7 +58,7 @@ TEST(Disagreements, EachIsThereAndSaysSo) {
       EXPECT_NE(s.outcome.verdict, Verdict::unsupported) << s.variant.method << ": " << s.outcome.reason;
       EXPECT_GE(s.points.size(), 2u) << s.variant.method;
     }
-    EXPECT_EQ(series[0].outcome.verdict, Verdict::ok);  // what the scene asks for
+    EXPECT_EQ(series[0].outcome.verdict, Verdict::ok);  // the scene's own definition
     fmt::print("{:20} off by {:.3g} {}", e.name, apart(series[0], series[e.failing], e.until), all[d].unit);
     EXPECT_GT(apart(series[0], series[e.failing], e.until), e.apart);
     if (e.matched >= 0) {
@@ -135,7 +135,7 @@ TEST(Disagreements, EverySceneFileIsInTheTableAndEveryRowHasOne) {
 }
 
 TEST(Disagreements, ExperimentWritesACurveForEachAndOneSummary) {
-  const Rows result = computed(find_experiment("disagreements").points({}));
+  const TableSet result = computed(find_experiment("disagreements").points({}));
   const Table* summary = result.table("disagreements");
   ASSERT_TRUE(summary);
   EXPECT_EQ(summary->rows.size(), disagreements().size());

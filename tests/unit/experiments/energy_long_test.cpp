@@ -168,11 +168,11 @@ TEST(LongEnergy, KineticAndGravityOfTheLedgerAreTheSumsOverTheSteps) {
 }
 
 TEST(LongEnergy, WorkOfAStepIsForceTimesWayAsEachRuleMoves) {
-  // x1 - x0 = h (old v0 + fresh v1): what gravity does is m g times that; and where the force is that of the start of
+  // x1 - x0 = h (old v0 + next v1): what gravity does is m g times that; and where the force is that of the start of
   // the step, m (v1 - v0) = h F(x0, v0), so that the kinetic energy changes by h F . (v0 + v1) / 2
   struct Rule {
     const char* method;
-    double old, fresh;
+    double old, next;
     bool force_at_start;
   };
   for (const Rule& rule : {Rule{"explicit-euler", 1, 0, true}, Rule{"symplectic-euler", 0, 1, true},
@@ -189,7 +189,7 @@ TEST(LongEnergy, WorkOfAStepIsForceTimesWayAsEachRuleMoves) {
       double gravity = 0, kinetic = 0;
       for (int p = s.first_free; p < s.particles; ++p) {
         const Vec3 v0 = s.path[i - 1].v.col(p), v1 = s.path[i].v.col(p);
-        gravity += s.mass * s.g * s.h * (rule.old * v0 + rule.fresh * v1)[1];
+        gravity += s.mass * s.g * s.h * (rule.old * v0 + rule.next * v1)[1];
         kinetic += s.mass * s.h * a.col(p).dot(v0 + v1) / 2;
       }
       const Energy &now = s.rows[i].energy, &last = s.rows[i - 1].energy;

@@ -24,7 +24,7 @@ class Exec : public InFolder {
  protected:
   void SetUp() override {
     InFolder::SetUp();
-    const Trajectory right = answer("symplectic-euler", scene_, run_).trajectory;
+    const Trajectory right = run_and_record("symplectic-euler", scene_, run_).trajectory;
     write("x.npy", npy_bytes(right.x));
     write("v.npy", npy_bytes(right.v));
     auto bad = right.x;
@@ -42,14 +42,14 @@ class Exec : public InFolder {
     return "cp '" + (folder_ / file).string() + "' \"$2/" + as + "\"\n";
   }
   MethodRun run(const std::string& text, const std::string& options = "") const {
-    return answer("exec:" + script("engine", text) + options, scene_, run_);
+    return run_and_record("exec:" + script("engine", text) + options, scene_, run_);
   }
   const Scene scene_ = load_scene("chain");
   const crosscheck::Run run_{1e-3, 0.08, 4};
 };
 
 TEST_F(Exec, AReadbackWithoutProbeDoesNotAttestTheLaw) {
-  // an engine that has every number right and pulls by another law: nothing of what it tells is wrong
+  // an engine that has every number right and pulls by another law: nothing that it reports is wrong
   Json readback{{"precision", "double"}};
   const Particles& p = scene_.model.particles;
   readback["mass"] = std::vector<double>(p.mass.begin(), p.mass.end());
@@ -57,9 +57,9 @@ TEST_F(Exec, AReadbackWithoutProbeDoesNotAttestTheLaw) {
   for (const Spring& s : scene_.model.find<Springs>()->list)
     readback["links"].push({{"a", s.a}, {"b", s.b}, {"rest_length", s.rest}, {"stiffness", s.k}});
   write("run.json", Json{{"readback", readback}}.dump());
-  const MethodRun answered = run(deliver("x.npy") + deliver("run.json", "run.json"));
-  ASSERT_EQ(answered.outcome.verdict, Verdict::ok) << answered.outcome.reason;
-  const Certificate c = certify("engine", scene_, answered.outcome);
+  const MethodRun delivered = run(deliver("x.npy") + deliver("run.json", "run.json"));
+  ASSERT_EQ(delivered.outcome.verdict, Verdict::ok) << delivered.outcome.reason;
+  const Certificate c = certify("engine", scene_, delivered.outcome);
   EXPECT_FALSE(c.mismatch());
   EXPECT_FALSE(c.fully_attested());
   EXPECT_TRUE(contains(summary_of(c),
@@ -120,7 +120,7 @@ TEST_F(Exec, NoiseIsARemarkOnAGoodRun) {
   const MethodRun a = run(noise + deliver("x.npy"));
   EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
   EXPECT_EQ(a.outcome.remark, "it wrote on stderr, last: bell   and \xEF\xBF\xBD byte");
-  EXPECT_EQ(run(deliver("x.npy") + "echo fine\n").outcome.remark, "") << "stdout is nobody's business";
+  EXPECT_EQ(run(deliver("x.npy") + "echo fine\n").outcome.remark, "") << "stdout is no remark";
 }
 
 TEST_F(Exec, AChildThatStaysIsKilledAndSaid) {
@@ -143,7 +143,7 @@ TEST_F(Exec, SeesTheSceneAndIsSeenAsOtherMethodsAre) {
                               "\"force_evaluations\": 80, \"different_law\": [\"drag: none\"]}' > \"$2/run.json\"\n",
                           "+fast+n=3+timeout=50");
   ASSERT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
-  EXPECT_TRUE(identical(a.trajectory, answer("symplectic-euler", scene_, run_).trajectory));
+  EXPECT_TRUE(identical(a.trajectory, run_and_record("symplectic-euler", scene_, run_).trajectory));
   EXPECT_TRUE(contains(read(folder_ / "scene.json"), "\"options\": [\"fast\",\"n=3\"]"));
   EXPECT_TRUE(contains(read(folder_ / "scene.json"), scene_.hash));
   EXPECT_EQ(a.outcome.cpu_seconds, 25);
@@ -161,14 +161,14 @@ TEST_F(Exec, WithoutVelocitiesThereIsNoEnergy) {
   request.scenes = {scene_, load_scene("slide")};
   for (Scene& scene : request.scenes) scene.duration = 0.08, scene.samples = 4;
   write("slide.npy",
-        npy_bytes(answer("symplectic-euler", request.scenes[1], default_run(request.scenes[1])).trajectory.x));
+        npy_bytes(run_and_record("symplectic-euler", request.scenes[1], default_run(request.scenes[1])).trajectory.x));
   const std::string which = "case $(cat \"$1\") in *'\"name\": \"slide\"'*) f=slide.npy;; *) f=x.npy;; esac\n";
   const std::string engine = script("engine", which + "cp '" + folder_.string() + "'/$f \"$2/trajectory.npy\"\n");
   request.methods = {find_method("symplectic-euler"), find_method("exec:" + engine)};
-  Rows result;
-  Results answers;
-  for (const Scene& scene : request.scenes) engines_on(request, scene, answers, result);
-  for (const Result& a : answers) {
+  TableSet result;
+  MethodResults results;
+  for (const Scene& scene : request.scenes) engines_on(request, scene, results, result);
+  for (const MethodResult& a : results) {
     EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
     EXPECT_EQ(a.ledger.empty(), a.method != "mysim/symplectic-euler");
   }
@@ -186,7 +186,7 @@ TEST_F(Exec, WithoutVelocitiesThereIsNoEnergy) {
   const Table& cost = *result.table("engines-cost");
   for (size_t i = 0; i < cost.rows.size(); ++i) {
     const bool outside = std::get<std::string>(cost.at(i, "method")).starts_with("exec:");
-    // the time of the process stands apart; its own time is empty, as it told none
+    // the time of the process stands apart; its own time is empty, as it reported none
     EXPECT_EQ(std::holds_alternative<double>(cost.at(i, "cpu of process")), outside);
     EXPECT_EQ(std::holds_alternative<double>(cost.at(i, "cpu")), !outside);
   }
@@ -235,7 +235,7 @@ TEST_F(Exec, NamesAreFilesFirstAndOptionsThen) {
 
 TEST_F(Exec, WhatCannotBeStartedIsACrash) {
   std::filesystem::permissions(write("text", "no program\n"), std::filesystem::perms::owner_all);
-  const Outcome out = answer("exec:" + (folder_ / "text").string(), scene_, run_).outcome;
+  const Outcome out = run_and_record("exec:" + (folder_ / "text").string(), scene_, run_).outcome;
   EXPECT_EQ(out.verdict, Verdict::crash);
   EXPECT_TRUE(contains(out.reason, "cannot be started: Exec format error"));
 }
@@ -245,7 +245,7 @@ TEST_F(Exec, ATrajectoryFromAFileIsAMethod) {
   EXPECT_EQ(method.name, "file:x.npy");
   Recorder r;
   EXPECT_EQ(run_method(method, scene_, run_, {&r}).verdict, Verdict::ok);
-  EXPECT_EQ(r.trajectory.x, answer("symplectic-euler", scene_, run_).trajectory.x);
+  EXPECT_EQ(r.trajectory.x, run_and_record("symplectic-euler", scene_, run_).trajectory.x);
   EXPECT_EQ(run_method(trajectory_method(folder_ / "nan.npy", scene_, run_), scene_, run_, {}).verdict, Verdict::nan);
   try {
     trajectory_method(folder_ / "few-frames.npy", scene_, run_);

@@ -25,7 +25,7 @@ inline std::string text_of(const std::string& name) {
   return text.str();
 }
 
-/// A shipped scene of one sheet with n x n particles. Pins stay what they were: one edge, or two corners.
+/// A shipped scene of one cloth with n x n particles. Pins stay what they were: one edge, or two corners.
 inline Scene with_grid(const std::string& name, int n) {
   const Scene shipped = load_scene(name);
   std::string text = text_of(name);

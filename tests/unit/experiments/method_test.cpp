@@ -68,6 +68,48 @@ TEST(Methods, NoProductFileAsksForAnEngineByTheBeginningOfAName) {
   EXPECT_GT(files, 100);
 }
 
+/// Files whose data are named methods: settings of Bullet's own, a bench's rows, rules behind findings, a class's
+/// charts.
+constexpr std::string_view name_methods_as_data[] = {"experiments/disagreements/table.cpp",
+                                                     "experiments/stiffness/stiffness.cpp",
+                                                     "experiments/bench/bench.cpp", "report/commands/grader.cpp"};
+
+TEST(Methods, NoOtherFileNamesAMethodOfAPeer) {
+  for (const auto room : {"experiments", "report"})
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(std::filesystem::path(CROSSCHECK_SOURCE) / room)) {
+      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+      const std::string path = std::filesystem::relative(entry.path(), CROSSCHECK_SOURCE).string();
+      if (std::ranges::count(name_methods_as_data, path) > 0) continue;
+      const std::string text = read_file(entry.path(), "a source");
+      for (const MethodFamily* peer : default_peers())
+        EXPECT_FALSE(contains(text, fmt::format("\"{}/", peer->name))) << path;
+    }
+}
+
+TEST(Methods, PropertiesStandInTheirRows) {
+  EXPECT_TRUE(find_method("truth/exact-discrete+implicit-euler").implicit);
+  EXPECT_TRUE(find_method("truth/exact-discrete+implicit-midpoint").implicit);
+  EXPECT_FALSE(find_method("truth/exact-discrete+leapfrog").implicit);
+  EXPECT_TRUE(find_method("leapfrog+sticky").sticky_contact);
+  EXPECT_FALSE(find_method("leapfrog").sticky_contact);
+  for (const Method& m : builtin_methods()) {
+    SCOPED_TRACE(m.name);
+    EXPECT_EQ(m.counts_evaluations, m.family().role != Role::peer || (!m.implicit && !m.position_based));
+  }
+  EXPECT_EQ(builtin_without_options("bullet/pbd+n=10"), builtin_method("bullet/pbd"));
+  EXPECT_EQ(builtin_without_options("truth/exact-discrete+rk4"), builtin_method("truth/exact-discrete+rk4"));
+  EXPECT_EQ(builtin_without_options("exec:./pbd+n=10"), nullptr);
+  EXPECT_EQ(subject_method([](const Stepper& s) { return s.order == 4 && !s.symplectic; }), "mysim/rk4");
+  EXPECT_EQ(subject_method([](const Stepper& s) { return s.order == 9; }), "");
+}
+
+TEST(Methods, TheFirstPeerIsWhomSingleColumnsAreAbout) {
+  ASSERT_FALSE(default_peers().empty());
+  EXPECT_EQ(default_peers().front()->title, "Bullet");
+  for (const MethodFamily& family : method_families()) EXPECT_EQ(is_first_peer(family), family.name == "bullet");
+}
+
 TEST(Methods, ABareNameMeansMysimAndOptionsFollowAPlus) {
   EXPECT_EQ(find_method("rk4").name, "mysim/rk4");
   EXPECT_EQ(find_method("rk4").stepper, &stepper("rk4"));
@@ -144,7 +186,7 @@ TEST(Methods, WhatAMethodLacksIsARowAndNoCrash) {
 TEST(Methods, EveryOneMeetsEveryShippedScene) {
   for (const auto& name : shipped_scenes()) {
     const Scene scene = load_scene(std::string(name));
-    int answers = 0;
+    int accepted = 0;
     for (const Method& m : all_methods()) {
       SCOPED_TRACE(fmt::format("{} {}", name, m.name));
       Recorder r;
@@ -153,7 +195,7 @@ TEST(Methods, EveryOneMeetsEveryShippedScene) {
         EXPECT_FALSE(out.reason.empty());
         continue;
       }
-      ++answers;
+      ++accepted;
       // adaptive methods follow their tolerance; their mean step is at most the run
       EXPECT_LE(out.step, out.tolerance > 0 ? 0.05 : scene.step * (1 + 1e-9));
       if (out.verdict != Verdict::ok) continue;  // explicit Euler on a stiff cloth: a row with its verdict
@@ -165,8 +207,8 @@ TEST(Methods, EveryOneMeetsEveryShippedScene) {
       EXPECT_LE(largest_column(r.trajectory.x[0] - scene.start.x), rounding);
     }
     // every stepper that takes the scene, at least
-    for (const Stepper& s : steppers()) answers -= takes(s, scene);
-    EXPECT_GE(answers, 0);
+    for (const Stepper& s : steppers()) accepted -= takes(s, scene);
+    EXPECT_GE(accepted, 0);
   }
 }
 

@@ -1,5 +1,5 @@
-// Systems of implicit steps on sheets: solved as they are meant, whatever the size, the pins and the instructions; and
-// in nearly as few iterations on a large sheet as on a small one.
+// Linear systems of implicit steps on cloths: solved to their tolerance, whatever the size, the pins and the
+// instruction set, and in nearly as few iterations on a large cloth as on a small one.
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing_tools;
 
-/// A crumpled sheet with pins anywhere: what a linear system needs, and its matrix as a list of pairs.
+/// A crumpled cloth with pins anywhere: what a linear system needs, and its matrix as a list of pairs.
 struct Problem {
   simd::GridTopology topology;
   std::vector<int> pins;
@@ -85,7 +85,7 @@ CgResult solve(const Problem& p, simd::InstructionSet isa, Curvature curvature, 
   return multigrid::MultigridSolver(p.topology, p.pins).solve(p.inertia, p.x, curvature, p.b, tolerance, u);
 }
 
-// around the 16 lanes and their halves, rows odd and even, and one sheet of several levels
+// around the 16 lanes and their halves, rows odd and even, and one cloth of several levels
 constexpr std::pair<int, int> sizes[] = {{12, 20}, {13, 31}, {20, 32}, {33, 33},
                                          {15, 48}, {40, 64}, {31, 65}, {3, 100}};
 
@@ -186,7 +186,7 @@ TEST(Multigrid, SameBitsOnEveryAvx) {
   }
 }
 
-/// A hanging sheet, and the iterations of one linear step from it.
+/// A hanging cloth, and the iterations of one linear step from it.
 int iterations(int side, double rate, bool plain) {
   const Scene scene = hanging_cloth(side);
   Recorder recorder;
@@ -208,7 +208,7 @@ TEST(Multigrid, IterationsHardlyGrowWithTheSheet) {
   }
 }
 
-TEST(ImplicitSheet, StepsAreThoseOfTheListOfPairs) {
+TEST(ImplicitCloth, StepsAreThoseOfTheListOfPairs) {
   Scene scene = hanging_cloth(24);
   for (const double h : {1 / 60., 1 / 240.}) {
     System f(scene.model), g(scene.model);
@@ -227,7 +227,7 @@ TEST(ImplicitSheet, StepsAreThoseOfTheListOfPairs) {
   }
 }
 
-TEST(ImplicitSheet, BeyondSinglePrecisionItIsSolvedAllTheSame) {
+TEST(ImplicitCloth, BeyondSinglePrecisionItIsSolvedAllTheSame) {
   constexpr double step = 0.1;  // s
   for (const double stiffer : {1e2, 1e4, 1e6}) {
     const Scene scene = hanging_cloth(24, {400 * stiffer, 200 * stiffer, 20 * stiffer});
@@ -251,7 +251,7 @@ TEST(ImplicitSheet, BeyondSinglePrecisionItIsSolvedAllTheSame) {
   }
 }
 
-TEST(ImplicitSheet, OnlyWhereSpringsAloneAreStiff) {
+TEST(ImplicitCloth, OnlyWhereSpringsAloneAreStiff) {
   Model model = hanging_cloth(24).model;
   EXPECT_NE(multigrid::make_multigrid_solver(model), nullptr);
   Model damped = model;

@@ -1,4 +1,4 @@
-// Speeds in regression tests: the yardstick, the file of blessed speeds, verdicts on invented measurements, accuracy
+// Speeds in regression tests: the plain loop, the file of blessed speeds, verdicts on invented measurements, accuracy
 // against speed.
 
 #include <fmt/format.h>
@@ -37,7 +37,7 @@ TEST(PlainLoop, IsSymplecticEulerWithSpringsAndGravity) {
     // sums of about twenty forces in another order, a few units in the last place of the places themselves; drag, which
     // the loop leaves out, takes less than 50 steps of its rate times 1e-6 s from what moved
     for (Eigen::Index i = 0; i < x.size(); ++i)
-      EXPECT_NEAR(loop.places()[static_cast<size_t>(i)], x.data()[i], 1e-14 + 1e-3 * moved) << name;
+      EXPECT_NEAR(loop.positions()[static_cast<size_t>(i)], x.data()[i], 1e-14 + 1e-3 * moved) << name;
   }
 }
 
@@ -66,7 +66,7 @@ TEST(SpeedVerdicts, NoiseIsTenPerCentOrTwiceTheSpread) {
   EXPECT_EQ(direction_of({1, 0.99, 1.01}, 0.1), 0);
 }
 
-/// Rounds of one question whose ratios are all near `middle`.
+/// Rounds of one case whose ratios are all near `middle`.
 Ratios rounds(double middle, double other = 0) {
   Ratios ratios;
   for (const double off : {0.99, 1., 1.01, 1., 0.99, 1.01, 1.}) {
@@ -76,7 +76,7 @@ Ratios rounds(double middle, double other = 0) {
   return ratios;
 }
 
-/// Hands out for each measurement the next ratio of each scene; the last one for ever.
+/// Returns for each measurement the next ratio of each scene; the last one for ever.
 MeasureSpeeds invented(std::map<std::string, std::vector<double>> ratios) {
   return [ratios = std::move(ratios), count = 0u](const std::vector<SpeedCase>& cases, const SpeedOptions&) mutable {
     std::vector<Ratios> all;
@@ -124,7 +124,7 @@ TEST(SpeedVerdicts, AChangeCountsWhereEveryMeasurementShowsIt) {
   EXPECT_TRUE(failed(SpeedStatus::gone));
   EXPECT_FALSE(speeds.passed());
   EXPECT_TRUE(speeds.notes.empty());
-  // what became faster is held against nobody
+  // what became faster fails nothing
   EXPECT_TRUE(compared_speeds({cases[2]}, &file, here, invented({{"pendulum", {1.5}}})).passed());
 }
 
@@ -154,7 +154,7 @@ TEST(SpeedVerdicts, WhatIsOfAnotherKindIsNotCompared) {
   SpeedFile file;
   EXPECT_EQ(state(&file).first, SpeedStatus::added);
   EXPECT_EQ(state(&file).second, "1 of 1 speeds not compared: new (not blessed yet)");
-  for (const auto part : {&Machine::cpu, &Machine::compiler, &Machine::yardstick}) {
+  for (const auto part : {&Machine::cpu, &Machine::compiler, &Machine::reference_loop}) {
     file.speeds = {speed_of(q, 5)};
     file.speeds[0].machine.*part = "another";
     EXPECT_EQ(state(&file).first, SpeedStatus::elsewhere);
@@ -177,9 +177,10 @@ TEST(SpeedVerdicts, WhyASpeedIsNotComparedIsNamed) {
     return speeds.notes.at(0);
   };
   const std::string begin = "1 of 1 speeds not compared: ";
-  const Machine other_cpu{"b CPU", here.compiler, here.yardstick}, other_both{"b CPU", "b compiler", here.yardstick};
+  const Machine other_cpu{"b CPU", here.compiler, here.reference_loop},
+      other_both{"b CPU", "b compiler", here.reference_loop};
   EXPECT_EQ(note({other_cpu}, here), begin + "blessed on another processor (b CPU; this is a CPU)");
-  EXPECT_EQ(note({{here.cpu, "b compiler", here.yardstick}}, here),
+  EXPECT_EQ(note({{here.cpu, "b compiler", here.reference_loop}}, here),
             begin + "blessed on another compiler (b compiler; this is a compiler -O3)");
   // of several kinds the one most like this is named
   EXPECT_EQ(note({other_both, other_cpu, other_both}, here), note({other_cpu}, here));
@@ -187,11 +188,11 @@ TEST(SpeedVerdicts, WhyASpeedIsNotComparedIsNamed) {
                                           "blessed on another processor (b CPU; this is a CPU) and on another compiler "
                                           "(b compiler; this is a compiler -O3)");
   // a processor that says nothing of itself is like no other, itself included
-  const Machine unknown{"", here.compiler, here.yardstick};
+  const Machine unknown{"", here.compiler, here.reference_loop};
   EXPECT_EQ(note({unknown}, unknown), begin + "this processor cannot be told from others");
 }
 
-/// A folder that looks like what Linux tells of a processor.
+/// A folder like the one in which Linux describes a processor.
 class ProcessorKind : public ::testing::Test {
  protected:
   ProcessorKind() { std::filesystem::create_directories(folder); }
@@ -281,7 +282,7 @@ TEST(SpeedBlessings, WhatIsTheSameKeepsItsOwn) {
   EXPECT_EQ(file.speeds.size(), 3u) << "kinds of machine stand side by side";
 }
 
-TEST(SpeedQuestions, AreEachSceneUnderItsOwnMethodAndACloth) {
+TEST(SpeedCases, AreEachSceneUnderItsOwnMethodAndACloth) {
   const auto all = speed_cases({}, {});
   EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const auto& q) { return q.scene.name != "cloth-32x32"; }),
             static_cast<long>(shipped_scenes().size()));
@@ -290,26 +291,26 @@ TEST(SpeedQuestions, AreEachSceneUnderItsOwnMethodAndACloth) {
     EXPECT_GE(q.run.duration, 2 * q.scene.step) << q.in_words();
     EXPECT_EQ(q.run.samples, 1) << "the clock stops at samples";
   }
-  Selection asked;
-  asked.filter = "chain";
-  EXPECT_EQ(speed_cases(asked, {}).size(), 1u);
-  asked.filter = "cloth-32x32/bullet/*";
-  EXPECT_EQ(speed_cases(asked, {}).size(), 3u);
-  asked.filter = "chain/mysim/rk4";
-  EXPECT_TRUE(speed_cases(asked, {}).empty());
-  asked.filter = "chain", asked.methods = {find_method("rk4")};
-  EXPECT_EQ(speed_cases(asked, find_method("leapfrog")).size(), 1u);
-  EXPECT_TRUE(speed_cases(asked, find_method("exec:" CROSSCHECK_EXAMPLE)).empty());
+  Selection selection;
+  selection.filter = "chain";
+  EXPECT_EQ(speed_cases(selection, {}).size(), 1u);
+  selection.filter = "cloth-32x32/bullet/*";
+  EXPECT_EQ(speed_cases(selection, {}).size(), 3u);
+  selection.filter = "chain/mysim/rk4";
+  EXPECT_TRUE(speed_cases(selection, {}).empty());
+  selection.filter = "chain", selection.methods = {find_method("rk4")};
+  EXPECT_EQ(speed_cases(selection, find_method("leapfrog")).size(), 1u);
+  EXPECT_TRUE(speed_cases(selection, find_method("exec:" CROSSCHECK_EXAMPLE)).empty());
 }
 
 TEST(SpeedMeasurements, LeaveOutWhatARuleRefuses) {
-  Selection asked;
-  asked.filter = "rod", asked.methods = {find_method("rk4")};
-  const auto refused = measured_ratios(speed_cases(asked, find_method("xpbd")), {.rounds = 1}, 0);
+  Selection selection;
+  selection.filter = "rod", selection.methods = {find_method("rk4")};
+  const auto refused = measured_ratios(speed_cases(selection, find_method("xpbd")), {.rounds = 1}, 0);
   ASSERT_EQ(refused.size(), 1u);
   EXPECT_TRUE(refused[0].is.empty());
-  asked.filter = "spring";
-  const auto taken = measured_ratios(speed_cases(asked, find_method("leapfrog")), {.rounds = 2}, 0);
+  selection.filter = "spring";
+  const auto taken = measured_ratios(speed_cases(selection, find_method("leapfrog")), {.rounds = 2}, 0);
   ASSERT_EQ(taken.size(), 1u);
   EXPECT_EQ(taken[0].is.size(), 2u);
   EXPECT_EQ(taken[0].was.size(), 2u);
@@ -388,7 +389,7 @@ SpeedComparison speed(SpeedStatus state, const std::string& scene = "chain") {
   return row;
 }
 
-Comparison answer(const std::string& quantity, double was, double is, const std::string& scene = "chain") {
+Comparison comparison(const std::string& quantity, double was, double is, const std::string& scene = "chain") {
   Comparison row{scene, "mysim/rk4", "", quantity, "m", was, is};
   row.tolerance = 1e-6;
   row.state = std::abs(is - was) > row.tolerance ? Status::moved : Status::same;
@@ -396,17 +397,17 @@ Comparison answer(const std::string& quantity, double was, double is, const std:
 }
 
 Comparison error(double was, double is, const std::string& scene = "chain") {
-  return answer("error against truth", was, is, scene);
+  return comparison("error against truth", was, is, scene);
 }
 
-std::string fast(const std::vector<Comparison>& answers) {
-  return speed_accuracy_of(speed(SpeedStatus::faster), answers);
+std::string fast(const std::vector<Comparison>& comparisons) {
+  return speed_accuracy_of(speed(SpeedStatus::faster), comparisons);
 }
-std::string slow(const std::vector<Comparison>& answers) {
-  return speed_accuracy_of(speed(SpeedStatus::slower), answers);
+std::string slow(const std::vector<Comparison>& comparisons) {
+  return speed_accuracy_of(speed(SpeedStatus::slower), comparisons);
 }
 
-TEST(Trades, AreNamed) {
+TEST(SpeedAccuracyTradeOff, AreNamed) {
   EXPECT_EQ(fast({error(1e-3, 2.3e-3)}),
             "buys speed with accuracy: 1.4 times faster, error against truth 2.3 times larger");
   EXPECT_EQ(slow({error(2.3e-3, 1e-3)}),
@@ -421,42 +422,42 @@ TEST(Trades, AreNamed) {
             "buys speed with accuracy: 1.4 times faster, error against truth larger: from 0 to 0.002 m");
 }
 
-TEST(Trades, WhatIsNotKnownIsNotClaimed) {
-  EXPECT_EQ(fast({answer("offset at 1 s", 1, 1)}), "faster at the same answer: 1.4 times faster");
-  EXPECT_EQ(slow({answer("offset at 1 s", 1, 1)}), "slower at the same answer: 1.4 times slower");
-  EXPECT_EQ(fast({answer("offset at 1 s", 1, 2)}),
+TEST(SpeedAccuracyTradeOff, WhatIsNotKnownIsNotClaimed) {
+  EXPECT_EQ(fast({comparison("offset at 1 s", 1, 1)}), "faster at the same answer: 1.4 times faster");
+  EXPECT_EQ(slow({comparison("offset at 1 s", 1, 1)}), "slower at the same answer: 1.4 times slower");
+  EXPECT_EQ(fast({comparison("offset at 1 s", 1, 2)}),
             "1.4 times faster, and the answer moved; whether for the better is not known");
-  EXPECT_EQ(fast({answer("offset at 1 s", 1, 2), error(1e-3, 1.0005e-3)}),
+  EXPECT_EQ(fast({comparison("offset at 1 s", 1, 2), error(1e-3, 1.0005e-3)}),
             "1.4 times faster, and the answer moved; its error is the same");
   EXPECT_EQ(fast({}), "1.4 times faster; its answer was not asked for");
   EXPECT_EQ(speed_accuracy_of(speed(SpeedStatus::same), std::vector{error(1e-3, 2e-3)}), "");
   EXPECT_EQ(speed_accuracy_of(speed(SpeedStatus::added), std::vector{error(1e-3, 2e-3)}), "");
 }
 
-TEST(Trades, WorkIsNoPartOfTheAnswerAndAFailureIsWorseThanAnyError) {
-  EXPECT_EQ(fast({answer("force evaluations", 4000, 1000)}), "faster at the same answer: 1.4 times faster");
+TEST(SpeedAccuracyTradeOff, WorkIsNoPartOfTheAnswerAndAFailureIsWorseThanAnyError) {
+  EXPECT_EQ(fast({comparison("force evaluations", 4000, 1000)}), "faster at the same answer: 1.4 times faster");
   Comparison verdict{"chain", "mysim/rk4", "", "verdict", "word"};
   verdict.was_word = "ok", verdict.is_word = "energy", verdict.state = Status::moved;
   EXPECT_EQ(fast({verdict}), "1.4 times faster, and the run of chain now ends with the verdict 'energy'");
 }
 
-TEST(Trades, OnlyTheSceneItselfUnderTheMethodCounts) {
+TEST(SpeedAccuracyTradeOff, OnlyTheSceneItselfUnderTheMethodCounts) {
   std::vector<Comparison> others{error(1e-3, 5e-3), error(1e-3, 5e-3), error(1e-3, 5e-3, "spring"),
-                                 answer("offset at 1 s", 1, 1)};
+                                 comparison("offset at 1 s", 1, 1)};
   others[0].without = "drag", others[1].method = "mysim/leapfrog";
   EXPECT_EQ(fast(others), "faster at the same answer: 1.4 times faster");
 }
 
-TEST(Trades, WithoutATruthTheHalvedStepTells) {
-  EXPECT_EQ(fast({answer("change at half the step", 1e-3, 3e-3)}),
+TEST(SpeedAccuracyTradeOff, WithoutATruthTheHalvedStepTells) {
+  EXPECT_EQ(fast({comparison("change at half the step", 1e-3, 3e-3)}),
             "buys speed with accuracy: 1.4 times faster, change at half the step 3 times larger");
-  EXPECT_EQ(fast({answer("change at half the step", 1e-3, 3e-3), error(1e-3, 2e-3)}),
+  EXPECT_EQ(fast({comparison("change at half the step", 1e-3, 3e-3), error(1e-3, 2e-3)}),
             "buys speed with accuracy: 1.4 times faster, error against truth 2 times larger");
 }
 
-TEST(Trades, OfTheClothThatIsThereForItsSizeAllScenesOfTheMethodTell) {
-  const auto cloth = [](const std::vector<Comparison>& answers) {
-    return speed_accuracy_of(speed(SpeedStatus::faster, "cloth-32x32"), answers);
+TEST(SpeedAccuracyTradeOff, OfTheClothThatIsThereForItsSizeAllScenesOfTheMethodTell) {
+  const auto cloth = [](const std::vector<Comparison>& comparisons) {
+    return speed_accuracy_of(speed(SpeedStatus::faster, "cloth-32x32"), comparisons);
   };
   EXPECT_EQ(cloth({error(1e-3, 2e-3), error(1e-3, 4e-3, "spring")}),
             "buys speed with accuracy: 1.4 times faster, error against truth 4 times larger on spring");
@@ -465,11 +466,11 @@ TEST(Trades, OfTheClothThatIsThereForItsSizeAllScenesOfTheMethodTell) {
             "against truth 4 times smaller on spring");
 }
 
-TEST(Trades, AreListedWithTheirScene) {
+TEST(SpeedAccuracyTradeOff, AreListedWithTheirScene) {
   std::vector<SpeedComparison> speeds{speed(SpeedStatus::same), speed(SpeedStatus::slower)};
-  const auto told = explain_speeds(speeds, std::vector{error(1e-3, 1e-3)});
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0], "chain under mysim/rk4: slower at the same answer: 1.4 times slower");
+  const auto sentences = explain_speeds(speeds, std::vector{error(1e-3, 1e-3)});
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_EQ(sentences[0], "chain under mysim/rk4: slower at the same answer: 1.4 times slower");
   EXPECT_EQ(speeds[1].sentence, "slower at the same answer: 1.4 times slower");
   EXPECT_TRUE(speeds[0].sentence.empty());
 }

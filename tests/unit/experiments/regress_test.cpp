@@ -20,7 +20,7 @@
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
-#include "tests/unit/experiments/question.h"
+#include "tests/unit/experiments/test_case.h"
 #include "tests/unit/reference/helpers.h"
 
 namespace crosscheck {
@@ -195,7 +195,7 @@ TEST(Comparison, OfEachQuestionTheRowToLookAtFirstIsAWordThenANumberThenACount) 
   EXPECT_EQ(worst[2].quantity, "steps");
 }
 
-/// Rows of all questions, of which those that `moves` names have moved.
+/// Rows of all cases, of which those that `moves` names have moved.
 std::vector<Comparison> rows_where(const std::vector<Case>& cases, bool (*moves)(const Case&)) {
   std::vector<Comparison> rows;
   for (const Case& q : cases) {
@@ -232,7 +232,7 @@ bool has_friction(const Case& q) {
   return spheres && spheres->list[0].friction > 0;
 }
 
-TEST(Cause, IsTheIngredientThatAllWhoMovedHave) {
+TEST(Attribution, IsTheIngredientThatAllWhoMovedHave) {
   const std::vector<Case> all = some_questions();
   const auto cause = [&](bool (*moves)(const Case&)) { return attribution_of(all, rows_where(all, moves)); };
   EXPECT_EQ(cause(has<Drag>), "drag");
@@ -242,7 +242,7 @@ TEST(Cause, IsTheIngredientThatAllWhoMovedHave) {
             "drag under the rule mysim/leapfrog");
 }
 
-TEST(Cause, IsNotNamedWhereTwoFitOrNone) {
+TEST(Attribution, IsNotNamedWhereTwoFitOrNone) {
   const std::vector<Case> all = some_questions();
   const auto cause = [&](bool (*moves)(const Case&)) { return attribution_of(all, rows_where(all, moves)); };
   EXPECT_EQ(cause([](const Case&) { return false; }), "");
@@ -251,7 +251,7 @@ TEST(Cause, IsNotNamedWhereTwoFitOrNone) {
   EXPECT_EQ(cause([](const Case& q) { return q.scene.name == "chain"; }), "");
   // drag, but one scene with drag held: something else is needed for it
   EXPECT_EQ(cause([](const Case& q) { return has<Drag>(q) && q.scene.name != "cloth-hang"; }), "");
-  // friction and the ball it needs: taking either out helps, and no scene tells them apart
+  // friction and the ball it needs: taking either out helps, and no scene separates them
   std::vector<Case> few;
   std::copy_if(all.begin(), all.end(), std::back_inserter(few),
                [](const Case& q) { return q.scene.name == "slide" || q.scene.name == "chain"; });
@@ -260,7 +260,7 @@ TEST(Cause, IsNotNamedWhereTwoFitOrNone) {
       "");
 }
 
-/// A row of the question that moved: a setting's words, or a number.
+/// A row of the case that moved: a setting's words, or a number.
 Comparison moved_row(const Case& q, const std::string& quantity, const std::string& was = "",
                      const std::string& is = "") {
   Comparison row;
@@ -270,7 +270,7 @@ Comparison moved_row(const Case& q, const std::string& quantity, const std::stri
   return row;
 }
 
-TEST(Cause, IsTheSettingThatChangedWhereverSomethingMoved) {
+TEST(Attribution, IsTheSettingThatChangedWhereverSomethingMoved) {
   const std::vector<Case> all{test_case("chain", "bullet/pbd"), test_case("slide", "bullet/pbd")};
   std::vector<Comparison> rows;
   for (const Case& q : all) {
@@ -278,7 +278,7 @@ TEST(Cause, IsTheSettingThatChangedWhereverSomethingMoved) {
     rows.push_back(moved_row(q, "places"));
   }
   EXPECT_EQ(attribution_of(all, rows), "the setting iterations (was 1, is 10)");
-  // a refusal tells nothing of settings
+  // a refusal says nothing of settings
   const Case refused = test_case("bounce", "bullet/pbd");
   rows.push_back(moved_row(refused, "verdict", "ok", "unsupported"));
   EXPECT_EQ(attribution_of(all, rows), "the setting iterations (was 1, is 10)");

@@ -209,7 +209,7 @@ TEST(RandomScenes, NetworksHoldTogetherAndArePredictable) {
     EXPECT_GE(m.particles.size(), 3);
     EXPECT_LE(m.particles.size(), 30);
     EXPECT_FALSE(m.find<Spheres>());
-    // what a window asks of a scene (mysim/scene/scene.h); every fourth, for its time
+    // the condition on a window (mysim/scene/scene.h); every fourth, for its time
     if (seed % 4 == 1) {
       EXPECT_LT(perturbation_growth(find_method("symplectic-euler"), s, s.step, s.window), 1e3);
     }

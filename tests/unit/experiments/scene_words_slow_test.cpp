@@ -51,7 +51,7 @@ double growth_over_run(const Scene& s) { return growth_of_window(s, s.duration);
 /// s, of a whole swing to and fro: from the passages below the anchor, three half swings apart.
 double swing_of(const Scene& s) {
   const Trajectory path =
-      answer("rk4", s, {s.step, s.duration, static_cast<int>(std::lround(s.duration / s.step))}).trajectory;
+      run_and_record("rk4", s, {s.step, s.duration, static_cast<int>(std::lround(s.duration / s.step))}).trajectory;
   std::vector<double> passages;
   for (int i = 1; i < path.frames(); ++i) {
     const double before = path.x[i - 1](0, 1) - path.x[i - 1](0, 0), after = path.x[i](0, 1) - path.x[i](0, 0);
@@ -85,7 +85,7 @@ double largest_acceleration(const Scene& s) {
 double first_touch(const Scene& s) {
   crosscheck::Run run = default_run(s);
   run.samples = static_cast<int>(std::lround(run.duration / 1e-2));
-  return *first_contact(s, answer("leapfrog", s, run).trajectory);
+  return *first_contact(s, run_and_record("leapfrog", s, run).trajectory);
 }
 
 /// How many times shorter than the scene's step the longest one is that a rule can take.
@@ -93,13 +93,13 @@ double times_shorter(const char* rule, const Scene& s) {
   return s.step / stepper(rule).limit(omega_of(s), *uniform_drag_rate(s.model));
 }
 
-/// A number in the words of a scene, and what it is: the words around it, with {} for the number.
-struct Told {
+/// A number that the text of a scene claims: the words around it, with {} for the number, and its true value.
+struct ClaimedNumber {
   const char* scene;
   const char* words;
   double (*value)(const Scene&);
 };
-const Told told[] = {
+const ClaimedNumber claims[] = {
     {"projectile", "Thrown at {} m/s", [](const Scene& s) { return s.start.v.col(0).norm(); }},
     {"projectile", "it rises {} m", rise_of},
     {"slide", "it flies off at {} degrees", leaving_angle},
@@ -247,7 +247,7 @@ double half_digit(const std::string& number) {
 }
 
 /// Where the number of a sentence stands in a text, and how long it is; nothing where the text does not say it.
-std::optional<std::pair<size_t, size_t>> place_of(const Told& t, const std::string& text) {
+std::optional<std::pair<size_t, size_t>> place_of(const ClaimedNumber& t, const std::string& text) {
   const std::string words = t.words, before = words.substr(0, words.find("{}")),
                     after = words.substr(before.size() + 2);
   for (size_t at = text.find(before); at != std::string::npos; at = text.find(before, at + 1)) {
@@ -262,18 +262,18 @@ std::optional<std::pair<size_t, size_t>> place_of(const Told& t, const std::stri
 }
 
 TEST(SceneWords, EveryComputedNumberIsWhatTheSceneDoes) {
-  for (const Told& t : told) {
+  for (const ClaimedNumber& claim : claims) {
     int found = 0;
     for (const Scene& s : all_scenes()) {
-      if (*t.scene && s.name != t.scene) continue;
+      if (*claim.scene && s.name != claim.scene) continue;
       const std::string text = words_of(s);
-      const auto place = place_of(t, text);
+      const auto place = place_of(claim, text);
       if (!place) continue;
       ++found;
       const std::string number = text.substr(place->first, place->second);
-      EXPECT_NEAR(std::stod(number), t.value(s), 1.02 * half_digit(number)) << s.name << ": " << t.words;
+      EXPECT_NEAR(std::stod(number), claim.value(s), 1.02 * half_digit(number)) << s.name << ": " << claim.words;
     }
-    EXPECT_GT(found, 0) << "no scene says: " << t.words;
+    EXPECT_GT(found, 0) << "no scene says: " << claim.words;
   }
 }
 
@@ -281,9 +281,9 @@ TEST(SceneWords, NoNumberIsLeftUnchecked) {
   static const std::regex number("\\b[0-9]+(\\.[0-9]+)?(e-?[0-9]+)?");
   for (const Scene& s : all_scenes()) {
     std::string text = words_of(s);
-    for (const Told& t : told)
-      if (!*t.scene || s.name == t.scene)
-        if (const auto place = place_of(t, text)) text.replace(place->first, place->second, place->second, ' ');
+    for (const ClaimedNumber& claim : claims)
+      if (!*claim.scene || s.name == claim.scene)
+        if (const auto place = place_of(claim, text)) text.replace(place->first, place->second, place->second, ' ');
     text = std::regex_replace(text, std::regex("([0-9]) 000"), "$01000");
     // what is written as a power, a unit or a part of a formula
     text = std::regex_replace(text, std::regex("\\^[0-9]|1/s|10 Hz|1000 pixels|2 / omega|2 m/s\\^2 at|1/ "), " ");
@@ -294,9 +294,9 @@ TEST(SceneWords, NoNumberIsLeftUnchecked) {
         values.insert(values.end(), more.begin(), more.end());
       }
     for (auto at = std::sregex_iterator(text.begin(), text.end(), number); at != std::sregex_iterator(); ++at) {
-      const double told_value = std::stod(at->str());
+      const double claimed = std::stod(at->str());
       EXPECT_TRUE(std::any_of(values.begin(), values.end(),
-                              [&](double v) { return std::abs(v - told_value) <= 1e-9 * std::abs(v); }))
+                              [&](double v) { return std::abs(v - claimed) <= 1e-9 * std::abs(v); }))
           << s.name << " says " << at->str() << ", which is none of its values and not computed: ..."
           << text.substr(std::max<long>(0, at->position() - 30), 60);
     }

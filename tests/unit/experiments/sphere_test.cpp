@@ -66,7 +66,7 @@ TEST(SphereCone, EnginesStickAndSlideOnBothSidesOfTheLine) {
       EXPECT_EQ(cone(method, degrees, 1.05 * limit, 1e-3, out)->state, ContactState::sticks);
       const auto below = cone(method, degrees, 0.95 * limit, 1e-3, out);
       EXPECT_EQ(below->state, ContactState::slides);
-      EXPECT_GT(below->way, 0.01);
+      EXPECT_GT(below->distance, 0.01);
     }
     // what fails: the position-based world creeps, the sticky sphere holds everything
     EXPECT_EQ(cone(find_method("bullet/pbd"), degrees, 0.5 * limit, 1e-3, out)->state, ContactState::neither);
@@ -91,7 +91,7 @@ TEST(SphereRebound, ComesToTheSquareOfRestitution) {
   EXPECT_FALSE(rebound(find_method("bullet/pbd"), drop_on_ball(0.5), 1e-3, out));
   EXPECT_EQ(out.verdict, Verdict::unsupported);
   EXPECT_TRUE(contains(out.reason, "no restitution"));
-  // asked for none, the position-based world throws back by itself
+  // without restitution the position-based world throws back all the same
   EXPECT_GT(*rebound(find_method("bullet/pbd"), drop_on_ball(0), 1. / 240, out), 1e-5);
 }
 
@@ -140,7 +140,7 @@ TEST(SphereDrape, ASymmetricClothStaysSymmetricUnlessLinksAreSwept) {
   const auto mirror = MirrorSymmetry::of(scene);
   const crosscheck::Run run{2e-3, 0.6, 10};  // it touches at 0.18 s
   auto skew = [&](const char* method) {
-    const Trajectory t = answer(method, scene, run).trajectory;
+    const Trajectory t = run_and_record(method, scene, run).trajectory;
     EXPECT_LT(*clearance(scene, t.t.back(), t.x.back()), 1e-3);
     return mirror->asymmetry(t.x.back());
   };

@@ -1,12 +1,11 @@
-// The lanes of the general spring kernel tested: diagonals and pairs against the plain edge loop, on every instruction
-// set.
+// The kernels of the general spring kernel, DIA and COO, against the plain edge loop, on every instruction set.
 
 #include <cstdlib>
 #include <set>
 
 #include "experiments/timing/instruction_sets.h"
-#include "mysim/simd/spring_graph/plan.h"
 #include "mysim/simd/spring_graph/spring_kernel.h"
+#include "mysim/simd/spring_graph/spring_layout.h"
 #include "tests/unit/mysim/networks.h"
 
 namespace crosscheck {
@@ -16,36 +15,35 @@ using namespace testing_tools;
 using simd::InstructionSet;
 using spring_graph::Costs;
 
-struct Loose {
+struct SpringGraph {
   Springs springs;
   Points x;
 };
 
-/// So dear a plain loop that none is taken; and diagonals that cost nothing, or too much.
-constexpr Costs into_diagonals{.coefficient_row = 0, .tile = 0, .pair = 1, .particle = 0, .plain = 1e9, .call = 0};
-constexpr Costs into_pairs{.coefficient_row = 1e9, .tile = 0, .pair = 1, .particle = 0, .plain = 1e9, .call = 0};
+/// The plain loop costs so much that it takes no spring; DIA costs nothing, or too much.
+constexpr Costs into_dia{.coefficient_row = 0, .tile = 0, .coo_spring = 1, .coo_particle = 0, .plain = 1e9, .call = 0};
+constexpr Costs into_coo{
+    .coefficient_row = 1e9, .tile = 0, .coo_spring = 1, .coo_particle = 0, .plain = 1e9, .call = 0};
 
-/// As SpringKernel does it, but on instructions of our choice and sorted by other costs.
-struct Sorted {
+/// As SpringKernel, but with a given instruction set and other costs.
+struct PartitionedSprings {
   spring_graph::SpringPartition partition;
-  spring_graph::Kernels run;
+  spring_graph::Kernels kernels;
   SpringLaw law;
-  std::optional<spring_graph::DiaStorage> diagonals;
-  std::optional<spring_graph::CooStorage> pairs;
+  std::optional<spring_graph::DiaStorage> dia;
+  std::optional<spring_graph::CooStorage> coo;
 
-  Sorted(const Loose& net, InstructionSet isa, const Costs& costs)
+  PartitionedSprings(const SpringGraph& net, InstructionSet isa, const Costs& costs)
       : partition(spring_graph::partition_springs(net.springs.list, static_cast<int>(net.x.cols()), costs)),
-        run(spring_graph::kernels(isa, net.springs.law)),
+        kernels(spring_graph::kernels(isa, net.springs.law)),
         law(net.springs.law) {
-    if (!partition.diagonals.empty()) diagonals.emplace(partition.diagonals, net.x.cols());
-    if (!partition.pairs.empty()) pairs.emplace(partition.pairs, net.x.cols());
+    if (!partition.dia.empty()) dia.emplace(partition.dia, net.x.cols());
+    if (!partition.coo.empty()) coo.emplace(partition.coo, net.x.cols());
   }
   Forces forces(const Points& x) {
     Forces sum{Points::Zero(3, x.cols())};
-    if (diagonals && run.diagonals(diagonals->view(), x.data(), sum.f.data()))
-      sum.degenerate_springs += diagonals->degenerate_springs();
-    if (pairs && run.pairs(pairs->view(), x.data(), sum.f.data()))
-      sum.degenerate_springs += pairs->degenerate_springs();
+    if (dia && kernels.dia(dia->view(), x.data(), sum.f.data())) sum.degenerate_springs += dia->degenerate_springs();
+    if (coo && kernels.coo(coo->view(), x.data(), sum.f.data())) sum.degenerate_springs += coo->degenerate_springs();
     add_force({partition.plain, law}, x, sum);
     return sum;
   }
@@ -57,8 +55,8 @@ Spring random_spring(Random& random, int a, int b) {
   return {a, b, k, std::max(0.0, rest), Family::single};
 }
 
-Loose random_points(Random& random, int particles, SpringLaw law) {
-  Loose net{{{}, law}, Points(3, particles)};
+SpringGraph random_points(Random& random, int particles, SpringLaw law) {
+  SpringGraph net{{{}, law}, Points(3, particles)};
   for (int i = 0; i < particles; ++i) net.x.col(i) = random.vector();
   return net;
 }
@@ -67,10 +65,10 @@ int whole(Random& random, int end) { return std::min(end - 1, static_cast<int>(r
 
 /// So many springs between any two of few particles, of which the last has none: springs repeat, some lie between ends
 /// that meet.
-Loose tangle(unsigned seed, int springs, SpringLaw law) {
+SpringGraph tangle(unsigned seed, int springs, SpringLaw law) {
   Random random(seed);
   const int n = 3 + springs / 3;
-  Loose net = random_points(random, n, law);
+  SpringGraph net = random_points(random, n, law);
   net.x.col(1) = net.x.col(0);
   while (static_cast<int>(net.springs.list.size()) < springs) {
     const int a = whole(random, n - 1), b = whole(random, n - 1);
@@ -80,10 +78,10 @@ Loose tangle(unsigned seed, int springs, SpringLaw law) {
 }
 
 /// Particles with 1, 2, 3 ... 40 springs to others of many.
-Loose hubs(unsigned seed, SpringLaw law) {
+SpringGraph hubs(unsigned seed, SpringLaw law) {
   Random random(seed);
   const int n = 200;
-  Loose net = random_points(random, n, law);
+  SpringGraph net = random_points(random, n, law);
   for (int hub = 0; hub < 40; ++hub)
     for (int i = 0; i <= hub; ++i)
       net.springs.list.push_back(random_spring(random, hub, 40 + (hub * 13 + i * 7) % 160));
@@ -92,9 +90,9 @@ Loose hubs(unsigned seed, SpringLaw law) {
 
 /// Springs of the given offsets, one in five left out, one in twenty twice; the last offset begins late and ends early.
 /// Some neighbours meet.
-Loose strands(unsigned seed, int particles, const std::vector<int>& offsets, SpringLaw law) {
+SpringGraph strands(unsigned seed, int particles, const std::vector<int>& offsets, SpringLaw law) {
   Random random(seed);
-  Loose net = random_points(random, particles, law);
+  SpringGraph net = random_points(random, particles, law);
   for (int i = 5; i + 1 < particles; i += 17) net.x.col(i + 1) = net.x.col(i);
   for (const int offset : offsets)
     for (int i = 0; i + offset < particles; ++i) {
@@ -107,8 +105,8 @@ Loose strands(unsigned seed, int particles, const std::vector<int>& offsets, Spr
   return net;
 }
 
-std::vector<std::pair<std::string, Loose>> networks(SpringLaw law) {
-  std::vector<std::pair<std::string, Loose>> all;
+std::vector<std::pair<std::string, SpringGraph>> networks(SpringLaw law) {
+  std::vector<std::pair<std::string, SpringGraph>> all;
   for (int springs = 0; springs <= 70; ++springs)
     all.emplace_back(fmt::format("tangle of {}", springs), tangle(springs + 1, springs, law));
   all.emplace_back("tangle of 1000", tangle(7, 1000, law));
@@ -123,7 +121,7 @@ std::vector<std::pair<std::string, Loose>> networks(SpringLaw law) {
 }
 
 /// Each spring's force is the plain loop's to the last bit. Sums are rounded once for each spring, in either order.
-void expect_close(const Loose& net, const Forces& fast, const Forces& plain) {
+void expect_close(const SpringGraph& net, const Forces& fast, const Forces& plain) {
   const int n = static_cast<int>(net.x.cols());
   Eigen::ArrayXd sizes = Eigen::ArrayXd::Zero(n);
   Eigen::ArrayXi springs = Eigen::ArrayXi::Zero(n);
@@ -141,7 +139,7 @@ void expect_close(const Loose& net, const Forces& fast, const Forces& plain) {
   }
 }
 
-TEST(Network, DiagonalsAndPairsAreTheEdgeLoopButForTheOrderOfTheSum) {
+TEST(SpringGraph, DiaAndCooAreTheEdgeLoopButForTheOrderOfTheSum) {
   long degenerate_springs = 0;
   for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
     for (const auto& [name, net] : networks(law)) {
@@ -149,9 +147,9 @@ TEST(Network, DiagonalsAndPairsAreTheEdgeLoopButForTheOrderOfTheSum) {
       add_force(net.springs, net.x, plain);
       degenerate_springs += plain.degenerate_springs;
       for (const InstructionSet isa : simd::supported_instruction_sets())
-        for (const Costs& costs : {into_diagonals, into_pairs}) {
+        for (const Costs& costs : {into_dia, into_coo}) {
           SCOPED_TRACE(fmt::format("{}, {}, {}", name_of(law), name, name_of(isa)));
-          Sorted sorted(net, isa, costs);
+          PartitionedSprings sorted(net, isa, costs);
           EXPECT_TRUE(sorted.partition.plain.empty());
           const Forces fast = sorted.forces(net.x);
           expect_close(net, fast, plain);
@@ -164,12 +162,12 @@ TEST(Network, DiagonalsAndPairsAreTheEdgeLoopButForTheOrderOfTheSum) {
   EXPECT_GE(degenerate_springs, 100);  // ends that meet were tried
 }
 
-TEST(Network, InstructionsGiveTheSameBits) {
+TEST(SpringGraph, InstructionsGiveTheSameBits) {
   for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
     for (const auto& [name, net] : networks(law))
-      for (const Costs& costs : {into_diagonals, into_pairs, spring_graph::costs(InstructionSet::avx512)})
+      for (const Costs& costs : {into_dia, into_coo, spring_graph::costs(InstructionSet::avx512)})
         for (const InstructionSet isa : simd::supported_instruction_sets()) {
-          Sorted least(net, InstructionSet::sse2, costs), other(net, isa, costs);
+          PartitionedSprings least(net, InstructionSet::sse2, costs), other(net, isa, costs);
           EXPECT_EQ(least.forces(net.x).f, other.forces(net.x).f)
               << name_of(law) << ", " << name << ", " << name_of(isa);
         }
@@ -179,47 +177,47 @@ TEST(Network, InstructionsGiveTheSameBits) {
 }
 
 /// A force near the rest length is the small difference of large numbers: at rest it is 0, not the rounding of these.
-TEST(Network, SpringsAtRestPullAtNothing) {
+TEST(SpringGraph, SpringsAtRestPullAtNothing) {
   Random random(3);
-  Loose net = random_points(random, 100, SpringLaw::hooke);
+  SpringGraph net = random_points(random, 100, SpringLaw::hooke);
   for (const int offset : {1, 3, 10})
     for (int i = 0; i + offset < 100; ++i)
       net.springs.list.push_back({i, i + offset, 1e9, (net.x.col(i) - net.x.col(i + offset)).norm(), Family::single});
   for (const InstructionSet isa : simd::supported_instruction_sets())
-    for (const Costs& costs : {into_diagonals, into_pairs})
-      EXPECT_TRUE(Sorted(net, isa, costs).forces(net.x).f.isZero(0)) << name_of(isa);
+    for (const Costs& costs : {into_dia, into_coo})
+      EXPECT_TRUE(PartitionedSprings(net, isa, costs).forces(net.x).f.isZero(0)) << name_of(isa);
 }
 
-TEST(Network, SortsCheaply) {
+TEST(SpringGraph, PartitionsAtTheLeastCost) {
   Random random(4);
-  const auto partition = [](const Loose& net) {
+  const auto partition = [](const SpringGraph& net) {
     return spring_graph::partition_springs(net.springs.list, static_cast<int>(net.x.cols()),
                                            spring_graph::costs(InstructionSet::avx2));
   };
   // a pendulum and a short chain are not worth lanes
   EXPECT_EQ(partition(strands(1, 2, {1}, SpringLaw::hooke)).plain.size(), 1u);
-  EXPECT_EQ(partition(strands(1, 8, {1}, SpringLaw::hooke)).diagonals.size(), 0u);
+  EXPECT_EQ(partition(strands(1, 8, {1}, SpringLaw::hooke)).dia.size(), 0u);
   // what is numbered row by row is taken, but for springs that are there twice and a few across
-  Loose net = strands(1, 400, {1, 2, 20, 21, 19, 40}, SpringLaw::hooke);
+  SpringGraph net = strands(1, 400, {1, 2, 20, 21, 19, 40}, SpringLaw::hooke);
   net.springs.list.push_back({3, 350, 1, 1, Family::single});
-  const spring_graph::SpringPartition rows = partition(net);
-  EXPECT_EQ(rows.diagonals.size(), 6u);
-  EXPECT_LT(rows.plain.size() + rows.pairs.size(), net.springs.list.size() / 10);
-  EXPECT_EQ(partition(tangle(1, 1000, SpringLaw::hooke)).pairs.size(), 1000u);
+  const spring_graph::SpringPartition parts = partition(net);
+  EXPECT_EQ(parts.dia.size(), 6u);
+  EXPECT_LT(parts.plain.size() + parts.coo.size(), net.springs.list.size() / 10);
+  EXPECT_EQ(partition(tangle(1, 1000, SpringLaw::hooke)).coo.size(), 1000u);
 }
 
-TEST(Network, EachLawAndInstructionSetHasLoopsOfItsOwn) {
-  std::set<bool (*)(const spring_graph::DiaSprings&, const double*, double*)> diagonals;
-  std::set<bool (*)(const spring_graph::CooSprings&, const double*, double*)> pairs;
+TEST(SpringGraph, EachLawAndInstructionSetHasLoopsOfItsOwn) {
+  std::set<bool (*)(const spring_graph::DiaSprings&, const double*, double*)> dia;
+  std::set<bool (*)(const spring_graph::CooSprings&, const double*, double*)> coo;
   for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
     for (const InstructionSet isa : {InstructionSet::sse2, InstructionSet::avx2, InstructionSet::avx512}) {
-      EXPECT_TRUE(diagonals.insert(spring_graph::kernels(isa, law).diagonals).second) << name_of(isa);
-      EXPECT_TRUE(pairs.insert(spring_graph::kernels(isa, law).pairs).second) << name_of(isa);
+      EXPECT_TRUE(dia.insert(spring_graph::kernels(isa, law).dia).second) << name_of(isa);
+      EXPECT_TRUE(coo.insert(spring_graph::kernels(isa, law).coo).second) << name_of(isa);
     }
 }
 
-TEST(Network, SpringKernelRunsOnTheInstructionsThatAreAskedFor) {
-  const Loose net = strands(9, 300, {1, 2, 17, 18, 34}, SpringLaw::hooke);
+TEST(SpringGraph, SpringKernelRunsOnTheRequestedInstructions) {
+  const SpringGraph net = strands(9, 300, {1, 2, 17, 18, 34}, SpringLaw::hooke);
   Forces plain{Points::Zero(3, 300)};
   add_force(net.springs, net.x, plain);
   for (const InstructionSet isa : simd::supported_instruction_sets()) {
@@ -230,7 +228,7 @@ TEST(Network, SpringKernelRunsOnTheInstructionsThatAreAskedFor) {
     kernel.add_force(net.x, fast);
     expect_close(net, fast, plain);
   }
-  const ScopedInstructionSet nobody_asks(InstructionSet::sse2);  // and all is as before, afterwards
+  const ScopedInstructionSet any_set(InstructionSet::sse2);  // and all is as before, afterwards
   unsetenv("CROSSCHECK_INSTRUCTIONS");
   EXPECT_EQ(SpringKernel(net.springs, 300).isa(), simd::supported_instruction_sets().back());
 }

@@ -46,7 +46,7 @@ TEST(Spectrum, OfAStretchedChainIsItsClosedForm) {
   std::sort(expected.begin(), expected.end());
   const auto found = frequencies(base.spectrum);
   ASSERT_EQ(found.size(), expected.size());
-  // the rest is found to 1e-11 of what the springs could do, 2e-8 m/s^2, which the slowest mode (11 / s^2) answers with
+  // the rest is found to 1e-11 of what the springs could do, 2e-8 m/s^2, which the slowest mode (11 / s^2) turns into
   // 2e-9 m: 1e-7 of the stretch and the tension, half of it of frequencies
   for (size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-7 * expected.back());
 }
@@ -341,7 +341,7 @@ TEST(MeasuredLimit, WithoutDragTwoRulesHaveNoStableStepAndGrowAsTheFormulaSays) 
 }
 
 TEST(MeasuredLimit, ImplicitRulesHaveNone) {
-  // one sweep over springs that pull against each other rests beside their rest: that is no growth
+  // one Gauss-Seidel pass over springs that pull against each other rests beside their rest: that is no growth
   for (const char* scene : {"spring", "normal-modes"}) {
     const BaseState base = base_state_of(load_scene(scene));
     for (const char* rule : {"implicit-euler", "implicit-midpoint", "xpbd", "implicit-euler+linear"})

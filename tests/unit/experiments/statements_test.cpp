@@ -29,10 +29,10 @@ std::vector<std::string> lines_with(const std::string& word) {
 }
 
 TEST(Statements, BulletsExplicitWorldIsSymplecticEulerWhereItSaysSoItself) {
-  // with dashpots the world tells another law, and the README must not claim the same rule there
+  // with dashpots the world reports another law, and the README must not claim the same rule there
   const Scene jelly = load_scene("jelly");
   ASSERT_TRUE(jelly.model.find<Dashpots>());
-  const Outcome with = answer("bullet/deformable-explicit", jelly, {jelly.step, 2 * jelly.step, 1}).outcome;
+  const Outcome with = run_and_record("bullet/deformable-explicit", jelly, {jelly.step, 2 * jelly.step, 1}).outcome;
   EXPECT_TRUE(std::any_of(with.different_law.begin(), with.different_law.end(),
                           [](const std::string& law) { return law.starts_with("dashpots"); }));
   const auto rows = lines_with("| `bullet/deformable-explicit` |");
@@ -54,10 +54,10 @@ TEST(Statements, MethodsNameNoOptionThatTheyRefuse) {
 TEST(Statements, OrderSaysWhyItLeavesOutLargeScenes) {
   Request request;
   request.scenes = {load_scene("cloth-hang")};
-  const Rows rows = computed(find_experiment("order").points(request));
-  ASSERT_EQ(rows.notes.size(), 1u);
+  const TableSet tables = computed(find_experiment("order").points(request));
+  ASSERT_EQ(tables.notes.size(), 1u);
   // the order of four rules shows on it in speed-accuracy: 1.00, 2.02, 4.14 and 4.02 are measured
-  EXPECT_EQ(rows.notes[0],
+  EXPECT_EQ(tables.notes[0],
             "order leaves out cloth-hang: its runs would cost much; speed-accuracy has its error over the step");
 }
 

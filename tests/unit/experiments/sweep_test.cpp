@@ -34,11 +34,11 @@ template <class E, class F>
 class Sweep : public InFolder {
  protected:
   Point point(const std::string& name, double value) {
-    return {name, "content", [this, name, value](Rows& rows) {
+    return {name, "content", [this, name, value](TableSet& tables) {
               note(name);
               Table table{"values", {{"name", "1"}, {"value", "m"}}, {}};
               table.add({name, value});
-              rows.add(table);
+              tables.add(table);
             }};
   }
   std::vector<Point> several(int count) {
@@ -58,8 +58,10 @@ class Sweep : public InFolder {
     Progress progress(static_cast<int>(points.size()));
     return run_points(points, options, store, progress);
   }
-  static std::string text(const Rows& rows) { return rows_json(rows); }
-  Rows whole(const std::vector<Point>& points) { return joined(point_list_of({}, points, {}), {&store, 1}, missing); }
+  static std::string text(const TableSet& tables) { return table_set_json(tables); }
+  TableSet whole(const std::vector<Point>& points) {
+    return joined(point_list_of({}, points, {}), {&store, 1}, missing);
+  }
 
   void SetUp() override {
     InFolder::SetUp();
@@ -75,32 +77,32 @@ TEST_F(Sweep, RowsComeBackToTheSameBits) {
   for (const double x : std::vector<double>{1, 0.1, -0.0, 5e-324, 1.7976931348623157e308, NAN, INFINITY, -INFINITY})
     table.add({"a,\"b\"\n", x, 7l});
   table.add({Cell(), Cell(), Cell()});
-  Rows rows;
-  rows.add(table);
-  rows.notes = {"left out"};
-  rows.certificates = {{"m", "s", {{"mass", "1 kg", "as asked", "1 kg", Parity::different_law}}}};
-  const Rows back = read_rows(rows_json(rows));
+  TableSet tables;
+  tables.add(table);
+  tables.notes = {"left out"};
+  tables.certificates = {{"m", "s", {{"mass", "1 kg", "as asked", "1 kg", Parity::different_law}}}};
+  const TableSet back = read_table_set(table_set_json(tables));
   ASSERT_EQ(back.tables.size(), 1u);
   EXPECT_EQ(csv(back.tables[0], {}), csv(table, {}));
   for (size_t i = 0; i < table.rows.size(); ++i)
     for (size_t j = 0; j < 3; ++j) EXPECT_EQ(back.tables[0].rows[i][j].index(), table.rows[i][j].index());
   EXPECT_TRUE(std::signbit(std::get<double>(back.tables[0].rows[2][1])));
-  EXPECT_EQ(back.notes, rows.notes);
+  EXPECT_EQ(back.notes, tables.notes);
   EXPECT_EQ(back.certificates[0].rows[0].parity, Parity::different_law);
 }
 
 TEST_F(Sweep, WhatIsNoRowsIsRefusedInWords) {
   for (const char* text : {"", "{}", "[1]", "{\"tables\": [{\"name\": 1}]}"})
-    EXPECT_TRUE(throws<InputError>([&] { read_rows(text); }, "expected JSON of tables, certificates and notes"));
+    EXPECT_TRUE(throws<InputError>([&] { read_table_set(text); }, "expected JSON of tables, certificates and notes"));
 }
 
 TEST_F(Sweep, RowsOfTheSameTableAreAppendedAndNotesSaidOnce) {
-  Rows all;
+  TableSet all;
   for (int i = 0; i < 3; ++i) {
-    Rows rows;
-    point("p", i).compute(rows);
-    rows.notes = {"the same"};
-    all.append(rows);
+    TableSet tables;
+    point("p", i).compute(tables);
+    tables.notes = {"the same"};
+    all.append(tables);
   }
   EXPECT_EQ(all.table("values")->rows.size(), 3u);
   EXPECT_EQ(all.notes.size(), 1u);
@@ -138,9 +140,9 @@ TEST_F(Sweep, AnotherContentOrNameIsAnotherPoint) {
 
 TEST_F(Sweep, WhatThrowsOrDiesIsNamedAndTheOthersGoOn) {
   std::vector<Point> points = several(6);
-  points[1].compute = [](Rows&) { throw InputError("no such spring"); };
-  points[3].compute = [](Rows&) { raise(SIGKILL); };
-  points[4].compute = [](Rows&) { _exit(7); };
+  points[1].compute = [](TableSet&) { throw InputError("no such spring"); };
+  points[3].compute = [](TableSet&) { raise(SIGKILL); };
+  points[4].compute = [](TableSet&) { _exit(7); };
   std::map<std::string, std::string> failed;
   for (const FailedPoint& f : run(points)) failed[f.name] = f.why;
   EXPECT_EQ(failed.size(), 3u);
@@ -157,7 +159,7 @@ TEST_F(Sweep, ARowOfAnotherLengthIsNoRow) {
   Table table{"t", {{"a", "1"}, {"b", "1"}}, {}};
   EXPECT_TRUE(throws<std::logic_error>([&] { table.add({1.}); }, "table t: a row of 1 cells under 2 columns"));
   std::vector<Point> points = several(2);
-  points[1].compute = [table](Rows& rows) mutable { table.add({1.}), rows.add(table); };
+  points[1].compute = [table](TableSet& tables) mutable { table.add({1.}), tables.add(table); };
   const auto failed = run(points);
   ASSERT_EQ(failed.size(), 1u);
   EXPECT_EQ(failed[0].name, "p1");
@@ -165,9 +167,9 @@ TEST_F(Sweep, ARowOfAnotherLengthIsNoRow) {
 
 TEST_F(Sweep, WhatFailedBeforeAndDiesNowIsNamedOnce) {
   std::vector<Point> points = several(1);
-  points[0].compute = [](Rows&) { throw InputError("no such spring"); };
+  points[0].compute = [](TableSet&) { throw InputError("no such spring"); };
   EXPECT_EQ(run(points).at(0).why, "no such spring");
-  points[0].compute = [](Rows&) { raise(SIGKILL); };
+  points[0].compute = [](TableSet&) { raise(SIGKILL); };
   const auto failed = run(points);
   ASSERT_EQ(failed.size(), 1u);
   EXPECT_TRUE(contains(failed[0].why, "signal 9"));
@@ -175,7 +177,7 @@ TEST_F(Sweep, WhatFailedBeforeAndDiesNowIsNamedOnce) {
 
 TEST_F(Sweep, WhatIsNotThereAfterwardsIsNamedWhoeverLostIt) {
   std::vector<Point> points = several(3);
-  points[2].compute = [this, lost = points[1].hash()](Rows&) { fs::remove(store.folder() / (lost + ".json")); };
+  points[2].compute = [this, lost = points[1].hash()](TableSet&) { fs::remove(store.folder() / (lost + ".json")); };
   const auto failed = run(points, {1, {}});
   ASSERT_EQ(failed.size(), 1u);
   EXPECT_EQ(failed[0].name, "p1");
@@ -198,7 +200,7 @@ TEST_F(Sweep, EndsWhereChildrenAreIgnored) {
 
 TEST_F(Sweep, KilledInTheMiddleItLosesNothingThatWasFinished) {
   std::vector<Point> points = several(8);
-  points[5].compute = [this](Rows&) {
+  points[5].compute = [this](TableSet&) {
     note("slow");
     usleep(500000);
     note("went on");
@@ -223,7 +225,7 @@ TEST_F(Sweep, TimedPointsRunAfterAllOthersOneAtATime) {
   std::vector<Point> points = several(8);
   for (const int i : {0, 3, 4}) {
     points[static_cast<size_t>(i)].timed = true;
-    points[static_cast<size_t>(i)].compute = [this, i](Rows&) {
+    points[static_cast<size_t>(i)].compute = [this, i](TableSet&) {
       note("begin " + std::to_string(i));
       usleep(20000);
       note("end " + std::to_string(i));
@@ -237,7 +239,7 @@ TEST_F(Sweep, TimedPointsRunAfterAllOthersOneAtATime) {
 TEST_F(Sweep, TimedPointsOfOneSweepWaitForThePointsOfAnother) {
   std::vector<Point> others = several(3), timed = {point("timed", 1)};
   for (Point& p : others)
-    p.compute = [this, name = p.name](Rows&) {
+    p.compute = [this, name = p.name](TableSet&) {
       note("begin " + name);
       usleep(50000);
       note("end " + name);
@@ -266,10 +268,10 @@ TEST_F(Sweep, ShardsAreDisjointAndJoinToTheWhole) {
     run_points(points, {2, {i, 3}}, stores.back(), progress);
   }
   EXPECT_EQ(ran().size(), 7u);
-  const PointList plan = point_list_of({}, points, {});
-  EXPECT_EQ(text(joined(plan, stores, missing)), text(computed(points)));
+  const PointList list = point_list_of({}, points, {});
+  EXPECT_EQ(text(joined(list, stores, missing)), text(computed(points)));
   EXPECT_TRUE(missing.empty());
-  joined(plan, std::span(stores).first(2), missing);
+  joined(list, std::span(stores).first(2), missing);
   EXPECT_EQ(missing, (std::vector<std::string>{"p2", "p5"}));
 }
 
@@ -281,13 +283,13 @@ TEST_F(Sweep, ShardsAreReadFromTwoNumbers) {
     EXPECT_TRUE(throws<InputError>([&] { shard_from(text); }, "expected I/N with 1 <= I <= N")) << text;
 }
 
-TEST_F(Sweep, PlansComeBackAndDamagedOnesAreRefused) {
-  const PointList plan = point_list_of({"order"}, several(3), {{"command", "c"}, {"date", "d"}});
-  write_point_list(plan, folder_);
+TEST_F(Sweep, PointListsComeBackAndDamagedOnesAreRefused) {
+  const PointList list = point_list_of({"order"}, several(3), {{"command", "c"}, {"date", "d"}});
+  write_point_list(list, folder_);
   const PointList back = read_point_list(folder_);
-  EXPECT_EQ(back.points, plan.points);
-  EXPECT_EQ(back.experiments, plan.experiments);
-  EXPECT_EQ(back.provenance, plan.provenance);
+  EXPECT_EQ(back.points, list.points);
+  EXPECT_EQ(back.experiments, list.experiments);
+  EXPECT_EQ(back.provenance, list.provenance);
   std::ofstream(folder_ / "plan.json") << "{}";
   EXPECT_TRUE(throws<InputError>([&] { read_point_list(folder_); }, "expected experiments, provenance and points"));
   EXPECT_TRUE(throws<InputError>([&] { read_point_list(folder_ / "none"); }, "expected the plan of a sweep"));

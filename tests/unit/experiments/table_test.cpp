@@ -9,8 +9,10 @@
 #include <set>
 #include <sstream>
 
+#include "experiments/tables/certificates.h"
 #include "experiments/tables/dictionary.h"
 #include "experiments/tables/engines.h"
+#include "experiments/tables/stability.h"
 #include "experiments/tables/table.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -184,6 +186,42 @@ TEST(Dictionary, OfTablesAtHandHasTheseOnly) {
   EXPECT_EQ(text_at(some, 2, "type"),
             "one of: ok | energy | nan | stretch | solver | frozen | timeout | crash | unsupported");
   EXPECT_EQ(text_at(some, 13, "type"), "number, or empty");
+}
+
+TEST(DeclaredTypes, AreThoseOfTheRowsWhateverTheFileLooksLike) {
+  Table certificates = table_of<AttestedRow>();
+  add(certificates, AttestedRow{"s", "m", "mass", "4", "1e-3", "", Parity::different_law});
+  add(certificates, AttestedRow{"s", "m", "law", "Hooke", "the same", "Hooke", Parity::match});
+  Table engines = table_of<EngineRow>();
+  EngineRow row;
+  row.scene = "s", row.method = "m", row.end = 2, row.reason = "why";
+  add(engines, row);
+  const Folder folder("declared");
+  for (const Table& table : {certificates, engines}) {
+    write_csv(table, {}, folder.path());
+    const Table read = read_csv(folder.path() / (table.name + ".csv")), typed = with_declared_types(read);
+    ASSERT_EQ(typed.rows.size(), table.rows.size());
+    for (size_t i = 0; i < table.rows.size(); ++i) EXPECT_EQ(csv_row(typed.rows[i]), csv_row(table.rows[i]));
+    if (table.name == "engines") {
+      EXPECT_EQ(std::get<double>(typed.at(0, "end")), 2) << "a number that happens to be whole";
+    }
+    EXPECT_EQ(typed.columns, table.columns);
+    EXPECT_EQ(typed.name, table.name);
+  }
+  Table own{"nobody's", {{"number", "m"}}, {{2L}}};
+  EXPECT_EQ(with_declared_types(own).rows, own.rows) << "no row type has that name";
+}
+
+TEST(Tables, AVerdictThatReadsAsANumberIsStillAVerdict) {
+  Table limits = table_of<LimitRow>();
+  add(limits, LimitRow{.scene = "circle", .method = "mysim/rk4", .above = Verdict::nan});
+  add(limits, LimitRow{.scene = "circle", .method = "mysim/leapfrog"});
+  const Folder folder("verdicts");
+  write_csv(limits, {}, folder.path());
+  const std::vector<LimitRow> read = rows_of<LimitRow>(read_csv(folder.path() / "stability.csv"));
+  ASSERT_EQ(read.size(), 2u);
+  EXPECT_EQ(read[0].above, Verdict::nan);
+  EXPECT_FALSE(read[1].above);
 }
 
 TEST(Files, AreWrittenWholeIntoNewFoldersAndOverOldOnes) {

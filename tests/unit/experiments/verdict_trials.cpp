@@ -1,5 +1,5 @@
-// Trials of the verdict on runs (mysim/run/observers.h), not part of the suite: random cells by seed, each run to its
-// end with nobody stopping it. Prints by family how many good runs were condemned and how many bad ones were passed,
+// Trials of the verdict on runs (mysim/run/observers.h), not part of the suite: random trials by seed, each run to its
+// end without being stopped. Prints by family how many good runs were condemned and how many bad ones were passed,
 // with 95 % intervals (C. J. Clopper and E. S. Pearson, 1934), as runs are judged and looking at every step, and writes
 // verdict-trials.csv and verdict-trials-by-family.csv.
 //
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
                {"margin", "1"}},
               {}};
   std::map<std::string, std::array<Count, 2>> counts;  // by family: stable, unstable
-  std::map<std::string, std::array<long, 2>> later;    // fails later; of these told as a small margin
+  std::map<std::string, std::array<long, 2>> later;    // fails later; of these reported as a small margin
   for (unsigned seed = first; seed <= last; ++seed) {
     std::optional<Trial> t;
     try {

@@ -1,5 +1,5 @@
-// Random cells on which verdicts are tried: a small scene, a method, and a step on either side of its limit; and what
-// became of the same run when nobody stopped it.
+// Random trials of verdicts: a small scene, a method, and a step on either side of its limit; and the same run when it
+// is not stopped.
 #pragma once
 
 #include <array>
@@ -149,12 +149,13 @@ inline TrialScene trial_scene(Random& random) {
   return trial;
 }
 
-/// How far and how fast a run goes, at every step, by positions alone; and what a watch says of it that nobody obeys.
-class Freely : public Observer {
+/// How far and how fast a run goes, at every step, by positions alone; and the verdicts of monitors, which do not end
+/// it.
+class UnstoppedRun : public Observer {
  public:
-  /// Two watches look on: one is shown all steps, the other pairs of states, as in runs. `most_*`: what counts as
+  /// There are two monitors: one is shown all steps, the other pairs of states, as in runs. `most_*`: what counts as
   /// within.
-  Freely(const TrialScene& trial, const Run& run, double most_stretch, double most_speed)
+  UnstoppedRun(const TrialScene& trial, const Run& run, double most_stretch, double most_speed)
       : trial_(trial),
         steps_(time_grid(run)),
         most_stretch_(most_stretch),
@@ -179,15 +180,16 @@ class Freely : public Observer {
       constexpr int between = StatePairObserver::steps_between_pairs;
       if (pairs_.every_step() || sample)
         by_pairs = pairs_.observe(state, sample);
-      else if (pairs && (pairs_.closely() || (before % between == 0 && steps_.steps_per_sample - before >= 2)))
+      else if (pairs &&
+               (pairs_.needs_every_state() || (before % between == 0 && steps_.steps_per_sample - before >= 2)))
         by_pairs = pairs_.later(state);
       const int next = sample ? steps_.steps_per_sample : before;
-      if (pairs && !pairs_.closely() && next % between == 2) pairs_.earlier(state);
+      if (pairs && !pairs_.needs_every_state() && next % between == 2) pairs_.earlier(state);
       if (by_pairs != Verdict::ok) when_pairs = step_;
     }
     return finite ? Verdict::ok : Verdict::nan;
   }
-  double most() const { return all_.most(); }
+  double largest_ratio() const { return all_.largest_ratio(); }
 
   double stretch = 0, speed = 0;  // largest: 1, of a spring's length over its rest length; m/s, of a particle
   long left = 0;                  // the first step of which either is beyond what counts as within; 0: none
@@ -232,7 +234,7 @@ struct TrueMotion : Observer {
   double stretch = 0, speed = 0;  // 1; m/s
 };
 
-/// A cell, and what became of it.
+/// A trial and its result.
 struct Trial {
   unsigned seed = 0;
   std::string family, method, kind;
@@ -243,7 +245,7 @@ struct Trial {
   bool later = false;                     // and not within, in a run ten times as long
   long left = 0;                          // the step at which it was no longer
   Verdict verdict = Verdict::ok;          // as runs are judged
-  Verdict every = Verdict::ok;            // looking at every step
+  Verdict every = Verdict::ok;            // of a monitor that is shown every step
   long when_verdict = 0, when_every = 0;  // the steps of these
   double most = 0;                        // K^ / B
   double margin = 0;                      // 1: the limit with every spring stretched far, over the step, less 1
@@ -255,8 +257,8 @@ inline double nominal_limit(const Stepper& rule, const TrialScene& trial, double
   return std::min(rule.limit(omega, trial.gamma + trial.beta * omega * omega), rule.limit(omega, trial.gamma));
 }
 
-/// The cell of a seed, or nothing where the method does not take the scene, the step lies within half a per cent of the
-/// limit, or truth hardly moves.
+/// The trial of a seed, or nothing where the method does not take the scene, the step lies within half a per cent of
+/// the limit, or truth hardly moves.
 inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
   Random random(seed);
   const TrialFamily& family = trial_families()[seed % trial_families().size()];
@@ -293,17 +295,17 @@ inline std::optional<Trial> tried(unsigned seed, bool longer = true) {
   if (!(truth.speed > 1e-4 * drawn.omega * scene.size()) || !std::isfinite(truth.speed)) return std::nullopt;
 
   const auto run_freely = [&](const Run& as) {
-    Freely freely(drawn, as, 10 * truth.stretch, 10 * truth.speed);
+    UnstoppedRun freely(drawn, as, 10 * truth.stretch, 10 * truth.speed);
     method.engine(scene, as, freely);
     return freely;
   };
   try {
-    const Freely freely = run_freely(run);
+    const UnstoppedRun freely = run_freely(run);
     trial.stretch = freely.stretch / truth.stretch, trial.speed = freely.speed / truth.speed;
     trial.left = freely.left, trial.within = freely.left == 0;
     trial.verdict = freely.by_pairs, trial.every = freely.by_all;
     trial.when_verdict = freely.when_pairs, trial.when_every = freely.when_all;
-    trial.most = freely.most();
+    trial.most = freely.largest_ratio();
     // what nothing holds only falls the further
     const bool held = !scene.model.particles.pins.empty();
     if (longer && held && trial.within && trial.share > 0.8 && trial.verdict == Verdict::ok) {

@@ -162,7 +162,7 @@ TEST(Contact, SymmetricSceneStaysSymmetric) {
   const int n = 9;
   for (const Stepper& s : steppers()) {
     if (s.order == 1 && s.first_order) continue;  // explicit Euler is unstable here: it would blow up any rounding
-    if (s.hard_constraints) continue;             // a sweep over the springs begins at one side
+    if (s.hard_constraints) continue;             // a Gauss-Seidel pass begins at one side
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {1e-3, 0.3, 30});
     double worst = 0;

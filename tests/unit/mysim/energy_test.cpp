@@ -10,7 +10,7 @@
 namespace crosscheck {
 
 // Energies and the ledger: exact integrals, balance that closes to the order of the stepper, losses of contact, the
-// watch.
+// monitor.
 
 namespace {
 
@@ -279,11 +279,11 @@ TEST(Energy, OfAKnownState) {
 TEST(DivergenceMonitor, NanIsANan) {
   const Scene s = small_scene("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n");
   for (const double bad : {NAN, INFINITY}) {
-    DivergenceMonitor watch(s.model);
+    DivergenceMonitor monitor(s.model);
     State state = s.start;
-    EXPECT_EQ(watch.observe(state, true), Verdict::ok);
+    EXPECT_EQ(monitor.observe(state, true), Verdict::ok);
     state.v(1, 0) = bad;
-    EXPECT_EQ(watch.observe(state, true), Verdict::nan);
+    EXPECT_EQ(monitor.observe(state, true), Verdict::nan);
   }
 }
 
@@ -293,12 +293,12 @@ TEST(DivergenceMonitor, NoGoodRunIsCondemned) {
       const Scene scene = shipped_scene(std::string(name));
       if (!takes(stepper(method), scene)) continue;
       SCOPED_TRACE(fmt::format("{} {}", name, method));
-      DivergenceMonitor watch(scene.model);
+      DivergenceMonitor monitor(scene.model);
       const double duration = std::min(scene.duration, 0.3);
       // within the limit of both rules: a scene may be meant for longer steps
       const double omega = highest_frequency(scene.model, scene.start);
       const double step = omega > 0 ? std::min(scene.step, 1.5 / omega) : scene.step;
-      const Outcome out = simulate(stepper(method), ContactRule::coulomb, scene, {step, duration, 30}, watch);
+      const Outcome out = simulate(stepper(method), ContactRule::coulomb, scene, {step, duration, 30}, monitor);
       EXPECT_EQ(out.verdict, Verdict::ok);
     }
 }
@@ -315,8 +315,8 @@ TEST(DivergenceMonitor, ASceneAtRestIsNotCondemnedForItsRounding) {
         text + fmt::format("[[spring]]\nends = [0, 1]\nstiffness = 100\nrest = {:.15g}\n", (ends[0] - ends[1]).norm()));
     for (const Stepper& s : steppers()) {
       SCOPED_TRACE(fmt::format("seed {} {}", seed, s.name));
-      DivergenceMonitor watch(scene.model);
-      EXPECT_EQ(simulate(s, ContactRule::coulomb, scene, {1e-3, 1, 10}, watch).verdict, Verdict::ok);
+      DivergenceMonitor monitor(scene.model);
+      EXPECT_EQ(simulate(s, ContactRule::coulomb, scene, {1e-3, 1, 10}, monitor).verdict, Verdict::ok);
     }
   }
 }
@@ -329,12 +329,12 @@ TEST(DivergenceMonitor, BlowUpsAreFoundWhetherOrNotTheWindBlowsAndPinsMove) {
   for (const Scene& scene : {cloth, plain})
     for (const Stepper& s : fixed_steppers()) {
       SCOPED_TRACE(s.name);
-      DivergenceMonitor watch(scene.model);
+      DivergenceMonitor monitor(scene.model);
       // omega_max is about sqrt(8 k n / m) = 200 rad/s: h omega = 10 is beyond every explicit rule
-      const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.05, 5, 100}, watch);
+      const Outcome out = simulate(s, ContactRule::coulomb, scene, {0.05, 5, 100}, monitor);
       if (std::isinf(s.limit(200, 2))) {
-        // rules that solve the whole step are stable; one sweep leaves springs unsolved, whose energy may pass for a
-        // blow-up, but the cloth stays in one place: within its fall and its size
+        // rules that solve the whole step are stable; one Gauss-Seidel pass leaves springs unsolved, whose energy may
+        // pass for a blow-up, but the cloth stays in one place: within its fall and its size
         if (s.evaluations == 0) {
           EXPECT_EQ(out.verdict, Verdict::ok) << out.reason;
         }

@@ -11,7 +11,7 @@ namespace {
 
 /// Code for a newer machine must not be what the linker takes for every machine: objects compiled for an instruction
 /// set share no function with others. Each holds the table of its functions.
-TEST(Objects, OfAnInstructionSetKeepTheirCodeToThemselves) {
+TEST(InstructionSets, OfAnInstructionSetKeepTheirCodeToThemselves) {
   std::istringstream objects(CROSSCHECK_KERNEL_OBJECTS);
   int count = 0;
   for (std::string object; std::getline(objects, object, '|'); ++count) {

@@ -81,7 +81,7 @@ TEST(JsonField, ReadsWhatWasWritten) {
   for (const int indent : {-1, 1, 2}) {
     const JsonField f = JsonField::parse(json.dump(indent), "f");
     EXPECT_EQ(f["numbers"].numbers(), numbers);
-    EXPECT_TRUE(f["truth"].truth());
+    EXPECT_TRUE(f["truth"].boolean());
     EXPECT_EQ(f["text"].text(), "\xe5\xbc\xb9");
     EXPECT_EQ(f["seed"].natural(), ~0ull);
     EXPECT_EQ(f["whole"].whole(), -7);
@@ -141,7 +141,7 @@ TEST(JsonField, EveryErrorNamesFilePlaceAndWhatWasExpected) {
        "big: expected a whole number below 2^63, got 1844674407370955161"},
       {[](const JsonField& v) { v["n"].whole(); }, "n: expected a whole number below 2^63, got 1.5"},
       {[](const JsonField& v) { v["minus"].natural(); }, "minus: expected a whole number not below 0, got -1"},
-      {[](const JsonField& v) { v["n"].truth(); }, "n: expected true or false, got 1.5"},
+      {[](const JsonField& v) { v["n"].boolean(); }, "n: expected true or false, got 1.5"},
       {[](const JsonField& v) { v["n"].text(); }, "n: expected a text, got 1.5"},
       {[](const JsonField& v) { v["n"].numbers(); }, "n: expected a list of numbers, got 1.5"},
       {[](const JsonField& v) { v["list"].numbers(); }, "list[1]: expected a number, got a list of 2"},

@@ -53,9 +53,9 @@ TEST(ImplicitEulerForAMinute, DescendsInEveryStepOfAStiffClothAndStaysBounded) {
   const double h = 1.0 / 60;  // s; explicit rules need h < 8e-5 s
   System f(scene.model);
   ImplicitStep step(f);
-  DivergenceMonitor watch(scene.model);
+  DivergenceMonitor monitor(scene.model);
   State s = scene.start;
-  watch.observe(s, true);
+  monitor.observe(s, true);
   long newton_steps = 0;
   int most = 0;
   double highest_rise = 0;
@@ -72,7 +72,7 @@ TEST(ImplicitEulerForAMinute, DescendsInEveryStepOfAStiffClothAndStaysBounded) {
     }
     newton_steps += static_cast<long>(values.size()) - 1;
     most = std::max(most, static_cast<int>(values.size()) - 1);
-    ASSERT_EQ(watch.observe(s, true), Verdict::ok) << n;
+    ASSERT_EQ(monitor.observe(s, true), Verdict::ok) << n;
     // the cloth hangs within its diagonal (1.4 m) of its pins, but for what the springs give: m g / k = 1e-5 m
     ASSERT_LT(s.x.colwise().norm().maxCoeff(), 2);
   }
@@ -114,7 +114,8 @@ TEST(LedgerOfShippedScenes, ClosesToFirstOrderWithContact) {
     for (const double part : {1, 2, 4, 8}) errors.push_back(imbalance(s, scene, {scene.step / part, 1, 50}));
     fmt::print("cloth-sphere {:16} {:.3g} J, halved thrice {:.3g} J\n", s.name, errors[0], errors[3]);
     for (int i = 1; i < 4; ++i) EXPECT_LT(errors[i], errors[i - 1]);
-    if (s.hard_constraints) continue;  // one sweep a step: first order shows at smaller steps only (0.67 here)
+    if (s.hard_constraints)
+      continue;  // one Gauss-Seidel pass a step: first order shows at smaller steps only (0.67 here)
     // 900 particles land at other parts of a step each time: the spread of their mean is some per cent, of order 0.1;
     // the explicit trapezoidal rule, near its limit of stability at the largest step, comes to it last
     // What contact takes is an impulse times a mean velocity: a rule of order one keeps its own error in it, of the

@@ -17,7 +17,7 @@ namespace {
 
 using namespace testing_tools;
 
-TEST(Nearest, IsProposedForSlipsAndForNothingElse) {
+TEST(ClosestMatch, IsProposedForSlipsAndForNothingElse) {
   const std::vector<std::string> names{"duration",         "samples", "step",      "stiffness",
                                        "symplectic-euler", "rk4",     "mysim/xpbd"};
   struct Row {
@@ -48,17 +48,17 @@ TEST(ProgressLine, TellsNumberPartAndWhatIsLeft) {
   EXPECT_EQ(progress_line({1, 1, 0.25, 10, 0, 10, "a run"}), "a run (25 %, 10 s, about 30 s left)");
   // three of four begun, two behind: half is done
   EXPECT_EQ(progress_line({3, 4, 0, 600, 0, 1, "x"}), "[3/4] x (10 min, about 10 min left)");
-  // nothing is done yet: what was told beforehand
+  // nothing is done yet: the estimate from before
   EXPECT_EQ(progress_line({1, 1, 0, 5, 65, 5, "x"}), "x (5 s, about 60 s left)");
-  // nobody knows how many
+  // the number of runs is not known
   EXPECT_EQ(progress_line({5, 0, 0.5, 50, 0, 20, "x"}), "[5] x (50 %, 50 s, about 20 s left of this run)");
   EXPECT_EQ(progress_line({1, 0, 0, 50, 0, 50, "x"}), "x (50 s)");
   EXPECT_EQ(format_duration(3.2e9), "1e+02 years");
 }
 
-TEST(Telling, TheSystemsOwnWordsBecomeALineThatNamesThePath) {
+TEST(ErrorMessages, TheSystemsOwnWordsBecomeALineThatNamesThePath) {
   namespace fs = std::filesystem;
-  const auto told = [](auto thrower) {
+  const auto caught_message = [](auto thrower) {
     try {
       thrower();
     } catch (...) {
@@ -66,22 +66,22 @@ TEST(Telling, TheSystemsOwnWordsBecomeALineThatNamesThePath) {
     }
     return std::string();
   };
-  const std::string missing = told([] { fs::create_directory("/proc/none/x"); });
+  const std::string missing = caught_message([] { fs::create_directory("/proc/none/x"); });
   EXPECT_TRUE(begins(missing, "/proc/none/x: "));
   EXPECT_EQ(missing.find("filesystem error"), std::string::npos);
-  const std::string full = told(
+  const std::string full = caught_message(
       [] { throw fs::filesystem_error("cannot copy", "a", "b", std::make_error_code(std::errc::no_space_on_device)); });
   EXPECT_TRUE(contains(full, "a -> b: "));
   EXPECT_TRUE(contains(full, "expected more room on the disk"));
-  EXPECT_TRUE(contains(told([] { throw std::bad_alloc(); }), "not enough memory"));
-  EXPECT_EQ(told([] { throw std::runtime_error("[json.exception.out_of_range.403] key 'x' not found"); }),
+  EXPECT_TRUE(contains(caught_message([] { throw std::bad_alloc(); }), "not enough memory"));
+  EXPECT_EQ(caught_message([] { throw std::runtime_error("[json.exception.out_of_range.403] key 'x' not found"); }),
             "a JSON file does not hold what was expected: key 'x' not found");
-  EXPECT_EQ(told([] { throw InputError("f:3: x"); }), "f:3: x");
+  EXPECT_EQ(caught_message([] { throw InputError("f:3: x"); }), "f:3: x");
   EXPECT_EQ(run_reporting_errors("test", [] { return 1; }), 1);
   EXPECT_EQ(run_reporting_errors("test", []() -> int { throw std::runtime_error("a tool is missing"); }), 2);
 }
 
-TEST(FreeRoom, IsThereAndIsTold) {
+TEST(FreeDiskSpace, IsThereAndIsReported) {
   EXPECT_GT(free_memory(), 1e6);
   EXPECT_GT(free_disk("not/there/yet"), 0);
   EXPECT_EQ(format_bytes(3.21e9), "3.21 GB");

@@ -348,7 +348,7 @@ TEST_F(TemporaryFolders, ThoseOfKilledProcessesAreSweptAndNoOthers) {
   });
   wait_for(1);
   const TemporaryFolder living("living");
-  fs::create_directory(folder_ / "crosscheck-mine-1.2.3-abcdef");  // of another system, as far as anybody can tell
+  fs::create_directory(folder_ / "crosscheck-mine-1.2.3-abcdef");  // perhaps of another system
   fs::create_directory(folder_ / "crosscheck-notes");
   remove_stale_temporary_folders();
   EXPECT_EQ(count(), 4) << "it lives";
@@ -378,7 +378,7 @@ TEST_F(TemporaryFolders, WhatAKilledProgramLeavesTheNextStartRemoves) {
   // its processes die with it, but nobody here can wait for them
   const auto next = [] { return run_supervised([] { return 7; }); };
   int status = 0;
-  for (int patience = 0; patience < 200; ++patience) {
+  for (int attempt = 0; attempt < 200; ++attempt) {
     status = end_of(in_child(next));
     if (count() <= 1) break;
     usleep(20000);

@@ -39,8 +39,8 @@ TEST(Recipe, EveryRowOfTheTableIsWhatItDeclares) {
 
 TEST(Recipe, ANewStepperRunsAndIsWhatItDeclares) {
   const Scene scene = small_cloth_in_air();
-  DivergenceMonitor watch(scene.model);
-  const Outcome out = simulate(ralston_row, ContactRule::coulomb, scene, {1e-3, 1, 10}, watch);
+  DivergenceMonitor monitor(scene.model);
+  const Outcome out = simulate(ralston_row, ContactRule::coulomb, scene, {1e-3, 1, 10}, monitor);
   EXPECT_EQ(out.verdict, Verdict::ok);
   EXPECT_EQ(out.evaluations, 2 * 1000);
   EXPECT_EQ(contradiction(ralston_row), "");

@@ -1,4 +1,4 @@
-// Who may know whom: no file of a room, nor of its tests, includes a header of a room above it.
+// Dependencies of rooms: no file of a room, nor of its tests, includes a header of a room above it.
 
 #include <gtest/gtest.h>
 

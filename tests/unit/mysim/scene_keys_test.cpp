@@ -199,7 +199,7 @@ TEST(SceneKeys, AnInextensibleGridHasConstraintsForItsStructuralFamily) {
       "[grid]\nsize = [4, 3]\norigin = [0, 0, 0]\nu = [1.5, 0, 0]\nv = [0, 0, 1]\nmass = 1\n"
       "inextensible = \"structural\"\n[grid.stiffness]\nbend = 10\n");
   EXPECT_EQ(s.model.find<Constraints>()->list.size(), 3u * 3 + 4 * 2);
-  EXPECT_EQ(largest_stretch(*s.model.find<Constraints>(), s.start.x), 0);
+  EXPECT_EQ(largest_constraint_error(*s.model.find<Constraints>(), s.start.x), 0);
   for (const Spring& spring : s.model.find<Springs>()->list) EXPECT_EQ(spring.family, Family::bend);
   const Scene bare = small_scene(
       "[grid]\nsize = [4, 3]\norigin = [0, 0, 0]\nu = [1.5, 0, 0]\nv = [0, 0, 1]\nmass = 1\n"

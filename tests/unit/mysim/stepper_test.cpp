@@ -216,9 +216,9 @@ Fate try_out(const Stepper& s, const Oscillation& o, double h, int steps) {
   const double rest = scene.start.x(1, 1);
   scene.start.x(1, 1) -= 0.01;
   const crosscheck::Run run{h, h * steps, 10};
-  DivergenceMonitor watch(scene, run);
+  DivergenceMonitor monitor(scene, run);
   Excursions excursions(rest, h * steps);
-  Observers both({&watch, &excursions});
+  Observers both({&monitor, &excursions});
   const Outcome out = simulate(s, ContactRule::coulomb, scene, run, both);
   return {out.verdict, excursions.last / excursions.first};
 }
@@ -285,17 +285,17 @@ Verdict verdict_at(double extension) {
   Scene scene = hanging(1, 0);
   scene.start.x(1, 1) = -1;
   const crosscheck::Run run{0.01, 4, 4};
-  DivergenceMonitor watch(scene, run);
-  EXPECT_EQ(watch.observe(scene.start, true), Verdict::ok);
+  DivergenceMonitor monitor(scene, run);
+  EXPECT_EQ(monitor.observe(scene.start, true), Verdict::ok);
   State state = scene.start;
   state.t = 1;
   state.x(1, 1) = -1 - extension;
-  return watch.observe(state, true);
+  return monitor.observe(state, true);
 }
 
 TEST(Stretch, IsAVerdictBesideEnergy) {
   // the true motion, a fall from rest, comes to 2 W / k = 19.62 m more than a metre: ten times that length are 206.2 m,
-  // known to 3 %. How fast it came there two states do not tell
+  // known to 3 %. Two states do not show how fast it came there
   EXPECT_EQ(verdict_at(19.62), Verdict::ok);
   EXPECT_EQ(verdict_at(199), Verdict::ok);
   EXPECT_EQ(verdict_at(212), Verdict::stretch);

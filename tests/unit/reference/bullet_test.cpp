@@ -18,8 +18,8 @@ using namespace testing_tools;
 
 /// Largest distance of a particle between symplectic Euler and Bullet's explicit world, m.
 double apart(const Scene& scene, const Run& run, const std::string& carried_by) {
-  const MethodRun ours = answer("symplectic-euler", scene, run),
-                  theirs = answer("bullet/deformable-explicit", scene, run);
+  const MethodRun ours = run_and_record("symplectic-euler", scene, run),
+                  theirs = run_and_record("bullet/deformable-explicit", scene, run);
   EXPECT_EQ(ours.outcome.verdict, Verdict::ok);
   EXPECT_EQ(theirs.outcome.verdict, Verdict::ok) << theirs.outcome.reason;
   EXPECT_TRUE(theirs.outcome.readback);
@@ -96,12 +96,12 @@ TEST(BulletExplicit, NeverLimitsASpeedInSilence) {
                                                 "[sphere]\ncentre = [0, 0, 0]\nradius = 1\n") +
                                     margin);
     const crosscheck::Run run{1e-2, 1, 20};
-    const MethodRun theirs = answer("bullet/deformable-explicit", scene, run);
+    const MethodRun theirs = run_and_record("bullet/deformable-explicit", scene, run);
     if (theirs.outcome.verdict == Verdict::unsupported) continue;
     bool said = certify("bullet/deformable-explicit", scene, theirs.outcome).mismatch();
     for (const std::string& law : theirs.outcome.different_law) said |= law.find("speed") != std::string::npos;
     if (said) continue;
-    EXPECT_LE(sup_distance(answer("symplectic-euler", scene, run).trajectory, theirs.trajectory), identity);
+    EXPECT_LE(sup_distance(run_and_record("symplectic-euler", scene, run).trajectory, theirs.trajectory), identity);
   }
 }
 
@@ -111,7 +111,8 @@ TEST(Bullet, RunsAreBitEqual) {
       SCOPED_TRACE(fmt::format("{} {}", method, name));
       const Scene scene = shipped_scene(name);
       const crosscheck::Run run{scene.step, std::min(0.25, scene.duration), 5};
-      EXPECT_TRUE(identical(answer(method, scene, run).trajectory, answer(method, scene, run).trajectory));
+      EXPECT_TRUE(
+          identical(run_and_record(method, scene, run).trajectory, run_and_record(method, scene, run).trajectory));
     }
 }
 
@@ -124,7 +125,7 @@ TEST(BulletPbd, SingleLinkSwingsAtTheBackwardEulerFrequencyAndReadsBackItsStiffn
   for (const auto method : {"bullet/pbd", "bullet/pbd+n=10"})
     for (const double h : {1.0 / 250, 1.0 / 1000}) {
       SCOPED_TRACE(fmt::format("{} h = {}", method, h));
-      const MethodRun a = answer(method, scene, {h, 4, static_cast<int>(4 / h)});
+      const MethodRun a = run_and_record(method, scene, {h, 4, static_cast<int>(4 / h)});
       double first = 0, last = 0;
       int periods = -1;
       for (int i = 1; i < a.trajectory.frames(); ++i) {
@@ -146,12 +147,14 @@ TEST(BulletPbd, SingleLinkSwingsAtTheBackwardEulerFrequencyAndReadsBackItsStiffn
 TEST(BulletPbd, IsMarkedAsAnotherLaw) {
   const auto laws = [](const Scene& scene) {
     std::string text;
-    for (const auto& law : answer("bullet/pbd", scene, {scene.step, 0.02, 2}).outcome.different_law) text += law + "\n";
+    for (const auto& law : run_and_record("bullet/pbd", scene, {scene.step, 0.02, 2}).outcome.different_law)
+      text += law + "\n";
     return text;
   };
   EXPECT_TRUE(contains(laws(shipped_scene("chain")), "springs: "));
   EXPECT_TRUE(contains(laws(shipped_scene("cloth-sphere")), "friction: "));
-  const Outcome explicit_run = answer("bullet/deformable-explicit", shipped_scene("chain"), {1e-3, 0.02, 2}).outcome;
+  const Outcome explicit_run =
+      run_and_record("bullet/deformable-explicit", shipped_scene("chain"), {1e-3, 0.02, 2}).outcome;
   EXPECT_TRUE(explicit_run.different_law.empty());
 }
 
@@ -167,7 +170,7 @@ TEST(Bullet, RefusesWhatItLacksWithTheReason) {
                {small_scene(lone + ball + sphere), "do not join all particles"}};
   for (const auto& c : cases)
     for (const auto method : {"bullet/deformable-explicit", "bullet/pbd"}) {
-      const Outcome out = answer(method, c.scene, {1e-2, 0.1, 1}).outcome;
+      const Outcome out = run_and_record(method, c.scene, {1e-2, 0.1, 1}).outcome;
       EXPECT_EQ(out.verdict, Verdict::unsupported);
       EXPECT_TRUE(contains(out.reason, c.reason));
     }
@@ -175,16 +178,16 @@ TEST(Bullet, RefusesWhatItLacksWithTheReason) {
       {"bullet/deformable-implicit+shipped", "Hooke's law and two stiffnesses at most"},
       {"bullet/pbd+own-wind", "presses on triangles: the scene has none"}};
   for (const auto& [method, reason] : options) {
-    const Outcome out = answer(method, small_cloth(), {1e-3, 2e-3, 1}).outcome;
+    const Outcome out = run_and_record(method, small_cloth(), {1e-3, 2e-3, 1}).outcome;
     EXPECT_EQ(out.verdict, Verdict::unsupported);
     EXPECT_TRUE(contains(out.reason, reason));
   }
   Scene uneven = shipped_scene("chain");
   uneven.model.particles.mass[1] = 0.3;
   uneven.model.find<Drag>()->c.setConstant(0.1);
-  EXPECT_TRUE(contains(answer("bullet/pbd", uneven, {1e-3, 0.02, 2}).outcome.reason, "one drag rate"));
+  EXPECT_TRUE(contains(run_and_record("bullet/pbd", uneven, {1e-3, 0.02, 2}).outcome.reason, "one drag rate"));
   // the same network without a sphere is no problem
-  EXPECT_EQ(answer("bullet/deformable-explicit", small_scene(lone + ball), {1e-2, 0.1, 1}).outcome.verdict,
+  EXPECT_EQ(run_and_record("bullet/deformable-explicit", small_scene(lone + ball), {1e-2, 0.1, 1}).outcome.verdict,
             Verdict::ok);
 }
 
@@ -207,7 +210,8 @@ Scene shortened(const char* name, double step) {
 
 double distance_to_newton_step(const std::string& method, const Scene& scene) {
   const crosscheck::Run run = default_run(scene);
-  const MethodRun ours = answer("implicit-euler+linear", scene, run), theirs = answer(method, scene, run);
+  const MethodRun ours = run_and_record("implicit-euler+linear", scene, run),
+                  theirs = run_and_record(method, scene, run);
   EXPECT_EQ(ours.outcome.verdict, Verdict::ok) << ours.outcome.reason;
   EXPECT_EQ(theirs.outcome.verdict, Verdict::ok) << theirs.outcome.reason;
   EXPECT_FALSE(certify(method, scene, theirs.outcome).mismatch());
@@ -283,7 +287,7 @@ TEST(BulletImplicit, OneSpringHasBackwardEulersFrequencyAndDecayToSixDigits) {
       const double omega = std::sqrt(k), rest = -1 - 9.81 / k;
       const int steps = 60;
       own.start.x(1, 1) = rest + 0.1;
-      const Trajectory path = answer("bullet/deformable-implicit", own, {h, steps * h, steps}).trajectory;
+      const Trajectory path = run_and_record("bullet/deformable-implicit", own, {h, steps * h, steps}).trajectory;
       std::vector<double> y;
       for (const Points& x : path.x) y.push_back(x(1, 1) - rest);
       const std::complex<double> root = root_of(y);
@@ -321,8 +325,8 @@ TEST(Bullet, PinsFirstOrLastMakeNoDifference) {
                                         {"bullet/deformable-implicit+tight", 1e-12}}) {
       SCOPED_TRACE(fmt::format("{} {}", scene.name, method));
       const crosscheck::Run run{1e-3, 0.5, 20};
-      const Trajectory first = answer(method, scene, run).trajectory;
-      Trajectory last = answer(method, reversed(scene), run).trajectory;
+      const Trajectory first = run_and_record(method, scene, run).trajectory;
+      Trajectory last = run_and_record(method, reversed(scene), run).trajectory;
       for (Points& x : last.x) x = x.rowwise().reverse().eval();
       EXPECT_LE(sup_distance(first, last), bound);
       EXPECT_GT((first.x.back() - first.x.front()).cwiseAbs().maxCoeff(), 0.1);
@@ -336,10 +340,11 @@ TEST(BulletLink, PositionBasedWorldConvergesToItsLinkLawAndNotToHookes) {
   Scene hooke = linked;
   hooke.model.find<Springs>()->law = SpringLaw::hooke;
   const crosscheck::Run fine{1e-4, 1.5, 30};
-  const Trajectory to_link = answer("rk4", linked, fine).trajectory, to_hooke = answer("rk4", hooke, fine).trajectory;
+  const Trajectory to_link = run_and_record("rk4", linked, fine).trajectory,
+                   to_hooke = run_and_record("rk4", hooke, fine).trajectory;
   std::vector<double> link, law;
   for (const double h : {1e-3, 5e-4, 2.5e-4, 1.25e-4}) {
-    const Trajectory t = answer("bullet/pbd", linked, {h, 1.5, 30}).trajectory;
+    const Trajectory t = run_and_record("bullet/pbd", linked, {h, 1.5, 30}).trajectory;
     link.push_back(sup_rms(t, to_link));
     law.push_back(sup_rms(t, to_hooke));
   }
@@ -354,14 +359,14 @@ TEST(BulletLink, PositionBasedWorldConvergesToItsLinkLawAndNotToHookes) {
 
 TEST(BulletLink, ExplicitWorldFollowsTheLinkLawToRoundOff) {
   const Scene scene = shipped_scene("chain-link");
-  const MethodRun ours = answer("symplectic-euler", scene, default_run(scene)),
-                  theirs = answer("bullet/deformable-explicit", scene, default_run(scene));
+  const MethodRun ours = run_and_record("symplectic-euler", scene, default_run(scene)),
+                  theirs = run_and_record("bullet/deformable-explicit", scene, default_run(scene));
   EXPECT_LE(sup_distance(ours.trajectory, theirs.trajectory), 1e-12);  // the bound of the identity tests
   EXPECT_FALSE(certify("bullet/deformable-explicit", scene, theirs.outcome).mismatch());
   // an engine that pulled by Hooke's law would be found out
   Scene hooke = scene;
   hooke.model.find<Springs>()->law = SpringLaw::hooke;
-  const MethodRun other = answer("bullet/deformable-explicit", hooke, default_run(scene));
+  const MethodRun other = run_and_record("bullet/deformable-explicit", hooke, default_run(scene));
   EXPECT_TRUE(certify("bullet/deformable-explicit", scene, other.outcome).mismatch());
 }
 
@@ -370,16 +375,16 @@ TEST(BulletLink, HardDistancesAreLinksThatGiveWayToNothing) {
     SCOPED_TRACE(name);
     const Scene scene = shipped_scene(name);
     const crosscheck::Run run{scene.step, 0.5, 10};
-    const MethodRun one = answer("bullet/pbd", scene, run), ten = answer("bullet/pbd+n=10", scene, run);
+    const MethodRun one = run_and_record("bullet/pbd", scene, run), ten = run_and_record("bullet/pbd+n=10", scene, run);
     const Certificate certificate = certify("bullet/pbd", scene, one.outcome);
     EXPECT_FALSE(certificate.mismatch());
-    bool told = false;
-    for (const CertificateRow& row : certificate.rows) told |= row.quantity == "hard distances";
-    EXPECT_TRUE(told);
+    bool listed = false;
+    for (const CertificateRow& row : certificate.rows) listed |= row.quantity == "hard distances";
+    EXPECT_TRUE(listed);
     auto stretch = [&](const MethodRun& a) {
       double worst = 0;
       for (const Points& x : a.trajectory.x)
-        worst = std::max(worst, largest_stretch(*scene.model.find<Constraints>(), x));
+        worst = std::max(worst, largest_constraint_error(*scene.model.find<Constraints>(), x));
       return worst;
     };
     EXPECT_LT(stretch(one), 0.02);
@@ -389,7 +394,7 @@ TEST(BulletLink, HardDistancesAreLinksThatGiveWayToNothing) {
     Outcome wrong = one.outcome;
     wrong.readback->links.back().rest *= 1.001;
     EXPECT_TRUE(certify("bullet/pbd", scene, wrong).mismatch());
-    const Outcome refused = answer("bullet/deformable-explicit", scene, run).outcome;
+    const Outcome refused = run_and_record("bullet/deformable-explicit", scene, run).outcome;
     EXPECT_EQ(refused.verdict, Verdict::unsupported);
     EXPECT_TRUE(contains(refused.reason, "no hard distances"));
   }
@@ -400,7 +405,7 @@ TEST(BulletLink, EverySceneIsHandedOverOrRefusedWithTheReason) {
   for (const auto& name : shipped_scene_names())
     for (const auto method : {"bullet/deformable-explicit", "bullet/deformable-implicit", "bullet/pbd"}) {
       const Scene scene = shipped_scene(std::string(name));
-      const Outcome out = answer(method, scene, {scene.step, 2 * scene.step, 1}).outcome;
+      const Outcome out = run_and_record(method, scene, {scene.step, 2 * scene.step, 1}).outcome;
       std::string reason;
       for (const auto& [which, why] : refused)
         if (which == name) reason = why;

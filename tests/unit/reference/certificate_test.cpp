@@ -19,27 +19,27 @@ TEST(Certificate, MatchesOnEveryShippedSceneAndNamesOtherLaws) {
       SCOPED_TRACE(fmt::format("{} {}", name, method));
       const Scene scene = shipped_scene(std::string(name));
       if (scene.model.first_order()) continue;
-      const Outcome out = answer(method, scene, {scene.step, 2 * scene.step, 1}).outcome;
+      const Outcome out = run_and_record(method, scene, {scene.step, 2 * scene.step, 1}).outcome;
       if (out.verdict == Verdict::unsupported) continue;  // refused with a reason: bullet_test.cpp
       ASSERT_TRUE(out.readback);
       for (const CertificateRow& row : certify(method, scene, out).rows)
         EXPECT_EQ(row.parity, row.quantity.starts_with("law of ") ? Parity::different_law : Parity::match)
-            << row.quantity << ": asked " << row.asked << ", read back " << row.read_back;
+            << row.quantity << ": asked " << row.requested << ", read back " << row.read_back;
     }
 }
 
 TEST(Certificate, RestLengthsSurviveTheFirstStep) {
-  // Bullet overwrites them by the current lengths unless told not to: here they differ by 10 %
+  // Bullet overwrites them by the current lengths unless that is disabled: here they differ by 10 %
   for (const auto method : {"bullet/deformable-explicit", "bullet/pbd"}) {
     const Scene scene = shipped_scene("spring");
-    const Outcome out = answer(method, scene, {scene.step, 10 * scene.step, 1}).outcome;
+    const Outcome out = run_and_record(method, scene, {scene.step, 10 * scene.step, 1}).outcome;
     EXPECT_EQ(out.readback->links[0].rest, 1.0);
   }
 }
 
 TEST(Certificate, WithoutReadBackNothingIsAttested) {
   const Scene scene = shipped_scene("chain");
-  const Certificate c = certify("mysim/rk4", scene, answer("rk4", scene, {1e-2, 0.1, 1}).outcome);
+  const Certificate c = certify("mysim/rk4", scene, run_and_record("rk4", scene, {1e-2, 0.1, 1}).outcome);
   ASSERT_EQ(c.rows.size(), 1u);
   EXPECT_EQ(c.rows[0].parity, Parity::unattested);
   EXPECT_FALSE(c.mismatch());
@@ -51,7 +51,7 @@ std::string summary(const std::string& method, const Scene& scene, const Outcome
 
 TEST(Certificate, WhatIsNotToldHasARow) {
   const Scene drape = shipped_scene("cloth-sphere");
-  const Outcome honest = answer("bullet/deformable-explicit", drape, {1e-3, 2e-3, 1}).outcome;
+  const Outcome honest = run_and_record("bullet/deformable-explicit", drape, {1e-3, 2e-3, 1}).outcome;
   const struct {
     const char* quantity;
     std::function<void(Readback&)> hush;
@@ -88,7 +88,7 @@ TEST(Certificate, WhatIsNotToldHasARow) {
 
 TEST(Certificate, AProbeThatStrainsNothingAttestsNothing) {
   const Scene chain = shipped_scene("chain");
-  Outcome lazy = answer("bullet/deformable-explicit", chain, {1e-3, 2e-3, 1}).outcome;
+  Outcome lazy = run_and_record("bullet/deformable-explicit", chain, {1e-3, 2e-3, 1}).outcome;
   // forces where all springs are at rest: every law says 0
   for (int i = 1; i < chain.start.x.cols(); ++i)
     lazy.readback->probe->x.col(i) =
@@ -99,7 +99,7 @@ TEST(Certificate, AProbeThatStrainsNothingAttestsNothing) {
 
 TEST(Certificate, SummaryCountsWhatWasReadBack) {
   const Scene chain = shipped_scene("chain");
-  const Outcome none = answer("rk4", chain, {1e-2, 0.1, 1}).outcome;
+  const Outcome none = run_and_record("rk4", chain, {1e-2, 0.1, 1}).outcome;
   EXPECT_EQ(summary("engine", chain, none), "nothing was read back; not attested: whole scene");
   const Certificate c{"engine",
                       "scene",
@@ -134,7 +134,7 @@ TEST(Certificate, CatchesEveryTampering) {
       {"step", [](Readback& r) { *r.step *= 1 + 1e-7; }}};
   const Scene scene = shipped_scene("cloth-sphere");
   for (const auto method : {"bullet/deformable-explicit", "bullet/deformable-implicit", "bullet/pbd"}) {
-    const Outcome honest = answer(method, scene, {scene.step, 2 * scene.step, 1}).outcome;
+    const Outcome honest = run_and_record(method, scene, {scene.step, 2 * scene.step, 1}).outcome;
     ASSERT_FALSE(certify(method, scene, honest).mismatch());
     for (const auto& [what, tamper] : tamperings) {
       SCOPED_TRACE(fmt::format("{}: {}", method, what));
@@ -142,7 +142,7 @@ TEST(Certificate, CatchesEveryTampering) {
       tamper(*tampered.readback);
       EXPECT_TRUE(certify(method, scene, tampered).mismatch());
     }
-    Outcome stiffer = honest;  // told per link by one world, probed in the other
+    Outcome stiffer = honest;  // reported per link by one world, probed in the other
     if (stiffer.readback->probe->springs.size() > 0)
       stiffer.readback->probe->springs.col(5) *= 1.001;
     else
@@ -153,7 +153,7 @@ TEST(Certificate, CatchesEveryTampering) {
 
 TEST(Certificate, CatchesIngredientsThatTheSceneDoesNotHaveAndOnesThatAreGone) {
   const Scene chain = shipped_scene("chain"), drape = shipped_scene("cloth-sphere");
-  const Outcome honest = answer("bullet/deformable-explicit", chain, {1e-3, 2e-3, 1}).outcome;
+  const Outcome honest = run_and_record("bullet/deformable-explicit", chain, {1e-3, 2e-3, 1}).outcome;
   auto certified = [&](const std::function<void(Scene&)>& edit) {
     Scene other = chain;
     edit(other);
@@ -167,7 +167,7 @@ TEST(Certificate, CatchesIngredientsThatTheSceneDoesNotHaveAndOnesThatAreGone) {
   EXPECT_TRUE(certified([&](Scene& s) { without(s, "drag"); })) << "drag that nobody asked for";
   EXPECT_TRUE(certified([&](Scene& s) { without(s, "springs"); })) << "springs that nobody asked for";
   // a sphere that the engine does not know of must not pass in silence
-  Outcome blind = answer("bullet/deformable-explicit", drape, {1e-3, 2e-3, 1}).outcome;
+  Outcome blind = run_and_record("bullet/deformable-explicit", drape, {1e-3, 2e-3, 1}).outcome;
   blind.readback->spheres.reset();
   bool said = false;
   for (const CertificateRow& row : certify("bullet/deformable-explicit", drape, blind).rows)
@@ -186,11 +186,11 @@ using namespace testing_tools;
 
 const std::vector<std::string> worlds = {"bullet/deformable-explicit", "bullet/deformable-implicit", "bullet/pbd"};
 
-Certificate certificate_of(const std::string& method, const Scene& built, const Scene& asked) {
+Certificate certificate_of(const std::string& method, const Scene& built, const Scene& requested) {
   const crosscheck::Run run{1e-3, 2e-3, 1};
-  const Outcome out = answer(method, built, run).outcome;
+  const Outcome out = run_and_record(method, built, run).outcome;
   EXPECT_TRUE(out.readback) << out.reason;
-  return certify(method, asked, out);
+  return certify(method, requested, out);
 }
 
 std::string mismatches(const Certificate& c) {
@@ -208,7 +208,7 @@ void expect_caught(const Scene& honest, std::span<const Mutation> mutations) {
       m.mutate(mutant);
       const Certificate c = certificate_of(world, mutant, honest);
       if (m.blind.contains(world)) {
-        // exceptions stand in the table: should the world learn to tell, they are to go
+        // exceptions stand in the table: when the world reports them, they are to go
         EXPECT_FALSE(c.mismatch()) << world << ": " << m.what << ": " << mismatches(c);
         continue;
       }
@@ -222,15 +222,15 @@ void expect_caught(const Scene& honest, std::span<const Mutation> mutations) {
 }
 
 TEST(SeededMismatch, OfEveryIngredientIsCaughtInEveryWorldThatCanTell) { expect_caught(draped(), of_the_drape); }
-TEST(SeededMismatch, OfTheAirIsCaught) { expect_caught(in_air(), of_the_sheet); }
+TEST(SeededMismatch, OfTheAirIsCaught) { expect_caught(in_air(), of_the_cloth_in_air); }
 
 TEST(SeededMismatch, OfPrescribedMotionsIsCaught) {
   expect_caught(small_cloth(), of_the_swing);
   expect_caught(shipped_scene("cloth-carried"), of_the_carried);
   expect_caught(draped(), of_a_still_one);
-  // an engine that does not tell them is not taken to have them
+  // an engine that does not report them is not taken to have them
   for (const Scene& scene : {small_cloth(), shipped_scene("cloth-carried")}) {
-    Outcome silent = answer("bullet/pbd", scene, {1e-3, 2e-3, 1}).outcome;
+    Outcome silent = run_and_record("bullet/pbd", scene, {1e-3, 2e-3, 1}).outcome;
     silent.readback->later.reset();
     bool said = false;
     for (const CertificateRow& row : certify("bullet/pbd", scene, silent).rows)
@@ -242,8 +242,8 @@ TEST(SeededMismatch, OfPrescribedMotionsIsCaught) {
 TEST(SeededMismatch, OfTheStepIsCaught) {
   for (const std::string& world : worlds) {
     const Scene scene = draped();
-    Outcome slow = answer(world, scene, {2e-3, 4e-3, 1}).outcome;
-    slow.step = 1e-3;  // as the comparison asked
+    Outcome slow = run_and_record(world, scene, {2e-3, 4e-3, 1}).outcome;
+    slow.step = 1e-3;  // as the comparison requires
     EXPECT_EQ(mismatches(certify(world, scene, slow)), "[step] ") << world;
   }
 }

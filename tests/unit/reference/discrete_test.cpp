@@ -37,7 +37,7 @@ std::string reason(std::string_view rule, const Scene& scene, const crosscheck::
   return text;
 }
 
-/// A mass on a spring, damped as asked.
+/// A mass on a spring with the given damping.
 Scene spring(double gamma, double dashpot, double g = 9.81) {
   SceneWriter w;
   w.particle({0, 0, 0}, 1);
@@ -108,8 +108,9 @@ TEST(ExactDiscrete, MysimProducesTheClosedFormOfItsRuleOverTime) {
     EXPECT_GE(agreed[rule.name], rule.one_spring ? 8 : 15) << rule.name;
 }
 
-/// Rules that are one and the same on a scene: one sweep over one spring without a dashpot solves the implicit Euler
-/// equation, and where nothing depends on position leapfrog's mean of velocities is the implicit midpoint's.
+/// Rules that are one and the same on a scene: one Gauss-Seidel pass over one spring without a dashpot solves the
+/// implicit Euler equation, and where nothing depends on position leapfrog's mean of velocities is the implicit
+/// midpoint's.
 bool one_and_the_same(const Scene& scene, std::set<std::string_view> pair) {
   using Names = std::set<std::string_view>;
   return (pair == Names{"xpbd", "implicit-euler"} && !scene.model.find<Dashpots>()) ||
@@ -159,23 +160,23 @@ TEST(ExactDiscrete, FallsToTheExactSolutionWithTheOrderOfTheRule) {
 TEST(ExactDiscrete, FrequencyAndDecayOfOneSpringAreTheTextbooks) {
   const double omega = 10, h = 0.013, z = omega * h;
   const Mode m{omega * omega, 0, 0, 0, 0, 1, 0, {}};
-  struct Fact {
-    const char* rule;
+  struct RuleEigenvalue {
+    const char* name;
     double angle, decay;  // rad a step, factor a step
   };
-  const Fact facts[] = {{"implicit-euler", std::atan(z), 1 / std::sqrt(1 + z * z)},
-                        {"xpbd", std::atan(z), 1 / std::sqrt(1 + z * z)},
-                        {"explicit-euler", std::atan(z), std::sqrt(1 + z * z)},
-                        {"symplectic-euler", 2 * std::asin(z / 2), 1},
-                        {"leapfrog", 2 * std::asin(z / 2), 1},
-                        {"implicit-midpoint", 2 * std::atan(z / 2), 1},
-                        {"trapezoidal", std::atan2(z, 1 - z * z / 2), std::sqrt(1 + std::pow(z, 4) / 4)}};
-  for (const Fact& fact : facts) {
-    SCOPED_TRACE(fact.rule);
-    const Eigen::Matrix2d step = discrete(fact.rule).of_mode(m, h).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
+  const RuleEigenvalue expected[] = {{"implicit-euler", std::atan(z), 1 / std::sqrt(1 + z * z)},
+                                     {"xpbd", std::atan(z), 1 / std::sqrt(1 + z * z)},
+                                     {"explicit-euler", std::atan(z), std::sqrt(1 + z * z)},
+                                     {"symplectic-euler", 2 * std::asin(z / 2), 1},
+                                     {"leapfrog", 2 * std::asin(z / 2), 1},
+                                     {"implicit-midpoint", 2 * std::atan(z / 2), 1},
+                                     {"trapezoidal", std::atan2(z, 1 - z * z / 2), std::sqrt(1 + std::pow(z, 4) / 4)}};
+  for (const RuleEigenvalue& rule : expected) {
+    SCOPED_TRACE(rule.name);
+    const Eigen::Matrix2d step = discrete(rule.name).of_mode(m, h).topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
     const std::complex<double> lambda = eigenvalues(step)[0];
-    EXPECT_NEAR(std::abs(std::arg(lambda)) / fact.angle, 1, 10 * eps / z);  // roundings of 1 beside an angle of z
-    EXPECT_NEAR(std::abs(lambda), fact.decay, 10 * eps);
+    EXPECT_NEAR(std::abs(std::arg(lambda)) / rule.angle, 1, 10 * eps / z);  // roundings of 1 beside an angle of z
+    EXPECT_NEAR(std::abs(lambda), rule.decay, 10 * eps);
   }
 }
 
@@ -183,15 +184,15 @@ TEST(ExactDiscrete, BulletsExplicitWorldIsSymplecticEulerOnTheSpring) {
   const Scene scene = shipped_scene("spring");
   const crosscheck::Run run = default_run(scene);
   const Truth truth = discrete_truth(discrete("symplectic-euler"), scene, run);
-  EXPECT_LE(sup_distance(answer("bullet/deformable-explicit", scene, run).trajectory, truth.trajectory),
+  EXPECT_LE(sup_distance(run_and_record("bullet/deformable-explicit", scene, run).trajectory, truth.trajectory),
             truth.error_bar);
   const Truth wrong = discrete_truth(discrete("leapfrog"), scene, run);
-  EXPECT_GT(sup_distance(answer("bullet/deformable-explicit", scene, run).trajectory, wrong.trajectory),
+  EXPECT_GT(sup_distance(run_and_record("bullet/deformable-explicit", scene, run).trajectory, wrong.trajectory),
             1e6 * wrong.error_bar);
 }
 
 TEST(ExactDiscrete, XpbdHangsAMassOnADashpotTooHigh) {
-  // the sweep takes the dashpot's share of the free step, weight included, before the spring is asked: at rest the
+  // the free step takes the dashpot's share, weight included, before the spring is projected: at rest the
   // spring carries the weight over 1 + h c / m
   const Scene scene = spring(0, 2);  // 0.5 kg on 50 N/m: exp(-c t / 2m) is 2e-17 after 20 s
   for (const double h : {5e-3, 1e-2}) {

@@ -254,7 +254,7 @@ TEST(HangingRest, IsWhereMysimComesToRest) {
   ASSERT_TRUE(rest);
   const double off = largest_column(scene.start.x - *rest), omega = highest_frequency(scene.model, scene.start);
   for (const Stepper& s : fixed_steppers()) {
-    if (s.hard_constraints) continue;  // sweeps come to rest elsewhere, see below
+    if (s.hard_constraints) continue;  // Gauss-Seidel passes come to rest elsewhere, see below
     SCOPED_TRACE(s.name);
     const Trajectory t = trajectory_of(s, scene, {std::min(2e-3, 0.5 * s.limit(omega, 3)), 16, 8});
     for (int i = 0; i < t.frames(); ++i)
@@ -272,15 +272,15 @@ TEST(HangingRest, OneSweepAStepHangsLongerByTheSquareOfTheStep) {
     const Trajectory t = trajectory_of(stepper("xpbd"), scene, {h, 16, 1});
     return (*hanging_equilibrium(scene) - t.x.back())(1, 3);
   };
-  // each step falls freely by h^2 g / (1 + h gamma) first, which one sweep hands on from link to link
+  // each step falls freely by h^2 g / (1 + h gamma) first, which one Gauss-Seidel pass hands on from link to link
   const double coarse = lower(4e-3), fine = lower(2e-3);
   EXPECT_NEAR(slope(coarse, fine), 2, 0.02);  // the next order is h gamma = 0.01
   EXPECT_GT(fine, 2e-3 * 2e-3 * 9.81);
 }
 
-/// A flat sheet of n x n particles, 0.2 m apart, held along its edge, its springs stretched by a tenth; each free
+/// A flat cloth of n x n particles, 0.2 m apart, held along its edge, its springs stretched by a tenth; each free
 /// particle is moved by amplitude (m) times the bump sin sin, in the direction.
-Scene sheet(int n, double amplitude, const Vec3& direction, bool shear) {
+Scene flat_cloth(int n, double amplitude, const Vec3& direction, bool shear) {
   SceneWriter w;
   const double side = 0.2, stretch = 1.1;
   std::vector<int> edge;
@@ -307,7 +307,7 @@ Scene sheet(int n, double amplitude, const Vec3& direction, bool shear) {
 TEST(Linearised, FrequenciesOfAMembrane) {
   const int n = 6;
   const auto motion =
-      linearised_solution(sheet(n, 1e-3, Vec3(0, 1, 0), false), sheet(n, 0, Vec3(0, 1, 0), false).start.x);
+      linearised_solution(flat_cloth(n, 1e-3, Vec3(0, 1, 0), false), flat_cloth(n, 0, Vec3(0, 1, 0), false).start.x);
   ASSERT_TRUE(motion);
   EXPECT_EQ(motion->omega.size(), 3u * (n - 2) * (n - 2));
   // out of the plane each spring pulls with tension / length: omega^2 = 4 T / (m L) (sin^2 + sin^2)
@@ -328,8 +328,8 @@ struct Deviation {
   double in_plane, out_of_plane;
 };
 Deviation deviation(double amplitude, const Vec3& direction) {
-  const Scene scene = sheet(6, amplitude, direction, true);
-  const auto motion = linearised_solution(scene, sheet(6, 0, direction, true).start.x);
+  const Scene scene = flat_cloth(6, amplitude, direction, true);
+  const auto motion = linearised_solution(scene, flat_cloth(6, 0, direction, true).start.x);
   const double until = 3 * 2 * std::numbers::pi / motion->omega.front();
   const Trajectory t = trajectory_of(stepper("suzuki4"), scene, {5e-4, until, 60});
   Deviation d{0, 0};
@@ -358,21 +358,21 @@ TEST(Linearised, FailsAsThePowerOfTheAmplitudeThatItsSymmetryGives) {
 
 TEST(Linearised, IsNotClaimedElsewhere) {
   const Vec3 up(0, 1, 0);
-  const Scene flat = sheet(6, 0, up, true);
+  const Scene flat = flat_cloth(6, 0, up, true);
   EXPECT_TRUE(linearised_solution(flat, flat.start.x));
   Scene slack = flat, pressed = flat, pulled = flat;
   for (Spring& s : slack.model.find<Springs>()->list) s.rest *= 1.1;  // as long as at rest: no stiffness upwards
   for (Spring& s : pressed.model.find<Springs>()->list) s.rest *= 1.2;
   EXPECT_FALSE(linearised_solution(slack, flat.start.x));
   EXPECT_FALSE(linearised_solution(pressed, flat.start.x));
-  pulled.model.terms.emplace_back(Gravity{{0, -9.81, 0}});  // the flat sheet is then no equilibrium
+  pulled.model.terms.emplace_back(Gravity{{0, -9.81, 0}});  // the flat cloth is then no equilibrium
   EXPECT_FALSE(linearised_solution(pulled, flat.start.x));
   Scene moved = flat;
   moved.model.particles.move = Motion{up, 1, 1};
   EXPECT_FALSE(linearised_solution(moved, flat.start.x));
   EXPECT_FALSE(linearised_solution(shipped_scene("chain-link"), shipped_scene("chain-link").start.x));
-  // and it is nobody's truth
-  EXPECT_FALSE(exact_solution(sheet(6, 1e-3, up, true)));
+  // and it is no truth
+  EXPECT_FALSE(exact_solution(flat_cloth(6, 1e-3, up, true)));
 }
 
 TEST(Linearised, AgreesWithTheExactModesOfAStretchedChain) {

@@ -28,10 +28,10 @@ TEST_F(ExampleEngines, AreSymplecticEuler) {
     // loops in Python take 0.2 ms for a step of the cloth
     const double part = scene.start.x.cols() > 50 ? 0.1 : 1;
     const crosscheck::Run run{scene.step, part * scene.duration, static_cast<int>(std::lround(part * scene.samples))};
-    const MethodRun ours = answer("symplectic-euler", scene, run);
+    const MethodRun ours = run_and_record("symplectic-euler", scene, run);
     for (const std::string& engine : {std::string(CROSSCHECK_EXAMPLE), python()}) {
       SCOPED_TRACE(std::string(name) + " by " + engine);
-      const MethodRun theirs = answer("exec:" + engine, scene, run);
+      const MethodRun theirs = run_and_record("exec:" + engine, scene, run);
       ASSERT_EQ(theirs.outcome.verdict, Verdict::ok) << theirs.outcome.reason;
       EXPECT_EQ(theirs.outcome.remark, "");
       EXPECT_EQ(theirs.outcome.steps, ours.outcome.steps);
@@ -46,12 +46,12 @@ TEST_F(ExampleEngines, AreSymplecticEuler) {
 TEST_F(ExampleEngines, AttestWhatTheyBuiltOrDoNot) {
   const Scene scene = shipped_scene("chain");
   const crosscheck::Run run{1e-3, 0.04, 2};
-  const Outcome attested = answer("exec:" CROSSCHECK_EXAMPLE, scene, run).outcome;
+  const Outcome attested = run_and_record("exec:" CROSSCHECK_EXAMPLE, scene, run).outcome;
   ASSERT_TRUE(attested.readback);
   const std::set<std::string> not_told = {"start", "spring law", "drag", "step", "sleeping", "nothing else"};
   for (const CertificateRow& row : certify("engine", scene, attested).rows)
     EXPECT_EQ(row.parity, not_told.contains(row.quantity) ? Parity::unattested : Parity::match) << row.quantity;
-  const Certificate silent = certify("engine", scene, answer("exec:" + python(), scene, run).outcome);
+  const Certificate silent = certify("engine", scene, run_and_record("exec:" + python(), scene, run).outcome);
   EXPECT_EQ(silent.rows.at(0).parity, Parity::unattested);
 }
 
@@ -59,7 +59,7 @@ TEST_F(ExampleEngines, RefuseWhatTheyLack) {
   for (const auto name : {"circle", "rod", "cloth-wind", "slide"})
     for (const std::string& engine : {std::string(CROSSCHECK_EXAMPLE), python()}) {
       const Scene scene = shipped_scene(name);
-      const Outcome out = answer("exec:" + engine, scene, {scene.step, 2 * scene.step, 1}).outcome;
+      const Outcome out = run_and_record("exec:" + engine, scene, {scene.step, 2 * scene.step, 1}).outcome;
       EXPECT_EQ(out.verdict, Verdict::unsupported) << out.reason;
       EXPECT_TRUE(contains(out.reason, " has no "));
     }

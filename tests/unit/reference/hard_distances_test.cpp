@@ -45,10 +45,11 @@ TEST(HardDistances, AreKeptToSecondOrder) {
     for (const double h : {2e-3, 1e-3, 5e-4, 2.5e-4}) {
       const Trajectory t = trajectory_of(s, scene, {h, 1, 100});
       double worst = 0;
-      for (const Points& x : t.x) worst = std::max(worst, largest_stretch(*scene.model.find<Constraints>(), x));
+      for (const Points& x : t.x)
+        worst = std::max(worst, largest_constraint_error(*scene.model.find<Constraints>(), x));
       fmt::print("rope of ten links, h = {}: stretched by {:.3g}\n", h, worst);
-      // one sweep a step leaves what the step moved across the links, h^2 times an acceleration over a link's length:
-      // second order, but met at other moments of a whip
+      // one Gauss-Seidel pass a step leaves what the step moved across the links, h^2 times an acceleration over a
+      // link's length: second order, but met at other moments of a whip
       if (before > 0) {
         EXPECT_NEAR(slope(before, worst), 2, 0.5);
       }
@@ -136,7 +137,7 @@ TEST(HardDistances, ConvergeToTheEquationsWithMultipliersInFirstOrder) {
   const Trajectory truth = rope_by_multipliers.run(1e-3, duration, samples);
   // the reference is of order 4 and keeps its distances: 1e-3 s against half of it
   EXPECT_LT(sup_rms(truth, rope_by_multipliers.run(5e-4, duration, samples)), 1e-8);
-  for (const Points& x : truth.x) EXPECT_LT(largest_stretch(*scene.model.find<Constraints>(), x), 1e-7);
+  for (const Points& x : truth.x) EXPECT_LT(largest_constraint_error(*scene.model.find<Constraints>(), x), 1e-7);
   for (const Stepper& s : hard_steppers()) {
     double before = 0;
     for (const double h : {4e-4, 2e-4, 1e-4, 5e-5}) {
@@ -165,7 +166,7 @@ TEST(HardDistances, AreRefusedByRulesThatKnowForcesOnly) {
     } catch (const Unsupported& refusal) {
       EXPECT_TRUE(contains(refusal.what(), "hard distances"));
     }
-    const MethodRun a = answer("mysim/" + std::string(s.name), scene, {1e-3, 0.1, 1});
+    const MethodRun a = run_and_record("mysim/" + std::string(s.name), scene, {1e-3, 0.1, 1});
     EXPECT_EQ(a.outcome.verdict, Verdict::unsupported);
   }
 }
@@ -185,7 +186,7 @@ TEST(HardDistances, EndsThatMeetAreCountedAndFinite) {
 }
 
 TEST(Xpbd, OneSpringUnderDragIsImplicitEuler) {
-  // along its line a spring is linear: the sweep's linearised step is the whole step
+  // along its line a spring is linear: the linearised step of one pass is the whole step
   Scene scene = with_drag(shipped_scene("spring"), 3);
   for (const double h : {1e-3, 1e-2, 0.1}) {
     const crosscheck::Run run{h, 1, 10};
@@ -222,7 +223,7 @@ TEST(Multipliers, KeepDistancesToTheFourthOrder) {
   auto drift = [&](double h) {
     double worst = 0;
     for (const Points& x : by_multipliers(scene, {h, 1, 20}).x)
-      worst = std::max(worst, largest_stretch(*scene.model.find<Constraints>(), x));
+      worst = std::max(worst, largest_constraint_error(*scene.model.find<Constraints>(), x));
     return worst;
   };
   const double coarse = drift(4e-3), fine = drift(2e-3);

@@ -20,12 +20,12 @@
 
 namespace crosscheck::testing_tools {
 
-/// Trajectory and outcome of a method by name, under its watch.
+/// Trajectory and outcome of a method, which is found by its name.
 struct MethodRun {
   Trajectory trajectory;
   Outcome outcome;
 };
-inline MethodRun answer(const std::string& method, const Scene& scene, const Run& run) {
+inline MethodRun run_and_record(const std::string& method, const Scene& scene, const Run& run) {
   Recorder r;
   MethodRun a{{}, run_method(find_method(method), scene, run, {&r})};
   a.trajectory = r.trajectory;

@@ -170,7 +170,7 @@ TEST(RightHandSide, RefusesContactAndForcesThatAreNotUnique) {
       "[[particle]]\nposition = [2, 0, 0]\nmass = 1\n[[constraint]]\nends = [0, 1]\n[[constraint]]\nends = [1, 2]\n"
       "[pins]\nparticles = [0, 2]\n" +
       std::string(gravity_text));
-  const Outcome out = answer("odeint/rk4", row, {1e-3, 0.1, 1}).outcome;
+  const Outcome out = run_and_record("odeint/rk4", row, {1e-3, 0.1, 1}).outcome;
   EXPECT_EQ(out.verdict, Verdict::unsupported);
   EXPECT_TRUE(contains(out.reason, "depend on each other"));
 }
@@ -191,7 +191,7 @@ TEST(Integrators, OdeintsRungeKuttaIsMysims) {
   for (const Scene& scene : {small_cloth(), small_cloth_in_air(), shipped_scene("chain"), shipped_scene("circle")}) {
     SCOPED_TRACE(scene.name);
     const crosscheck::Run run{scene.step, 1, 10};
-    const MethodRun ours = answer("rk4", scene, run), theirs = answer("odeint/rk4", scene, run);
+    const MethodRun ours = run_and_record("rk4", scene, run), theirs = run_and_record("odeint/rk4", scene, run);
     ASSERT_EQ(theirs.outcome.verdict, Verdict::ok) << theirs.outcome.reason;
     EXPECT_EQ(theirs.outcome.evaluations, 4 * theirs.outcome.steps);
     EXPECT_EQ(theirs.outcome.steps, ours.outcome.steps);
@@ -205,12 +205,12 @@ constexpr std::array sundials_methods{"sundials/arkode", "sundials/arkode+order=
 
 void expect_tolerances_followed(std::span<const char* const> names) {
   const Scene scene = shipped_scene("pendulum");
-  const Trajectory fine = answer("rk4", scene, {2e-5, 1, 20}).trajectory;
+  const Trajectory fine = run_and_record("rk4", scene, {2e-5, 1, 20}).trajectory;
   for (const std::string name : names) {
     SCOPED_TRACE(name);
     double before = 0;
     for (const double tolerance : {1e-5, 1e-7, 1e-9}) {
-      const MethodRun a = answer(name, scene, {1e-3, 1, 20, tolerance});
+      const MethodRun a = run_and_record(name, scene, {1e-3, 1, 20, tolerance});
       EXPECT_EQ(a.outcome.tolerance, tolerance);
       const double error = sup_rms(a.trajectory, fine);
       EXPECT_LT(error, 300 * tolerance);  // tens of steps in the 5 vibrations and half swing of the run add up
@@ -230,7 +230,7 @@ TEST(Sundials, FollowsItsTolerance) {
 }
 
 void expect_times_asked_for(std::span<const char* const> names) {
-  const Scene scene = small_cloth();  // its wind makes the watch look at every step
+  const Scene scene = small_cloth();  // its wind makes the monitor observe every step
   for (const std::string name : names) {
     const Method method = find_method(name);
     const crosscheck::Run run{1e-3, 0.5, 7, 1e-8};
@@ -257,7 +257,7 @@ TEST(Sundials, SamplesAtTheTimesAskedForHoweverOftenItIsWatched) {
 TEST(Sundials, WhereItIsMissingItsMethodsAreRefusedWithThePackagesName) {
   if (sundials_version()) GTEST_SKIP() << "package libsundials-dev is installed: its absence is not tried";
   for (const char* name : sundials_methods) {
-    const Outcome out = answer(name, shipped_scene("pendulum"), {1e-3, 0.1, 2, 1e-6}).outcome;
+    const Outcome out = run_and_record(name, shipped_scene("pendulum"), {1e-3, 0.1, 2, 1e-6}).outcome;
     EXPECT_EQ(out.verdict, Verdict::unsupported) << name;
     EXPECT_TRUE(contains(out.reason, "libsundials-dev")) << name << ": " << out.reason;
   }

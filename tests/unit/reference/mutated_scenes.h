@@ -18,7 +18,7 @@ inline Scene draped() {
                          gravity_text,
                      1, 1e-3, 10);
 }
-/// A 4 x 4 sheet in air, free.
+/// A 4 x 4 cloth in air, free.
 inline Scene in_air() {
   return small_scene(std::string("[grid]\nsize = [4, 4]\norigin = [0, 0, 0]\nu = [0.5, 0, 0]\nv = [0, 0.5, 0]\n"
                                  "mass = 0.1\n[grid.stiffness]\nstructural = 20\nshear = 20\nbend = 5\n"
@@ -49,7 +49,7 @@ struct Mutation {
   std::string what;
   std::function<void(Scene&)> mutate;
   std::set<std::string> quantities;  // that may show it: rows of the certificate, by the beginning of their name
-  std::set<std::string> blind = {};  // worlds that cannot tell
+  std::set<std::string> blind = {};  // worlds that cannot report it
 };
 
 inline const Mutation of_the_drape[] = {
@@ -136,7 +136,7 @@ inline const Mutation of_a_still_one[] = {
      },
      {"motion of the sphere"}},
 };
-inline const Mutation of_the_sheet[] = {
+inline const Mutation of_the_cloth_in_air[] = {
     {"air denser", [](Scene& s) { s.model.find<Aerodynamics>()->density *= 1.001; }, {"wind"}},
     {"another coefficient", [](Scene& s) { s.model.find<Aerodynamics>()->coefficient = 1.1; }, {"wind"}},
     {"air faster", [](Scene& s) { s.model.find<Aerodynamics>()->velocity.mean.z() *= 1.001; }, {"wind"}},

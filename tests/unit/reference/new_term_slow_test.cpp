@@ -1,24 +1,16 @@
-// A new term of the physics must be answered wherever all terms must be known: until then these places do not compile.
-// The compiler itself is asked, on each file as it is, with one more term in the list (extra_term.h).
+// A new term of the physics must be handled wherever all terms must be known: until then these files do not compile.
+// The compiler itself is run on each file as it is, with one more term in the list (extra_term.h).
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
-#include "mysim/base/process.h"
+#include "tests/unit/compiler.h"
 
 namespace crosscheck::testing_tools {
 namespace {
 
 ProgramResult compiled_with_a_new_term(const std::string& file) {
-  std::vector<std::string> command = {CROSSCHECK_CXX, "-std=c++20", "-fsyntax-only", "-include",
-                                      CROSSCHECK_SOURCE "/tests/unit/reference/extra_term.h"};
-  std::istringstream folders(CROSSCHECK_INCLUDES);
-  // the compiler's own folder is searched last, where it stands: named, its math.h is not found from cmath any more
-  for (std::string folder; std::getline(folders, folder, '|');)
-    if (folder != "/usr/include") command.insert(command.end(), {"-isystem", folder});
-  command.insert(command.end(), {"-I", CROSSCHECK_SOURCE, CROSSCHECK_SOURCE "/" + file});
-  return run_program(command, ".", {});
+  return check_syntax(CROSSCHECK_SOURCE "/" + file,
+                      {"-include", CROSSCHECK_SOURCE "/tests/unit/reference/extra_term.h"});
 }
 
 /// What the compiler's complaint must name: where a term is missing, and which.

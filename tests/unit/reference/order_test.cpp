@@ -131,7 +131,7 @@ TEST(Adaptive, SamplesDoNotChangeTheSteps) {
     const Outcome b = simulate(s, ContactRule::coulomb, scene, {1e-3, 1, 1000, 1e-6}, many);
     EXPECT_EQ(a.evaluations, b.evaluations);
     EXPECT_EQ(a.steps, b.steps);
-    // the same polynomial asked at the same time, but for the rounding of the time
+    // the same polynomial evaluated at the same time, but for the rounding of the time
     EXPECT_LT((few.trajectory.x.back() - many.trajectory.x.back()).cwiseAbs().maxCoeff(), 1e-13);
   }
 }
@@ -175,7 +175,7 @@ TEST(Adaptive, AStepBelowRoundOffIsASolverFailureAndARow) {
       "[[particle]]\nposition = [0, 0, 0]\nmass = 1\n[[particle]]\nposition = [2, 0, 0]\nmass = 1\n"
       "[[spring]]\nends = [0, 1]\nstiffness = 1e300\nrest = 1\n[pins]\nparticles = [0]\n");
   for (const Stepper& s : adaptive_steppers()) {
-    const MethodRun a = answer("mysim/" + std::string(s.name), scene, {1e-3, 1, 10});
+    const MethodRun a = run_and_record("mysim/" + std::string(s.name), scene, {1e-3, 1, 10});
     EXPECT_EQ(a.outcome.verdict, Verdict::solver);
     EXPECT_TRUE(contains(a.outcome.reason, "the step fell below round-off at t = "));
     EXPECT_EQ(a.outcome.end, 0);

@@ -114,7 +114,7 @@ TEST_F(SceneJson, TheExampleOfThePageIsWhatIsWritten) {
 
 TEST_F(RunJson, GivesAnOutcomeBack) {
   const Scene scene = small_cloth();
-  Outcome out = answer("bullet/deformable-explicit", scene, {1e-3, 0.1, 2}).outcome;
+  Outcome out = run_and_record("bullet/deformable-explicit", scene, {1e-3, 0.1, 2}).outcome;
   ASSERT_TRUE(out.readback && out.readback->probe);
   out.readback->start = scene.start;
   out.readback->spheres.emplace().push_back({{1, 2, 3}, 0.5, std::nullopt, 0.25});

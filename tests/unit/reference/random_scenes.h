@@ -56,7 +56,7 @@ inline bool chance(Random& random, double probability) { return random.between(0
 inline int whole(Random& random, int low, int high) { return static_cast<int>(random.between(low, high + 1)); }
 
 /// One mass on one spring along any direction; damped by drag, by a dashpot or by both, up to overdamped; driven by its
-/// pin, if asked for.
+/// pin, if requested.
 inline Scene random_spring(unsigned seed, bool damped, bool driven) {
   Random random(seed);
   SceneWriter w;

@@ -1,4 +1,4 @@
-// The cache of truths: found again bit for bit, by the same program and question only; damage and lack of room do no
+// The cache of truths: found again bit for bit, by the same program and scene only; damage and lack of room do no
 // harm.
 
 #include <sys/wait.h>
@@ -24,12 +24,13 @@ class Cache : public ::testing::Test {
   }
   ~Cache() override { fs::remove_all(folder); }
 
-  /// Asks, and counts how often the answer had to be computed.
-  std::optional<Truth> ask(const TruthCache& of, const Scene& asked, const crosscheck::Run& at) {
-    return of.find_or_compute(asked, at, [&]() -> std::optional<Truth> {
+  /// Looks a truth up, and counts how often it had to be computed.
+  std::optional<Truth> look_up(const TruthCache& of, const Scene& requested, const crosscheck::Run& at) {
+    return of.find_or_compute(requested, at, [&]() -> std::optional<Truth> {
       ++computed;
       if (!known) return std::nullopt;
-      Truth truth{Tier::converged, "by two routes", answer("rk4", asked, at).trajectory, 1e-9, {1e-12, 1e-9}};
+      Truth truth{
+          Tier::converged, "by two routes", run_and_record("rk4", requested, at).trajectory, 1e-9, {1e-12, 1e-9}};
       truth.under_contact_rule = true;
       truth.until = 0.25;
       return truth;
@@ -45,7 +46,7 @@ class Cache : public ::testing::Test {
 };
 
 TEST_F(Cache, ReturnsTheSameBitsWithoutComputingAgain) {
-  const auto first = ask(cache, scene, run), again = ask(cache, scene, run);
+  const auto first = look_up(cache, scene, run), again = look_up(cache, scene, run);
   EXPECT_EQ(computed, 1);
   ASSERT_TRUE(again);
   EXPECT_TRUE(identical(first->trajectory, again->trajectory));
@@ -78,29 +79,29 @@ TEST_F(Cache, OfSeveralProcessesOneComputesAndTheOthersWait) {
 
 TEST_F(Cache, RemembersThatNothingIsKnown) {
   known = false;
-  EXPECT_FALSE(ask(cache, scene, run));
-  EXPECT_FALSE(ask(cache, scene, run));
+  EXPECT_FALSE(look_up(cache, scene, run));
+  EXPECT_FALSE(look_up(cache, scene, run));
   EXPECT_EQ(computed, 1);
 }
 
-TEST_F(Cache, AnotherQuestionOrProgramIsAnotherAnswer) {
-  ask(cache, scene, run);
+TEST_F(Cache, AnotherSceneOrProgramIsAnotherTruth) {
+  look_up(cache, scene, run);
   Scene heavier = scene, finer = scene;
   heavier.model.particles.mass[1] *= 1 + 1e-15;  // one bit, and the hash of the file is kept
   finer.step /= 2;
-  ask(cache, heavier, run);
-  ask(cache, finer, run);
-  ask(cache, scene, {1e-2, 0.2, 4});
-  ask(cache, scene, {1e-2, 0.1, 5});
-  ask(TruthCache(folder, "another program"), scene, run);
+  look_up(cache, heavier, run);
+  look_up(cache, finer, run);
+  look_up(cache, scene, {1e-2, 0.2, 4});
+  look_up(cache, scene, {1e-2, 0.1, 5});
+  look_up(TruthCache(folder, "another program"), scene, run);
   EXPECT_EQ(computed, 6);
   // the step of what is compared does not matter
-  ask(cache, scene, {1e-4, 0.1, 4});
+  look_up(cache, scene, {1e-4, 0.1, 4});
   EXPECT_EQ(computed, 6);
 }
 
 TEST_F(Cache, DamagedFilesAreComputedAgain) {
-  const auto first = ask(cache, scene, run);
+  const auto first = look_up(cache, scene, run);
   const fs::path file = cache.file_of(scene, run);
   std::ifstream in(file, std::ios::binary);
   const std::string whole((std::istreambuf_iterator<char>(in)), {});
@@ -110,28 +111,28 @@ TEST_F(Cache, DamagedFilesAreComputedAgain) {
   for (const std::string& damaged :
        {std::string(), whole.substr(0, 7), whole.substr(0, whole.size() - 1), whole + "x", flipped}) {
     std::ofstream(file, std::ios::binary) << damaged;
-    const auto again = ask(cache, scene, run);
+    const auto again = look_up(cache, scene, run);
     EXPECT_EQ(computed, ++expected);
     EXPECT_TRUE(identical(first->trajectory, again->trajectory));
-    ask(cache, scene, run);
+    look_up(cache, scene, run);
     EXPECT_EQ(computed, expected);  // whole again
   }
 }
 
 TEST_F(Cache, AFolderThatCannotBeWrittenToDoesNoHarm) {
   std::ofstream(folder) << "a file where the folder should be";
-  EXPECT_TRUE(ask(cache, scene, run));
-  EXPECT_TRUE(ask(cache, scene, run));
+  EXPECT_TRUE(look_up(cache, scene, run));
+  EXPECT_TRUE(look_up(cache, scene, run));
   EXPECT_EQ(computed, 2);
 }
 
-TEST_F(Cache, OldAnswersGoAndOtherFilesStay) {
-  ask(cache, scene, run);
+TEST_F(Cache, OldTruthsGoAndOtherFilesStay) {
+  look_up(cache, scene, run);
   const fs::path old = cache.file_of(scene, run), other = folder / "notes.txt";
   std::ofstream(other) << "mine";
   for (const fs::path& file : {old, other})
     fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(31 * 24));
-  ask(cache, scene, {1e-2, 0.2, 4});
+  look_up(cache, scene, {1e-2, 0.2, 4});
   EXPECT_FALSE(fs::exists(old));
   EXPECT_TRUE(fs::exists(other));
 }

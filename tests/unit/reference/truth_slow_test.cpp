@@ -1,4 +1,4 @@
-// What the error bars of the converged truth are worth: held against exact solutions, and as small as asked for.
+// The error bars of the converged truth: compared with exact solutions, and as small as required.
 
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/reference/truth_trials.h"
@@ -38,7 +38,7 @@ TEST(Truth, BarsGrowWithTimeUpToTheLargest) {
 }
 
 TEST(Truth, BarsAreAsSmallAsAskedForInTheWindows) {
-  // m; a chain in closed form is asked for too, by its converged part
+  // m; a chain in closed form is computed too, by its converged part
   const std::pair<const char*, double> error_bars[] = {
       {"spring", 1e-9},       {"pendulum", 1e-9},      {"chain", 1e-9},      {"chain-link", 1e-9},
       {"normal-modes", 1e-9}, {"cloth-student", 1e-6}, {"cloth-hang", 1e-6}, {"cloth-swing", 1e-6},

@@ -37,7 +37,7 @@ inline BarTrial bar_trial(const Scene& scene) {
   return trial;
 }
 
-/// What is asked of many trials.
+/// The statistics of many trials.
 struct BarSummary {
   size_t scenes = 0, known = 0, covered = 0, above = 0;
   double median = 0, high = 0;  // bar over error, of those above round-off: the median and the 95th percentile

@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include "mysim/base/files.h"
-#include "mysim/base/process.h"
+#include "tests/unit/compiler.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/report/adding/additions.h"
 
@@ -78,15 +76,8 @@ TEST(Adding, ALineThatDoesNotStandThereOnceIsRefused) {
 ProgramResult compiled(const Addition& a, const std::string& file) {
   const TemporaryFolder folder("adding");
   write_addition(a, source, folder.path);
-  std::vector<std::string> command = {
-      CROSSCHECK_CXX, "-std=c++20", "-fsyntax-only", "-DCROSSCHECK_COURSEWORK_SOURCE=\"\"", "-I", folder.path.string()};
-  command.insert(command.end(), {"-I", CROSSCHECK_SOURCE});
-  std::istringstream folders(CROSSCHECK_INCLUDES);
-  // the compiler's own folder is searched last, where it stands: named, its math.h is not found from cmath any more
-  for (std::string each; std::getline(folders, each, '|');)
-    if (each != "/usr/include") command.insert(command.end(), {"-isystem", each});
-  command.push_back(((fs::exists(folder.path / file) ? folder.path : source) / file).string());
-  return run_program(command, ".", {});
+  return check_syntax((fs::exists(folder.path / file) ? folder.path : source) / file,
+                      {"-DCROSSCHECK_COURSEWORK_SOURCE=\"\"", "-I", folder.path.string()});
 }
 
 TEST(Adding, WhatIsNotLinkedHereCompilesAsItIsDescribed) {
@@ -112,7 +103,7 @@ TEST(Adding, ATermIsTakenByTheEngineAndAskedAboutElsewhere) {
   EXPECT_TRUE(contains(end.err, "Tide"));
 }
 
-/// The program with a stepper, a scene and an experiment more.
+/// The program with a stepper, a scene, an engine and an experiment more.
 std::string told(std::vector<std::string> words) {
   const TemporaryFolder folder("adding");
   words.insert(words.begin(), CROSSCHECK_EXTENDED);
@@ -126,6 +117,7 @@ std::string told(std::vector<std::string> words) {
 
 TEST(Adding, NewcomersAreListed) {
   EXPECT_TRUE(contains(told({"list", "methods", "--json"}), "\"mysim/ralston\""));
+  EXPECT_TRUE(contains(told({"list", "methods", "--json"}), "\"toy/step\""));
   EXPECT_TRUE(contains(told({"list", "scenes", "--json"}), "\"two-masses\""));
   EXPECT_TRUE(contains(told({"list", "experiments", "--json"}), "\"census\""));
 }
@@ -133,6 +125,33 @@ TEST(Adding, NewcomersAreListed) {
 TEST(Adding, NewcomersWorkTogether) {
   EXPECT_TRUE(contains(told({"compare", "two-masses", "--methods", "ralston,rk4"}), "mysim/ralston"));
   EXPECT_TRUE(contains(told({"experiment", "census", "two-masses", "spring", "--jobs", "1"}), "two-masses,3"));
+}
+
+TEST(Adding, AThirdEngineIsInTablesChartsFindingsAndMaps) {
+  const TemporaryFolder folder("adding");
+  const fs::path out = folder.path / "out";
+  const ProgramResult end = run_program({CROSSCHECK_EXTENDED, "report", "two-masses", "--quick", "--out", out.string()},
+                                        folder.path, {"CROSSCHECK_LOCK=" + (folder.path / "lock").string()});
+  ASSERT_EQ(end.status, 0) << end.err;
+  for (const char* table :
+       {"engines", "energy", "speed-accuracy", "speed-accuracy-engines-cost", "stability", "stability-map"})
+    EXPECT_TRUE(contains(read_file(out / "data" / (std::string(table) + ".csv"), "a table"), "toy/step")) << table;
+  // the second of the built-in methods without a look of its own, after the new stepper
+  const std::string chart = read_file(out / "figures/two-masses-error.gp", "a chart");
+  EXPECT_TRUE(contains(chart, "toy/step"));
+  EXPECT_TRUE(contains(chart, "(7,3,1,3,1,3)"));
+  const std::string report = read_file(out / "report.json", "a report");
+  for (const char* said : {"Same rule, same step: Bullet's deformable-explicit parts from mysim by at most ",
+                           "Same rule, same step: Toy's step parts from mysim by at most ", "Toy's step is ",
+                           "Toy has the method nearest to the truth", "For 1 % of the motion Toy needs "})
+    EXPECT_TRUE(contains(report, said)) << said;
+  EXPECT_FALSE(contains(report, "of which Toy has none")) << "nothing is known of its rules";
+}
+
+TEST(Adding, AThirdEngineIsNewToItsBaselines) {
+  const std::string regress = told({"regress", "spring", "--no-speed", "--figures", "0"});
+  EXPECT_TRUE(contains(regress, "new        toy/step: "));
+  EXPECT_TRUE(contains(regress, ", 0 failed"));
 }
 
 }  // namespace

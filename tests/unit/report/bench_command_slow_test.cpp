@@ -17,7 +17,7 @@
 namespace crosscheck::testing_tools {
 namespace {
 
-BenchSuite tiny_plan() {
+BenchSuite tiny_suite() {
   const MicrobenchmarkOptions micro{3, 1e-4};
   const TimedRunOptions turns{3, 1e-3};
   return {{20, 40},
@@ -48,10 +48,10 @@ TEST_F(CliBench, BadUseIsExitTwoWithAMessage) {
 }
 
 TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
-  const BenchSuite plan = tiny_plan();
+  const BenchSuite suite = tiny_suite();
   int status = 1;
   testing::internal::CaptureStdout();
-  EXPECT_NO_THROW(status = bench_command({false, folder_, "crosscheck bench"}, plan));
+  EXPECT_NO_THROW(status = bench_command({false, folder_, "crosscheck bench"}, suite));
   const std::string said = testing::internal::GetCapturedStdout();
   ASSERT_EQ(status, 0) << said;
 
@@ -111,9 +111,9 @@ TEST_F(CliBench, WritesTablesJsonAndFigureAndSaysEveryLine) {
 }
 
 TEST(BenchLines, OfAPeerOneIsTheChief) {
-  BenchSuite plan = tiny_plan();
-  plan.kernel_sides = {20};
-  const Rows rows = bench(plan);
+  BenchSuite suite = tiny_suite();
+  suite.kernel_sides = {20};
+  const TableSet rows = bench(suite);
   const std::vector<BenchLine> lines = bench_lines(rows);
   int chiefs = 0, all = 0;
   for (const BenchLine& line : lines) {
@@ -126,16 +126,16 @@ TEST(BenchLines, OfAPeerOneIsTheChief) {
 
 TEST(BenchPlans, QuickAndFullAskWhatTheTablesPromise) {
   for (const bool full : {false, true}) {
-    const BenchSuite plan = bench_suite(full);
-    EXPECT_EQ(plan.kernel_sides, (std::vector<int>{64, 128, 256}));
-    EXPECT_EQ(plan.scenes.size(), shipped_scenes().size());
+    const BenchSuite suite = bench_suite(full);
+    EXPECT_EQ(suite.kernel_sides, (std::vector<int>{64, 128, 256}));
+    EXPECT_EQ(suite.scenes.size(), shipped_scenes().size());
     std::set<int> sides;
-    for (const BenchSuite::PeerCloth& asked : plan.sheets) {
-      sides.insert(asked.side);
-      for (const Peer& peer : asked.peers) {
+    for (const BenchSuite::PeerCloth& cloth : suite.cloths) {
+      sides.insert(cloth.side);
+      for (const Peer& peer : cloth.peers) {
         EXPECT_NO_THROW(find_method(peer.method));
         // position-based links are held against their own law, or it is said
-        EXPECT_EQ(peer.other_model, peer.method.starts_with("bullet/pbd") && asked.of != hanging_cloth_of_links);
+        EXPECT_EQ(peer.other_model, peer.method.starts_with("bullet/pbd") && cloth.of != hanging_cloth_of_links);
       }
     }
     EXPECT_EQ(sides, full ? (std::set<int>{32, 64, 128}) : (std::set<int>{32, 64}));

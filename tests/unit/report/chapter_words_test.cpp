@@ -1,11 +1,20 @@
-// Sentences and charts of the chapters on stability, energy and the least model, from tables made by hand: they say
+// Findings and charts of the chapters on stability, energy and the least model, from tables made by hand: they say
 // what the rows say, also where rows contradict theory, fail or are missing.
 
+#include <algorithm>
+
+#include "experiments/scenes/scenes.h"
+#include "experiments/tables/adequacy.h"
+#include "experiments/tables/cost.h"
+#include "experiments/tables/energy.h"
 #include "experiments/tables/engines.h"
+#include "experiments/tables/speed_accuracy.h"
+#include "experiments/tables/stability.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings.h"
 #include "report/findings/summaries.h"
 #include "tests/unit/helpers.h"
+#include "tests/unit/report/made_up_findings.h"
 
 namespace crosscheck {
 namespace {
@@ -19,66 +28,104 @@ Table table_of(const std::string& name, const std::vector<std::string>& columns,
   for (Row& row : rows) t.add(std::move(row));
   return t;
 }
-Rows rows_of(std::vector<Table> tables) {
-  Rows rows;
+TableSet rows_of(std::vector<Table> tables) {
+  TableSet rows;
   for (const Table& t : tables) rows.add(t);
   return rows;
 }
-std::vector<Chart> charts_of(std::vector<Chart> (*make)(const ChartInput&), const Rows& rows) {
+std::vector<Chart> charts_of(std::vector<Chart> (*make)(const ChartInput&), const TableSet& rows) {
   const std::vector<Scene> scenes;
   const std::vector<SceneData> facts;
   return make({scenes, facts, rows, "commit"});
 }
 
-Table stability(std::vector<Row> rows) {
-  return table_of("stability",
-                  {"scene", "method", "state", "prediction", "predicted limit", "measurement", "measured limit", "held",
-                   "failed", "deviation", "verdict above", "steps", "reason"},
-                  std::move(rows));
+Table stability(const std::vector<LimitRow>& rows) {
+  Table t = crosscheck::table_of<LimitRow>();
+  for (const LimitRow& row : rows) add(t, row);
+  return t;
 }
-Row limit_row(const std::string& method, double predicted, double held, double failed, const std::string& scene = "s",
-              const std::string& state = "rest") {
+LimitRow limit_row(const std::string& method, double predicted, double held, double failed,
+                   LimitState state = LimitState::rest) {
   const double limit = std::sqrt(held * failed);
-  return {scene,    method, state, "limit", predicted, "limit", limit, held, failed, limit / predicted - 1,
-          "energy", 4000l,  ""};
+  LimitRow row{.scene = "s",
+               .method = method,
+               .state = state,
+               .predicted = predicted,
+               .measured = limit,
+               .held = held,
+               .failed = failed,
+               .deviation = limit / predicted - 1,
+               .above = Verdict::energy,
+               .steps = 4000,
+               .reason = ""};
+  return row;
 }
-Row words_row(const std::string& method, const std::string& theory, Cell predicted, const std::string& run, Cell held,
-              Cell failed) {
-  return {"s",    method, "rest", theory, std::move(predicted), run, Cell(), std::move(held), std::move(failed),
-          Cell(), Cell(), 4000l,  ""};
+LimitRow words_row(const std::string& method, PredictionKind theory, std::optional<double> predicted,
+                   MeasuredLimit::Kind run, std::optional<double> held, std::optional<double> failed) {
+  return {.scene = "s",
+          .method = method,
+          .prediction = theory,
+          .predicted = predicted,
+          .measurement = run,
+          .held = held,
+          .failed = failed,
+          .steps = 4000,
+          .reason = ""};
 }
 
-TEST(ChapterWords, MethodsThatBreakWhereTheorySaysAgree) {
-  const Rows rows =
-      rows_of({stability({limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3),
-                          words_row("mysim/xpbd", "every step", Cell(), "every step tried", 1., Cell())})});
+TEST(StabilityFindings, MethodsThatBreakWhereTheorySaysAgree) {
+  const TableSet rows = rows_of(
+      {stability({limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3),
+                  words_row("mysim/xpbd", PredictionKind::every_step, {}, MeasuredLimit::every_step, 1., {})})});
   const auto findings = stability_findings(rows);
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_EQ(findings[0].topic, "agreement");
-  EXPECT_TRUE(begins(findings[0].sentence, "Where methods break is where theory says: 1 measured largest stable step"));
+  expect_short(findings);
+  EXPECT_EQ(rules_of(findings), std::vector<std::string>{"step-limits"});
+  EXPECT_EQ(finding_rule(findings[0].rule).topic, "agreement");
+  EXPECT_NEAR(findings[0].value, 0.2, 1e-3) << "as wide as the bracket";
+  EXPECT_TRUE(begins(sentence_of(findings[0]), "1 measured largest stable step lies within 0.2 %"));
 }
 
-TEST(ChapterWords, ContradictionsAreCountedAndNamed) {
-  const Rows rows = rows_of({stability(
-      {limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3), limit_row("mysim/explicit-euler", 1e-6, 4.99e-5, 5.01e-5),
-       limit_row("mysim/implicit-midpoint", 1e-3, 0.9e-3, 1.35e-3),  // coarse
-       words_row("mysim/leapfrog", "limit", 1e-3, "no stable step", Cell(), 1e-6),
-       words_row("bullet/pbd", "limit", 1e-3, "every step tried", 1., Cell()),
-       words_row("bullet/x", "limit", 1., "held up to a refusal", 0.5, Cell())})});  // not told
-  const auto findings = stability_findings(rows);
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_EQ(findings[0].topic, "failure");
-  EXPECT_TRUE(begins(findings[0].sentence, "Not every method breaks where theory says: 1 measured"));
-  EXPECT_TRUE(contains(findings[0].sentence, "1 searched coarsely has"));
-  EXPECT_TRUE(contains(findings[0].sentence,
-                       "3 lie elsewhere: mysim/explicit-euler on s (50 times as long), "
-                       "mysim/leapfrog on s (fails at every step tried, by theory up to 1 ms) and "
-                       "bullet/pbd on s (holds at every step tried, by theory up to 1 ms)."));
+TEST(StabilityFindings, ContradictionsAreCountedAndTheFurthestIsNamed) {
+  std::vector<LimitRow> limits{
+      limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3), limit_row("mysim/explicit-euler", 1e-6, 4.99e-5, 5.01e-5),
+      limit_row("mysim/implicit-midpoint", 1e-3, 0.9e-3, 1.35e-3),                               // coarse
+      words_row("bullet/x", PredictionKind::limit, 1., MeasuredLimit::refused_above, 0.5, {})};  // not told
+  const auto apart = [&] { return the(stability_findings(rows_of({stability(limits)})), "step-limits-apart"); };
+  EXPECT_EQ(apart().value, 1);
+  EXPECT_EQ(finding_rule(apart().rule).topic, "failure");
+  EXPECT_EQ(sentence_of(apart()),
+            "1 limit lies elsewhere than theory says; explicit-euler on s: stable at 50 times the step.");
+  limits.push_back(words_row("bullet/pbd", PredictionKind::limit, 1e-3, MeasuredLimit::every_step, 1., {}));
+  limits.push_back(words_row("mysim/leapfrog", PredictionKind::limit, 1e-3, MeasuredLimit::no_step, {}, 1e-6));
+  limits.push_back(limit_row("mysim/rk4", 1e-3, 2e-3, 2.01e-3, LimitState::start));
+  EXPECT_EQ(apart().value, 3);
+  EXPECT_EQ(apart().method, "bullet/pbd") << "what has no step on one side is the furthest";
+  EXPECT_TRUE(contains(sentence_of(apart()), "holds at every step tried, by theory up to 1 ms"));
+  const auto all = stability_findings(rows_of({stability(limits)}));
+  expect_short(all);
+  EXPECT_EQ(rules_of(all), (std::vector<std::string>{"step-limits", "step-limits-coarse", "step-limits-apart",
+                                                     "step-limits-at-start"}));
+  EXPECT_NEAR(all[1].value, 50, 1e-9);
+  EXPECT_EQ(all[3].value, 1);
+}
+
+TEST(StabilityFindings, MethodsWithoutAStableStepAndTheRateOfTheirGrowth) {
+  Table growth = crosscheck::table_of<GrowthRow>();
+  for (const auto& [share, deviation] : {std::pair{std::optional<double>(), 2e-3}, {std::optional(0.98), 0.5}})
+    add(growth,
+        GrowthRow{.scene = "s", .method = "mysim/trapezoidal", .share_of_limit = share, .deviation = deviation});
+  const auto all = stability_findings(rows_of(
+      {stability({words_row("mysim/trapezoidal", PredictionKind::no_step, {}, MeasuredLimit::no_step, {}, 1e-6)}),
+       growth}));
+  expect_short(all);
+  EXPECT_EQ(the(all, "no-stable-step").method, "mysim/trapezoidal");
+  EXPECT_DOUBLE_EQ(the(all, "growth").value, 0.2) << "near a limit it is measured elsewhere";
 }
 
 TEST(ChapterWords, LimitsWithoutTheoryStandInATableWithoutFigure) {
-  Table t = stability({});
-  t.add({"s", "bullet/pbd", "rest", "none", Cell(), "limit", 0.33, 0.329, 0.331, Cell(), "energy", 4000l, "its own"});
+  LimitRow limit = words_row("bullet/pbd", PredictionKind::none, {}, MeasuredLimit::found, 0.329, 0.331);
+  limit.measured = 0.33, limit.above = Verdict::energy, limit.reason = "its own";
+  const Table t = stability({limit});
   const auto charts = charts_of(stability_charts, rows_of({t}));
   ASSERT_EQ(charts.size(), 1u);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(charts[0].figure));
@@ -88,136 +135,265 @@ TEST(ChapterWords, LimitsWithoutTheoryStandInATableWithoutFigure) {
   EXPECT_TRUE(contains(charts[0].text, "Runs took 4000 steps."));
 }
 
-Table energy(std::vector<Row> rows) {
-  return table_of("energy",
-                  {"scene", "method", "verdict", "end", "steps", "undamped", "symplectic", "closure claimed",
-                   "energy turned over", "largest residual", "residual", "growth of the residual"},
-                  std::move(rows));
+TEST(ChapterWords, ARunAboveItsLimitIsShownAtItsMoments) {
+  Table failure = crosscheck::table_of<FailureRow>();
+  for (const auto& [scene, steps] : {std::pair{"spring", 2}, {"chain", 9}})
+    for (int i = 1; i <= steps; ++i)
+      add(failure, FailureRow{.scene = scene,
+                              .method = "mysim/leapfrog",
+                              .h = 0.35,
+                              .limit = 0.2,
+                              .growth = 100.,
+                              .step = i,
+                              .t = 0.35 * i,
+                              .kinetic = i < 5 ? 1e-3 : 1e-3 * std::pow(50, i - 4),
+                              .holding = 1e-3,
+                              .still = steps > 2 && i > 5});
+  const std::vector<Scene> scenes{load_scene("spring"), load_scene("chain")};
+  const std::vector<SceneData> facts;
+  const TableSet rows = rows_of({stability({limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3)}), failure});
+  const auto charts = stability_charts({scenes, facts, rows, "commit"});
+  const auto chart = std::ranges::find(charts, true, &Chart::shown);
+  ASSERT_NE(chart, charts.end());
+  const Figure& f = std::get<Figure>(chart->figure);
+  EXPECT_EQ(f.title, "One step too large: leapfrog on chain at 350 ms, 1.75 times its limit");
+  EXPECT_EQ(f.curves.at(0).points.size(), 9u);
+  EXPECT_EQ(f.curves.at(1).points.size(), 9u);
+  EXPECT_TRUE(begins(f.finding, "Energy grows 100 times in a step by theory, 50 to 50 times here.")) << f.finding;
+  ASSERT_EQ(chart->snapshots.size(), 1u);
+  ASSERT_EQ(chart->snapshots[0].moments.size(), 4u);
+  EXPECT_DOUBLE_EQ(chart->snapshots[0].moments[0].first, 0.35 * 6);
+  EXPECT_TRUE(contains(chart->snapshots[0].moments[0].second, "step 6\n2.5 J"));
+  // of a scene that fails too fast to be seen nothing is shown
+  failure.rows.resize(2);
+  const TableSet fast = rows_of({stability({limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3)}), failure});
+  for (const Chart& each : stability_charts({scenes, facts, fast, "commit"})) EXPECT_FALSE(each.shown);
 }
 
-TEST(ChapterWords, DriftIsComputedAndFailedRunsAreSaid) {
-  const Row kept{"spring", "mysim/leapfrog", "ok", 100., 20000l, 1l, 1l, 1l, 4., 4e-3, -4e-3, 0.01},
-      drifts{"spring", "mysim/symplectic-euler", "ok", 100., 20000l, 1l, 1l, 1l, 4., 0.04, -0.04, 0.98},
-      fails{"spring", "mysim/suzuki4", "stretch", 3., 3000l, 1l, 1l, 1l, 4., 40., 40., 2.};
+Table energy(const std::vector<EnergyRow>& rows) {
+  Table t = crosscheck::table_of<EnergyRow>();
+  for (const EnergyRow& row : rows) add(t, row);
+  return t;
+}
+/// A long run on a spring, whose energy turned over is 4 J.
+EnergyRow long_run(const std::string& method, double largest, double growth, Verdict verdict = Verdict::ok) {
+  return {.scene = "spring",
+          .method = method,
+          .verdict = verdict,
+          .reason = "",
+          .end = verdict == Verdict::ok ? 100. : 3.,
+          .step = 5e-3,
+          .steps = 20000,
+          .undamped = true,
+          .symplectic = true,
+          .closure_claimed = true,
+          .turned_over = 4,
+          .largest_residual = largest,
+          .residual = -largest,
+          .growth = growth};
+}
+
+TEST(EnergyFindings, DriftIsComputedAndFailedRunsAreSaid) {
+  const EnergyRow kept = long_run("mysim/leapfrog", 4e-3, 0.01),
+                  drifts = long_run("mysim/symplectic-euler", 0.04, 0.98),
+                  fails = long_run("mysim/suzuki4", 40, 2, Verdict::stretch);
   auto findings = energy_findings(rows_of({energy({kept})}));
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_EQ(findings[0].sentence,
-            "In runs of 20 000 steps on spring (no drag, no contact) symplectic rules keep the energy to 0.1 % of what "
-            "is turned over, without drift.");
+  EXPECT_DOUBLE_EQ(the(findings, "symplectic-energy").value, 0.1);
+  EXPECT_EQ(
+      sentence_of(findings[0]),
+      "In 20 000 undamped steps symplectic rules keep the energy to 0.1 % of what is turned over, without drift.");
   findings = energy_findings(rows_of({energy({kept, drifts, fails})}));
-  ASSERT_EQ(findings.size(), 2u);
-  EXPECT_EQ(findings[0].topic, "failure");
-  EXPECT_TRUE(contains(findings[0].sentence, "mysim/suzuki4 on spring (overstretched at 3 s)"));
-  EXPECT_TRUE(contains(findings[1].sentence, "not all without drift: mysim/symplectic-euler on spring (drifts down)"));
+  expect_short(findings);
+  EXPECT_EQ(rules_of(findings),
+            (std::vector<std::string>{"symplectic-energy", "symplectic-drift", "symplectic-failed"}));
+  EXPECT_DOUBLE_EQ(findings[0].value, 1);
+  EXPECT_FALSE(contains(sentence_of(findings[0]), "without drift"));
+  EXPECT_EQ(findings[1].method, "mysim/symplectic-euler");
+  EXPECT_EQ(findings[1].words.at("how"), "drifts down");
+  EXPECT_EQ(findings[2].value, 3);
+  EXPECT_TRUE(contains(sentence_of(findings[2]), "suzuki4 is symplectic, and yet fails on spring after 3 s (overstr"));
 }
 
-TEST(ChapterWords, WhatContactLeavesOpenIsSaidByScene) {
-  Table t = energy({{"spring", "mysim/leapfrog", "ok", 100., 20000l, 1l, 1l, 1l, 4., 4e-3, -4e-3, 0.01},
-                    {"ball", "mysim/leapfrog", "ok", 100., 20000l, 0l, 1l, 1l, 1., 0.4, 0.4, 1.},
-                    {"ball", "mysim/symplectic-euler", "ok", 100., 20000l, 0l, 1l, 1l, 1., 8., -8., 1.}});
-  for (const char* column : {"drag took", "dashpots took", "contact took"}) {
-    t.columns.push_back({column, "J"});
-    t.rows[0].emplace_back(0.);
-    t.rows[1].emplace_back(column == std::string_view("contact took") ? -2. : 1.);
-    t.rows[2].emplace_back(5.);
-  }
-  const auto findings = energy_findings(rows_of({t}));
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_TRUE(contains(findings[0].sentence,
-                       "on spring (no drag, no contact) symplectic rules keep the energy to 0.1 % of what is turned "
-                       "over, without drift. On ball, where drag or contact act, what does not add up with "
-                       "symplectic rules is 10 % (mysim/leapfrog) to 53 % (mysim/symplectic-euler) of what passes "
-                       "through drag and contact, gains and losses counted alike."));
+TEST(EnergyFindings, RulesThatAreNotSymplecticFailDampOrAdd) {
+  EnergyRow euler = long_run("mysim/explicit-euler", 40, 2, Verdict::energy), pbd = long_run("bullet/pbd", 1, 0),
+            mine = long_run("exec:./mine", 0.4, 0);
+  euler.symplectic = pbd.symplectic = mine.symplectic = false;
+  pbd.equivalent_drag = 0.11, mine.residual = 0.4;
+  const auto all = energy_findings(rows_of({energy({long_run("mysim/leapfrog", 4e-3, 0.01), euler, pbd, mine})}));
+  expect_short(all);
+  EXPECT_EQ(rules_of(all),
+            (std::vector<std::string>{"symplectic-energy", "energy-failed", "energy-damps", "energy-adds"}));
+  EXPECT_EQ(all[2].value, 0.11);
+  EXPECT_DOUBLE_EQ(all[3].value, 10);
 }
 
-TEST(ChapterWords, DampingNamesWhoWasAsked) {
-  const Table t = table_of("energy-damping", {"method", "h omega", "equivalent drag", "by theory"},
-                           {{"bullet/pbd", 0.1, 0.995, 0.99503}, {"bullet/pbd", 1., 6.93, 6.9315}});
-  const auto findings = energy_findings(rows_of({t}));
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_TRUE(begins(findings[0].sentence,
-                     "bullet/pbd damps by itself: at a tenth of a radian per step like a drag of "
-                     "0.10 ω, as theory says to 0.0"));
+TEST(EnergyFindings, WhatContactLeavesOpenIsSaidByScene) {
+  EnergyRow one = long_run("mysim/leapfrog", 0.4, 1), other = long_run("mysim/symplectic-euler", 8, 1);
+  one.scene = other.scene = "ball", one.undamped = other.undamped = false;
+  one.drag = one.dashpots = 1, one.contact = -2;
+  other.drag = other.dashpots = other.contact = 5;
+  const Finding open = the(energy_findings(rows_of({energy({one, other})})), "open-balance");
+  EXPECT_DOUBLE_EQ(*open.low, 10);
+  EXPECT_NEAR(*open.high, 53.3, 0.1);
+  EXPECT_EQ(open.method, "mysim/symplectic-euler");
+  EXPECT_EQ(open.words.at("where"), "ball");
+}
+
+TEST(EnergyFindings, DampingNamesWhoWasAsked) {
+  const auto damping = [](const std::string& method, std::vector<std::array<double, 3>> points) {
+    Table t = crosscheck::table_of<DampingRow>();
+    for (const auto& [h_omega, drag, theory] : points)
+      add(t, DampingRow{.method = method,
+                        .step = h_omega / 10,
+                        .h_omega = h_omega,
+                        .equivalent_drag = drag,
+                        .by_theory = theory});
+    return t;
+  };
+  const Table t = damping("bullet/pbd", {{0.1, 0.995, 0.99503}, {1., 6.93, 6.9315}});
+  const Finding f = the(energy_findings(rows_of({t})), "numerical-damping");
+  EXPECT_EQ(f.method, "bullet/pbd");
+  EXPECT_NEAR(f.value, 0.0216, 1e-4);
+  EXPECT_TRUE(contains(sentence_of(f), "like a drag of 0.10 ω at hω = 0.1"));
   EXPECT_TRUE(contains(figure_info(charts_of(energy_charts, rows_of({t})).at(0))->finding, "in 2 measurements"));
-  const Table none = table_of("energy-damping", {"method", "h omega", "equivalent drag", "by theory"},
-                              {{"bullet/deformable-explicit", 0.1, 1e-9, 0.}});
+  const Table none = damping("bullet/deformable-explicit", {{0.1, 1e-9, 0.}});
   EXPECT_TRUE(energy_findings(rows_of({none})).empty());
   EXPECT_TRUE(begins(figure_info(charts_of(energy_charts, rows_of({none})).at(0))->finding, "By theory none of"));
 }
 
-TEST(ChapterWords, WhoWasHardlyTriedIsSaidWhereItTakesTheScene) {
-  const Table cheap =
-                  table_of("speed-accuracy-cheapest-cost",
-                           {"scene", "part of motion", "measure", "method", "as cheap within noise", "Bullet / mysim"},
-                           {{"cloth", 0.01, "error", "mysim/leapfrog", "mysim/rk4", 26.6}}),
-              runs = table_of("speed-accuracy", {"scene", "method", "verdict"},
-                              {{"cloth", "mysim/leapfrog", "ok"},
-                               {"cloth", "mysim/leapfrog", "ok"},
-                               {"cloth", "mysim/implicit-euler", "ok"},
-                               {"rod", "mysim/xpbd", "ok"},
-                               {"rod", "mysim/xpbd", "ok"},
-                               {"rod", "bullet/pbd", "ok"},
-                               {"rod", "bullet/pbd", "ok"}});
+template <class Row>
+Table table_with(const std::vector<Row>& rows) {
+  Table t = crosscheck::table_of<Row>();
+  for (const Row& row : rows) add(t, row);
+  return t;
+}
+
+TEST(SpeedFindings, CountScenesByEngineAndTellWhatOthersTake) {
+  using Cheapest = CheapestRow<Cost::cpu>;
+  std::vector<Cheapest> cheapest;
+  const auto add_cheapest = [&](const char* scene, const char* method, const char* tied) {
+    Cheapest row{.scene = scene, .part_of_motion = 0.01, .method = method};
+    if (*tied) row.tied = tied;
+    cheapest.push_back(row);
+  };
+  add_cheapest("spring", "mysim/leapfrog", ""), add_cheapest("chain", "mysim/symplectic-euler", "mysim/leapfrog");
+  add_cheapest("rod", "odeint/dopri5", ""), add_cheapest("circle", "mysim/rk4", "mysim/dopri5, odeint/rk4");
+  std::vector<EngineSpeedRow> engines;
+  for (const auto& [scene, engine, times] : {std::tuple{"spring", "bullet", 70.},
+                                             {"chain", "bullet", 8.3},
+                                             {"chain", "exec:./mine", 3.},
+                                             {"spring", "mysim", 1.}}) {
+    EngineSpeedRow row{.scene = scene, .part_of_motion = 0.01, .engine = engine};
+    row.method = std::string(engine).starts_with("exec") ? engine : engine + std::string("/x");
+    row.times_mysim = times;
+    engines.push_back(row);
+  }
+  std::vector<SpeedAccuracyRow> runs(2);
+  runs[0].scene = "rod", runs[0].method = "bullet/pbd";
+  runs[1].scene = "circle", runs[1].method = "bullet/pbd", runs[1].verdict = Verdict::unsupported;
+  const auto all = speed_findings(rows_of({table_with(cheapest), table_with(engines), table_with(runs)}));
+  expect_short(all);
+  const auto wins = of_rule(all, "cheapest");
+  ASSERT_EQ(wins.size(), 2u);
+  EXPECT_EQ(wins[0].method, "mysim");
+  EXPECT_EQ(wins[0].value, 3) << "ties count for each";
+  EXPECT_EQ(wins[1].value, 2);
+  const auto times = of_rule(all, "engine-times");
+  ASSERT_EQ(times.size(), 2u);
+  EXPECT_EQ(times[0].value, 70);
+  EXPECT_EQ(times[0].low, 8.3);
+  EXPECT_EQ(times[0].words.at("where"), "most on spring");
+  EXPECT_TRUE(begins(sentence_of(times[1]), "For 1 % of the motion mine needs 3 times")) << sentence_of(times[1]);
+  const Finding without = the(all, "engine-without-run");
+  EXPECT_EQ(without.method, "bullet");
+  EXPECT_EQ(without.words.at("where"), "rod");
+}
+
+TEST(SpeedFindings, WhoWasHardlyTriedIsSaidWhereItTakesTheScene) {
+  std::vector<SpeedAccuracyRow> runs;
+  for (const auto& [scene, method] : {std::pair{"cloth", "mysim/leapfrog"},
+                                      {"cloth", "mysim/leapfrog"},
+                                      {"cloth", "mysim/implicit-euler"},
+                                      {"rod", "mysim/xpbd"},
+                                      {"rod", "mysim/xpbd"},
+                                      {"rod", "bullet/pbd"},
+                                      {"rod", "bullet/pbd"}}) {
+    runs.emplace_back();
+    runs.back().scene = scene, runs.back().method = method;
+  }
   Table engines = crosscheck::table_of<EngineRow>();
   for (const char* method : {"mysim/leapfrog", "mysim/implicit-euler", "bullet/pbd"})
     add(engines, EngineRow{.scene = "cloth", .method = method, .reason = ""});
   add(engines, EngineRow{.scene = "rod", .method = "mysim/leapfrog", .verdict = Verdict::unsupported, .reason = ""});
-  const auto findings = speed_findings(rows_of({cheap, runs, engines}));
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_EQ(
-      findings[0].sentence,
-      "For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, is of mysim/leapfrog or rk4 on "
-      "cloth; the best run of Bullet's worlds takes 27 times as long as that of mysim. "
-      "Hardly tried: mysim/implicit-euler (one run) and bullet/pbd (no run) on cloth.");
+  const Finding f = the(speed_findings(rows_of({table_with(runs), engines})), "hardly-tried");
+  EXPECT_EQ(f.value, 2);
+  EXPECT_EQ(f.words.at("which"), "implicit-euler on cloth and Bullet's pbd on cloth");
 }
 
-TEST(ChapterWords, AStepOfBothIsComparedLikeForLikeFirst) {
-  const std::vector<std::string> columns{"method", "side", "cpu per step"};
-  const auto sentence = [&](std::vector<Row> rows) -> std::string {
-    const auto findings = cost_findings(rows_of({table_of("size-cost", columns, std::move(rows))}));
-    return findings.empty() ? "" : findings.at(0).sentence;
+TEST(SpeedFindings, AStepOfBothIsComparedLikeForLikeFirst) {
+  const auto said = [&](std::vector<std::tuple<std::string, long, double>> times) {
+    Table t = crosscheck::table_of<SizeCostRow>();
+    for (const auto& [method, side, cpu] : times) {
+      SizeCostRow row;
+      row.method = method, row.side = side, row.cpu = cpu;
+      add(t, row);
+    }
+    const auto all = cost_findings(rows_of({t}));
+    expect_short(all);
+    return all;
   };
-  const Row kernel8{"mysim/symplectic-euler", 8l, 1e-6}, kernel64{"mysim/symplectic-euler", 64l, 4e-5},
-      plain8{"mysim/symplectic-euler+plain", 8l, 2e-6}, plain64{"mysim/symplectic-euler+plain", 64l, 1.6e-4},
-      bullet8{"bullet/deformable-explicit", 8l, 2e-5}, bullet64{"bullet/deformable-explicit", 64l, 1.76e-3};
-  EXPECT_EQ(sentence({kernel8, plain8, bullet8, kernel64, plain64, bullet64}),
-            "In CPU time a step of symplectic Euler on a cloth costs Bullet (Debian's build) 10 (8 x 8) to 11 (64 x "
-            "64) times that "
-            "of mysim's solver for any network and 20 (8 x 8) to 44 (64 x 64) times that of mysim's kernel for regular "
-            "cloths, which Bullet has no like of.");
-  EXPECT_FALSE(contains(sentence({kernel8, bullet8}), "any network"));
-  EXPECT_EQ(sentence({plain8, kernel8}), "");
+  const std::string kernel = "mysim/symplectic-euler", plain = kernel + "+plain", bullet = "bullet/deformable-explicit";
+  const auto all = said({{kernel, 8, 1e-6},
+                         {plain, 8, 2e-6},
+                         {bullet, 8, 2e-5},
+                         {kernel, 64, 4e-5},
+                         {plain, 64, 1.6e-4},
+                         {bullet, 64, 1.76e-3}});
+  EXPECT_EQ(rules_of(all), (std::vector<std::string>{"size-cost-any", "size-cost-grid"}));
+  EXPECT_DOUBLE_EQ(*all[0].low, 10);
+  EXPECT_DOUBLE_EQ(*all[0].high, 11);
+  EXPECT_EQ(all[0].words.at("where"), "64 x 64");
+  EXPECT_DOUBLE_EQ(*all[1].low, 20);
+  EXPECT_DOUBLE_EQ(*all[1].high, 44);
+  EXPECT_EQ(rules_of(said({{kernel, 8, 1e-6}, {bullet, 8, 2e-5}})), std::vector<std::string>{"size-cost-grid"});
+  EXPECT_TRUE(said({{plain, 8, 1e-6}, {kernel, 8, 1e-6}}).empty());
 }
 
 /// A cloth that touches a ball until 1 s, its single positions compared until 0.5 s.
 std::vector<Table> touched(double of_rules, double of_bullet) {
-  std::vector<Row> runs, rows;
+  std::vector<EngineRow> runs;
+  std::vector<Row> rows;
   for (const char* method :
        {"mysim/symplectic-euler", "mysim/leapfrog", "mysim/rk4", "mysim/xpbd", "bullet/deformable-explicit"}) {
     const std::string name = method;
-    runs.push_back({"drape", name, "ok", 0.5, 1., 1e-4});
+    EngineRow run{.scene = "drape", .method = name, .reason = "", .end = 1, .window = 0.5};
+    run.clearance = 1e-4;
+    runs.push_back(run);
     const double apart = name.starts_with("bullet") ? of_bullet
                          : name.ends_with("xpbd")   ? 1.  // no rule like the others
                          : name.ends_with("euler")  ? 0.
                                                     : of_rules;
     rows.push_back({name, 0.5, apart / 10}), rows.push_back({name, 1., apart});
   }
-  return {table_of("engines", {"scene", "method", "verdict", "window", "end", "smallest clearance"}, std::move(runs)),
-          table_of("drape-engines", {"method", "t", "difference"}, std::move(rows))};
+  return {table_with(runs), table_of("drape-engines", {"method", "t", "difference"}, std::move(rows))};
 }
 
-TEST(ChapterWords, WhetherTheMotionAfterContactIsPredictableIsMeasuredByTheRules) {
-  const auto sentence = [](double of_rules, double of_bullet) {
+TEST(SphereFindings, WhetherTheMotionAfterContactIsPredictableIsMeasuredByTheRules) {
+  const auto said = [](double of_rules, double of_bullet) {
     const auto findings = sphere_findings(rows_of(touched(of_rules, of_bullet)));
-    return findings.size() == 1 ? findings[0].sentence : "";
+    expect_short(findings);
+    EXPECT_EQ(findings.size(), 1u);
+    return findings.at(0);
   };
+  const Finding differs = said(2e-4, 2.97e-3), open = said(0.2, 0.3);
+  EXPECT_EQ(differs.rule, "after-contact");
+  EXPECT_EQ(differs.scene, "drape");
+  EXPECT_EQ(differs.value, 2.97e-3);
   EXPECT_EQ(
-      sentence(2e-4, 2.97e-3),
-      "On drape, beyond 0.5 s and up to 1 s, 2 of mysim's rules stay within 0.2 mm of mysim/symplectic-euler; "
-      "single positions can be predicted there, and it is bullet/deformable-explicit that differs, by up to 3 mm.");
-  EXPECT_EQ(sentence(0.2, 0.3),
-            "On drape, beyond 0.5 s and up to 1 s, 2 of mysim's rules stay within 200 mm of mysim/symplectic-euler; "
-            "bullet/deformable-explicit differs by up to 300 mm: no more can be said of single positions.");
+      sentence_of(differs),
+      "On drape beyond 500 ms, 2 of mysim's rules agree within 0.2 mm; Bullet's deformable-explicit departs by up "
+      "to 3 mm.");
+  EXPECT_EQ(open.rule, "after-contact-open");
 }
 
 TEST(ChapterWords, GrowthThatIsNotShownIsCounted) {
@@ -230,7 +406,7 @@ TEST(ChapterWords, GrowthThatIsNotShownIsCounted) {
   std::string text;
   for (const Chart& chart :
        charts_of(stability_charts, rows_of({stability({limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3)}), growth})))
-    if (chart.heading == "Slow blow-ups") text = chart.text;
+    if (chart.heading == "Slowly growing instabilities") text = chart.text;
   EXPECT_TRUE(
       contains(text, " 2 rows of other rules, beside their limits, stand in the table stability-growth alone."));
 }
@@ -271,17 +447,25 @@ TEST(ChapterWords, GridsWhoseFinestRunFailsKeepTheirTable) {
 
 TEST(ChapterWords, BendSpringsStiffenByTheirNumberAndTheRestIsSaidToBeUnexplained) {
   const auto bending = [](double shift) {  // k goes as the fourth power of particles - shift
-    Table t = table_of("adequacy-bending", {"particles along a line", "cells", "stiffness of bend springs"}, {});
+    Table t = crosscheck::table_of<BendingRow>();
     for (const long n : {8l, 10l, 12l, 16l})
-      t.add({n, static_cast<double>(n) - 1.5, std::pow(static_cast<double>(n) - shift, 4)});
+      add(t, BendingRow{n, static_cast<double>(n) - 1.5, std::pow(static_cast<double>(n) - shift, 4), 0.1});
     return t;
   };
-  const Table power = table_of("adequacy-scaling", {"scene", "quantity", "exponent", "standard error"},
-                               {{"", std::string(stiffness_for_droop), 4.24, 0.03}});
-  EXPECT_TRUE(contains(bend_sentence(rows_of({bending(2), power})), "4.00 ± 0.00: nearly all of the difference"));
-  EXPECT_TRUE(contains(bend_sentence(rows_of({bending(2.2), power})), "only a part of the difference"));
-  EXPECT_TRUE(contains(bend_sentence(rows_of({bending(4), power})), "The difference is not explained."));
-  EXPECT_EQ(bend_sentence({}), "");
+  Table power = crosscheck::table_of<ScalingRow>();
+  add(power, ScalingRow{"", ScalingQuantity::bend_stiffness_for_droop, 4.24, 0.03, 4});
+  const auto said = [&](double shift) {
+    const auto all = bend_findings(rows_of({bending(shift), power}));
+    expect_short(all);
+    EXPECT_EQ(all.at(0).value, 4.24);
+    EXPECT_NEAR(*all[0].high - *all[0].low, 0.06, 1e-9);
+    return all;
+  };
+  EXPECT_TRUE(contains(sentence_of(said(2).at(1)), "4.00 ± 0.00: nearly all of the difference"));
+  EXPECT_TRUE(contains(sentence_of(said(2.2).at(1)), "only a part of the difference"));
+  EXPECT_EQ(said(4).size(), 1u);
+  EXPECT_TRUE(contains(sentence_of(said(4)[0]), "cells; unexplained."));
+  EXPECT_TRUE(bend_findings({}).empty());
 }
 
 }  // namespace

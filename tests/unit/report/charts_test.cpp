@@ -1,10 +1,18 @@
-// Charts: stacked bars, who is fastest at an accuracy, distance to a method's own finest run.
+// Charts: stacked bars, who is fastest at an accuracy, distance to a method's own finest run, and their numbers as the
+// page draws them.
 
-#include "report/figures/charts.h"
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 #include "experiments/experiment.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/speed_accuracy/work_precision.h"
 #include "experiments/sweep/sweep.h"
+#include "mysim/base/json.h"
+#include "report/base/assets.h"
+#include "report/figures/chart_json.h"
+#include "report/figures/charts.h"
 #include "report/figures/figure.h"
 #include "report/findings/findings.h"
 #include "tests/unit/helpers.h"
@@ -43,9 +51,10 @@ TEST(StackedBars, InferredPartsAreHatchedAndOthersAreNot) {
   const std::string script = drawing_of(two_bars()).script;
   size_t hatched = 0, solid = 0;
   for (size_t at = 0; (at = script.find("boxxyerror", at)) != std::string::npos; ++at) {
-    const std::string rest = script.substr(at, 200);
-    const bool inferred = rest.find("inferred") < rest.find(", \\");
-    EXPECT_EQ(rest.find("pattern") < rest.find("title"), inferred) << rest;
+    const size_t begin = script.rfind(" using ", at);
+    const std::string element = script.substr(begin, script.find("notitle", at) - begin);
+    const bool inferred = contains(element, "inferred");
+    EXPECT_EQ(contains(element, "pattern"), inferred) << element;
     (inferred ? hatched : solid) += 1;
   }
   EXPECT_EQ(hatched, 1u);  // plotted once, then drawn again for the other files
@@ -112,11 +121,29 @@ TEST(ByEngine, WithoutARunOfMysimThereIsNoQuotient) {
 }
 
 std::vector<Chart> charts_of(const Table& t) {
-  Rows rows;
+  TableSet rows;
   rows.add(t);
   const std::vector<Scene> scenes;
   const std::vector<SceneData> facts;
   return cheapest_charts({scenes, facts, rows, "commit"});
+}
+
+bool same(const MethodStyle& a, const MethodStyle& b) {
+  return a.colour == b.colour && a.dash == b.dash && a.marker == b.marker;
+}
+
+TEST(Styles, StandInTheMethodsRows) {
+  EXPECT_TRUE(same(style_of("mysim/symplectic-euler"), {"#2A86D0", "(12,3,2,3)", 7}));
+  EXPECT_TRUE(same(style_of("mysim/symplectic-euler+sticky"), {"#666666", "(3,3)", 8}));
+  EXPECT_TRUE(same(style_of("bullet/pbd"), {"#D66A08", "(8,4)", 13}));
+  EXPECT_TRUE(same(style_of("bullet32/pbd"), {"#B08050", "(4,2,1,2)", 6}));
+  EXPECT_TRUE(same(style_of("sundials/cvode"), {"#7A6A4A", "(4,2,2,2)", 13}));
+  std::vector<MethodStyle> all;
+  for (const Method& m : builtin_methods())
+    if (m.family().role != Role::truth) all.push_back(style_of(m.name));
+  for (size_t place = 0; place < 20; ++place) all.push_back(spare_style(place));  // of engines that bring none
+  for (size_t i = 0; i < all.size(); ++i)
+    for (size_t j = 0; j < i; ++j) EXPECT_FALSE(same(all[i], all[j])) << i << " " << j;
 }
 
 TEST(CheapestChart, SaysWhoIsFastestWhereTheClockCanTell) {
@@ -168,27 +195,6 @@ TEST(CheapestChart, NamesWhoIsThereAndWhichTimesAreScaled) {
   EXPECT_TRUE(contains(caption_of(part), "in 1 of 1 quotients a time is scaled from the first part of its run; "));
 }
 
-TEST(CheapestFinding, TellsScenesByEngine) {
-  Table t{"speed-accuracy-cheapest-cost", {}, {}};
-  for (const char* column : {"scene", "part of motion", "measure", "method", "as cheap within noise", "Bullet / mysim"})
-    t.columns.push_back({column, "1"});
-  t.add({"spring", 0.01, "error", "mysim/leapfrog", "", 70.});
-  t.add({"chain", 0.01, "error", "mysim/symplectic-euler", "mysim/leapfrog", 30.});
-  t.add({"rod", 0.01, "error", "odeint/dopri5", "", 8.3});
-  // the clock cannot tell two engines apart: nobody wins there
-  t.add({"circle", 0.01, "error", "mysim/rk4", "mysim/dopri5, odeint/rk4", 9.});
-  Rows rows;
-  rows.add(t);
-  const auto findings = speed_findings(rows);
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_EQ(
-      findings[0].sentence,
-      "For an error of 1 % of the motion the cheapest of the runs tried, in CPU time, is of mysim on 2 scenes "
-      "(leapfrog on spring; symplectic-euler or leapfrog on chain) and of odeint/dopri5 on rod; the clock cannot tell "
-      "the cheapest of two engines apart on circle (mysim/rk4, mysim/dopri5, odeint/rk4); the best run of Bullet's "
-      "worlds takes 8.3 to 70 times as long as that of mysim.");
-}
-
 TEST(OwnCharts, AreOfScenesThatTheExperimentLooksAt) {
   for (const Experiment& e : experiments())
     for (const std::string_view scene : e.quick_charts) {
@@ -205,13 +211,338 @@ TEST(OwnCharts, AreOfScenesThatTheExperimentLooksAt) {
 
 using namespace testing_tools;
 
+JsonField json_of(const Chart& chart) { return JsonField::parse(chart_json(chart).dump(), "chart"); }
+
+/// A chart of one curve of that many points, which swings.
+Chart swinging(int count) {
+  Figure f;
+  f.name = "swing", f.title = "a swing", f.caption = "c", f.finding = "It swings.";
+  f.x = {"time / s"}, f.y = {"error / m", true, 1e-9};
+  Curve curve{"mysim/leapfrog", style_of("mysim/leapfrog"), {}};
+  for (int i = 0; i < count; ++i) curve.points.emplace_back(1e-3 * i, 1.5 + std::sin(0.37 * i));
+  f.curves = {curve};
+  return {"", f};
+}
+
+TEST(ChartJson, CurvesOfUpTo600PointsAreWhole) {
+  for (const int count : {1, 2, 599, 600}) {
+    const Chart chart = swinging(count);
+    const JsonField points = json_of(chart)["series"][0]["points"];
+    ASSERT_EQ(points.size(), static_cast<size_t>(count));
+    const auto& drawn = std::get<Figure>(chart.figure).curves[0].points;
+    for (int i = 0; i < count; ++i) {
+      ASSERT_NEAR(points[i][0].number(), drawn[i].first, 1e-6 * drawn[i].first);
+      ASSERT_NEAR(points[i][1].number(), drawn[i].second, 1e-5 * drawn[i].second) << "six digits";
+    }
+  }
+}
+
+TEST(ChartJson, LongerCurvesKeepTheirEndsAndExtremes) {
+  for (const int count : {601, 1501, 20000}) {
+    SCOPED_TRACE(count);
+    Chart chart = swinging(count);
+    auto& drawn = std::get<Figure>(chart.figure).curves[0].points;
+    drawn[static_cast<size_t>(count) / 2].second = 90, drawn[static_cast<size_t>(count) / 3].second = 1e-4;
+    const JsonField points = json_of(chart)["series"][0]["points"];
+    EXPECT_LE(points.size(), 600u);
+    EXPECT_GT(points.size(), 300u);
+    double low = INFINITY, high = 0, last = -1;
+    for (const JsonField& point : points.elements()) {
+      EXPECT_GT(point[0].number(), last) << "in their order, none twice";
+      last = point[0].number();
+      low = std::min(low, point[1].number()), high = std::max(high, point[1].number());
+    }
+    EXPECT_EQ(points[0][0].number(), 0);
+    EXPECT_NEAR(last, drawn.back().first, 1e-6 * last);
+    EXPECT_EQ(high, 90);
+    EXPECT_EQ(low, 1e-4);
+  }
+}
+
+TEST(ChartJson, OfCurvesSaysWhatIsDrawnBesideThem) {
+  Figure f;
+  f.name = "all", f.title = "everything", f.caption = "c", f.finding = "It falls.";
+  f.x = {"CPU time, ringed: scaled from a part of it / s", true}, f.y = {"error / m", true, 1e-6, 1.};
+  f.curves = {{"mysim/leapfrog, twice", style_of("mysim/leapfrog"), {{1, 0.1}, {2, 0.05}}, true, true},
+              {"theory", style_of("mysim/rk4"), {{1, 1}, {2, 0.5}}},
+              {scaled_times, style_of("mysim/rk4"), {{2, 0.05}}, false},
+              {"nothing", style_of("mysim/rk4"), {}}};
+  f.curves[0].tooltips = {{"first", "mysim/leapfrog 0"}, {"second"}};
+  f.failures = {{"mysim/rk4: blew up", style_of("mysim/rk4"), 5, 0.5, "blew up", 2, {"at 2 s", "mysim/rk4 3"}}};
+  f.pareto = {{1, 0.1}, {2, 0.05}};
+  f.floor = {"error bar", 1e-5};
+  f.window = {3, "not predictable"};
+  f.categories = {{1, "spring"}};
+  f.guides = {{true, 1.5, "limit"}, {false, 0.2, "1 %"}};
+  f.cut = 1e-4;
+  f.on_page = {.motion = 0.893,
+               .duration = 3.,
+               .take = OnPage::Take{1, 0.1, "take this: 1 ms", "11 %"},
+               .critical = OnPage::Critical{0.5, "h = 2/ω", "beyond"}};
+  const JsonField json = json_of({"", f});
+  EXPECT_EQ(json["kind"].text(), "curves");
+  EXPECT_EQ(json["name"].text(), "all");
+  EXPECT_EQ(json["title"].text(), "everything");
+  EXPECT_EQ(json["finding"].text(), "It falls.");
+  EXPECT_EQ(json["x"]["label"].text(), "CPU time") << "what is ringed on paper is open here";
+  EXPECT_EQ(json["x"]["unit"].text(), "s");
+  EXPECT_TRUE(json["x"]["log"].boolean());
+  EXPECT_EQ(json["y"]["low"].number(), 1e-4) << "lower values lie on the axis";
+  EXPECT_EQ(json["y"]["high"].number(), 1);
+  ASSERT_EQ(json["series"].size(), 2u) << "neither rings around other marks nor empty curves";
+  const JsonField first = json["series"][0];
+  EXPECT_EQ(first["method"].text(), "mysim/leapfrog");
+  EXPECT_EQ(first["tips"][0]["words"].text(), "first");
+  EXPECT_EQ(first["tips"][0]["run"].text(), "mysim/leapfrog 0");
+  EXPECT_FALSE(first["tips"][1].find("run"));
+  EXPECT_EQ(first["open"].dump(), "[0,1]") << "its second time is scaled";
+  EXPECT_FALSE(json["series"][1].find("method")) << "theory is no method";
+  EXPECT_FALSE(json["series"][1].find("open"));
+  EXPECT_FALSE(json["series"][1]["marks"].boolean());
+  EXPECT_EQ(json["failures"][0]["method"].text(), "mysim/rk4");
+  EXPECT_EQ(json["failures"][0]["run"].text(), "mysim/rk4 3");
+  EXPECT_EQ(json["failures"][0]["kind"].text(), "blew up");
+  EXPECT_EQ(json["pareto"].size(), 2u);
+  EXPECT_EQ(json["floor"]["y"].number(), 1e-5);
+  EXPECT_EQ(json["window"]["x"].number(), 3);
+  EXPECT_EQ(json["categories"][0][1].text(), "spring");
+  ASSERT_EQ(json["guides"].size(), 2u);
+  EXPECT_EQ(json["guides"][0]["axis"].text(), "x");
+  EXPECT_EQ(json["guides"][1]["text"].text(), "1 %");
+  EXPECT_EQ(json["motion"].number(), 0.893);
+  EXPECT_EQ(json["duration"].number(), 3);
+  EXPECT_EQ(json["take"]["name"].text(), "take this: 1 ms");
+  EXPECT_EQ(json["critical"]["x"].number(), 0.5);
+  EXPECT_FALSE(json.find("flat"));
+}
+
+TEST(ChartJson, OfBarsHasAHeightForEachPartOfEachBar) {
+  const StackedBars bars = two_bars();
+  const JsonField json = json_of({"", bars, "energy"});
+  EXPECT_EQ(json["kind"].text(), "bars");
+  EXPECT_EQ(json["names"].texts(), bars.names);
+  ASSERT_EQ(json["parts"].size(), bars.parts.size());
+  for (size_t i = 0; i < bars.parts.size(); ++i) {
+    EXPECT_EQ(json["parts"][i]["height"].numbers(), bars.parts[i].height);
+    EXPECT_EQ(json["parts"][i]["hatched"].boolean(), bars.parts[i].hatched);
+  }
+}
+
+TEST(ChartJson, OfDotsHasAnIntervalOrNothingForEachName) {
+  DotPlot dots;
+  dots.name = "dots", dots.title = "t", dots.caption = "c", dots.finding = "f", dots.label = "CPU time of mysim's";
+  dots.names = {"cloth", "rod"}, dots.headings = {{1, "without cloth"}};
+  dots.series = {{"Bullet", style_of("bullet/pbd"), {DotPlot::Dot{30, 22.5, 40}, std::nullopt}}};
+  const JsonField json = json_of({"", dots});
+  EXPECT_EQ(json["kind"].text(), "dots");
+  EXPECT_EQ(json["names"].texts(), dots.names);
+  EXPECT_EQ(json["headings"][0][1].text(), "without cloth");
+  EXPECT_EQ(json["series"][0]["dots"].size(), 2u);
+  EXPECT_EQ(json["series"][0]["dots"][0].numbers(), (std::vector<double>{30, 22.5, 40}));
+  EXPECT_TRUE(json["series"][0]["dots"][1].is_null());
+  EXPECT_TRUE(json["x"]["log"].boolean());
+}
+
+TEST(ChartJson, OfAMapHasEveryCellWithItsRun) {
+  HeatMap map;
+  map.name = "map", map.title = "t", map.caption = "c", map.finding = "f";
+  map.x_label = "time step / s", map.y_label = "stiffness / nominal stiffness";
+  map.kinds = {{"stable", "#D8E8F0"}, {"fails", "#D55E00"}};
+  HeatMap::Panel panel{"mysim/rk4", {}, {{1, 1}, {2, 4}}, {{1, 1}}};
+  for (int i = 0; i < 12; ++i)
+    panel.cells.push_back(
+        {std::pow(2, i % 4), std::pow(2, i / 4), i % 2, {fmt::format("cell {}", i), fmt::format("mysim/rk4 {}", i)}});
+  map.panels = {panel};
+  const JsonField json = json_of({"", map});
+  EXPECT_EQ(json["kind"].text(), "map");
+  EXPECT_EQ(json["x"]["unit"].text(), "s");
+  EXPECT_EQ(json["y"]["label"].text(), map.y_label) << "a ratio is no unit";
+  EXPECT_FALSE(json["y"].find("unit"));
+  EXPECT_EQ(json["kinds"].size(), 2u);
+  const JsonField cells = json["panels"][0]["cells"];
+  ASSERT_EQ(cells.size(), 12u);
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_EQ(cells[i][0].number(), panel.cells[i].x);
+    EXPECT_EQ(cells[i][1].number(), panel.cells[i].y);
+    EXPECT_EQ(cells[i][2].whole(), i % 2);
+    EXPECT_EQ(cells[i][3].text(), fmt::format("cell {}", i));
+    EXPECT_EQ(cells[i][4].text(), fmt::format("mysim/rk4 {}", i));
+  }
+  EXPECT_EQ(json["panels"][0]["predicted"].size(), 2u);
+  EXPECT_EQ(json["panels"][0]["measured"].size(), 1u);
+}
+
+/// A rule with a limit on two scenes, one that needs drag, one that holds at every step, one without theory.
+std::vector<LimitRow> limit_rows() {
+  const auto row = [](const char* scene, const char* method, PredictionKind theory, double predicted, double omega,
+                      MeasuredLimit::Kind found, double measured, double held) {
+    LimitRow r{.scene = scene, .method = method, .prediction = theory, .measurement = found};
+    if (predicted >= 0) r.predicted = predicted;
+    if (omega > 0) r.omega = omega;
+    if (measured > 0) r.measured = measured;
+    if (held > 0) r.held = held;
+    return r;
+  };
+  constexpr auto limit = PredictionKind::limit, none = PredictionKind::none;
+  constexpr auto found = MeasuredLimit::found;
+  return {row("spring", "mysim/explicit-euler", PredictionKind::no_step, 0, 10, MeasuredLimit::no_step, 0, 0),
+          row("cloth", "mysim/explicit-euler", limit, 2e-6, 1000, found, 2.01e-6, 2e-6),
+          row("spring", "mysim/leapfrog", limit, 0.2, 10, found, 0.199, 0.198),
+          row("cloth", "mysim/leapfrog", limit, 2e-3, 1000, found, 2.004e-3, 2e-3),
+          row("spring", "mysim/implicit-euler", PredictionKind::every_step, -1, 0, MeasuredLimit::every_step, 0, 12.8),
+          row("spring", "bullet/pbd", none, -1, 0, found, 0.31, 0.3)};
+}
+
+TEST(StepLimits, FallOnOneLineWhateverTheScene) {
+  const StepLimits f = step_limits_of(limit_rows(), "cloth");
+  EXPECT_EQ(f.names,
+            (std::vector<std::string>{"mysim/implicit-euler", "bullet/pbd", "mysim/leapfrog", "mysim/explicit-euler"}))
+      << "what holds at every step, then from long limits to short ones";
+  EXPECT_EQ(f.columns_of, "cloth");
+  ASSERT_EQ(f.scenes.size(), 2u);
+  EXPECT_EQ(f.scenes[0].name, "spring") << "from slow to fast";
+  EXPECT_TRUE(f.rows[0].open);
+  EXPECT_EQ(f.rows[0].words, "every step tried, up to h ω = 128");
+  EXPECT_FALSE(f.rows[1].marks.at(0).predicted) << "no theory, no tick";
+  const StepLimits::Row& leapfrog = f.rows[2];
+  ASSERT_EQ(leapfrog.marks.size(), 2u);
+  EXPECT_NEAR(leapfrog.marks[0].measured, 1.99, 1e-12);
+  EXPECT_NEAR(leapfrog.marks[1].measured, 2.004, 1e-12);
+  EXPECT_NEAR(*leapfrog.marks[1].predicted, 2, 1e-12);
+  EXPECT_NEAR(leapfrog.held, 1.99, 1e-12) << "up to here all hold";
+  EXPECT_EQ(leapfrog.measured, "2.0040");
+  EXPECT_EQ(leapfrog.predicted, "2.0000");
+  EXPECT_EQ(f.rows[3].words, "0 without drag; 0.00201 with that of cloth");
+  EXPECT_EQ(f.rows[0].measured, "") << "not searched there";
+  EXPECT_EQ(step_limits_of(limit_rows(), "rod").columns_of, "cloth") << "of those that there are the fastest";
+  EXPECT_TRUE(step_limits_of({}, "cloth").rows.empty());
+  EXPECT_THROW(drawing_of(step_limits_of({}, "cloth")), std::runtime_error);
+}
+
+TEST(StepLimits, OfManyScenesMarkFourThatLieFarApart) {
+  std::vector<LimitRow> rows;
+  for (const auto& [scene, omega] :
+       {std::pair{"a", 1.}, {"b", 1.1}, {"c", 30.}, {"d", 1000.}, {"e", 1100.}, {"f", 9e4}})
+    rows.push_back(
+        {.scene = scene, .method = "mysim/leapfrog", .predicted = 2 / omega, .omega = omega, .measured = 2 / omega});
+  const StepLimits f = step_limits_of(rows, "e");
+  ASSERT_EQ(f.scenes.size(), 4u);
+  EXPECT_EQ(f.scenes.front().name, "a");
+  EXPECT_EQ(f.scenes.back().name, "f");
+  EXPECT_TRUE(std::ranges::count(f.scenes, "e", &StepLimits::SceneMark::name)) << "the scene of the columns";
+  EXPECT_EQ(f.rows.at(0).marks.size(), 4u);
+}
+
+TEST(StepLimits, AreTheSameOnPaperAndOnThePage) {
+  StepLimits f = step_limits_of(limit_rows(), "cloth");
+  f.caption = "c", f.finding = "f";
+  const JsonField json = json_of({"", f, "stability"});
+  const Drawing drawing = drawing_of(f);
+  EXPECT_EQ(json["kind"].text(), "limits");
+  EXPECT_EQ(json["names"].texts(), f.names);
+  EXPECT_EQ(json["columns"].text(), "cloth");
+  EXPECT_EQ(json["scenes"][1][0].text(), "cloth");
+  size_t measured = 0, predicted = 0;
+  for (size_t i = 0; i < drawing.data.rows.size(); ++i) {
+    const auto& what = std::get<std::string>(drawing.data.at(i, "what"));
+    measured += what == "measured", predicted += what == "predicted";
+    if (what != "measured") continue;
+    const JsonField marks =
+        json["rows"][static_cast<size_t>(std::get<double>(drawing.data.at(i, "place"))) - 1]["marks"];
+    bool found = false;
+    for (const JsonField& mark : marks.elements())
+      found |= std::abs(mark[1].number() / std::get<double>(drawing.data.at(i, "h omega")) - 1) < 1e-5;
+    EXPECT_TRUE(found) << "every mark of the csv is on the page";
+  }
+  EXPECT_EQ(measured, 4u);
+  EXPECT_EQ(predicted, 3u);
+  EXPECT_EQ(methods_in({"", f, "stability"}), f.names);
+}
+
+/// Relative luminance by WCAG 2.
+double luminance(const std::string& colour) {
+  double sum = 0;
+  constexpr double weights[] = {0.2126, 0.7152, 0.0722};
+  for (int i = 0; i < 3; ++i) {
+    const double part = std::stoi(colour.substr(static_cast<size_t>(1 + 2 * i), 2), nullptr, 16) / 255.;
+    sum += weights[i] * (part <= 0.04045 ? part / 12.92 : std::pow((part + 0.055) / 1.055, 2.4));
+  }
+  return sum;
+}
+
+TEST(MethodLooks, StandOutFromThePageInBothModes) {
+  const std::string styles = asset("page/style.css");
+  size_t at = 0;
+  for (const char* mode : {"light", "dark"}) {
+    SCOPED_TRACE(mode);
+    at = styles.find(":root {", at) + 1;
+    const std::string table = styles.substr(at, styles.find('}', at) - at);
+    const auto colour = [&](const std::string& name) {
+      const size_t found = table.find("--" + name + ": ");
+      EXPECT_NE(found, std::string::npos) << name;
+      return table.substr(found + name.size() + 4, 7);
+    };
+    for (const char* name :
+         {"mysim", "mysim2", "bullet", "bullet2", "truth", "outside", "grey", "difference", "bad", "soft"}) {
+      const double a = luminance(colour(name)), b = luminance(colour("back"));
+      EXPECT_GE((std::max(a, b) + 0.05) / (std::min(a, b) + 0.05), 3) << name;
+    }
+  }
+}
+
+TEST(ChartJson, OfAChartOfTablesAloneIsNull) {
+  EXPECT_TRUE(chart_json({"", std::monostate(), "stability"}).is_null());
+  EXPECT_TRUE(methods_in({"", std::monostate(), "stability"}).empty());
+}
+
+TEST(ChartJson, TitlesBeginWithTheirMethods) {
+  EXPECT_EQ(method_in("mysim/leapfrog"), "mysim/leapfrog");
+  EXPECT_EQ(method_in("mysim/rk4: blew up"), "mysim/rk4");
+  EXPECT_EQ(method_in("mysim/rk4, order 4"), "mysim/rk4");
+  EXPECT_EQ(method_in("bullet/pbd"), "bullet/pbd");
+  EXPECT_EQ(method_in("exec:./engine"), "exec:./engine");
+  for (const char* none : {"theory", "1/2 of the limit", "and/or", "Bullet", "", "https://x"})
+    EXPECT_EQ(method_in(none), "") << none;
+  EXPECT_EQ(methods_in(swinging(3)), std::vector<std::string>{"mysim/leapfrog"});
+}
+
+TEST(MethodLooks, FamiliesHaveTheirColours) {
+  const std::vector<std::string> names{
+      "mysim/symplectic-euler", "mysim/rk4",       "bullet/deformable-explicit", "bullet/pbd", "odeint/rk4",
+      "truth/converged",        "exec:./my/engine"};
+  const JsonField looks = JsonField::parse(method_looks_json(names).dump(), "looks");
+  ASSERT_EQ(looks.size(), names.size());
+  std::map<std::string, std::string> families;  // by their colours
+  for (const std::string& name : names) {
+    const JsonField look = looks[name];
+    EXPECT_FALSE(look["title"].text().empty()) << name;
+    const std::string colour = look["colour"].text(), family(family_of(name).name);
+    EXPECT_TRUE(contains(asset("page/style.css"), "--" + colour + ":")) << "the page's styles know each of them";
+    if (colour == "outside") continue;
+    const auto [known, fresh] = families.emplace(colour, family);
+    EXPECT_TRUE(fresh || known->second == family) << colour << " is of " << known->second << " and " << family;
+  }
+  EXPECT_TRUE(begins(looks["mysim/rk4"]["colour"].text(), "mysim"));
+  EXPECT_TRUE(begins(looks["mysim/symplectic-euler"]["colour"].text(), "mysim"));
+  EXPECT_TRUE(begins(looks["bullet/pbd"]["colour"].text(), "bullet"));
+  EXPECT_TRUE(begins(looks["bullet/deformable-explicit"]["colour"].text(), "bullet"));
+  EXPECT_NE(looks["bullet/pbd"]["mark"].text(), looks["bullet/deformable-explicit"]["mark"].text());
+  EXPECT_EQ(looks["truth/converged"]["colour"].text(), "truth");
+  for (const char* in_question :
+       {"mysim/symplectic-euler", "bullet/deformable-explicit", "bullet/pbd", "exec:./my/engine"})
+    EXPECT_TRUE(looks[in_question]["hero"].boolean()) << in_question;
+  EXPECT_FALSE(looks["mysim/rk4"]["hero"].boolean());
+  EXPECT_EQ(looks["mysim/symplectic-euler"]["title"].text(), "symplectic Euler");
+  EXPECT_EQ(looks["exec:./my/engine"]["title"].text(), "engine");
+}
+
 struct Row {
   double step, error;
   std::optional<double> own;
 };
 
 /// Rows of one method in the table that experiment `order` writes, from long steps to short ones.
-std::vector<Row> rows_of(const Scene& scene, const std::string& method, Rows& result) {
+std::vector<Row> rows_of(const Scene& scene, const std::string& method, TableSet& result) {
   Request request;
   request.scenes = {scene};
   request.methods = find_methods(method);
@@ -232,7 +563,7 @@ TEST(OwnFinest, TellsWhoConvergesToAnotherLaw) {
   of_hooke.model.find<Springs>()->law = SpringLaw::hooke;
   for (const auto& [scene, same_law] : {std::pair{&of_their_law, true}, std::pair{&of_hooke, false}}) {
     SCOPED_TRACE(same_law);
-    Rows result;
+    TableSet result;
     const std::vector<Row> rows = rows_of(*scene, "bullet/pbd", result);
     ASSERT_EQ(rows.size(), 5u);
     EXPECT_FALSE(rows.back().own);  // no distance from itself
@@ -257,11 +588,11 @@ TEST(OrderCharts, AreDrawnFromTheirOwnTablesAlone) {
   Request request;
   request.scenes = {scene};
   request.methods = find_methods("leapfrog,rk4,explicit-euler");
-  const Rows alone = computed(order_points(request));
-  Rows both = alone;
+  const TableSet alone = computed(order_points(request));
+  TableSet both = alone;
   both.append(computed(engines_points(request)));
   std::vector<std::vector<Chart>> drawn;
-  for (const Rows* rows : {&alone, static_cast<const Rows*>(&both)}) {
+  for (const TableSet* rows : {&alone, static_cast<const TableSet*>(&both)}) {
     const std::vector<Scene> scenes{scene};
     const std::vector<SceneData> facts{scene_data(scene.name, *rows)};
     drawn.push_back(order_charts({scenes, facts, *rows, "commit"}));
@@ -275,7 +606,7 @@ TEST(OrderCharts, AreDrawnFromTheirOwnTablesAlone) {
 }
 
 TEST(OwnFinest, OfAStepperFallsWithItsErrorAndRulesOfToleranceAreNamed) {
-  Rows result;
+  TableSet result;
   const std::vector<Row> rows = rows_of(load_scene("pendulum"), "leapfrog,dopri5,odeint/dopri5", result);
   ASSERT_EQ(rows.size(), 7u);
   // order 2: the distance is the error less what is left at the finest step

@@ -1,12 +1,20 @@
-// Which method for which scene: cells of the opening table from facts made by hand, and words that findings share.
+// Findings of scenes and of balls, which method to take, and the answers that the page opens with: rows from data made
+// by hand.
 
 #include "experiments/scenes/scenes.h"
+#include "experiments/tables/adequacy.h"
+#include "experiments/tables/speed_accuracy.h"
+#include "experiments/tables/sphere.h"
+#include "experiments/tables/stability.h"
+#include "report/figures/charts.h"
+#include "report/findings/answers.h"
 #include "report/findings/evidence.h"
 #include "report/findings/findings_text.h"
 #include "report/findings/recommendation.h"
 #include "report/findings/report_data.h"
 #include "report/findings/summaries.h"
 #include "tests/unit/helpers.h"
+#include "tests/unit/report/made_up_findings.h"
 
 namespace crosscheck {
 namespace {
@@ -27,112 +35,136 @@ SceneData facts(std::vector<MethodData> methods) {
   return f;
 }
 
-class Choice : public testing::Test {
+/// What is said of a scene from data made by hand.
+class OfAScene : public testing::Test {
  protected:
-  RecommendationCell cell(const std::string& head, const SceneData& facts, const Rows& rows = {}) const {
-    const auto cells = recommendations_of(scene_, facts, rows);
-    for (size_t i = 0; i < cells.size(); ++i)
-      if (recommendation_columns()[i].head == head) return cells[i];
-    ADD_FAILURE() << head;
-    return {};
+  std::vector<Finding> said(const SceneData& data) const {
+    const std::vector<Finding> all = findings_of(scene_, data, {});
+    expect_short(all);
+    for (const Finding& f : all) EXPECT_EQ(f.scene, scene_.name);
+    return all;
   }
   const Scene scene_ = load_scenes({"cloth-hang"})[0];
 };
 
-TEST_F(Choice, TheNearestOfEachEngineAndWhoIsNearest) {
-  const SceneData f = facts({run("mysim/suzuki4", 1e-8, Verdict::ok, 30000), run("mysim/leapfrog", 2e-5),
-                             run("bullet/deformable-explicit", 6e-4), run("bullet/pbd", 5e-3)});
-  EXPECT_EQ(cell("mysim's nearest", f).text, "suzuki4 < 0.001 %");
-  EXPECT_EQ(cell("mysim's nearest", f).css_class, std::string("best"));
-  EXPECT_EQ(cell("mysim's, one evaluation a step", f).text, "leapfrog 0.002 %");
-  EXPECT_EQ(cell("mysim's, one evaluation a step", f).css_class, std::string());
-  EXPECT_EQ(cell("Bullet's nearest", f).text, "deformable-explicit 0.06 %");
-  EXPECT_EQ(cell("failed, or over 10 % off", f).text, "none of 4");
+TEST_F(OfAScene, TheNearestOfEachEngineHasARow) {
+  const auto all = said(facts({run("mysim/suzuki4", 1e-8, Verdict::ok, 30000), run("mysim/leapfrog", 2e-5),
+                               run("bullet/deformable-explicit", 6e-4), run("bullet/pbd", 5e-3),
+                               run("exec:./my/engine", 3e-4), run("truth/converged", 0.)}));
+  const Finding best = the(all, "nearest");
+  EXPECT_EQ(best.method, "mysim/suzuki4");
+  EXPECT_EQ(best.value, 1e-8);
+  EXPECT_DOUBLE_EQ(*best.low, 0.9e-8);
+  EXPECT_DOUBLE_EQ(*best.high, 1.1e-8);
+  EXPECT_EQ(best.tier, "converged");
+  EXPECT_EQ(the(all, "nearest-single").method, "mysim/leapfrog");
+  const auto others = of_rule(all, "nearest-of-engine");
+  ASSERT_EQ(others.size(), 2u);
+  EXPECT_EQ(others[0].method, "bullet/deformable-explicit");
+  EXPECT_EQ(others[0].other, "bullet");
+  EXPECT_EQ(others[1].method, "exec:./my/engine");
+  EXPECT_EQ(sentence_of(others[1]), "engine is 0.3 mm off, 0.03 % of the motion.") << "by its own name";
 }
 
-TEST_F(Choice, OfSeveralThatAreAsNearTheCheapestIsNamed) {
-  // 2.5e-16 m apart at three times the work; one with fewer evaluations is nearer by far than those of one a step
-  const SceneData f = facts({run("mysim/implicit-euler", 1e-2, Verdict::ok, 18000),
-                             run("mysim/symplectic-euler", 1.0001e-2), run("mysim/explicit-euler", 2e-2)});
-  EXPECT_EQ(cell("mysim's nearest", f).text, "symplectic-euler 1 %");
-  const SceneData few = facts({run("mysim/dopri5", 1e-8, Verdict::ok, 100), run("mysim/explicit-euler", 2e-2)});
-  EXPECT_EQ(cell("mysim's nearest", few).text, "dopri5* < 0.001 %");
+TEST_F(OfAScene, OfSeveralThatAreAsNearTheThriftiestIsNamed) {
+  const Finding f = the(said(facts({run("mysim/implicit-euler", 1e-2, Verdict::ok, 18000),
+                                    run("mysim/symplectic-euler", 1.0001e-2), run("mysim/explicit-euler", 2e-2)})),
+                        "nearest");
+  EXPECT_EQ(f.method, "mysim/symplectic-euler");
+  EXPECT_TRUE(contains(sentence_of(f), "with 1 other as near"));
 }
 
-TEST_F(Choice, EnginesOfOthersKeepTheirNames) {
-  const SceneData f = facts({run("mysim/rk4", 1e-4), run("bullet/pbd", 2e-4), run("bullet32/pbd", 3e-4),
-                             run("exec:./my/engine", 5e-5), run("truth/converged", 0.)});
-  EXPECT_EQ(cell("nearest of others", f).text, "exec:./my/engine 0.005 %");
-  EXPECT_EQ(cell("nearest of others", f).css_class, std::string("best"));
-  EXPECT_EQ(cell("Bullet's nearest", f).text, "pbd 0.02 %");
-  EXPECT_TRUE(cell("nearest of others", facts({run("mysim/rk4", 1e-4)})).empty());
-}
-
-TEST_F(Choice, WithinFivePercentBothAreNearest) {
-  const SceneData f = facts({run("mysim/xpbd", 5.51e-3), run("bullet/pbd", 5.5e-3)});
-  EXPECT_EQ(cell("mysim's nearest", f).css_class, std::string("best"));
-  EXPECT_EQ(cell("Bullet's nearest", f).css_class, std::string("best"));
-}
-
-TEST_F(Choice, NothingIsSaidBelowTheErrorBar) {
+TEST_F(OfAScene, NothingIsSaidBelowTheErrorBar) {
   SceneData f = facts({run("mysim/rk4", 1e-4)});
   f.error_bar = 2e-3;
-  EXPECT_EQ(cell("mysim's nearest", f).text, "rk4 < 0.2 %");
+  const Finding nearest = the(said(f), "nearest");
+  EXPECT_EQ(nearest.value, 2e-3);
+  EXPECT_EQ(nearest.low, 0);
+  EXPECT_TRUE(contains(sentence_of(nearest), "less than 2 mm off"));
 }
 
-TEST_F(Choice, FailuresAndUselessAnswersAreNamed) {
-  const SceneData f = facts({run("mysim/rk4", 1e-4), run("mysim/explicit-euler", {}, Verdict::energy),
-                             run("mysim/xpbd", 0.2), run("bullet/pbd", 0.3),
-                             run("bullet/deformable-explicit", {}, Verdict::unsupported), run(sticky_sphere, 0.9)});
-  EXPECT_EQ(cell("failed, or over 10 % off", f).text, "explicit-euler failed; off: pbd 30 %, xpbd 20 % (of 4)");
-  EXPECT_EQ(cell("Bullet's nearest", facts({run("bullet/pbd", {}, Verdict::unsupported)})).text, "cannot");
+TEST_F(OfAScene, FailuresAreCountedAndTheFirstIsNamed) {
+  SceneData f = facts({run("mysim/rk4", 1e-4), run("mysim/explicit-euler", {}, Verdict::energy),
+                       run("mysim/trapezoidal", {}, Verdict::stretch), run("bullet/pbd", {}, Verdict::unsupported)});
+  f.methods[1].end = 2, f.methods[2].end = 1, f.methods[2].limit = 1e-4;
+  const Finding failed = the(said(f), "failed");
+  EXPECT_EQ(failed.value, 2);
+  EXPECT_EQ(failed.method, "mysim/trapezoidal");
+  EXPECT_EQ(sentence_of(failed),
+            "At a step of 500 µs, 2 of 3 methods failed, first trapezoidal after 1 s (stable up to 100 µs).");
+  f.methods[2].verdict = Verdict::ok, f.methods[2].error = 1;
+  EXPECT_EQ(sentence_of(the(said(f), "failed")),
+            "At a step of 500 µs, 1 of 3 methods failed: explicit-euler after 2 s.");
 }
 
-TEST_F(Choice, WithoutATruthThereAreDifferencesOnly) {
-  SceneData f = facts({run("mysim/rk4", {}), run(theirs, {})});
-  f.tier = "", f.methods[1].difference = 8.1e-4;
-  EXPECT_EQ(cell("truth", f).text, "none");
-  EXPECT_EQ(cell("mysim's nearest", f).text, "–");
-  EXPECT_TRUE(begins(cell("Bullet's nearest", f).text, "0.81 mm from mysim until "));
+TEST_F(OfAScene, AgreementIsOneOfFourRules) {
+  SceneData f = facts({run(ours, 1e-3), run(theirs, 1e-3)});
+  MethodData& peer = f.methods[1];
+  const auto rule = [&] {
+    for (const Finding& each : said(f))
+      if (each.other == theirs && each.rule != "nearest-of-engine") return each.rule;
+    return std::string();
+  };
+  EXPECT_EQ(rule(), "") << "nothing was compared";
+  peer.difference = 1e-12, f.round_off = 1e-11;
+  EXPECT_EQ(rule(), "same-rule");
+  peer.difference = 1e-9;
+  EXPECT_EQ(rule(), "same-rule-differs");
+  f.round_off.reset();
+  EXPECT_EQ(rule(), "same-rule-chaotic");
+  peer.different_law = "drag";
+  EXPECT_EQ(rule(), "different-rule");
+  peer.clearance = 0;
+  EXPECT_EQ(rule(), "same-rule-contact");
+  peer.verdict = Verdict::energy;
+  EXPECT_EQ(rule(), "") << "a run that failed is compared with nothing";
 }
 
-Table least(std::vector<std::vector<Cell>> rows) {
-  Table t{"adequacy-least", {}, {}};
-  for (const char* column : {"scene", "tolerance", "tolerance is", "left out", "unseen error 1", "unseen error 2",
-                             "unseen error 3", "holds", "cost of full"})
-    t.columns.push_back({column, "1"});
-  for (auto& row : rows) t.add(std::move(row));
+TEST_F(OfAScene, AProgramMayFollowTheSameRule) {
+  SceneData f = facts({run(ours, 1e-3), run("exec:./mine", 1e-3)});
+  f.round_off = 1e-11, f.methods[1].difference = 1e-12;
+  EXPECT_EQ(sentence_of(the(said(f), "same-motion")),
+            "At the same step mine parts from mysim's symplectic-euler by at most 1.0e-12 m in 3 s; round-off allows "
+            "1.0e-11 m.");
+  f.methods[1].difference = 1e-9;
+  EXPECT_EQ(the(said(f), "unknown-rule").value, 1e-9);
+}
+
+TEST_F(OfAScene, WithoutBulletNoSentenceSpeaksOfIt) {
+  SceneData f = facts({run(ours, 1e-3), run("mysim/explicit-euler", {}, Verdict::energy), run("exec:./mine", 2e-3)});
+  f.methods[2].difference = 1e-3, f.methods[0].clearance = -1e-4, f.methods[2].clearance = -2e-4;
+  const auto all = said(f);
+  for (const Finding& each : all) EXPECT_FALSE(contains(sentence_of(each), "Bullet")) << sentence_of(each);
+  EXPECT_EQ(the(all, "unknown-rule").other, "exec:./mine");
+  EXPECT_EQ(the(all, "sinks-in").value, 2e-4);
+}
+
+Table least(const std::vector<LeastModelRow>& rows) {
+  Table t = table_of<LeastModelRow>();
+  for (const LeastModelRow& row : rows) add(t, row);
   return t;
 }
+LeastModelRow least_row(ToleranceKind kind, double tolerance, const std::string& left_out, double unseen, bool holds,
+                        const std::string& scene = "cloth-hang") {
+  return {.scene = scene,
+          .tolerance = tolerance,
+          .tolerance_is = kind,
+          .least_model = "",
+          .left_out = left_out,
+          .unseen_error_1 = 5e-3,
+          .unseen_error_2 = unseen,
+          .unseen_error_3 = unseen,
+          .holds = holds,
+          .cost_of_full = left_out.empty() ? 1 : 0.67};
+}
 
-TEST_F(Choice, WhatMayBeLeftOutAndWhoIsCheapest) {
-  Rows rows;
-  rows.add(least({{"cloth-hang", 1e-3, "the scene's own", "", 1., 1., 1., 1l, 1.},
-                  {"cloth-hang", 0.01, "1 % of its motion", "shear springs", 5e-3, 0.02, 0.03, 0l, 0.67},
-                  {"cloth-hang", 0.1, "10 % of its motion", "bend springs", 5e-3, 0.02, 0.03, 1l, 0.67}}));
-  Table cheap{"speed-accuracy-cheapest-cost", {}, {}};
-  for (const char* column : {"scene", "part of motion", "measure", "method", "as cheap within noise", "Bullet / mysim"})
-    cheap.columns.push_back({column, "1"});
-  cheap.add({"cloth-hang", 0.01, "error", "mysim/leapfrog", "mysim/rk4, odeint/rk4", 26.6});
-  rows.add(cheap);
-  const SceneData f = facts({run("mysim/rk4", 1e-4)});
-  EXPECT_EQ(cell("not needed for 1 % / 10 %", f, rows).text, "nothing / bend springs");
-  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f, rows).text, "leapfrog, rk4, odeint/rk4; Bullet\u00a0×\u00a027");
-  EXPECT_EQ(cell("cheapest for 1 %, CPU time", f).text, "–");
-
-  // what holds within 1 % is within 10 % too, also where the search goes further there and fails
-  Rows further;
-  further.add(least({{"cloth-hang", 0.01, "1 % of its motion", "shear springs", 5e-3, 5e-3, 5e-3, 1l, 0.67},
-                     {"cloth-hang", 0.1, "10 % of its motion", "shear springs, drag", 0.2, 0.02, 0.03, 0l, 0.67}}));
-  EXPECT_EQ(cell("not needed for 1 % / 10 %", f, further).text, "shear springs");
-
-  // nobody of Bullet is as near, though its worlds take the scene
-  Table none = cheap;
-  none.rows[0].back() = Cell();
-  Rows without;
-  without.add(none);
-  EXPECT_EQ(cell("cheapest for 1 %, CPU time", facts({run("bullet/pbd", 0.1)}), without).text,
-            "leapfrog, rk4, odeint/rk4; Bullet:\u00a0none");
+TEST(LeastModels, HaveARowForEachThingThatIsSaid) {
+  TableSet rows;
+  rows.add(least({least_row(ToleranceKind::of_scene, 1e-3, "", 1, true),
+                  least_row(ToleranceKind::hundredth_of_motion, 0.01, "shear springs", 0.02, false),
+                  least_row(ToleranceKind::tenth_of_motion, 0.1, "bend springs", 0.02, true),
+                  least_row(ToleranceKind::of_scene, 1e-3, "", 1, true, "chain"),
+                  least_row(ToleranceKind::tenth_of_motion, 0.1, "", 1, true, "chain")}));
   const auto models = least_models_of(rows, "cloth-hang");
   ASSERT_EQ(models.size(), 3u);
   EXPECT_EQ(models[1].failing, 2);
@@ -141,20 +173,291 @@ TEST_F(Choice, WhatMayBeLeftOutAndWhoIsCheapest) {
   EXPECT_FALSE(models[2].of_motion(1));
 
   const auto findings = adequacy_findings(rows);
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_EQ(
-      findings[0].sentence,
-      "On cloth-hang within its tolerance all is needed; at 1 % of its motion without shear springs it fails from "
-      "2 of 3 other starts; at 10 % of its motion it can do without bend springs, which saves 33 % of the spring "
-      "evaluations. All this holds while single positions can be compared.");
+  expect_short(findings);
+  EXPECT_EQ(rules_of(findings),
+            (std::vector<std::string>{"least-model-full", "least-model-fails", "least-model", "least-model-none"}));
+  EXPECT_EQ(findings[1].value, 2);
+  EXPECT_DOUBLE_EQ(findings[2].value, 33);
+  EXPECT_EQ(findings[2].scene, "cloth-hang");
+  EXPECT_EQ(findings[3].value, 1);
+  EXPECT_EQ(sentence_of(findings[2]),
+            "On cloth-hang, within 10 %, bend springs can be left out, which saves 33 % of the spring evaluations.");
 }
 
-TEST_F(Choice, TheFindingSaysTheRowWithoutTimings) {
-  const Finding f = recommendation_finding(scene_, facts({run("mysim/rk4", 1e-4)}), {});
-  EXPECT_TRUE(contains(f.sentence, "mysim's nearest: rk4 0.01 %; "));
-  EXPECT_FALSE(contains(f.sentence, "CPU"));
-  EXPECT_EQ(f.tier, "converged");
-  EXPECT_NO_THROW(finding_rule(f.rule));
+TEST(LeastModels, WhatHoldsAtSeveralTolerancesIsSaidOnce) {
+  TableSet rows;
+  rows.add(least({least_row(ToleranceKind::hundredth_of_motion, 0.01, "bend springs", 5e-3, true),
+                  least_row(ToleranceKind::tenth_of_motion, 0.1, "bend springs", 5e-3, true)}));
+  EXPECT_TRUE(contains(sentence_of(the(adequacy_findings(rows), "least-model")), "within 1 % and within 10 %"));
+  EXPECT_EQ(ingredients_text("shear springs, bend springs, drag"), "shear, bend springs and drag");
+  EXPECT_EQ(ingredients_text("shear springs, bend springs"), "shear and bend springs");
+  EXPECT_EQ(ingredients_text("a, b, c, d"), "4 ingredients");
+  EXPECT_EQ(ingredients_text(""), "nothing");
+}
+
+/// Runs of methods on a scene whose motion is 1 m, with their costs, and the row of the cheapest within 1 %.
+class Take : public testing::Test {
+ protected:
+  void add_run(const std::string& method, double step, double error, double cpu, Verdict verdict = Verdict::ok) {
+    SpeedAccuracyRow run;
+    run.scene = scene, run.method = method, run.requested = run.step = step, run.verdict = verdict, run.motion = 1;
+    run.truth = "converged", run.truth_bar = 1e-6;
+    if (verdict == Verdict::ok) run.error = error;
+    add(runs_, run);
+    SpeedAccuracyCostRow cost;
+    cost.scene = scene, cost.method = method, cost.requested = step, cost.cpu = cpu;
+    if (verdict != Verdict::ok) cost.verdict = RunEnd::failed;
+    add(costs_, cost);
+  }
+  void add_cheapest(const std::string& method, double step, double error, double cpu, const std::string& tied = "") {
+    CheapestRow<Cost::cpu> row;
+    row.scene = scene, row.part_of_motion = row.bound = 0.01;
+    row.method = method, row.setting = SettingKind::step, row.requested = step, row.distance = error, row.cost = cpu;
+    if (!tied.empty()) row.tied = tied;
+    add(cheapest_, row);
+    for (const auto& [method_beside, times] :
+         {std::pair{"bullet/pbd", 25.}, {"odeint/rk4", 2.}, {"exec:./mine", 30.}}) {
+      EngineSpeedRow beside;
+      beside.scene = scene, beside.part_of_motion = 0.01, beside.engine = beside.method = method_beside;
+      if (beside.engine.starts_with("bullet")) beside.engine = "bullet";
+      beside.times_mysim = times, beside.times_mysim_low = 0.9 * times, beside.times_mysim_high = 1.1 * times;
+      add(engines_, beside);
+    }
+  }
+  TableSet rows() const {
+    TableSet all;
+    for (const Table& table : {runs_, costs_, cheapest_, engines_}) all.add(table);
+    return all;
+  }
+  std::string scene = "cloth-hang";
+  Table runs_ = table_of<SpeedAccuracyRow>(), costs_ = table_of<SpeedAccuracyCostRow>(),
+        cheapest_ = table_of<CheapestRow<Cost::cpu>>(), engines_ = table_of<EngineSpeedRow>();
+};
+
+TEST_F(Take, OfRunsThatTheClockCannotTellApartTheNearestIsTaken) {
+  add_run("mysim/symplectic-euler", 2e-3, 8e-3, 0.10);
+  add_run("mysim/leapfrog", 2e-3, 7e-4, 0.101);
+  add_run("mysim/leapfrog", 1e-3, 2e-4, 0.2);  // nearer still, but no longer as cheap
+  add_run("mysim/rk4", 4e-3, 5e-3, 0.102);
+  add_cheapest("mysim/symplectic-euler", 2e-3, 8e-3, 0.10, "mysim/leapfrog, mysim/rk4");
+  const auto run = recommended_run(scene, 0.01, rows());
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->method, "mysim/leapfrog");
+  EXPECT_EQ(run->requested, 2e-3);
+  EXPECT_EQ(run->error, 7e-4);
+  EXPECT_EQ(run->cost, 0.101);
+  EXPECT_EQ(run->motion, 1);
+  EXPECT_EQ(run->tied, (std::vector<std::string>{"mysim/symplectic-euler", "mysim/rk4"}));
+  ASSERT_EQ(run->beside.size(), 2u) << "integrators on our right-hand side are no engines";
+  EXPECT_EQ(run->beside[0].engine, "bullet");
+  EXPECT_EQ(run->beside[0].times, 25);
+  EXPECT_EQ(run->beside[1].engine, "exec:./mine");
+
+  const auto all = recommendation_findings(load_scenes({scene})[0], rows());
+  expect_short(all);
+  EXPECT_EQ(rules_of(all), (std::vector<std::string>{"take", "take-tied", "take-beside", "take-beside"}));
+  EXPECT_EQ(all[0].method, "mysim/leapfrog");
+  EXPECT_DOUBLE_EQ(all[0].value, 0.07);
+  EXPECT_EQ(all[1].value, 2);
+  EXPECT_EQ(all[2].value, 25);
+  EXPECT_EQ(all[2].low, 0.9 * 25);
+  EXPECT_EQ(sentence_of(all[3]), "For 1 % of the motion mine needs 30 times mysim's CPU time.");
+  EXPECT_FALSE(recommended_run(scene, 0.1, rows())) << "no row is of that accuracy";
+  EXPECT_FALSE(recommended_run("chain", 0.01, rows()));
+  EXPECT_FALSE(recommended_run(scene, 0.01, {}));
+}
+
+TEST_F(Take, WhatBindsTheStepIsWhatTheNextLongerOneDid) {
+  add_run("mysim/leapfrog", 1e-3, 1e-3, 0.2);
+  add_run("mysim/leapfrog", 4e-3, 0, 0, Verdict::energy);
+  add_run("mysim/rk4", 2e-3, 0, 0, Verdict::energy);  // of another method
+  add_cheapest("mysim/leapfrog", 1e-3, 1e-3, 0.2);
+  EXPECT_EQ(recommended_run(scene, 0.01, rows())->bound, "stability");
+  add_run("mysim/leapfrog", 2e-3, 0.02, 0.1);  // holds, but is too far off
+  EXPECT_EQ(recommended_run(scene, 0.01, rows())->bound, "accuracy");
+}
+
+TEST_F(Take, TheLongestStepThatWasTriedIsBoundBySampling) {
+  add_run("mysim/leapfrog", 1e-3, 1e-3, 0.2);
+  add_cheapest("mysim/leapfrog", 1e-3, 1e-3, 0.2);
+  EXPECT_EQ(recommended_run(scene, 0.01, rows())->bound, "sampling");
+}
+
+TEST_F(Take, IsRingedInItsChartBesideTheCriticalStepOfItsRule) {
+  add_run("mysim/leapfrog", 1e-3, 1e-3, 0.2);
+  add_run("mysim/leapfrog", 4e-3, 0, 0, Verdict::energy);
+  add_run("bullet/pbd", 4e-3, 0.02, 0.1);
+  for (auto& row : runs_.rows)
+    for (size_t c = 0; c < runs_.columns.size(); ++c)
+      if (runs_.columns[c].name == "truth bar") row[c] = 1e-9;
+  add_cheapest("mysim/leapfrog", 1e-3, 1e-3, 0.2);
+  const std::vector<Scene> scenes = load_scenes({scene});
+  const std::vector<SceneData> facts;
+  TableSet all = rows();
+  const auto drawn = [&] {
+    for (const Chart& chart : speed_accuracy_charts({scenes, facts, all, "commit"}))
+      if (const auto* f = std::get_if<Figure>(&chart.figure); f && f->from_costs) return f->on_page;
+    return OnPage{};
+  };
+  const OnPage page = drawn();
+  EXPECT_EQ(page.motion, 1);
+  EXPECT_EQ(page.duration, scenes[0].duration);
+  ASSERT_TRUE(page.take);
+  EXPECT_EQ(page.take->x, 0.2);
+  EXPECT_EQ(page.take->y, 1e-3);
+  EXPECT_EQ(page.take->name, "take this: 1 ms");
+  EXPECT_EQ(page.take->more, "0.1 %, 200 ms");
+  EXPECT_FALSE(page.critical) << "no limit is known";
+  Table limits = table_of<LimitRow>();
+  LimitRow row;
+  row.scene = scene, row.method = "mysim/leapfrog", row.predicted = 2e-3, row.omega = 1000;
+  add(limits, row);
+  all.add(limits);
+  const OnPage bound = drawn();
+  ASSERT_TRUE(bound.critical);
+  EXPECT_DOUBLE_EQ(bound.critical->x, 0.1) << "at twice the step half of the cost";
+  EXPECT_EQ(bound.critical->name, "h = 2/ω = 2 ms");
+}
+
+/// What a report of several scenes would say: with tables of every kind, or with the engines' runs alone.
+class Answers : public Take {
+ protected:
+  void SetUp() override {
+    for (const Scene& s : scenes_) {
+      SceneData f = facts({run(ours, 1e-3), run(theirs, 1e-3), run("bullet/pbd", 5e-3)});
+      f.scene = s.name, f.round_off = 1e-9, f.methods[1].difference = 3.4e-12;
+      if (s.model.find<Spheres>()) f.methods[0].clearance = 0, f.methods[1].difference = 2.97e-3;
+      facts_.push_back(f);
+    }
+  }
+  std::vector<Finding> answers(const TableSet& tables) const { return answer_findings(scenes_, facts_, tables); }
+  TableSet full() {
+    add_run("mysim/symplectic-euler", 2.5e-3, 7.1e-3, 0.112);
+    add_cheapest("mysim/symplectic-euler", 2.5e-3, 7.1e-3, 0.112);
+    TableSet all = rows();
+    Table limits = table_of<LimitRow>(), cone = table_of<ConeRow>(), least = table_of<LeastModelRow>();
+    for (const char* method : {"mysim/leapfrog", "mysim/symplectic-euler"}) {
+      LimitRow row;
+      row.scene = scene, row.method = method, row.predicted = 2.504e-3, row.measured = 2.5075e-3;
+      row.held = 2.5e-3, row.failed = 2.515e-3, row.deviation = 0.0014;
+      add(limits, row);
+    }
+    for (const std::string& method : {std::string(ours), std::string(theirs), std::string("bullet/pbd")})
+      for (int i = 0; i < 72; ++i) {
+        ConeRow row;
+        row.method = method;
+        row.state = method != ours && i % 2 ? ContactState::neither : ContactState::sticks;
+        add(cone, row);
+      }
+    for (const ToleranceKind kind : {ToleranceKind::hundredth_of_motion, ToleranceKind::tenth_of_motion}) {
+      LeastModelRow row;
+      row.scene = scene, row.tolerance_is = kind, row.holds = true, row.cost_of_full = 0.67;
+      row.left_out = kind == ToleranceKind::tenth_of_motion ? "bend springs, shear springs" : "";
+      add(least, row);
+    }
+    for (const Table& table : {limits, cone, least}) all.add(table);
+    return all;
+  }
+  const std::vector<Scene> scenes_ = load_scenes({"chain", "cloth-hang", "cloth-sphere"});
+  std::vector<SceneData> facts_;
+};
+
+TEST_F(Answers, AreOneToEachQuestionInAtMost25Words) {
+  const std::vector<Finding> all = answers(full());
+  ASSERT_EQ(questions().size(), 5u);
+  ASSERT_EQ(all.size(), 5u);
+  expect_short(all);
+  for (size_t i = 0; i < 5; ++i) {
+    const FindingRule& rule = finding_rule(all[i].rule);
+    EXPECT_EQ(rule.topic, "answer");
+    EXPECT_EQ(rule.chapter, questions()[i].chapter);
+    EXPECT_EQ(answer_to(questions()[i], all), &all[i]);
+  }
+  EXPECT_EQ(all[0].value, 3.4e-12);
+  EXPECT_EQ(all[1].scene, "cloth-hang") << "the cloth without contact stands for the others";
+  EXPECT_EQ(all[1].method, "mysim/symplectic-euler");
+  EXPECT_DOUBLE_EQ(all[1].value, 0.71);
+  EXPECT_EQ(all[1].other, "bullet") << "the next engine, no integrator";
+  EXPECT_EQ(all[2].rule, "answer-limit");
+  EXPECT_EQ(all[2].value, 2.5075e-3);
+  EXPECT_EQ(all[2].low, 2.5e-3);
+  EXPECT_EQ(all[2].high, 2.515e-3);
+  EXPECT_TRUE(contains(sentence_of(all[2]), "All 2 limits"));
+  EXPECT_TRUE(contains(sentence_of(all[2]), "within 0.6 % of theory")) << "no nearer than the search can tell";
+  EXPECT_EQ(all[3].value, 72);
+  EXPECT_TRUE(contains(sentence_of(all[3]), "pbd in 36."));
+  EXPECT_DOUBLE_EQ(all[4].value, 67);
+  EXPECT_TRUE(contains(sentence_of(all[4]), "bend and shear springs"));
+}
+
+TEST_F(Answers, OfAQuestionThatNoTableSpeaksOfThereAreNone) {
+  const std::vector<Finding> few = answers({});
+  expect_short(few);
+  EXPECT_EQ(rules_of(few), (std::vector<std::string>{"answer-agreement", "answer-none-failed", "answer-contact"}));
+  EXPECT_EQ(answer_to(questions()[1], few), nullptr);
+  EXPECT_TRUE(answer_findings({}, {}, {}).empty());
+}
+
+TEST_F(Answers, WithoutBulletTheyAreOfTheEngineThatIsThere) {
+  for (SceneData& each : facts_) {
+    std::erase_if(each.methods,
+                  [](const MethodData& m) { return family_of(m.method).by_default() && m.method != ours; });
+    each.methods.push_back(run("exec:./bin/mine", 2e-3));
+    each.methods.back().difference = 1e-4;
+  }
+  const std::vector<Finding> all = answers({});
+  expect_short(all);
+  EXPECT_EQ(rules_of(all), (std::vector<std::string>{"answer-difference", "answer-none-failed", "answer-contact"}));
+  for (const Finding& f : all) EXPECT_FALSE(contains(sentence_of(f), "Bullet")) << sentence_of(f);
+  EXPECT_TRUE(contains(sentence_of(all[0]), "mine and mysim's symplectic-euler part by up to 0.1 mm"));
+  for (SceneData& each : facts_) each.methods.back().difference = 1e-12;
+  EXPECT_EQ(answers({})[0].rule, "answer-difference") << "contact has no bound";
+  facts_.pop_back();
+  EXPECT_EQ(answers({})[0].rule, "answer-same-motion");
+}
+
+TEST_F(Answers, ADisagreementBeyondRoundOffIsNoYes) {
+  EXPECT_EQ(answers({})[0].rule, "answer-agreement");
+  facts_[0].methods[1].difference = 1e-3;
+  const Finding no = answers({})[0];
+  EXPECT_EQ(no.rule, "answer-agreement-no");
+  EXPECT_EQ(no.value, 1e-3);
+  EXPECT_EQ(no.words.at("where"), "chain");
+}
+
+TEST_F(Answers, WhereTheMotionIsChaoticNothingIsSaidOfAgreement) {
+  facts_.pop_back();
+  for (SceneData& each : facts_) each.round_off.reset(), each.growth = 1e9;
+  EXPECT_EQ(answers({})[0].rule, "answer-chaotic");
+  EXPECT_EQ(answers({})[0].value, 1e9);
+  expect_short(answers({}));
+}
+
+TEST_F(Answers, RunsThatFailedAreCountedWhereNoLimitWasMeasured) {
+  EXPECT_EQ(the(answers({}), "answer-none-failed").value, 9);
+  facts_[1].methods[0].verdict = Verdict::energy;
+  facts_[2].methods[2].verdict = Verdict::unsupported;
+  const Finding failed = the(answers({}), "answer-failed");
+  EXPECT_EQ(failed.value, 1);
+  EXPECT_EQ(sentence_of(failed), "1 of 8 runs at the scenes' own steps failed: symplectic-euler.");
+}
+
+TEST(MainScene, IsTheLastClothThatWasTimedElseTheLastScene) {
+  const std::vector<Scene> scenes = load_scenes({"cloth-hang", "chain", "spring"});
+  const auto timed = [](const std::vector<std::string>& names) {
+    Table t = table_of<CheapestRow<Cost::cpu>>();
+    for (const std::string& name : names) {
+      CheapestRow<Cost::cpu> row;
+      row.scene = name, row.method = "mysim/rk4";
+      add(t, row);
+    }
+    TableSet rows;
+    rows.add(t);
+    return rows;
+  };
+  EXPECT_EQ(main_scene(scenes, timed({"chain", "cloth-hang"}))->name, "cloth-hang");
+  EXPECT_EQ(main_scene(scenes, timed({"chain"}))->name, "chain");
+  EXPECT_EQ(main_scene(scenes, {}), nullptr);
 }
 
 TEST(SceneKind, IsTheHardestThingInIt) {
@@ -164,34 +467,49 @@ TEST(SceneKind, IsTheHardestThingInIt) {
   for (size_t i = 0; i < names.size(); ++i) EXPECT_EQ(scene_class(scenes[i]), kinds[i]) << names[i];
 }
 
-TEST(SharedWords, LeavingAnglesByEngineAndWhoGetsWorse) {
-  Table t{"sphere-leaving", {{"method", "1"}, {"step", "s"}, {"angle", "degrees"}, {"angle by theory", "degrees"}}, {}};
-  for (const auto& [method, coarse, fine] : {std::tuple{"mysim/rk4", 54.9, 54.99}, {"bullet/pbd", 54.8, 53.4}}) {
-    t.add({method, 1e-3, coarse, 55.});
-    t.add({method, 1e-4, fine, 55.});
-  }
-  t.add({sticky_sphere, 1e-4, Cell(), 55.});
-  EXPECT_EQ(
-      leaving_sentence(t),
-      "At a step of 100 µs particles leave the ball off the exact angle: mysim's rules by at most 0.01 degrees (-0.1 "
-      "at 1 ms) and bullet/pbd by -1.6 (-0.2 at 1 ms). Shorter steps make bullet/pbd worse.");
+TEST(SphereFindings, LeavingAnglesByEngineAndWhoGetsWorse) {
+  Table t = table_of<LeavingRow>();
+  for (const auto& [method, coarse, fine] :
+       {std::tuple{"mysim/rk4", 54.9, 54.99}, {"mysim/leapfrog", 54.9, 54.995}, {"bullet/pbd", 54.8, 53.4}})
+    for (const auto& [step, angle] : {std::pair{1e-3, coarse}, {1e-4, fine}})
+      add(t, LeavingRow{.method = method, .reason = "", .step = step, .angle = angle, .angle_by_theory = 55});
+  add(t, LeavingRow{.method = sticky_sphere, .reason = "", .step = 1e-4, .angle_by_theory = 55});
+  const auto all = leaving_findings(t);
+  expect_short(all);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].method, "mysim/rk4") << "the furthest of mysim";
+  EXPECT_NEAR(all[0].value, -0.01, 1e-9);
+  EXPECT_NEAR(all[1].value, -1.6, 1e-9);
+  EXPECT_EQ(sentence_of(all[1]),
+            "With Bullet's pbd, particles leave the ball 1.6 degrees too early at a step of 100 µs: shorter steps make "
+            "it worse.");
   t.rows.clear();
-  EXPECT_EQ(leaving_sentence(t), "");
+  EXPECT_TRUE(leaving_findings(t).empty());
 }
 
-TEST(SharedWords, TheDrapeSaysWhoLeftTheBallAndWhoTouchesIt) {
-  Table t{"sphere-drape", {}, {}};
-  for (const char* column : {"scene", "method", "verdict", "step", "end", "centre height", "creep"})
-    t.columns.push_back({column, "1"});
-  t.add({"drop-aside", ours, "ok", 2e-3, 1.6, -0.7, Cell()});
-  t.add({"drop-aside", ours, "ok", 1e-3, 1.6, -0.7, Cell()});
-  t.add({"drop-aside", theirs, "energy", 1e-3, 0.3, Cell(), Cell()});
-  t.add({"drop-aside", position_based(), "ok", 1e-3, 1.6, 0.3, 0.0208});
-  t.add({"drop-aside", sticky_sphere, "ok", 1e-3, 1.6, 0.3, 0.});
-  EXPECT_EQ(drape_end_sentence(drape_ends(t)),
-            "At 1.6 s it is off the ball with mysim/symplectic-euler; with bullet/pbd it still touches it, sliding at "
-            "20.8 mm/s and with mysim/symplectic-euler+sticky it still touches it, frozen.");
-  EXPECT_EQ(drape_end_sentence({}), "");
+TEST(SphereFindings, TheDrapeSaysWhoLeftTheBallAndWhoTouchesIt) {
+  Table t = table_of<DrapeRow>();
+  const auto end = [&](const std::string& method, double step, double height, std::optional<double> creep,
+                       Verdict verdict = Verdict::ok) {
+    add(t, DrapeRow{.scene = "drop-aside",
+                    .method = method,
+                    .verdict = verdict,
+                    .reason = "",
+                    .end = 1.6,
+                    .step = step,
+                    .centre_height = height,
+                    .creep = creep});
+  };
+  end(ours, 2e-3, -0.7, {}), end(ours, 1e-3, -0.7, {}), end(theirs, 1e-3, 0, {}, Verdict::energy);
+  end(position_based(), 1e-3, 0.3, 0.0208), end(sticky_sphere, 1e-3, 0.3, 0.);
+  const auto all = drape_findings(t);
+  expect_short(all);
+  EXPECT_EQ(rules_of(all), (std::vector<std::string>{"slides-off", "still-touches", "still-touches"}));
+  EXPECT_EQ(all[0].value, -0.7);
+  EXPECT_EQ(all[1].method, position_based());
+  EXPECT_EQ(all[1].value, 0.0208);
+  EXPECT_EQ(all[2].value, 0);
+  EXPECT_TRUE(drape_findings(table_of<DrapeRow>()).empty());
 }
 
 TEST(SharedWords, NumbersHaveOneStyle) {

@@ -71,7 +71,7 @@ TEST_F(CliRegress, AMethodThatNoBaselineKnowsIsNewAndPasses) {
   EXPECT_NE(run.out.find("new        mysim/rk4: "), std::string::npos) << run.out;
   EXPECT_NE(run.out.find(" in 1 scene, not blessed yet; bless with --filter '*/mysim/rk4'\n"), std::string::npos);
   EXPECT_EQ(run.out.find("new        mysim/leapfrog"), std::string::npos) << run.out;
-  EXPECT_NE(read(folder_ / "out/regress/index.html").find("<h2>What is new</h2>"), std::string::npos);
+  EXPECT_NE(read(folder_ / "out/regress/index.html").find("<h2>New methods</h2>"), std::string::npos);
   EXPECT_NE(rows(folder_ / "out/regress/regress.csv").find(",new,"), std::string::npos);
   const std::string json = read(folder_ / "out/regress/regress.json");
   EXPECT_NE(json.find("\"method\": \"mysim/rk4\"", json.find("\"new_methods\"")), std::string::npos) << json;

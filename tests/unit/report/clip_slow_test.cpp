@@ -93,7 +93,7 @@ TEST(ClipRun, EndsWithTheSceneWhateverItsDuration) {
 
 TEST(ClipRun, FailuresAreToldWhenTheyCome) {
   const Scene scene = load_scene("chain");
-  Result failed{scene.name, "mysim/explicit-euler", {}, {}}, sound{scene.name, "mysim/rk4", {}, {}};
+  MethodResult failed{scene.name, "mysim/explicit-euler", {}, {}}, sound{scene.name, "mysim/rk4", {}, {}};
   for (int i = 0; i <= 4; ++i) {
     const double t = i / 30.0;
     sound.trajectory.t.push_back(t), sound.trajectory.x.push_back(scene.start.x);
@@ -116,7 +116,7 @@ TEST(ClipRun, FailuresAreToldWhenTheyCome) {
 
 TEST(ClipRun, OneLookSuitsAllItsTimes) {
   const Scene scene = load_scene("pendulum");
-  Result answer{scene.name, "mysim/rk4", {}, {}};
+  MethodResult answer{scene.name, "mysim/rk4", {}, {}};
   Recorder recorder;
   answer.outcome = run_method(find_method(answer.method), scene, clip_run(scene), {&recorder});
   answer.trajectory = std::move(recorder.trajectory);

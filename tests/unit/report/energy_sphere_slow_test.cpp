@@ -7,6 +7,7 @@
 #include "report/findings/findings.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
+#include "tests/unit/report/made_up_findings.h"
 
 namespace crosscheck {
 namespace {
@@ -40,7 +41,7 @@ TEST(EnergyExperiment, LeavesOutWithANoteWhatWouldTakeHours) {
       };
     const std::vector<Point> points = energy_points(request);
     ASSERT_EQ(points.at(0).name, "energy: spring by mysim/dopri5");
-    const Rows rows = computed({points.data(), 1});
+    const TableSet rows = computed({points.data(), 1});
     EXPECT_EQ(rows.table("energy") == nullptr, dear);
     ASSERT_EQ(rows.notes.size(), dear ? 1u : 0u);
     if (dear) {
@@ -49,11 +50,24 @@ TEST(EnergyExperiment, LeavesOutWithANoteWhatWouldTakeHours) {
   }
 }
 
+TEST(EnergyExperiment, TakesImplicitRulesAndTheirClosedFormsAtTenTimesTheStep) {
+  Request request;
+  request.scenes = {load_scene("spring")};
+  request.methods =
+      find_methods("implicit-euler,truth/exact-discrete+implicit-euler,leapfrog,truth/exact-discrete+leapfrog");
+  const std::vector<Point> points = energy_points(request);
+  const TableSet rows = computed({points.data(), 4});
+  const Table& energy = *rows.table("energy");
+  ASSERT_EQ(energy.rows.size(), 4u);
+  for (size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(number(energy, i, "step"), i < 2 ? 1e-2 : 1e-3, 1e-9) << text_at(energy, i, "method");
+}
+
 TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   Request request;
   request.scenes = {load_scene("spring"), load_scene("circle")};
   request.methods = find_methods("symplectic-euler,explicit-euler,bullet/deformable-explicit");
-  const Rows rows = computed(energy_points(request));
+  const TableSet rows = computed(energy_points(request));
   const Table& energy = *rows.table("energy");
   ASSERT_EQ(energy.rows.size(), 6u);  // three on spring, three on the scene with everything
   EXPECT_TRUE(contains(rows.notes.at(0), "leaves out circle: a first-order system"));
@@ -88,7 +102,9 @@ TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   EXPECT_GT(rows.table("energy-damping")->rows.size(), 20u);
 
   const std::vector<Finding> findings = energy_findings(rows);
-  ASSERT_EQ(findings.size(), 1u);  // no method that damps by itself was asked
+  expect_short(findings);
+  EXPECT_TRUE(of_rule(findings, "numerical-damping").empty()) << "no method that damps by itself was asked";
+  EXPECT_TRUE(contains(sentence_of(the(findings, "symplectic-energy")), "without drift"));
   // it is ten times as fast as the truth at q = exp(h omega^2 t / 2) = 10, after 46 s, were it linear to there, and is
   // told so at the next sample
   const double end = number(energy, row_of(energy, "spring", "mysim/explicit-euler"), "end");
@@ -100,16 +116,17 @@ TEST(EnergyExperiment, ClaimsClosureOnlyWhereLossesAreTold) {
   EXPECT_GT(left, 40);
   EXPECT_GE(end, left);
   EXPECT_LT(end, 1.1 * left);
-  EXPECT_TRUE(contains(findings[0].sentence,
-                       fmt::format("without drift; on spring mysim/explicit-euler blew up after {:.3g} s.", end)))
-      << findings[0].sentence;
+  const Finding failed = the(findings, "energy-failed");
+  EXPECT_EQ(failed.method, "mysim/explicit-euler");
+  EXPECT_EQ(failed.words.at("where"), "spring");
+  EXPECT_EQ(failed.value, end);
 }
 
 TEST(SphereExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoBall) {
   Request request;
   request.scenes = {load_scene("spring"), load_scene("bounce")};
   request.methods = find_methods("symplectic-euler,symplectic-euler+sticky,explicit-euler,bullet/pbd");
-  const Rows rows = computed(sphere_points(request));
+  const TableSet rows = computed(sphere_points(request));
   EXPECT_EQ(rows.notes, std::vector<std::string>{"sphere leaves out spring: it has none"});
   const Table& drape = *rows.table("sphere-drape");
   EXPECT_EQ(drape.rows.size(), 4u * (2 + 2 + 1));
@@ -137,11 +154,17 @@ TEST(SphereExperiment, HasRowsForWhoFailsAndNotesForWhoHasNoBall) {
   EXPECT_GT(number(depth, pbd, "triangles"), number(depth, pbd, "particles"));
 
   const std::vector<Finding> findings = sphere_findings(rows);
-  ASSERT_EQ(findings.size(), 4u);
-  EXPECT_TRUE(contains(findings[0].sentence, "mysim/symplectic-euler in 72 of 72"));
-  EXPECT_TRUE(contains(findings[1].sentence, "Shorter steps make bullet/pbd worse"));
-  EXPECT_TRUE(contains(findings[2].sentence, "with bullet/pbd it still touches it, sliding at"));
-  EXPECT_TRUE(contains(findings[2].sentence, "+sticky it still touches it, sliding at"));
+  expect_short(findings);
+  const Finding cone_of_ours = of_rule(findings, "cone").at(0);
+  EXPECT_EQ(cone_of_ours.method, "mysim/symplectic-euler");
+  EXPECT_EQ(cone_of_ours.value, 72);
+  EXPECT_TRUE(contains(sentence_of(of_rule(findings, "leaving").back()), "shorter steps make it worse"));
+  EXPECT_EQ(the(findings, "slides-off").method, "mysim/symplectic-euler");
+  const auto touching = of_rule(findings, "still-touches");
+  ASSERT_EQ(touching.size(), 2u);
+  for (const Finding& f : touching) EXPECT_GT(f.value, 0) << f.method;
+  EXPECT_EQ(the(findings, "penetration").method, "bullet/pbd");
+  EXPECT_EQ(the(findings, "penetration-of-triangles").method, "mysim");
   EXPECT_TRUE(energy_findings(rows).empty());
 
   const Table& cone = *rows.table("sphere-cone");

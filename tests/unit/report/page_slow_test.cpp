@@ -1,70 +1,242 @@
-// The page and its player in a browser: drawings, markers, sorted tables, dark mode, paper, motions.
+// The page and its player in a browser: charts, folds, sorted tables, scenes that open, dark mode, paper, motions.
+
+#include <algorithm>
+#include <cmath>
 
 #include "experiments/scenes/scenes.h"
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/stability/map.h"
 #include "mysim/base/files.h"
 #include "report/base/assets.h"
+#include "report/figures/chart_json.h"
 #include "report/figures/figure.h"
 #include "report/page/page.h"
 #include "report/page/player_html.h"
 #include "report/pictures/scene_picture.h"
-#include "report/player/player_data.h"
-#include "report/player/run_motions.h"
+#include "report/player/motions.h"
 #include "tests/unit/experiments/helpers.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/in_browser.h"
+#include "tests/unit/report/made_up_findings.h"
 
 namespace crosscheck {
 namespace {
 
 using namespace testing_tools;
 
-class Page : public InBrowser {
- protected:
-  /// A page with one chapter: a chart whose markers speak, and a table of eight rows.
-  std::filesystem::path page() {
-    Figure f;
-    f.name = "chart", f.title = "a chart", f.caption = "c", f.finding = "It falls.";
-    f.x = {"t / s"}, f.y = {"x / m"};
-    f.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {{0, 3}, {1, 2}, {2, 1}}, true, true}};
-    f.curves[0].tooltips = {{"first run"}, {"second run"}, {"third run"}};
-    draw(drawing_of(f), {}, folder_);
-    PageTable table{"sizes", {"method", "error"}, {}};
-    const char* sizes[] = {"1.2 mm", "0.5 µm", "< 3.0e-13 m", "2 m", "20 mm", "", "900 µm", "blew up at 2 s"};
-    for (int i = 0; i < 8; ++i)
-      table.rows.push_back({fmt::format("{}-{}", i % 3 == 0 ? "bullet/pbd" : "mysim/rk4", i), sizes[i]});
-    PageContent content;
-    content.findings = {{"", "agreement", "They agree.", "measured", "same-rule"}};
-    content.chapters = {{"chapter", "A chapter", "What it asks.", {{"heading", "text", {}, {table}}}}};
-    content.chapters[0].entries[0].images = {{folder_ / "chart.svg", "It falls.", "a caption", {tooltips_of(f), {}}}};
-    std::string html = page_html(content);
-    html.insert(html.find("</head>"), scripts({"page_selftest.js"}));
-    return write("page.html", html);
+/// An outside program, as far as a page knows it.
+const std::string outside = "exec:/tools/my engine";
+
+/// Data of a scene, and its runs for the page. Of an outside program: those of the first method, told as its own.
+struct Played {
+  Scene scene;
+  std::string motions;
+  std::vector<const MethodResult*> shown;
+  std::vector<std::string> files = {};  // of runs, as JSON
+  std::vector<std::string> names = {};
+  MethodResults results = {};
+
+  Played(Scene of, const std::vector<std::string>& methods) : scene(std::move(of)) {
+    Request request;
+    request.scenes = {scene};
+    const MotionBase base = base_of(scene, run_of(request, scene));
+    motions = stage_json(scene, base);
+    const auto add = [&](const std::string& name, const MethodResult& r) {
+      names.push_back(name);
+      files.push_back(motions_json({"engines", scene, name, {{r.outcome, r.trajectory}}}, base));
+    };
+    for (const std::string& name : methods) {
+      shown.push_back(&result_of(request, scene, find_method(name), results));
+      add(name, *shown.back());
+    }
+    add(outside, *shown[0]);
+  }
+  /// The runs as the page takes them, with files in the folder.
+  PlayableRuns runs(const std::filesystem::path& folder) const {
+    PlayableRuns all{scene.name + "-engines", scene.name, "", {}, names};
+    for (size_t i = 0; i < files.size(); ++i) {
+      all.methods.push_back(folder / fmt::format("run-{}.json", i));
+      write_file(all.methods.back(), files[i]);
+    }
+    return all;
+  }
+  void draw(int width, int height, const std::filesystem::path& file) const {
+    render::write_png(picture_of(scene, shown, {.quality = render::Quality::fast, .width = width, .height = height}),
+                      file);
   }
 };
 
-TEST_F(Page, ChartsSpeakAndTablesSort) {
+class Page : public InBrowser {
+ protected:
+  void SetUp() override {
+    InBrowser::SetUp();
+    const std::filesystem::path poster = folder_ / "poster.png";
+    chain_.draw(304, 171, poster);
+    content_.main_scene = "chain";
+    content_.chapters = chapters();
+    content_.figures = folder_;
+    content_.provenance = {{"commit", "abc"}};
+    for (const Question& question : questions())
+      content_.findings.push_back(made_up(rule_of_chapter(question.chapter, true), "5 mm on 3 scenes"));
+    // a chart of each kind: curves open the chapter, the others are folded
+    Figure curves;
+    curves.name = "chain-speed-accuracy-cost", curves.x = {"CPU time / s", true}, curves.y = {"error / m", true};
+    curves.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {{1e-3, 3}, {1e-2, 2}, {1e-1, 1}}, true, true},
+                     {"bullet/pbd", style_of("bullet/pbd"), {{1e-3, 5}, {1e-2, 4}}, true, true}};
+    curves.curves[0].tooltips = {{"first run"}, {"second run"}, {"third run"}};
+    curves.curves[1].tooltips = {{"fourth run"}, {"fifth run"}};
+    curves.failures = {{"mysim/rk4: blew up", style_of("mysim/rk4"), 5e-3, 0.5, "blew up", 2, {"at 2 s"}}};
+    curves.pareto = {{1e-3, 3}, {1e-2, 2}, {1e-1, 1}};
+    curves.on_page = {.motion = 4.,
+                      .duration = 3.,
+                      .take = OnPage::Take{1e-2, 2, "take this: 1 ms", "50 %, 10 ms"},
+                      .critical = OnPage::Critical{5e-3, "h = 2/ω = 2 ms", "beyond the critical step of leapfrog"}};
+    Figure other = curves;
+    other.name = "rod-speed-accuracy-cost";
+    StepLimits limits;
+    limits.name = "limits", limits.names = {"bullet/pbd", "mysim/leapfrog"}, limits.columns_of = "chain";
+    limits.scenes = {{"spring", 10}, {"chain", 100}};
+    limits.rows = {{80, true, "every step tried", {}, "", ""},
+                   {2, false, "h ω = 2", {{0, 2.001, 2., "on spring"}, {1, 1.999, {}, "on chain"}}, "20.01", "20.00"}};
+    StackedBars bars;
+    bars.name = "bars", bars.label = "energy / J", bars.names = {"mysim/leapfrog", "bullet/pbd"};
+    bars.parts = {{"drag", "#0072B2", false, {2, 1}}, {"gravity", "#999999", true, {-1.5, 0.5}}};
+    DotPlot dots;
+    dots.name = "dots", dots.label = "CPU time of mysim's", dots.names = {"cloth", "rod"};
+    dots.series = {{"Bullet", style_of("bullet/pbd"), {DotPlot::Dot{30, 22.5, 40}, std::nullopt}}};
+    HeatMap map;
+    map.name = "map", map.x_label = "time step / s", map.y_label = "stiffness / (N/m)";
+    map.kinds = {{"stable", "#D8E8F0"}, {"fails", "#D55E00"}};
+    map.panels = {{"mysim/leapfrog", {}, {{1e-3, 1}, {2e-3, 8}}, {}}};
+    for (int i = 0; i < 16; ++i)
+      map.panels[0].cells.push_back(
+          {1e-3 * std::pow(2, i % 4), std::pow(2, i / 4), i % 2, {fmt::format("cell {}", i)}});
+    Chapter& chapter = content_.chapters[1];
+    const auto show = [&](auto& figure) {
+      figure.title = "A chart of " + figure.name, figure.caption = "c", figure.finding = "It falls.";
+      const Chart chart{"", figure};
+      content_.charts[figure.name] = chart_json(chart);
+      for (const std::string& method : methods_in(chart))
+        if (std::ranges::find(content_.methods, method) == content_.methods.end()) content_.methods.push_back(method);
+      chapter.entries.push_back({chapter.id, "Of " + figure.name, "", {{figure.name, figure.title, "c"}}});
+    };
+    show(curves), show(other), show(bars), show(dots), show(map), show(limits);
+    PageTable table{"sizes", {"method", "error"}, {}};
+    const char* sizes[] = {"1.2 mm", "0.5 µm", "< 3.0e-13 m", "2 m", "20 mm", "", "900 µm", "blew up at 2 s"};
+    for (int i = 0; i < 16; ++i)
+      table.rows.push_back({fmt::format("{}-{}", i % 3 == 0 ? "bullet/pbd" : "mysim/rk4", i), sizes[i % 8]});
+    chapter.entries.push_back({chapter.id, "A table", "", {}, {}, {table}});
+    facts_.scene = "chain", facts_.tier = "converged", facts_.motion = 1;
+    for (const MethodResult* result : chain_.shown) {
+      facts_.methods.emplace_back();
+      facts_.methods.back().method = result->method, facts_.methods.back().verdict = result->outcome.verdict;
+    }
+    ScenePart part{&chain_.scene, &facts_, {made_up(finding_rule("nearest"), "chain")}};
+    part.thumbnail = part.hero = poster;
+    part.motions = write("motions.json", chain_.motions);
+    part.figures = {{"chain-speed-accuracy-cost", "t", "c"}};
+    for (const std::string& method : {std::string("mysim/symplectic-euler"), std::string("bullet/deformable-explicit")})
+      part.runs.push_back({method + " own", method, "1 ms", 2e-3, {}, true});
+    content_.runs = {chain_.runs(folder_)};
+    for (const std::string& method : chain_.names)
+      if (std::ranges::find(content_.methods, method) == content_.methods.end()) content_.methods.push_back(method);
+    content_.scenes = {part};
+  }
+  /// The page, and what uses it as a reader would.
+  std::filesystem::path page() {
+    std::string html = page_html(content_);
+    html.insert(html.find("</head>"), scripts({"stage_selftest.js", "page_selftest.js"}));
+    return write("page.html", html);
+  }
+  Played chain_{load_scene("chain"), {"mysim/symplectic-euler", "bullet/deformable-explicit"}};
+  SceneData facts_;
+  PageContent content_;
+};
+
+TEST_F(Page, ChartsAreDrawnAndSpeak) {
   NEEDS_CHROMIUM;
   const JsonField saw = seen(page(), {});
   EXPECT_EQ(saw["complaints"].dump(), "[]");
-  EXPECT_EQ(saw["charts"].number(), 1);
-  EXPECT_TRUE(saw["named"].truth());
-  EXPECT_TRUE(saw["drawn"].truth());
-  EXPECT_GT(saw["markerSize"].number(), 3) << "pixels: markers are drawn, their shapes stand at the page's beginning";
+  const JsonField charts = saw["charts"];
+  ASSERT_EQ(charts.size(), 5u) << charts.dump();
+  for (const char* name : {"chain-speed-accuracy-cost", "bars", "dots", "map", "limits"}) {
+    SCOPED_TRACE(name);
+    const JsonField chart = charts[name];
+    EXPECT_TRUE(contains(chart["says"].text(), std::string("A chart of ") + name));
+    EXPECT_GT(chart["height"].number(), 100);
+    EXPECT_GT(chart["shapes"].number(), 3);
+    EXPECT_GE(chart["letters"].number(), 12) << "pixels";
+    EXPECT_EQ(chart["outside"].number(), 0) << "letters beyond the chart's edge: " << chart.dump();
+  }
+  EXPECT_EQ(charts["chain-speed-accuracy-cost"]["marks"].number(), 3 + 2 + 1) << "every run, and the one that failed";
+  EXPECT_EQ(charts["map"]["cells"].number(), 16);
+  EXPECT_EQ(charts["limits"]["marks"].number(), 2 + 2) << "one for each scene, and those of the key";
+  EXPECT_EQ(saw["walked"].texts(), (std::vector<std::string>{"first run", "second run", "fourth run", "third run"}));
+  EXPECT_EQ(saw["played"].number(), 1);
+  EXPECT_EQ(saw["chosen"].texts(), (std::vector<std::string>{"rod", "true", "true", "true"}));
+  EXPECT_TRUE(saw["back"].boolean());
   EXPECT_EQ(saw["tip"].text(), "first run");
-  EXPECT_TRUE(saw["gone"].truth());
+  EXPECT_TRUE(saw["gone"].boolean());
+  EXPECT_GT(saw["lit"].number(), 0) << "its method lights up";
+  EXPECT_LE(saw["width"].number(), 0) << "the page is no wider than the window";
+  EXPECT_LE(saw["words"].number(), 3000);
+  EXPECT_GT(saw["words"].number(), 50);
+}
+
+TEST_F(Page, FoldsOpenAndTheirTablesSort) {
+  NEEDS_CHROMIUM;
+  const JsonField saw = seen(page(), {});
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
+  EXPECT_EQ(saw["tablesBefore"].number(), 0) << "what is folded is not there";
+  EXPECT_EQ(saw["templates"].number(), 0) << "after it was opened";
   // by size in metres, whatever the unit; words below numbers, either way
-  EXPECT_EQ(saw["up"].texts(), (std::vector<std::string>{"< 3.0e-13 m", "0.5 µm", "900 µm", "1.2 mm", "20 mm", "2 m",
-                                                         "–", "blew up at 2 s"}));
+  const std::vector<std::string> up{"< 3.0 × 10−13 m", "0.5 µm", "900 µm", "1.2 mm",
+                                    "20 mm",           "2 m",    "–",      "blew up at 2 s"};
+  for (size_t i = 0; i < 16; ++i) EXPECT_EQ(saw["up"][i].text(), up[i / 2]) << i;
   EXPECT_EQ(saw["down"][0].text(), "2 m");
-  EXPECT_EQ(saw["down"][5].text(), "< 3.0e-13 m");
+  EXPECT_EQ(saw["down"][11].text(), "< 3.0 × 10−13 m");
   EXPECT_EQ(saw["says"].text(), "descending");
-  EXPECT_EQ(saw["kept"].texts(), (std::vector<std::string>{"bullet/pbd-3", "bullet/pbd-0", "bullet/pbd-6"}));
-  EXPECT_NE(saw["csv"].text().find("\"method\",\"error"), std::string::npos) << saw["csv"].dump();
+  ASSERT_EQ(saw["kept"].size(), 6u) << "rows with a word";
+  for (const JsonField& method : saw["kept"].elements()) EXPECT_TRUE(begins(method.text(), "bullet/pbd"));
+  EXPECT_TRUE(begins(saw["csv"].text(), "method,error\nbullet/pbd-"));
   EXPECT_EQ(saw["csv"].text().find("mysim/rk4"), std::string::npos) << "rows that are hidden are not saved";
-  EXPECT_LE(saw["height"].number(), 0) << "the page is no wider than the window";
+}
+
+TEST_F(Page, ACardOpensItsSceneAndBackClosesIt) {
+  NEEDS_CHROMIUM;
+  const JsonField saw = seen(page(), {});
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
+  EXPECT_FALSE(saw["openBefore"].boolean());
+  EXPECT_TRUE(saw["opened"].boolean());
+  EXPECT_EQ(saw["address"].text(), "#chain");
+  EXPECT_TRUE(saw["here"].boolean()) << "the card says that it is open";
+  EXPECT_EQ(saw["sceneCharts"].number(), 1);
+  EXPECT_TRUE(saw["scenePlays"].boolean());
+  EXPECT_TRUE(saw["sameIsZero"].boolean()) << "a run less itself is nothing";
+  EXPECT_TRUE(saw["apart"].boolean()) << "and two runs are not";
+  EXPECT_TRUE(saw["cursor"].boolean()) << "it follows the time in each small chart";
+  EXPECT_EQ(saw["smallCharts"].number(), 3);
+  EXPECT_TRUE(contains(saw["engines"].text(), "my engine")) << saw["engines"].dump();
+  EXPECT_TRUE(saw["outsidePlays"].boolean());
+  EXPECT_TRUE(saw["buttonChooses"].boolean()) << "of the table";
+  EXPECT_LE(saw["nodes"].number(), 8000);
+  EXPECT_TRUE(saw["closed"].boolean());
+  EXPECT_TRUE(saw["again"].boolean()) << "an address leads there too";
+  EXPECT_TRUE(saw["closedByLink"].boolean());
+}
+
+TEST_F(Page, TheFirstScreenMoves) {
+  NEEDS_CHROMIUM;
+  const JsonField saw = seen(page(), {});
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
+  EXPECT_EQ(saw["questions"].number(), 5);
+  EXPECT_TRUE(saw["still"].boolean()) << "with reduced motion the picture stands until it is asked to move";
+  EXPECT_TRUE(saw["heroMoves"].boolean());
+  EXPECT_EQ(saw["heroPanels"].number(), 3) << "both engines and the truth";
+  EXPECT_TRUE(saw["heroStops"].boolean());
+  EXPECT_TRUE(contains(saw["readout"].text(), "now")) << "the error at the time: " << saw["readout"].text();
+  EXPECT_TRUE(saw["litTitle"].boolean()) << "a method lit in a chart is lit in the player";
 }
 
 TEST_F(Page, IsDarkWhereTheReaderWantsIt) {
@@ -73,17 +245,17 @@ TEST_F(Page, IsDarkWhereTheReaderWantsIt) {
   const JsonField light = seen(file, {"--blink-settings=preferredColorScheme=1"}),
                   dark = seen(file, {"--blink-settings=preferredColorScheme=0"});
   EXPECT_EQ(light["background"].text(), "rgb(255, 255, 255)");
-  EXPECT_EQ(dark["background"].text(), "rgb(21, 24, 27)");
-  // drawings too; what is printed never is
-  EXPECT_EQ(light["filter"].text(), "none");
-  EXPECT_TRUE(contains(dark["filter"].text(), "invert"));
-  EXPECT_TRUE(contains(asset("page/style.css"), "@media screen and (prefers-color-scheme: dark)"));
+  EXPECT_EQ(dark["background"].text(), "rgb(17, 21, 26)");
+  EXPECT_NE(light["colour"].text(), dark["colour"].text()) << "of a method in a chart";
+  EXPECT_TRUE(contains(asset("page/style.css"), "@media screen and (prefers-color-scheme: dark)"))
+      << "what is printed never is";
 }
 
 TEST_F(Page, GoesOnPaper) {
   NEEDS_CHROMIUM;
   const auto pdf = folder_ / "page.pdf";
-  browse(page(), {"--print-to-pdf=" + pdf.string(), "--no-pdf-header-footer"});
+  const std::string html = page_html(content_);
+  browse(write("paper.html", html), {"--print-to-pdf=" + pdf.string(), "--no-pdf-header-footer"});
   const std::string bytes = read(pdf);
   EXPECT_EQ(bytes.substr(0, 5), "%PDF-");
   EXPECT_NE(bytes.find("/Type /Page"), std::string::npos);
@@ -92,20 +264,18 @@ TEST_F(Page, GoesOnPaper) {
 
 class PlayerPage : public testing_tools::InBrowser {
  protected:
-  /// Data of a scene, and the page that plays it: with the poster that a report has, and the self-test.
+  /// The page that plays a scene: with the poster that a report has, and the self-test.
   std::filesystem::path page(const Scene& scene, const std::vector<std::string>& methods) {
-    Request request;
-    request.scenes = {scene};
-    Results answers;
-    std::vector<const Result*> shown;
-    for (const std::string& name : methods) shown.push_back(&result_of(request, scene, find_method(name), answers));
-    Shot shot{.quality = render::Quality::fast, .width = 720, .height = 280};
-    render::write_png(picture_of(scene, shown, shot), folder_ / "poster.png");
-    const auto motions = write("motions.json", player_json(scene, shown, truth_of(scene, run_of(request, scene))));
+    const Played played(scene, methods);
+    played.draw(720, 280, folder_ / "poster.png");
+    std::string player = player_html(scene.name, methods.back() + " own", methods.front() + " own");
+    const std::string stage = "<div class=\"stage\">";
+    player.insert(player.find(stage) + stage.size(), image_tag({folder_ / "poster.png", "the poster", ""}));
+    const std::string motions =
+        script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", scene.name), played.motions);
     const std::string test = scripts({"stage_selftest.js", "player_selftest.js"});
-    return write("page.html", page_head(scene.name, test + player_head()) +
-                                  player_html({folder_ / "poster.png", "the poster", "a caption"}, motions) +
-                                  "</body></html>");
+    return write("page.html", page_head(scene.name, test + player_styles()) + player + motions +
+                                  runs_html(played.runs(folder_)) + player_scripts() + "</body></html>");
   }
 };
 
@@ -114,17 +284,17 @@ TEST_F(PlayerPage, PlaysFromAFileAndObeysItsControls) {
   // one that blows up is shown until then, and says so
   const auto file = page(load_scene("chain"), {"mysim/symplectic-euler", "bullet/pbd", "mysim/explicit-euler"});
   const JsonField saw = seen(file, {});
-  ASSERT_TRUE(saw["able"].truth()) << saw.dump();
+  ASSERT_TRUE(saw["able"].boolean()) << saw.dump();
   EXPECT_EQ(saw["complaints"].dump(), "[]");
-  EXPECT_TRUE(saw["poster"].truth());
+  EXPECT_TRUE(saw["poster"].boolean());
   EXPECT_EQ(saw["canvases"].number(), 1);
   EXPECT_GT(saw["drawn"].number(), 0.002) << "part of the picture that is not background";
   for (const char* what : {"moves", "returns", "slider", "colours", "springs", "turns", "plays"})
-    EXPECT_TRUE(saw[what].truth()) << what;
+    EXPECT_TRUE(saw[what].boolean()) << what;
   EXPECT_EQ(saw["jump"].number(), 0) << "pixels by which the page moved when the player came";
   EXPECT_NE(saw["titles"].text().find("blew up at"), std::string::npos) << saw["titles"].dump();
-  EXPECT_NE(saw["list"].text().find("blew up at"), std::string::npos) << saw["list"].dump();
-  EXPECT_EQ(saw["lines"].number(), 4) << "energies of the methods, and of the truth beside them";
+  EXPECT_NE(saw["says"].text().find("blew up at"), std::string::npos) << saw["says"].dump();
+  EXPECT_EQ(saw["lines"].number(), 5) << "errors and energies of both, and their difference";
 }
 
 TEST_F(PlayerPage, AClothIsDrawnWithItsSphere) {
@@ -133,7 +303,7 @@ TEST_F(PlayerPage, AClothIsDrawnWithItsSphere) {
   EXPECT_EQ(saw["complaints"].dump(), "[]");
   EXPECT_GT(saw["drawn"].number(), 0.1);
   for (const char* what : {"moves", "returns", "slider", "colours", "springs", "turns", "plays"})
-    EXPECT_TRUE(saw[what].truth()) << what;
+    EXPECT_TRUE(saw[what].boolean()) << what;
 }
 
 /// A page with a chart whose first marker came to its end, whose second blew up; and a map with a cell.
@@ -144,42 +314,54 @@ class RunsPage : public PlayerPage {
     request.scenes = {load_scene("chain")};
     request.methods = find_methods("mysim/leapfrog,mysim/explicit-euler");
     const Scene& scene = request.scenes[0];
-    const auto truth = truth_of(scene, run_of(request, scene));
+    const MotionBase base = base_of(scene, run_of(request, scene));
     PageContent content;
-    content.runs = {{"chart", "chain", "", {}}, {"map", "", stage_json(scene), {}}};
-    request.watch = [&](const WatchedRuns& w) {
-      content.runs[0].methods.push_back(write(file_name_of(w.method) + ".json", run_motions_json(w, truth)));
+    content.runs = {{"chain-speed-accuracy", "chain", "", {}}, {"map", "", stage_json(scene), {}}};
+    request.on_runs = [&](const RecordedRuns& w) {
+      content.runs[0].methods.push_back(write(file_name_of(w.method) + ".json", motions_json(w, base)));
     };
-    Rows rows;
+    TableSet rows;
     speed_accuracy_on(request, scene, rows);
-    add_map(map_kinds()[0], scene, find_method("mysim/leapfrog"), {2, 4, 300, false}, rows, [&](const WatchedRuns& w) {
-      content.runs[1].methods.push_back(write("cells.json", cell_motions_json(w)));
+    add_map(map_kinds()[0], scene, find_method("mysim/leapfrog"), {2, 4, 300, false}, rows, [&](const RecordedRuns& w) {
+      content.runs[1].methods.push_back(write("cells.json", motions_json(w, {})));
     });
-    Results answers;
-    const Result& answer = result_of(request, scene, request.methods[0], answers);
-    render::write_png(picture_of(scene, {&answer}, {.quality = render::Quality::fast, .width = 720, .height = 280}),
-                      folder_ / "poster.png");
+    const Played played(scene, {"mysim/leapfrog"});
     const SceneData facts{};
-    ScenePart part{&scene, &facts, {}, {{folder_ / "poster.png", "the poster", "a caption"}}};
-    part.recommendations.resize(recommendation_columns().size());
-    part.motions = write("motions.json", player_json(scene, {&answer}, truth));
+    ScenePart part{&scene, &facts, {}};
+    part.motions = write("motions.json", played.motions);
     content.scenes.push_back(part);
-    content.chapters = {{"chapter", "A chapter", "What it asks.", {{"heading", "text", {}, {}}}}};
-    for (const auto& [name, runs] :
-         {std::pair{"chart", std::vector<std::string>{"mysim/leapfrog 5", "mysim/explicit-euler 0"}},
-          {"map", std::vector<std::string>{"mysim/leapfrog 1"}}}) {
-      Figure f;
-      f.name = name, f.title = "a chart", f.caption = "c", f.finding = "It falls.";
-      f.x = {"t / s"}, f.y = {"x / m"};
-      f.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {}, true, true}};
-      for (size_t i = 0; i < runs.size(); ++i) {
-        f.curves[0].points.emplace_back(i, 1 + i);
-        f.curves[0].tooltips.push_back({runs[i] + "\nholds", runs[i]});
-      }
-      draw(drawing_of(f), {}, folder_);
-      content.chapters[0].entries[0].images.push_back(
-          {folder_ / (f.name + ".svg"), "It falls.", "a caption", {tooltips_of(f), {}}, name});
+    content.chapters = chapters();
+    Chapter& chapter = content.chapters[1];
+    const auto show = [&](const auto& figure) {
+      content.charts[figure.name] = chart_json({"", figure});
+      chapter.entries.push_back(
+          {chapter.id,
+           "heading",
+           "",
+           {{figure.name, figure.title, "a caption", figure.name == "chart" ? "chain-speed-accuracy" : figure.name}}});
+    };
+    Figure f;
+    f.name = "chart", f.title = "a chart", f.caption = "c", f.finding = "It falls.";
+    f.x = {"t / s"}, f.y = {"x / m"};
+    f.curves = {{"mysim/leapfrog", style_of("mysim/leapfrog"), {}, true, true}};
+    for (const char* run : {"mysim/leapfrog 5", "mysim/explicit-euler 0"}) {
+      f.curves[0].points.emplace_back(f.curves[0].points.size(), 1 + f.curves[0].points.size());
+      f.curves[0].tooltips.push_back({std::string(run) + "\nholds", run});
     }
+    chapter.leads = {"chart"};
+    show(f);
+    HeatMap map;
+    map.name = "map", map.title = "a map", map.caption = "c", map.finding = "It fails.";
+    map.x_label = "x", map.y_label = "y", map.kinds = {{"stable", "#D8E8F0"}};
+    map.panels = {{"mysim/leapfrog", {}, {}, {}}};
+    for (int i = 0; i < 4; ++i)
+      map.panels[0].cells.push_back(
+          {1. + i % 2,
+           1. + i / 2,
+           0,
+           {fmt::format("mysim/leapfrog {}\nholds", i + 1), fmt::format("mysim/leapfrog {}", i + 1)}});
+    show(map);
+    content.methods = {"mysim/leapfrog", "mysim/explicit-euler"};
     std::string html = page_html(content);
     html.insert(html.find("</head>"), scripts({"stage_selftest.js", "runs_selftest.js"}));
     return write("runs.html", html);
@@ -193,15 +375,15 @@ TEST_F(RunsPage, AClickOnAMarkerOrAChoiceInTheListPlaysItsRun) {
   ASSERT_EQ(saw["windows"].size(), 4u) << saw.dump();
   for (const JsonField& w : saw["windows"].elements()) {
     EXPECT_GT(w["drawn"].number(), 0.001) << w.dump();
-    EXPECT_TRUE(w["moves"].truth()) << w.dump();
-    EXPECT_TRUE(w["closed"].truth()) << w.dump();
+    EXPECT_TRUE(w["moves"].boolean()) << w.dump();
+    EXPECT_TRUE(w["closed"].boolean()) << w.dump();
   }
-  EXPECT_EQ(saw["windows"][0]["panels"].number(), 2) << "the run beside the truth";
+  EXPECT_EQ(saw["windows"][0]["panels"].number(), 3) << "the run beside the truth, and their difference";
   EXPECT_NE(saw["windows"][0]["says"].text().find("./crosscheck run chain --method mysim/leapfrog --step"),
             std::string::npos)
       << saw["windows"][0]["says"].dump();
   EXPECT_LT(saw["windows"][0]["apart"].number(), 1e-3) << "m: as near to the truth as the run is, with its lattice";
-  EXPECT_EQ(saw["windows"][1]["panels"].number(), 1);
+  EXPECT_EQ(saw["windows"][2]["panels"].number(), 1);
   EXPECT_NE(saw["windows"][1]["says"].text().find("last"), std::string::npos) << saw["windows"][1]["says"].dump();
   EXPECT_NE(saw["windows"][2]["says"].text().find("Departures"), std::string::npos) << saw["windows"][2]["says"].dump();
   EXPECT_EQ(saw["windows"][3]["says"].text(), saw["windows"][1]["says"].text()) << "the list has the same runs";
@@ -218,9 +400,9 @@ TEST_F(RunsPage, WithoutWebGlNothingPretendsToPlay) {
 TEST_F(PlayerPage, WithoutWebGlThePosterStays) {
   NEEDS_CHROMIUM;
   const JsonField saw = seen(page(load_scene("chain"), {"mysim/symplectic-euler"}), {"--disable-3d-apis"});
-  EXPECT_FALSE(saw["able"].truth());
-  EXPECT_TRUE(saw["poster"].truth());
-  EXPECT_EQ(saw["desk"].number(), 0) << "no controls that control nothing";
+  EXPECT_FALSE(saw["able"].boolean());
+  EXPECT_TRUE(saw["poster"].boolean());
+  EXPECT_EQ(saw["height"].number(), 0) << "no controls that control nothing";
   EXPECT_EQ(saw["canvases"].number(), 0);
   EXPECT_EQ(saw["complaints"].dump(), "[]");
 }
@@ -231,17 +413,21 @@ TEST(PlayerSize, TwoDrapesOf4096ParticlesFitInto2Point2Megabytes) {
   scene.duration = 1.5;  // s: the fall, the impact and the sliding; at rest nothing is left to be packed
   Request request;
   request.scenes = {scene};
-  Results answers;
-  std::vector<const Result*> shown;
+  MethodResults answers;
+  MotionBase base;
+  std::string text;
   for (const char* name : {"mysim/symplectic-euler", "bullet/deformable-explicit"}) {
-    shown.push_back(&result_of(request, scene, find_method(name), answers));
-    ASSERT_EQ(shown.back()->outcome.verdict, Verdict::ok) << shown.back()->outcome.reason;
+    const MethodResult& r = result_of(request, scene, find_method(name), answers);
+    ASSERT_EQ(r.outcome.verdict, Verdict::ok) << r.outcome.reason;
+    if (base.x.empty()) base.t = r.trajectory.t, base.x = r.trajectory.x;
+    text += motions_json({"engines", scene, name, {{r.outcome, r.trajectory}}}, base);
   }
-  const std::string text = player_json(scene, shown, {});
-  const JsonField data = JsonField::parse(text, "player");
+  const std::string stage = stage_json(scene, base);
+  const JsonField data = JsonField::parse(stage, "player");
+  text += stage;
   EXPECT_EQ(data["particles"].number(), 4096);
   EXPECT_EQ(data["times"].size(), 151u);
-  EXPECT_LE(text.size() + player_head().size(), 2'200'000u);
+  EXPECT_LE(text.size() + player_styles().size() + player_scripts().size(), 2'200'000u);
   RecordProperty("bytes", static_cast<int>(text.size()));
 }
 

@@ -1,15 +1,21 @@
-// The page: units stay together, linked words are explained, every part is listed, drawings inside it show what they
-// showed.
+// The page: units stay together, linked words are explained, every part is listed; an assembled report has its charts'
+// numbers, its scenes and its certificates, and the same page comes of its data again.
 
-#include <cmath>
-#include <regex>
+#include <map>
 #include <set>
 
 #include "experiments/scenes/scenes.h"
-#include "report/figures/figure.h"
-#include "report/page/inline_svg.h"
+#include "experiments/sweep/sweep.h"
+#include "experiments/tables/certificates.h"
+#include "mysim/base/files.h"
+#include "report/base/provenance.h"
+#include "report/page/assemble.h"
 #include "report/page/page.h"
+#include "report/page/player_html.h"
 #include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+#include "tests/unit/report/made_up_findings.h"
+#include "tests/unit/report/readers.h"
 #include "tests/unit/temporary.h"
 
 namespace crosscheck {
@@ -23,20 +29,63 @@ TEST(Prose, NumbersHoldOnToWhatBelongsToThem) {
   EXPECT_EQ(prose("< 0.001 %"), "&lt;\u00a00.001\u00a0%");
   EXPECT_EQ(prose("on 7 scenes and 3 methods"), "on 7 scenes and 3 methods");  // no s, no m
   EXPECT_EQ(prose("2 of 13"), "2 of 13");
-  EXPECT_EQ(prose("a < b & 1.0e-12 m"), "a &lt; b &amp; 1.0<span class=\"n\">e-12</span>\u00a0m");
+  EXPECT_EQ(prose("a < b & 1.0e-12 m"),
+            "a &lt; b &amp; 1.0<span class=\"n\">\u00a0×\u00a010<sup>−12</sup></span>\u00a0m");
   EXPECT_EQ(prose(""), "");
   EXPECT_EQ(prose("5 "), "5 ");
 }
 
-TEST(Glossary, ExplainsEveryColumnOfTheOpeningTableOnce) {
+TEST(Prose, NumbersWithTheirUnitsAreBoldAndNamesAreNot) {
+  EXPECT_EQ(prose_with_bold_numbers("error 0.71 % at 2.5 ms"), "error <b>0.71\u00a0%</b> at <b>2.5\u00a0ms</b>");
+  EXPECT_EQ(prose_with_bold_numbers("on 7 scenes by rk4"), "on <b>7</b> scenes by rk4");
+  EXPECT_EQ(prose_with_bold_numbers("at most 3.0e-12 m"),
+            "at most <b>3.0<span class=\"n\">\u00a0×\u00a010<sup>−12</sup></span>\u00a0m</b>");
+  EXPECT_EQ(prose_with_bold_numbers("cloth-hang-6, a < b"), "cloth-hang-6, a &lt; b");
+}
+
+TEST(Glossary, ExplainsEachWordOnce) {
   const std::string html = glossary_html();
-  for (const RecommendationColumn& column : recommendation_columns())
-    EXPECT_TRUE(contains(html, fmt::format("id=\"word-{}\"", column.term))) << column.head;
-  EXPECT_THROW(term_link("unheard-of"), std::logic_error);
+  EXPECT_TRUE(contains(html, "<div id=\"word-truth\">"));
   std::set<std::string> ids;
   for (size_t at = html.find("id=\"word-"); at != std::string::npos; at = html.find("id=\"word-", at + 1))
     EXPECT_TRUE(ids.insert(html.substr(at, html.find('"', at + 4) - at)).second);
   EXPECT_GT(ids.size(), 15u);
+}
+
+/// The part of a text from one word to another.
+std::string between(const std::string& text, const std::string& from, const std::string& to) {
+  const size_t begin = text.find(from);
+  if (begin == std::string::npos) return "";
+  const size_t end = text.find(to, begin + from.size());
+  return text.substr(begin, end == std::string::npos ? end : end - begin);
+}
+int count(const std::string& text, const std::string& what) {
+  int n = 0;
+  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+std::string section(const std::string& html, const std::string& id) {
+  return between(html, fmt::format("<section class=\"chapter\" id=\"{}\"", id), "</section>");
+}
+/// What stands in the page without being asked for.
+std::string at_load(std::string html) {
+  for (const char* tag : {"template", "script", "style"}) {
+    const std::string open = fmt::format("<{}", tag), close = fmt::format("</{}>", tag);
+    for (size_t at; (at = html.find(open)) != std::string::npos;)
+      html.erase(at, html.find(close, at) + close.size() - at);
+  }
+  return html;
+}
+/// Whether every link inside the page leads to an element or to a scene that it opens.
+void expect_links_lead_somewhere(const std::string& html) {
+  std::set<std::string> targets;
+  for (size_t at = html.find("href=\"#"); at != std::string::npos; at = html.find("href=\"#", at + 1))
+    targets.insert(html.substr(at + 7, html.find('"', at + 7) - at - 7));
+  EXPECT_FALSE(targets.empty());
+  for (const std::string& id : targets)
+    EXPECT_TRUE(html.find(fmt::format("id=\"{}\"", id)) != std::string::npos ||
+                html.find(fmt::format("<template data-scene=\"{}\">", id)) != std::string::npos)
+        << id;
 }
 
 TEST(Contents, LeadToEveryPartThatIsThere) {
@@ -44,174 +93,352 @@ TEST(Contents, LeadToEveryPartThatIsThere) {
   const SceneData none;
   PageContent content;
   content.chapters = chapters();
-  content.chapters[0].entries = {{"heading", "text", {}, {{"one row", {"a"}, {{"b"}}}}}};
-  for (const Scene& scene : scenes) {
-    content.scenes.push_back({&scene, &none, {}, {}, {}, {}});
-    content.scenes.back().recommendations = recommendations_of(scene, none, {});
-  }
+  content.chapters[1].entries = {{"speed-accuracy", "heading", "text", {}, {}, {{"one row", {"a"}, {{"b"}}}}}};
+  for (const Scene& scene : scenes) content.scenes.push_back({&scene, &none, {}});
   const std::string html = page_html(content), nav = contents_html(content);
-  std::set<std::string> targets;
-  for (size_t at = html.find("href=\"#"); at != std::string::npos; at = html.find("href=\"#", at + 1))
-    targets.insert(html.substr(at + 7, html.find('"', at + 7) - at - 7));
-  for (const std::string& id : targets) EXPECT_TRUE(contains(html, "id=\"" + id + "\"")) << id;
-  for (const char* id : {"scenes", "speed-accuracy", "spring", "chain", "words", "made"})
+  expect_links_lead_somewhere(html);
+  for (const char* id : {"scenes", "same-answer", "speed-accuracy", "words"})
     EXPECT_TRUE(contains(nav, fmt::format("href=\"#{}\"", id))) << id;
   EXPECT_FALSE(contains(nav, "#stability")) << "a chapter without entries has no part";
+  EXPECT_FALSE(contains(nav, "#changes")) << "nothing is compared";
   for (const Chapter& chapter : chapters()) EXPECT_FALSE(chapter.label.empty()) << chapter.id;
 }
 
-using namespace testing_tools;
+TEST(Chapters, AreFiveAndEachAnswersAQuestion) {
+  std::vector<std::string> ids, asked;
+  for (const Chapter& chapter : chapters()) {
+    ids.push_back(chapter.id);
+    EXPECT_FALSE(chapter.teaching.empty()) << chapter.id;
+    EXPECT_EQ(chapter.leads.empty(), chapter.id == "same-answer") << "which opens with its certificates";
+  }
+  for (const Question& question : questions()) asked.emplace_back(question.chapter);
+  EXPECT_EQ(ids, (std::vector<std::string>{"same-answer", "speed-accuracy", "stability", "energy", "adequacy"}));
+  EXPECT_EQ(asked, ids) << "a question leads to its chapter, in their order";
+}
 
-class InlineSvg : public InFolder {
+/// A page all of whose chapters have two charts and a table, with every answer.
+class WholePage : public InFolder {
  protected:
-  Figure figure() const {
-    Figure f;
-    f.name = "waves", f.title = "two waves", f.caption = "c", f.finding = "f";
-    f.x = {"t / s"}, f.y = {"x / m"};
-    Curve a{"mysim/leapfrog", style_of("mysim/leapfrog"), {}, true, true}, b{"bullet/pbd", style_of("bullet/pbd"), {}};
-    for (int i = 0; i < 40; ++i)
-      a.points.emplace_back(i, std::sin(0.3 * i)), a.tooltips.push_back({fmt::format("run {}", i)});
-    for (int i = 0; i < 400; ++i) b.points.emplace_back(0.1 * i, std::cos(0.03 * i));
-    f.curves = {a, b};
-    f.failures = {{"mysim/rk4: blew up", style_of("mysim/rk4"), 5, 0.5, "blew up", 2, {"lost < \"here\""}}};
-    return f;
-  }
-  std::string drawn(const Figure& f) const {
-    draw(drawing_of(f), {}, folder_);
-    return read(folder_ / (f.name + ".svg"));
-  }
-  /// All coordinates of lines, absolute, in the order in which they are drawn.
-  static std::vector<double> coordinates(const std::string& svg) {
-    std::vector<double> all;
-    const std::regex path(" d='([^']*)'"), number("-?(\\d+\\.?\\d*|\\.\\d+)");
-    for (std::sregex_iterator p(svg.begin(), svg.end(), path), none; p != none; ++p) {
-      const std::string d = (*p)[1];
-      double x = 0, y = 0;
-      bool relative = false;
-      for (size_t i = 0; i < d.size();) {
-        if (d[i] == 'M' || d[i] == 'L' || d[i] == 'l') {
-          relative = d[i++] == 'l';
-          continue;
-        }
-        std::smatch found;
-        const std::string rest = d.substr(i);
-        if (!std::regex_search(rest, found, number, std::regex_constants::match_continuous)) {
-          ++i;
-          continue;
-        }
-        const double first = std::stod(found.str());
-        std::string after = rest.substr(found.length());
-        after = after.substr(after.find_first_of("-.0123456789"));
-        std::regex_search(after, found, number, std::regex_constants::match_continuous);
-        const double second = std::stod(found.str());
-        i = d.size() - after.size() + static_cast<size_t>(found.length());
-        x = relative ? x + first : first, y = relative ? y + second : second;
-        all.push_back(x), all.push_back(y);
+  void SetUp() override {
+    InFolder::SetUp();
+    content_.chapters = chapters();
+    content_.figures = folder_;
+    const char* leads[] = {"", "chain-speed-accuracy-cost", "stability-limits", "sphere-cone", "chain-adequacy"};
+    for (size_t i = 0; i < 5; ++i) {
+      const Question& question = questions()[i];
+      for (const bool is_answer : {true, false}) {
+        const Finding f = made_up(rule_of_chapter(question.chapter, is_answer), fmt::format("probe-{}", i));
+        (is_answer ? answers_ : others_)
+            .push_back(is_answer ? prose_with_bold_numbers(sentence_of(f)) : prose(sentence_of(f)));
+        content_.findings.push_back(f);
       }
+      Chapter& chapter = content_.chapters[i];
+      const std::string more = fmt::format("more-{}", i);
+      if (*leads[i]) chapter.entries.push_back({chapter.id, "Lead", "Says what.", {{leads[i], "t", "Lead caption."}}});
+      chapter.entries.push_back({chapter.id, "More < that", "Text.", {{more, "t", "More caption."}}});
+      chapter.entries.push_back({chapter.id, "A table", "", {}, {}, {{"sizes", {"method"}, {{"mysim/rk4"}}}}});
+      for (const std::string& name : {std::string(leads[i]), more})
+        if (!name.empty()) content_.charts[name] = Json{{"name", name}, {"kind", "curves"}};
     }
-    return all;
+    write("stability-limits.svg", "<svg><text>drawn</text></svg>");
+    for (const char* ending : {"pdf", "csv", "gp"}) write(fmt::format("stability-limits.{}", ending), "x");
+    write("more-2.csv", "x");
   }
+  PageContent content_;
+  std::vector<std::string> answers_, others_;  // as the page writes them
 };
 
-TEST_F(InlineSvg, LinesStayWhereTheyAre) {
-  const std::string svg = drawn(figure());
-  // markers' own shapes aside, which stay as they are
-  const auto body = [](const std::string& text) { return text.substr(text.find("</defs>")); };
-  const std::vector<double> before = coordinates(body(svg)), after = coordinates(body(inline_svg(svg, "alt")));
-  ASSERT_EQ(before.size(), after.size());
-  EXPECT_GT(before.size(), 800u);
-  // rounded to tenths of a pixel, not to be seen; differences of rounded numbers do not add up
-  for (size_t i = 0; i < before.size(); ++i) ASSERT_NEAR(before[i], after[i], 0.0501) << i;
-}
-
-TEST_F(InlineSvg, WeighsLessAndKeepsItsWords) {
-  const std::string svg = drawn(figure()), out = inline_svg(svg, "a \"finding\"");
-  EXPECT_LT(out.size(), 0.6 * static_cast<double>(svg.size()));
-  EXPECT_TRUE(contains(out, "role=\"img\" aria-label=\"a &quot;finding&quot;\""));
-  for (const char* word : {"two waves", "mysim/leapfrog", "t / s", "x / m"}) EXPECT_TRUE(contains(out, word));
-}
-
-TEST_F(InlineSvg, MarkersSayWhatTheirRunsAre) {
-  const Figure f = figure();
-  const Tooltips tooltips{tooltips_of(f), {}};
-  ASSERT_EQ(tooltips.markers.size(), 3u);
-  EXPECT_TRUE(tooltips.markers[1].empty());
-  const std::string out = inline_svg(drawn(f), "alt", tooltips);
-  EXPECT_TRUE(contains(out, "lost &lt; &quot;here&quot;</title>"));
-  // each word at its marker: further right as the runs are
-  const std::regex marker("<use class=\"told\"[^>]*translate\\(([0-9.]+),[^>]*><title>run ([0-9]+)</title>");
-  double last = 0;
-  int count = 0;
-  for (std::sregex_iterator m(out.begin(), out.end(), marker), none; m != none; ++m, ++count) {
-    EXPECT_EQ(std::stoi((*m)[2]), count);
-    EXPECT_GT(std::stod((*m)[1]), last);
-    last = std::stod((*m)[1]);
+TEST_F(WholePage, OpensWithFiveAnswersThatLeadToTheirChapters) {
+  const std::string html = page_html(content_), first = between(html, "<section class=\"first\"", "</section>");
+  EXPECT_EQ(count(first, "<div class=\"question\">"), 5);
+  for (size_t i = 0; i < 5; ++i) {
+    EXPECT_TRUE(contains(first, answers_[i]));
+    EXPECT_TRUE(contains(first, fmt::format("href=\"#{}\"", questions()[i].chapter)));
+    EXPECT_TRUE(contains(first, std::string(questions()[i].text)));
   }
-  EXPECT_EQ(count, 40);
+  EXPECT_FALSE(contains(first, "<table")) << "numbers in a table are not what a reader begins with";
+  expect_links_lead_somewhere(html);
 }
 
-TEST_F(InlineSvg, FewerMarkersThanWordsAreAnError) {
-  Tooltips tooltips{{std::vector<Tooltip>(1000, {"run"})}, {}};
-  EXPECT_THROW(inline_svg(drawn(figure()), "alt", tooltips), std::runtime_error);
-  EXPECT_THROW(inline_svg("<html>", "alt"), std::runtime_error);
-}
-
-TEST_F(InlineSvg, APageHoldsTheShapesOfMarkersOnce) {
-  const std::string one = inline_svg(drawn(figure()), "alt");
-  const std::string page = deduplicate_markers("<body>" + one + one + "</body>");
-  const auto count = [&](const std::string& what) {
-    int n = 0;
-    for (size_t at = page.find(what); at != std::string::npos; at = page.find(what, at + 1)) ++n;
-    return n;
-  };
-  EXPECT_EQ(count("id='gpDot'"), 1);
-  EXPECT_EQ(count("<svg"), 3);
-  EXPECT_LT(page.find("id='gpDot'"), page.find("role=\"img\""));
-}
-
-TEST_F(InlineSvg, CellsOfAMapAreABoxEachAndSayWhatTheirRunsAre) {
-  HeatMap map;
-  map.name = "map", map.title = "a map", map.caption = "c", map.finding = "f";
-  map.x_label = "x", map.y_label = "y";
-  map.kinds = {{"holds", "#D8E8F0"}, {"fails", "#D55E00"}};
-  HeatMap::Panel panel{"mysim/rk4", {}, {{1, 1}, {2, 4}}, {}};
-  for (int i = 0; i < 12; ++i)
-    panel.cells.push_back(
-        {std::pow(2, i % 4), std::pow(2, i / 4), i % 2, {fmt::format("cell {}", i), std::to_string(i)}});
-  map.panels = {panel};
-  draw(drawing_of(map), {}, folder_);
-  const std::string svg = read(folder_ / "map.svg"), out = inline_svg(svg, "alt", {{}, tooltips_of(map)});
-  const std::regex cell(
-      "<polygon data-run=\"([0-9]+)\" fill=\"(#[0-9a-f]+)\" points=\"([0-9.]+),([0-9.]+) "
-      "[^\"]*\"><title>cell ([0-9]+)</title></polygon>");
-  std::set<std::pair<double, double>> corners;
-  int count = 0;
-  for (std::sregex_iterator m(out.begin(), out.end(), cell), none; m != none; ++m, ++count) {
-    EXPECT_EQ((*m)[1], (*m)[5]);
-    EXPECT_EQ((*m)[2], std::stoi((*m)[1]) % 2 ? "#d55e00" : "#d8e8f0");
-    corners.emplace(std::stod((*m)[3]), std::stod((*m)[4]));
+TEST_F(WholePage, AChapterHasItsAnswerItsLeadAndItsFolds) {
+  const std::string html = page_html(content_);
+  for (size_t i = 0; i < 5; ++i) {
+    const Chapter& chapter = content_.chapters[i];
+    SCOPED_TRACE(chapter.id);
+    const std::string part = section(html, chapter.id), seen = at_load(part);
+    EXPECT_TRUE(contains(seen, "<p class=\"answer\">" + answers_[i]));
+    EXPECT_EQ(count(seen, "data-chart="), i == 0 ? 0 : 1) << "the lead alone is open";
+    if (i > 0) {
+      EXPECT_TRUE(contains(seen, fmt::format("data-chart=\"{}\"", chapter.entries[0].figures[0].name)));
+    }
+    EXPECT_TRUE(contains(seen, chapter.teaching));
+    // what was found, the other chart, the table
+    EXPECT_EQ(count(part, "<details class=\"fold\""), 3);
+    EXPECT_EQ(count(part, "<template>"), 3);
+    EXPECT_EQ(count(part, fmt::format("data-chart=\"more-{}\"", i)), 1);
+    EXPECT_FALSE(contains(seen, "More caption.")) << "folded contents are not there until they are asked for";
+    EXPECT_FALSE(contains(seen, others_[i]));
+    EXPECT_TRUE(contains(part, others_[i]));
+    EXPECT_TRUE(contains(part, "More &lt; that"));
   }
-  EXPECT_EQ(count, 12);
-  EXPECT_EQ(corners.size(), 12u) << "each in its own place";
-  // what is no cell stays: the key's samples, lines of limits
-  EXPECT_TRUE(contains(out, "limit by theory"));
-  const std::string shape = "fill=\"#d8e8f0\"";
-  EXPECT_TRUE(contains(out, shape));
 }
 
-TEST(SamePictures, AreInThePageOnce) {
-  const std::string bytes(3000, 'A');
-  const auto picture = [&](const std::string& data, const std::string& alt) {
-    return fmt::format("<img src=\"data:image/png;base64,{}\" width=\"40\" height=\"20\" alt=\"{}\">", data, alt);
+TEST_F(WholePage, OnlyFiguresThatOpenAChapterAreDrawnForPaper) {
+  for (const std::string& name : figures_of(content_))
+    EXPECT_EQ(opens_a_chapter(content_, name), !name.starts_with("more-")) << name;
+  const std::string html = page_html(content_);
+  EXPECT_EQ(count(html, "<noscript>"), 1) << "where the drawing is there";
+  EXPECT_TRUE(contains(section(html, "stability"), "<noscript><img alt=\"t\" src=\"data:image/svg+xml;base64,"));
+  for (const char* way : {"stability-limits.pdf", "stability-limits.csv", "stability-limits.gp", "more-2.csv"})
+    EXPECT_TRUE(contains(html, fmt::format("href=\"figures/{}\"", way)));
+  EXPECT_FALSE(contains(html, "more-2.pdf")) << "there is none";
+}
+
+TEST_F(WholePage, TheLeadIsThatOfTheMainSceneWhereThereIsOne) {
+  std::vector<Chapter::Entry>& entries = content_.chapters[1].entries;
+  entries.push_back({"speed-accuracy", "Of a cloth", "", {{"cloth-hang-speed-accuracy-cost", "t", "c"}}});
+  EXPECT_TRUE(opens_a_chapter(content_, "chain-speed-accuracy-cost"));
+  content_.main_scene = "cloth-hang";
+  EXPECT_TRUE(opens_a_chapter(content_, "cloth-hang-speed-accuracy-cost"));
+  EXPECT_FALSE(opens_a_chapter(content_, "chain-speed-accuracy-cost"));
+}
+
+TEST_F(WholePage, ButtonsChooseWhoseFigureOpensAChapter) {
+  Chapter& chapter = content_.chapters[1];
+  chapter.entries.push_back({chapter.id, "Of a cloth", "", {{"cloth-hang-speed-accuracy-cost", "t", "Cloth's."}}});
+  content_.main_scene = "cloth-hang";
+  const std::string part = section(page_html(content_), chapter.id), seen = at_load(part);
+  EXPECT_LT(seen.find("data-figure=\"figure-cloth-hang-speed-accuracy-cost\" aria-pressed=\"true\">cloth-hang<"),
+            seen.find("data-figure=\"figure-chain-speed-accuracy-cost\" aria-pressed=\"false\">chain<"))
+      << "the main scene first";
+  EXPECT_EQ(count(part, "<figure hidden class=\"chart\""), 1);
+  EXPECT_TRUE(contains(part, "<figure hidden class=\"chart\" id=\"figure-chain-speed-accuracy-cost\""));
+  EXPECT_EQ(count(part, "data-chart=\"cloth-hang-speed-accuracy-cost\""), 1) << "nowhere else";
+  EXPECT_EQ(count(section(page_html(content_), "stability"), "class=\"choices\""), 0) << "nothing to choose";
+}
+
+TEST_F(WholePage, WhatIsShownIsNotFoldedAway) {
+  Chapter& chapter = content_.chapters[2];
+  Chapter::Entry entry{chapter.id, "One step too large", "", {{"stability-failure", "t", "Grows."}}};
+  const std::filesystem::path picture =
+      write("moment.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"4\" height=\"3\"/>");
+  entry.images = {{picture, "8 ms", "8 ms"}, {folder_ / "missing.png", "m", "m"}};
+  entry.shown = true;
+  chapter.entries.push_back(entry);
+  const std::string seen = at_load(section(page_html(content_), chapter.id));
+  EXPECT_TRUE(contains(seen, "<h3>One step too large</h3>"));
+  EXPECT_TRUE(contains(seen, "data-chart=\"stability-failure\""));
+  EXPECT_EQ(count(between(seen, "<div class=\"moments\">", "</figure>\n</div>"), "<img"), 1) << "those that there are";
+}
+
+TEST_F(WholePage, TextsOfScenesCannotBecomeMarkup) {
+  const std::string evil = "<zq onclick='x'>\\\"&amp;</zq>";
+  std::string text = scene_text("[[particle]]\nposition = [0, 0, 0]\nmass = 1\n");
+  const auto put = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
   };
-  const std::string page = "<p>" + picture(bytes, "one") + picture("BBBB", "other") + picture(bytes, "two") + "</p>";
-  const std::string out = deduplicate_pictures(page);
-  EXPECT_EQ(out.find(bytes), out.rfind(bytes));
-  EXPECT_TRUE(contains(out, picture("BBBB", "other"))) << "what is there once stays as it is";
-  EXPECT_TRUE(contains(out, "aria-label=\"one\"><image id=\"picture-1\" width=\"40\" height=\"20\""));
-  EXPECT_TRUE(contains(
-      out, "<svg class=\"picture\" viewBox=\"0 0 40 20\" role=\"img\" aria-label=\"two\"><use href=\"#picture-1\"/>"));
-  EXPECT_EQ(deduplicate_pictures("<p>no picture</p>"), "<p>no picture</p>");
+  put("question = \"q\"", "question = \"" + evil + "\"");
+  put("parameters = \"p\"", "parameters = \"" + evil + "\"");
+  const Scene scene = parse_scene(text, "a<zq>b");
+  SceneData facts;
+  MethodData run;
+  run.method = "exec:./<zq>", run.verdict = Verdict::unsupported, run.reason = "<zq>", run.different_law = "<zq>";
+  facts.methods = {run};
+  const Certificate certificate{"exec:./<zq>", scene.name, {{"<zq>", "<zq>", "<zq>", "<zq>", Parity::mismatch}}};
+  ScenePart part{&scene, &facts, {made_up(finding_rule("nearest"), "<zq>")}};
+  part.certificates = {&certificate};
+  part.motions = write("motions.json", "{\"scene\": \"<zq></script>\"}");
+  part.figures = {{"<zq>", "<zq>", "<zq>", "<zq>"}};
+  content_.scenes = {part};
+  content_.findings[0] = made_up(finding_rule("answer-agreement-no"), "<zq>");
+  content_.notes = content_.problems = {"<zq>"};
+  content_.provenance = {{"command", "<zq>"}};
+  content_.against = "<zq>";
+  content_.changes = {{"<zq>", "<zq>", "<zq>"}};
+  content_.methods = {"exec:./<zq>"};
+  content_.runs = {{"<zq>", "<zq>", "", {write("runs.json", "\"<zq></script>\"")}}};
+  const std::string html = page_html(content_);
+  EXPECT_FALSE(contains(html, "<zq")) << between(html, "<zq", ">");
+  EXPECT_FALSE(contains(html, "</zq"));
+  EXPECT_TRUE(contains(html, "&lt;zq"));
+  EXPECT_EQ(count(html, "<script"), count(html, "</script>"));
+}
+
+/// A small report, assembled as the program does it: two scenes under a few methods, their data in the folder.
+class Assembled : public InFolder {
+ protected:
+  void SetUp() override {
+    InFolder::SetUp();
+    Request request;
+    request.scenes = load_scenes({"projectile", "chain"});
+    request.methods = find_methods("mysim/symplectic-euler,mysim/explicit-euler,bullet/deformable-explicit");
+    data_.scenes = data_.all = request.scenes;
+    data_.extent = Extent::named;
+    for (const char* name : {"engines", "order"})
+      for (const Point& point : find_experiment(name).points(request)) point.compute(data_.rows);
+    data_.rows.notes = {"something was left out"};
+    data_.provenance = with_scenes(
+        {{"command", "crosscheck report"}, {"commit", "abc"}, {"date", "2026-11-22 10:00:00 UTC"}}, request.scenes);
+  }
+  /// Writes the tables and the report; no figure is drawn, no picture rendered. Their names are kept.
+  WrittenReport written(ReportData& data, const std::filesystem::path& folder) {
+    drawn_.clear();
+    return write_report(data, folder, "", [this](const std::vector<Point>& points) {
+      for (const Point& point : points) drawn_.push_back(point.content);
+      return std::vector<std::string>();
+    });
+  }
+  void write_tables() {
+    data_.rows.tables.push_back(certificate_table(data_.rows.certificates));
+    for (const Table& table : data_.rows.tables) write_csv(table, data_.provenance, folder_ / "data");
+    for (const Scene& scene : data_.scenes) write_file(folder_ / "data/scenes" / (scene.name + ".toml"), scene.source);
+  }
+  std::string page() const { return read(folder_ / "index.html"); }
+
+  ReportData data_;
+  std::vector<std::string> drawn_;
+};
+
+/// The numbers of all charts, as the page's script unpacks them.
+JsonField charts_in(const std::string& html) {
+  const std::string begin = "<script type=\"text/plain\" id=\"charts\">";
+  const std::string bytes = bytes_of_base64(between(html, begin, "</script>").substr(begin.size()));
+  size_t length = 0;  // gzip's last four bytes
+  for (int i = 1; i <= 4; ++i) length = length << 8 | static_cast<unsigned char>(bytes.at(bytes.size() - i));
+  return JsonField::parse(gunzipped(bytes, length), "charts");
+}
+
+TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
+  write_tables();
+  const WrittenReport report = written(data_, folder_);
+  const std::string html = page();
+  const JsonField charts = charts_in(html);
+  const std::vector<std::string> figures = figures_of(report.page);
+  EXPECT_GT(std::set(figures.begin(), figures.end()).size(), 5u);
+  int compared = 0;
+  for (const std::string& name : figures) {
+    SCOPED_TRACE(name);
+    EXPECT_TRUE(contains(html, fmt::format("data-chart=\"{}\"", name)));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "figures" / (name + ".gp")));
+    const Table table = read_csv(folder_ / "figures" / (name + ".csv"));
+    const auto chart = charts.find(name);
+    ASSERT_TRUE(chart);
+    EXPECT_EQ((*chart)["name"].text(), name);
+    if ((*chart)["kind"].text() != "curves") continue;
+    std::map<std::string, size_t> rows;
+    for (const auto& row : table.rows) ++rows[std::get<std::string>(row[0])];
+    for (const JsonField& series : (*chart)["series"].elements()) {
+      std::string id = series["name"].text();
+      for (char& sign : id)
+        if (sign == ',' || sign == '"') sign = ';';
+      EXPECT_GT(rows[id], 0u) << id;
+      if (rows[id] <= 600)
+        EXPECT_EQ(series["points"].size(), rows[id]) << id;
+      else
+        EXPECT_LE(series["points"].size(), 600u) << id;
+      rows.erase(id), ++compared;
+    }
+    size_t failed = 0;
+    for (const auto& [curve, points] : rows)
+      if (curve.starts_with("failed: ")) failed += points;
+    EXPECT_EQ(failed, chart->find("failures") ? (*chart)["failures"].size() : 0);
+  }
+  EXPECT_GT(compared, 10);
+  // those that open a chapter are drawn; others have numbers and script alone
+  EXPECT_FALSE(drawn_.empty());
+  for (const std::string& name : drawn_) EXPECT_TRUE(opens_a_chapter(report.page, name)) << name;
+}
+
+TEST_F(Assembled, EverySceneHasACardAndWhatItOpens) {
+  write_tables();
+  written(data_, folder_);
+  const std::string html = page(), scenes = between(html, "id=\"scenes\"", "id=\"words\"");
+  EXPECT_EQ(count(scenes, "<a class=\"card\""), 2);
+  for (const Scene& scene : data_.scenes) {
+    SCOPED_TRACE(scene.name);
+    EXPECT_TRUE(contains(scenes, fmt::format("class=\"card\" href=\"#{0}\" data-scene=\"{0}\"", scene.name)));
+    const std::string inside = between(scenes, fmt::format("<template data-scene=\"{}\">", scene.name), "</template>");
+    EXPECT_TRUE(contains(inside, "class=\"findings\""));
+    EXPECT_TRUE(contains(inside, fmt::format("data-chart=\"{}-error\"", scene.name)));
+    EXPECT_TRUE(contains(inside, fmt::format("./crosscheck compare {}", scene.name)));
+    EXPECT_TRUE(contains(inside, "Is it the same scene?"));
+    EXPECT_EQ(count(inside, "<tr data-method=\"mysim/explicit-euler\">"), 1) << "all runs, the failed ones too";
+    EXPECT_FALSE(contains(at_load(html), fmt::format("data-chart=\"{}-energy\"", scene.name)));
+  }
+  // a dot for each quantity that was read back
+  size_t quantities = 0;
+  for (const Certificate& c : data_.rows.certificates) quantities += c.rows.size();
+  EXPECT_GT(quantities, 0u);
+  EXPECT_EQ(static_cast<size_t>(count(section(html, "same-answer"), "<i class=\"")), quantities);
+}
+
+TEST_F(Assembled, SentencesAreShort) {
+  write_tables();
+  const WrittenReport report = written(data_, folder_);
+  int answers = 0;
+  for (const Finding& f : report.page.findings) answers += finding_rule(f.rule).topic == "answer";
+  expect_short(report.page.findings);
+  for (const ScenePart& part : report.page.scenes) expect_short(part.findings);
+  EXPECT_GE(answers, 2);
+  EXPECT_EQ(count(page(), "<div class=\"question\">"), answers);
+}
+
+TEST_F(Assembled, FromItsDataTheSamePageComesAgain) {
+  write_tables();
+  written(data_, folder_);
+  const std::string html = page(), json = read(folder_ / "report.json");
+  EXPECT_TRUE(contains(json, "\"extent\": \"named\""));
+  EXPECT_TRUE(verify_report(folder_).mismatches.empty());
+  ReportData again = read_report(folder_);
+  EXPECT_EQ(again.extent, Extent::named);
+  EXPECT_EQ(again.scenes.size(), data_.scenes.size());
+  EXPECT_EQ(again.rows.notes, data_.rows.notes);
+  EXPECT_EQ(again.provenance, data_.provenance);
+  written(again, folder_);
+  EXPECT_TRUE(page() == html);
+  EXPECT_EQ(read(folder_ / "report.json"), json);
+}
+
+TEST_F(Assembled, CertificatesSurviveTheirTable) {
+  ASSERT_FALSE(data_.rows.certificates.empty());
+  // texts that look like numbers, and signs that a table must quote
+  data_.rows.certificates[0].rows = {{"mass", "4", "4", "4", Parity::match},
+                                     {"pins", "1, 2", "say \"so\"", "two\nlines", Parity::mismatch},
+                                     {"law", "", "1e-3", "–", Parity::different_law},
+                                     {"drag", "0.5", "", "", Parity::unattested}};
+  write_tables();
+  written(data_, folder_);
+  const ReportData again = read_report(folder_);
+  ASSERT_EQ(again.rows.certificates.size(), data_.rows.certificates.size());
+  for (size_t i = 0; i < again.rows.certificates.size(); ++i) {
+    const Certificate &before = data_.rows.certificates[i], &after = again.rows.certificates[i];
+    EXPECT_EQ(after.method, before.method);
+    EXPECT_EQ(after.scene, before.scene);
+    ASSERT_EQ(after.rows.size(), before.rows.size());
+    for (size_t k = 0; k < after.rows.size(); ++k) {
+      EXPECT_EQ(after.rows[k].quantity, before.rows[k].quantity);
+      EXPECT_EQ(after.rows[k].requested, before.rows[k].requested);
+      EXPECT_EQ(after.rows[k].mapped, before.rows[k].mapped);
+      EXPECT_EQ(after.rows[k].read_back, before.rows[k].read_back);
+      EXPECT_EQ(after.rows[k].parity, before.rows[k].parity);
+    }
+  }
+}
+
+TEST_F(Assembled, ReportsThatWereChangedOrAreOlderAreRefused) {
+  write_tables();
+  written(data_, folder_);
+  const std::string json = read(folder_ / "report.json");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = json;
+    write_file(folder_ / "report.json", text.replace(text.find(from), from.size(), to));
+    return refusal_of([&] { read_report(folder_); });
+  };
+  EXPECT_TRUE(contains(with("\"extent\": \"named\"", "\"extent\": \"huge\""), "huge"));
+  EXPECT_FALSE(with("\"extent\": \"named\",", "").empty()) << "an older report does not say what it holds";
+  EXPECT_TRUE(contains(with("\"hash\": \"", "\"hash\": \"0"), "its data are not those that were reported: scene "));
+  EXPECT_EQ(with("\"tier\": \"measured\"", "\"tier\": \"guessed\""), "") << "another version may say it otherwise";
+  EXPECT_EQ(with("\"extent\"", "\"extent\""), "");
 }
 
 }  // namespace

@@ -15,13 +15,13 @@ async function use(player, seen) {
   const slider = player.querySelector('input[type=range]');
   slider.value = 12;
   slider.dispatchEvent(new Event('input'));
-  seen.slider = Math.abs(player.time - scene.times[12]) < 1e-9 &&
-      slider.getAttribute('aria-valuetext').startsWith(String(scene.times[12]));
+  const asked = 12 / slider.max * end;
+  seen.slider = Math.abs(player.time - asked) < 1e-9 && Math.abs(parseFloat(slider.getAttribute('aria-valuetext')) - asked) < 0.006;
   const plain = lookAt(player).picture, [, colour] = player.querySelectorAll('select');
   colour.value = 'distance';
   colour.dispatchEvent(new Event('change'));
   seen.colours = lookAt(player).picture !== plain;
-  const springs = player.querySelector('.choices input');
+  const springs = player.querySelector('.looks input');
   springs.click();
   seen.springs = lookAt(player).picture !== plain;
   springs.click();
@@ -30,12 +30,12 @@ async function use(player, seen) {
   seen.turns = lookAt(player).picture !== before;
   player.seek(end);
   seen.titles = player.titles.textContent;
-  seen.list = player.querySelector('.methods').textContent;
+  seen.says = player.querySelector('.hint').textContent;
   player.seek(0);
   player.play();
   seen.plays = await until(() => player.time > 0.2 * end);
   player.pause();
-  seen.lines = player.querySelectorAll('.plot polyline').length;
+  seen.lines = player.querySelectorAll('.plot .curve').length;
 }
 
 addEventListener('load', async () => {
@@ -44,7 +44,7 @@ addEventListener('load', async () => {
   const {width, height} = poster.getBoundingClientRect();
   seen.poster =
       poster.naturalWidth > 0 && width > 200 && height > 50 && getComputedStyle(poster).visibility === 'visible';
-  seen.desk = player.getBoundingClientRect().height;
+  seen.height = player.getBoundingClientRect().height;
   try {
     if (seen.able) await use(player, seen);
   } catch (problem) {

@@ -10,10 +10,9 @@
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/stability/map.h"
 #include "mysim/base/json.h"
+#include "mysim/model/energy.h"
+#include "report/player/motions.h"
 #include "report/player/packed_numbers.h"
-#include "report/player/player_data.h"
-#include "report/player/run_motions.h"
-#include "report/player/thinned_trajectory.h"
 #include "tests/unit/experiments/helpers.h"
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/readers.h"
@@ -27,8 +26,69 @@ std::vector<std::uint16_t> numbers_of(const JsonField& p) {
   return unpacked(p["count"].natural(), p["lag"].natural(), p["order"].whole_number(0, 9), p["data"].text());
 }
 
-/// A number of a lattice, which wrapped at 2^16.
-int lattice_number(std::uint16_t n) { return n < 65536 - 24576 ? n : n - 65536; }
+/// The list of a file's runs; that of cells is packed.
+JsonField runs_of(const JsonField& file) {
+  if (!file.find("packed")) return file["runs"];
+  const std::string bytes = testing_tools::bytes_of_base64(file["packed"].text());
+  size_t length = 0;  // the last four bytes of gzip
+  for (size_t k = 0; k < 4; ++k) length |= size_t{static_cast<unsigned char>(bytes[bytes.size() - 4 + k])} << 8 * k;
+  return JsonField::parse(testing_tools::gunzipped(bytes, length), "cells");
+}
+
+/// A file of runs as motions.h says that it is written, read back.
+class ReadMotions {
+ public:
+  ReadMotions(const JsonField& file, int particles)
+      : wide_(3 * particles),
+        shapes_(numbers_of(file["shapes"])),
+        paths_(numbers_of(file["paths"])),
+        values_(numbers_of(file["values"])) {
+    if (file.find("base")) base_ = read(file["base"], false), centre_ = file["base"]["centre"].numbers();
+    for (const JsonField& run : runs_of(file).elements())
+      runs_.push_back(run.is_null() ? Run{}
+                                    : read(run, !run.find("times") || run.find("step") || run.find("tolerance")));
+  }
+  struct Run {
+    Eigen::MatrixXd apart;  // a column for each frame
+    std::vector<std::optional<double>> error, energy;
+  };
+  const Run& run(size_t i) const { return runs_.at(i); }
+  /// Places of the base in a frame.
+  Eigen::VectorXd base(Eigen::Index frame) const {
+    Eigen::VectorXd x = base_.apart.col(std::min(frame, base_.apart.cols() - 1));
+    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] += centre_[static_cast<size_t>(i % 3)];
+    return x;
+  }
+  bool all_read() const {
+    return at_shape_ == shapes_.size() && at_path_ == paths_.size() && at_value_ == values_.size();
+  }
+
+ private:
+  Run read(const JsonField& run, bool valued) {
+    const size_t modes = run["modes"].natural(), frames = run["frames"].natural();
+    Run out{Eigen::MatrixXd::Zero(wide_, static_cast<Eigen::Index>(frames)), {}, {}};
+    for (size_t k = 0; k < modes; ++k)
+      for (size_t f = 0; f < frames; ++f)
+        for (Eigen::Index i = 0; i < wide_; ++i)
+          out.apart(i, static_cast<Eigen::Index>(f)) +=
+              run["unit"].number() * static_cast<std::int16_t>(shapes_.at(at_shape_ + k * wide_ + i)) *
+              run["path"].number() * static_cast<std::int16_t>(paths_.at(at_path_ + k * frames + f));
+    at_shape_ += modes * wide_, at_path_ += modes * frames;
+    if (valued)
+      for (auto* list : {&out.error, &out.energy})
+        for (size_t f = 0; f < frames; ++f) {
+          const int v = values_.at(at_value_++);
+          list->push_back(v == 0 ? std::nullopt : std::optional(v == 1 ? 0. : std::pow(10, (v - 40000) / 2000.)));
+        }
+    return out;
+  }
+  Eigen::Index wide_;
+  std::vector<std::uint16_t> shapes_, paths_, values_;
+  size_t at_shape_ = 0, at_path_ = 0, at_value_ = 0;
+  Run base_;
+  std::vector<double> centre_;
+  std::vector<Run> runs_;
+};
 
 TEST(PackedNumbers, AnyNumbersComeBack) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -50,128 +110,115 @@ TEST(PackedNumbers, EvenMotionTakesHardlyAnyRoom) {
   EXPECT_LT(pack(numbers, 300, 2).data.size(), 2000u);
 }
 
-TEST(QuantisedPositions, NoneIsFurtherFromItsNumberThanTheBound) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> part(-1, 1);
-    // boxes of millimetres to a hundred metres, also far from the origin, also flat
-    const double size = std::pow(10, 3.5 * part(random) - 0.5);
-    const Vec3 middle = 50 * part(random) * Vec3(part(random), part(random), part(random));
-    std::vector<Points> frames(7, Points(3, 40));
-    for (Points& x : frames) {
-      for (double& c : x.reshaped()) c = size * part(random);
-      x.colwise() += middle;
-      if (seed % 4 == 0) x.row(2).setConstant(0.25);
-    }
-    const QuantisedPositions q = quantise(frames);
-    // a unit is the 16383rd part of the box, whose edges are 2 `size` at most
-    EXPECT_LE(q.bound, std::sqrt(3) / 2 * 2 * size / 16383 + 1e-9);
-    double worst = 0;
-    size_t at = 0;
-    for (const Points& x : frames)
-      for (Eigen::Index i = 0; i < x.cols(); ++i, at += 3) {
-        Vec3 drawn = q.low;
-        for (int k = 0; k < 3; ++k) drawn[k] += q.unit[k] * q.numbers[at + k];
-        worst = std::max(worst, (drawn - x.col(i)).norm());
-      }
-    EXPECT_LE(worst, q.bound) << "seed " << seed;
-    EXPECT_GT(worst, q.bound / 3) << "the bound is no larger than it has to be, seed " << seed;
-  }
+TEST(PackedNumbers, TheSmallestWayIsTaken) {
+  std::vector<std::uint16_t> numbers;
+  for (int i = 0; i < 3000; ++i) numbers.push_back(static_cast<std::uint16_t>(i % 3 * 20000 + i / 3));
+  const PackedNumbers small = pack_small(numbers);
+  EXPECT_EQ(unpacked(small.count, small.lag, small.order, small.data), numbers);
+  for (const size_t lag : {1, 3})
+    for (const int order : {0, 1, 2}) EXPECT_LE(small.data.size(), pack(numbers, lag, order).data.size());
 }
 
-TEST(SharedLattice, TellsPlacesAroundItsBoxApartAndRefusesThoseBeyond) {
-  Points around = Points::Zero(3, 2);
-  around.col(1) << 2, 1, 0;  // m: the longest side is 2
-  const Lattice lattice = lattice_around(std::span(&around, 1));
-  EXPECT_DOUBLE_EQ(lattice.unit, 2. / 16383);
-  for (const double x : {-2.99, -1., 0., 1.7, 4.99}) {
-    const auto numbers = lattice.numbers_of(std::vector<Points>{Points::Constant(3, 1, x)});
-    ASSERT_TRUE(numbers) << x;
-    EXPECT_NEAR(lattice.unit * lattice_number((*numbers)[0]), x, lattice.unit / 2 + 1e-12);
-  }
-  for (const double x : {-3.01, 5.01, 1e300, double(NAN)})
-    EXPECT_FALSE(lattice.numbers_of(std::vector<Points>{Points::Constant(3, 1, x)})) << x;
-}
-
-TEST(SharedLattice, OfASinglePlaceIsOneToo) {
-  const Lattice lattice = lattice_around(std::vector<Points>{Points::Constant(3, 1, 0.5)});
-  EXPECT_GT(lattice.unit, 0);
-  EXPECT_TRUE(lattice.numbers_of(std::vector<Points>{Points::Constant(3, 1, 0.5)}));
-}
-
-class PlayerData : public testing::Test {
+class Motions : public testing::Test {
  protected:
-  JsonField data_of(const Scene& scene, const std::vector<std::string>& methods) {
+  void gather(const Scene& scene, const std::vector<std::string>& methods) {
     Request request;
     request.scenes = {scene};
-    std::vector<const Result*> shown;
-    for (const std::string& name : methods) shown.push_back(&result_of(request, scene, find_method(name), answers_));
-    return JsonField::parse(player_json(scene, shown, truth_of(scene, run_of(request, scene))), "player");
+    base_ = base_of(scene, run_of(request, scene));
+    stage_ = JsonField::parse(stage_json(scene, base_), "player");
+    for (const std::string& name : methods) {
+      const MethodResult& r = result_of(request, scene, find_method(name), answers_);
+      files_.push_back(
+          JsonField::parse(motions_json({"engines", scene, name, {{r.outcome, r.trajectory}}}, base_), "player"));
+    }
   }
-  Results answers_;
+  MotionBase base_;
+  JsonField stage_ = JsonField::parse("{}", "none");
+  std::vector<JsonField> files_;
+  MethodResults answers_;
 };
 
-TEST_F(PlayerData, PlacesOfTheChainAreThoseOfItsRunInEachFrame) {
+TEST_F(Motions, PlacesErrorsAndEnergiesOfTheChainAreThoseOfItsRunInEachFrame) {
   const Scene scene = load_scene("chain");
-  const JsonField data = data_of(scene, {"mysim/leapfrog", "mysim/rk4"});
-  ASSERT_EQ(data["times"].size(), 151u);
-  ASSERT_EQ(data["methods"].size(), 3u) << "two methods and the truth";
-  const JsonField method = data["methods"][0];
-  const auto numbers = numbers_of(method["places"]);
-  const int n = scene.model.particles.size();
-  ASSERT_EQ(numbers.size(), 151u * 3 * n);
-  EXPECT_FALSE(method.find("over").has_value());
-  const double bound = data["finest"].number();
-  for (int f = 0; f < 151; ++f)
-    for (int i = 0; i < n; ++i)
-      for (int k = 0; k < 3; ++k)
-        EXPECT_NEAR(
-            method["low"][k].number() + method["unit"][k].number() * lattice_number(numbers[3 * (f * n + i) + k]),
-            answers_[0].trajectory.x[f](k, i), bound);
-  EXPECT_EQ(data["springs"]["families"][0]["count"].number(), n - 1);
-  EXPECT_TRUE(data["floor"].is_null()) << "all lies in a plane";
-}
-
-TEST_F(PlayerData, TheSameMotionTwiceTakesItsRoomOnce) {
-  const Scene scene = load_scene("chain");
-  const JsonField data = data_of(scene, {"mysim/symplectic-euler", "bullet/deformable-explicit"});
-  const JsonField ours = data["methods"][0], theirs = data["methods"][1];
-  ASSERT_EQ(theirs["over"].number(), 0);
-  EXPECT_LT(theirs["places"]["data"].text().size(), 100u);
-  // what is left of a motion that is not quite the same comes back
-  const JsonField truth = data["methods"][2];
-  const auto first = numbers_of(ours["places"]), own = numbers_of(truth["places"]);
-  const auto path = truth_of(scene, run_of({{scene}}, scene))->trajectory;
-  const auto n = static_cast<size_t>(3 * scene.model.particles.size());
-  for (size_t i = 0; i < own.size(); ++i) {
-    const auto number = static_cast<std::uint16_t>(own[i] + (truth.find("over").has_value() ? first[i] : 0));
-    EXPECT_NEAR(truth["low"][i % 3].number() + truth["unit"][i % 3].number() * lattice_number(number),
-                path.x[i / n].reshaped()[static_cast<Eigen::Index>(i % n)], data["finest"].number());
+  gather(scene, {"mysim/leapfrog", "mysim/symplectic-euler", "bullet/deformable-explicit"});
+  ASSERT_EQ(stage_["times"].size(), 151u);
+  EXPECT_EQ(stage_["springs"]["families"][0]["count"].number(), scene.model.particles.size() - 1);
+  EXPECT_TRUE(stage_["floor"].is_null()) << "all lies in a plane";
+  ASSERT_TRUE(base_.known);
+  const int n = scene.model.particles.size(), stride = frame_stride(scene);
+  const ReadMotions known(stage_["known"], n);
+  EXPECT_TRUE(known.all_read());
+  EXPECT_EQ(known.run(0).apart.cwiseAbs().maxCoeff(), 0) << "the truth is the base";
+  for (size_t m = 0; m < files_.size(); ++m) {
+    const JsonField run = files_[m]["runs"][0];
+    const ReadMotions read(files_[m], n);
+    EXPECT_TRUE(read.all_read());
+    const int every = run["every"].whole_number(1, 100);
+    double largest = 0, worst = 0;
+    for (Eigen::Index f = 0; f < read.run(0).apart.cols(); ++f) {
+      const auto sample = static_cast<size_t>(f * every * stride);
+      const Points &x = answers_[m].trajectory.x[sample], &truth = base_.truth->trajectory.x[sample];
+      const Eigen::VectorXd off = (x - truth).reshaped();
+      largest = std::max(largest, off.cwiseAbs().maxCoeff());
+      worst = std::max(worst, (read.run(0).apart.col(f) - off).cwiseAbs().maxCoeff());
+      EXPECT_LT((known.base(f * every) - truth.reshaped()).cwiseAbs().maxCoeff(), scene.size() / 2000);
+      const auto at = static_cast<size_t>(f);
+      if (read.run(0).error[at])
+        EXPECT_NEAR(*read.run(0).error[at], rms_distance(x, truth), 2e-3 * rms_distance(x, truth));
+      else
+        EXPECT_TRUE(scene.window < answers_[m].trajectory.t[sample] || rms_distance(x, truth) == 0);
+      const double kinetic = energy_of(scene.model, {0, x, answers_[m].trajectory.v[sample]}).kinetic;
+      EXPECT_NEAR(read.run(0).energy[at].value(), kinetic, 2e-3 * kinetic);
+    }
+    EXPECT_GT(largest, 0);
+    EXPECT_LT(worst, 0.04 * largest) << files_[m]["name"].text() << ": told to a sixtieth of what it departs by";
+    if (m == 2) {
+      EXPECT_LT((read.run(0).apart - ReadMotions(files_[1], n).run(0).apart).cwiseAbs().maxCoeff(), 1e-9 * largest)
+          << "the same rule is the same motion";
+    }
   }
 }
 
-TEST_F(PlayerData, ARunThatBlewUpEndsNearTheOthersAndSaysWhenAndWhy) {
+TEST_F(Motions, ARunThatBlewUpEndsNearTheOthersAndSaysWhenAndWhy) {
   const Scene scene = load_scene("chain");
-  const JsonField data = data_of(scene, {"mysim/leapfrog", "mysim/explicit-euler"});
-  const JsonField failed = data["methods"][1];
-  EXPECT_LT(failed["frames"].number(), 151);
+  gather(scene, {"mysim/explicit-euler"});
+  const JsonField failed = files_[0]["runs"][0];
+  EXPECT_LT(failed["frames"].number(), 76);
   EXPECT_NE(failed["failure"].text().find(" s"), std::string::npos) << failed["failure"].text();
   EXPECT_EQ(failed["reason"].text(), "ten times too fast");
   EXPECT_LE(failed["stops"].number(), failed["failed"].number());
-  for (int k = 0; k < 3; ++k) EXPECT_LT(failed["unit"][k].number() * 16383, 20) << "m: within sight";
-  EXPECT_EQ(data["methods"][0]["failure"].text(), "");
+  EXPECT_LT(ReadMotions(files_[0], scene.model.particles.size()).run(0).apart.cwiseAbs().maxCoeff(), 20)
+      << "m: within sight";
 }
 
-TEST_F(PlayerData, DistancesFromTheContactRuleAreDifferencesAndEndWithIt) {
+TEST_F(Motions, DistancesFromTheContactRuleEndWithIt) {
   const Scene scene = load_scene("cloth-sphere");
-  const JsonField data = data_of(scene, {"mysim/symplectic-euler"});
-  ASSERT_TRUE(data["distance"].is_object());
-  EXPECT_EQ(data["distance"]["name"].text(), "difference from the converged contact rule");
-  const JsonField distance = data["methods"][0]["distance"];
-  const double frames = distance["count"].number() / scene.model.particles.size();
-  EXPECT_LE((frames - 1) * scene.duration / scene.samples, scene.window + 1e-9);
-  const auto levels = numbers_of(distance);
-  EXPECT_LE(*std::max_element(levels.begin(), levels.end()), 63);
+  gather(scene, {"mysim/leapfrog"});
+  ASSERT_TRUE(base_.truth);
+  ASSERT_TRUE(base_.truth->under_contact_rule);
+  EXPECT_FALSE(base_.known) << "the base goes on to the end";
+  EXPECT_NEAR(base_.t.back(), scene.duration, 1e-9);
+  EXPECT_TRUE(stage_["truth"]["rule"].boolean());
+  const int n = scene.model.particles.size();
+  const ReadMotions known(stage_["known"], n), run(files_[0], n);
+  EXPECT_TRUE(known.all_read());
+  EXPECT_LT(known.run(0).apart.cols(), static_cast<Eigen::Index>(stage_["times"].size()));
+  EXPECT_TRUE(run.run(0).error[1]);
+  EXPECT_FALSE(run.run(0).error.back());
+  EXPECT_EQ(static_cast<double>(run.run(0).apart.cols() - 1) * files_[0]["runs"][0]["every"].number() + 1,
+            static_cast<double>(stage_["times"].size()))
+      << "to the end";
+}
+
+TEST_F(Motions, OfAnOutsideProgramAreToldAsAnyOthers) {
+  const Scene scene = load_scene("chain");
+  gather(scene, {"mysim/rk4"});
+  const std::string name = "exec:/tools/my engine";
+  const std::string text =
+      motions_json({"engines", scene, name, {{answers_[0].outcome, answers_[0].trajectory}}}, base_);
+  const JsonField file = JsonField::parse(text, "player");
+  EXPECT_EQ(file["name"].text(), name);
+  EXPECT_EQ(file["shapes"].dump(), files_[0]["shapes"].dump());
 }
 
 double shortest_of(const Scene& scene) {
@@ -180,7 +227,7 @@ double shortest_of(const Scene& scene) {
   return shortest;
 }
 
-std::string all_rows(const Rows& rows) {
+std::string all_rows(const TableSet& rows) {
   std::string all;
   for (const Table& t : rows.tables)
     for (const auto& row : t.rows) all += t.name + ": " + csv_row(row) + "\n";
@@ -191,11 +238,11 @@ std::string all_rows(const Rows& rows) {
 struct Kept {
   std::string of, method;
   Scene scene;
-  std::vector<WatchedRun> runs;
-  WatchedRuns watched() const { return {of, scene, method, runs}; }
+  std::vector<RecordedRun> runs;
+  RecordedRuns watched() const { return {of, scene, method, runs}; }
 };
 RunCallback keeping(std::vector<Kept>& kept) {
-  return [&kept](const WatchedRuns& w) { kept.push_back({w.of, w.method, w.scene, w.runs}); };
+  return [&kept](const RecordedRuns& w) { kept.push_back({w.of, w.method, w.scene, w.runs}); };
 }
 
 TEST(LastFrames, AreAtLeastEightToAPeriodOrEveryStep) {
@@ -223,34 +270,34 @@ void expect_watching_changes_no_row(const std::string& methods, int& failed) {
   request.methods = find_methods(methods);
   const Scene scene = load_scene("pendulum");
   std::vector<Kept> kept;
-  Rows rows, unwatched;
+  TableSet rows, unwatched;
   speed_accuracy_on(request, scene, unwatched);
-  request.watch = keeping(kept);
+  request.on_runs = keeping(kept);
   speed_accuracy_on(request, scene, rows);
   EXPECT_EQ(all_rows(rows), all_rows(unwatched));
   EXPECT_EQ(kept.size(), request.methods.size());
   for (const Kept& k : kept)
-    for (const WatchedRun& run : k.runs) {
+    for (const RecordedRun& run : k.runs) {
       failed += run.outcome.verdict != Verdict::ok;
       EXPECT_GT(run.path.frames(), 0) << k.method << ": also of what failed there is something to be seen";
     }
 }
 
-TEST(WatchedRuns, ChangeNoRow) {
+TEST(RecordedRuns, ChangeNoRow) {
   int failed = 0;
   expect_watching_changes_no_row("leapfrog,explicit-euler,dopri5,implicit-euler,odeint/dopri5,bullet/pbd", failed);
   EXPECT_GT(failed, 0);
   for (const char* method : {"explicit-euler", "bullet/pbd", "bullet/deformable-explicit"}) {
     SCOPED_TRACE(method);
     std::vector<Kept> kept;
-    Rows map, unwatched_map;
+    TableSet map, unwatched_map;
     add_map(map_kinds()[0], load_scene("spring"), find_method(method), {3, 6, 300, false}, map, keeping(kept));
     add_map(map_kinds()[0], load_scene("spring"), find_method(method), {3, 6, 300, false}, unwatched_map);
     EXPECT_EQ(all_rows(map), all_rows(unwatched_map));
   }
 }
 
-TEST(WatchedRuns, OfSundialsChangeNoRow) {
+TEST(RecordedRuns, OfSundialsChangeNoRow) {
   NEEDS_SUNDIALS;
   int failed = 0;
   expect_watching_changes_no_row("sundials/arkode", failed);
@@ -260,51 +307,45 @@ TEST(WatchedRuns, OfSundialsChangeNoRow) {
 void expect_departures(const Scene& scene) {
   for (const MapKind& kind : map_kinds()) {
     std::vector<Kept> kept;
-    Rows rows, unwatched;
+    TableSet rows, unwatched;
     const MapSize size{3, 6, 300, false};
     add_map(kind, scene, find_method("mysim/leapfrog"), size, rows, keeping(kept));
     add_map(kind, scene, find_method("mysim/leapfrog"), size, unwatched);
     EXPECT_EQ(all_rows(rows), all_rows(unwatched));
     ASSERT_EQ(kept.size(), 1u);
     ASSERT_EQ(kept[0].runs.size(), 18u) << "as many as the table has rows";
-    const JsonField data = JsonField::parse(cell_motions_json(kept[0].watched()), "player");
-    const auto rests = numbers_of(data["rests"]), shapes = numbers_of(data["shapes"]),
-               paths = numbers_of(data["paths"]);
-    const auto wide = static_cast<size_t>(3 * scene.model.particles.size());
-    size_t shape = 0, path = 0;
+    const JsonField data = JsonField::parse(motions_json(kept[0].watched(), {}), "player");
+    const ReadMotions read(data, scene.model.particles.size());
+    EXPECT_TRUE(read.all_read());
+    const JsonField cells = runs_of(data);
     int failed = 0;
     for (size_t c = 0; c < 18; ++c) {
-      const JsonField cell = data["cells"][c];
-      const WatchedRun& run = kept[0].runs[c];
+      const JsonField cell = cells[c];
+      const RecordedRun& run = kept[0].runs[c];
       failed += run.outcome.verdict != Verdict::ok;
       if (cell.is_null()) continue;
-      const size_t row = cell[0].natural(), frames = cell[1].natural(), modes = cell[5].size();
-      EXPECT_NEAR(cell[3].number(), run.path.t[frames - 1], 1e-3 * run.path.t[frames - 1]);
+      const size_t frames = cell["frames"].natural();
+      EXPECT_NEAR(cell["times"][1].number(), run.path.t[frames - 1], 1e-3 * run.path.t[frames - 1]);
       // pictures that are not the last ones do not pass for them: then the end of the run is told beside theirs
       const bool left = frames < static_cast<size_t>(run.path.frames());
-      EXPECT_NEAR(cell[6].number(), left ? run.outcome.end : 0, 1e-3 * run.outcome.end);
-      double largest = 0, worst = 0;
-      for (size_t f = 0; f < frames; ++f)
-        for (size_t i = 0; i < wide; ++i) {
-          double told = 0;
-          for (size_t k = 0; k < modes; ++k)
-            told += cell[5][k].number() * static_cast<std::int16_t>(shapes[shape + k * wide + i]) *
-                    static_cast<std::int16_t>(paths[path + k * frames + f]);
-          const double rest = run.rest.reshaped()[static_cast<Eigen::Index>(i)];
-          const double off = run.path.x[f].reshaped()[static_cast<Eigen::Index>(i)] - rest;
-          largest = std::max(largest, std::abs(off)), worst = std::max(worst, std::abs(told - off));
-          EXPECT_NEAR(data["low"][i % 3].number() + data["unit"][i % 3].number() * rests[row * wide + i], rest,
-                      data["unit"][i % 3].number());
-        }
-      // a hundredth is left out; a shape has 127 steps: each adds half of one of them, of at most the largest
-      EXPECT_LT(worst, (0.01 + 0.5 / 127 * static_cast<double>(modes) + 1e-3) * largest) << "cell " << c;
-      if (cell[4].number() > 1) {
-        EXPECT_LE(cell[4].number() * largest, 0.36 * shortest_of(scene)) << "drawn larger, still small";
+      EXPECT_EQ(cell.find("left").has_value(), left);
+      if (left) {
+        EXPECT_NEAR(cell["left"].number(), run.outcome.end, 1e-3 * run.outcome.end);
       }
-      shape += modes * wide, path += modes * frames;
+      EXPECT_LT(
+          (read.base(static_cast<Eigen::Index>(cell["at"].natural())) - run.rest.reshaped()).cwiseAbs().maxCoeff(),
+          scene.size() / 2000);
+      double largest = 0, worst = 0;
+      for (size_t f = 0; f < frames; ++f) {
+        const Eigen::VectorXd off = (run.path.x[f] - run.rest).reshaped();
+        largest = std::max(largest, off.cwiseAbs().maxCoeff());
+        worst = std::max(worst, (read.run(c).apart.col(static_cast<Eigen::Index>(f)) - off).cwiseAbs().maxCoeff());
+      }
+      EXPECT_LT(worst, 0.04 * largest) << "cell " << c;
+      if (cell.find("larger")) {
+        EXPECT_LE(cell["larger"].number() * largest, 0.36 * shortest_of(scene)) << "drawn larger, still small";
+      }
     }
-    EXPECT_EQ(shape, shapes.size());
-    EXPECT_EQ(path, paths.size());
     EXPECT_GT(failed, 0);
     EXPECT_LT(failed, 18);
   }
@@ -316,59 +357,47 @@ TEST(Cells, AreTheirDeparturesFromRestWithinAHundredthOfTheLargest) {
   }
 }
 
-TEST(Runs, AreThePlacesOfTheTruthWithWhatTheyAreApart) {
+TEST(Runs, AreThePlacesOfTheirRunsInTheOrderOfTheRows) {
   Request request;
   request.scenes = {load_scene("chain")};
   request.methods = find_methods("mysim/leapfrog,mysim/explicit-euler,bullet/pbd,mysim/dopri5");
   const Scene& scene = request.scenes[0];
-  Rows unwatched, rows;
+  TableSet unwatched, rows;
   speed_accuracy_on(request, scene, unwatched);
   std::vector<Kept> kept;
-  request.watch = keeping(kept);
+  request.on_runs = keeping(kept);
   speed_accuracy_on(request, scene, rows);
   EXPECT_EQ(all_rows(rows), all_rows(unwatched));
   ASSERT_EQ(kept.size(), 4u);
-  const auto truth = truth_of(scene, run_of(request, scene));
+  const MotionBase base = base_of(scene, run_of(request, scene));
   const int stride = frame_stride(scene);
-  const Lattice lattice = lattice_of({thin(*truth, stride)});
   size_t row = 0, whole = 0, failed = 0;
   const Table& table = *rows.table("speed-accuracy");
   for (const Kept& k : kept) {
-    const JsonField data = JsonField::parse(run_motions_json(k.watched(), truth), "player");
+    const JsonField data = JsonField::parse(motions_json(k.watched(), base), "player");
     EXPECT_EQ(data["name"].text(), k.method);
-    const int every = data["every"].whole_number(1, 1000000), grain = data["grain"].whole_number(1, 1000000);
+    const ReadMotions read(data, scene.model.particles.size());
+    EXPECT_TRUE(read.all_read());
     for (size_t r = 0; r < k.runs.size(); ++r, ++row) {
       ASSERT_EQ(std::get<std::string>(table.at(row, "method")), k.method) << "in the order of the rows";
       const JsonField run = data["runs"][r];
       const Trajectory& path = k.runs[r].path;
       EXPECT_EQ(std::get<std::string>(table.at(row, "verdict")), name_of(k.runs[r].outcome.verdict));
       if (run.is_null()) continue;
-      const auto numbers = numbers_of(run["places"]);
-      const auto n = path.x[0].cols();
-      double worst = 0;
-      for (size_t f = 0; f < run["frames"].natural(); ++f)
-        for (Eigen::Index i = 0; i < 3 * n; ++i) {
-          const auto number = numbers[f * static_cast<size_t>(3 * n) + static_cast<size_t>(i)];
-          const auto axis = static_cast<size_t>(i % 3);
-          double drawn, is;
-          if (run.find("times")) {
-            drawn = run["low"][axis].number() + run["unit"][axis].number() * number;
-            is = path.x[f].reshaped()[i];
-          } else {
-            const size_t sample = f * static_cast<size_t>(every * stride);
-            const double known =
-                std::round((truth->trajectory.x[sample].reshaped()[i] - lattice.low[i % 3]) / lattice.unit);
-            drawn = lattice.low[i % 3] + lattice.unit * (known + grain * static_cast<std::int16_t>(number));
-            is = path.x[sample].reshaped()[i];
-          }
-          worst = std::max(worst, std::abs(drawn - is));
-        }
-      if (run.find("times")) {
-        EXPECT_LT(worst, run["unit"][0].number() + run["unit"][1].number()) << "half a unit along an axis";
+      const bool pictures = run.find("times").has_value();
+      double worst = 0, largest = 0;
+      for (size_t f = 0; f < run["frames"].natural(); ++f) {
+        const size_t sample = pictures ? f : f * run["every"].natural() * static_cast<size_t>(stride);
+        const Points& from = pictures ? base.x[0] : base.truth->trajectory.x[sample];
+        const Eigen::VectorXd off = (path.x[sample] - from).reshaped();
+        largest = std::max(largest, off.cwiseAbs().maxCoeff());
+        worst = std::max(worst, (read.run(r).apart.col(static_cast<Eigen::Index>(f)) - off).cwiseAbs().maxCoeff());
+      }
+      EXPECT_LE(worst, 0.06 * largest + base.truth->error_bar);
+      if (pictures) {
         EXPECT_NEAR(run["times"].numbers().back(), k.runs[r].outcome.end, 0.5) << "they are the last ones";
         ++failed;
       } else {
-        EXPECT_LE(worst, 0.5001 * grain * lattice.unit) << "half a grain";
         ++whole;
       }
     }
@@ -383,18 +412,25 @@ TEST(Runs, AsGoodAsTheTruthWeighNextToNothing) {
   request.scenes = {testing_tools::with_grid("cloth-hang", 8)};
   request.methods = find_methods("mysim/rk4");
   std::vector<Kept> kept;
-  request.watch = keeping(kept);
-  Rows rows;
+  request.on_runs = keeping(kept);
+  TableSet rows;
   speed_accuracy_on(request, request.scenes[0], rows);
-  const auto truth = truth_of(request.scenes[0], run_of(request, request.scenes[0]));
-  const JsonField data = JsonField::parse(run_motions_json(kept.at(0).watched(), truth), "player");
-  EXPECT_LT(data["runs"].elements().back()["places"]["data"].text().size(), 200u);
+  MotionBase base = base_of(request.scenes[0], run_of(request, request.scenes[0]));
+  Kept& runs = kept.at(0);
+  runs.runs = {{runs.runs.back().outcome, base.truth->trajectory}};
+  EXPECT_LT(motions_json(runs.watched(), base).size(), 900u);
 }
 
-TEST(Runs, OfASceneWithoutTruthAreNotPlayed) {
-  const Scene scene = load_scene("chain");
-  Kept kept{"speed-accuracy", "mysim/rk4", scene, {{}}};
-  EXPECT_EQ(run_motions_json(kept.watched(), {}), "");
+TEST(Runs, OfASceneWithoutTruthAreToldAgainstItsOwnMethod) {
+  Scene scene = load_scene("chain");
+  Recorder recorder;
+  const Outcome out = run_method(find_method("mysim/rk4"), scene, default_run(scene), {&recorder});
+  MotionBase base = base_of(scene, default_run(scene));
+  base.truth.reset();
+  const Kept kept{"speed-accuracy", "mysim/rk4", scene, {{out, recorder.trajectory}}};
+  const JsonField data = JsonField::parse(motions_json(kept.watched(), base), "player");
+  EXPECT_EQ(data["runs"].size(), 1u);
+  EXPECT_FALSE(ReadMotions(data, scene.model.particles.size()).run(0).error[3]) << "no error without a truth";
 }
 
 }  // namespace

@@ -5,17 +5,17 @@ async function look() {
   const dialog = document.querySelector('dialog.run'), player = dialog.querySelector('motion-player');
   await player.wake();
   player.pause();
-  const {times} = player.scene, end = times[times.length - 1];
-  player.seek(0.2 * end);
+  const {begin, end} = player;
+  player.seek(begin + 0.2 * (end - begin));
   const early = lookAt(player);
-  player.seek(0.8 * end);
-  const late = lookAt(player), motions = player.stage.panels.map(panel => panel.motion);
+  player.seek(begin + 0.8 * (end - begin));
+  const late = lookAt(player), {motions} = player;
   const shown = {
     drawn: late.drawn,
     moves: early.picture !== late.picture,
     panels: player.titles.children.length,
-    says: [...dialog.querySelectorAll('h3, p, .methods')].map(part => part.textContent).join(' | '),
-    apart: motions.length > 1 ? Math.hypot(...motions[0].place(9, 3).map((x, k) => x - motions[1].place(9, 3)[k])) : null
+    says: [...dialog.querySelectorAll('h3, p')].map(part => part.textContent).join(' | '),
+    apart: motions.length > 1 ? Math.max(...motions[0].apartAt(0.3 * end, motions[1]).map(Math.abs)) : null
   };
   dialog.querySelector('.close').click();
   shown.closed = await until(() => !document.querySelector('dialog.run'));
@@ -23,6 +23,9 @@ async function look() {
 }
 
 addEventListener('load', async () => {
+  for (const fold of document.querySelectorAll('.fold')) fold.open = true;
+  await until(() => document.querySelectorAll('figure[data-runs]').length === 2);  // the map stands in a fold
+  for (const box of document.querySelectorAll('figure[data-runs] .drawn')) await drawn(box);
   const [chart, map] = document.querySelectorAll('figure[data-runs]');
   const seen = {windows: [], lists: document.querySelectorAll('.run-list').length};
   const click = element => element.dispatchEvent(new MouseEvent('click', {bubbles: true}));

@@ -16,6 +16,19 @@ async function until(condition) {
   return Boolean(condition());
 }
 
+/** Waits until a chart is drawn. A browser without a window does not always say what came into sight: then the charts
+ * are drawn as for printing. */
+async function drawn(box) {
+  const there = () => box.querySelector('svg');
+  box.scrollIntoView();
+  for (let i = 0; i < 20 && !there(); ++i) {
+    box.style.outlineOffset = `${i % 2}px`;  // a page that changes asks for frames
+    await new Promise(done => setTimeout(done, 20));
+  }
+  if (!there()) dispatchEvent(new Event('beforeprint'));
+  return until(there);
+}
+
 /** The stage as it is now: its pixels, as text, and the part of them that is not background. */
 function lookAt(player) {
   player.draw();

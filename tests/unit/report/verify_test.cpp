@@ -8,10 +8,12 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "report/findings/evidence.h"
+#include "report/findings/findings_text.h"
 #include "report/findings/verify.h"
 #include "report/page/page.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
+#include "tests/unit/report/made_up_findings.h"
 #include "tests/unit/temporary.h"
 
 namespace crosscheck {
@@ -69,8 +71,44 @@ TEST(FindingRules, EachNameOnceEachWithItsTables) {
     EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
     EXPECT_FALSE(rule.formula.empty()) << rule.name;
     EXPECT_FALSE(rule.tables.empty()) << rule.name;
+    EXPECT_FALSE(rule.quantity.empty()) << rule.name;
+    expect_short({made_up(rule, "cloth-hang")});
   }
   EXPECT_THROW(finding_rule("unheard-of"), std::logic_error);
+}
+
+TEST(FindingRules, TemplatesAreFilledInWithTheUnitOfTheirQuantity) {
+  Finding f{.rule = "cone", .method = "bullet/pbd", .value = 36, .words = {{"cases", "72"}}};
+  EXPECT_EQ(sentence_of(f), "On slopes Bullet's pbd sticks or slides as Coulomb's law says in 36 of 72 cases.");
+  EXPECT_EQ(tier_of(f), "exact (Coulomb's law)");
+  f.tier = "converged";
+  EXPECT_EQ(tier_of(f), "converged");
+  f.words.clear();
+  EXPECT_THROW(sentence_of(f), std::logic_error) << "a word is missing";
+  const std::pair<const char*, const char*> written[] = {{"same-rule-contact", "by at most 5 mm until"},  // m
+                                                         {"energy-failed", "after 5 ms ("},               // s
+                                                         {"families", "0.005 % of its motion"},           // %
+                                                         {"still-touches", "sliding at 5 mm/s."},         // m/s
+                                                         {"energy-damps", "a drag of 0.005 per second"},  // 1/s
+                                                         {"grid-powers", "to the power 0.01 ± 0.00."}};
+  for (const auto& [rule, text] : written)
+    EXPECT_TRUE(contains(sentence_of(made_up(finding_rule(rule), "x")), text)) << rule;
+  Finding times = made_up(finding_rule("take-beside"), "x");
+  for (const auto& [value, text] :
+       {std::pair{27.4, "needs 27 times"}, {3., "needs 3 times"}, {0.35, "needs 0.35 times"}, {100000., "100 000"}}) {
+    times.value = value;
+    EXPECT_TRUE(contains(sentence_of(times), text)) << sentence_of(times);
+  }
+}
+
+TEST(FindingRules, NamesOfMethodsAndEnginesAreThoseThatPeopleUse) {
+  const std::pair<const char*, const char*> names[] = {
+      {"mysim/leapfrog", "leapfrog"}, {"mysim", "mysim"},           {"bullet/pbd+n=10", "Bullet's pbd+n=10"},
+      {"bullet", "Bullet"},           {"odeint/rk4", "odeint/rk4"}, {"exec:./bin/mine+n=2/3", "mine+n=2/3"},
+      {"exec:mine", "mine"}};
+  for (const auto& [name, shown] : names) EXPECT_EQ(name_in_sentence(name), shown);
+  EXPECT_EQ(listed({"a", "b", "c"}), "a, b and c");
+  EXPECT_EQ(listed({"a", "b", "c", "d", "e"}), "a, b, c and 2 more");
 }
 
 /// A small report: two scenes under a few methods, their data and report.json alone.
@@ -86,12 +124,11 @@ class Verify : public InFolder {
         for (const Point& point : e.points(request)) point.compute(rows_);
     PageContent page;
     const AllFindings all = all_findings(request.scenes, rows_);
-    for (size_t i = 0; i < request.scenes.size(); ++i)
-      page.scenes.push_back({&request.scenes[i], &all.facts[i], {}, {}, {}, {}});
+    for (size_t i = 0; i < request.scenes.size(); ++i) page.scenes.push_back({&request.scenes[i], &all.facts[i], {}});
     for (const Table& table : rows_.tables) write_csv(table, {}, folder_ / "data");
     for (const Scene& scene : request.scenes)
       write_file(folder_ / "data/scenes" / (scene.name + ".toml"), scene.source);
-    write_file(folder_ / "report.json", report_json(page, all, {}, rows_));
+    write_file(folder_ / "report.json", report_json(page, all, {}, rows_, "named"));
     findings_ = all.overall.size() + all.of_scenes[0].size() + all.of_scenes[1].size();
   }
   /// Replaces the first place of a text in a file.
@@ -106,7 +143,7 @@ class Verify : public InFolder {
     for (const std::string& m : verify_report(folder_).mismatches) all += m + "\n";
     return all;
   }
-  Rows rows_;
+  TableSet rows_;
   size_t findings_ = 0;
 };
 
@@ -154,6 +191,36 @@ TEST_F(Verify, WhatDiffersIsNamed) {
   EXPECT_TRUE(contains(mismatches(), "scene chain: not the one that was reported"));
 }
 
+TEST_F(Verify, EveryPartOfAFindingIsComparedWithTheData) {
+  const std::string whole = read(folder_ / "report.json");
+  const JsonField report = JsonField::parse_file((folder_ / "report.json").string());
+  const std::vector<JsonField> findings = report["findings"].elements();
+  ASSERT_FALSE(findings.empty());
+  for (const auto& [key, value] : findings.back().items()) {
+    if (key == "figure" || key == "evidence") continue;  // where it is shown; the rows have their own test
+    const std::string line = fmt::format("\"{}\": {}", key, value.dump());
+    std::string text = whole;
+    const size_t at = text.rfind(line);
+    ASSERT_NE(at, std::string::npos) << line;
+    write_file(folder_ / "report.json",
+               text.replace(at, line.size(), fmt::format("\"{}\": {}", key, value.is_text() ? "\"other\"" : "0.125")));
+    EXPECT_FALSE(mismatches().empty()) << key;
+  }
+}
+
+TEST_F(Verify, SentencesAreShort) {
+  const AllFindings all = all_findings(load_scenes({"projectile", "chain"}), rows_);
+  expect_short(all.overall);
+  for (const auto& of_scene : all.of_scenes) expect_short(of_scene);
+}
+
+TEST_F(Verify, ReportsOfOlderVersionsAreHeldAgainstTheDataToo) {
+  std::string text = read(folder_ / "report.json");
+  for (size_t at; (at = text.find("\"quantity\": ")) != std::string::npos;) text.erase(at, text.find('\n', at) - at);
+  write_file(folder_ / "report.json", text);
+  EXPECT_TRUE(contains(mismatches(), "the data say quantity: "));
+}
+
 TEST_F(Verify, MissingPartsAreErrors) {
   std::filesystem::remove(folder_ / "data/engines.csv");
   EXPECT_THROW(verify_report(folder_), InputError);
@@ -185,13 +252,14 @@ TEST_F(Changes, NewAndGoneFindingsHaveOneSideOnly) {
   AllFindings now = all_findings(load_scenes({"projectile", "chain"}), rows_);
   const Finding gone = now.overall.front();
   now.overall.erase(now.overall.begin());
-  now.overall.push_back({"", "cost", "A step costs more.", "measured", "size-cost"});
+  const Finding added = made_up(finding_rule("size-cost-any"), "more");
+  now.overall.push_back(added);
   const std::vector<Change> changes = changes_since(folder_, now);
   ASSERT_EQ(changes.size(), 2u);
   EXPECT_EQ(changes[0].before, "");
-  EXPECT_EQ(changes[0].now, "A step costs more.");
+  EXPECT_EQ(changes[0].now, sentence_of(added));
   EXPECT_TRUE(changes[0].timed);
-  EXPECT_EQ(changes[1].before, gone.sentence);
+  EXPECT_EQ(changes[1].before, sentence_of(gone));
   EXPECT_EQ(changes[1].now, "");
   write_file(folder_ / "report.json", "{}");
   EXPECT_THROW(changes_since(folder_, now), InputError);

@@ -1,5 +1,5 @@
 // Google Benchmark; in no other file.
-#include "experiments/bench/micro.h"
+#include "experiments/bench/microbenchmarks.h"
 
 #include <benchmark/benchmark.h>
 
@@ -38,11 +38,11 @@ class Collector : public benchmark::BenchmarkReporter {
 /// One round; with nothing known of how long each takes, Google Benchmark finds it out.
 std::map<std::string, double> round_of(const std::vector<Microbenchmark>& all, double seconds,
                                        const std::map<std::string, double>& known) {
-  for (const Microbenchmark& micro : all) {
-    auto* entry = benchmark::RegisterBenchmark(micro.name.c_str(), [once = micro.once](benchmark::State& state) {
+  for (const Microbenchmark& piece : all) {
+    auto* entry = benchmark::RegisterBenchmark(piece.name.c_str(), [once = piece.once](benchmark::State& state) {
       for (auto _ : state) once();
     });
-    if (const auto time = known.find(micro.name); time != known.end())
+    if (const auto time = known.find(piece.name); time != known.end())
       entry->Iterations(std::max(1L, std::lround(seconds / time->second)));
     else
       entry->MinTime(seconds);
@@ -56,12 +56,12 @@ std::map<std::string, double> round_of(const std::vector<Microbenchmark>& all, d
 }  // namespace
 
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
-                                                               const MicrobenchmarkOptions& plan) {
+                                                               const MicrobenchmarkOptions& options) {
   const MachineLock exclusive(MachineLock::Mode::exclusive);
-  const auto first = round_of(all, plan.seconds, {});
+  const auto first = round_of(all, options.seconds, {});
   std::map<std::string, std::vector<double>> times;
-  for (int round = 0; round < plan.rounds; ++round)
-    for (const auto& [name, seconds] : round_of(all, plan.seconds, first)) times[name].push_back(seconds);
+  for (int round = 0; round < options.rounds; ++round)
+    for (const auto& [name, seconds] : round_of(all, options.seconds, first)) times[name].push_back(seconds);
   return times;
 }
 

@@ -24,6 +24,6 @@ struct MicrobenchmarkOptions {
 /// machine among all of Crosscheck (experiments/timing/machine.h). Names must differ. Throws Unsupported with the
 /// package's name where the suite was built without Google Benchmark.
 std::map<std::string, std::vector<double>> run_microbenchmarks(const std::vector<Microbenchmark>& all,
-                                                               const MicrobenchmarkOptions& plan);
+                                                               const MicrobenchmarkOptions& options);
 
 }  // namespace crosscheck

@@ -1,32 +1,32 @@
-// The partition of springs among kernels, and the memory in which the kernels read them.
+// Each spring in the format in which its force is cheapest, and the memory of both formats: for DIA the offsets and
+// coefficient rows, for COO the list of edges.
 #pragma once
 
 #include "mysim/simd/aligned_buffer.h"
 #include "mysim/simd/instruction_sets.h"
-#include "mysim/simd/spring_graph/kernels.h"
+#include "mysim/simd/spring_graph/dia_coo_kernels.h"
 #include "mysim/terms/springs.h"
 
 namespace crosscheck::spring_graph {
 
 Kernels kernels(simd::InstructionSet isa, SpringLaw law);
 
-/// Costs on this kind of instructions, ns, as measured on one machine; only their ratios matter. Both kinds
-/// of AVX share one set: they sort springs alike, add them up in the same order, and so give the same bits.
+/// Costs on an instruction set, ns, as measured on one machine; only their ratios matter. Both kinds of AVX share one
+/// set: they partition springs alike, add them up in the same order, and so give the same bits.
 struct Costs {
-  double coefficient_row,
-      tile;  // eight springs of a diagonal side by side; putting eight particles in and getting them out
-  double pair, particle;
+  double coefficient_row;  // DIA: eight springs of a diagonal side by side
+  double tile;             // DIA: eight particles put in and taken out
+  double coo_spring, coo_particle;
   double plain;  // a spring of the plain loop
-  double call;
+  double call;   // of a kernel
 };
 Costs costs(simd::InstructionSet isa);
 
-// The memory of diagonals and of pairs: springs laid out as their functions read them.
-
 using simd::AlignedBuffer;
-/// Springs turned so that a < b, in the order of a.
+/// Springs with a < b, in the order of a.
 using OrientedSprings = std::vector<Spring>;
 
+/// The memory of DIA.
 class DiaStorage {
  public:
   /// Each of them springs of one offset, no two alike.
@@ -45,6 +45,7 @@ class DiaStorage {
   AlignedBuffer<double> coefficients_, x_, pulls_;
 };
 
+/// The memory of COO.
 class CooStorage {
  public:
   CooStorage(const OrientedSprings& springs, int particles);
@@ -57,14 +58,13 @@ class CooStorage {
   AlignedBuffer<double> k_, rest_, x_, force_;
 };
 
-// Sorts the springs of a graph into diagonals, pairs and plain ones.
-
-/// The partition of the least cost.
+/// Each spring in one of three lists.
 struct SpringPartition {
-  std::vector<OrientedSprings> diagonals;
-  OrientedSprings pairs;
-  std::vector<Spring> plain;  // as they were
+  std::vector<OrientedSprings> dia;  // a list for each offset
+  OrientedSprings coo;
+  std::vector<Spring> plain;  // for the plain loop, as they were
 };
+/// The partition of the least cost.
 SpringPartition partition_springs(const std::vector<Spring>& springs, int particles, const Costs& costs);
 
 }  // namespace crosscheck::spring_graph

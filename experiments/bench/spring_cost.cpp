@@ -1,5 +1,5 @@
 // The tables of kernels.
-#include "experiments/bench/kernels.h"
+#include "experiments/bench/spring_cost.h"
 
 #include <fmt/format.h>
 
@@ -43,9 +43,9 @@ void add_fused_step(std::vector<Row>& rows, std::string kernel, InstructionSet i
 }
 
 std::vector<Row> rows_for(const Scene& scene) {
-  const InstructionSet plainest = InstructionSet::sse2;  // what the suite is compiled for
-  std::vector<Row> rows{{naive, plainest, double_precision, naive_loop(scene)},
-                        {"plain loop", plainest, double_precision, plain_loop(scene)}};
+  const InstructionSet baseline = InstructionSet::sse2;  // what the suite is compiled for
+  std::vector<Row> rows{{naive, baseline, double_precision, naive_loop(scene)},
+                        {"plain loop", baseline, double_precision, plain_loop(scene)}};
   for (const InstructionSet isa : simd::supported_instruction_sets())
     rows.push_back({"general kernel", isa, double_precision, general_kernel(scene, isa)});
   for (const InstructionSet isa : simd::supported_instruction_sets()) {
@@ -89,15 +89,15 @@ std::vector<Peak> peaks() {
 
 }  // namespace
 
-Table kernels_table(int side, const MicrobenchmarkOptions& plan) {
+Table kernels_table(int side, const MicrobenchmarkOptions& options) {
   const Scene scene = waving_cloth(side);
   const auto springs = static_cast<long>(scene.model.find<Springs>()->list.size());
   const std::vector<Row> rows = rows_for(scene);
-  std::vector<Microbenchmark> micros;
-  for (const Row& row : rows) micros.push_back({row.name(), row.once});
+  std::vector<Microbenchmark> benchmarks;
+  for (const Row& row : rows) benchmarks.push_back({row.name(), row.once});
   const std::vector<Peak> most = peaks();
-  for (const Peak& peak : most) micros.push_back({peak.name, peak.once});
-  const auto times = run_microbenchmarks(micros, plan);
+  for (const Peak& peak : most) benchmarks.push_back({peak.name, peak.once});
+  const auto times = run_microbenchmarks(benchmarks, options);
   std::map<std::string, double> rate_of;  // GFLOP/s
   for (const Peak& peak : most) rate_of[peak.name] = peak.operations / timing_of(times.at(peak.name)).median / 1e9;
   Table table = table_of<KernelRow>();
@@ -136,40 +136,40 @@ std::string naive_name(const Scene& scene) { return scene.name + ", naive loop";
 
 }  // namespace
 
-Table scenes_table(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& plan) {
-  struct Way {
+Table scenes_table(const std::vector<Scene>& scenes, const MicrobenchmarkOptions& options) {
+  struct KernelCase {
     const Scene* scene;
     std::string kernel;
     InstructionSet instructions;
     std::string name;
   };
-  std::vector<Way> ways;
-  std::vector<Microbenchmark> micros;
-  const auto add_way = [&](const Scene& scene, const char* kernel, InstructionSet isa, BenchmarkFunction once) {
-    ways.push_back({&scene, kernel, isa, fmt::format("{}, {}, {}", scene.name, kernel, name_of(isa))});
-    micros.push_back({ways.back().name, std::move(once)});
+  std::vector<KernelCase> cases;
+  std::vector<Microbenchmark> benchmarks;
+  const auto add_case = [&](const Scene& scene, const char* kernel, InstructionSet isa, BenchmarkFunction once) {
+    cases.push_back({&scene, kernel, isa, fmt::format("{}, {}, {}", scene.name, kernel, name_of(isa))});
+    benchmarks.push_back({cases.back().name, std::move(once)});
   };
   for (const Scene& scene : scenes) {
     if (springs_of(scene) == 0) continue;
-    micros.push_back({naive_name(scene), naive_loop(scene)});
+    benchmarks.push_back({naive_name(scene), naive_loop(scene)});
     std::set<InstructionSet> sets;
     for (const CodePath& path : code_paths()) sets.insert(path.instructions);
-    for (const InstructionSet isa : sets) add_way(scene, "general kernel", isa, general_kernel(scene, isa));
+    for (const InstructionSet isa : sets) add_case(scene, "general kernel", isa, general_kernel(scene, isa));
     for (const InstructionSet isa : sets)
       if (auto piece = fused_step<double>(scene, isa, false))
-        add_way(scene, "sweep, reproducible", isa, std::move(*piece));
+        add_case(scene, "sweep, reproducible", isa, std::move(*piece));
   }
-  const auto times = run_microbenchmarks(micros, plan);
+  const auto times = run_microbenchmarks(benchmarks, options);
   Table table = table_of<SceneKernelRow>();
-  for (const Way& way : ways) {
-    const Scene& scene = *way.scene;
-    const auto &own = times.at(way.name), &beside = times.at(naive_name(scene));
+  for (const KernelCase& kernel_case : cases) {
+    const Scene& scene = *kernel_case.scene;
+    const auto &own = times.at(kernel_case.name), &beside = times.at(naive_name(scene));
     const Timing each = timing_of(own).times(1e9), ratio = timing_of(ratios_of_rounds(beside, own));
     add(table, SceneKernelRow{.scene = scene.name,
                               .particles = scene.start.x.cols(),
                               .springs = springs_of(scene),
-                              .kernel = way.kernel,
-                              .instructions = way.instructions,
+                              .kernel = kernel_case.kernel,
+                              .instructions = kernel_case.instructions,
                               .time = each.median,
                               .low = each.low,
                               .high = each.high,

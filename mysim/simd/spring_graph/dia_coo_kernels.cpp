@@ -1,5 +1,5 @@
-// Spring forces by offset and edge by edge (kernels.h), compiled once for each instruction set.
-#include "mysim/simd/spring_graph/kernels.h"
+// Spring forces by offset (DIA) and edge by edge (COO), compiled once for each instruction set.
+#include "mysim/simd/spring_graph/dia_coo_kernels.h"
 
 #include <cassert>
 
@@ -132,19 +132,19 @@ FORCE_INLINE void clear(const Diagonal& diagonal, int b) {
     }
 }
 
-FORCE_INLINE void put(const DiaSprings& s, const double* x) {
+FORCE_INLINE void load_positions(const DiaSprings& s, const double* x) {
   for (int i = 0; i < s.particles; ++i)
     for (int c = 0; c < 3; ++c) s.x[c][i] = x[3L * i + c];
 }
 
 template <bool hooke>
-bool diagonals(const DiaSprings& s, const double* x, double* f) {
+bool add_dia_forces(const DiaSprings& s, const double* x, double* f) {
   for (int i = 0; i < s.count; ++i) {
     [[maybe_unused]] const Diagonal& diagonal = s.diagonals[i];
     assert((diagonal.mask & (diagonal.mask + 1)) == 0 && diagonal.mask + 1 >= diagonal.offset + 3 * tile);
     assert(diagonal.offset > 0 && 0 <= diagonal.first && diagonal.first < diagonal.last && diagonal.last <= s.tiles);
   }
-  put(s, x);
+  load_positions(s, x);
   for (int i = 0; i < s.count; ++i) clear(s.diagonals[i], s.diagonals[i].first - 1);
   const int* coefficient_row = s.coefficient_row;
   V least = L::all(1);
@@ -158,16 +158,16 @@ bool diagonals(const DiaSprings& s, const double* x, double* f) {
   return L::any_less(least, L::all(min_squared_length));
 }
 
-FORCE_INLINE void put(const CooSprings& s, const double* x) {
+FORCE_INLINE void load_positions(const CooSprings& s, const double* x) {
   for (int i = 0; i < s.particles; ++i)
     for (int c = 0; c < 3; ++c) s.x[4L * i + c] = x[3L * i + c];
   for (long i = 0; i < 4L * s.particles; i += 4) L::store_record(s.force + i, L::Record{});
 }
 
 template <bool hooke>
-bool pairs(const CooSprings& s, const double* x, double* f) {
+bool add_coo_forces(const CooSprings& s, const double* x, double* f) {
   assert(s.springs % tile == 0);
-  put(s, x);
+  load_positions(s, x);
   V least = L::all(1);
   for (int i = 0; i < s.springs; i += L::width) {
     const int* ends = s.ends + 2L * i;
@@ -191,8 +191,8 @@ bool pairs(const CooSprings& s, const double* x, double* f) {
 namespace CROSSCHECK_ISA {
 
 Kernels kernels_of(bool hooke) {
-  if (hooke) return {diagonals<true>, pairs<true>};
-  return {diagonals<false>, pairs<false>};
+  if (hooke) return {add_dia_forces<true>, add_coo_forces<true>};
+  return {add_dia_forces<false>, add_coo_forces<false>};
 }
 
 }  // namespace CROSSCHECK_ISA

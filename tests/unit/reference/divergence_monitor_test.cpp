@@ -1,5 +1,5 @@
-// The verdict on runs: what holds is told to hold up to its limit, what fails is told when it does, and what only looks
-// like a failure is not told so.
+// The divergence monitor: its verdict is ok up to the limit of a rule, a failure beyond it, at the time of the failure,
+// and ok for what only looks like a failure.
 
 #include <optional>
 
@@ -22,7 +22,7 @@ Scene kilogram(double start, double speed, double duration = 20) {
                      duration);
 }
 
-TEST(WatchOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthAbove) {
+TEST(DivergenceMonitorOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthAbove) {
   for (const Scene& scene : {kilogram(1.1, 0), kilogram(1, 1), kilogram(1.05, -0.7)})
     for (const char* name : {"leapfrog", "symplectic-euler", "suzuki4", "rk4"}) {
       const double limit = stepper(name).limit(10, 0);
@@ -31,9 +31,9 @@ TEST(WatchOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthAbove) {
           SCOPED_TRACE(fmt::format("{} at {} of its limit, {} steps a sample", name, part, per_sample));
           const double h = part * limit;
           const int samples = 4200 / per_sample;
-          const MethodRun a = answer(name, scene, {h, h * per_sample * samples, samples});
-          // told are speeds by central differences: of rk4 at its limit, where a step is 109 degrees of the vibration,
-          // they are a third of what it tells itself, and 1.01 of it leaves it at four times the truth's
+          const MethodRun a = run_and_record(name, scene, {h, h * per_sample * samples, samples});
+          // speeds are central differences: of rk4 at its limit, where a step is 109 degrees of the vibration,
+          // they are a third of its own velocities, and 1.01 of it leaves it at four times the truth's
           if (part < 1 || name == std::string("rk4"))
             EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
           else
@@ -42,16 +42,16 @@ TEST(WatchOnASpring, HoldsAHundredthBelowTheLimitAndFailsAHundredthAbove) {
     }
 }
 
-TEST(WatchOnASpring, TellsAtTheStepOfLeavingOrTheNextSample) {
+TEST(DivergenceMonitorOnASpring, JudgesAtTheStepOfLeavingOrTheNextSample) {
   // 1 % above the limit it goes through x_n = (-1)^n A cosh(n p), p = 2 acosh(1.01) = 0.28, with A = 0.1 m: K^ passes
-  // what there is, and the true motion is asked for, before it is ten times as fast as that, 1 m/s
+  // what there is, and the true motion is computed, before it is ten times as fast as that, 1 m/s
   const Scene scene = kilogram(1.1, 0);
   const double h = 0.202;
   for (const int per_sample : {1, 40, 1000}) {
     SCOPED_TRACE(per_sample);
     const crosscheck::Run run{h, h * 2000, 2000 / per_sample};
     const long left = step_of_leaving(scene, run, "leapfrog", 1);
-    const MethodRun a = answer("leapfrog", scene, run);
+    const MethodRun a = run_and_record("leapfrog", scene, run);
     EXPECT_GT(left, 10);
     EXPECT_NE(a.outcome.verdict, Verdict::ok);
     EXPECT_GE(a.outcome.steps, left);
@@ -59,46 +59,47 @@ TEST(WatchOnASpring, TellsAtTheStepOfLeavingOrTheNextSample) {
   }
 }
 
-TEST(WatchOnASpring, BlowUpsAreToldBetweenSamples) {
+TEST(DivergenceMonitorOnASpring, SeesBlowUpsBetweenSamples) {
   // a tenth above the limit K^ grows by exp(2 * 0.887) a step: from B to 1000 B in four, which are looked at closely
   // from the pair on that has passed B
   const Scene scene = kilogram(1.1, 0);
   const double h = 0.22;
-  const MethodRun a = answer("leapfrog", scene, {h, h * 2000, 2});
+  const MethodRun a = run_and_record("leapfrog", scene, {h, h * 2000, 2});
   EXPECT_EQ(a.outcome.verdict, Verdict::energy);
   EXPECT_LE(a.outcome.steps, 3 * StatePairObserver::steps_between_pairs);
 }
 
-TEST(WatchOnASpring, JudgesGrowthThatIsCertainAsRun) {
+TEST(DivergenceMonitorOnASpring, JudgesGrowthThatIsCertainAsRun) {
   // explicit Euler's amplitude grows by (1 + z^2)^(1/2) a step: ten times the true speed after ln(100) / ln(1 + z^2) of
   // them. One millimetre: the spring stays far from its own end
-  const double z = 0.05, h = z / 10, tells = std::log(100) / std::log1p(z * z);
+  const double z = 0.05, h = z / 10, steps_to_verdict = std::log(100) / std::log1p(z * z);
   for (const double part : {0.9, 1.1}) {
-    const int steps = static_cast<int>(part * tells);
-    const MethodRun a = answer("explicit-euler", kilogram(1.001, 0), {h, h * steps, steps});
+    const int steps = static_cast<int>(part * steps_to_verdict);
+    const MethodRun a = run_and_record("explicit-euler", kilogram(1.001, 0), {h, h * steps, steps});
     EXPECT_EQ(a.outcome.verdict, part < 1 ? Verdict::ok : Verdict::energy) << part;
   }
 }
 
-TEST(WatchOnASpring, AsksNobodyForVelocities) {
-  struct Mute : Observer {  // as an outside engine that tells no velocities
-    explicit Mute(DivergenceMonitor& w) : watch(w) {}
-    Verdict observe(const State& s, bool sample) override { return watch.observe({s.t, s.x, Points(3, 0)}, sample); }
-    DivergenceMonitor& watch;
+TEST(DivergenceMonitorOnASpring, NeedsNoVelocities) {
+  struct WithoutVelocities : Observer {  // as an outside engine that reports no velocities
+    explicit WithoutVelocities(DivergenceMonitor& w) : monitor(w) {}
+    Verdict observe(const State& s, bool sample) override { return monitor.observe({s.t, s.x, Points(3, 0)}, sample); }
+    DivergenceMonitor& monitor;
   };
   for (const double speed : {0., 3.}) {
     const Scene scene = kilogram(1, speed);
     for (const double h : {0.05, 0.205}) {
-      DivergenceMonitor watch(scene.model, &scene.start);
-      Mute mute(watch);
+      DivergenceMonitor monitor(scene.model, &scene.start);
+      WithoutVelocities positions(monitor);
       // from rest at the spring's length nothing ever moves
       const Verdict expected = h > 0.2 && speed > 0 ? Verdict::energy : Verdict::ok;
-      EXPECT_EQ(simulate(stepper("leapfrog"), ContactRule::coulomb, scene, {h, 400 * h, 400}, mute).verdict, expected);
+      EXPECT_EQ(simulate(stepper("leapfrog"), ContactRule::coulomb, scene, {h, 400 * h, 400}, positions).verdict,
+                expected);
     }
   }
 }
 
-TEST(WatchOnASpring, IsTheSameWhoeverLooksOn) {
+TEST(DivergenceMonitorOnASpring, IsTheSameWithOtherObservers) {
   const Scene scene = kilogram(1.1, 0);
   for (const double h : {0.199, 0.203}) {
     const crosscheck::Run run{h, 1000 * h, 10};
@@ -110,34 +111,34 @@ TEST(WatchOnASpring, IsTheSameWhoeverLooksOn) {
   }
 }
 
-TEST(WatchOnSoftLinks, PassesPositionBasedClothsThatFallSmoothly) {
+TEST(DivergenceMonitorOnSoftLinks, PassesPositionBasedClothsThatFallSmoothly) {
   for (const char* name : {"cloth-hang", "cloth-stiff"})
     for (const char* method : {"bullet/pbd", "xpbd"})
       for (const double h : {1. / 60, 1. / 90, 1. / 150}) {
         Scene scene = shipped_scene(name);
-        const MethodRun a = answer(method, scene, {h, scene.duration, scene.samples});
+        const MethodRun a = run_and_record(method, scene, {h, scene.duration, scene.samples});
         SCOPED_TRACE(fmt::format("{} on {} at {:.3g} s", method, name, h));
         EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
         EXPECT_NEAR(a.outcome.end, scene.duration, 1e-9);
       }
 }
 
-/// What a watch says of a particle on a spring that goes these ways, a second from one to the next, m.
+/// The verdict on a particle on a spring that goes these ways, a second from one to the next, m.
 Verdict verdict_on(const std::vector<double>& along, bool knows_the_scene) {
   const Scene scene = kilogram(1.1, 0);  // 0.5 J, and 100 kg m^2/s^4 of pull: B = 200.5 J at a second a step
   const crosscheck::Run run{1, 10, 10};
-  DivergenceMonitor watch =
+  DivergenceMonitor monitor =
       knows_the_scene ? DivergenceMonitor(scene, run) : DivergenceMonitor(scene.model, &scene.start);
   State state = scene.start;
-  Verdict last = watch.observe(state, true);
+  Verdict last = monitor.observe(state, true);
   for (const double x : along) {
     state.t += 1, state.x(0, 1) = x;
-    if (last == Verdict::ok) last = watch.observe(state, true);
+    if (last == Verdict::ok) last = monitor.observe(state, true);
   }
   return last;
 }
 
-TEST(WatchBySamples, HoldsSpeedsAndLengthsAgainstTheTrueMotion) {
+TEST(DivergenceMonitorOnSamples, HoldsSpeedsAndLengthsAgainstTheTrueMotion) {
   // which comes to 1.1 m and 1 m/s: ten times that are 11 m and, over two samples, 20 m of way
   EXPECT_EQ(verdict_on({1.2, 10.9}, true), Verdict::ok);
   EXPECT_EQ(verdict_on({1.2, 11.2}, true), Verdict::stretch);
@@ -146,7 +147,7 @@ TEST(WatchBySamples, HoldsSpeedsAndLengthsAgainstTheTrueMotion) {
   EXPECT_EQ(verdict_on({-9, -5, 10.9}, true), Verdict::ok);  // 19.9 m
 }
 
-TEST(WatchBySamples, GoesByEnergyWhereThereIsNothingToHoldThemAgainst) {
+TEST(DivergenceMonitorOnSamples, GoesByEnergyWhereThereIsNothingToHoldThemAgainst) {
   // K^ = (x_2 - x_0)^2 / 8 beside 10 B = 2005 J: 126.6 m; thirty times the length at the start: 33 m
   EXPECT_EQ(verdict_on({1.2, 32}, false), Verdict::ok);
   EXPECT_EQ(verdict_on({1.2, 34}, false), Verdict::stretch);

@@ -1,7 +1,7 @@
 // What tests of the bench share.
 #pragma once
 
-#include "experiments/bench/micro.h"
+#include "experiments/bench/microbenchmarks.h"
 #include "experiments/tables/table.h"
 #include "mysim/base/errors.h"
 #include "tests/unit/helpers.h"
@@ -20,7 +20,7 @@ inline void expect_finite(const Table& table) {
 }
 
 /// Left out where the suite was built without Google Benchmark.
-class BenchMicro : public testing::Test {
+class MicrobenchmarkTest : public testing::Test {
  protected:
   void SetUp() override {
     try {

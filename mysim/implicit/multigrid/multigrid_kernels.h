@@ -12,8 +12,8 @@
 // u.A u sums (u_a - u_b).K (u_a - u_b) <= 2 (u_a.K u_a + u_b.K u_b) over springs, and that is twice the blocks' sum.
 //
 // Memory is that of the fused step (simd/cloth_grid/fused_step.h), with as many lanes for double as for single
-// precision, so that both stand in the same order: column c in lane c / blocks of block c % blocks. Coarse columns are
-// then the blocks of even number, lane by lane, and nothing is moved across lanes between grids. Each product is one
+// precision, so that both stand in the same order: column c in lane c / tiles of tile c % tiles. Coarse columns are
+// then the tiles of even number, lane by lane, and nothing is moved across lanes between grids. Each product is one
 // pass over the rows: forces of a row are complete once its own springs are taken, and then the row may be changed in
 // place.
 #pragma once
@@ -31,23 +31,23 @@ using simd::right_halo;
 inline constexpr int lanes = 16;
 
 /// A grid, and the part of its matrix that depends on positions. Three numbers of each particle are a field: rows x
-/// (left_halo + blocks + right_halo) x 3 x lanes, with the halo filled where springs reach into it.
+/// (left_halo + tiles + right_halo) x 3 x lanes, with the halo filled where springs reach into it.
 template <class T>
 struct Matrix {
-  int rows, blocks;
+  int rows, tiles;
   const T*
-      springs[directions];  // null, or rows x blocks x 4 x lanes: sqrt(k - a) n, and a: K = a I + (k - a) n n^T, N/m
-  const T* inertia;         // N/m: rows x blocks x lanes
-  const T* inverse;         // m/N: rows x blocks x 6 x lanes: xx yy zz xy xz yz of the inverse blocks on the diagonal
-  const T* free;            // 1, or 0 at pins and where there is no particle: rows x blocks x lanes
+      springs[directions];  // null, or rows x tiles x 4 x lanes: sqrt(k - a) n, and a: K = a I + (k - a) n n^T, N/m
+  const T* inertia;         // N/m: rows x tiles x lanes
+  const T* inverse;         // m/N: rows x tiles x 6 x lanes: xx yy zz xy xz yz of the inverse blocks on the diagonal
+  const T* free;            // 1, or 0 at pins and where there is no particle: rows x tiles x lanes
   T* force;                 // N: three rows of a field, working memory
 };
 
 /// The source of the springs' stiffness.
 struct SpringGeometry {
-  int rows, blocks;
+  int rows, tiles;
   double* x;                    // m: a field; its halo is filled
-  const double* k[directions];  // N/m: null, or blocks x lanes; 0 where there is no spring
+  const double* k[directions];  // N/m: null, or tiles x lanes; 0 where there is no spring
   double rest[directions];      // m
   bool clamped;                 // without the negative part of a
   double* sums;                 // three rows of 6 numbers, working memory
@@ -56,15 +56,15 @@ struct SpringGeometry {
 /// The transfer between a coarse grid and a fine one: a fine particle between two coarse ones takes half of each;
 /// beyond the last coarse one, all of it.
 struct Transfer {
-  int coarse_rows, coarse_blocks, fine_rows;
-  // coarse blocks x lanes: what the fine particle to the right takes of this coarse one, 1/2 or 1; and the one to the
+  int coarse_rows, coarse_tiles, fine_rows;
+  // coarse tiles x lanes: what the fine particle to the right takes of this coarse one, 1/2 or 1; and the one to the
   // left, 1/2, or 0 where there is none
   const float *right, *left;
 };
 
 /// The functions of one instruction set. Sums are taken lane by lane and then in one order, the same on all.
 struct Kernels {
-  /// Springs into `springs` (as in Matrix), the sums of their blocks over both ends into `blocks` (rows x blocks x 6 x
+  /// Springs into `springs` (as in Matrix), the sums of their blocks over both ends into `blocks` (rows x tiles x 6 x
   /// lanes).
   void (*linearise)(const SpringGeometry&, double* const* springs, double* blocks);
   /// The inverse of blocks + inertia, in place; 0 where not free.

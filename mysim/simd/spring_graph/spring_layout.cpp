@@ -1,5 +1,5 @@
-// Sorts springs by what they cost in each kernel, and lays them out as the kernels read them.
-#include "mysim/simd/spring_graph/plan.h"
+// Partitions springs by what they cost in each kernel, and lays them out as the kernels read them.
+#include "mysim/simd/spring_graph/spring_layout.h"
 
 #include <algorithm>
 #include <array>
@@ -18,13 +18,13 @@ Kernels kernels(simd::InstructionSet isa, SpringLaw law) {
 
 Costs costs(simd::InstructionSet isa) {
   if (isa == simd::InstructionSet::sse2)
-    return {.coefficient_row = 17, .tile = 16, .pair = 2.6, .particle = 2, .plain = 3.1, .call = 30};
-  return {.coefficient_row = 9, .tile = 10, .pair = 1.8, .particle = 2, .plain = 3.1, .call = 30};
+    return {.coefficient_row = 17, .tile = 16, .coo_spring = 2.6, .coo_particle = 2, .plain = 3.1, .call = 30};
+  return {.coefficient_row = 9, .tile = 10, .coo_spring = 1.8, .coo_particle = 2, .plain = 3.1, .call = 30};
 }
 
 namespace {
 
-/// m: where particles that there are none of stand, far from the others and from each other.
+/// m: the places of padding particles, far from the others and from each other.
 double padding_position(long i) { return 1e6 + 17 * static_cast<double>(i); }
 
 }  // namespace
@@ -159,9 +159,9 @@ std::map<int, std::vector<int>> by_offset(const std::vector<Spring>& springs) {
 }  // namespace
 
 SpringPartition partition_springs(const std::vector<Spring>& springs, int particles, const Costs& costs) {
-  const auto in_pairs = [&](double n) { return costs.call + particles * costs.particle + n * costs.pair; };
+  const auto as_coo = [&](double n) { return costs.call + particles * costs.coo_particle + n * costs.coo_spring; };
   const double all = static_cast<double>(springs.size());
-  const double elsewhere = std::min(costs.plain, in_pairs(all) / std::max(1.0, all));  // what a spring costs otherwise
+  const double elsewhere = std::min(costs.plain, as_coo(all) / std::max(1.0, all));  // what a spring costs otherwise
 
   SpringPartition partition;
   std::vector<bool> taken(springs.size(), false);
@@ -172,30 +172,30 @@ SpringPartition partition_springs(const std::vector<Spring>& springs, int partic
     if (coefficients >= instead) continue;
     cost += coefficients;
     saved += instead;
-    partition.diagonals.emplace_back();
+    partition.dia.emplace_back();
     for (const int i : order) {
-      partition.diagonals.back().push_back(oriented(springs[i]));
+      partition.dia.back().push_back(oriented(springs[i]));
       taken[i] = true;
     }
   }
   if (cost >= saved) {
-    partition.diagonals.clear();
+    partition.dia.clear();
     taken.assign(springs.size(), false);
   }
 
   for (size_t i = 0; i < springs.size(); ++i)
-    if (!taken[i]) (springs[i].a == springs[i].b ? partition.plain : partition.pairs).push_back(springs[i]);
-  const double left = static_cast<double>(partition.pairs.size());
-  if (in_pairs(left) >= left * costs.plain) {
-    partition.pairs.clear();
+    if (!taken[i]) (springs[i].a == springs[i].b ? partition.plain : partition.coo).push_back(springs[i]);
+  const double left = static_cast<double>(partition.coo.size());
+  if (as_coo(left) >= left * costs.plain) {
+    partition.coo.clear();
     partition.plain.clear();
     for (size_t i = 0; i < springs.size(); ++i)
       if (!taken[i]) partition.plain.push_back(springs[i]);
   }
-  for (Spring& s : partition.pairs) s = oriented(s);
-  std::stable_sort(partition.pairs.begin(), partition.pairs.end(), by_first_end);
+  for (Spring& s : partition.coo) s = oriented(s);
+  std::stable_sort(partition.coo.begin(), partition.coo.end(), by_first_end);
   assert(static_cast<size_t>(std::count(taken.begin(), taken.end(), false)) ==
-         partition.pairs.size() + partition.plain.size());
+         partition.coo.size() + partition.plain.size());
   return partition;
 }
 

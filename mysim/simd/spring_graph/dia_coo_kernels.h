@@ -3,7 +3,7 @@
 
 namespace crosscheck::spring_graph {
 
-// Springs by diagonals. kernels.cpp is compiled once for each instruction set.
+// DIA: springs by diagonals. dia_coo_kernels.cpp is compiled once for each instruction set.
 //
 // The cost of a spring is the access to its ends: numbers that lie apart are gathered one by one, and adding to both
 // ends is a scatter, where no two lanes may meet. But particles are seldom numbered at random. Row by row, as in
@@ -39,7 +39,7 @@ struct DiaSprings {
   double* pulls;  // N: of two tiles, 3 x tile each; working memory
 };
 
-// Springs one by one, wherever their ends are.
+// COO: a list of springs, wherever their ends are.
 //
 // Positions and forces are records of four numbers, x y z 0, each fetched as a whole: that is cheaper than gathering
 // coordinates. As many springs as a register has lanes are taken together: records of their ends are subtracted, the
@@ -58,8 +58,8 @@ struct CooSprings {
 /// and return whether some two ends met. They may look at lanes without a spring, too: whether springs were among them
 /// is to be found out.
 struct Kernels {
-  bool (*diagonals)(const DiaSprings&, const double* x, double* f);
-  bool (*pairs)(const CooSprings&, const double* x, double* f);
+  bool (*dia)(const DiaSprings&, const double* x, double* f);
+  bool (*coo)(const CooSprings&, const double* x, double* f);
 };
 
 }  // namespace crosscheck::spring_graph

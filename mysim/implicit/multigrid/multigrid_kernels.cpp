@@ -1,5 +1,5 @@
 // Stiffness, products, grid transfers and vectors of the V-cycle, compiled once for each instruction set.
-#include "mysim/implicit/multigrid/kernels.h"
+#include "mysim/implicit/multigrid/multigrid_kernels.h"
 
 #include <cassert>
 
@@ -18,30 +18,30 @@ using L = simd::Lanes<T>;
 template <class T>
 using V = typename L<T>::V;
 
-/// A block of so many numbers of each particle.
+/// A tile of so many numbers of each particle.
 template <int numbers>
 inline constexpr int tile_size = numbers* lanes;
 
-FORCE_INLINE long row_length(int blocks, int numbers) {
-  return static_cast<long>(left_halo + blocks + right_halo) * numbers * lanes;
+FORCE_INLINE long row_length(int tiles, int numbers) {
+  return static_cast<long>(left_halo + tiles + right_halo) * numbers * lanes;
 }
 
-/// The first block of a row of a field.
+/// The first tile of a row of a field.
 template <class T>
-FORCE_INLINE T* row_of(T* field, int blocks, int row) {
-  return field + row * row_length(blocks, 3) + left_halo * tile_size<3>;
+FORCE_INLINE T* row_of(T* field, int tiles, int row) {
+  return field + row * row_length(tiles, 3) + left_halo * tile_size<3>;
 }
 
 /// Goes over the rows from the first: begin(row, sums) adds to sums[0] (the row itself) and to sums[1], sums[2] (the
 /// next ones), finish(row, sums) is called when all that reach a row have been added. `memory`: three rows.
 template <int numbers, class T, class Begin, class Finish>
-FORCE_INLINE void over_rows(int rows, int blocks, T* memory, Begin begin, Finish finish) {
-  const long length = row_length(blocks, numbers), first = left_halo * tile_size<numbers>;
+FORCE_INLINE void over_rows(int rows, int tiles, T* memory, Begin begin, Finish finish) {
+  const long length = row_length(tiles, numbers), first = left_halo * tile_size<numbers>;
   T* sums[3] = {memory + first, memory + length + first, memory + 2 * length + first};
   for (T* row : sums) clear(row - first, length);
   for (int r = 0; r < rows; ++r) {
     begin(r, sums);
-    reduce_halo<tile_size<numbers>>(sums[0], blocks);
+    reduce_halo<tile_size<numbers>>(sums[0], tiles);
     finish(r, sums[0]);
     T* done = sums[0];
     clear(done - first, length);
@@ -68,8 +68,8 @@ using Vd = V<double>;
 inline constexpr double min_squared_length = 1e-290;
 
 struct Stiffness {
-  Vd n[3], a;    // as in Matrix
-  Vd blocks[6];  // N/m: xx yy zz xy xz yz
+  Vd n[3], a;   // as in Matrix
+  Vd block[6];  // N/m: xx yy zz xy xz yz
 };
 
 /// Of Hooke's law: along the spring k, across it k (1 - L / length).
@@ -83,47 +83,47 @@ FORCE_INLINE Stiffness stiffness_of(const Vd* d, Vd k, Vd rest, bool clamped) {
   if (clamped) s.a = D::max(s.a, D::all(0));
   const Vd left = D::max(D::fnma(there, s.a, there * k), D::all(0)), root = D::root(left);
   for (int c = 0; c < 3; ++c) s.n[c] = root * (d[c] * inverse);
-  for (int c = 0; c < 3; ++c) s.blocks[c] = D::fma(s.n[c], s.n[c], s.a);
-  s.blocks[3] = s.n[0] * s.n[1], s.blocks[4] = s.n[0] * s.n[2], s.blocks[5] = s.n[1] * s.n[2];
+  for (int c = 0; c < 3; ++c) s.block[c] = D::fma(s.n[c], s.n[c], s.a);
+  s.block[3] = s.n[0] * s.n[1], s.block[4] = s.n[0] * s.n[2], s.block[5] = s.n[1] * s.n[2];
   return s;
 }
 
-FORCE_INLINE void add_blocks(double* to, const Vd* blocks) {
-  for (int i = 0; i < 6; ++i) D::store(to + i * lanes, D::load(to + i * lanes) + blocks[i]);
+FORCE_INLINE void add_block(double* to, const Vd* block) {
+  for (int i = 0; i < 6; ++i) D::store(to + i * lanes, D::load(to + i * lanes) + block[i]);
 }
 
 void linearise(const SpringGeometry& s, double* const* springs, double* blocks) {
-  const long length = row_length(s.blocks, 3);
-  for (int row = 0; row < s.rows; ++row) fill_halo<tile_size<3>>(row_of(s.x, s.blocks, row), s.blocks);
+  const long length = row_length(s.tiles, 3);
+  for (int row = 0; row < s.rows; ++row) fill_halo<tile_size<3>>(row_of(s.x, s.tiles, row), s.tiles);
   over_rows<6>(
-      s.rows, s.blocks, s.sums,
+      s.rows, s.tiles, s.sums,
       [&](int row, double* const* sums) __attribute__((always_inline)) {
-        const double* x = row_of(s.x, s.blocks, row);
+        const double* x = row_of(s.x, s.tiles, row);
         for (int d = 0; d < directions; ++d) {
           const Direction to = direction[d];
           if (!s.k[d] || row + to.down >= s.rows) continue;
-          for (int b = 0; b < s.blocks; ++b)
+          for (int b = 0; b < s.tiles; ++b)
             for (int lane = 0; lane < lanes; lane += D::width) {
               const double* near = x + b * tile_size<3> + lane;
               const double* far = near + to.down * length + to.right * tile_size<3>;
               Vd apart[3];
               for (int c = 0; c < 3; ++c) apart[c] = D::load(near + c * lanes) - D::load(far + c * lanes);
               const Stiffness k = stiffness_of(apart, D::load(s.k[d] + b * lanes + lane), D::all(s.rest[d]), s.clamped);
-              double* kept = springs[d] + (static_cast<long>(row) * s.blocks + b) * tile_size<4> + lane;
+              double* kept = springs[d] + (static_cast<long>(row) * s.tiles + b) * tile_size<4> + lane;
               for (int c = 0; c < 3; ++c) D::store(kept + c * lanes, k.n[c]);
               D::store(kept + 3 * lanes, k.a);
-              add_blocks(sums[0] + b * tile_size<6> + lane, k.blocks);
-              add_blocks(sums[to.down] + (b + to.right) * tile_size<6> + lane, k.blocks);
+              add_block(sums[0] + b * tile_size<6> + lane, k.block);
+              add_block(sums[to.down] + (b + to.right) * tile_size<6> + lane, k.block);
             }
         }
       },
       [&](int row, const double* sums) __attribute__((always_inline)) {
-        double* to = blocks + static_cast<long>(row) * s.blocks * tile_size<6>;
-        for (int i = 0; i < s.blocks * tile_size<6>; i += D::width) D::store(to + i, D::load(sums + i));
+        double* to = blocks + static_cast<long>(row) * s.tiles * tile_size<6>;
+        for (int i = 0; i < s.tiles * tile_size<6>; i += D::width) D::store(to + i, D::load(sums + i));
       });
 }
 
-/// By cofactors: symmetric as the blocks are.
+/// The inverses are found by cofactors, and are as symmetric as the blocks.
 void invert(double* blocks, const double* inertia, const double* free, long count) {
   assert(count >= 0);
   for (long i = 0; i < count; ++i, blocks += tile_size<6>, inertia += lanes, free += lanes)
@@ -167,8 +167,8 @@ FORCE_INLINE void spring(const V<T>* near, V<T>* own, const T* far, T* other, co
 /// K x of the springs that begin in a row.
 template <class T>
 FORCE_INLINE void springs_of_row(const Matrix<T>& m, const T* x, int row, T* const* sums) {
-  const long length = row_length(m.blocks, 3);
-  for (int b = 0; b < m.blocks; ++b)
+  const long length = row_length(m.tiles, 3);
+  for (int b = 0; b < m.tiles; ++b)
     for (int lane = 0; lane < lanes; lane += L<T>::width) {
       const long at = static_cast<long>(b) * tile_size<3> + lane;
       V<T> near[3], own[3];
@@ -179,32 +179,32 @@ FORCE_INLINE void springs_of_row(const Matrix<T>& m, const T* x, int row, T* con
         if (!m.springs[d] || row + to.down >= m.rows) return;
         const long there = at + to.right * tile_size<3>;
         spring<T>(near, own, x + to.down * length + there, sums[to.down] + there,
-                  m.springs[d] + (static_cast<long>(row) * m.blocks + b) * tile_size<4> + lane);
+                  m.springs[d] + (static_cast<long>(row) * m.tiles + b) * tile_size<4> + lane);
       };
       take(Number<0>{}), take(Number<1>{}), take(Number<2>{}), take(Number<3>{}), take(Number<4>{}), take(Number<5>{});
       for (int c = 0; c < 3; ++c) L<T>::store(sums[0] + at + c * lanes, own[c]);
     }
 }
 
-/// take(place in the row of a field, number of the block and lane, A x there), for each register of each row; then
+/// take(place in the row of a field, number of the tile and lane, A x there), for each register of each row; then
 /// done(row).
 template <class T, class Take, class Done>
 FORCE_INLINE void each_product(const Matrix<T>& m, const T* x, Take take, Done done) {
   over_rows<3>(
-      m.rows, m.blocks, m.force,
+      m.rows, m.tiles, m.force,
       [&](int row, T* const* sums)
-          __attribute__((always_inline)) { springs_of_row(m, row_of(x, m.blocks, row), row, sums); },
+          __attribute__((always_inline)) { springs_of_row(m, row_of(x, m.tiles, row), row, sums); },
       [&](int row, const T* sums) __attribute__((always_inline)) {
-        const long begin = row_of(x, m.blocks, row) - x;
-        for (int b = 0; b < m.blocks; ++b)
+        const long begin = row_of(x, m.tiles, row) - x;
+        for (int b = 0; b < m.tiles; ++b)
           for (int lane = 0; lane < lanes; lane += L<T>::width) {
             const long in_row = static_cast<long>(b) * tile_size<3> + lane, at = begin + in_row;
-            const long block = static_cast<long>(row) * m.blocks + b;
-            const V<T> inertia = L<T>::load(m.inertia + block * lanes + lane);
+            const long tile = static_cast<long>(row) * m.tiles + b;
+            const V<T> inertia = L<T>::load(m.inertia + tile * lanes + lane);
             V<T> product[3];
             for (int c = 0; c < 3; ++c)
               product[c] = L<T>::fma(inertia, L<T>::load(x + at + c * lanes), L<T>::load(sums + in_row + c * lanes));
-            take(at, block, lane, product);
+            take(at, tile, lane, product);
           }
         done(begin);
       });
@@ -215,8 +215,8 @@ double product(const Matrix<double>& m, const double* p, double* q) {
   Sum sum;
   each_product(
       m, p,
-      [&](long at, long block, int lane, const V<double>* product) __attribute__((always_inline)) {
-        const V<double> free = D::load(m.free + block * lanes + lane);
+      [&](long at, long tile, int lane, const V<double>* product) __attribute__((always_inline)) {
+        const V<double> free = D::load(m.free + tile * lanes + lane);
         V<double> s = D::load(sum.each + lane);
         for (int c = 0; c < 3; ++c) {
           const V<double> kept = free * product[c];
@@ -230,9 +230,9 @@ double product(const Matrix<double>& m, const double* p, double* q) {
 }
 
 /// D^-1 r.
-FORCE_INLINE void scale(const Matrix<float>& m, long block, int lane, const V<float>* r, V<float>* z) {
+FORCE_INLINE void scale(const Matrix<float>& m, long tile, int lane, const V<float>* r, V<float>* z) {
   using F = L<float>;
-  const float* i = m.inverse + block * tile_size<6> + lane;
+  const float* i = m.inverse + tile * tile_size<6> + lane;
   const V<float> xx = F::load(i), yy = F::load(i + lanes), zz = F::load(i + 2 * lanes), xy = F::load(i + 3 * lanes),
                  xz = F::load(i + 4 * lanes), yz = F::load(i + 5 * lanes);
   z[0] = F::fma(xz, r[2], F::fma(xy, r[1], xx * r[0]));
@@ -243,19 +243,19 @@ FORCE_INLINE void scale(const Matrix<float>& m, long block, int lane, const V<fl
 void smooth_first(const Matrix<float>& m, float take, const float* b, float* x, float* change) {
   using F = L<float>;
   for (int row = 0; row < m.rows; ++row) {
-    const long begin = row_of(x, m.blocks, row) - x;
-    for (int i = 0; i < m.blocks; ++i)
+    const long begin = row_of(x, m.tiles, row) - x;
+    for (int i = 0; i < m.tiles; ++i)
       for (int lane = 0; lane < lanes; lane += F::width) {
         const long at = begin + static_cast<long>(i) * tile_size<3> + lane;
         V<float> r[3], z[3];
         for (int c = 0; c < 3; ++c) r[c] = F::load(b + at + c * lanes);
-        scale(m, static_cast<long>(row) * m.blocks + i, lane, r, z);
+        scale(m, static_cast<long>(row) * m.tiles + i, lane, r, z);
         for (int c = 0; c < 3; ++c) {
           const V<float> all = F::all(take) * z[c];
           F::store(x + at + c * lanes, all), F::store(change + at + c * lanes, all);
         }
       }
-    fill_halo<tile_size<3>>(x + begin, m.blocks);
+    fill_halo<tile_size<3>>(x + begin, m.tiles);
   }
 }
 
@@ -264,28 +264,28 @@ void smooth(const Matrix<float>& m, bool first, float keep, float take, const fl
   if (first) return smooth_first(m, take, b, x, change);
   each_product(
       m, static_cast<const float*>(x),
-      [&](long at, long block, int lane, const V<float>* product) __attribute__((always_inline)) {
+      [&](long at, long tile, int lane, const V<float>* product) __attribute__((always_inline)) {
         V<float> r[3], z[3];
         for (int c = 0; c < 3; ++c) r[c] = F::load(b + at + c * lanes) - product[c];
-        scale(m, block, lane, r, z);
+        scale(m, tile, lane, r, z);
         for (int c = 0; c < 3; ++c) {
           const long i = at + c * lanes;
           const V<float> step = F::fma(F::all(keep), F::load(change + i), F::all(take) * z[c]);
           F::store(change + i, step), F::store(x + i, F::load(x + i) + step);
         }
       },
-      [&](long begin) __attribute__((always_inline)) { fill_halo<tile_size<3>>(x + begin, m.blocks); });
+      [&](long begin) __attribute__((always_inline)) { fill_halo<tile_size<3>>(x + begin, m.tiles); });
 }
 
 void residual(const Matrix<float>& m, const float* b, const float* x, float* r) {
   using F = L<float>;
   each_product(
       m, x,
-      [&](long at, long block, int lane, const V<float>* product) __attribute__((always_inline)) {
-        const V<float> free = F::load(m.free + block * lanes + lane);
+      [&](long at, long tile, int lane, const V<float>* product) __attribute__((always_inline)) {
+        const V<float> free = F::load(m.free + tile * lanes + lane);
         for (int c = 0; c < 3; ++c) F::store(r + at + c * lanes, free * (F::load(b + at + c * lanes) - product[c]));
       },
-      [&](long begin) __attribute__((always_inline)) { fill_halo<tile_size<3>>(r + begin, m.blocks); });
+      [&](long begin) __attribute__((always_inline)) { fill_halo<tile_size<3>>(r + begin, m.tiles); });
 }
 
 // From a grid to the next coarser one and back.
@@ -297,20 +297,20 @@ using Vf = V<float>;
 FORCE_INLINE float down(const Transfer& t, int coarse_row) { return coarse_row + 1 < t.coarse_rows ? 0.5f : 1; }
 
 /// Along a fine row: what coarse particles are given of it.
-FORCE_INLINE Vf gathered(const Transfer& t, const float* fine, int block, int lane, int c) {
-  const float* at = fine + 2L * block * tile_size<3> + c * lanes + lane;
-  const Vf right = F::load(t.right + block * lanes + lane), left = F::load(t.left + block * lanes + lane);
+FORCE_INLINE Vf gathered(const Transfer& t, const float* fine, int tile, int lane, int c) {
+  const float* at = fine + 2L * tile * tile_size<3> + c * lanes + lane;
+  const Vf right = F::load(t.right + tile * lanes + lane), left = F::load(t.left + tile * lanes + lane);
   return F::fma(right, F::load(at + tile_size<3>), F::fma(left, F::load(at - tile_size<3>), F::load(at)));
 }
 
 void restrict_residual(const Transfer& t, const float* r, float* b) {
-  const int fine_blocks = 2 * t.coarse_blocks;
+  const int fine_tiles = 2 * t.coarse_tiles;
   for (int row = 0; row < t.coarse_rows; ++row) {
-    float* to = row_of(b, t.coarse_blocks, row);
-    const float* here = row_of(r, fine_blocks, 2 * row);
-    const long length = row_length(fine_blocks, 3);
+    float* to = row_of(b, t.coarse_tiles, row);
+    const float* here = row_of(r, fine_tiles, 2 * row);
+    const long length = row_length(fine_tiles, 3);
     const bool above = row > 0, below = 2 * row + 1 < t.fine_rows;
-    for (int i = 0; i < t.coarse_blocks; ++i)
+    for (int i = 0; i < t.coarse_tiles; ++i)
       for (int c = 0; c < 3; ++c)
         for (int lane = 0; lane < lanes; lane += F::width) {
           Vf sum = gathered(t, here, i, lane, c);
@@ -323,14 +323,14 @@ void restrict_residual(const Transfer& t, const float* r, float* b) {
 
 /// Adds to a fine row `one` times a coarse row and `two` times the next.
 FORCE_INLINE void spread(const Transfer& t, const float* coarse, float one, float two, const float* free, float* fine) {
-  const long next_row = two == 0 ? 0 : row_length(t.coarse_blocks, 3);
+  const long next_row = two == 0 ? 0 : row_length(t.coarse_tiles, 3);
   const auto between = [&](const float* at) __attribute__((always_inline)) {
     return F::fma(F::all(two), F::load(at + next_row), F::all(one) * F::load(at));
   };
   const auto add = [](float* to, Vf open, Vf more) __attribute__((always_inline)) {
     F::store(to, F::fma(open, more, F::load(to)));
   };
-  for (int i = 0; i < t.coarse_blocks; ++i)
+  for (int i = 0; i < t.coarse_tiles; ++i)
     for (int lane = 0; lane < lanes; lane += F::width) {
       const Vf own = F::load(t.right + i * lanes + lane), other = F::all(1) - own;
       const Vf open = F::load(free + 2L * i * lanes + lane), open_next = F::load(free + (2L * i + 1) * lanes + lane);
@@ -342,27 +342,27 @@ FORCE_INLINE void spread(const Transfer& t, const float* coarse, float one, floa
         add(to + tile_size<3>, open_next, F::fma(own, here, other * there));
       }
     }
-  fill_halo<tile_size<3>>(fine, 2 * t.coarse_blocks);
+  fill_halo<tile_size<3>>(fine, 2 * t.coarse_tiles);
 }
 
 void prolong_and_add(const Transfer& t, const float* coarse, const float* free, float* x) {
   assert(t.coarse_rows == (t.fine_rows + 1) / 2);
-  const int fine_blocks = 2 * t.coarse_blocks;
+  const int fine_tiles = 2 * t.coarse_tiles;
   for (int row = 0; row < t.fine_rows; ++row) {
-    const float* from = row_of(coarse, t.coarse_blocks, row / 2);
+    const float* from = row_of(coarse, t.coarse_tiles, row / 2);
     const float one = row % 2 == 0 ? 1 : down(t, row / 2), two = 1 - one;
-    spread(t, from, one, two, free + static_cast<long>(row) * fine_blocks * lanes, row_of(x, fine_blocks, row));
+    spread(t, from, one, two, free + static_cast<long>(row) * fine_tiles * lanes, row_of(x, fine_tiles, row));
   }
 }
 
 // Vectors of conjugate gradients.
 
-/// take(place, lane) for each register of a row's blocks; then done(place of the row).
+/// take(place, lane) for each register of a row's tiles; then done(place of the row).
 template <class Take, class Done>
-FORCE_INLINE void each_place(int rows, int blocks, Take take, Done done) {
+FORCE_INLINE void each_place(int rows, int tiles, Take take, Done done) {
   for (int row = 0; row < rows; ++row) {
-    const long begin = row * row_length(blocks, 3) + left_halo * tile_size<3>;
-    for (long i = 0; i < static_cast<long>(blocks) * tile_size<3>; i += lanes)
+    const long begin = row * row_length(tiles, 3) + left_halo * tile_size<3>;
+    for (long i = 0; i < static_cast<long>(tiles) * tile_size<3>; i += lanes)
       for (int lane = 0; lane < lanes; lane += D::width) take(begin + i + lane, lane);
     done(begin);
   }
@@ -373,7 +373,7 @@ double update_solution(const Matrix<double>& m, double length, const double* p, 
   const Vd by = D::all(length);
   Sum sum;
   each_place(
-      m.rows, m.blocks,
+      m.rows, m.tiles,
       [&](long i, int lane) __attribute__((always_inline)) {
         D::store(u + i, D::fma(by, D::load(p + i), D::load(u + i)));
         const Vd left = D::fnma(by, D::load(q + i), D::load(r + i));
@@ -395,7 +395,7 @@ FORCE_INLINE Vd widened(const float* z) {
 void dot_products(const Matrix<double>& m, const double* r, const double* q, const float* z, double* sums) {
   Sum with_r, with_q;
   each_place(
-      m.rows, m.blocks,
+      m.rows, m.tiles,
       [&](long i, int lane) __attribute__((always_inline)) {
         const Vd wide = widened(z + i);
         D::store(with_r.each + lane, D::fma(wide, D::load(r + i), D::load(with_r.each + lane)));
@@ -407,10 +407,10 @@ void dot_products(const Matrix<double>& m, const double* r, const double* q, con
 
 void update_direction(const Matrix<double>& m, const float* z, double keep, double* p) {
   each_place(
-      m.rows, m.blocks,
+      m.rows, m.tiles,
       [&](long i, int)
           __attribute__((always_inline)) { D::store(p + i, D::fma(D::all(keep), D::load(p + i), widened(z + i))); },
-      [&](long begin) __attribute__((always_inline)) { fill_halo<tile_size<3>>(p + begin, m.blocks); });
+      [&](long begin) __attribute__((always_inline)) { fill_halo<tile_size<3>>(p + begin, m.tiles); });
 }
 
 }  // namespace

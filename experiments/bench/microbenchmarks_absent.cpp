@@ -1,6 +1,6 @@
 // A substitute for Google Benchmark where the suite was built without it.
 
-#include "experiments/bench/micro.h"
+#include "experiments/bench/microbenchmarks.h"
 #include "mysim/base/errors.h"
 
 namespace crosscheck {

@@ -1,4 +1,4 @@
-// A shipped scene under a method, as regress asks it.
+// A case of regress: a shipped scene under a method.
 #pragma once
 
 #include "experiments/regress/cases.h"

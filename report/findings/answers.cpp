@@ -1,0 +1,259 @@
+#include "report/findings/answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/speed_accuracy/work_precision.h"
+#include "experiments/tables/sphere.h"
+#include "experiments/tables/stability.h"
+#include "mysim/base/text.h"
+#include "report/findings/findings_text.h"
+#include "report/findings/summaries.h"
+
+namespace crosscheck {
+
+const std::vector<Question>& questions() {
+  static const std::vector<Question> table = {
+      {"Do they agree?", "same-answer", "certificate"}, {"Which method, which step?", "speed-accuracy", "chart"},
+      {"Where do methods fail?", "stability", "chart"}, {"What happens at the ball?", "energy", "picture"},
+      {"What can be left out?", "adequacy", "chart"},
+  };
+  return table;
+}
+
+const Finding* answer_to(const Question& question, const std::vector<Finding>& findings) {
+  for (const Finding& f : findings)
+    if (const FindingRule& rule = finding_rule(f.rule); rule.topic == "answer" && rule.chapter == question.chapter)
+      return &f;
+  return nullptr;
+}
+
+namespace {
+
+/// The largest difference so far, and the scene of it.
+struct Largest {
+  double value = -1;
+  std::string where;
+  void take(double other, const std::string& scene) {
+    if (other > value) value = other, where = scene;
+  }
+  bool any() const { return value >= 0; }
+};
+
+/// Another engine's method with the least difference from mysim's representative, or null.
+const MethodData* nearest_other(const SceneData& scene) {
+  const MethodData* best = nullptr;
+  for (const MethodData& m : scene.methods)
+    if (m.ok() && m.difference && is_another_engine(m.method) && (!best || *m.difference < *best->difference))
+      best = &m;
+  return best;
+}
+
+/// Without a method of mysim's rule in another engine: how far the nearest other one is.
+std::optional<Finding> difference_answer(const std::vector<SceneData>& data) {
+  Largest apart, growth;
+  std::string method;
+  bool round_off = true;  // no more anywhere
+  for (const SceneData& scene : data) {
+    const MethodData* other = nearest_other(scene);
+    if (!other) continue;
+    if (!scene.round_off && !scene.touched()) {
+      growth.take(scene.growth, scene.scene);
+      continue;
+    }
+    round_off &= scene.round_off && !scene.touched() && *other->difference <= *scene.round_off;
+    if (*other->difference > apart.value) apart.take(*other->difference, scene.scene), method = other->method;
+  }
+  if (!apart.any() && growth.any())
+    return Finding{.rule = "answer-chaotic", .value = growth.value, .words = {{"where", growth.where}}};
+  if (!apart.any()) return std::nullopt;
+  return Finding{.rule = round_off ? "answer-same-motion" : "answer-difference",
+                 .method = ours,
+                 .other = method,
+                 .value = apart.value,
+                 .words = {{"where", apart.where}}};
+}
+
+std::optional<Finding> agreement_answer(const std::vector<Scene>&, const std::vector<SceneData>& data,
+                                        const TableSet&) {
+  size_t same = 0;
+  Largest worst, in_contact, beyond;
+  std::vector<std::string> differing;
+  for (const SceneData& scene : data) {
+    const MethodData* peer = scene.find(theirs);
+    if (!peer || !peer->ok() || !peer->difference) continue;
+    if (scene.touched())
+      in_contact.take(*peer->difference, scene.scene);
+    else if (!peer->different_law.empty())
+      continue;
+    else if (same_rule_differs(scene, *default_peers().front()))
+      differing.push_back(scene.scene), beyond.take(*peer->difference, scene.scene);
+    else if (scene.round_off)
+      ++same, worst.take(*peer->difference, scene.scene);
+  }
+  Finding f{.rule = "answer-agreement", .method = ours, .other = std::string(family_of(theirs).name)};
+  if (!differing.empty()) {
+    f.rule = "answer-agreement-no", f.value = beyond.value, f.words = {{"where", listed(differing)}};
+  } else if (same > 0) {
+    f.value = worst.value;
+    f.words = {{"most", worst.value == 0 ? "nothing" : "at most " + nice_length(worst.value)},
+               {"scenes", counted(same, "scene")},
+               {"contact", in_contact.any() ? "; with contact by at most " + nice_length(in_contact.value) : ""}};
+  } else if (in_contact.any()) {
+    f.rule = "answer-agreement-contact", f.value = in_contact.value, f.words = {{"where", in_contact.where}};
+  } else {
+    return difference_answer(data);
+  }
+  return f;
+}
+
+std::optional<Finding> method_answer(const std::vector<Scene>& scenes, const std::vector<SceneData>&,
+                                     const TableSet& rows) {
+  const Scene* scene = main_scene(scenes, rows);
+  const auto run = scene ? recommended_run(scene->name, 0.01, rows) : std::nullopt;
+  if (!run) return std::nullopt;
+  const double to_percent = 100 / run->motion;
+  // the quotient is over mysim's run; the others' stand in the chapter
+  const bool compared = family_of(run->method).is_subject() && !run->beside.empty();
+  const auto next = std::ranges::min_element(run->beside, {}, &EngineBeside::times);
+  return Finding{
+      .rule = "answer-method",
+      .scene = scene->name,
+      .method = run->method,
+      .other = compared ? next->engine : "",
+      .value = run->error * to_percent,
+      .low = std::max(0., run->error - run->error_bar) * to_percent,
+      .high = (run->error + run->error_bar) * to_percent,
+      .words = {{"setting", setting_of(*run)},
+                {"speed", speed_text(*run, *scene)},
+                {"beside", !compared ? ""
+                                     : fmt::format(". {} within 1 % needs {} times the computing",
+                                                   name_in_sentence(next->engine), times_text(next->times))}}};
+}
+
+/// Without an experiment on stability: the runs at the scenes' own steps.
+std::optional<Finding> failed_runs_answer(const std::vector<SceneData>& data) {
+  size_t failed = 0, all = 0;
+  std::vector<std::string> names;
+  for (const SceneData& each : data)
+    for (const MethodData& m : each.methods) {
+      all += m.supported();
+      if (!m.supported() || m.ok()) continue;
+      ++failed;
+      if (const std::string name = name_in_sentence(m.method); std::ranges::find(names, name) == names.end())
+        names.push_back(name);
+    }
+  if (all == 0) return std::nullopt;
+  if (failed == 0) return Finding{.rule = "answer-none-failed", .value = static_cast<double>(all)};
+  return Finding{.rule = "answer-failed",
+                 .value = static_cast<double>(failed),
+                 .words = {{"runs", counted(all, "run")}, {"which", listed(names)}}};
+}
+
+std::optional<Finding> failure_answer(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,
+                                      const TableSet& rows) {
+  const Scene* scene = main_scene(scenes, rows);
+  const auto run = scene ? recommended_run(scene->name, 0.01, rows) : std::nullopt;
+  std::optional<LimitRow> shown;
+  const std::vector<LimitRow> table = rows_of<LimitRow>(rows);
+  for (const LimitRow& row : table)
+    if (scene && row.scene == scene->name && row.state == LimitState::rest && row.predicted && row.measured &&
+        family_of(row.method).is_subject() && (!shown || (run && row.method == run->method)))
+      shown = row;
+  const StepLimitCounts limits = step_limit_counts(table, LimitState::rest);
+  if (!shown || limits.agreeing == 0) return failed_runs_answer(data);
+  const size_t all = limits.agreeing + limits.coarse + limits.apart;
+  return Finding{
+      .rule = "answer-limit",
+      .method = shown->method,
+      .value = *shown->measured,
+      .low = shown->held,
+      .high = shown->failed,
+      .words = {{"where", shown->scene},
+                {"theory", step_text(*shown->predicted)},
+                {"limits", all == 1                 ? std::string("The one limit measured lies")
+                           : limits.agreeing == all ? fmt::format("All {} limits measured lie", all)
+                                                    : fmt::format("{} of {} limits lie", limits.agreeing, all)},
+                {"within", percent(limits.within, 1)}}};
+}
+
+/// The last scene on which something touches and another engine has a difference.
+const SceneData* last_contact(const std::vector<SceneData>& data) {
+  const SceneData* last = nullptr;
+  for (const SceneData& scene : data)
+    if (scene.touched() && nearest_other(scene)) last = &scene;
+  return last;
+}
+
+std::optional<Finding> ball_answer(const std::vector<Scene>&, const std::vector<SceneData>& data,
+                                   const TableSet& rows) {
+  std::vector<ConeCount> counts = cone_counts(rows);
+  std::erase_if(counts, [](const ConeCount& c) { return !stands_for_its_engine(c.method); });
+  const SceneData* scene = last_contact(data);
+  const MethodData* other = scene ? scene->find(theirs) : nullptr;
+  const bool same_rule = other && other->ok() && other->difference;
+  if (scene && !same_rule) other = nearest_other(*scene);
+  if (counts.empty() || counts[0].method != ours) {
+    if (!scene) return std::nullopt;
+    return Finding{.rule = "answer-contact",
+                   .method = ours,
+                   .other = other->method,
+                   .value = *other->difference,
+                   .words = {{"where", scene->scene}, {"until", step_text(scene->window)}}};
+  }
+  // of many the two that err most
+  const ConeCount first = counts[0];
+  counts.erase(counts.begin());
+  if (counts.size() > 2) std::ranges::stable_sort(counts, {}, &ConeCount::right);
+  counts.resize(std::min<size_t>(counts.size(), 2));
+  std::string others, engine;
+  for (const ConeCount& count : counts) {
+    const bool again = engine_of(count.method) == engine;
+    engine = engine_of(count.method);
+    others += fmt::format(", {} in {}{}", again ? name_beside_engine(count.method) : name_in_sentence(count.method),
+                          count.right, count.all == first.all ? "" : fmt::format(" of {}", count.all));
+  }
+  return Finding{.rule = "answer-ball",
+                 .method = std::string(subject().name),
+                 .value = static_cast<double>(first.right),
+                 .words = {{"cases", std::to_string(first.all)},
+                           {"others", others},
+                           {"drape", same_rule ? fmt::format(". On {}, same rule: {} apart until {}", scene->scene,
+                                                             nice_length(*other->difference), step_text(scene->window))
+                                               : ""}}};
+}
+
+std::optional<Finding> model_answer(const std::vector<Scene>& scenes, const std::vector<SceneData>&,
+                                    const TableSet& rows) {
+  const Scene* scene = main_scene(scenes, rows);
+  if (!scene) scene = scenes.empty() ? nullptr : &scenes.back();
+  if (!scene) return std::nullopt;
+  std::string one, ten;
+  double cost = 1;
+  for (const LeastModel& least : least_models_of(rows, scene->name)) {
+    if (!least.holds) continue;
+    if (least.of_motion(1)) one = ingredients_text(least.left_out, 1);
+    if (least.of_motion(10)) ten = ingredients_text(least.left_out, 2), cost = least.cost;
+  }
+  if (one.empty() || ten.empty()) return std::nullopt;
+  return Finding{.rule = one != ten         ? "answer-model"
+                         : ten == "nothing" ? "answer-model-none"
+                                            : "answer-model-same",
+                 .scene = scene->name,
+                 .value = 100 * cost,
+                 .words = {{"one", one}, {"ten", ten}}};
+}
+
+}  // namespace
+
+std::vector<Finding> answer_findings(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,
+                                     const TableSet& rows) {
+  std::vector<Finding> all;
+  for (const auto answer : {agreement_answer, method_answer, failure_answer, ball_answer, model_answer})
+    if (auto finding = answer(scenes, data, rows)) all.push_back(std::move(*finding));
+  return all;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,311 @@
+#include "report/page/assemble.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <deque>
+#include <regex>
+
+#include "experiments/scenes/scenes.h"
+#include "experiments/tables/certificates.h"
+#include "experiments/tables/dictionary.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "report/base/assets.h"
+#include "report/base/provenance.h"
+#include "report/figures/chart_json.h"
+#include "report/findings/findings_text.h"
+#include "report/page/player_html.h"
+#include "report/page/shown_runs.h"
+#include "report/pictures/scene_picture.h"
+#include "report/player/motions.h"
+
+namespace crosscheck {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view extents[] = {"quick", "named", "full"};  // in the order of Extent
+
+}  // namespace
+
+std::string_view name_of(Extent extent) { return extents[static_cast<int>(extent)]; }
+
+Table certificate_table(const std::vector<Certificate>& certificates) {
+  Table table = table_of<AttestedRow>();
+  for (const Certificate& c : certificates)
+    for (const CertificateRow& row : c.rows)
+      crosscheck::add(
+          table, AttestedRow{c.scene, c.method, row.quantity, row.requested, row.mapped, row.read_back, row.parity});
+  return table;
+}
+
+namespace {
+
+std::vector<Certificate> certificates_of(const TableSet& rows) {
+  std::vector<Certificate> certificates;
+  for (const AttestedRow& row : rows_of<AttestedRow>(rows)) {
+    if (certificates.empty() || certificates.back().scene != row.scene || certificates.back().method != row.method)
+      certificates.push_back({row.method, row.scene, {}});
+    certificates.back().rows.push_back({row.quantity, row.requested, row.mapped, row.read_back, row.parity});
+  }
+  return certificates;
+}
+
+}  // namespace
+
+ReportData read_report(const fs::path& folder) {
+  const Verification found = verify_report(folder);
+  // another version may say it in other words
+  if (found.of_data > 0)
+    throw InputError(
+        fmt::format("{}: its data are not those that were reported: {}", folder.string(), found.mismatches[0]));
+  const JsonField report = JsonField::parse_file((folder / "report.json").string());
+  ReportData data;
+  for (const auto& [name, ignored] : report["scenes"].items())
+    data.scenes.push_back(read_scene(folder / "data" / "scenes" / (file_name_of(name) + ".toml")));
+  for (const JsonField& table : report["tables"].elements())
+    data.rows.tables.push_back(with_declared_types(read_csv(folder / "data" / (table["name"].text() + ".csv"))));
+  data.rows.certificates = certificates_of(data.rows);
+  for (const JsonField& note : report["notes"].elements()) data.rows.notes.push_back(note.text());
+  for (const JsonField& problem : report["problems"].elements()) data.problems.push_back(problem.text());
+  for (const auto& [key, value] : report["provenance"].items()) data.provenance.emplace_back(key, value.text());
+  data.provenance = with_scenes(std::move(data.provenance), data.scenes);
+  const std::string extent = report["extent"].text();
+  const auto at = std::ranges::find(extents, extent);
+  if (at == std::end(extents)) throw InputError(fmt::format("{}: extent: unknown word '{}'", folder.string(), extent));
+  data.extent = static_cast<Extent>(at - std::begin(extents));
+  data.all = data.scenes;
+  if (data.extent != Extent::named)
+    for (const Experiment& e : experiments()) add_missing(data.all, scenes_for(e, {}, data.extent == Extent::full));
+  return data;
+}
+
+fs::path picture_file(const fs::path& folder, const Scene& scene, const char* which) {
+  return folder / "figures" / (file_name_of(scene.name) + which + ".png");
+}
+
+fs::path motions_file(const fs::path& folder, const Scene& scene) {
+  return folder / "data" / (file_name_of(scene.name) + "-motions.json");
+}
+
+namespace {
+
+void write_picture(const render::Picture& picture, const fs::path& file) {
+  render::OffscreenRenderer renderer;
+  render::write_png(picture, file, renderer);
+}
+
+/// The page has its own letters.
+render::Picture without_letters(render::Picture picture) {
+  for (auto& row : picture.rows)
+    for (render::Panel& panel : row) panel.title.clear(), panel.subtitle.clear(), panel.note.clear();
+  return picture;
+}
+
+void write_bare(const Scene& scene, const std::vector<const MethodResult*>& shown, int width, int height, bool full,
+                const fs::path& file) {
+  Shot shot = usual_shot(scene, full);
+  shot.mode = Mode::shaded, shot.width = width, shot.height = height;
+  write_picture(without_letters(picture_of(scene, shown, shot)), file);
+}
+
+}  // namespace
+
+void draw_scene(const Scene& scene, const std::vector<const MethodResult*>& shown, const MotionBase& base, bool full,
+                const fs::path& folder) {
+  const std::optional<Truth>& truth = base.truth;
+  write_picture(picture_of(scene, shown, usual_shot(scene, full)), picture_file(folder, scene, "-picture"));
+  const auto motions = stage_json(scene, base);
+  if (!motions.empty()) write_file(motions_file(folder, scene), motions);
+  const auto ok = std::ranges::find_if(shown, [](const MethodResult* r) { return r->outcome.verdict == Verdict::ok; });
+  if (ok != shown.end()) write_bare(scene, {*ok}, 304, 171, full, picture_file(folder, scene, "-thumbnail"));
+  if (scene.triangles.empty() || !truth) return;
+  // the still picture of the first screen: the engines, and the truth as a result of its own
+  MethodResult known{scene.name, "truth", {}, truth->trajectory, {}, false};
+  std::vector<const MethodResult*> beside;
+  for (const std::string& method : {ours, theirs})
+    for (const MethodResult* r : shown)
+      if (r->method == method) beside.push_back(r);
+  for (const MethodResult* r : shown)
+    if (family_of(r->method).role == Role::outside) beside.push_back(r);
+  beside.push_back(&known);
+  write_bare(scene, beside, 760, 276, full, picture_file(folder, scene, "-hero"));
+}
+
+namespace {
+
+/// A caption stands for itself wherever its figure goes; the page names the commit once.
+std::string without_commit(std::string caption) {
+  static const std::regex commit("; commit [^ ;]*\\.| Commit [^ ;]*\\.");
+  return std::regex_replace(caption, commit, caption.find("; commit") == std::string::npos ? "" : ".");
+}
+
+/// Gathers what the page says.
+class Assembly {
+ public:
+  Assembly(ReportData& data, const fs::path& folder, const fs::path& against)
+      : data_(data), folder_(folder), figures_(folder / "figures"), runs_(folder / "data" / "runs") {
+    findings_ = all_findings(data.scenes, data.rows);
+    page_.findings = findings_.overall;
+    page_.notes = data.rows.notes, page_.problems = data.problems, page_.provenance = data.provenance;
+    page_.chapters = chapters();
+    page_.figures = figures_;
+    if (const Scene* main = main_scene(data.scenes, data.rows)) page_.main_scene = main->name;
+    if (!against.empty()) {
+      page_.against = against.string();
+      page_.changes = changes_since(against, findings_);
+    }
+    for (size_t i = 0; i < data.scenes.size(); ++i) add_part(i);
+    charts_ = all_charts(
+        {data.scenes, findings_.facts, data.rows, value_of(data.provenance, "commit"), data.each_has_charts()});
+  }
+
+  WrittenReport write(const Workers& workers) {
+    fs::create_directories(figures_);
+    write_file(figures_ / "style.gp", asset("figures/style.gp"));
+    for (const Chart& chart : charts_) add(chart);
+    for (ScenePart& part : page_.scenes) add_motions(part);
+    draw(workers);
+    write_file(folder_ / "report.json", report_json(page_, findings_, charts_, data_.rows, name_of(data_.extent)));
+    write_file(folder_ / "index.html", page_html(page_));
+    bool agree = true;  // where the same rule must agree, it does
+    for (const SceneData& facts : findings_.facts)
+      for (const MethodFamily* peer : default_peers()) agree &= !same_rule_differs(facts, *peer);
+    return {std::move(page_), agree};
+  }
+
+ private:
+  void add_part(size_t i) {
+    const Scene& scene = data_.scenes[i];
+    page_.scenes.push_back({&scene, &findings_.facts[i], findings_.of_scenes[i], {}, {}, {}, {}, {}});
+    ScenePart& part = page_.scenes.back();
+    part.statistics = data_.rows.table(scene.name + "-statistics");
+    part.take = recommended_run(scene.name, 0.01, data_.rows);
+    for (const Certificate& c : data_.rows.certificates)
+      if (c.scene == scene.name) part.certificates.push_back(&c);
+    const auto given = [&](const char* which) {
+      const fs::path file = picture_file(folder_, scene, which);
+      return fs::exists(file) ? file : fs::path();
+    };
+    part.thumbnail = given("-thumbnail"), part.hero = given("-hero");
+    if (fs::exists(motions_file(folder_, scene))) part.motions = motions_file(folder_, scene);
+  }
+
+  /// Its pictures, each with its caption.
+  std::vector<PageImage> images_of(const Snapshot& s) const {
+    const auto file = [&](const std::string& name) { return figures_ / (file_name_of(name) + ".png"); };
+    if (s.moments.empty()) return {{file(s.name), s.caption, s.caption}};
+    std::vector<PageImage> images;
+    for (const auto& [t, caption] : s.moments)
+      images.push_back({file(fmt::format("{}-{}", s.name, images.size() + 1)), caption, caption});
+    return images;
+  }
+
+  /// Figures that open a chapter, for paper and for readers without scripts; renders that are not there yet.
+  void draw(const Workers& workers) {
+    std::vector<Point> points;
+    for (const Chart& chart : charts_) {
+      if (const FigureInfo* figure = figure_info(chart); figure && opens_a_chapter(page_, figure->name))
+        points.push_back({"figure: " + figure->name, figure->name,
+                          [this, &chart](TableSet&) { draw_figure(chart, page_.provenance, figures_); }});
+      for (const Snapshot& s : chart.snapshots)
+        if (std::ranges::any_of(images_of(s), [](const PageImage& image) { return !fs::exists(image.file); }))
+          points.push_back({"picture: " + s.name, s.name, [this, &s](TableSet&) { draw_snapshot(s); }});
+    }
+    for (const std::string& failed : points.empty() ? std::vector<std::string>() : workers(points))
+      page_.problems.push_back(failed);
+  }
+
+  void draw_snapshot(const Snapshot& s) const {
+    std::deque<MethodResult> results;
+    std::vector<const MethodResult*> shown;
+    for (const Snapshot::Panel& panel : s.panels) {
+      Recorder recorder;
+      Outcome out = run_method(find_method(panel.method), s.scene, panel.run, {&recorder});
+      results.push_back({s.scene.name, panel.method, std::move(out), std::move(recorder.trajectory)});
+      shown.push_back(&results.back());
+    }
+    const std::vector<PageImage> images = images_of(s);
+    if (s.moments.empty()) return write_picture(picture_of(s.scene, shown, s.shot), images[0].file);
+    // one camera for all moments: that of the first, before anything strays, and a little further off
+    std::vector<Shot> shots(s.moments.size(), s.shot);
+    for (size_t i = 0; i < shots.size(); ++i) shots[i].at = s.moments[i].first;
+    CommonView common = common_view(s.scene, shown, {shots.front()});
+    common.view.eye += 0.08 * (common.view.eye - common.view.target);
+    for (size_t i = 0; i < shots.size(); ++i)
+      write_picture(without_letters(picture_of(s.scene, shown, shots[i], common)), images[i].file);
+  }
+
+  /// The runs that a figure plays, once for all figures that play them; false where there are none.
+  bool add_runs(const std::string& key, const std::string& only = "") {
+    if (std::ranges::find(page_.runs, key, &PlayableRuns::key) != page_.runs.end()) return true;
+    auto runs = runs_.of(key, only, page_.notes);
+    if (!runs) return false;
+    runs->stage = stage_of_map(key, data_.all, data_.extent == Extent::full);
+    for (const Scene& scene : data_.scenes)
+      if ((key == scene.name + "-speed-accuracy" || key == scene.name + "-engines") &&
+          fs::exists(motions_file(folder_, scene)))
+        runs->scene = scene.name;
+    if (runs->stage.empty() && runs->scene.empty()) return false;
+    for (const std::string& method : runs->names) note_method(method);
+    page_.runs.push_back(std::move(*runs));
+    return true;
+  }
+
+  void add(const Chart& chart) {
+    Chapter::Entry entry{chart.chapter, chart.heading, chart.text, {}, {}, chart.tables};
+    if (const FigureInfo* figure = figure_info(chart)) {
+      if (entry.heading.empty()) entry.heading = figure->title;
+      write_figure_data(chart, page_.provenance, figures_);
+      page_.charts[figure->name] = chart_json(chart);
+      note_methods(chart);
+      entry.figures.push_back({figure->name, figure->title, figure->finding + " " + without_commit(figure->caption)});
+      if (add_runs(figure->runs)) entry.figures.back().runs = figure->runs;
+    }
+    entry.shown = chart.shown;
+    for (const Snapshot& s : chart.snapshots)
+      for (PageImage& image : images_of(s)) entry.images.push_back(std::move(image));
+    for (Chapter& chapter : page_.chapters)
+      if (chapter.id == chart.chapter || std::ranges::find(chapter.joins, chart.chapter) != chapter.joins.end() ||
+          (chart.chapter.empty() && chart.scene.empty() && chapter.id == "speed-accuracy"))
+        chapter.entries.push_back(entry);
+    for (ScenePart& part : page_.scenes)
+      if (part.scene->name == chart.scene)
+        part.figures.insert(part.figures.end(), entry.figures.begin(), entry.figures.end());
+  }
+
+  void note_methods(const Chart& chart) {
+    for (const std::string& method : methods_in(chart)) note_method(method);
+  }
+  void note_method(const std::string& method) {
+    if (std::ranges::find(page_.methods, method) == page_.methods.end()) page_.methods.push_back(method);
+  }
+
+  /// The runs of a scene that its player has, and those that it begins with.
+  void add_motions(ScenePart& part) {
+    const std::string& name = part.scene->name;
+    if (part.motions.empty()) return;
+    add_runs(name + "-engines");
+    if (part.take) add_runs(name + "-speed-accuracy", part.take->method);  // all of them where a chart plays them
+    part.runs = shown_runs(part, data_.rows, [&](const std::string& method) {
+      const auto set = std::ranges::find(page_.runs, name + "-speed-accuracy", &PlayableRuns::key);
+      return set != page_.runs.end() && std::ranges::find(set->names, method) != set->names.end();
+    });
+  }
+
+  ReportData& data_;
+  fs::path folder_, figures_;
+  RunsFolder runs_;
+  AllFindings findings_;
+  std::vector<Chart> charts_;
+  PageContent page_;
+};
+
+}  // namespace
+
+WrittenReport write_report(ReportData& data, const fs::path& folder, const fs::path& against, const Workers& workers) {
+  return Assembly(data, folder, against).write(workers);
+}
+
+}  // namespace crosscheck

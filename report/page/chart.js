@@ -1,0 +1,639 @@
+// Charts of the page, drawn from the numbers that stand in it (chart_json.h): curves over two axes, stacked bars, dots
+// with intervals, maps of cells. Names stand at the ends of curves; the methods in question have a colour, the others
+// are grey until they are pointed at.
+const charts = (() => {
+  'use strict';
+
+  const svgNames = 'http://www.w3.org/2000/svg';
+  /** An SVG element with attributes and children. */
+  const svg = (tag, attributes = {}, ...children) => {
+    const element = document.createElementNS(svgNames, tag);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    element.append(...children);
+    return element;
+  };
+
+  const ruler = document.createElement('canvas').getContext('2d');
+  const letters = 12.5, lineHeight = 15;  // px, of charts
+  /** Width of a text in px. */
+  const widthOf = (text, bold = false) => {
+    ruler.font = `${bold ? 'bold ' : ''}${letters}px "Liberation Sans", Arial, Helvetica, sans-serif`;
+    return ruler.measureText(text).width;
+  };
+
+  // Numbers.
+
+  const superscript = number => String(number).replace(/[-\d]/g, sign => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(sign)]);
+  const prefixes = {'-12': 'p', '-9': 'n', '-6': 'µ', '-3': 'm', 0: '', 3: 'k', 6: 'M', 9: 'G'};
+
+  /** A value with its unit, three digits at most: "1.5 ms", "30 %", "10⁻⁷". */
+  const nice = (value, unit = '') => {
+    if (value === 0) return unit && unit !== '1' ? `0 ${unit}` : '0';
+    const size = Math.abs(value), rounded = Number(value.toPrecision(3));
+    if (unit === '%' || unit === '1' || !unit || /[^a-zA-Z]/.test(unit)) {
+      const tail = unit && unit !== '1' ? ` ${unit}` : '';
+      if (size >= 1e-4 && size < 1e5) return `${rounded}${tail}`;
+      const power = Math.floor(Math.log10(size) + 1e-9), front = Number((value / 10 ** power).toPrecision(3));
+      return `${front === 1 ? '' : `${front} × `}10${superscript(power)}${tail}`;
+    }
+    const step = Math.max(-12, Math.min(unit === 's' || unit === 'm' ? 0 : 9, 3 * Math.floor(Math.log10(size) / 3 + 1e-9)));
+    if (size < 1e-12) return `10${superscript(Math.round(Math.log10(size)))} ${unit}`;
+    return `${Number((value / 10 ** step).toPrecision(3))} ${prefixes[step]}${unit}`;
+  };
+
+  // Scales: a value's place in px, and ticks.
+
+  const linear = (low, high, from, to) => {
+    const span = high - low || 1, rough = span / Math.max(2, Math.abs(to - from) / 80);
+    const power = 10 ** Math.floor(Math.log10(rough)), step = [1, 2, 5, 10].find(k => k * power >= rough) * power;
+    const ticks = [];
+    for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * span; ++k) ticks.push(Number((k * step).toPrecision(12)));
+    return {at: value => from + (to - from) * (value - low) / span, ticks, low, high};
+  };
+
+  const logarithmic = (low, high, from, to, apart = 46) => {
+    const a = Math.log10(low), b = Math.log10(high), decades = b - a;
+    const room = Math.abs(to - from) / apart, every = Math.max(1, Math.ceil(decades / room));
+    const fronts = decades < 1.5 ? [1, 2, 5] : decades < 3 && room > 2 * decades ? [1, 3] : [1];
+    const ticks = [];
+    for (let k = Math.floor(a); k <= Math.ceil(b); ++k)
+      if (k % every === 0)
+        for (const front of fronts) {
+          const tick = Number(`${front}e${k}`);
+          if (tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9)) ticks.push(tick);
+        }
+    if (ticks.length < 2) ticks.splice(0, 2, Number(low.toPrecision(2)), Number(high.toPrecision(2)));
+    return {at: value => from + (to - from) * (Math.log10(value) - a) / decades, ticks, low, high};
+  };
+
+  const scale = (axis, [low, high], from, to) => (axis.log ? logarithmic : linear)(low, high, from, to, axis.apart);
+
+  /** Both ends of an axis: as given, or around the values. */
+  const rangeOf = (axis, values) => {
+    const seen = values.filter(v => Number.isFinite(v) && (!axis.log || v > 0));
+    let low = axis.low ?? Math.min(...seen), high = axis.high ?? Math.max(...seen);
+    if (axis.log) {
+      if (axis.low == null) low /= 1.4;
+      if (axis.high == null) high *= 1.4;
+      if (!(high > low)) low /= 2, high *= 2;
+    } else {
+      if (axis.low == null && low > 0 && low < 0.4 * high) low = 0;
+      const room = high > low ? 0.04 * (high - low) : Math.abs(high) || 1;
+      if (axis.high == null) high += room;
+      if (axis.low == null && low !== 0) low -= room;
+    }
+    return [low, high];
+  };
+
+  // Looks: the colour of a method is that of its family, everywhere.
+
+  const marks = {
+    circle: r => `M${-r},0a${r},${r} 0 1,0 ${2 * r},0a${r},${r} 0 1,0 ${-2 * r},0`,
+    square: r => `M${-r},${-r}h${2 * r}v${2 * r}h${-2 * r}z`,
+    diamond: r => `M0,${-1.3 * r}L${1.3 * r},0L0,${1.3 * r}L${-1.3 * r},0z`,
+    triangle: r => `M0,${-1.2 * r}L${1.15 * r},${0.9 * r}H${-1.15 * r}z`,
+    down: r => `M0,${1.2 * r}L${1.15 * r},${-0.9 * r}H${-1.15 * r}z`,
+    cross: r => `M${-r},${-r}L${r},${r}M${-r},${r}L${r},${-r}`
+  };
+  const others = ['var(--mysim)', 'var(--bullet)', 'var(--outside)', 'var(--difference)', 'var(--mysim2)', 'var(--bullet2)'];
+  const otherMarks = ['circle', 'square', 'triangle', 'diamond'], sceneMarks = ['circle', 'square', 'diamond', 'triangle'];
+
+  /** Looks of the series of a chart: {colour, mark, hero, text} for each. */
+  const looksOf = (series, methods) => {
+    let free = 0;
+    const few = series.filter(s => s.line !== false).length <= 4;
+    return series.map(s => {
+      const known = methods[s.method];
+      if (s.beside) return {colour: 'var(--soft)', mark: 'circle', hero: true, text: s.name};
+      if (!known) return {colour: others[free % 6], mark: otherMarks[free++ % 4], hero: true, text: s.name};
+      const hero = s.hero ?? (known.hero || few);
+      return {colour: hero ? `var(--${known.colour})` : 'var(--grey)', own: `var(--${known.colour})`, mark: known.mark, hero, text: s.name === s.method ? known.title : s.name};
+    });
+  };
+
+  // Labels: each finds a place that no other has, or waits until it is pointed at.
+
+  class Places {
+    constructor(width, height) {
+      Object.assign(this, {width, height, taken: []});
+    }
+    free(box) {
+      return box.left >= 0 && box.left + box.width <= this.width && box.top >= 0 && box.top + box.height <= this.height &&
+          !this.taken.some(
+              other => box.left < other.left + other.width && other.left < box.left + box.width &&
+                  box.top < other.top + other.height && other.top < box.top + box.height);
+    }
+    /** The first of the places (left, baseline) at which the text, or lines of text, is free; null where there is none. */
+    take(text, places, bold) {
+      const lines = [text].flat(), width = Math.max(...lines.map(line => widthOf(line, bold)));
+      for (const [x, y, anchor] of places) {
+        const left = anchor === 'end' ? x - width : anchor === 'middle' ? x - width / 2 : x;
+        const box = {left: left - 2, top: y - letters + 1, width: width + 4, height: letters + 2 + lineHeight * (lines.length - 1)};
+        if (!this.free(box)) continue;
+        this.taken.push(box);
+        return [left, y];
+      }
+      return null;
+    }
+    keep(left, top, width, height) {
+      this.taken.push({left, top, width, height});
+    }
+  }
+
+  const label = (text, [x, y], attributes = {}) => svg('text', {x, y, class: 'halo', ...attributes}, text);
+
+  /** Words in lines that are no wider. */
+  const wrapped = (text, width) => {
+    const lines = [];
+    for (const word of text.split(' ')) {
+      const longer = lines.length ? `${lines[lines.length - 1]} ${word}` : word;
+      if (lines.length && widthOf(longer) <= width) lines[lines.length - 1] = longer;
+      else lines.push(word);
+    }
+    return lines;
+  };
+
+  /** Places for the name of a point: beside it, then above and below, further and further. */
+  const around = ([x, y], width) => {
+    const places = [];
+    for (const away of [0, 13, -13, 26, -26, 39, -39])
+      places.push([x + 9, y + 4 + away]);
+    for (const away of [-10, 19]) places.push([x, y + away, 'middle']);
+    for (const away of [0, 13, -13, 26, -26, 39, -39, 52]) places.push([x - 9, y + 4 + away, 'end']);
+    return places.filter(([left]) => left < width);
+  };
+
+  /** Places right of the end of a line, further and further up and down. */
+  const besideEnd = ([x, y]) => Array.from({length: 17}, (_, k) => [x + 9, y + 4 + 7 * (k % 2 ? -(k + 1) : k)]);
+
+  // Axes.
+
+  /** A quantity in bold and what else is said of it: the first of these [bold, plain] that is no wider. */
+  const fitting = (width, ...texts) => {
+    const [bold, plain] = texts.find(([quantity, more]) => widthOf(quantity, true) + widthOf(more) <= width) ?? texts[texts.length - 1];
+    return svg('text', {class: 'axis'}, svg('tspan', {class: 'quantity'}, bold), svg('tspan', {}, plain));
+  };
+
+  const titleOf = (axis, width = Infinity) => {
+    const unit = axis.unit && axis.unit !== '1' && !['s', 'm', '%'].includes(axis.unit) ? `, ${axis.unit}` : '';
+    const quantity = axis.label === 't' ? 'Time' : axis.label.charAt(0).toUpperCase() + axis.label.slice(1);
+    return fitting(width, ...[...(axis.more ?? []), ''].map(more => [quantity, more || unit]));
+  };
+
+  const tickText = (axis, value) =>
+      nice(value, ['s', 'm', '%'].includes(axis.unit) ? axis.unit : '');
+
+  /** Grid lines and tick texts below and at the left; the title of y stands above it, that of x below it. */
+  const axes = (root, chart, x, y, frame) => {
+    const {left, right, top, bottom} = frame;
+    for (const tick of y.ticks) {
+      const bold = chart.motion && [0.1, 1, 10].includes(tick);
+      root.append(
+          svg('line', {class: bold ? 'measure' : 'grid', x1: left, x2: right, y1: y.at(tick), y2: y.at(tick)}),
+          svg('text', {x: left - 6, y: y.at(tick) + 4, 'text-anchor': 'end', class: bold ? 'bold' : ''}, tickText(chart.y, tick)));
+    }
+    root.append(svg('line', {class: 'base', x1: left, x2: right, y1: bottom, y2: bottom}));
+    let end = -Infinity;
+    const ticks = chart.categories ?? x.ticks.map(tick => [tick, tickText(chart.x, tick)]);
+    for (const [tick, text] of ticks) {
+      const at = x.at(tick), half = widthOf(text) / 2;
+      if (at - half < end + 8 && !chart.categories) continue;
+      end = at + half;
+      root.append(
+          svg('line', {class: 'base', x1: at, x2: at, y1: bottom, y2: bottom + 5}),
+          svg('text', frame.slanted ? {x: at, y: bottom + 14, 'text-anchor': 'end', transform: `rotate(-35 ${at} ${bottom + 14})`} :
+                                         {x: Math.min(at, frame.width - half), y: bottom + 18, 'text-anchor': 'middle'}, text));
+      if (chart.duration) root.append(svg('text', {x: at, y: bottom + 34, 'text-anchor': 'middle', class: 'soft'}, `${Number((chart.duration / tick).toPrecision(1)).toLocaleString('en').replaceAll(',', '\u202f')} ×`));
+    }
+    const yTitle = titleOf(chart.y, frame.width), xTitle = titleOf(chart.x, frame.width - 4);
+    yTitle.setAttribute('x', 0), yTitle.setAttribute('y', 13);
+    const half = Math.min(frame.width / 2, (widthOf(xTitle.firstChild.textContent, true) + widthOf(xTitle.lastChild.textContent)) / 2);
+    xTitle.setAttribute('x', Math.max(half, Math.min((left + right) / 2, frame.width - half))), xTitle.setAttribute('y', frame.height - 4);
+    xTitle.setAttribute('text-anchor', 'middle');
+    root.append(yTitle, xTitle);
+  };
+
+  /** A mark that says what its run is, and plays it where there is one. */
+  const mark = (shape, size, [x, y], look, tip, filled = true) => {
+    const path = svg('path', {
+      d: marks[shape](size),
+      transform: `translate(${x.toFixed(1)},${y.toFixed(1)})`,
+      class: shape === 'cross' ? 'mark cross' : filled ? 'mark' : 'mark open',
+      style: `--own: ${look.colour}`
+    });
+    if (tip?.words) path.dataset.words = tip.words, path.setAttribute('aria-label', tip.words);
+    if (tip?.run) path.dataset.run = tip.run;
+    return path;
+  };
+
+  /** Thinned to what a screen shows: the places of a line, at most one in a third of a px. */
+  const pathOf = places => {
+    let text = '', last = null;
+    for (const [x, y] of places) {
+      if (last && Math.abs(x - last[0]) < 0.3 && Math.abs(y - last[1]) < 0.3) continue;
+      text += `${text ? 'L' : 'M'}${x.toFixed(1)},${y.toFixed(1)}`;
+      last = [x, y];
+    }
+    return text;
+  };
+
+  // Curves.
+
+  /** A chart whose y is a length, as one in % of the motion. */
+  const inPercent = chart => {
+    const part = length => 100 * length / chart.motion, inside = points => points.map(([x, y]) => [x, part(y)]);
+    return {
+      ...chart,
+      x: {...chart.x, more: chart.duration ? [', and how many times faster than real time', ', times real time', ''] : []},
+      y: {...chart.y, unit: '%', apart: 24, low: chart.y.low == null ? null : part(chart.y.low), high: null, more: [`, in % of the motion (${nice(chart.motion, 'm')}) and in mm`, ', % of the motion', ', %']},
+      series: chart.series.map(s => ({...s, points: inside(s.points)})),
+      pareto: inside(chart.pareto ?? []),
+      floor: chart.floor && {...chart.floor, y: part(chart.floor.y)},
+      take: chart.take && {...chart.take, y: part(chart.take.y)}
+    };
+  };
+
+  const curves = (root, given, methods, width) => {
+    const chart = given.motion ? inPercent(given) : given;
+    const slanted = chart.categories?.some(([, text]) => widthOf(text) > 0.75 * width / chart.categories.length);
+    const height = slanted ? 420 : chart.flat ? Math.min(300, Math.max(210, 0.55 * width)) : Math.min(540, Math.max(330, 0.62 * width));
+    const looks = looksOf(chart.series, methods), all = [], xs = [], ys = [];
+    for (const s of chart.series)
+      for (const [px, py] of s.points) xs.push(px), ys.push(py);
+    // what failed early is told, but does not stretch the axis
+    const soonest = chart.motion && xs.length ? Math.min(...xs) / (width < 600 ? 3 : 12) : -Infinity;
+    for (const f of chart.failures ?? []) xs.push(Math.max(f.x, soonest));
+    if (chart.critical) xs.push(chart.critical.x / 1.2);
+    if (chart.floor && !(chart.y.low > chart.floor.y)) ys.push(chart.floor.y);
+    const xRange = rangeOf(chart.x, xs), yRange = rangeOf(chart.y, ys.length ? ys : [0.1, 1]);
+    const probe = scale(chart.y, yRange, height, 0);
+    const left = 10 + Math.max(...probe.ticks.map(tick => widthOf(tickText(chart.y, tick))));
+    const ending = Math.max(0, ...chart.series.map((s, i) => (looks[i].hero && s.points.length ? widthOf(looks[i].text, true) : 0)));
+    const failing = (chart.failures ?? []).length > 0;
+    const top = 26 + (failing ? 22 : 0), bottom = height - (slanted ? 110 : chart.duration ? 60 : 42);
+    const right = width - (chart.categories ? 20 : Math.min(ending + 18, (chart.flat ? 0.34 : 0.24) * width, 170));
+    const frame = {left, right, top, bottom, width, height, slanted};
+    const x = scale(chart.x, xRange, left, right), y = scale(chart.y, yRange, bottom, top);
+    const inside = ([px, py]) => [Math.max(left, Math.min(right, x.at(px))), Math.max(top, Math.min(bottom, y.at(py)))];
+    root.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    root.setAttribute('height', height);
+    const places = new Places(width, height);
+    places.keep(0, bottom + 1, width, height - bottom);  // the axis and its texts
+    places.keep(0, 0, width, 18);
+    places.keep(0, top, left - 2, bottom - top);
+    if (chart.window) {
+      const from = x.at(chart.window.x);
+      root.append(svg('rect', {class: 'beyond', x: from, y: top, width: Math.max(0, right - from), height: bottom - top}));
+      const at = places.take(chart.window.text, [[from + 6, top + 14], [right - 6, top + 14, 'end']]);
+      if (at) root.append(label(chart.window.text, at, {class: 'halo soft'}));
+    }
+    if (chart.critical) root.append(svg('rect', {class: 'beyond', x: left, y: top, width: Math.max(0, x.at(chart.critical.x) - left), height: bottom - top}));
+    axes(root, chart, x, y, frame);
+    if (chart.critical) critical(root, chart.critical, x, frame, places);
+    for (const guide of chart.guides ?? []) {
+      const place = guide.axis === 'x' ? x.at(guide.at) : y.at(guide.at);
+      if (guide.axis === 'x' ? place < left || place > right : place < top || place > bottom) continue;
+      root.append(svg('line', guide.axis === 'x' ? {class: 'guide', x1: place, x2: place, y1: top, y2: bottom} :
+                                                   {class: 'guide', x1: left, x2: right, y1: place, y2: place}));
+      const at = places.take(guide.text, guide.axis === 'x' ? [[place + 5, bottom - 6], [place - 5, bottom - 6, 'end'], [place + 5, top + 26]] :
+                                                              [[left + 4, place - 4], [right - 4, place - 4, 'end']]);
+      if (at) root.append(label(guide.text, at, {class: 'halo soft'}));
+    }
+    if (chart.floor && chart.floor.y >= yRange[0]) {
+      const at = y.at(chart.floor.y);
+      root.append(svg('line', {class: 'floor', x1: left, x2: right, y1: at, y2: at}));
+      const place = places.take(chart.floor.text, [[left + 4, at - 5], [right - 4, at - 5, 'end'], [left + 4, at + 14]]);
+      if (place) root.append(label(chart.floor.text, place, {class: 'halo soft'}));
+    }
+    if (chart.pareto?.length) {
+      const stairs = [];
+      // down to the axis, not along it
+      const far = chart.pareto.findIndex(([, py]) => py < yRange[0]);
+      chart.pareto.slice(0, far < 0 ? undefined : far + 1).map(inside).forEach(([px, py], i) => {
+        if (i) stairs.push([px, stairs[stairs.length - 1][1]]);
+        stairs.push([px, py]);
+      });
+      root.append(svg('path', {class: 'pareto', d: pathOf(stairs)}));
+    }
+    const below = ([, py]) => py < yRange[0] * (1 - 1e-9);
+    // the grey ones beneath
+    const order = chart.series.map((_, i) => i).sort((a, b) => looks[a].hero - looks[b].hero);
+    for (const i of order) {
+      const s = chart.series[i], look = looks[i];
+      if (!s.points.length) continue;
+      const group = svg('g', {class: look.hero ? 'series hero' : 'series', style: `--own: ${look.colour}; --lit: ${look.own ?? look.colour}`});
+      if (s.method) group.dataset.method = s.method;
+      const at = s.points.map(inside);
+      if (s.line !== false) group.append(svg('path', {class: s.beside ? 'line dashed' : 'line', d: pathOf(at.filter((_, k) => !below(s.points[k])))}));
+      if (s.marks !== false)
+        at.forEach((place, k) => group.append(
+            below(s.points[k]) ? mark('down', look.hero ? 4 : 3.5, [place[0], bottom - 4], look, s.tips?.[k], !s.open?.[k]) :
+                                 mark(look.mark, look.hero ? 4 : 3, place, look, s.tips?.[k], !s.open?.[k])));
+      if (s.marks !== false) at.forEach(([px, py]) => places.keep(px - 4, py - 4, 8, 8));
+      root.append(group);
+      const seen = at.filter((_, k) => !below(s.points[k])), ends = seen.length ? seen : at;  // names are those of what is seen
+      all.push({i, group, end: ends[ends.length - 1], first: ends[0]});
+    }
+    if (chart.motion)
+      for (const tick of y.ticks.filter(tick => [0.1, 1, 10].includes(tick))) {
+        const length = nice(chart.motion * tick / 100, 'm'), at = places.take(length, [[left + 5, y.at(tick) - 5], [right - 4, y.at(tick) - 5, 'end'], [right - 4, y.at(tick) + 14, 'end']]);
+        const shaded = chart.critical && at?.[0] < x.at(chart.critical.x);
+        if (at) root.append(label(length, at, {class: 'halo soft', style: shaded ? '--back: var(--panel)' : ''}));
+      }
+    if (chart.take) take(root, chart, looks, [x.at(chart.take.x), y.at(chart.take.y)], places);
+    // crosses stand above the frame at the cost that they had
+    if (failing) {
+      let end = left;
+      for (const f of chart.failures) {
+        const known = methods[f.method], colour = known?.hero ? `var(--${known.colour})` : 'var(--grey)';
+        const cross = mark('cross', 4, [Math.max(left, Math.min(right, x.at(f.x))), top - 10], {colour}, f);
+        if (f.method) cross.dataset.method = f.method;
+        root.append(cross);
+        end = Math.max(end, x.at(f.x));
+      }
+      const word = chart.failures.length === 1 ? '1 run failed' : `${chart.failures.length} runs failed`;
+      const place = places.take(word, [[Math.min(end + 10, width - widthOf(word) - 4), top - 6], [left, top - 6]]);
+      if (place) root.append(label(word, place, {class: 'halo soft'}));
+    }
+    for (const hero of [true, false])
+      for (const each of all.filter(one => looks[one.i].hero === hero)) {
+        const look = looks[each.i], s = chart.series[each.i];
+        // along a bare line the end is the place; lines with marks are near their names anywhere
+        const spots = s.marks === false ? besideEnd(each.end) : [...around(each.end, width - 20), ...around(each.first, width - 20)];
+        const at = hero || width >= 500 ? places.take(look.text, spots, hero) : null;
+        const text = label(look.text, at ?? [Math.min(each.end[0] + 9, width - widthOf(look.text)), each.end[1] + 4], {class: at ? 'halo name' : 'halo name waiting'});
+        each.group.append(text);
+      }
+    const runs = chart.series.flatMap(s => (s.marks === false ? [] : s.points)), low = runs.filter(below).length;
+    const early = (chart.failures ?? []).filter(f => f.x < xRange[0]).length, beyond = [];
+    if (low) beyond.push(`${low} of ${runs.length} runs are nearer than ${nice(yRange[0], '%')}: triangles on the axis.`);
+    if (early) beyond.push(`${early} of ${chart.failures.length} failed runs ended sooner than the axis begins: crosses at its left end.`);
+    if (chart.motion) return beyond.join(' ');
+  };
+
+  /** The critical step of the rule to take, and the shade in which no step of it holds. */
+  const critical = (root, {x: at, name, beyond}, x, {left, top, bottom}, places) => {
+    const px = x.at(at), long = widthOf(name);
+    root.append(
+        svg('line', {class: 'critical', x1: px, x2: px, y1: top, y2: bottom}),
+        svg('text', {transform: `translate(${px - 5},${bottom - 8}) rotate(-90)`, class: 'halo', style: '--back: var(--panel)'}, name));
+    places.keep(px - 18, bottom - 12 - long, 22, long + 8);
+    const lines = wrapped(beyond, px - left - 26), spot = px - left < 90 ? null : places.take(lines, [0.5, 0.7, 0.35, 0.2].map(part => [left + 6, top + part * (bottom - top)]));
+    if (spot) lines.forEach((line, k) => root.append(label(line, [spot[0], spot[1] + lineHeight * k], {style: '--back: var(--panel)'})));
+  };
+
+  /** A ring around the run to take, with its words. */
+  const take = (root, chart, looks, [px, py], places) => {
+    const near = (a, b) => Math.abs(a - b) <= 1e-4 * Math.abs(b);
+    const of = chart.series.findIndex(s => s.points.some(([x, y]) => near(x, chart.take.x) && near(y, chart.take.y)));
+    const colour = looks[of]?.own ?? looks[of]?.colour ?? 'var(--ink)', lines = [chart.take.name, chart.take.more];
+    const group = svg('g', {class: 'take', style: `--lit: ${colour}`}, svg('circle', {class: 'ring', cx: px, cy: py, r: 9}));
+    places.keep(px - 10, py - 10, 20, 20);
+    const spots = [-16, 4, 18, -32, 34, -48, 50, -64, 66, 84].flatMap(dy => [[px + 15, py + dy], [px - 15, py + dy, 'end']]);
+    const at = places.take(lines, spots, true) ?? spots[2].slice(0, 2);
+    group.append(label(lines[0], at, {class: 'halo bold', style: `fill: ${colour}`}), label(lines[1], [at[0], at[1] + lineHeight], {style: `fill: ${colour}`}));
+    root.append(group);
+  };
+
+  // Bars: what came in to the left of zero, where it went to the right.
+
+  const bars = (root, chart, methods, width) => {
+    const rows = chart.names.length, high = 24, top = 34, height = top + rows * high + 44 + 20 * Math.ceil(chart.parts.length / 3);
+    const left = Math.min(0.36 * width, 12 + Math.max(...chart.names.map(name => widthOf(name)))), right = width - 16;
+    const sums = chart.names.map((_, k) => chart.parts.reduce(([low, up], part) => [low + Math.min(0, part.height[k]), up + Math.max(0, part.height[k])], [0, 0]));
+    const x = linear(Math.min(0, ...sums.map(s => s[0])), Math.max(...sums.map(s => s[1])), left, right), bottom = top + rows * high;
+    root.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    root.setAttribute('height', height);
+    for (const tick of x.ticks)
+      root.append(
+          svg('line', {class: 'grid', x1: x.at(tick), x2: x.at(tick), y1: top, y2: bottom}),
+          svg('text', {x: x.at(tick), y: bottom + 18, 'text-anchor': 'middle'}, nice(tick)));
+    const title = titleOf(chart.x);
+    title.setAttribute('x', left), title.setAttribute('y', 14);
+    root.append(title);
+    chart.names.forEach((name, k) => {
+      const row = svg('g', {class: 'series hero'});
+      if (methods[name]) row.dataset.method = name;
+      const y = top + k * high;
+      row.append(svg('text', {x: left - 8, y: y + high / 2 + 4, 'text-anchor': 'end', style: methods[name] ? `fill: var(--${methods[name].colour})` : ''}, methods[name]?.title ?? name));
+      let low = 0, up = 0;
+      for (const part of chart.parts) {
+        const value = part.height[k], from = value < 0 ? low + value : up;
+        if (value < 0) low += value;
+        else up += value;
+        if (!value) continue;
+        const box = svg('rect', {x: x.at(from), y: y + 3, width: Math.max(0.5, x.at(from + Math.abs(value)) - x.at(from)), height: high - 6, class: part.hatched ? 'bar hatched' : 'bar', style: `--own: ${part.colour}`});
+        box.dataset.words = `${name}\n${part.title}: ${nice(value, chart.x.unit)}`;
+        row.append(box);
+      }
+      root.append(row);
+    });
+    root.append(svg('line', {class: 'base', x1: x.at(0), x2: x.at(0), y1: top, y2: bottom}));
+    const third = (width - 16) / 3;
+    chart.parts.forEach((part, k) => {
+      const px = 4 + third * (k % 3), py = bottom + 40 + 20 * Math.floor(k / 3);
+      root.append(
+          svg('rect', {x: px, y: py - 10, width: 12, height: 12, class: part.hatched ? 'bar hatched' : 'bar', style: `--own: ${part.colour}`}),
+          svg('text', {x: px + 18, y: py}, part.title));
+    });
+  };
+
+  // Dots with intervals over a logarithmic axis: a line for each name.
+
+  const dots = (root, chart, methods, width) => {
+    const high = 22, headings = new Map(chart.headings ?? []), top = 34;
+    const rows = chart.names.length + headings.size, bottom = top + rows * high;
+    const looks = looksOf(chart.series.map(s => ({...s, hero: true})), methods);
+    const values = chart.series.flatMap(s => s.dots.filter(Boolean).flatMap(d => [d[1], d[2]]));
+    const left = Math.min(0.4 * width, 12 + Math.max(...chart.names.map(name => widthOf(methods[name]?.title ?? name)))), right = width - 16;
+    const x = logarithmic(Math.min(...values) / 1.3, Math.max(...values) * 1.3, left, right), height = bottom + 44 + 20;
+    root.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    root.setAttribute('height', height);
+    let end = -Infinity;
+    for (const tick of x.ticks) {
+      root.append(svg('line', {class: 'grid', x1: x.at(tick), x2: x.at(tick), y1: top, y2: bottom}));
+      const text = tickText(chart.x, tick), half = widthOf(text) / 2;
+      if (x.at(tick) - half < end + 8) continue;
+      end = x.at(tick) + half;
+      root.append(svg('text', {x: x.at(tick), y: bottom + 18, 'text-anchor': 'middle'}, text));
+    }
+    const title = titleOf(chart.x);
+    title.setAttribute('x', 0), title.setAttribute('y', 14);
+    root.append(title);
+    let y = top;
+    chart.names.forEach((name, k) => {
+      if (headings.has(k)) root.append(svg('text', {x: 0, y: y + 15, class: 'quantity'}, headings.get(k))), y += high;
+      root.append(
+          svg('line', {class: 'grid', x1: left, x2: right, y1: y + high / 2, y2: y + high / 2}),
+          svg('text', {x: left - 8, y: y + high / 2 + 4, 'text-anchor': 'end'}, methods[name]?.title ?? name));
+      chart.series.forEach((s, j) => {
+        const dot = s.dots[k];
+        if (!dot) return;
+        const [value, low, up] = dot;
+        const group = svg('g', {class: 'series hero', style: `--own: ${looks[j].colour}; --lit: ${looks[j].colour}`});
+        if (s.method ?? methods[name]) group.dataset.method = s.method ?? name;
+        group.append(
+            svg('line', {class: 'whisker', x1: x.at(low), x2: x.at(up), y1: y + high / 2, y2: y + high / 2}),
+            mark(looks[j].mark, 4.5, [x.at(value), y + high / 2], looks[j], {words: `${name}\n${looks[j].text}: ${nice(value, chart.x.unit)}`}));
+        root.append(group);
+      });
+      y += high;
+    });
+    let px = 4;
+    chart.series.forEach((s, j) => {
+      root.append(mark(looks[j].mark, 4.5, [px + 6, bottom + 40], looks[j]), svg('text', {x: px + 18, y: bottom + 44}, looks[j].text));
+      px += 34 + widthOf(looks[j].text);
+    });
+  };
+
+  // Maps: what became of each run over two logarithmic axes, in panels that share them.
+
+  const map = (root, chart, methods, width) => {
+    const columns = Math.max(1, Math.min(3, Math.floor(width / 300), chart.panels.length));
+    const rows = Math.ceil(chart.panels.length / columns), wide = width / columns, high = Math.min(300, 0.8 * wide);
+    const key = 24, height = rows * (high + 64) + key + 4;
+    const cells = chart.panels.flatMap(p => p.cells);
+    const apart = values => {
+      const sorted = [...new Set(values.map(v => Math.round(1e6 * Math.log(v)) / 1e6))].sort((a, b) => a - b);
+      let least = Infinity;
+      for (let i = 1; i < sorted.length; ++i) least = Math.min(least, sorted[i] - sorted[i - 1]);
+      return [Math.exp(sorted[0]), Math.exp(sorted[sorted.length - 1]), Number.isFinite(least) ? Math.exp(least / 2) : 1.1];
+    };
+    root.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    root.setAttribute('height', height);
+    const [x0, x1, xHalf] = apart(cells.map(c => c[0])), [y0, y1, yHalf] = apart(cells.map(c => c[1]));
+    chart.panels.forEach((panel, k) => {
+      const left = (k % columns) * wide + 62, right = (k % columns + 1) * wide - 12, top = Math.floor(k / columns) * (high + 64) + 44, bottom = top + high - 20;
+      const x = logarithmic(x0 / xHalf, x1 * xHalf, left, right), y = logarithmic(y0 / yHalf, y1 * yHalf, bottom, top);
+      const [, , ownX] = apart(panel.cells.map(c => c[0])), [, , ownY] = apart(panel.cells.map(c => c[1]));
+      const group = svg('g', {class: 'series hero'});
+      if (methods[panel.title]) group.dataset.method = panel.title;
+      group.append(svg('text', {x: left, y: top - 8, class: 'quantity'}, methods[panel.title]?.title ?? panel.title));
+      if (k % columns === 0) {
+        const title = titleOf(chart.y);
+        title.setAttribute('x', 0), title.setAttribute('y', top - 26);
+        group.append(title);
+      }
+      panel.cells.forEach(([cx, cy, kind, words, run]) => {
+        const box = svg('rect', {
+          x: x.at(cx / ownX), width: x.at(cx * ownX) - x.at(cx / ownX) + 0.2, y: y.at(cy * ownY), height: y.at(cy / ownY) - y.at(cy * ownY) + 0.2,
+          class: 'cell', style: `--own: ${chart.kinds[kind].colour}`
+        });
+        if (words) box.dataset.words = words;
+        if (run) box.dataset.run = run;
+        group.append(box);
+      });
+      if (panel.predicted.length > 1) group.append(svg('path', {class: 'predicted', d: pathOf(panel.predicted.map(([px, py]) => [x.at(px), y.at(py)]))}));
+      for (const [px, py] of panel.measured) group.append(svg('circle', {class: 'measured', cx: x.at(px), cy: y.at(py), r: 3}));
+      for (const tick of y.ticks) group.append(svg('text', {x: left - 6, y: y.at(tick) + 4, 'text-anchor': 'end'}, tickText(chart.y, tick)));
+      let end = -Infinity;
+      for (const tick of x.ticks) {
+        const text = tickText(chart.x, tick), half = widthOf(text) / 2;
+        if (x.at(tick) - half < end + 6) continue;
+        end = x.at(tick) + half;
+        group.append(svg('text', {x: x.at(tick), y: bottom + 16, 'text-anchor': 'middle'}, text));
+      }
+      root.append(group);
+    });
+    const title = titleOf(chart.x);
+    title.setAttribute('x', width / 2), title.setAttribute('y', rows * (high + 64) - 2), title.setAttribute('text-anchor', 'middle');
+    root.append(title);
+    let px = 4;
+    for (const kind of chart.kinds) {
+      root.append(
+          svg('rect', {x: px, y: height - 15, width: 12, height: 12, class: 'cell', style: `--own: ${kind.colour}`}),
+          svg('text', {x: px + 18, y: height - 4}, kind.title));
+      px += 36 + widthOf(kind.title);
+    }
+  };
+
+  // Limits of steps in h omega: a bar for each method up to where it holds, a mark for each scene, a tick for theory.
+
+  const limits = (root, chart, methods, width) => {
+    const narrow = width < 620, high = narrow ? 46 : 32, tall = narrow ? 11 : 14, rows = chart.rows.length, top = narrow ? 44 : 52, bottom = top + rows * high;
+    const names = chart.names.map(name => methods[name]?.title ?? name);
+    const left = narrow ? 4 : 14 + Math.max(...names.map(name => widthOf(name, true)));
+    const right = width - (narrow ? 126 : 170), columns = [width - (narrow ? 62 : 84), width - 2];
+    const closed = chart.rows.filter(row => !row.open).flatMap(row => [row.held, ...row.marks.map(m => m[1])]);
+    const x = linear(0, 1.34 * Math.max(...closed, 1e-9), left, right);
+    const keyLines = [], key = [...chart.scenes.map(([name, omega]) => `${name}, ω = ${nice(omega)} rad/s`), 'theory'];
+    for (const [k, text] of key.entries()) {
+      const wide = widthOf(text) + 34, line = keyLines[keyLines.length - 1];
+      if (line && line.end + wide < width) line.items.push([k, line.end, text]), line.end += wide;
+      else keyLines.push({end: wide, items: [[k, 0, text]]});
+    }
+    const height = bottom + 50 + 20 * keyLines.length;
+    root.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    root.setAttribute('height', height);
+    const title = fitting(narrow ? width : columns[0] - 120, ['Largest stable step', ', measured beside theory'], ['Largest stable step', '']);
+    title.setAttribute('y', 14);
+    const heading = (text, at, y, attributes) => svg('text', {x: at, y, 'text-anchor': 'end', ...attributes}, text);
+    root.append(title, heading('measured', columns[0], narrow ? 34 : 38, {class: 'soft'}), heading('theory', columns[1], narrow ? 34 : 38, {class: 'soft'}));
+    root.append(heading(narrow ? 'ms' : `on ${chart.columns}, in ms`, columns[1], narrow ? 14 : 18, {class: 'quantity'}));
+    for (const tick of x.ticks)
+      root.append(
+          svg('line', {class: 'grid', x1: x.at(tick), x2: x.at(tick), y1: top - 4, y2: bottom}),
+          svg('text', {x: x.at(tick), y: bottom + 16, 'text-anchor': tick === 0 && narrow ? 'start' : 'middle'}, nice(tick)));
+    chart.rows.forEach((row, k) => {
+      const name = chart.names[k], look = methods[name] ?? {colour: 'outside', mark: 'triangle'}, group = svg('g', {class: look.hero ? 'series hero' : 'series', style: `--own: var(--${look.colour}); --lit: var(--${look.colour})`});
+      if (methods[name]) group.dataset.method = name;
+      const line = top + high * k, y = line + (narrow ? 32 : high / 2), end = row.open ? right - 10 : x.at(row.held);
+      group.append(svg('path', {class: 'held', d: `M${left},${y - 7}H${end}${row.open ? `V${y - 11}L${right},${y}L${end},${y + 11}V${y + 7}` : `V${y + 7}`}H${left}z`}));
+      group.append(narrow ? svg('text', {x: left + 3, y: line + 15, class: look.hero ? 'own bold' : 'own'}, names[k]) :
+                            svg('text', {x: left - 10, y: y + 4, 'text-anchor': 'end', class: look.hero ? 'own bold' : 'own'}, names[k]));
+      row.marks.forEach(([scene, measured, predicted, words], i) => {
+        if (predicted != null) group.append(svg('line', {class: 'theory', x1: x.at(predicted), x2: x.at(predicted), y1: y - tall, y2: y + tall}));
+        group.append(mark(sceneMarks[scene % 4], 3.4, [x.at(measured), y + (row.marks.length < 2 ? 0 : (tall + 4) * (i / (row.marks.length - 1) - 0.5))], {colour: `var(--${look.colour})`}, {words}));
+      });
+      const far = Math.max(row.held, ...row.marks.map(m => Math.max(m[1], m[2] ?? 0)));
+      // beside the bar, in it, or on narrow screens behind the name
+      const first = left + widthOf(names[k], look.hero) + 12, words = narrow && first + widthOf(row.words) > width ? row.words.split(';')[0] : row.words;
+      const wide = widthOf(words), inside = row.open || x.at(far) + 12 + wide > right, spot = narrow ? [first, line + 15] : inside ? [left + 10, y + 4] : [x.at(far) + 10, y + 4];
+      if (!row.open || chart.rows[k - 1]?.words !== row.words) group.append(label(words, spot, {class: inside || narrow ? 'soft' : 'halo soft'}));
+      const short = text => (narrow && Number(text) ? Number(text).toPrecision(text.length > 7 ? 3 : 4) : text), bold = look.hero ? {class: 'bold'} : {};
+      if (row.measured) group.append(heading(short(row.measured), columns[0], y + 4, bold), heading(short(row.predicted), columns[1], y + 4, bold));
+      else group.append(heading('not searched', columns[1], y + 4, {class: 'soft'}));
+      root.append(group);
+    });
+    const axis = fitting(right - left, ['h ω', ', time step times the fastest frequency'], ['h ω', '']);
+    axis.setAttribute('x', (left + right) / 2), axis.setAttribute('y', bottom + 36), axis.setAttribute('text-anchor', 'middle');
+    root.append(svg('line', {class: 'base', x1: left, x2: left, y1: top - 4, y2: bottom}), axis);
+    keyLines.forEach(({items}, l) => {
+      for (const [k, px, text] of items) {
+        const y = bottom + 58 + 20 * l;
+        root.append(k < chart.scenes.length ? mark(sceneMarks[k % 4], 4, [px + 7, y - 4], {colour: 'var(--ink)'}) : svg('line', {class: 'theory', x1: px + 7, x2: px + 7, y1: y - 12, y2: y + 4}), svg('text', {x: px + 17, y}, text));
+      }
+    });
+  };
+
+  const kinds = {curves, bars, dots, map, limits};
+
+  /** Arrows step from mark to mark; up and down to the next curve. The page says what a mark is, and Enter plays it. */
+  const walk = event => {
+    const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const marks = [...event.currentTarget.querySelectorAll('[data-words]')], here = marks.indexOf(document.activeElement);
+    if (!marks.length) return;
+    const curve = k => marks[k]?.closest('.series'), from = here < 0 ? Math.max(0, marks.findIndex(each => each.closest('.hero'))) - step : here;
+    let next = from + step;
+    if (here >= 0 && event.key.match(/Up|Down/)) while (marks[next] && curve(next) === curve(here)) next += step;
+    next = (next + marks.length) % marks.length;
+    marks[next].setAttribute('tabindex', -1);
+    marks[next].focus({preventScroll: true});
+  };
+
+  /** Draws a chart into its figure, as wide as that is. */
+  const draw = (box, chart, methods) => {
+    const width = Math.max(300, Math.round(box.clientWidth || 600));
+    if (box.drawnWidth === width) return;
+    if (!box.drawnWidth) box.addEventListener('keydown', walk);
+    box.drawnWidth = width;
+    const root = svg('svg', {class: 'chart', width, role: 'group', tabindex: 0, 'aria-label': `${chart.title}. ${chart.finding ?? ''}`, 'font-size': letters});
+    const outside = kinds[chart.kind](root, chart, methods, width);
+    box.replaceChildren(root);
+    if (outside) box.append(Object.assign(document.createElement('p'), {className: 'outside', textContent: outside}));
+  };
+
+  return {draw, nice};
+})();

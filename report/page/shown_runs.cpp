@@ -1,0 +1,153 @@
+#include "report/page/shown_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "experiments/tables/speed_accuracy.h"
+#include "report/findings/findings_text.h"
+
+namespace crosscheck {
+namespace {
+
+class Chooser {
+ public:
+  Chooser(const ScenePart& part, const TableSet& rows, const std::function<bool(const std::string&)>& holds)
+      : part_(part), costs_(rows_of<SpeedAccuracyCostRow>(rows)) {
+    std::map<std::string, int> places;
+    for (const SpeedAccuracyRow& row : rows_of<SpeedAccuracyRow>(rows)) {
+      if (row.scene != part.scene->name) continue;
+      const int place = places[row.method]++;
+      if (row.verdict != Verdict::ok || !holds(row.method)) continue;
+      charted_.push_back({fmt::format("{} {}", row.method, place), row.method,
+                          setting_text(std::string(name_of(row.setting)), row.requested),
+                          row.error ? row.error : row.difference, cost_of(row), false});
+      requested_.push_back({row.setting, row.requested});
+    }
+  }
+
+  std::vector<ShownRun> all() {
+    const auto& take = part_.take;
+    bool taken = false;
+    if (take && family_of(take->method).is_subject()) taken = add_recommended(true);
+    if (!taken) add_own(ours, true);
+    if (take) add_recommended(false);
+    for (const MethodFamily* peer : default_peers()) add_own(std::string(peer->representative), true);
+    for (const MethodData& m : part_.facts->methods)
+      if (family_of(m.method).role == Role::outside) add_own(m.method, true);
+    if (none_of(true)) add_first(true);
+    if (none_of(false)) add_first(false);
+    add_own(ours, false);
+    // the others in the order of what they cost
+    std::vector<const ShownRun*> best;
+    for (const ShownRun& run : charted_) {
+      if (std::ranges::any_of(chosen_, [&](const ShownRun& c) { return c.method == run.method; })) continue;
+      const auto same = std::ranges::find(best, run.method, [](const ShownRun* r) { return r->method; });
+      if (same == best.end())
+        best.push_back(&run);
+      else if (better(run, **same))
+        *same = &run;
+    }
+    std::ranges::sort(best, {}, [](const ShownRun* r) { return r->cpu.value_or(INFINITY); });
+    for (const ShownRun* run : best) add(*run);
+    for (const MethodData& m : part_.facts->methods)
+      if (m.ok() && std::ranges::none_of(chosen_, [&](const ShownRun& c) { return c.method == m.method; }))
+        add_own(m.method, false);
+    if (chosen_.size() > 9) chosen_.resize(9);
+    return std::move(chosen_);
+  }
+
+ private:
+  void add(ShownRun run) {
+    if (std::ranges::find(chosen_, run.key, &ShownRun::key) == chosen_.end()) chosen_.push_back(std::move(run));
+  }
+  void add_own(const std::string& method, bool beside) {
+    const MethodData* m = part_.facts->find(method);
+    if (m && m->ok() && family_of(method).role != Role::truth)
+      add({method + " own", method, is_adaptive(method) ? "own tolerance" : step_text(m->step),
+           m->error ? m->error : m->from_contact, cost_at(*m), beside});
+  }
+  /// Where a run of the chart took the same step, it was timed.
+  std::optional<double> cost_at(const MethodData& m) const {
+    for (size_t i = 0; i < charted_.size(); ++i)
+      if (charted_[i].method == m.method && requested_[i].first == SettingKind::step &&
+          std::abs(requested_[i].second / m.step - 1) < 1e-9)
+        return charted_[i].cpu;
+    return std::nullopt;
+  }
+  bool add_recommended(bool beside) {
+    for (size_t i = 0; i < charted_.size(); ++i)
+      if (charted_[i].method == part_.take->method && requested_[i].first == part_.take->setting &&
+          requested_[i].second == part_.take->requested) {
+        charted_[i].beside = beside;
+        add(charted_[i]);
+        return true;
+      }
+    return false;
+  }
+  /// The subject's, or another's, where the representative did not run.
+  void add_first(bool of_subject) {
+    for (const MethodData& m : part_.facts->methods)
+      if (family_of(m.method).is_subject() == of_subject && none_of(of_subject)) add_own(m.method, true);
+  }
+  bool none_of(bool of_subject) const {
+    return std::ranges::none_of(
+        chosen_, [&](const ShownRun& run) { return run.beside && family_of(run.method).is_subject() == of_subject; });
+  }
+  bool better(const ShownRun& run, const ShownRun& than) const {
+    const auto within = [&](const ShownRun& r) { return r.error && *r.error <= 0.01 * part_.facts->motion; };
+    if (within(run) != within(than)) return within(run);
+    return within(run) ? run.cpu.value_or(INFINITY) < than.cpu.value_or(INFINITY)
+                       : run.error.value_or(INFINITY) < than.error.value_or(INFINITY);
+  }
+  std::optional<double> cost_of(const SpeedAccuracyRow& run) const {
+    for (const SpeedAccuracyCostRow& cost : costs_)
+      if (cost.scene == run.scene && cost.method == run.method && cost.setting == run.setting &&
+          cost.requested == run.requested)
+        return cost.cpu;
+    return std::nullopt;
+  }
+
+  const ScenePart& part_;
+  std::vector<SpeedAccuracyCostRow> costs_;
+  std::vector<ShownRun> charted_, chosen_;
+  std::vector<std::pair<SettingKind, double>> requested_;
+};
+
+/// Engine and rule; an outside program goes by its own name.
+std::string engine_and_rule(const std::string& method) {
+  const MethodFamily& family = family_of(method);
+  if (family.role == Role::outside) return std::filesystem::path(method.substr(0, method.find('+'))).stem().string();
+  std::string rule = method.substr(method.find('/') + 1);
+  std::ranges::replace(rule, '-', ' ');
+  if (const size_t at = rule.find("euler"); at != std::string::npos) rule[at] = 'E';
+  return fmt::format("{} {}", family.title, rule);
+}
+
+}  // namespace
+
+std::vector<ShownRun> shown_runs(const ScenePart& part, const TableSet& rows,
+                                 const std::function<bool(const std::string&)>& holds) {
+  return Chooser(part, rows, holds).all();
+}
+
+std::string shown_runs_html(const ScenePart& part) {
+  const double motion = part.facts->motion;
+  std::string out =
+      "<div class=\"scroll\"><table class=\"main-runs\"><thead><tr><th>method</th><th>step</th><th>error / % of "
+      "motion</th><th>largest error</th><th>CPU time</th><th>× real time</th><th></th></tr></thead><tbody>\n";
+  for (const ShownRun& run : part.runs)
+    out += fmt::format(
+        "<tr data-method=\"{0}\"><th scope=\"row\">{1}</th><td>{2}</td><td>{3}</td><td>{4}</td><td>{5}</td><td>{6}</td>"
+        "<td class=\"choose\" data-key=\"{7}\"><button type=\"button\" data-as=\"a\">A</button><button type=\"button\" "
+        "data-as=\"b\">B</button><button type=\"button\" data-as=\"play\">play</button></td></tr>\n",
+        escaped(run.method), escaped(engine_and_rule(run.method)), prose(run.setting),
+        run.error && motion > 0 ? prose(percent(*run.error, motion)) : "–",
+        run.error ? prose(nice_length(*run.error)) : "–", run.cpu ? prose(step_text(*run.cpu)) : "–",
+        run.cpu ? prose(nice(part.scene->duration / *run.cpu)) : "–", escaped(run.key));
+  return out + "</tbody></table></div>\n";
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,17 @@
+// Which runs of a scene the page shows first: beside each other, and in the small table of its card.
+#pragma once
+
+#include "experiments/tables/table.h"
+#include "report/page/page.h"
+
+namespace crosscheck {
+
+/// The run recommended, the same engine's and each peer's at the scene's own step, outside engines', then the cheapest
+/// run within 1 % of each other method: at most nine. `holds` says whether the page has a method's runs of the chart.
+std::vector<ShownRun> shown_runs(const ScenePart& part, const TableSet& rows,
+                                 const std::function<bool(const std::string& method)>& holds);
+
+/// The table of them, with buttons that choose A and B.
+std::string shown_runs_html(const ScenePart& part);
+
+}  // namespace crosscheck

@@ -1,0 +1,68 @@
+// Findings made up for tests, and looked up by their rule.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "report/findings/findings.h"
+
+namespace crosscheck::testing_tools {
+
+inline size_t words_in(const std::string& sentence) {
+  std::istringstream in(sentence);
+  return static_cast<size_t>(std::distance(std::istream_iterator<std::string>(in), {}));
+}
+
+/// A finding of a rule, with this word wherever its template asks for one.
+inline Finding made_up(const FindingRule& rule, const std::string& word) {
+  Finding f{.rule = std::string(rule.name),
+            .scene = word,
+            .method = "mysim/rk4",
+            .other = "bullet/pbd",
+            .value = 5e-3,
+            .low = 4e-3,
+            .high = 6e-3,
+            .tier = "converged"};
+  for (size_t at = rule.sentence.find('{'); at != std::string_view::npos; at = rule.sentence.find('{', at + 1))
+    f.words[std::string(rule.sentence.substr(at + 1, rule.sentence.find('}', at) - at - 1))] = word;
+  return f;
+}
+
+/// The first rule of a chapter that is an answer, or that is none.
+inline const FindingRule& rule_of_chapter(std::string_view chapter, bool is_answer) {
+  for (const FindingRule& rule : finding_rules())
+    if (rule.chapter == chapter && (rule.topic == "answer") == is_answer) return rule;
+  throw std::out_of_range("no rule of that chapter");
+}
+
+/// Those of a rule.
+inline std::vector<Finding> of_rule(const std::vector<Finding>& findings, std::string_view rule) {
+  std::vector<Finding> found;
+  for (const Finding& f : findings)
+    if (f.rule == rule) found.push_back(f);
+  return found;
+}
+/// The only one of a rule; an empty one, and a failure, where there are more or none.
+inline Finding the(const std::vector<Finding>& findings, std::string_view rule) {
+  const std::vector<Finding> found = of_rule(findings, rule);
+  EXPECT_EQ(found.size(), 1u) << rule;
+  return found.size() == 1 ? found[0] : Finding{};
+}
+inline std::vector<std::string> rules_of(const std::vector<Finding>& findings) {
+  std::vector<std::string> rules;
+  for (const Finding& f : findings) rules.push_back(f.rule);
+  return rules;
+}
+
+/// Each has at most 25 words and all that its template names.
+inline void expect_short(const std::vector<Finding>& findings) {
+  for (const Finding& f : findings) {
+    const std::string sentence = sentence_of(f);
+    EXPECT_LE(words_in(sentence), 25u) << sentence;
+    EXPECT_TRUE(sentence.ends_with('.')) << sentence;
+    EXPECT_FALSE(tier_of(f).empty()) << sentence;
+  }
+}
+
+}  // namespace crosscheck::testing_tools
