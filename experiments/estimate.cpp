@@ -8,7 +8,9 @@
 
 #include "experiments/scenes/cloths.h"
 #include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 #include "mysim/base/progress.h"
+#include "mysim/base/text.h"
 #include "mysim/base/this_process.h"
 #include "mysim/run/run.h"
 #include "mysim/scene/keys.h"

@@ -2,8 +2,9 @@
 #include "mysim/particles.h"
 
 #include <cassert>
-#include <cmath>
 #include <numbers>
+
+#include "mysim/base/portable_trigonometry.h"
 
 namespace crosscheck {
 namespace {
@@ -26,13 +27,13 @@ double max_speed(const Motion& motion) {
 
 Vec3 displacement_at(const Motion& motion, double t) {
   const double angle = 2 * std::numbers::pi * motion.frequency * t;
-  return motion.amplitude * (ramp_at(t, motion.ramp).value * std::sin(angle));
+  return motion.amplitude * (ramp_at(t, motion.ramp).value * portable_sin(angle));
 }
 
 Vec3 velocity_at(const Motion& motion, double t) {
   const double omega = 2 * std::numbers::pi * motion.frequency;
   const auto [value, slope] = ramp_at(t, motion.ramp);
-  return motion.amplitude * (slope * std::sin(omega * t) + value * omega * std::cos(omega * t));
+  return motion.amplitude * (slope * portable_sin(omega * t) + value * omega * portable_cos(omega * t));
 }
 
 void Particles::place_pins(State& state) const {

@@ -73,8 +73,10 @@ Scene checked(const std::filesystem::path& file) {
   try {
     find_method(scene.method);
   } catch (const InputError& error) {
-    // the file again, for the line
-    TomlTable::parse_file(file).section("time").fail("method", fmt::format("a method that there is: {}", error.what()));
+    // the text again, for the line
+    TomlTable::parse_text(scene.source, file.string())
+        .section("time")
+        .fail("method", fmt::format("a method that there is: {}", error.what()));
   }
   return scene;
 }

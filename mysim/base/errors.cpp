@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "mysim/base/text.h"
 #include "mysim/base/this_process.h"
 
 namespace crosscheck {

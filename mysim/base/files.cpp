@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <cassert>
@@ -12,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <regex>
 #include <sstream>
 
@@ -99,6 +101,15 @@ std::string read_file(const fs::path& file, std::string_view expected) {
   std::error_code unknown;
   throw InputError(fmt::format("{}: cannot be read; expected {}{}", file.string(), expected,
                                fs::is_directory(file, unknown) ? ", got a folder" : why));
+}
+
+double free_disk(const fs::path& folder) {
+  std::error_code unknown;
+  fs::path place = fs::absolute(folder, unknown);
+  while (!fs::exists(place, unknown) && place.has_relative_path()) place = place.parent_path();
+  struct statvfs about {};
+  if (statvfs(place.c_str(), &about) != 0) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(about.f_bavail) * static_cast<double>(about.f_frsize);
 }
 
 void require_writable(const fs::path& folder) {

@@ -40,6 +40,10 @@ class StreamingFile {
   std::unique_ptr<std::FILE, Close> out_;
 };
 
+/// Bytes that can be written into the folder, or into the nearest one above it that is there. Infinite where nothing is
+/// known.
+double free_disk(const std::filesystem::path& folder);
+
 // Writing files so that a killed run leaves no half file.
 
 /// Writes under a temporary name next to the file and renames it. Makes the folder where it is missing.

@@ -164,6 +164,13 @@ std::string shell_join(std::span<const std::string> words) {
   return line;
 }
 
+std::string format_bytes(double bytes) {
+  const char* units[] = {"B", "kB", "MB", "GB", "TB", "PB", "EB"};
+  int unit = 0;
+  while (bytes >= 999.5 && unit < 6) bytes /= 1000, ++unit;
+  return unit == 6 && bytes >= 999.5 ? fmt::format("{:.2g} EB", bytes) : fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
 std::string base64(std::string_view bytes) {
   static constexpr char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string out;

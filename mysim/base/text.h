@@ -43,6 +43,9 @@ std::string shell_single_quote(const std::string& word);
 /// The words with blanks between them.
 std::string shell_join(std::span<const std::string> words);
 
+/// For people: "3.2 GB", powers of ten.
+std::string format_bytes(double bytes);
+
 /// RFC 4648, with padding, in one line.
 std::string base64(std::string_view bytes);
 

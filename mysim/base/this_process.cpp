@@ -1,4 +1,4 @@
-// Thread clock, memory and disk left, and supervision by a parent.
+// Thread clock, memory left, and supervision by a parent.
 #include "mysim/base/this_process.h"
 
 #include <fcntl.h>
@@ -7,7 +7,6 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/statvfs.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -109,22 +108,6 @@ double left_of_address_space() {
 }  // namespace
 
 double free_memory() { return std::min({available_to_all(), left_by_groups(), left_of_address_space()}); }
-
-double free_disk(const fs::path& folder) {
-  std::error_code unknown;
-  fs::path place = fs::absolute(folder, unknown);
-  while (!fs::exists(place, unknown) && place.has_relative_path()) place = place.parent_path();
-  struct statvfs about {};
-  if (statvfs(place.c_str(), &about) != 0) return unlimited;
-  return static_cast<double>(about.f_bavail) * static_cast<double>(about.f_frsize);
-}
-
-std::string format_bytes(double bytes) {
-  const char* units[] = {"B", "kB", "MB", "GB", "TB", "PB", "EB"};
-  int unit = 0;
-  while (bytes >= 999.5 && unit < 6) bytes /= 1000, ++unit;
-  return unit == 6 && bytes >= 999.5 ? fmt::format("{:.2g} EB", bytes) : fmt::format("{:.3g} {}", bytes, units[unit]);
-}
 
 namespace {
 

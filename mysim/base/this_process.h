@@ -1,7 +1,6 @@
-// This process: its CPU time, the memory and disk left to it, and the parent that tidies up after it.
+// This process: its CPU time, the memory left to it, and the parent that tidies up after it.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -32,18 +31,9 @@ double cpu_time_of(const Work& work) {
   return clock.seconds();
 }
 
-// Free memory and disk, and refusals of what does not fit.
-
 /// Bytes that this process can still take: what the system says is available (MemAvailable), less where a control group
 /// or a limit of the process's address space allows less. Infinite where nothing is known.
 double free_memory();
-
-/// Bytes that can be written into the folder, or into the nearest one above it that is there. Infinite where nothing is
-/// known.
-double free_disk(const std::filesystem::path& folder);
-
-/// For people: "3.2 GB", powers of ten.
-std::string format_bytes(double bytes);
 
 // A program in two processes: one works, the other sees to it that nothing is left when the first has ended, however.
 

@@ -37,6 +37,8 @@ template <class... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
 };
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;  // clang deduces it for itself from version 17 on
 /// For the terms that a visitor passes over, by name: [](const OneOf<Drag, Wind> auto&) {}.
 template <class T, class... Terms>
 concept OneOf = (std::same_as<T, Terms> || ...);

@@ -9,94 +9,87 @@
 #include <memory>
 
 #include "mysim/base/errors.h"
-#include "mysim/base/this_process.h"
 #include "mysim/run/cloth_grid_world.h"
 #include "mysim/run/run.h"
 
 namespace crosscheck {
 
-namespace {
+RunLoop::PairSchedule::PairSchedule(Observer& observer, int steps_per_sample)
+    : observer_(steps_per_sample < 2 ? nullptr : dynamic_cast<StatePairObserver*>(&observer)),
+      steps_per_sample_(steps_per_sample) {}
 
-/// The states that an observer of pairs is shown between two samples (StatePairObserver).
-class PairSchedule {
- public:
-  PairSchedule(Observer& observer, int steps_per_sample)
-      : observer_(steps_per_sample < 2 ? nullptr : dynamic_cast<StatePairObserver*>(&observer)),
-        steps_per_sample_(steps_per_sample) {}
-  StatePairObserver& observer() const { return *observer_; }
-  /// Of the state so many steps after a sample: the first of a pair.
-  bool is_earlier(int step) const { return between(step) && !observer_->needs_every_state() && steps_left(step) == 2; }
-  /// The second of a pair, or any state where the observer needs every state.
-  bool is_later(int step) const {
-    return between(step) && (observer_->needs_every_state() || (step >= 2 && steps_left(step) == 0));
-  }
-
- private:
-  bool between(int step) const { return observer_ && step < steps_per_sample_; }
-  /// Before the next sample, modulo the distance of pairs.
-  int steps_left(int step) const { return (steps_per_sample_ - step) % StatePairObserver::steps_between_pairs; }
-
-  StatePairObserver* observer_;
-  int steps_per_sample_;
-};
-
-}  // namespace
-
-Outcome run_loop(World& world, const Run& requested, Observer& observer) {
-  const bool every_step = observer.every_step();
-  Run run = requested;
+TimeGrid RunLoop::grid_of(const World& world, Run run, bool every_step) {
   if (world.chooses_steps() && !every_step) run.step = run.duration / run.samples;
-  const TimeGrid grid = time_grid(run);
-  assert(grid.h > 0 && grid.steps_per_sample >= 1 && grid.samples >= 1);
-  const PairSchedule pairs(observer, grid.steps_per_sample);
-  CpuClock clock(run.timed);
-  Outcome out;
-  out.step = grid.h;
-  out.verdict = observer.observe(world.state(0), true);
-  if (pairs.is_earlier(0) && out.verdict == Verdict::ok) pairs.observer().earlier(world.state(0));
+  return time_grid(run);
+}
 
-  clock.start();
-  for (int sample = 0, step = 0; sample < grid.samples && out.verdict == Verdict::ok;) {
-    const double t = grid.time(sample, step), t_next = grid.time(sample, ++step);
-    try {
-      world.step(t, t_next);
-    } catch (const SolverFailure& failure) {
-      out.verdict = Verdict::solver;
-      out.reason = failure.what();
-      break;
-    }
-    out.end = t_next;
-    const bool first = out.steps++ == 0, sampled = step == grid.steps_per_sample, earlier = pairs.is_earlier(step),
-               later = pairs.is_later(step);
-    if (!every_step && !sampled && !first && !earlier && !later) continue;
+RunLoop::RunLoop(World& world, const Run& run, Observer& observer)
+    : world_(world),
+      observer_(observer),
+      run_(run),
+      every_step_(observer.every_step()),
+      grid_(grid_of(world, run, every_step_)),
+      pairs_(observer, grid_.steps_per_sample),
+      clock_(run.timed) {
+  assert(grid_.h > 0 && grid_.steps_per_sample >= 1 && grid_.samples >= 1);
+  out_.step = grid_.h;
+  out_.verdict = observer.observe(world.state(0), true);
+  if (pairs_.is_earlier(0) && out_.verdict == Verdict::ok) pairs_.observer().earlier(world.state(0));
+  clock_.start();
+}
 
-    clock.stop();
-    if (first && (out.readback = world.read_back())) out.readback->step = grid.h;
-    if (every_step) world.report_contact(observer);
-    if (every_step || sampled) out.verdict = observer.observe(world.state(t_next), sampled);
-    if (earlier) pairs.observer().earlier(world.state(t_next));
-    if (later && out.verdict == Verdict::ok) out.verdict = pairs.observer().later(world.state(t_next));
-    if (sampled) {
-      ++sample, step = 0;
-      if (sample < grid.samples && out.verdict == Verdict::ok && pairs.is_earlier(0))
-        pairs.observer().earlier(world.state(t_next));
-    }
-    clock.start();
+bool RunLoop::step() {
+  if (sample_ >= grid_.samples || out_.verdict != Verdict::ok) return false;
+  const double t = grid_.time(sample_, step_), t_next = grid_.time(sample_, ++step_);
+  try {
+    world_.step(t, t_next);
+  } catch (const SolverFailure& failure) {
+    out_.verdict = Verdict::solver;
+    out_.reason = failure.what();
+    return true;
   }
-  clock.stop();
+  out_.end = t_next;
+  const bool first = out_.steps++ == 0, sampled = step_ == grid_.steps_per_sample, earlier = pairs_.is_earlier(step_),
+             later = pairs_.is_later(step_);
+  if (!every_step_ && !sampled && !first && !earlier && !later) return true;
 
-  const World::Work work = world.work();
+  clock_.stop();
+  if (first && (out_.readback = world_.read_back())) out_.readback->step = grid_.h;
+  if (every_step_) world_.report_contact(observer_);
+  if (every_step_ || sampled) out_.verdict = observer_.observe(world_.state(t_next), sampled);
+  if (earlier) pairs_.observer().earlier(world_.state(t_next));
+  if (later && out_.verdict == Verdict::ok) out_.verdict = pairs_.observer().later(world_.state(t_next));
+  if (sampled) {
+    ++sample_, step_ = 0;
+    if (sample_ < grid_.samples && out_.verdict == Verdict::ok && pairs_.is_earlier(0))
+      pairs_.observer().earlier(world_.state(t_next));
+  }
+  clock_.start();
+  return true;
+}
+
+Outcome RunLoop::outcome() {
+  clock_.stop();
+  Outcome out = out_;
+  const World::Work work = world_.work();
   out.evaluations = work.evaluations;
   out.degenerate_springs = work.degenerate_springs;
-  out.cpu_seconds = clock.seconds() + (run.timed ? work.worker_seconds : 0);
+  out.cpu_seconds = clock_.seconds() + (run_.timed ? work.worker_seconds : 0);
   if (work.steps) {
     out.steps = *work.steps;
     out.step = out.steps > 0 ? out.end / static_cast<double>(out.steps) : 0;
-    out.tolerance = run.tolerance;
+    out.tolerance = run_.tolerance;
   }
   if (out.verdict != Verdict::ok)
     out.reason = fmt::format("the run failed at t = {:.4g} s{}{}", out.end, out.reason.empty() ? "" : ": ", out.reason);
   return out;
+}
+
+Outcome run_loop(World& world, const Run& run, Observer& observer) {
+  RunLoop loop(world, run, observer);
+  while (loop.step()) {
+  }
+  return loop.outcome();
 }
 
 namespace {
@@ -264,20 +257,19 @@ void require_supported(const Stepper& stepper, const Model& model) {
     throw Unsupported("the scene has hard distances, and this rule knows forces only");
 }
 
-/// The world that steps the scene: the same rule in each case, on regular cloths the fused step.
+}  // namespace
+
 std::unique_ptr<World> make_world(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run,
                                   const Observer& observer, const Execution& execution) {
+  require_supported(stepper, scene.model);
   if (stepper.adaptive) return std::make_unique<AdaptiveWorld>(scene, run, contact);
   const double h = time_grid(run).h;
   if (auto cloth = simd::make_cloth_grid_world(stepper, contact, scene, h, execution, observer)) return cloth;
   return std::make_unique<SteppedWorld>(stepper, contact, scene, h);
 }
 
-}  // namespace
-
 Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run, Observer& observer,
                  const Execution& execution) {
-  require_supported(stepper, scene.model);
   const auto world = make_world(stepper, contact, scene, run, observer, execution);
   Outcome out = run_loop(*world, run, observer);
   if (execution.path == ExecutionPath::single_precision && !world->work().single_precision)

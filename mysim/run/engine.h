@@ -1,6 +1,9 @@
 // The run loop that all engines share, and the in-house engine: a stepper, moved pins and contacts over a scene.
 #pragma once
 
+#include <memory>
+
+#include "mysim/base/this_process.h"
 #include "mysim/run/contacts.h"
 #include "mysim/run/run.h"
 #include "mysim/steppers/steppers.h"
@@ -34,8 +37,56 @@ class World {
   virtual bool chooses_steps() const { return false; }
 };
 
-/// Steps the world over the run: the same times, observers and clock for every engine. CPU time is that of World::step
-/// alone.
+/// A run that is taken step by step: the same times, observers and clock for every engine. CPU time is that of
+/// World::step alone.
+class RunLoop {
+ public:
+  /// Shows the observer the start. All three must outlive the loop.
+  RunLoop(World& world, const Run& run, Observer& observer);
+  /// Takes a step and shows it to the observer, where it is to be shown. False when the run has ended: nothing is done.
+  bool step();
+  /// s, of the last state.
+  double time() const { return out_.end; }
+  /// What the run has come to, once it has ended.
+  Outcome outcome();
+
+ private:
+  /// The states that an observer of pairs is shown between two samples (StatePairObserver).
+  class PairSchedule {
+   public:
+    PairSchedule(Observer& observer, int steps_per_sample);
+    StatePairObserver& observer() const { return *observer_; }
+    /// Of the state so many steps after a sample: the first of a pair.
+    bool is_earlier(int step) const {
+      return between(step) && !observer_->needs_every_state() && steps_left(step) == 2;
+    }
+    /// The second of a pair, or any state where the observer needs every state.
+    bool is_later(int step) const {
+      return between(step) && (observer_->needs_every_state() || (step >= 2 && steps_left(step) == 0));
+    }
+
+   private:
+    bool between(int step) const { return observer_ && step < steps_per_sample_; }
+    /// Before the next sample, modulo the distance of pairs.
+    int steps_left(int step) const { return (steps_per_sample_ - step) % StatePairObserver::steps_between_pairs; }
+
+    StatePairObserver* observer_;
+    int steps_per_sample_;
+  };
+  static TimeGrid grid_of(const World& world, Run run, bool every_step);
+
+  World& world_;
+  Observer& observer_;
+  const Run run_;
+  const bool every_step_;
+  const TimeGrid grid_;
+  const PairSchedule pairs_;
+  CpuClock clock_;
+  int sample_ = 0, step_ = 0;  // samples so far, and steps since the last
+  Outcome out_;
+};
+
+/// The whole run.
 Outcome run_loop(World& world, const Run& run, Observer& observer);
 
 /// The code that steps a scene: on regular cloths the fused step, reproducible (the same bits with AVX2 and AVX-512),
@@ -46,6 +97,11 @@ struct Execution {
   ExecutionPath path = ExecutionPath::reproducible;
   int threads = 1;  // at most: small cloths are stepped by fewer; the same bits, however many
 };
+
+/// The world that steps the scene: the same rule in each case, on regular cloths the fused step. Throws Unsupported
+/// with the reason when the stepper does not take the scene. Stepper and scene must outlive it.
+std::unique_ptr<World> make_world(const Stepper& stepper, ContactRule contact, const Scene& scene, const Run& run,
+                                  const Observer& observer, const Execution& execution = {});
 
 /// Runs the scene, at run.step or, where the stepper is adaptive, to run.tolerance. Throws Unsupported with the reason
 /// when the stepper does not take the scene.

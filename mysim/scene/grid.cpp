@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "mysim/base/text.h"
 #include "mysim/base/this_process.h"
 
 namespace crosscheck {

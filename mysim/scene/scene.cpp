@@ -9,7 +9,6 @@
 #include <cstdint>
 
 #include "mysim/base/errors.h"
-#include "mysim/base/files.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/text.h"
 #include "mysim/scene/grid.h"
@@ -368,15 +367,9 @@ Scene expand(const TomlTable& file, const std::string& name) {
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file) {
-  const std::string text = read_file(file, "a scene file (TOML)");
-  check_keys(text, file.string(), scene_keys());
-  return expand(TomlTable::parse_text(text, file.string()), file_name_of(file.stem().string()));
-}
-
-Scene parse_scene(std::string_view text, const std::string& name) {
-  check_keys(text, name, scene_keys());
-  return expand(TomlTable::parse_text(text, name), name);
+Scene parse_scene(std::string_view text, const std::string& file, const std::string& name) {
+  check_keys(text, file, scene_keys());
+  return expand(TomlTable::parse_text(text, file), name);
 }
 
 Scene::Scene(const Scene&) = default;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,9 +64,11 @@ struct Scene {
 
 /// Reads and expands a scene file; its name, made safe for file names, is the scene's. Throws InputError: "FILE:LINE:
 /// KEY: expected ...".
-Scene read_scene(const std::filesystem::path& file);
-/// The same from text; name stands in for the file in messages and is the scene's name.
-Scene parse_scene(std::string_view text, const std::string& name);
+Scene read_scene(const std::string& file);
+/// The same from text; messages name the file.
+Scene parse_scene(std::string_view text, const std::string& file, const std::string& name);
+/// The same from text that has no file: the scene's name stands for it in messages.
+inline Scene parse_scene(std::string_view text, const std::string& name) { return parse_scene(text, name, name); }
 
 /// Fingerprint of particles, springs, terms and start (FNV-1a over their exact bits).
 std::string hash_of(const Scene& scene);

@@ -5,14 +5,13 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <set>
 #include <sstream>
 
 #include "mysim/base/errors.h"
-#include "mysim/base/files.h"
 #include "mysim/base/text.h"
 #include "mysim/scene/keys.h"
 
@@ -59,13 +58,13 @@ std::string and_then(const std::string& question) { return question.ends_with('?
 /// The number that a value of another type stands for, as text.
 std::string mended_number(const toml::node& n) {
   if (const auto* word = n.as_string()) {
-    double value = 0;
     const std::string& text = word->get();
     const auto from = text.find_first_not_of(" +");
     if (from == std::string::npos) return "";
-    const auto [rest, error] = std::from_chars(text.data() + from, text.data() + text.size(), value);
-    const auto used = static_cast<std::size_t>(rest - text.data());
-    if (error != std::errc() || used == from) return "; a number stands without quotes";
+    char* rest = nullptr;
+    std::strtod(text.c_str() + from, &rest);
+    const auto used = static_cast<std::size_t>(rest - text.c_str());
+    if (used == from) return "; a number stands without quotes";
     const std::string number = text.substr(from, used - from), unit = text.substr(used);
     if (unit.find_first_not_of(' ') == std::string::npos)
       return fmt::format("; a number stands without quotes: {}", number);
@@ -195,10 +194,6 @@ TomlTable TomlTable::parse_text(std::string_view text, const std::string& name) 
   node->table = node->root.get();
   node->file = name;
   return TomlTable(node);
-}
-
-TomlTable TomlTable::parse_file(const std::filesystem::path& file) {
-  return parse_text(read_file(file, "a scene file (TOML)"), file.string());
 }
 
 const std::string& TomlTable::source() const { return *node_->text; }

@@ -1,7 +1,6 @@
 // TOML: typed look-ups that name file, line and key when they fail, and what is wrong with text that is none.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,9 +18,7 @@ namespace crosscheck {
 /// it. finish() throws on the first key that was never looked up.
 class TomlTable {
  public:
-  /// Reads and parses a file. Throws InputError when it is missing or no TOML.
-  static TomlTable parse_file(const std::filesystem::path& file);
-  /// The same from text; name stands in for the file in messages.
+  /// Throws InputError where it is no TOML; name stands for the file in messages.
   static TomlTable parse_text(std::string_view text, const std::string& name);
 
   const std::string& source() const;     // the text of the whole file

@@ -26,7 +26,11 @@ Function select(InstructionSet isa, Function sse2, Function avx2, Function avx51
   namespace avx512 {                           \
   __VA_ARGS__;                                 \
   }
+#ifdef __x86_64__
 #define SELECT_COMPILED(isa, name) ::crosscheck::simd::select(isa, &sse2::name, &avx2::name, &avx512::name)
+#else  // one set alone: two doubles side by side, the same bits as with SSE2
+#define SELECT_COMPILED(isa, name) (&sse2::name)
+#endif
 
 /// The instruction sets of this machine, the best last.
 std::vector<InstructionSet> supported_instruction_sets();

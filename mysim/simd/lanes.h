@@ -12,7 +12,9 @@
 // precision.
 #pragma once
 
+#ifdef __SSE2__
 #include <immintrin.h>
+#endif
 
 #define FORCE_INLINE [[gnu::always_inline]] static inline
 
@@ -194,26 +196,41 @@ struct Lanes<float> {
   FORCE_INLINE bool any_less(V a, V b) { return _mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ)) != 0; }
 };
 
-#else  // SSE2: no fused multiply-add, and no seed worth its steps
+#else  // two doubles or four floats: SSE2, and WebAssembly. No fused multiply-add, and no seed worth its steps
+
+#define PERMUTE __builtin_shufflevector
 
 template <>
 struct Lanes<double> {
-  using V = __m128d;
+  typedef double V __attribute__((vector_size(16)));
   static constexpr int width = 2;
-  FORCE_INLINE V load(const double* p) { return _mm_loadu_pd(p); }
-  FORCE_INLINE void store(double* p, V a) { _mm_storeu_pd(p, a); }
-  FORCE_INLINE V all(double a) { return _mm_set1_pd(a); }
+  FORCE_INLINE V load(const double* p) {
+    V a;
+    __builtin_memcpy(&a, p, sizeof a);
+    return a;
+  }
+  FORCE_INLINE void store(double* p, V a) { __builtin_memcpy(p, &a, sizeof a); }
+  FORCE_INLINE V all(double a) { return V{a, a}; }
   FORCE_INLINE V fma(V a, V b, V c) { return a * b + c; }
   FORCE_INLINE V fnma(V a, V b, V c) { return c - a * b; }
-  FORCE_INLINE V min(V a, V b) { return _mm_min_pd(a, b); }
-  FORCE_INLINE V max(V a, V b) { return _mm_max_pd(a, b); }
-  FORCE_INLINE V root(V s) { return _mm_sqrt_pd(s); }
+  FORCE_INLINE V min(V a, V b) { return a < b ? a : b; }
+  FORCE_INLINE V max(V a, V b) {
+#ifdef __SSE2__
+    return _mm_max_pd(a, b);  // g++ 12 takes four instructions where b is a constant
+#else
+    return a > b ? a : b;
+#endif
+  }
+  FORCE_INLINE V root(V s) { return V{__builtin_sqrt(s[0]), __builtin_sqrt(s[1])}; }
   FORCE_INLINE V rsqrt(V s) { return all(1) / root(s); }
-  FORCE_INLINE bool any_less(V a, V b) { return _mm_movemask_pd(_mm_cmplt_pd(a, b)) != 0; }
+  FORCE_INLINE bool any_less(V a, V b) {
+    const auto less = a < b;
+    return (less[0] | less[1]) != 0;
+  }
 
   FORCE_INLINE void add(double* p, V a) { store(p, load(p) + a); }
   FORCE_INLINE void add_points(double* p, V x, V y, V z) {
-    add(p, _mm_unpacklo_pd(x, y)), add(p + 2, _mm_shuffle_pd(z, x, 0b10)), add(p + 4, _mm_unpackhi_pd(y, z));
+    add(p, PERMUTE(x, y, 0, 2)), add(p + 2, PERMUTE(z, x, 0, 3)), add(p + 4, PERMUTE(y, z, 1, 3));
   }
 
   struct Record {
@@ -229,35 +246,50 @@ struct Lanes<double> {
     return {record(x + ends[0]) - record(x + ends[1]), record(x + ends[2]) - record(x + ends[3])};
   }
   FORCE_INLINE V squared_norms(const Records& d) {
-    const V x = _mm_unpacklo_pd(d.r[0].xy, d.r[1].xy), y = _mm_unpackhi_pd(d.r[0].xy, d.r[1].xy),
-            z = _mm_unpacklo_pd(d.r[0].z, d.r[1].z);
+    const V x = PERMUTE(d.r[0].xy, d.r[1].xy, 0, 2), y = PERMUTE(d.r[0].xy, d.r[1].xy, 1, 3),
+            z = PERMUTE(d.r[0].z, d.r[1].z, 0, 2);
     return x * x + y * y + z * z;
   }
   template <class Take>
   FORCE_INLINE void each_scaled(const Records& d, V by, Take take) {
-    const V first = _mm_unpacklo_pd(by, by), second = _mm_unpackhi_pd(by, by);
+    const V first = all(by[0]), second = all(by[1]);
     take(0, Record{d.r[0].xy * first, d.r[0].z * first}), take(1, Record{d.r[1].xy * second, d.r[1].z * second});
   }
   FORCE_INLINE void store_record(double* p, Record a) { store(p, a.xy), store(p + 2, a.z); }
   FORCE_INLINE void add_point(double* p, Record a) {
     add(p, a.xy);
-    _mm_store_sd(p + 2, _mm_add_sd(_mm_load_sd(p + 2), a.z));
+    p[2] += a.z[0];
   }
 };
 
 template <>
 struct Lanes<float> {
-  using V = __m128;
+  typedef float V __attribute__((vector_size(16)));
   static constexpr int width = 4;
-  FORCE_INLINE V load(const float* p) { return _mm_loadu_ps(p); }
-  FORCE_INLINE void store(float* p, V a) { _mm_storeu_ps(p, a); }
-  FORCE_INLINE V all(float a) { return _mm_set1_ps(a); }
+  FORCE_INLINE V load(const float* p) {
+    V a;
+    __builtin_memcpy(&a, p, sizeof a);
+    return a;
+  }
+  FORCE_INLINE void store(float* p, V a) { __builtin_memcpy(p, &a, sizeof a); }
+  FORCE_INLINE V all(float a) { return V{a, a, a, a}; }
   FORCE_INLINE V fma(V a, V b, V c) { return a * b + c; }
   FORCE_INLINE V fnma(V a, V b, V c) { return c - a * b; }
-  FORCE_INLINE V min(V a, V b) { return _mm_min_ps(a, b); }
-  FORCE_INLINE V max(V a, V b) { return _mm_max_ps(a, b); }
-  FORCE_INLINE V rsqrt(V s) { return all(1) / _mm_sqrt_ps(s); }
-  FORCE_INLINE bool any_less(V a, V b) { return _mm_movemask_ps(_mm_cmplt_ps(a, b)) != 0; }
+  FORCE_INLINE V min(V a, V b) { return a < b ? a : b; }
+  FORCE_INLINE V max(V a, V b) {
+#ifdef __SSE2__
+    return _mm_max_ps(a, b);  // g++ 12 takes four instructions where b is a constant
+#else
+    return a > b ? a : b;
+#endif
+  }
+  FORCE_INLINE V rsqrt(V s) {
+    return all(1) / V{__builtin_sqrtf(s[0]), __builtin_sqrtf(s[1]), __builtin_sqrtf(s[2]), __builtin_sqrtf(s[3])};
+  }
+  FORCE_INLINE bool any_less(V a, V b) {
+    const auto less = a < b;
+    return (less[0] | less[1] | less[2] | less[3]) != 0;
+  }
 };
 
 #endif

@@ -1,7 +1,10 @@
 // Threads that spin, then yield, then sleep until the next piece of work.
 #include "mysim/simd/thread_pool.h"
 
+#include <atomic>
 #include <cassert>
+#include <thread>
+#include <vector>
 
 #include "mysim/base/this_process.h"
 
@@ -24,48 +27,66 @@ long wait_for_change(const std::atomic<long>& number, long known) {
 
 }  // namespace
 
-ThreadPool::ThreadPool(int threads) : workers_(threads - 1) {
+struct ThreadPool::Workers {
+  struct Worker {
+    std::thread thread;
+    double seconds = 0;
+  };
+  void loop(int which);
+
+  std::vector<Worker> list;
+  const std::function<void(int)>* work = nullptr;  // null: the end
+  std::atomic<long> begun = 0, done = 0;           // how many pieces; of all others together
+};
+
+ThreadPool::ThreadPool(int threads) : workers_(std::make_unique<Workers>()) {
   assert(threads >= 1);
-  for (int i = 1; i < threads; ++i) workers_[i - 1].thread = std::thread([this, i] { worker_loop(i); });
+  workers_->list = std::vector<Workers::Worker>(threads - 1);
+  for (int i = 1; i < threads; ++i)
+    workers_->list[i - 1].thread = std::thread([workers = workers_.get(), i] { workers->loop(i); });
 }
 
 ThreadPool::~ThreadPool() {
-  if (workers_.empty()) return;
-  work_ = nullptr;
-  begun_.fetch_add(1, std::memory_order_release);
-  begun_.notify_all();
-  for (Worker& worker : workers_) worker.thread.join();
+  if (workers_->list.empty()) return;
+  workers_->work = nullptr;
+  workers_->begun.fetch_add(1, std::memory_order_release);
+  workers_->begun.notify_all();
+  for (Workers::Worker& worker : workers_->list) worker.thread.join();
 }
 
-void ThreadPool::worker_loop(int which) {
+int ThreadPool::size() const { return static_cast<int>(workers_->list.size()) + 1; }
+
+void ThreadPool::Workers::loop(int which) {
   for (long known = 0;;) {
-    known = wait_for_change(begun_, known);
-    if (!work_) return;
+    known = wait_for_change(begun, known);
+    if (!work) return;
     CpuClock clock;
     clock.start();
-    (*work_)(which);
+    (*work)(which);
     clock.stop();
-    workers_[which - 1].seconds += clock.seconds();
-    done_.fetch_add(1, std::memory_order_release);
-    done_.notify_all();
+    list[which - 1].seconds += clock.seconds();
+    done.fetch_add(1, std::memory_order_release);
+    done.notify_all();
   }
 }
 
 void ThreadPool::all(const std::function<void(int)>& work) {
-  if (!workers_.empty()) {
-    work_ = &work;
-    begun_.fetch_add(1, std::memory_order_release);
-    begun_.notify_all();
+  Workers& others = *workers_;
+  if (!others.list.empty()) {
+    others.work = &work;
+    others.begun.fetch_add(1, std::memory_order_release);
+    others.begun.notify_all();
   }
   work(0);
-  const long due = begun_.load(std::memory_order_relaxed) * static_cast<long>(workers_.size());
-  for (long done = done_.load(std::memory_order_acquire); done != due; done = wait_for_change(done_, done)) {
+  const long due = others.begun.load(std::memory_order_relaxed) * static_cast<long>(others.list.size());
+  for (long done = others.done.load(std::memory_order_acquire); done != due;
+       done = wait_for_change(others.done, done)) {
   }
 }
 
 double ThreadPool::seconds() const {
   double sum = 0;
-  for (const Worker& worker : workers_) sum += worker.seconds;
+  for (const Workers::Worker& worker : workers_->list) sum += worker.seconds;
   return sum;
 }
 

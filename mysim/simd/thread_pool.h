@@ -1,10 +1,8 @@
 // A thread pool for pieces of work, one of which comes many thousand times a second.
 #pragma once
 
-#include <atomic>
 #include <functional>
-#include <thread>
-#include <vector>
+#include <memory>
 
 namespace crosscheck::simd {
 
@@ -18,22 +16,15 @@ class ThreadPool {
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  int size() const { return static_cast<int>(workers_.size()) + 1; }
+  int size() const;
   /// work(0) ... work(size() - 1), which must not throw, each on a thread of its own; returns when all are done.
   void all(const std::function<void(int)>& work);
   /// CPU time of the other threads' work, s, without their waits.
   double seconds() const;
 
  private:
-  struct Worker {
-    std::thread thread;
-    double seconds = 0;
-  };
-  void worker_loop(int which);
-
-  std::vector<Worker> workers_;
-  const std::function<void(int)>* work_ = nullptr;  // null: the end
-  std::atomic<long> begun_ = 0, done_ = 0;          // how many pieces; of all others together
+  struct Workers;
+  std::unique_ptr<Workers> workers_;
 };
 
 }  // namespace crosscheck::simd

@@ -237,8 +237,9 @@ std::span<const Stepper> steppers() {
        .hard_constraints = true,
        .style = {"#333333", "(5,4)", 5}},
   };
-  static_assert(std::ranges::all_of(
-      table, [](const Stepper& s) { return std::ranges::count(table, s.name, &Stepper::name) == 1; }));
+  static_assert(std::all_of(std::begin(table), std::end(table), [](const Stepper& s) {
+    return std::count_if(std::begin(table), std::end(table), [&](const Stepper& t) { return t.name == s.name; }) == 1;
+  }));
   return table;
 }
 

@@ -1,9 +1,9 @@
 // Seeded, smooth gusts.
 #include "mysim/terms/wind.h"
 
-#include <cmath>
 #include <numbers>
 
+#include "mysim/base/portable_trigonometry.h"
 #include "mysim/base/random.h"
 
 namespace crosscheck {
@@ -22,7 +22,7 @@ Gust::Gust(int seed, int channel) {
 
 double Gust::at(double t) const {
   double sum = 0;
-  for (const Wave& wave : waves) sum += wave.weight * std::sin(wave.omega * t + wave.phase);
+  for (const Wave& wave : waves) sum += wave.weight * portable_sin(wave.omega * t + wave.phase);
   return sum;
 }
 

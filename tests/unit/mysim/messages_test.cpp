@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 #include "mysim/base/process.h"
 #include "mysim/base/progress.h"
 #include "mysim/base/text.h"
