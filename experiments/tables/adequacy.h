@@ -53,22 +53,23 @@ struct AdequacyRow {
   double cost = 0;
 
   static constexpr std::string_view table = "adequacy";
-  static constexpr auto columns = std::tuple{
-      column("scene", "1", &AdequacyRow::scene, "scene"),
-      column("rung", "1", &AdequacyRow::model, "name of the model"),
-      column("left out", "1", &AdequacyRow::left_out, "ingredients that it lacks, with commas between"),
-      column("kind", "1", &AdequacyRow::kind, "whether one ingredient is left out, or this one after those before it"),
-      column("error", "m", &AdequacyRow::error,
-             "largest RMS distance from the truth of the full scene in the window; empty where the run failed"),
-      column("tolerance", "m", &AdequacyRow::tolerance, "tolerance of the scene"),
-      column("within", "1", &AdequacyRow::within, "1 where the error is within the tolerance"),
-      column("motion", "m", &AdequacyRow::motion, "largest RMS distance of the particles from their start"),
-      column("truth bar", "m", &AdequacyRow::truth_bar, "error bar of the truth"),
-      column("truth", "1", &AdequacyRow::truth, "how sure the truth is"),
-      column("verdict", "1", &AdequacyRow::verdict, "how the run ended"),
-      column("evaluations", "1", &AdequacyRow::evaluations, "evaluations of the forces"),
-      column("springs", "1", &AdequacyRow::springs, "springs of the model"),
-      column("cost", "spring evaluations", &AdequacyRow::cost, "evaluations times springs")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &AdequacyRow::scene, "scene"), column("rung", "1", &AdequacyRow::model, "name of the model"),
+        column("left out", "1", &AdequacyRow::left_out, "ingredients that it lacks, with commas between"),
+        column("kind", "1", &AdequacyRow::kind,
+               "whether one ingredient is left out, or this one after those before it"),
+        column("error", "m", &AdequacyRow::error,
+               "largest RMS distance from the truth of the full scene in the window; empty where the run failed"),
+        column("tolerance", "m", &AdequacyRow::tolerance, "tolerance of the scene"),
+        column("within", "1", &AdequacyRow::within, "1 where the error is within the tolerance"),
+        column("motion", "m", &AdequacyRow::motion, "largest RMS distance of the particles from their start"),
+        column("truth bar", "m", &AdequacyRow::truth_bar, "error bar of the truth"),
+        column("truth", "1", &AdequacyRow::truth, "how sure the truth is"),
+        column("verdict", "1", &AdequacyRow::verdict, "how the run ended"),
+        column("evaluations", "1", &AdequacyRow::evaluations, "evaluations of the forces"),
+        column("springs", "1", &AdequacyRow::springs, "springs of the model"),
+        column("cost", "spring evaluations", &AdequacyRow::cost, "evaluations times springs");
+  };
 };
 
 /// The least model of a scene within a tolerance.
@@ -82,25 +83,26 @@ struct LeastModelRow {
   double cost_of_full = 0;
 
   static constexpr std::string_view table = "adequacy-least";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &LeastModelRow::scene, "scene"),
-                 column("tolerance", "m", &LeastModelRow::tolerance, "tolerance that is asked for"),
-                 column("tolerance is", "1", &LeastModelRow::tolerance_is, "what that tolerance is"),
-                 column("least model", "1", &LeastModelRow::least_model,
-                        "name of the model that leaves out most within the tolerance"),
-                 column("left out", "1", &LeastModelRow::left_out, "ingredients that it lacks, with commas between"),
-                 column("error", "m", &LeastModelRow::error, "its error"),
-                 column("unseen error 1", "m", &LeastModelRow::unseen_error_1,
-                        "its distance from the full model from start 1 that it has not seen; of the full model: the "
-                        "least error of any removal"),
-                 column("unseen error 2", "m", &LeastModelRow::unseen_error_2,
-                        "its distance from the full model from start 2 that it has not seen; of the full model: the "
-                        "least error of any removal"),
-                 column("unseen error 3", "m", &LeastModelRow::unseen_error_3,
-                        "its distance from the full model from start 3 that it has not seen; of the full model: the "
-                        "least error of any removal"),
-                 column("holds", "1", &LeastModelRow::holds, "1 where it is the least model from all these starts too"),
-                 column("cost of full", "1", &LeastModelRow::cost_of_full, "its cost over that of the full model")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &LeastModelRow::scene, "scene"),
+        column("tolerance", "m", &LeastModelRow::tolerance, "tolerance that is asked for"),
+        column("tolerance is", "1", &LeastModelRow::tolerance_is, "what that tolerance is"),
+        column("least model", "1", &LeastModelRow::least_model,
+               "name of the model that leaves out most within the tolerance"),
+        column("left out", "1", &LeastModelRow::left_out, "ingredients that it lacks, with commas between"),
+        column("error", "m", &LeastModelRow::error, "its error"),
+        column("unseen error 1", "m", &LeastModelRow::unseen_error_1,
+               "its distance from the full model from start 1 that it has not seen; of the full model: the "
+               "least error of any removal"),
+        column("unseen error 2", "m", &LeastModelRow::unseen_error_2,
+               "its distance from the full model from start 2 that it has not seen; of the full model: the "
+               "least error of any removal"),
+        column("unseen error 3", "m", &LeastModelRow::unseen_error_3,
+               "its distance from the full model from start 3 that it has not seen; of the full model: the "
+               "least error of any removal"),
+        column("holds", "1", &LeastModelRow::holds, "1 where it is the least model from all these starts too"),
+        column("cost of full", "1", &LeastModelRow::cost_of_full, "its cost over that of the full model");
+  };
 };
 
 /// A cloth on one grid.
@@ -114,19 +116,20 @@ struct GridRow {
   double cost = 0;
 
   static constexpr std::string_view table = "adequacy-resolution";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &GridRow::scene, "scene"),
-                 column("particles along a side", "1", &GridRow::particles, "particles along the longer side"),
-                 column("cells", "1", &GridRow::cells, "cells along that side"),
-                 column("error against the finest", "m", &GridRow::error,
-                        "largest RMS distance from the finest grid in the window"),
-                 column("sag", "m", &GridRow::sag, "how far the lowest point hangs below the highest one at rest"),
-                 column("stiffness factor for the finest's sag", "1", &GridRow::stiffness_factor,
-                        "what all stiffnesses are to be multiplied by to sag as the finest grid does"),
-                 column("verdict", "1", &GridRow::verdict, "how the run ended"),
-                 column("evaluations", "1", &GridRow::evaluations, "evaluations of the forces"),
-                 column("springs", "1", &GridRow::springs, "springs of the model"),
-                 column("cost", "spring evaluations", &GridRow::cost, "evaluations times springs")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &GridRow::scene, "scene"),
+        column("particles along a side", "1", &GridRow::particles, "particles along the longer side"),
+        column("cells", "1", &GridRow::cells, "cells along that side"),
+        column("error against the finest", "m", &GridRow::error,
+               "largest RMS distance from the finest grid in the window"),
+        column("sag", "m", &GridRow::sag, "how far the lowest point hangs below the highest one at rest"),
+        column("stiffness factor for the finest's sag", "1", &GridRow::stiffness_factor,
+               "what all stiffnesses are to be multiplied by to sag as the finest grid does"),
+        column("verdict", "1", &GridRow::verdict, "how the run ended"),
+        column("evaluations", "1", &GridRow::evaluations, "evaluations of the forces"),
+        column("springs", "1", &GridRow::springs, "springs of the model"),
+        column("cost", "spring evaluations", &GridRow::cost, "evaluations times springs");
+  };
 };
 
 /// A clamped line of a cloth on one grid.
@@ -135,12 +138,13 @@ struct BendingRow {
   double cells = 0, stiffness = 0, droop = 0;
 
   static constexpr std::string_view table = "adequacy-bending";
-  static constexpr auto columns =
-      std::tuple{column("particles along a line", "1", &BendingRow::particles, "particles along the line"),
-                 column("cells", "1", &BendingRow::cells, "cells in its free length"),
-                 column("stiffness of bend springs", "N/m", &BendingRow::stiffness,
-                        "stiffness at which it droops as on the coarsest grid"),
-                 column("droop", "m", &BendingRow::droop, "how far its free end hangs down")};
+  static constexpr auto columns = [](auto&& column) {
+    column("particles along a line", "1", &BendingRow::particles, "particles along the line"),
+        column("cells", "1", &BendingRow::cells, "cells in its free length"),
+        column("stiffness of bend springs", "N/m", &BendingRow::stiffness,
+               "stiffness at which it droops as on the coarsest grid"),
+        column("droop", "m", &BendingRow::droop, "how far its free end hangs down");
+  };
 };
 
 /// A power of the number of cells.
@@ -151,12 +155,13 @@ struct ScalingRow {
   std::optional<double> derived = {};
 
   static constexpr std::string_view table = "adequacy-scaling";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &ScalingRow::scene, "scene; empty of the clamped line"),
-                 column("quantity", "1", &ScalingRow::quantity, "what follows a power of the number of cells"),
-                 column("exponent", "1", &ScalingRow::exponent, "that power, by least squares in the logarithms"),
-                 column("standard error", "1", &ScalingRow::standard_error, "of the exponent"),
-                 column("derived", "1", &ScalingRow::derived, "the exponent that is derived for many cells")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &ScalingRow::scene, "scene; empty of the clamped line"),
+        column("quantity", "1", &ScalingRow::quantity, "what follows a power of the number of cells"),
+        column("exponent", "1", &ScalingRow::exponent, "that power, by least squares in the logarithms"),
+        column("standard error", "1", &ScalingRow::standard_error, "of the exponent"),
+        column("derived", "1", &ScalingRow::derived, "the exponent that is derived for many cells");
+  };
 };
 
 }  // namespace crosscheck

@@ -17,14 +17,14 @@ struct AttestedRow {
 
   static constexpr std::string_view table = "certificates",
                                     about = "What was read back from the engines' memory, beside the scene.";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &AttestedRow::scene, "scene"),
-                 column("method", "1", &AttestedRow::method, "method"),
-                 column("quantity", "1", &AttestedRow::quantity, "what was read back"),
-                 column("asked", "1", &AttestedRow::requested, "as the scene says"),
-                 column("handed over", "1", &AttestedRow::mapped, "as it was handed to the engine"),
-                 column("read back", "1", &AttestedRow::read_back, "as the engine has it"),
-                 column("parity", "1", &AttestedRow::parity, "whether both are the same")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &AttestedRow::scene, "scene"), column("method", "1", &AttestedRow::method, "method"),
+        column("quantity", "1", &AttestedRow::quantity, "what was read back"),
+        column("asked", "1", &AttestedRow::requested, "as the scene says"),
+        column("handed over", "1", &AttestedRow::mapped, "as it was handed to the engine"),
+        column("read back", "1", &AttestedRow::read_back, "as the engine has it"),
+        column("parity", "1", &AttestedRow::parity, "whether both are the same");
+  };
 };
 
 }  // namespace crosscheck

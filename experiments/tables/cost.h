@@ -16,21 +16,22 @@ struct SizeCostRow {
   std::string build;
 
   static constexpr std::string_view table = "size-cost", about = "CPU time of a step against the size of a cloth.";
-  static constexpr auto columns = std::tuple{
-      column("method", "1", &SizeCostRow::method, "method"),
-      column("side", "1", &SizeCostRow::side, "particles along a side of the cloth"),
-      column("particles", "1", &SizeCostRow::particles, "particles"),
-      column("springs", "1", &SizeCostRow::springs, "springs"),
-      column("step", "s", &SizeCostRow::step, "time step"),
-      column("steps timed", "1", &SizeCostRow::steps_timed, "steps of each run that was timed"),
-      column("evaluations per step", "1", &SizeCostRow::evaluations_per_step, "force evaluations in a step"),
-      column("cpu per step", "s", &SizeCostRow::cpu, "CPU time of a step, median"),
-      column("cpu low", "s", &SizeCostRow::cpu_low, "lower end of its 90 % interval"),
-      column("cpu high", "s", &SizeCostRow::cpu_high, "upper end of its 90 % interval"),
-      column("cpu per step and particle", "s", &SizeCostRow::cpu_per_particle, "CPU time of a step over the particles"),
-      column("repetitions", "1", &SizeCostRow::repetitions, "runs that were timed"),
-      column("noise", "1", &SizeCostRow::noise, "relative difference of two measurements of the same"),
-      column("build", "1", &SizeCostRow::build, "who compiled the code that was timed")};
+  static constexpr auto columns = [](auto&& column) {
+    column("method", "1", &SizeCostRow::method, "method"),
+        column("side", "1", &SizeCostRow::side, "particles along a side of the cloth"),
+        column("particles", "1", &SizeCostRow::particles, "particles"),
+        column("springs", "1", &SizeCostRow::springs, "springs"), column("step", "s", &SizeCostRow::step, "time step"),
+        column("steps timed", "1", &SizeCostRow::steps_timed, "steps of each run that was timed"),
+        column("evaluations per step", "1", &SizeCostRow::evaluations_per_step, "force evaluations in a step"),
+        column("cpu per step", "s", &SizeCostRow::cpu, "CPU time of a step, median"),
+        column("cpu low", "s", &SizeCostRow::cpu_low, "lower end of its 90 % interval"),
+        column("cpu high", "s", &SizeCostRow::cpu_high, "upper end of its 90 % interval"),
+        column("cpu per step and particle", "s", &SizeCostRow::cpu_per_particle,
+               "CPU time of a step over the particles"),
+        column("repetitions", "1", &SizeCostRow::repetitions, "runs that were timed"),
+        column("noise", "1", &SizeCostRow::noise, "relative difference of two measurements of the same"),
+        column("build", "1", &SizeCostRow::build, "who compiled the code that was timed");
+  };
 };
 
 struct PhaseCostRow {
@@ -41,15 +42,16 @@ struct PhaseCostRow {
   std::string how;
 
   static constexpr std::string_view table = "phases-cost", about = "CPU time of the phases of a step.";
-  static constexpr auto columns =
-      std::tuple{column("method", "1", &PhaseCostRow::method, "method"),
-                 column("side", "1", &PhaseCostRow::side, "particles along a side of the cloth"),
-                 column("phase", "1", &PhaseCostRow::phase, "part of the step"),
-                 column("cpu per step", "s", &PhaseCostRow::cpu, "CPU time in a step, median"),
-                 column("cpu low", "s", &PhaseCostRow::cpu_low, "lower end of its interval"),
-                 column("cpu high", "s", &PhaseCostRow::cpu_high, "upper end of its interval"),
-                 column("share", "1", &PhaseCostRow::share, "of the whole step"),
-                 column("how", "1", &PhaseCostRow::how, "how it was measured")};
+  static constexpr auto columns = [](auto&& column) {
+    column("method", "1", &PhaseCostRow::method, "method"),
+        column("side", "1", &PhaseCostRow::side, "particles along a side of the cloth"),
+        column("phase", "1", &PhaseCostRow::phase, "part of the step"),
+        column("cpu per step", "s", &PhaseCostRow::cpu, "CPU time in a step, median"),
+        column("cpu low", "s", &PhaseCostRow::cpu_low, "lower end of its interval"),
+        column("cpu high", "s", &PhaseCostRow::cpu_high, "upper end of its interval"),
+        column("share", "1", &PhaseCostRow::share, "of the whole step"),
+        column("how", "1", &PhaseCostRow::how, "how it was measured");
+  };
 };
 
 struct RooflineRow {
@@ -61,16 +63,17 @@ struct RooflineRow {
 
   static constexpr std::string_view table = "roofline-cost",
                                     about = "The machine's peaks and the spring kernel beside them.";
-  static constexpr auto columns =
-      std::tuple{column("what", "1", &RooflineRow::what, "loop that was timed"),
-                 column("work", "flop", &RooflineRow::work, "floating-point operations of one run"),
-                 column("bytes", "B", &RooflineRow::bytes, "bytes that one run moves, as the source asks for them"),
-                 column("intensity", "flop/B", &RooflineRow::intensity, "operations over bytes"),
-                 column("cpu", "s", &RooflineRow::cpu, "CPU time of one run, median"),
-                 column("cpu low", "s", &RooflineRow::cpu_low, "lower end of its 90 % interval"),
-                 column("cpu high", "s", &RooflineRow::cpu_high, "upper end of its 90 % interval"),
-                 column("rate", "flop/s", &RooflineRow::rate, "operations in a second"),
-                 column("bandwidth", "B/s", &RooflineRow::bandwidth, "bytes in a second")};
+  static constexpr auto columns = [](auto&& column) {
+    column("what", "1", &RooflineRow::what, "loop that was timed"),
+        column("work", "flop", &RooflineRow::work, "floating-point operations of one run"),
+        column("bytes", "B", &RooflineRow::bytes, "bytes that one run moves, as the source asks for them"),
+        column("intensity", "flop/B", &RooflineRow::intensity, "operations over bytes"),
+        column("cpu", "s", &RooflineRow::cpu, "CPU time of one run, median"),
+        column("cpu low", "s", &RooflineRow::cpu_low, "lower end of its 90 % interval"),
+        column("cpu high", "s", &RooflineRow::cpu_high, "upper end of its 90 % interval"),
+        column("rate", "flop/s", &RooflineRow::rate, "operations in a second"),
+        column("bandwidth", "B/s", &RooflineRow::bandwidth, "bytes in a second");
+  };
 };
 
 }  // namespace crosscheck

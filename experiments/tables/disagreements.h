@@ -10,13 +10,14 @@ struct DisagreementRow {
   std::string name, world, what, cause, effect, scene_hash;
 
   static constexpr std::string_view table = "disagreements";
-  static constexpr auto columns =
-      std::tuple{column("name", "1", &DisagreementRow::name, "name of the disagreement and of its scene"),
-                 column("world", "1", &DisagreementRow::world, "method whose it is"),
-                 column("what", "1", &DisagreementRow::what, "what cannot be matched, or fails"),
-                 column("cause", "1", &DisagreementRow::cause, "why"),
-                 column("effect", "1", &DisagreementRow::effect, "its size as measured"),
-                 column("scene hash", "1", &DisagreementRow::scene_hash, "fingerprint of the scene file")};
+  static constexpr auto columns = [](auto&& column) {
+    column("name", "1", &DisagreementRow::name, "name of the disagreement and of its scene"),
+        column("world", "1", &DisagreementRow::world, "method whose it is"),
+        column("what", "1", &DisagreementRow::what, "what cannot be matched, or fails"),
+        column("cause", "1", &DisagreementRow::cause, "why"),
+        column("effect", "1", &DisagreementRow::effect, "its size as measured"),
+        column("scene hash", "1", &DisagreementRow::scene_hash, "fingerprint of the scene file");
+  };
 };
 
 /// A disagreement over time. Each such table calls its last column by its own quantity.
@@ -27,14 +28,15 @@ struct DisagreementCurveRow {
   double t = 0, value = 0;
 
   static constexpr std::string_view table = "NAME-disagreement";
-  static constexpr auto columns =
-      std::tuple{column("curve", "1", &DisagreementCurveRow::curve, "title of the curve"),
-                 column("method", "1", &DisagreementCurveRow::method, "method that was run"),
-                 column("step", "s", &DisagreementCurveRow::step, "time step taken"),
-                 column("verdict", "1", &DisagreementCurveRow::verdict, "how the run ended"),
-                 column("t", "s", &DisagreementCurveRow::t, "time of the sample"),
-                 column("QUANTITY", "UNIT", &DisagreementCurveRow::value,
-                        "what the disagreement is seen in; the file has its name and unit")};
+  static constexpr auto columns = [](auto&& column) {
+    column("curve", "1", &DisagreementCurveRow::curve, "title of the curve"),
+        column("method", "1", &DisagreementCurveRow::method, "method that was run"),
+        column("step", "s", &DisagreementCurveRow::step, "time step taken"),
+        column("verdict", "1", &DisagreementCurveRow::verdict, "how the run ended"),
+        column("t", "s", &DisagreementCurveRow::t, "time of the sample"),
+        column("QUANTITY", "UNIT", &DisagreementCurveRow::value,
+               "what the disagreement is seen in; the file has its name and unit");
+  };
 };
 
 /// In which direction a ball pushes.
@@ -44,13 +46,14 @@ struct ContactAngleRow {
   std::string scene_hash;
 
   static constexpr std::string_view table = "NAME-angles";
-  static constexpr auto columns =
-      std::tuple{column("method", "1", &ContactAngleRow::method, "method that was run"),
-                 column("angle", "rad", &ContactAngleRow::angle, "place on the ball, from its top"),
-                 column("in plane", "rad", &ContactAngleRow::in_plane,
-                        "direction of the push less the normal, in the plane of gravity; positive: as if farther down"),
-                 column("sideways", "rad", &ContactAngleRow::sideways, "the same across that plane"),
-                 column("scene hash", "1", &ContactAngleRow::scene_hash, "fingerprint of the scene file")};
+  static constexpr auto columns = [](auto&& column) {
+    column("method", "1", &ContactAngleRow::method, "method that was run"),
+        column("angle", "rad", &ContactAngleRow::angle, "place on the ball, from its top"),
+        column("in plane", "rad", &ContactAngleRow::in_plane,
+               "direction of the push less the normal, in the plane of gravity; positive: as if farther down"),
+        column("sideways", "rad", &ContactAngleRow::sideways, "the same across that plane"),
+        column("scene hash", "1", &ContactAngleRow::scene_hash, "fingerprint of the scene file");
+  };
 };
 
 }  // namespace crosscheck

@@ -40,41 +40,41 @@ struct EngineRow {
   std::string different_law = {};
 
   static constexpr std::string_view table = "engines";
-  static constexpr auto columns = std::tuple{
-      column("scene", "1", &EngineRow::scene, "scene"),
-      column("method", "1", &EngineRow::method, "method that was run"),
-      column("verdict", "1", &EngineRow::verdict, "how the run ended"),
-      column("reason", "1", &EngineRow::reason, "why it failed or was refused"),
-      column("end", "s", &EngineRow::end, "last time reached"),
-      column("step", "s", &EngineRow::step, "time step taken"),
-      column("steps", "1", &EngineRow::steps, "steps taken"),
-      column("evaluations", "1", &EngineRow::evaluations, "evaluations of the forces"),
-      column("coincident springs", "1", &EngineRow::coincident, "springs met at zero length, over all evaluations"),
-      column("motion", "m", &EngineRow::motion, "largest RMS distance of the particles from their start"),
-      column("window", "s", &EngineRow::window, "how long single positions can be predicted, as the scene states it"),
-      column("measured window", "s", &EngineRow::measured_window,
-             "the same as measured: until a perturbation of 1e-10 m has grown a thousandfold"),
-      column("perturbation growth", "1", &EngineRow::growth, "how many times that perturbation grows in the window"),
-      column("round-off bound", "m", &EngineRow::round_off_bound,
-             "what engines of one rule may differ by; empty where single positions cannot be predicted"),
-      column("truth", "1", &EngineRow::truth, "how the truth was found; empty where none is known"),
-      column("truth tier", "1", &EngineRow::truth_kind, "how sure the truth is"),
-      column("truth bar", "m", &EngineRow::truth_bar, "error bar of the truth"),
-      column("truth until", "s", &EngineRow::truth_until,
-             "until when the contact rule's converged answer is known; empty of other truths"),
-      column("largest error", "m", &EngineRow::error, "largest RMS distance from the truth in the window"),
-      column("largest difference from converged contact", "m", &EngineRow::contact_difference,
-             "largest RMS distance in the window from what the in-house contact rule converges to"),
-      column("largest difference", "m", &EngineRow::difference,
-             "largest RMS distance from mysim/symplectic-euler in the window"),
-      column("largest difference of centres", "m", &EngineRow::centre_difference,
-             "largest distance of the centre of mass from that of mysim/symplectic-euler over the run"),
-      column("smallest clearance", "m", &EngineRow::clearance,
-             "smallest distance of a particle from a sphere's contact surface; negative inside"),
-      column("creep at end", "m/s", &EngineRow::creep, "mean sliding speed of the touching particles at the end"),
-      column("predicted step limit", "s", &EngineRow::step_limit,
-             "largest stable step by linear theory, for the fastest vibration at the start"),
-      column("different law", "1", &EngineRow::different_law, "ingredients that the method has under another law")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &EngineRow::scene, "scene"), column("method", "1", &EngineRow::method, "method that was run"),
+        column("verdict", "1", &EngineRow::verdict, "how the run ended"),
+        column("reason", "1", &EngineRow::reason, "why it failed or was refused"),
+        column("end", "s", &EngineRow::end, "last time reached"),
+        column("step", "s", &EngineRow::step, "time step taken"),
+        column("steps", "1", &EngineRow::steps, "steps taken"),
+        column("evaluations", "1", &EngineRow::evaluations, "evaluations of the forces"),
+        column("coincident springs", "1", &EngineRow::coincident, "springs met at zero length, over all evaluations"),
+        column("motion", "m", &EngineRow::motion, "largest RMS distance of the particles from their start"),
+        column("window", "s", &EngineRow::window, "how long single positions can be predicted, as the scene states it"),
+        column("measured window", "s", &EngineRow::measured_window,
+               "the same as measured: until a perturbation of 1e-10 m has grown a thousandfold"),
+        column("perturbation growth", "1", &EngineRow::growth, "how many times that perturbation grows in the window"),
+        column("round-off bound", "m", &EngineRow::round_off_bound,
+               "what engines of one rule may differ by; empty where single positions cannot be predicted"),
+        column("truth", "1", &EngineRow::truth, "how the truth was found; empty where none is known"),
+        column("truth tier", "1", &EngineRow::truth_kind, "how sure the truth is"),
+        column("truth bar", "m", &EngineRow::truth_bar, "error bar of the truth"),
+        column("truth until", "s", &EngineRow::truth_until,
+               "until when the contact rule's converged answer is known; empty of other truths"),
+        column("largest error", "m", &EngineRow::error, "largest RMS distance from the truth in the window"),
+        column("largest difference from converged contact", "m", &EngineRow::contact_difference,
+               "largest RMS distance in the window from what the in-house contact rule converges to"),
+        column("largest difference", "m", &EngineRow::difference,
+               "largest RMS distance from mysim/symplectic-euler in the window"),
+        column("largest difference of centres", "m", &EngineRow::centre_difference,
+               "largest distance of the centre of mass from that of mysim/symplectic-euler over the run"),
+        column("smallest clearance", "m", &EngineRow::clearance,
+               "smallest distance of a particle from a sphere's contact surface; negative inside"),
+        column("creep at end", "m/s", &EngineRow::creep, "mean sliding speed of the touching particles at the end"),
+        column("predicted step limit", "s", &EngineRow::step_limit,
+               "largest stable step by linear theory, for the fastest vibration at the start"),
+        column("different law", "1", &EngineRow::different_law, "ingredients that the method has under another law");
+  };
 };
 
 struct EngineCostRow {
@@ -82,14 +82,15 @@ struct EngineCostRow {
   std::optional<double> cpu = {}, cpu_per_step = {}, simulated_per_cpu = {}, process_cpu = {};
 
   static constexpr std::string_view table = "engines-cost";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &EngineCostRow::scene, "scene"),
-                 column("method", "1", &EngineCostRow::method, "method that was run"),
-                 column("cpu", "s", &EngineCostRow::cpu, "CPU time of the stepping threads"),
-                 column("cpu per step", "s", &EngineCostRow::cpu_per_step, "the same of one step, in the mean"),
-                 column("simulated per cpu", "s/s", &EngineCostRow::simulated_per_cpu, "simulated time over CPU time"),
-                 column("cpu of process", "s", &EngineCostRow::process_cpu,
-                        "CPU time of a whole outside program, its start and its files included")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &EngineCostRow::scene, "scene"),
+        column("method", "1", &EngineCostRow::method, "method that was run"),
+        column("cpu", "s", &EngineCostRow::cpu, "CPU time of the stepping threads"),
+        column("cpu per step", "s", &EngineCostRow::cpu_per_step, "the same of one step, in the mean"),
+        column("simulated per cpu", "s/s", &EngineCostRow::simulated_per_cpu, "simulated time over CPU time"),
+        column("cpu of process", "s", &EngineCostRow::process_cpu,
+               "CPU time of a whole outside program, its start and its files included");
+  };
 };
 
 struct EngineTimeRow {
@@ -99,18 +100,19 @@ struct EngineTimeRow {
                         creep = {};
 
   static constexpr std::string_view table = "SCENE-engines";
-  static constexpr auto columns =
-      std::tuple{column("method", "1", &EngineTimeRow::method, "method that was run"),
-                 column("t", "s", &EngineTimeRow::t, "time of the sample"),
-                 column("error", "m", &EngineTimeRow::error, "RMS distance from the truth"),
-                 column("difference from converged contact", "m", &EngineTimeRow::contact_difference,
-                        "RMS distance from what the in-house contact rule converges to"),
-                 column("difference", "m", &EngineTimeRow::difference, "RMS distance from mysim/symplectic-euler"),
-                 column("difference of centres", "m", &EngineTimeRow::centre_difference,
-                        "distance of the centre of mass from that of mysim/symplectic-euler"),
-                 column("clearance", "m", &EngineTimeRow::clearance,
-                        "smallest distance of a particle from a sphere's contact surface; negative inside"),
-                 column("creep", "m/s", &EngineTimeRow::creep, "mean sliding speed of the touching particles")};
+  static constexpr auto columns = [](auto&& column) {
+    column("method", "1", &EngineTimeRow::method, "method that was run"),
+        column("t", "s", &EngineTimeRow::t, "time of the sample"),
+        column("error", "m", &EngineTimeRow::error, "RMS distance from the truth"),
+        column("difference from converged contact", "m", &EngineTimeRow::contact_difference,
+               "RMS distance from what the in-house contact rule converges to"),
+        column("difference", "m", &EngineTimeRow::difference, "RMS distance from mysim/symplectic-euler"),
+        column("difference of centres", "m", &EngineTimeRow::centre_difference,
+               "distance of the centre of mass from that of mysim/symplectic-euler"),
+        column("clearance", "m", &EngineTimeRow::clearance,
+               "smallest distance of a particle from a sphere's contact surface; negative inside"),
+        column("creep", "m/s", &EngineTimeRow::creep, "mean sliding speed of the touching particles");
+  };
 };
 
 struct EngineEnergyRow {
@@ -121,19 +123,20 @@ struct EngineEnergyRow {
   bool contact_inferred = false;
 
   static constexpr std::string_view table = "engines-energy";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &EngineEnergyRow::scene, "scene"),
-                 column("method", "1", &EngineEnergyRow::method, "method that was run"),
-                 column("verdict", "1", &EngineEnergyRow::verdict, "how the run ended"),
-                 column("end", "s", &EngineEnergyRow::end, "last time reached"),
-                 column("energy turned over", "J", &EngineEnergyRow::turned_over,
-                        "largest kinetic energy, or change of the gravitational one"),
-                 column("largest balance error", "J", &EngineEnergyRow::balance_error,
-                        "largest change of the sum of all energies, losses and works"),
-                 column("relative balance error", "1", &EngineEnergyRow::relative_balance_error,
-                        "the same over the energy turned over"),
-                 column("contact loss inferred", "1", &EngineEnergyRow::contact_inferred,
-                        "1 where the engine does not tell what contact took, so that no balance is claimed")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &EngineEnergyRow::scene, "scene"),
+        column("method", "1", &EngineEnergyRow::method, "method that was run"),
+        column("verdict", "1", &EngineEnergyRow::verdict, "how the run ended"),
+        column("end", "s", &EngineEnergyRow::end, "last time reached"),
+        column("energy turned over", "J", &EngineEnergyRow::turned_over,
+               "largest kinetic energy, or change of the gravitational one"),
+        column("largest balance error", "J", &EngineEnergyRow::balance_error,
+               "largest change of the sum of all energies, losses and works"),
+        column("relative balance error", "1", &EngineEnergyRow::relative_balance_error,
+               "the same over the energy turned over"),
+        column("contact loss inferred", "1", &EngineEnergyRow::contact_inferred,
+               "1 where the engine does not tell what contact took, so that no balance is claimed");
+  };
 };
 
 /// Statistics of sixteen perturbed runs of a scene with contact.
@@ -142,12 +145,13 @@ struct StatisticRow {
   double mean = 0, deviation = 0;
 
   static constexpr std::string_view table = "SCENE-statistics";
-  static constexpr auto columns =
-      std::tuple{column("method", "1", &StatisticRow::method, "method that was run"),
-                 column("quantity", "1", &StatisticRow::quantity, "what the mean is of"),
-                 column("unit", "1", &StatisticRow::unit, "unit of mean and deviation"),
-                 column("mean", "see unit", &StatisticRow::mean, "mean over runs from perturbed starts"),
-                 column("deviation", "see unit", &StatisticRow::deviation, "standard deviation over these runs")};
+  static constexpr auto columns = [](auto&& column) {
+    column("method", "1", &StatisticRow::method, "method that was run"),
+        column("quantity", "1", &StatisticRow::quantity, "what the mean is of"),
+        column("unit", "1", &StatisticRow::unit, "unit of mean and deviation"),
+        column("mean", "see unit", &StatisticRow::mean, "mean over runs from perturbed starts"),
+        column("deviation", "see unit", &StatisticRow::deviation, "standard deviation over these runs");
+  };
 };
 
 }  // namespace crosscheck

@@ -25,14 +25,15 @@ struct ReboundRow {
   double by_theory = 0;
 
   static constexpr std::string_view table = "sphere-rebound";
-  static constexpr auto columns = std::tuple{
-      column("method", "1", &ReboundRow::method, "method that was run"),
-      column("verdict", "1", &ReboundRow::verdict, "how the run ended"),
-      column("reason", "1", &ReboundRow::reason, "why it failed or was refused"),
-      column("step", "s", &ReboundRow::step, "time step asked for"),
-      column("restitution", "1", &ReboundRow::restitution, "part of its speed that the ball returns"),
-      column("rebound", "m", &ReboundRow::rebound, "how high the particle rises again above the contact surface"),
-      column("by theory", "m", &ReboundRow::by_theory, "the same by theory")};
+  static constexpr auto columns = [](auto&& column) {
+    column("method", "1", &ReboundRow::method, "method that was run"),
+        column("verdict", "1", &ReboundRow::verdict, "how the run ended"),
+        column("reason", "1", &ReboundRow::reason, "why it failed or was refused"),
+        column("step", "s", &ReboundRow::step, "time step asked for"),
+        column("restitution", "1", &ReboundRow::restitution, "part of its speed that the ball returns"),
+        column("rebound", "m", &ReboundRow::rebound, "how high the particle rises again above the contact surface"),
+        column("by theory", "m", &ReboundRow::by_theory, "the same by theory");
+  };
 };
 
 /// A particle that slides off a ball without friction.
@@ -47,15 +48,16 @@ struct LeavingRow {
   double speed_by_theory = 0;
 
   static constexpr std::string_view table = "sphere-leaving";
-  static constexpr auto columns =
-      std::tuple{column("method", "1", &LeavingRow::method, "method that was run"),
-                 column("verdict", "1", &LeavingRow::verdict, "how the run ended"),
-                 column("reason", "1", &LeavingRow::reason, "why it failed or was refused"),
-                 column("step", "s", &LeavingRow::step, "time step asked for"),
-                 column("angle", "degrees", &LeavingRow::angle, "angle from the top where the gap first passes 1 mm"),
-                 column("angle by theory", "degrees", &LeavingRow::angle_by_theory, "the same by theory"),
-                 column("speed", "m/s", &LeavingRow::speed, "speed there"),
-                 column("speed by theory", "m/s", &LeavingRow::speed_by_theory, "the same by theory")};
+  static constexpr auto columns = [](auto&& column) {
+    column("method", "1", &LeavingRow::method, "method that was run"),
+        column("verdict", "1", &LeavingRow::verdict, "how the run ended"),
+        column("reason", "1", &LeavingRow::reason, "why it failed or was refused"),
+        column("step", "s", &LeavingRow::step, "time step asked for"),
+        column("angle", "degrees", &LeavingRow::angle, "angle from the top where the gap first passes 1 mm"),
+        column("angle by theory", "degrees", &LeavingRow::angle_by_theory, "the same by theory"),
+        column("speed", "m/s", &LeavingRow::speed, "speed there"),
+        column("speed by theory", "m/s", &LeavingRow::speed_by_theory, "the same by theory");
+  };
 };
 
 /// A particle at rest on a slope.
@@ -70,17 +72,18 @@ struct ConeRow {
   ContactState state_by_theory = ContactState::sticks;
 
   static constexpr std::string_view table = "sphere-cone";
-  static constexpr auto columns =
-      std::tuple{column("method", "1", &ConeRow::method, "method that was run"),
-                 column("verdict", "1", &ConeRow::verdict, "how the run ended"),
-                 column("reason", "1", &ConeRow::reason, "why it failed or was refused"),
-                 column("step", "s", &ConeRow::step, "time step asked for"),
-                 column("angle", "degrees", &ConeRow::angle, "of the slope"),
-                 column("friction", "1", &ConeRow::friction, "Coulomb's coefficient of friction"),
-                 column("way", "m", &ConeRow::distance, "way down the slope in 0.5 s"),
-                 column("way by theory", "m", &ConeRow::distance_by_theory, "the same by Coulomb's law"),
-                 column("answer", "1", &ConeRow::state, "whether the particle stuck or slid"),
-                 column("answer by theory", "1", &ConeRow::state_by_theory, "the same by Coulomb's law")};
+  static constexpr auto columns = [](auto&& column) {
+    column("method", "1", &ConeRow::method, "method that was run"),
+        column("verdict", "1", &ConeRow::verdict, "how the run ended"),
+        column("reason", "1", &ConeRow::reason, "why it failed or was refused"),
+        column("step", "s", &ConeRow::step, "time step asked for"),
+        column("angle", "degrees", &ConeRow::angle, "of the slope"),
+        column("friction", "1", &ConeRow::friction, "Coulomb's coefficient of friction"),
+        column("way", "m", &ConeRow::distance, "way down the slope in 0.5 s"),
+        column("way by theory", "m", &ConeRow::distance_by_theory, "the same by Coulomb's law"),
+        column("answer", "1", &ConeRow::state, "whether the particle stuck or slid"),
+        column("answer by theory", "1", &ConeRow::state_by_theory, "the same by Coulomb's law");
+  };
 };
 
 /// The final state of a cloth on a ball.
@@ -95,24 +98,25 @@ struct DrapeRow {
   std::optional<double> asymmetry = {};
 
   static constexpr std::string_view table = "sphere-drape";
-  static constexpr auto columns = std::tuple{
-      column("scene", "1", &DrapeRow::scene, "scene"),
-      column("method", "1", &DrapeRow::method, "method that was run"),
-      column("verdict", "1", &DrapeRow::verdict, "how the run ended"),
-      column("reason", "1", &DrapeRow::reason, "why it failed or was refused"),
-      column("end", "s", &DrapeRow::end, "last time reached"),
-      column("step", "s", &DrapeRow::step, "time step taken"),
-      column("settled after", "s", &DrapeRow::settled_after, "when it came to rest: its RMS speed stays below 1 cm/s"),
-      column("centre height", "m", &DrapeRow::centre_height, "height of the centre of mass at the end"),
-      column("centre moved aside", "m", &DrapeRow::moved_aside, "how far the centre of mass moved sideways"),
-      column("clearance", "m", &DrapeRow::clearance,
-             "smallest distance from a sphere's contact surface at the end; negative inside"),
-      column("creep", "m/s", &DrapeRow::creep, "mean sliding speed of the touching particles at the end"),
-      column("contact took", "J", &DrapeRow::contact, "energy lost in contact over the run"),
-      column("contact inferred", "1", &DrapeRow::contact_inferred,
-             "1 where the engine does not tell what contact took: it is what the balance lacks"),
-      column("asymmetry", "m", &DrapeRow::asymmetry,
-             "largest distance of a particle from its partner's mirror image at the end")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &DrapeRow::scene, "scene"), column("method", "1", &DrapeRow::method, "method that was run"),
+        column("verdict", "1", &DrapeRow::verdict, "how the run ended"),
+        column("reason", "1", &DrapeRow::reason, "why it failed or was refused"),
+        column("end", "s", &DrapeRow::end, "last time reached"),
+        column("step", "s", &DrapeRow::step, "time step taken"),
+        column("settled after", "s", &DrapeRow::settled_after,
+               "when it came to rest: its RMS speed stays below 1 cm/s"),
+        column("centre height", "m", &DrapeRow::centre_height, "height of the centre of mass at the end"),
+        column("centre moved aside", "m", &DrapeRow::moved_aside, "how far the centre of mass moved sideways"),
+        column("clearance", "m", &DrapeRow::clearance,
+               "smallest distance from a sphere's contact surface at the end; negative inside"),
+        column("creep", "m/s", &DrapeRow::creep, "mean sliding speed of the touching particles at the end"),
+        column("contact took", "J", &DrapeRow::contact, "energy lost in contact over the run"),
+        column("contact inferred", "1", &DrapeRow::contact_inferred,
+               "1 where the engine does not tell what contact took: it is what the balance lacks"),
+        column("asymmetry", "m", &DrapeRow::asymmetry,
+               "largest distance of a particle from its partner's mirror image at the end");
+  };
 };
 
 /// The penetration depth of a cloth in a ball.
@@ -123,18 +127,19 @@ struct PenetrationRow {
   std::optional<double> particles = {}, triangles = {}, particles_at_end = {}, triangles_at_end = {};
 
   static constexpr std::string_view table = "sphere-penetration";
-  static constexpr auto columns = std::tuple{
-      column("scene", "1", &PenetrationRow::scene, "scene"),
-      column("method", "1", &PenetrationRow::method, "method that was run"),
-      column("verdict", "1", &PenetrationRow::verdict, "how the run ended"),
-      column("step", "s", &PenetrationRow::step, "time step taken"),
-      column("radius", "m", &PenetrationRow::radius, "smallest contact radius of the scene"),
-      column("particles", "%", &PenetrationRow::particles,
-             "how deep particles were inside at most, in parts of the radius"),
-      column("triangles", "%", &PenetrationRow::triangles,
-             "how deep triangles were inside at most, in parts of the radius"),
-      column("particles at end", "%", &PenetrationRow::particles_at_end, "the same of particles at the end"),
-      column("triangles at end", "%", &PenetrationRow::triangles_at_end, "the same of triangles at the end")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &PenetrationRow::scene, "scene"),
+        column("method", "1", &PenetrationRow::method, "method that was run"),
+        column("verdict", "1", &PenetrationRow::verdict, "how the run ended"),
+        column("step", "s", &PenetrationRow::step, "time step taken"),
+        column("radius", "m", &PenetrationRow::radius, "smallest contact radius of the scene"),
+        column("particles", "%", &PenetrationRow::particles,
+               "how deep particles were inside at most, in parts of the radius"),
+        column("triangles", "%", &PenetrationRow::triangles,
+               "how deep triangles were inside at most, in parts of the radius"),
+        column("particles at end", "%", &PenetrationRow::particles_at_end, "the same of particles at the end"),
+        column("triangles at end", "%", &PenetrationRow::triangles_at_end, "the same of triangles at the end");
+  };
 };
 
 /// The same cloth over time.
@@ -144,19 +149,20 @@ struct DrapeTimeRow {
   std::optional<double> clearance = {}, triangles_inside = {}, creep = {}, asymmetry = {};
 
   static constexpr std::string_view table = "SCENE-drape";
-  static constexpr auto columns = std::tuple{
-      column("method", "1", &DrapeTimeRow::method, "method that was run"),
-      column("step", "s", &DrapeTimeRow::step, "time step taken"),
-      column("t", "s", &DrapeTimeRow::t, "time of the sample"),
-      column("centre height", "m", &DrapeTimeRow::centre_height, "height of the centre of mass"),
-      column("centre moved aside", "m", &DrapeTimeRow::moved_aside, "how far the centre of mass moved sideways"),
-      column("clearance", "m", &DrapeTimeRow::clearance,
-             "smallest distance from a sphere's contact surface; negative inside"),
-      column("triangles inside", "m", &DrapeTimeRow::triangles_inside,
-             "how deep the deepest point of a triangle is inside; negative outside"),
-      column("creep", "m/s", &DrapeTimeRow::creep, "mean sliding speed of the touching particles"),
-      column("asymmetry", "m", &DrapeTimeRow::asymmetry,
-             "largest distance of a particle from its partner's mirror image")};
+  static constexpr auto columns = [](auto&& column) {
+    column("method", "1", &DrapeTimeRow::method, "method that was run"),
+        column("step", "s", &DrapeTimeRow::step, "time step taken"),
+        column("t", "s", &DrapeTimeRow::t, "time of the sample"),
+        column("centre height", "m", &DrapeTimeRow::centre_height, "height of the centre of mass"),
+        column("centre moved aside", "m", &DrapeTimeRow::moved_aside, "how far the centre of mass moved sideways"),
+        column("clearance", "m", &DrapeTimeRow::clearance,
+               "smallest distance from a sphere's contact surface; negative inside"),
+        column("triangles inside", "m", &DrapeTimeRow::triangles_inside,
+               "how deep the deepest point of a triangle is inside; negative outside"),
+        column("creep", "m/s", &DrapeTimeRow::creep, "mean sliding speed of the touching particles"),
+        column("asymmetry", "m", &DrapeTimeRow::asymmetry,
+               "largest distance of a particle from its partner's mirror image");
+  };
 };
 
 }  // namespace crosscheck

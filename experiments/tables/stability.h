@@ -61,23 +61,23 @@ struct LimitRow {
   std::optional<double> precision;
 
   static constexpr std::string_view table = "stability", about = "Largest stable steps, measured and predicted.";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &LimitRow::scene, "scene"),
-                 column("method", "1", &LimitRow::method, "method"),
-                 column("state", "1", &LimitRow::state, "state about which the limit is looked for"),
-                 column("prediction", "1", &LimitRow::prediction, "what linear theory says of steps"),
-                 column("predicted limit", "s", &LimitRow::predicted, "critical time step by linear theory"),
-                 column("binding omega", "rad/s", &LimitRow::omega, "angular frequency of the mode that binds it"),
-                 column("binding gamma", "1/s", &LimitRow::gamma, "damping rate of that mode"),
-                 column("measurement", "1", &LimitRow::measurement, "what the runs say of steps"),
-                 column("measured limit", "s", &LimitRow::measured, "geometric middle of held and failed"),
-                 column("held", "s", &LimitRow::held, "largest step at which a run held"),
-                 column("failed", "s", &LimitRow::failed, "smallest step at which a run failed"),
-                 column("deviation", "1", &LimitRow::deviation, "measured over predicted limit, less 1"),
-                 column("verdict above", "1", &LimitRow::above, "how a run ends at 1.05 times the failed step"),
-                 column("steps", "1", &LimitRow::steps, "steps of each run"),
-                 column("reason", "1", &LimitRow::reason, "why measurement and prediction differ, or one is missing"),
-                 column("precision", "1", &LimitRow::precision, "width of the bracket from held to failed, over held")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &LimitRow::scene, "scene"), column("method", "1", &LimitRow::method, "method"),
+        column("state", "1", &LimitRow::state, "state about which the limit is looked for"),
+        column("prediction", "1", &LimitRow::prediction, "what linear theory says of steps"),
+        column("predicted limit", "s", &LimitRow::predicted, "critical time step by linear theory"),
+        column("binding omega", "rad/s", &LimitRow::omega, "angular frequency of the mode that binds it"),
+        column("binding gamma", "1/s", &LimitRow::gamma, "damping rate of that mode"),
+        column("measurement", "1", &LimitRow::measurement, "what the runs say of steps"),
+        column("measured limit", "s", &LimitRow::measured, "geometric middle of held and failed"),
+        column("held", "s", &LimitRow::held, "largest step at which a run held"),
+        column("failed", "s", &LimitRow::failed, "smallest step at which a run failed"),
+        column("deviation", "1", &LimitRow::deviation, "measured over predicted limit, less 1"),
+        column("verdict above", "1", &LimitRow::above, "how a run ends at 1.05 times the failed step"),
+        column("steps", "1", &LimitRow::steps, "steps of each run"),
+        column("reason", "1", &LimitRow::reason, "why measurement and prediction differ, or one is missing"),
+        column("precision", "1", &LimitRow::precision, "width of the bracket from held to failed, over held");
+  };
 };
 
 /// One step of a run above its method's limit, from the scene's own start.
@@ -91,18 +91,17 @@ struct FailureRow {
   bool still = false;
 
   static constexpr std::string_view table = "stability-failure", about = "The last steps of a run above its limit.";
-  static constexpr auto columns = std::tuple{
-      column("scene", "1", &FailureRow::scene, "scene"),
-      column("method", "1", &FailureRow::method, "method"),
-      column("time step", "s", &FailureRow::h, "time step of the run"),
-      column("measured limit", "s", &FailureRow::limit, "largest stable step, from table stability"),
-      column("growth by theory", "1", &FailureRow::growth, "factor of the energy of the fastest vibration in a step"),
-      column("step", "1", &FailureRow::step, "steps since the start"),
-      column("t", "s", &FailureRow::t, "time"),
-      column("kinetic energy", "J", &FailureRow::kinetic, "kinetic energy of the free particles"),
-      column("kinetic energy below", "J", &FailureRow::holding,
-             "the same at a quarter of the time step, where the run holds"),
-      column("still", "1", &FailureRow::still, "whether the report shows a picture of this moment")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &FailureRow::scene, "scene"), column("method", "1", &FailureRow::method, "method"),
+        column("time step", "s", &FailureRow::h, "time step of the run"),
+        column("measured limit", "s", &FailureRow::limit, "largest stable step, from table stability"),
+        column("growth by theory", "1", &FailureRow::growth, "factor of the energy of the fastest vibration in a step"),
+        column("step", "1", &FailureRow::step, "steps since the start"), column("t", "s", &FailureRow::t, "time"),
+        column("kinetic energy", "J", &FailureRow::kinetic, "kinetic energy of the free particles"),
+        column("kinetic energy below", "J", &FailureRow::holding,
+               "the same at a quarter of the time step, where the run holds"),
+        column("still", "1", &FailureRow::still, "whether the report shows a picture of this moment");
+  };
 };
 
 struct GrowthRow {
@@ -112,17 +111,17 @@ struct GrowthRow {
   double predicted = 0, measured = 0, deviation = 0;
 
   static constexpr std::string_view table = "stability-growth", about = "Growth of one mode in each step.";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &GrowthRow::scene, "scene"),
-                 column("method", "1", &GrowthRow::method, "method"),
-                 column("omega", "rad/s", &GrowthRow::omega, "angular frequency of the mode"),
-                 column("gamma", "1/s", &GrowthRow::gamma, "damping rate of the mode"),
-                 column("step", "s", &GrowthRow::step, "time step"),
-                 column("h omega", "1", &GrowthRow::h_omega, "time step times angular frequency"),
-                 column("share of limit", "1", &GrowthRow::share_of_limit, "time step over the predicted limit"),
-                 column("predicted growth", "1", &GrowthRow::predicted, "spectral radius of a step by theory, less 1"),
-                 column("measured growth", "1", &GrowthRow::measured, "mean factor of the amplitude in a step, less 1"),
-                 column("deviation", "1", &GrowthRow::deviation, "measured over predicted growth, less 1")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &GrowthRow::scene, "scene"), column("method", "1", &GrowthRow::method, "method"),
+        column("omega", "rad/s", &GrowthRow::omega, "angular frequency of the mode"),
+        column("gamma", "1/s", &GrowthRow::gamma, "damping rate of the mode"),
+        column("step", "s", &GrowthRow::step, "time step"),
+        column("h omega", "1", &GrowthRow::h_omega, "time step times angular frequency"),
+        column("share of limit", "1", &GrowthRow::share_of_limit, "time step over the predicted limit"),
+        column("predicted growth", "1", &GrowthRow::predicted, "spectral radius of a step by theory, less 1"),
+        column("measured growth", "1", &GrowthRow::measured, "mean factor of the amplitude in a step, less 1"),
+        column("deviation", "1", &GrowthRow::deviation, "measured over predicted growth, less 1");
+  };
 };
 
 struct MapRow {
@@ -132,15 +131,14 @@ struct MapRow {
   std::optional<double> end, growth;
 
   static constexpr std::string_view table = "stability-map", about = "Cells of maps: one run in each.";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &MapRow::scene, "scene"),
-                 column("method", "1", &MapRow::method, "method"),
-                 column("map", "1", &MapRow::map, "what the rows of the map change: stiffness or drag"),
-                 column("value", "see map", &MapRow::value, "stiffness over the scene's own, or drag rate in 1/s"),
-                 column("step", "s", &MapRow::step, "time step"),
-                 column("verdict", "1", &MapRow::verdict, "how the run ended"),
-                 column("end", "s", &MapRow::end, "simulated time reached"),
-                 column("growth", "1", &MapRow::growth, "growth of the kick over the run")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &MapRow::scene, "scene"), column("method", "1", &MapRow::method, "method"),
+        column("map", "1", &MapRow::map, "what the rows of the map change: stiffness or drag"),
+        column("value", "see map", &MapRow::value, "stiffness over the scene's own, or drag rate in 1/s"),
+        column("step", "s", &MapRow::step, "time step"), column("verdict", "1", &MapRow::verdict, "how the run ended"),
+        column("end", "s", &MapRow::end, "simulated time reached"),
+        column("growth", "1", &MapRow::growth, "growth of the kick over the run");
+  };
 };
 
 struct MapLimitRow {
@@ -149,14 +147,14 @@ struct MapLimitRow {
   std::optional<double> predicted, held, failed;
 
   static constexpr std::string_view table = "stability-map-limit", about = "Largest stable steps on the rows of maps.";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &MapLimitRow::scene, "scene"),
-                 column("method", "1", &MapLimitRow::method, "method"),
-                 column("map", "1", &MapLimitRow::map, "what the rows of the map change: stiffness or drag"),
-                 column("value", "see map", &MapLimitRow::value, "stiffness over the scene's own, or drag rate in 1/s"),
-                 column("predicted limit", "s", &MapLimitRow::predicted, "critical time step by linear theory"),
-                 column("held", "s", &MapLimitRow::held, "largest step at which a run held"),
-                 column("failed", "s", &MapLimitRow::failed, "smallest step at which a run failed")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &MapLimitRow::scene, "scene"), column("method", "1", &MapLimitRow::method, "method"),
+        column("map", "1", &MapLimitRow::map, "what the rows of the map change: stiffness or drag"),
+        column("value", "see map", &MapLimitRow::value, "stiffness over the scene's own, or drag rate in 1/s"),
+        column("predicted limit", "s", &MapLimitRow::predicted, "critical time step by linear theory"),
+        column("held", "s", &MapLimitRow::held, "largest step at which a run held"),
+        column("failed", "s", &MapLimitRow::failed, "smallest step at which a run failed");
+  };
 };
 
 struct MapCheckRow {
@@ -165,13 +163,13 @@ struct MapCheckRow {
 
   static constexpr std::string_view table = "stability-map-check",
                                     about = "Cells of maps that change in runs ten times longer.";
-  static constexpr auto columns =
-      std::tuple{column("scene", "1", &MapCheckRow::scene, "scene"),
-                 column("method", "1", &MapCheckRow::method, "method"),
-                 column("map", "1", &MapCheckRow::map, "what the rows of the map change: stiffness or drag"),
-                 column("steps", "1", &MapCheckRow::steps, "steps of each run of the map"),
-                 column("cells", "1", &MapCheckRow::cells, "cells with a run"),
-                 column("changed", "1", &MapCheckRow::changed, "cells that hold in one of the two runs only")};
+  static constexpr auto columns = [](auto&& column) {
+    column("scene", "1", &MapCheckRow::scene, "scene"), column("method", "1", &MapCheckRow::method, "method"),
+        column("map", "1", &MapCheckRow::map, "what the rows of the map change: stiffness or drag"),
+        column("steps", "1", &MapCheckRow::steps, "steps of each run of the map"),
+        column("cells", "1", &MapCheckRow::cells, "cells with a run"),
+        column("changed", "1", &MapCheckRow::changed, "cells that hold in one of the two runs only");
+  };
 };
 
 }  // namespace crosscheck

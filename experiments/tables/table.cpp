@@ -1,4 +1,4 @@
-// CSV, written and read.
+// CSV, written and read; rows that are structs.
 #include "experiments/tables/table.h"
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "experiments/tables/typed.h"
 #include "mysim/base/csv.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -141,6 +142,52 @@ Table read_csv(const std::filesystem::path& file) {
     table.add(std::move(row));
   }
   return table;
+}
+
+// typed.h
+
+std::vector<Column> columns_of(std::span<const TypedColumn> typed) {
+  std::vector<Column> columns;
+  for (const TypedColumn& c : typed) columns.push_back({std::string(c.name), std::string(c.unit)});
+  return columns;
+}
+
+std::vector<Cell> cells_of(std::span<const TypedColumn> typed, const void* row) {
+  std::vector<Cell> cells;
+  cells.reserve(typed.size());
+  for (const TypedColumn& c : typed) cells.push_back(c.type->write(static_cast<const std::byte*>(row) + c.offset));
+  return cells;
+}
+
+namespace {
+
+/// Does it with each column and its place; what is thrown names both.
+template <class Do>
+void with_each(std::span<const TypedColumn> typed, const Table& table, const Do& work) {
+  for (size_t i = 0; i < typed.size(); ++i) try {
+      work(typed[i], i);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("table {}, column {}: {}", table.name, typed[i].name, error.what()));
+    }
+}
+
+}  // namespace
+
+void read_cells(std::span<const TypedColumn> typed, const Table& table, std::span<const Cell> cells, void* row) {
+  with_each(typed, table, [&](const TypedColumn& column, size_t i) {
+    column.type->read(static_cast<std::byte*>(row) + column.offset, cells[i]);
+  });
+}
+
+std::vector<Cell> retyped(std::span<const TypedColumn> typed, const Table& table, std::span<const Cell> cells) {
+  std::vector<Cell> out;
+  with_each(typed, table, [&](const TypedColumn& column, size_t i) { out.push_back(column.type->retyped(cells[i])); });
+  return out;
+}
+
+void require_columns(std::span<const TypedColumn> typed, const Table& table, std::string_view declared) {
+  if (table.columns != columns_of(typed))
+    throw InputError(fmt::format("table {}: expected the columns of table {}", table.name, declared));
 }
 
 }  // namespace crosscheck

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 
 #include "experiments/tables/table.h"
@@ -15,20 +16,6 @@
 #include "reference/truth/truth.h"
 
 namespace crosscheck {
-
-/// A column of the table whose rows are `Row`s: its name and unit in the header, and what the data dictionary says of
-/// it.
-template <class Row, class T>
-struct ColumnOf {
-  std::string_view name, unit;
-  T Row::*member;
-  std::string_view description;
-};
-template <class Row, class T>
-constexpr ColumnOf<Row, T> column(std::string_view name, std::string_view unit, T Row::*member,
-                                  std::string_view description) {
-  return {name, unit, member, description};
-}
 
 /// The words of an enum that stands in tables, in the order of its values from `first` on. To be specialised next to
 /// each.
@@ -114,13 +101,80 @@ struct CellOf<std::optional<T>> {
   }
 };
 
+/// What a member of a row's type is to its column, whichever row it is in.
+struct CellType {
+  Cell (*write)(const void* member);
+  void (*read)(void* member, const Cell& cell);
+  Cell (*retyped)(const Cell& cell);  // as a member would hold it: what a file's numbers cannot tell
+  std::string (*name)();              // for the data dictionary
+};
+
+template <class T>
+std::string type_name() {
+  if constexpr (std::is_same_v<T, bool>) return "0 or 1";
+  if constexpr (std::is_integral_v<T>) return "whole number";
+  if constexpr (std::is_floating_point_v<T>) return "number";
+  if constexpr (std::is_enum_v<T>) {
+    std::string words;
+    for (int i = static_cast<int>(EnumRange<T>::first); i <= static_cast<int>(EnumRange<T>::last); ++i)
+      words.append(words.empty() ? "one of: " : " | ").append(name_of(static_cast<T>(i)));
+    return words;
+  }
+  return "text";
+}
+template <class T>
+struct TypeName {
+  static std::string of() { return type_name<T>(); }
+};
+template <class T>
+struct TypeName<std::optional<T>> {
+  static std::string of() { return type_name<T>() + ", or empty"; }
+};
+
+template <class T>
+inline constexpr CellType cell_type = {
+    [](const void* member) { return to_cell(*static_cast<const T*>(member)); },
+    [](void* member, const Cell& cell) { *static_cast<T*>(member) = CellOf<T>::read(cell); },
+    [](const Cell& cell) { return to_cell(CellOf<T>::read(cell)); }, &TypeName<T>::of};
+
+/// A column of the table whose rows are structs: its name and unit in the header, what the data dictionary says of it,
+/// and where in a row its value lies.
+struct TypedColumn {
+  std::string_view name, unit, description;
+  const CellType* type;
+  std::ptrdiff_t offset;  // bytes
+};
+
+// One function of each kind for all row types: as templates they were a tenth of what the suite took to compile.
+
+std::vector<Column> columns_of(std::span<const TypedColumn> typed);
+std::vector<Cell> cells_of(std::span<const TypedColumn> typed, const void* row);
+/// Throws InputError that names the table, and the column where a cell holds something else.
+void read_cells(std::span<const TypedColumn> typed, const Table& table, std::span<const Cell> cells, void* row);
+std::vector<Cell> retyped(std::span<const TypedColumn> typed, const Table& table, std::span<const Cell> cells);
+/// Throws InputError that names both tables where the columns are others.
+void require_columns(std::span<const TypedColumn> typed, const Table& table, std::string_view declared);
+
+/// The columns that a row type declares by a function which hands each of them to `column`:
+///   static constexpr auto columns = [](auto&& column) { column("end", "s", &EngineRow::end, "last time reached"), ...
+///   };
+template <class Row>
+std::span<const TypedColumn> typed_columns() {
+  static const std::vector<TypedColumn> declared = [] {
+    std::vector<TypedColumn> list;
+    const Row row{};
+    Row::columns([&]<class T>(const char* name, const char* unit, T Row::*member, const char* description) {
+      const auto at = reinterpret_cast<const char*>(&(row.*member)) - reinterpret_cast<const char*>(&row);
+      list.push_back({name, unit, description, &cell_type<T>, at});
+    });
+    return list;
+  }();
+  return declared;
+}
+
 template <class Row>
 std::vector<Column> columns_of() {
-  return std::apply(
-      [](const auto&... column) {
-        return std::vector<Column>{{std::string(column.name), std::string(column.unit)}...};
-      },
-      Row::columns);
+  return columns_of(typed_columns<Row>());
 }
 
 /// An empty table of such rows; Row::table is its name unless another is given (one table for each scene).
@@ -131,31 +185,16 @@ Table table_of(std::string name = std::string(Row::table)) {
 
 template <class Row>
 void add(Table& table, const Row& row) {
-  table.rows.push_back(std::apply(
-      [&](const auto&... column) { return std::vector<Cell>{to_cell(row.*(column.member))...}; }, Row::columns));
+  table.rows.push_back(cells_of(typed_columns<Row>(), &row));
 }
 
 /// Throws InputError that names the table, and the column where a cell holds something else; where the table has other
 /// columns, too.
 template <class Row>
 std::vector<Row> rows_of(const Table& table) {
-  if (table.columns != columns_of<Row>())
-    throw InputError(fmt::format("table {}: expected the columns of table {}", table.name, Row::table));
-  std::vector<Row> rows;
-  rows.reserve(table.rows.size());
-  for (const std::vector<Cell>& cells : table.rows) {
-    Row& row = rows.emplace_back();
-    size_t i = 0;
-    const auto read = [&](const auto& column) {
-      using Value = std::decay_t<decltype(row.*(column.member))>;
-      try {
-        row.*(column.member) = CellOf<Value>::read(cells[i++]);
-      } catch (const InputError& error) {
-        throw InputError(fmt::format("table {}, column {}: {}", table.name, column.name, error.what()));
-      }
-    };
-    std::apply([&](const auto&... column) { (read(column), ...); }, Row::columns);
-  }
+  require_columns(typed_columns<Row>(), table, Row::table);
+  std::vector<Row> rows(table.rows.size());
+  for (size_t i = 0; i < rows.size(); ++i) read_cells(typed_columns<Row>(), table, table.rows[i], &rows[i]);
   return rows;
 }
 

@@ -14,10 +14,10 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
-#include <regex>
 #include <sstream>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/pattern.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -172,15 +172,16 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 void remove_stale_temporary_folders() {
-  static const std::regex ours(R"(crosscheck-[a-z]+-([0-9]+)\.([0-9]*)\.([0-9]+)-[A-Za-z0-9]{6})");
+  static const Pattern ours(R"(crosscheck-[a-z]+-([0-9]+)\.([0-9]*)\.([0-9]+)-[A-Za-z0-9]{6})");
   std::error_code error;
   const fs::path place = fs::temp_directory_path(error);
   const std::string here = process_namespace();
   for (fs::directory_iterator at(place, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
-    std::smatch parts;
-    if (!name.starts_with("crosscheck-") || !std::regex_match(name, parts, ours) || parts[3] != here) continue;
-    if (start_of(parts[1]) == parts[2] && !parts[2].str().empty()) continue;
+    if (!name.starts_with("crosscheck-")) continue;
+    const auto parts = ours.match(name);
+    if (!parts || (*parts)[3] != here) continue;
+    if (start_of((*parts)[1]) == (*parts)[2] && !(*parts)[2].empty()) continue;
     struct stat about {};
     if (lstat(at->path().c_str(), &about) != 0 || !S_ISDIR(about.st_mode)) continue;
     std::error_code ignored;

@@ -8,7 +8,6 @@
 #include <array>
 #include <ctime>
 #include <fstream>
-#include <regex>
 #include <set>
 #include <string_view>
 
@@ -16,6 +15,7 @@
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
 #include "mysim/base/json.h"
+#include "mysim/base/pattern.h"
 
 namespace crosscheck {
 namespace fs = std::filesystem;
@@ -164,8 +164,8 @@ const std::set<std::string_view> known_names{
     "CITATION.cff",   "advice.toml",    "advice.json", "regress.json", "junit.xml",   "bench.json"};
 
 /// Names that no user gives to a file by hand; runs lie in folders by their figure, scenes by their name.
-const std::regex& known_patterns() {
-  static const std::regex all(
+const Pattern& known_pattern() {
+  static const Pattern all(
       R"((steppers/your-[^/]+|points/[0-9a-f]{16}\.(json|failed)|(data/)?certificate-[^/]+\.json|data/[^/]+-motions\.json)"
       R"(|data/runs/[^/]+/[^/]+\.json|data/scenes/[^/]+\.toml|figures/([^/]+-picture|sphere-drop-aside|stability-moment)\.png|.*\.[0-9]+\.part))");
   return all;
@@ -197,7 +197,7 @@ std::optional<Manifest> adopt_version_0_1(const fs::path& folder, const std::str
     const fs::path file = folder / path;
     const std::string name = file.filename().string();
     const bool ours = fs::is_regular_file(fs::symlink_status(file)) &&
-                      (known_names.contains(name) || std::regex_match(path, known_patterns()) || is_our_table(file) ||
+                      (known_names.contains(name) || known_pattern().match(path) || is_our_table(file) ||
                        is_our_table(fs::path(file).replace_extension(".csv")) ||
                        lists.find("\"" + file.stem().string() + "\"") != std::string::npos);
     if (!ours) {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <optional>
-#include <regex>
 #include <vector>
 
+#include "mysim/base/pattern.h"
 #include "mysim/scene/toml.h"
 
 namespace crosscheck {
@@ -119,7 +119,7 @@ std::optional<TomlError> strange_characters(std::string_view text) {
   return std::nullopt;
 }
 
-bool line_matches(const std::string& text, const char* pattern) { return std::regex_search(text, std::regex(pattern)); }
+bool line_matches(const std::string& text, const char* pattern) { return Pattern(pattern).is_in(text); }
 
 /// The fault of a single value, code alone; nothing where it looks well.
 std::string wrong_with_value(const std::string& v) {

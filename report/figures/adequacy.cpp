@@ -164,7 +164,7 @@ std::optional<Chart> scaling(const Table& t, const TableSet& rows, const std::st
     const double first = c.points.front().second;
     for (auto& [x, y] : c.points) x -= 1, y /= first;
     f.curves.push_back(std::move(c));
-    if (const auto power = power_of(rows, scene, stiffness_for_sag))
+    if (const auto power = power_of(rows, scene, sag_stiffness))
       f.finding += fmt::format("{}: all stiffnesses as cells to the power {}. ", scene, power_text(*power));
   }
   if (const Table* bending = rows.table("adequacy-bending"); bending && !bending->rows.empty()) {

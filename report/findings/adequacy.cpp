@@ -96,7 +96,7 @@ void grids(const TableSet& rows, std::vector<Finding>& out) {
 /// counts as many bend springs as cells, and a line has half a one less, as none crosses the free end.
 std::vector<Finding> bend_findings(const TableSet& rows) {
   constexpr double derived = 4, close = 0.05;
-  const auto of_cells = power_of(rows, "", stiffness_for_droop);
+  const auto of_cells = power_of(rows, "", droop_stiffness);
   if (!of_cells) return {};
   std::vector<std::pair<double, double>> points;  // against the number of bend springs in a line instead of its cells
   for (const BendingRow& row : rows_of<BendingRow>(rows))

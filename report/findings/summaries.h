@@ -24,8 +24,8 @@ inline bool is_bounded(const std::string& word) { return word == residual_bounde
 // Grids, from experiment `adequacy`: powers of the number of cells.
 
 inline constexpr auto motion_against_cells = "error of the motion against cells along a side",
-                      stiffness_for_sag = "stiffness of all springs for the same sag",
-                      stiffness_for_droop = "stiffness of bend springs for the same droop";
+                      sag_stiffness = "stiffness of all springs for the same sag",
+                      droop_stiffness = "stiffness of bend springs for the same droop";
 
 /// The fitted power of a quantity from table `adequacy-scaling`; `scene` is empty for bend springs.
 std::optional<PowerLaw> power_of(const TableSet& rows, const std::string& scene, const std::string& quantity);

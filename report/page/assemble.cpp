@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <deque>
-#include <regex>
 
 #include "experiments/scenes/scenes.h"
 #include "experiments/tables/certificates.h"
 #include "experiments/tables/dictionary.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/pattern.h"
 #include "report/base/assets.h"
 #include "report/base/provenance.h"
 #include "report/figures/chart_json.h"
@@ -137,8 +137,8 @@ namespace {
 
 /// A caption stands for itself wherever its figure goes; the page names the commit once.
 std::string without_commit(std::string caption) {
-  static const std::regex commit("; commit [^ ;]*\\.| Commit [^ ;]*\\.");
-  return std::regex_replace(caption, commit, caption.find("; commit") == std::string::npos ? "" : ".");
+  static const Pattern commit("; commit [^ ;]*\\.| Commit [^ ;]*\\.");
+  return commit.replaced_in(caption, caption.find("; commit") == std::string::npos ? "" : ".");
 }
 
 /// Gathers what the page says.

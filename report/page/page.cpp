@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 
 #include "experiments/speed_accuracy/work_precision.h"
+#include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/base/provenance.h"
@@ -422,10 +422,10 @@ std::string made_html(const PageContent& c) {
 
 std::string prose_with_bold_numbers(const std::string& text) {
   // a number that stands by itself, with its unit
-  static const std::regex number(
+  static const Pattern number(
       "(^|[ (±])(\\d+(?:\\.\\d+)?(?:<span "
       "class=\"n\">[^/]*</sup></span>)?(?:\u00a0(?:%|mm|µm|nm|ms|µs|m|s|times))?)(?![\\w</])");
-  return std::regex_replace(prose(text), number, "$1<b>$2</b>");
+  return number.replaced_in(prose(text), "$1<b>$2</b>");
 }
 
 std::string page_head(const std::string& title, const std::string& more) {
