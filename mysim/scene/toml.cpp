@@ -82,9 +82,9 @@ const Key* key_in_line(std::string_view text, int line, std::span<const Key> key
     const auto found = std::find_if(among.begin(), among.end(), [&](const Key& key) { return key.name == name; });
     return found == among.end() ? nullptr : &*found;
   };
-  std::istringstream in{std::string(text)};
-  std::string at;
-  for (int i = 1; std::getline(in, at) && i <= line; ++i) {
+  int i = 0;
+  for (const std::string& at : split(text, '\n')) {
+    if (++i > line) break;
     const std::size_t from = at.find_first_not_of(" \t");
     if (from == std::string::npos) continue;
     if (at[from] != '[') {
