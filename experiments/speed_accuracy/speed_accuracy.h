@@ -24,7 +24,7 @@ struct Setting {
 /// twice the limit of a rule whose limit is known. Steps longer than the sampling interval are one and the same: that
 /// one. Tolerances from 1e-2 to 1e-8 (full: 1e-10). Left out is what, by an estimate that is the same on every machine,
 /// would take more than 0.35 s of CPU time (1.8 s at the run's own step and longer ones); without `full` 0.7 times as
-/// much. `dropped` counts those.
+/// much, and tolerances whose runs would take more than 1.3 s. `dropped` counts those.
 std::vector<Setting> settings_of(const Method& method, const Scene& scene, const Run& run, bool full,
                                  int* dropped = nullptr);
 
