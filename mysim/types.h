@@ -5,8 +5,8 @@
 
 namespace Eigen::internal {
 
-/// Three numbers are summed as (x + y) + z, which Eigen does where it has SIMD instructions for them, and not elsewhere:
-/// so the same bits in builds that have none.
+/// Three numbers are summed as (x + y) + z, which Eigen does where it has SIMD instructions for them, and not
+/// elsewhere: so the same bits in builds that have none.
 template <class Function, class Evaluator>
 struct redux_novec_unroller<Function, Evaluator, 0, 3> {
   using Scalar = typename Evaluator::Scalar;

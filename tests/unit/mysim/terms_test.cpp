@@ -1,7 +1,10 @@
 // Single terms: coincident ends, drag, wind, prescribed motion, and air on triangles.
 
 #include <numbers>
+#include <random>
 
+#include "mysim/base/portable_trigonometry.h"
+#include "mysim/base/random.h"
 #include "mysim/model/energy.h"
 #include "tests/unit/mysim/networks.h"
 
@@ -52,6 +55,60 @@ TEST(Terms, DragTakesPowerAndIsLinear) {
     faster.v *= 2;
     EXPECT_TRUE((force_of<Drag>(net.model, faster) - 2 * force_of<Drag>(net.model, net.state)).isZero(0));
   }
+}
+
+/// Of a value, in units in its last place.
+double error_of(double value, long double exact) {
+  const double nearest = std::abs(static_cast<double>(exact));
+  return static_cast<double>(std::abs(value - exact)) / (std::nextafter(nearest, INFINITY) - nearest);
+}
+
+TEST(PortableTrigonometry, IsRightToAUnitInTheLastPlaceUpToAMillionRadians) {
+  // half a unit is the rounding of the result; the rest, of the reduced angle and of the series, is under 0.6
+  const double allowed = 1.1;
+  std::mt19937_64 engine(1);
+  for (const double most : {1e-300, 1e-8, 0.8, 3.2, 10., 1e3, 1e6})
+    for (int i = 0; i < 20000; ++i) {
+      const double x = most * (2 * uniform(engine) - 1);
+      EXPECT_LE(error_of(portable_sin(x), std::sin(static_cast<long double>(x))), allowed) << x;
+      EXPECT_LE(error_of(portable_cos(x), std::cos(static_cast<long double>(x))), allowed) << x;
+    }
+  // next to multiples of pi/2, where the reduction cancels most
+  for (int n = 1; n < 1000000; n = 3 * n + 1) {
+    const double x = n * std::numbers::pi / 2;
+    EXPECT_LE(error_of(portable_sin(x), std::sin(static_cast<long double>(x))), allowed) << n;
+    EXPECT_LE(error_of(portable_cos(x), std::cos(static_cast<long double>(x))), allowed) << n;
+  }
+}
+
+TEST(PortableTrigonometry, IsOddEvenAndNotANumberOfWhatIsNotFinite) {
+  for (const double x : {0., 0.3, 1.7, 40., 12345.678}) {
+    EXPECT_EQ(portable_sin(-x), -portable_sin(x));
+    EXPECT_EQ(portable_cos(-x), portable_cos(x));
+  }
+  EXPECT_EQ(portable_cos(0), 1);
+  for (const double x : {INFINITY, -INFINITY, NAN})
+    EXPECT_TRUE(std::isnan(portable_sin(x)) && std::isnan(portable_cos(x)));
+}
+
+/// Written down once: what any build must give, whichever C library it has.
+TEST(PortableTrigonometry, HasTheseBits) {
+  EXPECT_EQ(portable_sin(1), 0x1.aed548f090ceep-1);
+  EXPECT_EQ(portable_cos(1), 0x1.14a280fb5068cp-1);
+  EXPECT_EQ(portable_sin(1234.5), 0x1.29c531dfd031bp-3);
+  EXPECT_EQ(portable_cos(1234.5), -0x1.fa8f2ceb78372p-1);
+}
+
+TEST(Vectors, AreSummedFromTheFirstToTheLast) {
+  // each order of the three gives another last digit
+  const Vec3 v(1, 0x1p-53, 0x1p-53);
+  EXPECT_EQ(v.sum(), (1 + 0x1p-53) + 0x1p-53);
+  EXPECT_NE(v.sum(), 1 + (0x1p-53 + 0x1p-53));
+  Points p(3, 2);
+  p.col(0) = p.col(1) = v;
+  EXPECT_EQ(p.col(1).sum(), v.sum());
+  EXPECT_EQ(v.dot(Vec3::Ones()), v.sum());
+  EXPECT_EQ((v.array() * Vec3(1, 1, 1).array()).sum(), v.sum());
 }
 
 TEST(Wind, IsSeededBoundedAndSmooth) {
