@@ -96,15 +96,14 @@ struct ProbeRow {
   bool operator==(const ProbeRow&) const = default;
 
   static constexpr std::string_view table = "probe";
-  static constexpr auto columns = [](auto&& column) {column("name", "1", &ProbeRow::name, "a text"),
-                                             column("size", "m", &ProbeRow::size, "a number"),
-                                             column("count", "1", &ProbeRow::count, "a whole number"),
-                                             column("order", "1", &ProbeRow::order, "a small one"),
-                                             column("within", "1", &ProbeRow::within, "yes or no"),
-                                             column("verdict", "1", &ProbeRow::verdict, "a word"),
-                                             column("error", "m", &ProbeRow::error, "a number or nothing"),
-                                             column("tier", "1", &ProbeRow::tier, "a word or nothing"),
-                                             column("truth", "1", &ProbeRow::truth, "a value of its own"); };
+  static constexpr auto columns = [](auto&& column) {
+    column("name", "1", &ProbeRow::name, "a text"), column("size", "m", &ProbeRow::size, "a number"),
+        column("count", "1", &ProbeRow::count, "a whole number"), column("order", "1", &ProbeRow::order, "a small one"),
+        column("within", "1", &ProbeRow::within, "yes or no"), column("verdict", "1", &ProbeRow::verdict, "a word"),
+        column("error", "m", &ProbeRow::error, "a number or nothing"),
+        column("tier", "1", &ProbeRow::tier, "a word or nothing"),
+        column("truth", "1", &ProbeRow::truth, "a value of its own");
+  };
 };
 
 /// The table as it comes back from its file.
