@@ -266,7 +266,7 @@ class MotionPlayer extends HTMLElement {
     if (!wide || !high) return;
     if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, {width: wide, height: high});
     const background = getComputedStyle(this.box).backgroundColor.match(/[\d.]+/g).slice(0, 3).map(v => v / 255);
-    const title = this.hero ? 46 : this.given ? 0 : 24;  // pixels above each picture
+    const title = this.hero ? (this.box.clientWidth < 420 ? 58 : 46) : this.given ? 0 : 24;  // pixels above each picture
     const panels = this.stage.draw({colour: this.colouring, springs: this.look.springs, time: this.time, orbit: this.orbit, background, title});
     panels.forEach((panel, i) => {
       const {motion, state, other} = this.views[i], {run} = motion, over = this.time > motion.end - 1e-9;
