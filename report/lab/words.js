@@ -136,7 +136,7 @@ const labWords = {
 };
 
 const labLanguages = ['en', 'zh'];
-let labLanguage = /^zh/i.test(document.documentElement.lang || navigator.language || '') ? 'zh' : 'en';
+let labLanguage = [document.documentElement.lang, navigator.language].some(name => /^zh/i.test(name)) ? 'zh' : 'en';
 
 /** The words of a key in the reader's language, with values filled in. */
 const say = (key, values = {}) =>
