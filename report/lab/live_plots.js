@@ -1,0 +1,57 @@
+// What runs have come to, over time: error, energy, residual of the energy balance.
+
+/** A plot that grows; values may lie below zero. */
+class LivePlot extends Plot {
+  constructor(box) {
+    super(box, () => {});
+    box.classList.add('live');
+  }
+
+  show(shown) {
+    super.show(shown);
+    const least = Math.min(0, ...shown.series.flatMap(s => s.points.map(p => p[1] ?? 0)));
+    if (this.powers || least >= 0) return;
+    this.low = 1.08 * least / this.size;
+    this.draw();
+  }
+
+  draw() {
+    super.draw();
+    if (!this.title || !this.known || this.powers || !(this.low < 0)) return;
+    // the line of zero, where it is not the lower edge
+    const root = this.area.firstChild, foot = this.high - 22, y = foot - (0 - this.low) / (this.most - this.low) * (foot - 6);
+    root?.append(svg('line', {class: 'base', x1: this.left, x2: this.left + this.span, y1: y, y2: y}));
+  }
+}
+
+const energyKinds = {total: 'energyTotal', kinetic: 'energyKinetic', elastic: 'energyElastic', gravitational: 'energyGravitational'};
+
+/** The plots of a lab, below the picture. */
+class LivePlots {
+  constructor() {
+    this.box = make('div', {class: 'plots'});
+    this.plots = [0, 1, 2].map(() => {
+      const box = make('div', {class: 'plot'});
+      this.box.append(box);
+      return new LivePlot(box);
+    });
+    this.kind = 'total';
+    this.choice = make('select', {'aria-label': say('quantity')}, ...Object.entries(energyKinds).map(([value, key]) => make('option', {value}, say(key))));
+    this.choice.addEventListener('change', () => (this.kind = this.choice.value, this.show(...this.shown)));
+  }
+
+  /** `runs` with samples, up to `end` (s); `dead` says why there is no truth. */
+  show(runs, end, time, dead) {
+    this.shown = [runs, end, time, dead];
+    const series = key => runs.filter(run => run.samples.some(s => s[key] !== null)).map(run => ({
+      name: run.letter, css: run.look.css, dash: run.look.dash, well: !run.failed, points: run.samples.map(s => [s.t, s[key]])
+    }));
+    const firstOrder = runs[0]?.sim.scene.firstOrder, [error, energy, residual] = this.plots;
+    const show = (plot, shown) => (plot.show({...shown, begin: 0, end}), plot.moveHead(time));
+    show(error, {title: say('error'), unit: 'm', series: series('error'), none: dead || say('noError')});
+    show(energy, {title: say(energyKinds[this.kind]), unit: 'J', series: series(this.kind), none: say('noEnergy')});
+    if (!firstOrder) energy.head.prepend(this.choice), energy.head.querySelector('b').hidden = true;
+    const percent = series('residual').map(s => ({...s, points: s.points.map(([t, v]) => [t, v === null ? null : 100 * v])}));
+    show(residual, {title: say('residual'), unit: '%', series: percent, none: firstOrder ? say('noEnergy') : say('noResidual')});
+  }
+}
