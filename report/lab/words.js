@@ -296,10 +296,13 @@ const labWords = {
   'ball-friction.cloth.tears': ['it bursts', '爆开'],
   'ball-friction.cloth.task': ['Run it with friction {small} to the end.', '以摩擦系数 {small} 运行到底。'],
   'ball-friction.cloth.why': [
-    'Its heavier side lies where the ball is steep. With little friction the cone is narrow, and the contact force cannot hold that side back.',
-    '较重的一侧落在球面陡的地方。摩擦小，摩擦锥就窄，接触力留不住那一侧。'
+    'The middle of the cloth lies {angle}° from the top of the ball. Roughly, friction must be at least tan {angle}° = {tangent} to hold it.',
+    '布料的中心落在离球顶 {angle}° 处。粗略地说，摩擦系数至少要有 tan {angle}° = {tangent} 才能留住它。'
   ],
-  'ball-friction.cloth.formula': ['The centre of mass went {sideways} m sideways and {down} m down in {t}.', '{t} 内质心横移 {sideways} m，下降 {down} m。'],
+  'ball-friction.cloth.formula': [
+    '{mu} is more than {tangent}, {small} is less. In {t} the centre of mass went {sideways} m sideways and {down} m down.',
+    '{mu} 大于 {tangent}，{small} 小于它。{t} 内质心横移 {sideways} m，下降 {down} m。'
+  ],
 
   // 5
   'bend-springs.title': ['What bend springs do', '弯曲弹簧的作用'],

@@ -1,0 +1,289 @@
+// <lab-guide>: guided experiments beside a <live-lab>. Each step asks for a guess, lets the reader do it in the lab, ticks
+// itself when it has happened, and then says why. Nobody is forced: every step can be skipped, repeated or left.
+
+/** Numbers of the lab as the experiments read them; null before its first run. */
+function readingOf(lab) {
+  const {reading} = lab;
+  if (!reading?.runs?.length) return null;
+  const {toml} = reading, size = /^size\s*=\s*\[\s*(\d+)\s*,\s*(\d+)\s*\]/m.exec(toml);
+  const runs = reading.runs.filter(run => run.places && !run.refusal).map(run => ({
+    method: run.spec.method, step: run.sim.h || run.spec.step, limit: run.limit, t: run.time, steps: run.sim.steps,
+    ended: run.ended, failed: run.failed, verdict: run.verdict, x: run.places, energy: run.fault ? null : run.sim.energy, sim: run.sim
+  }));
+  if (!runs.length) return null;
+  const {scene} = runs[0].sim;
+  return {
+    scene: reading.scene, toml, runs, t: reading.t, duration: scene.duration, omega: scene.omega, particles: scene.particles,
+    columns: size ? Number(size[1]) : 0, rows: size ? Number(size[2]) : 0, at: path => numberAt(toml, path)
+  };
+}
+
+/** What a step remembers of the lab as it was beside the question. */
+function beforeOf(r) {
+  const place = r.at('particle.position');
+  return {
+    limit: r.runs[0].limit, omega: r.omega, particles: r.particles, k: r.at('grid.stiffness.structural'), bend: r.at('grid.stiffness.bend'),
+    mass: r.at('grid.mass'), friction: r.at('sphere.friction'), angle: place && Math.atan2(place[0], place[1]),
+    centre: [0, 1, 2].map(k => r.runs[0].x.reduce((sum, c, i) => (i % 3 === k ? sum + c : sum), 0) / r.particles)
+  };
+}
+
+/** What was done so far: {"EXPERIMENT.STEP": {guess, values, read}}, kept while the page's tab lives where that is allowed. */
+const guideProgress = (() => {
+  const key = 'lab-guide';
+  let done = {};
+  try {
+    done = JSON.parse(sessionStorage.getItem(key)) ?? {};
+  } catch { /* pages of a folder may have no storage */ }
+  return {
+    of: (experiment, step) => done[`${experiment.name}.${step.name}`],
+    keep(experiment, step, what) {
+      done[`${experiment.name}.${step.name}`] = what;
+      try {
+        sessionStorage.setItem(key, JSON.stringify(done));
+      } catch { /* as above */ }
+    },
+    finished: experiment => experiment.steps.every(step => done[`${experiment.name}.${step.name}`])
+  };
+})();
+
+const guideButton = (words, act, attributes = {}) => {
+  const button = make('button', {type: 'button', ...attributes}, words);
+  button.addEventListener('click', act);
+  return button;
+};
+
+class LabGuide extends HTMLElement {
+  connectedCallback() {
+    if (this.lab) return;
+    this.lab = this.nextElementSibling?.matches('live-lab') ? this.nextElementSibling : document.querySelector('live-lab');
+    this.lab?.addEventListener('reading', () => this.look());
+    document.addEventListener('lab-language', () => this.render());
+    this.classList.add('guide');
+    this.setAttribute('role', 'region');
+    this.showList();
+  }
+
+  showList() {
+    this.experiment = this.step = null;
+    this.sandbox = false;
+    this.render();
+  }
+
+  showSandbox() {
+    this.experiment = this.step = null;
+    this.sandbox = true;
+    this.render();
+    this.focusFirst();
+  }
+
+  /** Opens an experiment, at its first step that is not done unless one is given. */
+  show(name, number) {
+    const experiment = labExperiments.find(each => each.name === name);
+    if (!experiment) return this.showList();
+    const open = experiment.steps.findIndex(step => !guideProgress.of(experiment, step));
+    this.hidden = false;
+    return this.begin(experiment, number ?? Math.max(0, open));
+  }
+
+  /** Sets the lab to the state beside a step's question. */
+  async begin(experiment, number, again = false) {
+    const step = experiment.steps[number];
+    Object.assign(this, {experiment, number, step, sandbox: false, seen: {}, guess: null, acting: null, phase: 'ask'});
+    const known = !again && guideProgress.of(experiment, step);
+    if (known) Object.assign(this, {phase: 'why', guess: known.guess, result: known, seen: {before: known.before}});
+    try {
+      history.replaceState(null, '', `#experiment=${experiment.name}`);
+    } catch { /* the address stays */ }
+    this.render();
+    this.focusFirst();
+    await this.setLab(step.start);
+  }
+
+  /** Sets the lab to a state of an experiment. */
+  async setLab(wanted, running = false) {
+    const r = readingOf(this.lab), {scene, numbers, edit, methods} = typeof wanted === 'function' ? wanted(r, this.seen) : wanted;
+    const toml = withNumbers(sceneText(scene), numbers);
+    this.setting = true;
+    await this.lab.setState({scene, toml: edit ? edit(toml) : toml, methods, running});
+    this.setting = false;
+    this.look();
+  }
+
+  /** Takes the reader's guess, or null for none. */
+  async take(guess) {
+    const {step} = this;
+    if (!this.seen.before) return;
+    Object.assign(this, {guess, phase: 'try'});
+    this.render();
+    this.querySelector('.task button')?.focus({preventScroll: true});
+    if (step.then) await this.setLab(step.then);
+  }
+
+  /** Does the task for the reader. */
+  async act(index = 0) {
+    const {step} = this, acts = step.acts ?? [step.then ?? step.start];
+    if (index >= acts.length) return;
+    this.acting = null;
+    await this.setLab(acts[index], true);
+    if (this.step === step && this.phase === 'try') this.acting = index;
+  }
+
+  /** Looks at a new reading of the lab: whether the question's numbers are known, whether the task is done. */
+  look() {
+    const {step} = this, r = step && !this.setting && readingOf(this.lab);
+    if (!r) return;
+    if (!this.seen.before) {
+      this.seen.before = beforeOf(r);
+      return void (this.phase === 'ask' && this.render());
+    }
+    if (this.phase !== 'try') return;
+    step.watch?.(r, this.seen);
+    if (step.done(r, this.seen)) return void this.complete(r);
+    const over = r.runs.every(run => run.ended || run.failed) || step.enough?.(r);
+    if (this.acting !== null && over) this.act(this.acting + 1);
+  }
+
+  async complete(r) {
+    const {experiment, step, guess, seen} = this;
+    this.phase = 'why', this.acting = null;
+    const read = step.guess?.read(r);
+    const values = {...step.shown?.(seen), ...await step.values(r, seen)};
+    const result = {guess, read, values, before: seen.before};
+    guideProgress.keep(experiment, step, result);
+    if (this.step !== step) return;
+    this.result = result;
+    this.render();
+    this.dispatchEvent(new CustomEvent('step-done', {bubbles: true, detail: {experiment: experiment.name, step: step.name}}));
+  }
+
+  go(number) {
+    if (number < this.experiment.steps.length) return this.begin(this.experiment, number);
+    const next = labExperiments[labExperiments.indexOf(this.experiment) + 1];
+    return next ? this.begin(next, 0) : this.showSandbox();
+  }
+
+  focusFirst() {
+    this.querySelector('.question, h3')?.focus({preventScroll: true});
+    this.scrollIntoView({block: 'nearest'});
+  }
+
+  render() {
+    this.setAttribute('aria-label', say('guide.title'));
+    this.lang = labLanguage;
+    this.dataset.phase = this.step ? this.phase : this.sandbox ? 'sandbox' : 'list';
+    this.dataset.experiment = this.experiment?.name ?? '';
+    this.dataset.step = this.step?.name ?? '';
+    const focused = this.contains(document.activeElement) ? document.activeElement.dataset.key : null;
+    this.replaceChildren(...(this.step ? this.stepParts() : this.sandbox ? this.sandboxParts() : this.listParts()));
+    if (focused) this.querySelector(`[data-key="${focused}"]`)?.focus({preventScroll: true});
+  }
+
+  listParts() {
+    const list = make('ol', {class: 'entries'});
+    const add = (key, done, act) => {
+      const button = guideButton('', act, {'data-key': key, class: done ? 'entry done' : 'entry'});
+      button.append(make('b', {}, say(`${key}.title`)), make('span', {}, say(`${key}.about`)), ...(done ? [make('i', {}, `✓ ${say('guide.done')}`)] : []));
+      list.append(make('li', {}, button));
+    };
+    for (const experiment of labExperiments) add(experiment.name, guideProgress.finished(experiment), () => this.show(experiment.name));
+    add('sandbox', false, () => this.showSandbox());
+    return [make('h3', {tabindex: -1}, say('guide.title')), make('p', {class: 'soft'}, say('guide.lead')), list];
+  }
+
+  sandboxParts() {
+    return [
+      this.allButton(), make('h3', {tabindex: -1}, say('sandbox.title')), make('p', {}, say('sandbox.text')),
+      make('ul', {}, ...['a', 'b', 'c'].map(key => make('li', {}, say(`sandbox.${key}`))))
+    ];
+  }
+
+  allButton() { return guideButton(`‹ ${say('guide.all')}`, () => this.showList(), {class: 'plain', 'data-key': 'all'}); }
+
+  words(key, values) { return say(`${this.experiment.name}.${this.step.name}.${key}`, values); }
+
+  stepParts() {
+    const {experiment, number, step, phase} = this, count = experiment.steps.length;
+    const values = phase === 'why' ? this.result?.values : this.seen.before ? step.shown?.(this.seen) : {};
+    const ticks = experiment.steps.map((each, i) => {
+      const done = guideProgress.of(experiment, each), name = say('guide.step', {number: i + 1, count});
+      return make('li', {}, guideButton(done ? '✓' : String(i + 1), () => this.begin(experiment, i), {
+        'aria-label': done ? `${name}, ${say('guide.done')}` : name, class: done ? 'tick done' : 'tick', 'data-key': `tick-${i}`, ...(i === number ? {'aria-current': 'step'} : {})
+      }));
+    });
+    const waits = step.shown && !values;
+    const parts = [
+      make('div', {class: 'over'}, this.allButton(), make('ol', {class: 'ticks'}, ...ticks)),
+      make('h3', {}, say(`${experiment.name}.title`), make('small', {}, say('guide.step', {number: number + 1, count}))),
+      make('p', {class: 'question', tabindex: -1}, waits ? '…' : this.words('question', values)),
+      step.guess ? this.numberGuess() : this.choiceGuess()
+    ];
+    if (phase === 'ask') parts.push(guideButton(say('guide.without'), () => this.take(null), {class: 'plain', 'data-key': 'without'}));
+    if (phase === 'try') parts.push(make('div', {class: 'task'}, make('h4', {}, say('guide.try')), make('p', {}, this.words('task', values)),
+        guideButton(say('guide.do'), () => this.act(), {'data-key': 'do'}), make('p', {class: 'soft', role: 'status'}, say('guide.waiting'))));
+    if (phase === 'why' && this.result) parts.push(this.reason(values));
+    const onward = number + 1 < count ? null : labExperiments[labExperiments.indexOf(experiment) + 1]?.name ?? 'sandbox';
+    const next = phase !== 'why' ? say('guide.skip') : onward ? say('guide.onward', {title: say(`${onward}.title`)}) : say('guide.next');
+    parts.push(make('div', {class: 'ways'},
+        ...(number > 0 ? [guideButton(say('guide.back'), () => this.go(number - 1), {'data-key': 'back'})] : []),
+        ...(phase === 'why' ? [guideButton(say('guide.again'), () => this.begin(experiment, number, true), {'data-key': 'again'})] : []),
+        guideButton(next, () => this.go(number + 1), {'data-key': 'next', class: phase === 'why' ? 'next main' : 'next'})));
+    return parts;
+  }
+
+  choiceGuess() {
+    const {step, phase} = this;
+    return make('fieldset', {class: 'guesses'}, make('legend', {}, say('guide.guess')), ...step.choices.map(choice => {
+      const mark = phase !== 'why' ? '' : choice === step.right ? ' right' : choice === this.guess ? ' wrong' : '';
+      const button = guideButton(this.words(choice), () => this.take(choice), {'data-key': choice, 'data-choice': choice, class: `guess${mark}`, 'aria-pressed': choice === this.guess});
+      button.disabled = phase !== 'ask';
+      return button;
+    }));
+  }
+
+  numberGuess() {
+    const {step, phase} = this, id = `guess-${this.experiment.name}-${step.name}`;
+    const field = make('input', {id, type: 'number', step: 'any', min: 0, inputmode: 'decimal', 'data-key': 'number'});
+    if (this.guess !== null) field.value = this.guess;
+    field.disabled = phase !== 'ask';
+    const form = make('form', {class: 'guesses number'}, make('label', {for: id}, say('guide.guess')), field, make('span', {}, step.guess.unit));
+    if (phase === 'ask') form.append(make('button', {type: 'submit', 'data-key': 'give'}, say('guide.give')));
+    form.addEventListener('submit', event => {
+      event.preventDefault();
+      if (field.value !== '') this.take(Number(field.value));
+    });
+    return form;
+  }
+
+  /** What came of the guess, the reason, and the numbers of this run. */
+  reason(values) {
+    const {experiment, number, step, guess, result} = this, about = [];
+    if (step.guess) {
+      const {unit, within} = step.guess, text = value => `${Number(value.toPrecision(3))}${unit === 'μ' ? '' : ` ${unit}`}`;
+      const near = guess !== null && Math.abs(guess / result.read - 1) <= within;
+      about.push(say(guess === null ? 'guide.reads' : near ? 'guide.near' : 'guide.far', {guess: guess === null ? '' : text(guess), answer: text(result.read)}));
+    } else
+      about.push(say(guess === null ? 'guide.answer' : guess === step.right ? 'guide.right' : 'guide.wrong', {guess: guess === null ? '' : this.words(guess), answer: this.words(step.right)}));
+    const box = make('div', {class: 'why', role: 'status'}, make('p', {class: 'outcome'}, ...about), make('h4', {}, say('guide.why')), make('p', {}, this.words('why', values)),
+        make('p', {class: 'numbers'}, this.words('formula', values)));
+    if (number + 1 === experiment.steps.length) box.append(make('p', {class: 'keep'}, make('b', {}, say('guide.remember')), say(`${experiment.name}.remember`)));
+    return box;
+  }
+}
+customElements.define('lab-guide', LabGuide);
+
+/** Opens an experiment beside a lab; the guide is put before the lab where it has none. */
+function openExperiment(name, lab = document.querySelector('live-lab')) {
+  if (!lab) return null;
+  let guide = document.querySelector('lab-guide');
+  if (!guide) lab.before(guide = make('lab-guide'));
+  guide.show(name);
+  return guide;
+}
+
+const experimentOfAddress = () => /^#experiment=([\w-]+)/.exec(location.hash)?.[1];
+const followAddress = () => experimentOfAddress() && openExperiment(experimentOfAddress());
+addEventListener('hashchange', followAddress);
+// the lab's own page shows the list at once
+if (!document.querySelector('lab-guide')) document.querySelector('live-lab[data-alone]')?.before(make('lab-guide'));
+followAddress();
