@@ -36,18 +36,18 @@ class Hand {
     const stage = this.act.stage();
     if (!stage?.boxes?.length) return null;
     const box = this.layer.getBoundingClientRect(), x = clientX - box.left, y = clientY - box.top;
-    let best = null, least = reachOf(type);
+    const near = [];
     this.act.runs().forEach((run, i) => {
       const panel = stage.boxes[i];
       if (!run?.places || !panel || x < panel.left || x > panel.left + panel.wide) return;
       for (let p = 0; p < run.places.length / 3; ++p) {
-        const at = stage.project(run.places.subarray(3 * p, 3 * p + 3), panel);
-        const away = at ? Math.hypot(at[0] - x, at[1] - y) : Infinity;
-        // of particles behind one another the nearer one
-        if (away < least - 3 || (best && away < least + 3 && away < reachOf(type) && at[2] < best.depth - 1e-6 && best.run === run)) best = {particle: p, panel, run, depth: at[2]}, least = Math.min(least, away);
+        const at = stage.project(run.places.subarray(3 * p, 3 * p + 3), panel), away = at ? Math.hypot(at[0] - x, at[1] - y) : Infinity;
+        if (away < reachOf(type)) near.push({particle: p, panel, run, away, depth: at[2]});
       }
     });
-    return best;
+    // of particles behind one another the nearer one
+    const least = Math.min(...near.map(n => n.away));
+    return near.filter(n => n.away < least + 3).reduce((best, n) => (best && best.depth <= n.depth ? best : n), null);
   }
 
   /** The place in the plane through a particle, parallel to the picture, that lies under a pointer. */

@@ -36,8 +36,17 @@ class LivePlots {
       return new LivePlot(box);
     });
     this.kind = 'total';
-    this.choice = make('select', {'aria-label': say('quantity')}, ...Object.entries(energyKinds).map(([value, key]) => make('option', {value}, say(key))));
+    this.choice = make('select');
+    this.plots[1].box.prepend(this.choice);
     this.choice.addEventListener('change', () => (this.kind = this.choice.value, this.show(...this.shown)));
+  }
+
+  /** The names of energies, in the reader's language. */
+  name() {
+    this.choice.setAttribute('aria-label', say('quantity'));
+    this.choice.replaceChildren(...Object.entries(energyKinds).map(([value, key]) => make('option', {value}, say(key))));
+    this.choice.value = this.kind;
+    if (this.shown) this.show(...this.shown);
   }
 
   /** `runs` with samples, up to `end` (s); `dead` says why there is no truth. */
@@ -50,7 +59,8 @@ class LivePlots {
     const show = (plot, shown) => (plot.show({...shown, begin: 0, end}), plot.moveHead(time));
     show(error, {title: say('error'), unit: 'm', series: series('error'), none: dead || say('noError')});
     show(energy, {title: say(energyKinds[this.kind]), unit: 'J', series: series(this.kind), none: say('noEnergy')});
-    if (!firstOrder) energy.head.prepend(this.choice), energy.head.querySelector('b').hidden = true;
+    this.choice.hidden = Boolean(firstOrder);
+    energy.box.classList.toggle('chosen', !firstOrder);
     const percent = series('residual').map(s => ({...s, points: s.points.map(([t, v]) => [t, v === null ? null : 100 * v])}));
     show(residual, {title: say('residual'), unit: '%', series: percent, none: firstOrder ? say('noEnergy') : say('noResidual')});
   }
