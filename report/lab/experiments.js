@@ -7,7 +7,7 @@
 // done; `shown` and `values`, the numbers in question and task, and in the reason. States may be functions of a reading
 // `r` and of what was `seen`; `seen.before` is the first reading beside the question.
 // A reading r has: scene, t, duration, omega, at(path), and runs, each {method, step, limit, t, steps, ended, failed,
-// verdict, energy, x, sim}.
+// energy, gain (of energy since the start that nothing explains, J), x, sim}.
 
 const labExperiments = (() => {
   // Geometry
@@ -41,16 +41,19 @@ const labExperiments = (() => {
     return Math.acos(Math.max(-1, least)) * 180 / Math.PI;
   }
 
-  /** Of the pairs of diagonal neighbours that move, the part that moves against each other; weighted by how much they do. */
+  /** Of the pairs of particles two cells apart, the part that moves against each other; weighted by how much they move. */
   function opposedPart(mode, columns, rows) {
     let against = 0, all = 0;
-    for (let j = 0; j + 1 < rows; ++j)
-      for (let i = 0; i + 1 < columns; ++i)
-        for (const [p, q] of [[j * columns + i, (j + 1) * columns + i + 1], [j * columns + i + 1, (j + 1) * columns + i]]) {
-          const both = [0, 1, 2].reduce((sum, k) => sum + mode[3 * p + k] * mode[3 * q + k], 0);
-          all += Math.abs(both);
-          if (both < 0) against -= both;
-        }
+    const pair = (p, q) => {
+      const both = [0, 1, 2].reduce((sum, k) => sum + mode[3 * p + k] * mode[3 * q + k], 0);
+      all += Math.abs(both);
+      if (both < 0) against -= both;
+    };
+    for (let j = 0; j < rows; ++j)
+      for (let i = 0; i < columns; ++i) {
+        if (i + 2 < columns) pair(j * columns + i, j * columns + i + 2);
+        if (j + 2 < rows) pair(j * columns + i, (j + 2) * columns + i);
+      }
     return against / all;
   }
 
@@ -78,7 +81,7 @@ const labExperiments = (() => {
 
   const state = (scene, numbers, ...methods) => ({scene, numbers: {'time.samples': 1, ...numbers}, methods: methods.map(([method, step]) => ({method, step}))});
   const circle = (numbers, ...methods) => state('circle', numbers, ...methods);
-  const pendulum = (...methods) => state('pendulum', {}, ...methods);
+  const pendulum = (...methods) => state('pendulum', {'time.samples': 200}, ...methods);
   const hangingCloth = (step, numbers = {}) => state('cloth-hang', numbers, ['leapfrog', step]);
   const allSprings = k => ({'grid.stiffness.structural': k, 'grid.stiffness.shear': k, 'grid.stiffness.bend': k});
   const slowCircle = {}, fastCircle = {'rotation.rate': 4, 'time.duration': Math.PI, 'time.window': Math.PI};
@@ -116,7 +119,7 @@ const labExperiments = (() => {
     sim.start({stepper: run.method, options: '', step: run.step, tolerance: 1e-6, duration: r.duration, observe: false});
     for (let going = true; going;) {
       const x = Array.from(sim.positions), v = Array.from(sim.velocities);
-      if (radiusOf(x) > reach + 1e-6) break;
+      if (radiusOf(x) > reach + 1e-10) break;
       Object.assign(last, {angle: Math.atan2(x[0], x[1]), v: Math.hypot(...v), r: radiusOf(x)});
       going = sim.advance(sim.t + 0.5 * run.step, 10);
     }
@@ -130,9 +133,27 @@ const labExperiments = (() => {
     return toml.replace(/^size = .*$/m, `size = [${2 * columns}, ${2 * rows}]`).replace(/^particles = .*$/m, `particles = [0, ${2 * columns - 1}]`);
   }
 
+  /**
+   * What grows in a run that fails: the same run once more. What grows changes its sign in every step, so that it is what
+   * two steps differ by; it is taken while it moves the particles by less than a tenth of a cell in a step.
+   */
+  async function growingMode(r) {
+    const [run] = r.runs, sim = (await labModule()).open(r.toml), cell = Math.min(...sim.scene.rests);
+    let mode = null, before = null;
+    sim.start({stepper: run.method, options: '', step: run.step, tolerance: 1e-6, duration: r.duration, observe: false});
+    for (let going = true; going;) {
+      going = sim.advance(sim.t + 0.5 * run.step, 10);
+      const now = Float64Array.from(sim.velocities), change = before && now.map((v, i) => v - before[i]);
+      if (change && !change.every(v => Math.abs(v) * run.step < 0.1 * cell)) break;
+      mode = change, before = now;
+    }
+    sim.close();
+    return mode;
+  }
+
   return [
     {
-      name: 'euler-circle',
+      name: 'euler-circle', scenes: ['circle'],
       steps: [
         {
           name: 'tangent', choices: ['outside', 'on', 'inside'], right: 'outside',
@@ -193,14 +214,14 @@ const labExperiments = (() => {
       ]
     },
     {
-      name: 'pendulum-energy',
+      name: 'pendulum-energy', scenes: ['pendulum'],
       steps: [
         {
           name: 'explicit', choices: ['gains', 'keeps', 'loses'], right: 'gains',
           start: pendulum(['explicit-euler', 5e-3]),
           watch: (r, seen) => {
             const run = runOfMethod(r, 'explicit-euler');
-            if (run?.energy) farthest(seen, 'gain', run.energy.balance);
+            if (run && !run.failed) farthest(seen, 'gain', run.gain);
           },
           done: (r, seen) => {
             const run = runOfMethod(r, 'explicit-euler');
@@ -222,8 +243,8 @@ const labExperiments = (() => {
           },
           done: r => finished(runOfMethod(r, 'implicit-euler')),
           values: (r, seen) => {
-            const {t, energy} = runOfMethod(r, 'implicit-euler');
-            return {t: timeText(t), energy: digits(-energy.balance), swing: digits(seen.top - seen.bottom, 2)};
+            const {t, gain} = runOfMethod(r, 'implicit-euler');
+            return {t: timeText(t), energy: digits(-gain), swing: digits(seen.top - seen.bottom, 2)};
           }
         },
         {
@@ -232,19 +253,19 @@ const labExperiments = (() => {
           watch: (r, seen) => {
             const run = runOfMethod(r, 'leapfrog');
             if (!run?.energy) return;
-            farthest(seen, 'high', run.energy.balance);
-            nearest(seen, 'low', run.energy.balance);
+            farthest(seen, 'high', run.gain);
+            nearest(seen, 'low', run.gain);
           },
           done: r => finished(runOfMethod(r, 'leapfrog')),
           values: (r, seen) => {
-            const {t, energy} = runOfMethod(r, 'leapfrog');
-            return {t: timeText(t), low: digits(seen.low, 2), high: digits(seen.high, 2), end: digits(energy.balance, 2)};
+            const {t, gain} = runOfMethod(r, 'leapfrog');
+            return {t: timeText(t), low: digits(seen.low, 2), high: digits(seen.high, 2), end: digits(gain, 2)};
           }
         },
         {
           name: 'which', choices: ['swing', 'spring', 'gravity'], right: 'spring',
-          start: pendulum(['leapfrog', 0.06]),
-          acts: [r => pendulum(['leapfrog', 1.1 * r.runs[0].limit])],
+          start: state('pendulum', {}, ['leapfrog', 0.06]),
+          acts: [r => state('pendulum', {}, ['leapfrog', 1.1 * r.runs[0].limit])],
           shown: ({before}) => ({period: stepText(2 * Math.PI / before.omega)}),
           done: r => {
             const run = runOfMethod(r, 'leapfrog');
@@ -258,7 +279,7 @@ const labExperiments = (() => {
       ]
     },
     {
-      name: 'cloth-bursts',
+      name: 'cloth-bursts', scenes: ['cloth-hang'],
       steps: [
         {
           name: 'past', choices: ['inexact', 'slow', 'bursts'], right: 'bursts',
@@ -273,11 +294,11 @@ const labExperiments = (() => {
         },
         {
           name: 'mode', choices: ['swing', 'folds', 'zigzag'], right: 'zigzag',
-          start: r => hangingCloth(1e-3),
-          acts: [r => hangingCloth(1.01 * r.runs[0].limit)],
-          done: r => Boolean(r.runs[0].failed && r.runs[0].sim.growth && r.columns),
-          values: r => ({
-            percent: Math.round(100 * opposedPart(r.runs[0].sim.growth, r.columns, r.rows)),
+          start: hangingCloth(1e-3),
+          acts: [r => hangingCloth(1.05 * r.runs[0].limit)],
+          done: r => Boolean(r.runs[0].failed && r.runs[0].step > r.runs[0].limit && r.columns),
+          values: async r => ({
+            percent: Math.round(100 * opposedPart(await growingMode(r), r.columns, r.rows)),
             period: stepText(2 * Math.PI / r.omega), limit: stepText(r.runs[0].limit)
           })
         },
@@ -320,7 +341,7 @@ const labExperiments = (() => {
       ]
     },
     {
-      name: 'ball-friction',
+      name: 'ball-friction', scenes: ['slide', 'cloth-sphere'],
       steps: [
         {
           name: 'sticky', choices: ['off', 'part', 'stays'], right: 'stays',
@@ -381,7 +402,7 @@ const labExperiments = (() => {
       ]
     },
     {
-      name: 'bend-springs',
+      name: 'bend-springs', scenes: ['cloth-hang'],
       steps: [
         {
           name: 'without', choices: ['lower', 'creases', 'nothing'], right: 'creases',

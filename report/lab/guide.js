@@ -8,7 +8,7 @@ function readingOf(lab) {
   const {toml} = reading, size = /^size\s*=\s*\[\s*(\d+)\s*,\s*(\d+)\s*\]/m.exec(toml);
   const runs = reading.runs.filter(run => run.places && !run.refusal).map(run => ({
     method: run.spec.method, step: run.sim.h || run.spec.step, limit: run.limit, t: run.time, steps: run.sim.steps,
-    ended: run.ended, failed: run.failed, verdict: run.verdict, x: run.places, energy: run.fault ? null : run.sim.energy, sim: run.sim
+    ended: run.ended, failed: run.failed, x: run.places, ...energyOf(run), sim: run.sim
   }));
   if (!runs.length) return null;
   const {scene} = runs[0].sim;
@@ -16,6 +16,12 @@ function readingOf(lab) {
     scene: reading.scene, toml, runs, t: reading.t, duration: scene.duration, omega: scene.omega, particles: scene.particles,
     columns: size ? Number(size[1]) : 0, rows: size ? Number(size[2]) : 0, at: path => numberAt(toml, path)
   };
+}
+
+/** Energy of a run now, and what it has gained since the start without a cause, J; neither in first-order scenes. */
+function energyOf(run) {
+  const energy = run.fault ? null : run.sim.energy;
+  return {energy, gain: energy ? energy.balance - run.first.balance : null};
 }
 
 /** What a step remembers of the lab as it was beside the question. */

@@ -333,15 +333,15 @@ const labWords = {
   'cloth-bursts.mode.question': ['Something grows first, long before the cloth is torn apart. Which motion is it?', '在布料被撕碎之前，总有某种运动先增长。是哪一种？'],
   'cloth-bursts.mode.swing': ['the whole cloth swings wider', '整块布越摆越宽'],
   'cloth-bursts.mode.folds': ['long waves run through the cloth', '长波在布中传播'],
-  'cloth-bursts.mode.zigzag': ['neighbours move against each other', '相邻质点反向运动'],
-  'cloth-bursts.mode.task': ['Run once more, 1 % past the mark, and look at the arrows: they show what grows.', '再运行一次，超出标记 1 %，看箭头：它们显示正在增长的运动。'],
+  'cloth-bursts.mode.zigzag': ['particles a cell or two apart move against each other', '相隔一两格的质点反向运动'],
+  'cloth-bursts.mode.task': ['Run once more, about 5 % past the mark, and look at the arrows: they show what grows.', '再运行一次，超出标记约 5 %，看箭头：它们显示正在增长的运动。'],
   'cloth-bursts.mode.why': [
     'A short zigzag stretches the most springs for the least motion. So it is pulled back hardest, and vibrates fastest: it gives ω, and it is the first that a step cannot follow.',
     '短的锯齿用最小的位移拉长最多的弹簧。因此回复力最强、振动最快：它就是 ω，也最先跟不上步长。'
   ],
   'cloth-bursts.mode.formula': [
-    '{percent} % of diagonal neighbours move against each other. One vibration takes 2π / ω = {period}, and a step may be at most its π-th part: {limit}.',
-    '{percent} % 的对角相邻质点反向运动。一次振动历时 2π / ω = {period}，步长最多是它的 π 分之一：{limit}。'
+    'Of the pairs two cells apart {percent} % move against each other. One vibration takes 2π / ω = {period}, and a step may be at most its π-th part: {limit}.',
+    '相隔两格的质点对中，{percent} % 反向运动。一次振动历时 2π / ω = {period}，步长最多是它的 π 分之一：{limit}。'
   ],
 
   'cloth-bursts.softer.question': ['All springs are now a quarter as stiff: {k} N/m instead of {kBefore} N/m. How large may the step become?', '所有弹簧的刚度变为四分之一：{kBefore} N/m 变成 {k} N/m。步长能取多大？'],
