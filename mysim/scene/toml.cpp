@@ -2,6 +2,8 @@
 #include "mysim/scene/toml.h"
 
 #include <fmt/ranges.h>
+// a fault of the text is a value here, so that builds without exceptions have its message too
+#define TOML_EXCEPTIONS 0
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -105,19 +107,18 @@ const Key* key_in_line(std::string_view text, int line, std::span<const Key> key
 
 std::shared_ptr<const toml::table> parse(std::string_view text, const std::string& name,
                                          std::span<const Key> keys = {}) {
-  try {
-    return std::make_shared<const toml::table>(toml::parse(text, name));
-  } catch (const toml::parse_error& e) {
-    TomlError fault = diagnose_toml(text, static_cast<int>(e.source().begin.line), e.description());
-    if (const Key* key = key_in_line(text, fault.line, keys); key && key->kind == Key::Kind::value) {
-      // a word where a number belongs is not mended by quotes
-      if (fault.what.starts_with("expected a text in quotes") && key->expected.find('"') == std::string_view::npos &&
-          key->expected.find("quotes") == std::string_view::npos)
-        fault.what = "a word stands where none is expected" + fault.what.substr(fault.what.find("; the line"));
-      fault.what += fmt::format("; {} is {}", key->name, key->expected);
-    }
-    throw InputError(fmt::format("{}:{}: not valid TOML: {}", name, fault.line, fault.what));
+  toml::parse_result parsed = toml::parse(text, name);
+  if (parsed) return std::make_shared<const toml::table>(std::move(parsed).table());
+  const toml::parse_error& e = parsed.error();
+  TomlError fault = diagnose_toml(text, static_cast<int>(e.source().begin.line), e.description());
+  if (const Key* key = key_in_line(text, fault.line, keys); key && key->kind == Key::Kind::value) {
+    // a word where a number belongs is not mended by quotes
+    if (fault.what.starts_with("expected a text in quotes") && key->expected.find('"') == std::string_view::npos &&
+        key->expected.find("quotes") == std::string_view::npos)
+      fault.what = "a word stands where none is expected" + fault.what.substr(fault.what.find("; the line"));
+    fault.what += fmt::format("; {} is {}", key->name, key->expected);
   }
+  throw InputError(fmt::format("{}:{}: not valid TOML: {}", name, fault.line, fault.what));
 }
 
 std::string full_key(const std::string& path, std::string_view key) {
