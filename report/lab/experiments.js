@@ -83,8 +83,12 @@ const labExperiments = (() => {
   const circle = (numbers, ...methods) => state('circle', numbers, ...methods);
   const pendulum = (...methods) => state('pendulum', {'time.samples': 200}, ...methods);
   const hangingCloth = (step, numbers = {}) => state('cloth-hang', numbers, ['leapfrog', step]);
+  /** The same in slow motion: a burst takes less than a tenth of a second. */
+  const slowly = (speed, what) => ({...what, speed});
   const allSprings = k => ({'grid.stiffness.structural': k, 'grid.stiffness.shear': k, 'grid.stiffness.bend': k});
   const slowCircle = {}, fastCircle = {'rotation.rate': 4, 'time.duration': Math.PI, 'time.window': Math.PI};
+  // its own step says how far the step's slider reaches
+  const longCircle = {'rotation.rate': 4, 'time.duration': 8, 'time.window': 8, 'time.step': 0.3};
 
   const watchFold = (r, seen) => {
     const [run] = r.runs;
@@ -200,8 +204,8 @@ const labExperiments = (() => {
         },
         {
           name: 'largest', choices: ['never', 'some', 'always'], right: 'some',
-          start: circle({'rotation.rate': 4, 'time.duration': 8, 'time.window': 8}, ['rk4', 0.6]),
-          acts: [circle({'rotation.rate': 4, 'time.duration': 8, 'time.window': 8}, ['rk4', 0.73])],
+          start: circle(longCircle, ['rk4', 0.6]),
+          acts: [circle(longCircle, ['rk4', 0.73])],
           done: r => {
             const run = runOfMethod(r, 'rk4');
             return Boolean(run && rk4Factor(run.step * r.at('rotation.rate')) > 1 && (run.failed || radiusOf(run.x) > 1.5));
@@ -283,8 +287,8 @@ const labExperiments = (() => {
       steps: [
         {
           name: 'past', choices: ['inexact', 'slow', 'bursts'], right: 'bursts',
-          start: hangingCloth(1e-3),
-          acts: [r => hangingCloth(1.03 * r.runs[0].limit)],
+          start: slowly(0.1, hangingCloth(1e-3)),
+          acts: [r => slowly(0.1, hangingCloth(1.03 * r.runs[0].limit))],
           shown: ({before}) => ({particles: before.particles, limit: stepText(before.limit)}),
           done: r => Boolean(r.runs[0].failed && r.runs[0].step > r.runs[0].limit),
           values: r => {
@@ -294,8 +298,8 @@ const labExperiments = (() => {
         },
         {
           name: 'mode', choices: ['swing', 'folds', 'zigzag'], right: 'zigzag',
-          start: hangingCloth(1e-3),
-          acts: [r => hangingCloth(1.05 * r.runs[0].limit)],
+          start: slowly(0.05, hangingCloth(1e-3)),
+          acts: [r => slowly(0.05, hangingCloth(1.05 * r.runs[0].limit))],
           done: r => Boolean(r.runs[0].failed && r.runs[0].step > r.runs[0].limit && r.columns),
           values: async r => ({
             percent: Math.round(100 * opposedPart(await growingMode(r), r.columns, r.rows)),

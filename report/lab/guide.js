@@ -53,6 +53,9 @@ const guideProgress = (() => {
   };
 })();
 
+/** The experiments whose scenes are in this page. */
+const experimentsHere = () => labExperiments.filter(({scenes}) => scenes.every(name => name in labScenes()));
+
 const guideButton = (words, act, attributes = {}) => {
   const button = make('button', {type: 'button', ...attributes}, words);
   button.addEventListener('click', act);
@@ -85,7 +88,7 @@ class LabGuide extends HTMLElement {
 
   /** Opens an experiment, at its first step that is not done unless one is given. */
   show(name, number) {
-    const experiment = labExperiments.find(each => each.name === name);
+    const experiment = experimentsHere().find(each => each.name === name);
     if (!experiment) return this.showList();
     const open = experiment.steps.findIndex(step => !guideProgress.of(experiment, step));
     this.hidden = false;
@@ -108,10 +111,10 @@ class LabGuide extends HTMLElement {
 
   /** Sets the lab to a state of an experiment. */
   async setLab(wanted, running = false) {
-    const r = readingOf(this.lab), {scene, numbers, edit, methods} = typeof wanted === 'function' ? wanted(r, this.seen) : wanted;
+    const r = readingOf(this.lab), {scene, numbers, edit, methods, speed = 1} = typeof wanted === 'function' ? wanted(r, this.seen) : wanted;
     const toml = withNumbers(sceneText(scene), numbers);
     this.setting = true;
-    await this.lab.setState({scene, toml: edit ? edit(toml) : toml, methods, running});
+    await this.lab.setState({scene, toml: edit ? edit(toml) : toml, methods, speed, running});
     this.setting = false;
     this.look();
   }
@@ -152,7 +155,7 @@ class LabGuide extends HTMLElement {
 
   async complete(r) {
     const {experiment, step, guess, seen} = this;
-    this.phase = 'why', this.acting = null;
+    this.phase = 'why', this.acting = this.result = null;
     const read = step.guess?.read(r);
     const values = {...step.shown?.(seen), ...await step.values(r, seen)};
     const result = {guess, read, values, before: seen.before};
@@ -165,8 +168,14 @@ class LabGuide extends HTMLElement {
 
   go(number) {
     if (number < this.experiment.steps.length) return this.begin(this.experiment, number);
-    const next = labExperiments[labExperiments.indexOf(this.experiment) + 1];
+    const next = this.following;
     return next ? this.begin(next, 0) : this.showSandbox();
+  }
+
+  /** The experiment after this one; undefined after the last. */
+  get following() {
+    const all = experimentsHere();
+    return all[all.indexOf(this.experiment) + 1];
   }
 
   focusFirst() {
@@ -192,7 +201,7 @@ class LabGuide extends HTMLElement {
       button.append(make('b', {}, say(`${key}.title`)), make('span', {}, say(`${key}.about`)), ...(done ? [make('i', {}, `✓ ${say('guide.done')}`)] : []));
       list.append(make('li', {}, button));
     };
-    for (const experiment of labExperiments) add(experiment.name, guideProgress.finished(experiment), () => this.show(experiment.name));
+    for (const experiment of experimentsHere()) add(experiment.name, guideProgress.finished(experiment), () => this.show(experiment.name));
     add('sandbox', false, () => this.showSandbox());
     return [make('h3', {tabindex: -1}, say('guide.title')), make('p', {class: 'soft'}, say('guide.lead')), list];
   }
@@ -228,7 +237,7 @@ class LabGuide extends HTMLElement {
     if (phase === 'try') parts.push(make('div', {class: 'task'}, make('h4', {}, say('guide.try')), make('p', {}, this.words('task', values)),
         guideButton(say('guide.do'), () => this.act(), {'data-key': 'do'}), make('p', {class: 'soft', role: 'status'}, say('guide.waiting'))));
     if (phase === 'why' && this.result) parts.push(this.reason(values));
-    const onward = number + 1 < count ? null : labExperiments[labExperiments.indexOf(experiment) + 1]?.name ?? 'sandbox';
+    const onward = number + 1 < count ? null : this.following?.name ?? 'sandbox';
     const next = phase !== 'why' ? say('guide.skip') : onward ? say('guide.onward', {title: say(`${onward}.title`)}) : say('guide.next');
     parts.push(make('div', {class: 'ways'},
         ...(number > 0 ? [guideButton(say('guide.back'), () => this.go(number - 1), {'data-key': 'back'})] : []),
