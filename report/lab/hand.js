@@ -103,8 +103,10 @@ class Hand {
   }
 
   hold(particle, place, run, key = false) {
-    if (!this.act.hold(particle, place, run)) return;
+    const before = this.held;
     this.held = {particle, place, run, key};
+    if (!this.act.hold(particle, place, run)) return void (this.held = before);
+    if (this.chosen === particle && before) return;
     this.chosen = particle;
     this.act.choose(particle);
   }

@@ -10,7 +10,7 @@ function lookOfRun(letter) {
 
 const labButton = (name, text, act, words = say(name)) => {
   const button = make('button', {type: 'button', 'data-act': name, ...(text === words ? {} : {'aria-label': words, title: words})}, text);
-  button.addEventListener('click', act);
+  button.addEventListener('click', () => act());
   return button;
 };
 
@@ -22,7 +22,8 @@ class LabView {
     this.titles = make('div', {class: 'titles'});
     this.verdict = make('div', {class: 'verdict', role: 'alert'});
     this.dropHere = make('div', {class: 'drop'});
-    this.stage = make('div', {class: 'stage'}, this.layer, this.titles, this.verdict, this.dropHere);
+    this.chosen = make('span', {class: 'chosen none'});
+    this.stage = make('div', {class: 'stage'}, this.layer, this.titles, this.chosen, this.verdict, this.dropHere);
     this.plots = new LivePlots();
     this.knobs = new SceneKnobs(act.numbers);
     this.verdict.hidden = this.dropHere.hidden = true;
@@ -64,7 +65,7 @@ class LabView {
     ledger.addEventListener('change', () => act.ledger(ledger.checked));
     this.pin = labButton('pin', say('pin'), act.pin);
     this.particle = make('span', {class: 'particle'});
-    this.chosen = make('span', {class: 'chosen'}, this.particle, this.pin);
+    this.chosen.replaceChildren(this.particle, this.pin);
     const looks = make('div', {class: 'looks'}, viewLabel, colourLabel, this.scale, springLabel, truthLabel, ledgerLabel, labButton('resetView', say('resetView'), act.resetView));
     this.readout = make('p', {class: 'readout'});
     this.truthWords = make('p', {class: 'readout truth', role: 'status'});
@@ -82,7 +83,7 @@ class LabView {
 
     this.methods = [];
     this.root.replaceChildren(
-        head, this.question, make('div', {class: 'bench'}, make('div', {class: 'picture'}, this.stage, time, this.chosen, looks, this.readout, this.truthWords), side),
+        head, this.question, make('div', {class: 'bench'}, make('div', {class: 'picture'}, this.stage, time, looks, this.readout, this.truthWords), side),
         this.plots.box, doors, hint);
     this.dropHere.textContent = say('drop');
     this.plots.name();

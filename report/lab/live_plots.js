@@ -60,7 +60,7 @@ class LivePlots {
     show(error, {title: say('error'), unit: 'm', series: series('error'), none: dead || say('noError')});
     show(energy, {title: say(energyKinds[this.kind]), unit: 'J', series: series(this.kind), none: say('noEnergy')});
     this.choice.hidden = Boolean(firstOrder);
-    energy.box.classList.toggle('chosen', !firstOrder);
+    energy.box.classList.toggle('named', !firstOrder);
     const percent = series('residual').map(s => ({...s, points: s.points.map(([t, v]) => [t, v === null ? null : 100 * v])}));
     show(residual, {title: say('residual'), unit: '%', series: percent, none: firstOrder ? say('noEnergy') : say('noResidual')});
   }

@@ -34,9 +34,13 @@ const isFinite3 = places => {
 
 /** One method's run, with what it has come to as samples: {t, error, bar, kinetic, elastic, gravitational, total, residual}. */
 class LiveRun {
-  /** Throws the engine's LabError where the scene is not read; a refused method leaves `refusal` instead. */
+  /**
+   * Throws the engine's LabError where the scene is not read; a refused method leaves `refusal` instead. `observe` says of
+   * a scene whether its energy balance is kept.
+   */
   constructor(lab, toml, letter, spec, observe) {
-    Object.assign(this, {letter, spec, observe, sim: lab.open(toml)});
+    const sim = lab.open(toml);
+    Object.assign(this, {letter, spec, sim, observe: observe(sim.scene)});
     this.stepper = lab.steppers.find(s => s.name === spec.method.split('+')[0]);
     this.start();
   }
@@ -45,7 +49,7 @@ class LiveRun {
     Object.assign(this, {spec, samples: [], trail: [], offset: 0, spent: 0, stepped: 0, last: 0, refusal: null, fault: null, scale: 0, since: 0});
     try {
       this.sim.start(startOf(spec, this.sim.scene.duration, this.observe));
-      this.look();
+      this.keepPlaces();
       this.begin();
     } catch (problem) {
       this.refusal = problem.message;
@@ -76,7 +80,7 @@ class LiveRun {
     }
     this.last = performance.now() - begin;
     this.spent += this.last, this.stepped += this.fault ? 0 : this.time - from;
-    this.look();
+    this.keepPlaces();
     return this.ended || sim.t >= aim - 1e-9 * (sim.h || 1);
   }
 
@@ -84,7 +88,7 @@ class LiveRun {
   get end() { return this.offset + this.sim.scene.duration; }
 
   /** Keeps the last places that are numbers. */
-  look() {
+  keepPlaces() {
     if (this.fault) return;
     const {positions} = this.sim;
     if (!isFinite3(positions)) return;
@@ -116,7 +120,7 @@ class LiveRun {
     act(this.sim);
     this.offset = time - this.sim.t;
     this.since = time, this.trail = [];
-    this.look();
+    this.keepPlaces();
     this.begin();
   }
 

@@ -160,10 +160,12 @@ class LiveStage extends Stage {
 
   /** The camera moves on to what it has to hold; at once where it has not been before. */
   eased(fit) {
-    const was = this.fit;
-    if (!was || this.still) return fit;
-    const part = 0.12, near = Math.abs(was.distance - fit.distance) < 1e-4 * fit.distance;
-    if (near) return fit;
+    const was = this.fit, part = 0.12;
+    // a picture of another shape is another view
+    const other = !was || this.shape !== `${this.canvas.width} ${this.canvas.height} ${this.panels.length}`;
+    this.shape = `${this.canvas.width} ${this.canvas.height} ${this.panels.length}`;
+    this.moving = !other && (Math.abs(was.distance - fit.distance) > 1e-3 * fit.distance || norm(minus(was.target, fit.target)) > 1e-3 * fit.distance);
+    if (!this.moving) return fit;
     return {target: plus(was.target, part, minus(fit.target, was.target)), distance: was.distance + part * (fit.distance - was.distance)};
   }
 

@@ -97,7 +97,7 @@ const labWords = {
   truthByHand: ['Truth: {stepper} at {h}, from the state left by the hand.', '真值：{stepper}，步长 {h}，自手动改变后的状态起算。'],
   truthSame: ['Truth: the same stepper at a hundredth of the step.', '真值：同一方法，步长为百分之一。'],
   truthNone: ['No truth is computed for this scene.', '此场景没有可计算的真值。'],
-  truthSlow: ['The truth would take {ms} ms a frame and is left out; a slower speed leaves time for it.', '真值每帧需 {ms} 毫秒，已略去；放慢速度即可计算。'],
+  truthSlow: ['The truth would take {ms} ms a frame and is left out; restarted at a slower speed there is time for it.', '真值每帧需 {ms} 毫秒，已略去；放慢速度并重新开始即可计算。'],
   truthLate: ['The truth is catching up.', '真值正在追赶。'],
   noError: ['No truth is known here.', '此处没有真值。'],
   energy: ['energy', '能量'],
@@ -120,6 +120,7 @@ const labWords = {
   verdictOther: ['{letter} failed at {t} s: {reason}', '{letter} 在 {t} 秒失败：{reason}'],
   verdictPast: ['Its step is {x} × the predicted critical step.', '其步长是预测临界步长的 {x} 倍。'],
   verdictBelow: ['Its step is below the predicted critical step ({x} ×), which is that of the scene at its start.', '其步长低于预测的临界步长（{x} 倍）；该预测取自场景的初始状态。'],
+  failed: ['failed', '失败'],
   growth: ['Red arrows: the mode that grows.', '红色箭头：增长的模态。'],
 
   // Doors.
@@ -309,7 +310,7 @@ const labWords = {
   'cloth-bursts.title': ['Where the cloth bursts', '布料何时爆开'],
   'cloth-bursts.about': ['Predict the largest step before you try it', '先预测最大步长，再验证'],
   'cloth-bursts.remember': [
-    'The fastest vibration decides the largest step: h < 2 / ω, and ω is the root of stiffness over mass. Softer or heavier cloth bears a larger step.',
+    'The fastest vibration decides the largest step: h < 2 / ω, and ω grows with the root of stiffness over mass. Softer or heavier cloth bears a larger step.',
     '最快的振动决定最大步长：h < 2 / ω，而 ω 正比于刚度除以质量的平方根。更软或更重的布料能用更大的步长。'
   ],
 
@@ -376,7 +377,7 @@ const labWords = {
   'cloth-bursts.finer.half': ['half as large', '一半'],
   'cloth-bursts.finer.task': ['Run it with the step that was good before: 1 ms. Then find a step that holds for half a second.', '先用之前可行的步长 1 ms 运行。再找一个能坚持半秒的步长。'],
   'cloth-bursts.finer.why': [
-    'Each particle now has a quarter of the mass, at the same stiffness. So the zigzag vibrates twice as fast. That is why fine cloth is dear.',
+    'Each particle now has a quarter of the mass, at the same stiffness. So the zigzag vibrates twice as fast. That is why a fine cloth costs so much.',
     '每个质点的质量只有四分之一，刚度相同，因此锯齿振动快一倍。这就是精细布料昂贵的原因。'
   ],
   'cloth-bursts.finer.formula': ['ω = {omega} rad/s, 2 / ω = {limit}: {ratio} of what it was.', 'ω = {omega} rad/s，2 / ω = {limit}：是原来的 {ratio}。'],
