@@ -2,10 +2,11 @@
 // Words stand in words.js under EXPERIMENT.STEP.*. No number of a result stands here: all are taken from the lab.
 //
 // A step has: `start`, the state of the lab beside the question; `then`, the state after the guess (default: start);
-// `choices` with the `right` one, or `guess` {unit, digits, within, read} for a number; `acts`, the states that do the
-// task for the reader, each run to its end; `watch`, what is kept of each reading in `seen`; `done`, whether the task is
-// done; `shown` and `values`, the numbers in question and task, and in the reason. States may be functions of a reading
-// `r` and of what was `seen`; `seen.before` is the first reading beside the question.
+// `choices` with the `right` one, or `guess` {unit, within, read} for a number; `acts`, the states that do the task for the
+// reader, each run until it ends or is `enough`; `watch`, what is kept of each reading in `seen`; `done`, whether the task
+// is done; `shown` and `values`, the numbers in question and task, and in the reason; `arrows`, a motion that the lab
+// shows in the end. States may be functions of a reading `r` and of what was `seen`; `seen.before` is the first reading
+// beside the question. A state is what setState() takes, with numbers instead of a text, and `from`, the camera.
 // A reading r has: scene, t, duration, omega, at(path), and runs, each {method, step, limit, t, steps, ended, failed,
 // energy, gain (of energy since the start that nothing explains, J), x, sim}.
 
@@ -80,11 +81,13 @@ const labExperiments = (() => {
   // States: a scene with other numbers and the methods in it. With one sample any step may be taken.
 
   const state = (scene, numbers, ...methods) => ({scene, numbers: {'time.samples': 1, ...numbers}, methods: methods.map(([method, step]) => ({method, step}))});
-  const circle = (numbers, ...methods) => state('circle', numbers, ...methods);
+  const circle = (numbers, ...methods) => ({...state('circle', numbers, ...methods), speed: 2});
   const pendulum = (...methods) => state('pendulum', {'time.samples': 200}, ...methods);
   const hangingCloth = (step, numbers = {}) => state('cloth-hang', numbers, ['leapfrog', step]);
   /** The same in slow motion: a burst takes less than a tenth of a second. */
   const slowly = (speed, what) => ({...what, speed});
+  /** The same from above, where motions within the cloth are seen. */
+  const fromAbove = what => ({...what, from: {yaw: 0, pitch: 1.3, zoom: 0.75}});
   const allSprings = k => ({'grid.stiffness.structural': k, 'grid.stiffness.shear': k, 'grid.stiffness.bend': k});
   const slowCircle = {}, fastCircle = {'rotation.rate': 4, 'time.duration': Math.PI, 'time.window': Math.PI};
   // its own step says how far the step's slider reaches
@@ -225,7 +228,7 @@ const labExperiments = (() => {
           start: pendulum(['explicit-euler', 5e-3]),
           watch: (r, seen) => {
             const run = runOfMethod(r, 'explicit-euler');
-            if (run && !run.failed) farthest(seen, 'gain', run.gain);
+            if (Number.isFinite(run?.gain)) farthest(seen, 'gain', run.gain);
           },
           done: (r, seen) => {
             const run = runOfMethod(r, 'explicit-euler');
@@ -298,9 +301,10 @@ const labExperiments = (() => {
         },
         {
           name: 'mode', choices: ['swing', 'folds', 'zigzag'], right: 'zigzag',
-          start: slowly(0.05, hangingCloth(1e-3)),
-          acts: [r => slowly(0.05, hangingCloth(1.05 * r.runs[0].limit))],
+          start: fromAbove(slowly(0.05, hangingCloth(1e-3))),
+          acts: [r => fromAbove(slowly(0.05, hangingCloth(1.05 * r.runs[0].limit)))],
           done: r => Boolean(r.runs[0].failed && r.runs[0].step > r.runs[0].limit && r.columns),
+          arrows: growingMode,
           values: async r => ({
             percent: Math.round(100 * opposedPart(await growingMode(r), r.columns, r.rows)),
             period: stepText(2 * Math.PI / r.omega), limit: stepText(r.runs[0].limit)

@@ -68,7 +68,6 @@ class LabGuide extends HTMLElement {
     this.lab = this.nextElementSibling?.matches('live-lab') ? this.nextElementSibling : document.querySelector('live-lab');
     this.lab?.addEventListener('reading', () => this.look());
     document.addEventListener('lab-language', () => this.render());
-    this.classList.add('guide');
     this.setAttribute('role', 'region');
     this.showList();
   }
@@ -111,10 +110,14 @@ class LabGuide extends HTMLElement {
 
   /** Sets the lab to a state of an experiment. */
   async setLab(wanted, running = false) {
-    const r = readingOf(this.lab), {scene, numbers, edit, methods, speed = 1} = typeof wanted === 'function' ? wanted(r, this.seen) : wanted;
+    const r = readingOf(this.lab), {scene, numbers, edit, methods, speed = 1, from} = typeof wanted === 'function' ? wanted(r, this.seen) : wanted;
     const toml = withNumbers(sceneText(scene), numbers);
     this.setting = true;
     await this.lab.setState({scene, toml: edit ? edit(toml) : toml, methods, speed, running});
+    if (from && this.lab.orbit) {
+      Object.assign(this.lab.orbit, from);
+      this.lab.draw();
+    }
     this.setting = false;
     this.look();
   }
@@ -163,7 +166,16 @@ class LabGuide extends HTMLElement {
     if (this.step !== step) return;
     this.result = result;
     this.render();
+    if (step.arrows) await this.showMode(step.arrows, r);
     this.dispatchEvent(new CustomEvent('step-done', {bubbles: true, detail: {experiment: experiment.name, step: step.name}}));
+  }
+
+  /** Shows a motion as the lab's arrows, where the run has failed. */
+  async showMode(find, r) {
+    const {lab} = this, mode = await find(r), most = mode.reduce((top, part) => Math.max(top, Math.abs(part)), 0);
+    if (!lab.growth || r.runs[0].sim !== lab.runs[0].sim) return;
+    lab.growth = {letter: 'A', mode: mode.map(part => part / most)};
+    lab.draw();
   }
 
   go(number) {
@@ -179,7 +191,7 @@ class LabGuide extends HTMLElement {
   }
 
   focusFirst() {
-    this.querySelector('.question, h3')?.focus({preventScroll: true});
+    this.querySelector('.asked, h3')?.focus({preventScroll: true});
     this.scrollIntoView({block: 'nearest'});
   }
 
@@ -230,7 +242,7 @@ class LabGuide extends HTMLElement {
     const parts = [
       make('div', {class: 'over'}, this.allButton(), make('ol', {class: 'ticks'}, ...ticks)),
       make('h3', {}, say(`${experiment.name}.title`), make('small', {}, say('guide.step', {number: number + 1, count}))),
-      make('p', {class: 'question', tabindex: -1}, waits ? '…' : this.words('question', values)),
+      make('p', {class: 'asked', tabindex: -1}, waits ? '…' : this.words('question', values)),
       step.guess ? this.numberGuess() : this.choiceGuess()
     ];
     if (phase === 'ask') parts.push(guideButton(say('guide.without'), () => this.take(null), {class: 'plain', 'data-key': 'without'}));
@@ -239,7 +251,7 @@ class LabGuide extends HTMLElement {
     if (phase === 'why' && this.result) parts.push(this.reason(values));
     const onward = number + 1 < count ? null : this.following?.name ?? 'sandbox';
     const next = phase !== 'why' ? say('guide.skip') : onward ? say('guide.onward', {title: say(`${onward}.title`)}) : say('guide.next');
-    parts.push(make('div', {class: 'ways'},
+    parts.push(make('div', {class: 'moves'},
         ...(number > 0 ? [guideButton(say('guide.back'), () => this.go(number - 1), {'data-key': 'back'})] : []),
         ...(phase === 'why' ? [guideButton(say('guide.again'), () => this.begin(experiment, number, true), {'data-key': 'again'})] : []),
         guideButton(next, () => this.go(number + 1), {'data-key': 'next', class: phase === 'why' ? 'next main' : 'next'})));
