@@ -142,20 +142,21 @@ const labExperiments = (() => {
 
   /**
    * What grows in a run that fails: the same run once more. What grows changes its sign in every step, so that it is what
-   * two steps differ by; it is taken while it moves the particles by less than a tenth of a cell in a step.
+   * two steps differ by; it is taken while it moves the particles by less than a tenth of a cell in a step. `places`, m,
+   * are those of that moment.
    */
   async function growingMode(r) {
     const [run] = r.runs, sim = (await labModule()).open(r.toml), cell = Math.min(...sim.scene.rests);
-    let mode = null, before = null;
+    let mode = null, before = null, places = null;
     sim.start({stepper: run.method, options: '', step: run.step, tolerance: 1e-6, duration: r.duration, observe: false});
     for (let going = true; going;) {
       going = sim.advance(sim.t + 0.5 * run.step, 10);
       const now = Float64Array.from(sim.velocities), change = before && now.map((v, i) => v - before[i]);
       if (change && !change.every(v => Math.abs(v) * run.step < 0.1 * cell)) break;
-      mode = change, before = now;
+      mode = change, before = now, places = Float64Array.from(sim.positions);
     }
     sim.close();
-    return mode;
+    return {mode, places, by: 0.7 * cell};
   }
 
   return [
@@ -306,7 +307,7 @@ const labExperiments = (() => {
           done: r => Boolean(r.runs[0].failed && r.runs[0].step > r.runs[0].limit && r.columns),
           arrows: growingMode,
           values: async r => ({
-            percent: Math.round(100 * opposedPart(await growingMode(r), r.columns, r.rows)),
+            percent: Math.round(100 * opposedPart((await growingMode(r)).mode, r.columns, r.rows)),
             period: stepText(2 * Math.PI / r.omega), limit: stepText(r.runs[0].limit)
           })
         },

@@ -170,11 +170,12 @@ class LabGuide extends HTMLElement {
     this.dispatchEvent(new CustomEvent('step-done', {bubbles: true, detail: {experiment: experiment.name, step: step.name}}));
   }
 
-  /** Shows a motion as the lab's arrows, where the run has failed. */
+  /** Shows where the run has failed which motion grew: the cloth bent by it, up to `by` m, and arrows as long. */
   async showMode(find, r) {
-    const {lab} = this, mode = await find(r), most = mode.reduce((top, part) => Math.max(top, Math.abs(part)), 0);
+    const {lab} = this, {mode, places, by} = await find(r), most = mode.reduce((top, part) => Math.max(top, Math.abs(part)), 0);
     if (!lab.growth || r.runs[0].sim !== lab.runs[0].sim) return;
-    lab.growth = {letter: 'A', mode: mode.map(part => part / most)};
+    lab.runs[0].places.set(places.map((place, i) => place + 0.5 * by * mode[i] / most));
+    lab.growth = {letter: 'A', mode: mode.map(part => by * part / most / (0.16 * lab.stage.size))};
     lab.draw();
   }
 

@@ -341,8 +341,8 @@ const labWords = {
     '短的锯齿用最小的位移拉长最多的弹簧。因此回复力最强、振动最快：它就是 ω，也最先跟不上步长。'
   ],
   'cloth-bursts.mode.formula': [
-    'Of the pairs two cells apart {percent} % move against each other. One vibration takes 2π / ω = {period}, and a step may be at most its π-th part: {limit}.',
-    '相隔两格的质点对中，{percent} % 反向运动。一次振动历时 2π / ω = {period}，步长最多是它的 π 分之一：{limit}。'
+    'The picture shows that motion enlarged: of the pairs two cells apart {percent} % move against each other. One vibration takes 2π / ω = {period}, and a step may be at most its π-th part: {limit}.',
+    '图中放大显示了这种运动：相隔两格的质点对中，{percent} % 反向运动。一次振动历时 2π / ω = {period}，步长最多是它的 π 分之一：{limit}。'
   ],
 
   'cloth-bursts.softer.question': ['All springs are now a quarter as stiff: {k} N/m instead of {kBefore} N/m. How large may the step become?', '所有弹簧的刚度变为四分之一：{kBefore} N/m 变成 {k} N/m。步长能取多大？'],
