@@ -175,7 +175,7 @@ class MethodKnobs {
     this.step.box.hidden = Boolean(stepper?.adaptive), this.tolerance.box.hidden = !stepper?.adaptive;
     if (stepper?.adaptive) return void this.tolerance.show(spec.tolerance);
     const base = Number.isFinite(scale) && scale > 0 ? scale : 4 * scene.step;
-    const high = Math.min(interval, Math.max(2.5 * base, bound ? 2.2 * limit : 0)), low = Math.min(base / 40, bound ? limit / 4 : Infinity, high / 10);
+    const high = limit === Infinity ? interval : Math.min(interval, Math.max(2.5 * base, bound ? 2.2 * limit : 0)), low = Math.min(base / 40, bound ? limit / 4 : Infinity, high / 10);
     this.step.reach({low: 1000 * Math.min(low, spec.step), high: 1000 * Math.max(high, spec.step), snap: ms => 1000 * stepOf(interval, Math.max(1, Math.round(interval / (ms / 1000))))});
     this.step.show(1000 * spec.step);
     const part = bound ? this.step.partOf(1000 * limit) : limit === 0 ? 0 : 1;

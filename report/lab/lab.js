@@ -4,8 +4,10 @@
 // Its state is a scene's text (TOML), one or two methods with a step or tolerance each, and a look. Sliders change
 // numbers in the text; then the scene is opened anew and the runs start again. Runs share one clock.
 
-const computingBudget = 10;  // ms of a frame, for the methods together
-const truthBudget = 8;       // ms of a frame
+const computingBudget = 0.5;  // part of a frame's time, for the methods together
+const truthBudget = 0.45;     // part of a frame's time
+const shortestFrame = 17;     // ms
+const longestFrame = 120;     // ms, by which budgets go where drawing is slow
 const smallScene = 1500;     // particles; larger ones keep no energy balance unless asked
 const previewBudget = 150;   // ms for finding out how far a scene moves
 
@@ -53,7 +55,7 @@ class LiveLab extends HTMLElement {
       this.replaceChildren(make('p', {class: 'lab-plain'}, say(missing)));
       return false;
     }
-    Object.assign(this, {runs: [], clock: 0, speed: 1, playing: false, seen: true, frames: [], passed: [], pictures: []});
+    Object.assign(this, {runs: [], clock: 0, speed: 1, playing: false, seen: true, frameTime: shortestFrame, frames: [], passed: [], pictures: []});
     this.look = {view: 'over', colour: 'plain', springs: false, truth: false};
     const bind = name => (...given) => this[name](...given);
     this.view = new LabView(Object.fromEntries([
@@ -216,14 +218,14 @@ class LiveLab extends HTMLElement {
   /** Lets time pass: runs go on up to the clock, as far as the frame's computing allows. */
   advance(passed) {
     const before = this.clock;
-    let aim = Math.min(this.end, before + passed), left = computingBudget;
+    let aim = Math.min(this.end, before + passed), left = computingBudget * this.frameTime;
     for (const run of [...this.runs].sort((x, y) => y.last - x.last)) {
       const there = run.advance(aim, Math.max(1, left));
       left -= run.last;
-      if (!there) aim = Math.max(before, Math.min(aim, run.time + (run.sim.h || 0)));
+      if (!there || run.failed) aim = Math.max(before, Math.min(aim, run.time + (run.failed ? 0 : run.sim.h || 0)));
     }
     this.clock = aim;
-    this.passed.push(passed > 0 ? (aim - before) / passed : 1);
+    if (!this.runs.some(run => run.bursting)) this.passed.push(passed > 0 ? (aim - before) / passed : 1);
     if (this.passed.length > 30) this.passed.shift();
     this.sample();
     this.judge();
@@ -240,13 +242,13 @@ class LiveLab extends HTMLElement {
     for (const run of moved) {
       const last = run.samples[run.samples.length - 1];
       if (last && run.time < last.t + this.end / 500 && !run.ended) continue;
-      const found = this.clock === 0 ? {error: 0, bar: null} : this.truth && free ? this.truth.compare(run.places, run.time, Math.max(1, truthBudget - (performance.now() - begin))) : null;
+      const found = this.clock === 0 ? {error: 0, bar: null} : this.truth && free ? this.truth.compare(run.places, run.time, Math.max(1, truthBudget * this.frameTime - (performance.now() - begin))) : null;
       if (this.truth && free && !found && !run.failed) late = true;
       run.sample(run.failed ? null : found?.error ?? null, found?.bar ?? null);
     }
     if (moved.length) this.late = late ? this.late + 1 : 0;
-    if (this.late > 40) {
-      this.truthCost = this.truth.cost * this.speed / 60;
+    if (this.late * this.frameTime > 800) {
+      this.truthCost = this.truth.cost * this.speed * this.frameTime / 1000;
       this.late = 0;
       if (!this.truth.shed()) this.truth.close(), this.truth = null, this.truthGone = 'slow';
     }
@@ -255,6 +257,8 @@ class LiveLab extends HTMLElement {
   /** Says which runs have failed, and shows the mode that grows in the first that did. */
   judge() {
     const failed = this.runs.filter(run => run.failed);
+    for (const run of failed)
+      if (!run.shown && this.stage) run.shown = true, run.stepBack(places => this.stage.sees(places));
     if (!this.growth && failed.length) {
       const mode = failed[0].fault ? null : failed[0].sim.growth;
       this.growth = mode && {letter: failed[0].letter, mode: Float64Array.from(mode)};
@@ -301,6 +305,7 @@ class LiveLab extends HTMLElement {
     if (!this.isConnected || !this.view) return;
     const passed = this.lastFrame && now - this.lastFrame < 500 ? Math.min(0.1, (now - this.lastFrame) / 1000) : 0;
     this.lastFrame = now;
+    this.frameTime = Math.max(shortestFrame, Math.min(longestFrame, 0.8 * this.frameTime + 200 * passed));
     if (this.playing) {
       this.frames.push(now);
       while (this.frames[0] < now - 1000) this.frames.shift();
@@ -316,6 +321,6 @@ class LiveLab extends HTMLElement {
 
   get framesPerSecond() {
     const {frames} = this;
-    return frames.length > 10 ? Math.round(1000 * (frames.length - 1) / (frames[frames.length - 1] - frames[0])) : null;
+    return frames.length > 2 ? Math.round(1000 * (frames.length - 1) / (frames[frames.length - 1] - frames[0])) : null;
   }
 }

@@ -337,7 +337,7 @@ const labActs = {
 
   /** The camera steps back where a run that is well leaves the view. */
   keepInView() {
-    const run = this.runs.find(r => !r.failed && r.places && !this.stage.sees(r.places));
+    const run = this.runs.find(r => !r.failed && !r.bursting && r.places && !this.stage.sees(r.places));
     if (!run || this.pictures.length > 60) return;
     this.pictures.push(Float64Array.from(run.places));
     this.stage.hold(this.pictures);
@@ -385,7 +385,9 @@ const labActs = {
     view.setTime(this.clock, this.end, this.byHand);
     if (!all && now - (this.told ?? 0) < 110) return;
     this.told = now;
-    view.plots.show(runs.filter(run => run.look), Math.max(this.clock, this.end), this.clock, this.truthGone === 'slow' ? say('noError') : '');
+    // where all have failed the curves end there
+    const over = runs.every(run => run.failed) ? 1.1 * Math.max(...runs.map(run => run.time)) : 0;
+    view.plots.show(runs.filter(run => run.look), over || Math.max(this.clock, this.end), this.clock, this.truthGone === 'slow' ? say('noError') : '');
     if (this.look.colour === 'error') this.showLook();
     this.showReadout();
     this.tell();
@@ -414,7 +416,7 @@ const labActs = {
     if (!truth?.known) return '';
     if (truth.same) return say('truthSame');
     const words = say(this.byHand ? 'truthByHand' : 'truthIs', {stepper: nameOfMethod(truth.spec.method), h: timeText(truth.followers[0].sim.h || truth.spec.step)});
-    return this.late > 5 ? `${words} ${say('truthLate')}` : words;
+    return this.late * this.frameTime > 200 ? `${words} ${say('truthLate')}` : words;
   },
 };
 Object.defineProperties(LiveLab.prototype, Object.getOwnPropertyDescriptors(labActs));

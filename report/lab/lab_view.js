@@ -83,8 +83,8 @@ class LabView {
 
     this.methods = [];
     this.root.replaceChildren(
-        head, this.question, make('div', {class: 'bench'}, make('div', {class: 'picture'}, this.stage, time, looks, this.readout, this.truthWords), side),
-        this.plots.box, doors, hint);
+        head, this.question, make('div', {class: 'bench'}, make('div', {class: 'picture'}, this.stage, time, looks, this.readout, this.truthWords, this.plots.box), side),
+        doors, hint);
     this.dropHere.textContent = say('drop');
     this.plots.name();
   }

@@ -10,8 +10,9 @@ class LivePlot extends Plot {
   show(shown) {
     super.show(shown);
     const least = Math.min(0, ...shown.series.flatMap(s => s.points.map(p => p[1] ?? 0)));
-    if (this.powers || least >= 0) return;
-    this.low = 1.08 * least / this.size;
+    // of a burst the last eight powers of ten tell enough
+    if (this.powers) this.low = Math.max(this.low, this.most - 8);
+    else if (least < 0) this.low = 1.08 * least / this.size;
     this.draw();
   }
 

@@ -46,7 +46,7 @@ class LiveRun {
   }
 
   start(spec = this.spec) {
-    Object.assign(this, {spec, samples: [], trail: [], offset: 0, spent: 0, stepped: 0, last: 0, refusal: null, fault: null, scale: 0, since: 0});
+    Object.assign(this, {spec, samples: [], trail: [], recent: [], bursting: false, shown: false, offset: 0, spent: 0, stepped: 0, last: 0, refusal: null, fault: null, scale: 0, since: 0});
     try {
       this.sim.start(startOf(spec, this.sim.scene.duration, this.observe));
       this.keepPlaces();
@@ -54,6 +54,8 @@ class LiveRun {
     } catch (problem) {
       this.refusal = problem.message;
     }
+    const {limit} = this;
+    this.past = !this.refusal && limit !== null && this.sim.h > limit;
   }
 
   /** What the balance of a run that starts here is measured from. */
@@ -71,17 +73,26 @@ class LiveRun {
     this.last = 0;
     if (this.ended) return true;
     const from = this.time, begin = performance.now(), {sim} = this, last = time >= this.end - 1e-9;
-    const aim = time - this.offset - (last ? 0 : (sim.h || 0) * (1 - 1e-6));
+    const h = sim.h || 0, aim = time - this.offset - (last ? 1e-6 : 1 - 1e-6) * h;
     if (sim.t >= aim) return true;
     try {
-      sim.advance(aim, budget);
+      // beyond the critical step each step is looked at: once the balance is off, a frame shows one step
+      if (this.past) {
+        while (!sim.ended && sim.t < aim && performance.now() - begin < budget) {
+          sim.advance(sim.t + 0.5 * h, budget);
+          this.keepPlaces();
+          this.bursting = this.residual() > 0.01;
+          if (this.bursting) break;
+        }
+      } else
+        sim.advance(aim, budget);
     } catch (problem) {
       this.fault = problem.message;
     }
     this.last = performance.now() - begin;
     this.spent += this.last, this.stepped += this.fault ? 0 : this.time - from;
-    this.keepPlaces();
-    return this.ended || sim.t >= aim - 1e-9 * (sim.h || 1);
+    if (!this.past) this.keepPlaces();
+    return this.ended || (!this.bursting && sim.t >= aim - 1e-9 * (h || 1));
   }
 
   /** Time at which the run will have ended, s. */
@@ -94,6 +105,8 @@ class LiveRun {
     if (!isFinite3(positions)) return;
     if (this.places?.length !== positions.length) this.places = new Float64Array(positions.length);
     this.places.set(positions);
+    this.recent.push(Float64Array.from(positions));
+    if (this.recent.length > 24) this.recent.shift();
     // the way of the last particle, at even times
     if (this.trail.length <= (this.time - this.since) / this.sim.scene.duration * (trailPoints - 1)) this.trail.push([...positions.slice(-3)]);
   }
@@ -101,15 +114,28 @@ class LiveRun {
   /** Real time over computing time, of the whole run so far. */
   get factor() { return this.spent > 0 ? 1000 * this.stepped / this.spent : null; }
 
+  /** After a failure: the last places that `good` finds fit to be shown. */
+  stepBack(good) {
+    const found = this.recent.findLast(good);
+    if (found) this.places.set(found);
+  }
+
+  /** The relative energy residual now; 0 where none is known. */
+  residual(energy = this.sim.energy) {
+    if (!energy || !this.first || !Number.isFinite(energy.balance)) return 0;
+    const {kinetic, elastic, gravitational, balance} = energy, {first} = this;
+    this.scale = Math.max(this.scale, kinetic, Math.abs(gravitational - first.gravitational), Math.abs(elastic - first.elastic));
+    return this.scale > 0 ? Math.abs(balance - first.balance) / this.scale : 0;
+  }
+
   /** Adds a sample of the present state. */
   sample(error, bar) {
     if (this.fault || this.refusal) return;
-    const {energy} = this.sim, t = this.time, row = {t, error, bar, total: null, kinetic: null, elastic: null, gravitational: null, residual: null};
+    const {energy} = this.sim, row = {t: this.time, error, bar, total: null, kinetic: null, elastic: null, gravitational: null, residual: null};
     if (energy && this.first) {
-      const {kinetic, elastic, gravitational, balance} = energy, rise = gravitational - this.first.gravitational;
-      this.scale = Math.max(this.scale, kinetic, Math.abs(rise), Math.abs(elastic - this.first.elastic));
-      Object.assign(row, {kinetic, elastic, gravitational: rise, total: kinetic + elastic + rise});
-      if (Number.isFinite(balance) && this.scale > 0) row.residual = Math.abs(balance - this.first.balance) / this.scale;
+      const {kinetic, elastic} = energy, gravitational = energy.gravitational - this.first.gravitational, residual = this.residual(energy);
+      Object.assign(row, {kinetic, elastic, gravitational, total: kinetic + elastic + gravitational});
+      if (Number.isFinite(energy.balance)) row.residual = residual;
     }
     this.samples.push(row);
   }
@@ -132,7 +158,8 @@ class Follower {
   constructor(lab, toml, spec, offset) {
     this.sim = lab.open(toml);
     this.sim.start(startOf(spec, this.sim.scene.duration, false));
-    Object.assign(this, {spec, offset, spent: 0, stepped: 0, before: null, now: this.state(), out: new Float64Array(this.sim.positions.length)});
+    Object.assign(this, {spec, offset, spent: 0, stepped: 0, before: null, out: new Float64Array(this.sim.positions.length)});
+    this.now = this.state();
   }
 
   state() {
@@ -143,12 +170,12 @@ class Follower {
   /** Places at a time; null where they are not there within so many ms. */
   placesAt(time, budget) {
     const {sim} = this, h = sim.h || this.spec.step, begin = performance.now(), from = this.now.t;
-    const tiny = 1e-9 * h, left = () => budget - (performance.now() - begin);
+    const tiny = 1e-6 * h, left = () => budget - (performance.now() - begin);
     if (this.now.t < time - tiny) {
       // up to the last step before the time, then over it
-      if (this.now.t < time - h - tiny) sim.advance(time - this.offset - h, budget);
+      if (this.now.t < time - h - tiny) sim.advance(time - this.offset - h - tiny, budget);
       this.before = this.state();
-      if (!sim.ended && this.before.t < time - tiny && left() > 0) sim.advance(time - this.offset, left());
+      if (!sim.ended && this.before.t < time - tiny && left() > 0) sim.advance(time - this.offset - tiny, left());
       this.now = this.before.t < time - tiny ? this.state() : this.before;
     }
     this.spent += performance.now() - begin, this.stepped += this.now.t - from;
