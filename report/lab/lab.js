@@ -8,8 +8,9 @@ const computingBudget = 0.5;  // part of a frame's time, for the methods togethe
 const truthBudget = 0.45;     // part of a frame's time
 const shortestFrame = 17;     // ms
 const longestFrame = 120;     // ms, by which budgets go where drawing is slow
-const smallScene = 1500;     // particles; larger ones keep no energy balance unless asked
-const previewBudget = 150;   // ms for finding out how far a scene moves
+const slowestPace = 0.2;      // of the clock, while it waits for the truth
+const smallScene = 1500;      // particles; larger ones have no truth, and no energy balance unless asked
+const previewBudget = 150;    // ms for finding out how far a scene moves
 
 /** The scenes of the page: {name: {toml, fingerprint}}. */
 const labScenes = (() => {
@@ -200,6 +201,7 @@ class LiveLab extends HTMLElement {
     if (this.truth || this.truthGone) return;
     const run = this.runs.find(r => !r.refusal && !r.failed);
     if (!run) return;
+    if (run.sim.scene.particles > smallScene) return void (this.truthGone = 'large');
     try {
       this.truth = new Truth(this.lab, this.byHand ? run.sim.sceneText() : this.toml, run, run.sim.scene.spheres.length > 0);
     } catch {
@@ -212,11 +214,11 @@ class LiveLab extends HTMLElement {
   dropTruth() {
     this.truth?.close();
     this.truth = this.truthGone = null;
-    this.late = 0;
+    this.late = 0, this.pace = 1;
   }
 
-  /** Lets time pass: runs go on up to the clock, as far as the frame's computing allows. */
-  advance(passed) {
+  /** Lets time pass: runs go on up to the clock, as far as the frame's computing allows. `wanted`: at the speed chosen. */
+  advance(passed, wanted = passed) {
     const before = this.clock;
     let aim = Math.min(this.end, before + passed), left = computingBudget * this.frameTime;
     for (const run of [...this.runs].sort((x, y) => y.last - x.last)) {
@@ -225,7 +227,7 @@ class LiveLab extends HTMLElement {
       if (!there || run.failed) aim = Math.max(before, Math.min(aim, run.time + (run.failed ? 0 : run.sim.h || 0)));
     }
     this.clock = aim;
-    if (!this.runs.some(run => run.bursting)) this.passed.push(passed > 0 ? (aim - before) / passed : 1);
+    if (!this.runs.some(run => run.bursting)) this.passed.push(wanted > 0 ? (aim - before) / wanted : 1);
     if (this.passed.length > 30) this.passed.shift();
     this.sample();
     this.judge();
@@ -246,10 +248,11 @@ class LiveLab extends HTMLElement {
       if (this.truth && free && !found && !run.failed) late = true;
       run.sample(run.failed ? null : found?.error ?? null, found?.bar ?? null);
     }
-    if (moved.length) this.late = late ? this.late + 1 : 0;
-    if (this.late * this.frameTime > 800) {
+    // the clock waits a little for the truth, but not for ever
+    if (moved.length) this.late = late ? this.late + 1 : 0, this.pace = late ? Math.max(slowestPace, 0.85 * this.pace) : Math.min(1, 1.05 * this.pace);
+    if (this.late * this.frameTime > 1500) {
       this.truthCost = this.truth.cost * this.speed * this.frameTime / 1000;
-      this.late = 0;
+      this.late = 0, this.pace = 1;
       if (!this.truth.shed()) this.truth.close(), this.truth = null, this.truthGone = 'slow';
     }
   }
@@ -312,7 +315,7 @@ class LiveLab extends HTMLElement {
     } else this.frames = [];
     if (!this.stage) this.showViews();
     if (this.waiting) this.moveHeld();
-    if (this.playing) this.advance(this.speed * passed);
+    if (this.playing) this.advance(this.speed * this.pace * passed, this.speed * passed);
     const eased = this.draw();
     this.showNow(false, now);
     if (this.playing || eased || this.waiting) this.wake();

@@ -387,7 +387,7 @@ const labActs = {
     this.told = now;
     // where all have failed the curves end there
     const over = runs.every(run => run.failed) ? 1.1 * Math.max(...runs.map(run => run.time)) : 0;
-    view.plots.show(runs.filter(run => run.look), over || Math.max(this.clock, this.end), this.clock, this.truthGone === 'slow' ? say('noError') : '');
+    view.plots.show(runs.filter(run => run.look), over || Math.max(this.clock, this.end), this.clock, this.clock === 0 ? ' ' : '');
     if (this.look.colour === 'error') this.showLook();
     this.showReadout();
     this.tell();
@@ -412,7 +412,7 @@ const labActs = {
   truthWords() {
     const {truth} = this;
     if (this.truthGone === 'slow') return say('truthSlow', {ms: Number(this.truthCost.toPrecision(2))});
-    if (this.truthGone) return say('truthNone');
+    if (this.truthGone) return say(this.truthGone === 'large' ? 'truthLarge' : 'truthNone');
     if (!truth?.known) return '';
     if (truth.same) return say('truthSame');
     const words = say(this.byHand ? 'truthByHand' : 'truthIs', {stepper: nameOfMethod(truth.spec.method), h: timeText(truth.followers[0].sim.h || truth.spec.step)});

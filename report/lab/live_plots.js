@@ -4,6 +4,7 @@
 class LivePlot extends Plot {
   constructor(box) {
     super(box, () => {});
+    this.left = 56;
     box.classList.add('live');
   }
 
@@ -53,16 +54,17 @@ class LivePlots {
   /** `runs` with samples, up to `end` (s); `dead` says why there is no truth. */
   show(runs, end, time, dead) {
     this.shown = [runs, end, time, dead];
-    const series = key => runs.filter(run => run.samples.some(s => s[key] !== null)).map(run => ({
+    const series = key => runs.filter(run => run.samples.some(s => s[key] !== null && s.t > 0)).map(run => ({
       name: run.letter, css: run.look.css, dash: run.look.dash, well: !run.failed, points: run.samples.map(s => [s.t, s[key]])
     }));
     const firstOrder = runs[0]?.sim.scene.firstOrder, [error, energy, residual] = this.plots;
     const show = (plot, shown) => (plot.show({...shown, begin: 0, end}), plot.moveHead(time));
     show(error, {title: say('error'), unit: 'm', series: series('error'), none: dead || say('noError')});
-    show(energy, {title: say(energyKinds[this.kind]), unit: 'J', series: series(this.kind), none: say('noEnergy')});
-    this.choice.hidden = Boolean(firstOrder);
-    energy.box.classList.toggle('named', !firstOrder);
+    show(energy, {title: say(energyKinds[this.kind]), unit: 'J', series: series(this.kind), none: ' '});
+    energy.box.classList.add('named');
+    energy.box.hidden = residual.box.hidden = Boolean(firstOrder);
+    this.box.classList.toggle('single', Boolean(firstOrder));
     const percent = series('residual').map(s => ({...s, points: s.points.map(([t, v]) => [t, v === null ? null : 100 * v])}));
-    show(residual, {title: say('residual'), unit: '%', series: percent, none: firstOrder ? say('noEnergy') : say('noResidual')});
+    show(residual, {title: say('residual'), unit: '%', series: percent, none: time === 0 ? ' ' : say('noResidual')});
   }
 }

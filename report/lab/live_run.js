@@ -55,6 +55,7 @@ class LiveRun {
       this.refusal = problem.message;
     }
     const {limit} = this;
+    this.trails = !this.sim.scene.triangles.length;
     this.past = !this.refusal && limit !== null && this.sim.h > limit;
   }
 
@@ -84,6 +85,13 @@ class LiveRun {
           this.bursting = this.residual() > 0.01;
           if (this.bursting) break;
         }
+      } else if (this.trails) {
+        // small scenes leave a trail, which has its own times
+        const piece = sim.scene.duration / (trailPoints - 1);
+        for (let to = sim.t + piece; !sim.ended && sim.t < aim && performance.now() - begin < budget; to = Math.max(to, sim.t) + piece) {
+          sim.advance(Math.min(aim, to), budget);
+          this.keepPlaces();
+        }
       } else
         sim.advance(aim, budget);
     } catch (problem) {
@@ -91,7 +99,7 @@ class LiveRun {
     }
     this.last = performance.now() - begin;
     this.spent += this.last, this.stepped += this.fault ? 0 : this.time - from;
-    if (!this.past) this.keepPlaces();
+    if (!this.past && !this.trails) this.keepPlaces();
     return this.ended || (!this.bursting && sim.t >= aim - 1e-9 * (h || 1));
   }
 
