@@ -3,7 +3,7 @@
 //
 // A step has: `start`, the state of the lab beside the question; `then`, the state after the guess (default: start);
 // `choices` with the `right` one, or `guess` {unit, within, read} for a number; `acts`, the states that do the task for the
-// reader, each run until it ends or is `enough`; `watch`, what is kept of each reading in `seen`; `done`, whether the task
+// reader, each run until it ends or is `enough`; `watch`, what is kept of each reading in `seen`, in `seen.run` what ends with a run; `done`, whether the task
 // is done; `shown` and `values`, the numbers in question and task, and in the reason; `arrows`, a motion that the lab
 // shows in the end. States may be functions of a reading `r` and of what was `seen`; `seen.before` is the first reading
 // beside the question. A state is what setState() takes, with numbers instead of a text, and `from`, the camera.
@@ -95,9 +95,9 @@ const labExperiments = (() => {
 
   const watchFold = (r, seen) => {
     const [run] = r.runs;
-    if (r.columns && !run.failed) farthest(seen, 'fold', sharpestFold(run.x, r.columns, r.rows));
+    if (r.columns && !run.failed) farthest(seen.run, 'fold', sharpestFold(run.x, r.columns, r.rows));
   };
-  const foldValues = (r, seen) => ({fold: degrees(seen.fold), centre: digits(-centreOf(r.runs[0].x)[1])});
+  const foldValues = (r, seen) => ({fold: degrees(seen.run.fold), centre: digits(-centreOf(r.runs[0].x)[1])});
 
   /** Keeps the smallest step that failed and the largest that held for half a second. */
   const watchSteps = (r, seen) => {
@@ -229,15 +229,15 @@ const labExperiments = (() => {
           start: pendulum(['explicit-euler', 5e-3]),
           watch: (r, seen) => {
             const run = runOfMethod(r, 'explicit-euler');
-            if (Number.isFinite(run?.gain)) farthest(seen, 'gain', run.gain);
+            if (Number.isFinite(run?.gain)) farthest(seen.run, 'gain', run.gain);
           },
           done: (r, seen) => {
             const run = runOfMethod(r, 'explicit-euler');
-            return Boolean(run && (run.failed || run.ended) && seen.gain > 0);
+            return Boolean(run && (run.failed || run.ended) && seen.run.gain > 0);
           },
           values: (r, seen) => {
             const {step, t} = runOfMethod(r, 'explicit-euler'), a = step * r.omega;
-            return {omega: digits(r.omega), h: stepText(step), percent: digits(100 * (Math.sqrt(1 + a * a) - 1), 2), t: timeText(t), energy: digits(seen.gain)};
+            return {omega: digits(r.omega), h: stepText(step), percent: digits(100 * (Math.sqrt(1 + a * a) - 1), 2), t: timeText(t), energy: digits(seen.run.gain)};
           }
         },
         {
@@ -246,13 +246,13 @@ const labExperiments = (() => {
           watch: (r, seen) => {
             const run = runOfMethod(r, 'implicit-euler');
             if (!run?.energy) return;
-            farthest(seen, 'top', run.energy.gravitational);
-            nearest(seen, 'bottom', run.energy.gravitational);
+            farthest(seen.run, 'top', run.energy.gravitational);
+            nearest(seen.run, 'bottom', run.energy.gravitational);
           },
           done: r => finished(runOfMethod(r, 'implicit-euler')),
           values: (r, seen) => {
             const {t, gain} = runOfMethod(r, 'implicit-euler');
-            return {t: timeText(t), energy: digits(-gain), swing: digits(seen.top - seen.bottom, 2)};
+            return {t: timeText(t), energy: digits(-gain), swing: digits(seen.run.top - seen.run.bottom, 2)};
           }
         },
         {
@@ -261,13 +261,13 @@ const labExperiments = (() => {
           watch: (r, seen) => {
             const run = runOfMethod(r, 'leapfrog');
             if (!run?.energy) return;
-            farthest(seen, 'high', run.gain);
-            nearest(seen, 'low', run.gain);
+            farthest(seen.run, 'high', run.gain);
+            nearest(seen.run, 'low', run.gain);
           },
           done: r => finished(runOfMethod(r, 'leapfrog')),
           values: (r, seen) => {
             const {t, gain} = runOfMethod(r, 'leapfrog');
-            return {t: timeText(t), low: digits(seen.low, 2), high: digits(seen.high, 2), end: digits(gain, 2)};
+            return {t: timeText(t), low: digits(seen.run.low, 2), high: digits(seen.run.high, 2), end: digits(gain, 2)};
           }
         },
         {
@@ -396,9 +396,6 @@ const labExperiments = (() => {
           start: slidingCloth(0.5),
           then: slidingCloth(0.1),
           shown: ({before}) => ({mu: before.friction, small: 0.1}),
-          watch: (r, seen) => {
-            if (r.t === 0) seen.centre = centreOf(r.runs[0].x);
-          },
           done: r => r.scene === 'cloth-sphere' && r.at('sphere.friction') <= 0.1 && finished(r.runs[0]),
           values: (r, {before}) => {
             const now = centreOf(r.runs[0].x), angle = Math.asin(before.centre[0] / (r.at('sphere.radius') + r.at('sphere.margin')));
@@ -444,15 +441,12 @@ const labExperiments = (() => {
           start: hangingCloth(5e-4, {'grid.stiffness.bend': 0}),
           acts: [(r, {before}) => hangingCloth(5e-4, {'grid.stiffness.bend': before.k / 10})],
           shown: ({before}) => ({k: before.k, most: before.k / 10}),
-          watch: (r, seen) => {
+          watch: watchFold,
+          done: (r, {before, run}) => {
             const bend = r.at('grid.stiffness.bend');
-            // another bend stiffness is another run
-            if (seen.bend !== bend || r.t < seen.t) Object.assign(seen, {bend, fold: 0});
-            seen.t = r.t;
-            watchFold(r, seen);
+            return bend > 0 && bend <= before.k / 10 && finished(r.runs[0]) && run.fold < 25;
           },
-          done: (r, seen) => seen.bend > 0 && seen.bend <= seen.before.k / 10 && finished(r.runs[0]) && seen.fold < 25,
-          values: (r, seen) => ({bend: seen.bend, fold: degrees(seen.fold), limit: stepText(r.runs[0].limit), without: stepText(seen.before.limit)})
+          values: (r, seen) => ({bend: r.at('grid.stiffness.bend'), fold: degrees(seen.run.fold), limit: stepText(r.runs[0].limit), without: stepText(seen.before.limit)})
         }
       ]
     }

@@ -66,7 +66,8 @@ class LabGuide extends HTMLElement {
   connectedCallback() {
     if (this.lab) return;
     this.lab = this.nextElementSibling?.matches('live-lab') ? this.nextElementSibling : document.querySelector('live-lab');
-    this.lab?.addEventListener('reading', () => this.look());
+    if (!this.lab) return void (this.hidden = true);
+    this.lab.addEventListener('reading', () => this.look());
     document.addEventListener('lab-language', () => this.render());
     this.setAttribute('role', 'region');
     this.showList();
@@ -88,18 +89,18 @@ class LabGuide extends HTMLElement {
   /** Opens an experiment, at its first step that is not done unless one is given. */
   show(name, number) {
     const experiment = experimentsHere().find(each => each.name === name);
+    this.hidden = false;
     if (!experiment) return this.showList();
     const open = experiment.steps.findIndex(step => !guideProgress.of(experiment, step));
-    this.hidden = false;
     return this.begin(experiment, number ?? Math.max(0, open));
   }
 
   /** Sets the lab to the state beside a step's question. */
   async begin(experiment, number, again = false) {
     const step = experiment.steps[number];
-    Object.assign(this, {experiment, number, step, sandbox: false, seen: {}, guess: null, acting: null, phase: 'ask'});
+    Object.assign(this, {experiment, number, step, sandbox: false, seen: {run: {}}, guess: null, result: null, acting: null, phase: 'ask'});
     const known = !again && guideProgress.of(experiment, step);
-    if (known) Object.assign(this, {phase: 'why', guess: known.guess, result: known, seen: {before: known.before}});
+    if (known) Object.assign(this, {phase: 'why', guess: known.guess, result: known, seen: {before: known.before, run: {}}});
     try {
       history.replaceState(null, '', `#experiment=${experiment.name}`);
     } catch { /* the address stays */ }
@@ -137,8 +138,15 @@ class LabGuide extends HTMLElement {
     const {step} = this, acts = step.acts ?? [step.then ?? step.start];
     if (index >= acts.length) return;
     this.acting = null;
+    this.showLab();
     await this.setLab(acts[index], true);
     if (this.step === step && this.phase === 'try') this.acting = index;
+  }
+
+  /** On a narrow page the lab stands below the guide: brings its picture into view, and the reason when it is there. */
+  showLab(parent = this.lab, selector = '.stage') {
+    if (this.getBoundingClientRect().bottom > this.lab.getBoundingClientRect().top + 1) return;
+    parent.querySelector(selector)?.scrollIntoView({block: 'nearest', behavior: stillWanted.matches ? 'auto' : 'smooth'});
   }
 
   /** Looks at a new reading of the lab: whether the question's numbers are known, whether the task is done. */
@@ -150,6 +158,9 @@ class LabGuide extends HTMLElement {
       return void (this.phase === 'ask' && this.render());
     }
     if (this.phase !== 'try') return;
+    const run = r.toml + r.runs.map(({method, step: h}) => method + h);
+    if (run !== this.run || r.t < this.time) this.seen.run = {};
+    Object.assign(this, {run, time: r.t});
     step.watch?.(r, this.seen);
     if (step.done(r, this.seen)) return void this.complete(r);
     const over = r.runs.every(run => run.ended || run.failed) || step.enough?.(r);
@@ -158,6 +169,7 @@ class LabGuide extends HTMLElement {
 
   async complete(r) {
     const {experiment, step, guess, seen} = this;
+    const acted = this.acting !== null;
     this.phase = 'why', this.acting = this.result = null;
     const read = step.guess?.read(r);
     const values = {...step.shown?.(seen), ...await step.values(r, seen)};
@@ -167,6 +179,7 @@ class LabGuide extends HTMLElement {
     this.result = result;
     this.render();
     if (step.arrows) await this.showMode(step.arrows, r);
+    if (acted) setTimeout(() => this.step === step && this.showLab(this, '.why'), 1500);
     this.dispatchEvent(new CustomEvent('step-done', {bubbles: true, detail: {experiment: experiment.name, step: step.name}}));
   }
 
@@ -216,7 +229,8 @@ class LabGuide extends HTMLElement {
     };
     for (const experiment of experimentsHere()) add(experiment.name, guideProgress.finished(experiment), () => this.show(experiment.name));
     add('sandbox', false, () => this.showSandbox());
-    return [make('h3', {tabindex: -1}, say('guide.title')), make('p', {class: 'soft'}, say('guide.lead')), list];
+    const leave = 'alone' in this.lab.dataset ? [] : [guideButton(say('guide.leave'), () => (this.hidden = true), {class: 'plain', 'data-key': 'leave'})];
+    return [make('h3', {tabindex: -1}, say('guide.title')), make('p', {class: 'soft'}, say('guide.lead')), list, ...leave];
   }
 
   sandboxParts() {
@@ -300,18 +314,29 @@ class LabGuide extends HTMLElement {
 }
 customElements.define('lab-guide', LabGuide);
 
-/** Opens an experiment beside a lab; the guide is put before the lab where it has none. */
-function openExperiment(name, lab = document.querySelector('live-lab')) {
-  if (!lab) return null;
-  let guide = document.querySelector('lab-guide');
-  if (!guide) lab.before(guide = make('lab-guide'));
-  guide.show(name);
+/** The guide before a lab, made where there is none; side by side where the two have a box for themselves. */
+function guideOf(lab) {
+  const there = lab.previousElementSibling, box = lab.parentElement;
+  if (there?.matches('lab-guide')) return there;
+  const guide = make('lab-guide');
+  if (box.matches('dialog') || box.childElementCount === 1) box.classList.add('guided');
+  lab.before(guide);
   return guide;
 }
 
+/**
+ * Opens an experiment beside a lab, the list of them for a name that there is none of. Without a lab: on the lab's own page
+ * in the one that is there, else in one of the experiment's scene.
+ */
+function openExperiment(name, lab) {
+  const scene = labExperiments.find(each => each.name === name)?.scenes[0] ?? 'cloth-hang';
+  lab ??= document.querySelector('live-lab[data-alone]') ?? document.querySelector(`live-lab[data-scene="${scene}"]`);
+  lab ? guideOf(lab).show(name) : openLab({scene, experiment: name});
+}
+
 const experimentOfAddress = () => /^#experiment=([\w-]+)/.exec(location.hash)?.[1];
-const followAddress = () => experimentOfAddress() && openExperiment(experimentOfAddress());
-addEventListener('hashchange', followAddress);
-// the lab's own page shows the list at once
-if (!document.querySelector('lab-guide')) document.querySelector('live-lab[data-alone]')?.before(make('lab-guide'));
-followAddress();
+const followExperiment = () => experimentOfAddress() && openExperiment(experimentOfAddress());
+addEventListener('hashchange', followExperiment);
+// the lab's own page begins with the experiments
+for (const lab of document.querySelectorAll('live-lab[data-alone]')) guideOf(lab);
+followExperiment();

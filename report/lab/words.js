@@ -100,6 +100,7 @@ const labWords = {
   truthSlow: ['The truth would take {ms} ms a frame and is left out; restarted at a slower speed there is time for it.', '真值每帧需 {ms} 毫秒，已略去；放慢速度并重新开始即可计算。'],
   truthLarge: ['A scene this large has no truth beside it here.', '场景过大，此处不计算真值。'],
   truthLate: ['The truth is catching up.', '真值正在追赶。'],
+  beforeRun: ['The curve begins with the run.', '运行后开始绘制曲线。'],
   noError: ['No truth is known here.', '此处没有真值。'],
   energy: ['energy', '能量'],
   energyTotal: ['change of total energy', '总能量的变化'],
