@@ -174,7 +174,7 @@ class LiveLab extends HTMLElement {
   /** After runs were opened: clock, truth, stage and words stand at the beginning. */
   start(fresh) {
     const [a] = this.runs, {scene} = a.sim;
-    Object.assign(this, {clock: 0, end: scene.duration, byHand: false, growth: null, waiting: null, passed: []});
+    Object.assign(this, {clock: 0, end: scene.duration, byHand: false, growth: null, waiting: null, passed: [], average: null});
     this.dropTruth();
     for (const run of this.runs) run.look = lookOfRun(run.letter);
     this.hand.held = this.hand.grabbed = null;
@@ -261,7 +261,7 @@ class LiveLab extends HTMLElement {
   judge() {
     const failed = this.runs.filter(run => run.failed);
     for (const run of failed)
-      if (!run.shown && this.stage) run.shown = true, run.stepBack(places => this.stage.sees(places));
+      if (!run.shown && this.stage) run.shown = true, run.stepBack(places => this.stage.sees(places, 0.1));
     if (!this.growth && failed.length) {
       const mode = failed[0].fault ? null : failed[0].sim.growth;
       this.growth = mode && {letter: failed[0].letter, mode: Float64Array.from(mode)};

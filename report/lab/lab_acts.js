@@ -303,7 +303,8 @@ const labActs = {
       const worst = Math.max(1e-9, ...all.map(run => run.samples.reduce((top, s) => Math.max(top, s.error ?? 0), 0)));
       scale = length(this.colourTop = roundUp(3 * worst));
     }
-    this.view.setLook(this.look, this.drawn.length, this.runs[0].sim.scene.triangles.length > 0, scale);
+    const {triangles, firstOrder} = this.runs[0].sim.scene;
+    this.view.setLook(this.look, this.drawn.length, triangles.length > 0, scale, firstOrder);
   },
 
   /** Draws the present; true while the camera still moves. */
@@ -347,7 +348,7 @@ const labActs = {
     if (!run) return {name: say('truth'), words: '', state: '', look, failed: false};
     const {step, tolerance, method} = run.spec, last = run.samples[run.samples.length - 1];
     const setting = tolerance && run.stepper?.adaptive ? `${say('tolerance')} ${tolerance}` : timeText(run.refusal ? step : run.sim.h || step);
-    const error = last?.error === null || last?.error === undefined ? '' : `${say('error')} ${length(last.error)}${last.bar ? ` ${say('errorBar', {bar: length(last.bar)})}` : ''}`;
+    const error = last?.error === null || last?.error === undefined || last.t === 0 ? '' : `${say('error')} ${length(last.error)}${last.bar ? ` ${say('errorBar', {bar: length(last.bar)})}` : ''}`;
     return {name: letter, words: `${nameOfMethod(method)}, ${setting}`, state: run.failed ? say('failed') : error, look, failed: run.failed};
   },
 
@@ -387,7 +388,7 @@ const labActs = {
     this.told = now;
     // where all have failed the curves end there
     const over = runs.every(run => run.failed) ? 1.1 * Math.max(...runs.map(run => run.time)) : 0;
-    view.plots.show(runs.filter(run => run.look), over || Math.max(this.clock, this.end), this.clock, this.clock === 0 ? ' ' : '');
+    view.plots.show(runs.filter(run => run.look), over || Math.max(this.clock, this.end), this.clock, this.clock === 0);
     if (this.look.colour === 'error') this.showLook();
     this.showReadout();
     this.tell();

@@ -57,7 +57,7 @@ class LabView {
     const [viewLabel, view] = dropdown(say('view'), [['over', say('over')], ['side', say('side')]], 'over');
     const [colourLabel, colour] = dropdown(say('colour'), [['plain', say('byMethod')], ['stretch', say('byStretch')], ['error', say('byError')]], 'plain');
     const [springLabel, springs] = check(say('springs'), false), [truthLabel, truth] = check(say('truth'), false), [ledgerLabel, ledger] = check(say('ledger'), true);
-    Object.assign(this, {view, colour, springs, truth, ledger, springLabel, viewLabel});
+    Object.assign(this, {view, colour, springs, truth, ledger, springLabel, viewLabel, ledgerLabel});
     this.scale = make('span', {class: 'bar'});
     view.addEventListener('change', () => act.look({view: view.value}));
     colour.addEventListener('change', () => act.look({colour: colour.value}));
@@ -113,11 +113,12 @@ class LabView {
   }
 
   /** What is chosen of the picture. */
-  setLook({view, colour, springs, truth}, count, cloth, scale) {
+  setLook({view, colour, springs, truth}, count, cloth, scale, firstOrder) {
     Object.assign(this.view, {value: view}), Object.assign(this.colour, {value: colour});
     this.springs.checked = springs, this.truth.checked = truth;
     this.viewLabel.hidden = count < 2;
     this.springLabel.hidden = !cloth;
+    this.ledgerLabel.hidden = firstOrder;
     this.scale.replaceChildren(...(scale ? ['0', make('i', {class: 'scale'}), scale] : []));
   }
 

@@ -46,7 +46,7 @@ class LiveRun {
   }
 
   start(spec = this.spec) {
-    Object.assign(this, {spec, samples: [], trail: [], recent: [], bursting: false, shown: false, offset: 0, spent: 0, stepped: 0, last: 0, refusal: null, fault: null, scale: 0, since: 0});
+    Object.assign(this, {spec, samples: [], trail: [], recent: [], bursting: false, lost: 0, shown: false, offset: 0, spent: 0, stepped: 0, last: 0, refusal: null, fault: null, scale: 0, since: 0});
     try {
       this.sim.start(startOf(spec, this.sim.scene.duration, this.observe));
       this.keepPlaces();
@@ -77,12 +77,14 @@ class LiveRun {
     const h = sim.h || 0, aim = time - this.offset - (last ? 1e-6 : 1 - 1e-6) * h;
     if (sim.t >= aim) return true;
     try {
-      // beyond the critical step each step is looked at: once the balance is off, a frame shows one step
+      // beyond the critical step each step is looked at: once the balance is lost quickly, a frame shows one step
       if (this.past) {
         while (!sim.ended && sim.t < aim && performance.now() - begin < budget) {
           sim.advance(sim.t + 0.5 * h, budget);
           this.keepPlaces();
-          this.bursting = this.residual() > 0.01;
+          const residual = this.residual();
+          this.bursting = residual > Math.max(0.01, 1.1 * this.lost);
+          this.lost = residual;
           if (this.bursting) break;
         }
       } else if (this.trails) {

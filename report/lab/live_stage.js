@@ -58,13 +58,15 @@ class LiveStage extends Stage {
     const bounds = boundsOf({...this.scene, floor: null}, [motion]);
     if (this.scene.floor !== null) this.scene.floor = Math.min(...bounds.held.map(h => h.at[1] - h.radius)) - 0.02 * bounds.size;
     Object.assign(this, boundsOf(this.scene, [motion]));
+    this.low = [Infinity, Infinity, Infinity], this.high = [-Infinity, -Infinity, -Infinity];
+    for (const places of pictures) places.forEach((v, i) => (this.low[i % 3] = Math.min(this.low[i % 3], v), this.high[i % 3] = Math.max(this.high[i % 3], v)));
   }
 
-  /** Whether places lie within what is in view. */
-  sees(places) {
-    const {middle, reach} = this;
-    for (let i = 0; i < places.length; i += 3)
-      if (Math.hypot(places[i] - middle[0], places[i + 1] - middle[1], places[i + 2] - middle[2]) > 1.05 * reach) return false;
+  /** Whether places lie within what is in view, but for a small part of it. */
+  sees(places, part = 0.03) {
+    const {low, high, size} = this;
+    for (let i = 0; i < places.length; ++i)
+      if (places[i] < low[i % 3] - part * size || places[i] > high[i % 3] + part * size) return false;
     return true;
   }
 
