@@ -258,6 +258,19 @@ std::vector<int> TomlTable::integers(std::string_view key, int least) const {
   return list;
 }
 
+Eigen::VectorXd TomlTable::numbers(std::string_view key, int count) const {
+  const std::string expected = fmt::format("a list of {} finite numbers", count);
+  const toml::node& n = node_->need(key, expected);
+  const toml::array* values = n.as_array();
+  if (!values) node_->refuse(n, key, expected);
+  if (values->size() != static_cast<size_t>(count))
+    node_->fail_at(n.source(), key, fmt::format("expected {}, got {}", expected, values->size()));
+  Eigen::VectorXd list(count);
+  for (int i = 0; i < count; ++i)
+    list[i] = node_->finite((*values)[i], fmt::format("{}[{}]", key, i), "a finite number");
+  return list;
+}
+
 TomlTable TomlTable::section(std::string_view key) const {
   const toml::node& n = node_->need(key, "a table");
   const toml::table* t = n.as_table();
