@@ -165,7 +165,8 @@ class MethodKnobs {
   /** Shows a method beside its run; `scale`: critical step, s, by which the slider's range goes. */
   show(spec, run, steppers, scale) {
     const {scene} = run.sim, [name, ...options] = spec.method.split('+'), stepper = steppers.find(s => s.name === name);
-    const interval = scene.duration / scene.samples, limit = run.limit, bound = Number.isFinite(limit) && limit > 0;
+    const interval = scene.duration / scene.samples, limit = run.limit, known = Number.isFinite(limit) && limit > 0;
+    const bound = known && limit <= interval;  // no step is longer than the time between two samples
     Object.assign(this, {spec, steppers, own: scene.step, balls: scene.spheres.length});
     const usable = steppers.filter(s => !scene.firstOrder || s.firstOrder);
     if (this.select.childElementCount !== usable.length) this.select.replaceChildren(...usable.map(s => make('option', {value: s.name}, nameOfMethod(s.name))));
@@ -184,7 +185,7 @@ class MethodKnobs {
     this.box.classList.toggle('bound', bound || limit === 0);
     this.box.classList.toggle('past', (bound && run.sim.h > limit) || limit === 0);
     this.mark.classList.toggle('placed', bound);
-    this.mark.textContent = bound ? say('limitMark', {h: timeText(limit)}) : say(limit === 0 ? 'limitNone' : limit === Infinity ? 'limitAll' : 'limitUnknown');
+    this.mark.textContent = known ? say(bound ? 'limitMark' : 'limitBeyond', {h: timeText(limit), interval: timeText(interval)}) : say(limit === 0 ? 'limitNone' : limit === Infinity ? 'limitAll' : 'limitUnknown');
     const taken = !run.refusal && run.sim.h && Math.abs(run.sim.h / spec.step - 1) > 0.012 ? say('taken', {h: timeText(run.sim.h)}) : '';
     this.note.textContent = run.refusal ? say('refused', {method: nameOfMethod(spec.method), reason: run.refusal}) : taken;
     this.note.classList.toggle('failed', Boolean(run.refusal));

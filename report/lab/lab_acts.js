@@ -388,10 +388,19 @@ const labActs = {
     this.told = now;
     // where all have failed the curves end there
     const over = runs.every(run => run.failed) ? 1.1 * Math.max(...runs.map(run => run.time)) : 0;
-    view.plots.show(runs.filter(run => run.look), over || Math.max(this.clock, this.end), this.clock, this.clock === 0);
+    view.plots.show(runs.filter(run => run.look), over || Math.max(this.clock, this.end), this.clock, this.withoutCurves());
     if (this.look.colour === 'error') this.showLook();
     this.showReadout();
     this.tell();
+  },
+
+  /** What is said where there is no curve. */
+  withoutCurves() {
+    const soon = say('beforeRun'), {hand, truthGone, clock} = this;
+    return {
+      energy: soon, residual: this.keepLedger ? soon : say('noResidual'),
+      error: truthGone ? say('noError') : clock === 0 || this.runs.every(run => run.ended) ? soon : hand.held ? say('noErrorHeld') : say('truthLate')
+    };
   },
 
   showReadout() {

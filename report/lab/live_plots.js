@@ -51,20 +51,20 @@ class LivePlots {
     if (this.shown) this.show(...this.shown);
   }
 
-  /** `runs` with samples, up to `end` (s); `still`: before the run. */
-  show(runs, end, time, still) {
-    this.shown = [runs, end, time, still];
+  /** `runs` with samples, up to `end` (s); `none`: what is said in place of curves, {error, energy, residual}. */
+  show(runs, end, time, none) {
+    this.shown = [runs, end, time, none];
     const series = key => runs.filter(run => run.samples.some(s => s[key] !== null && s.t > 0)).map(run => ({
       name: run.letter, css: run.look.css, dash: run.look.dash, well: !run.failed, points: run.samples.map(s => [s.t, s[key]])
     }));
     const firstOrder = runs[0]?.sim.scene.firstOrder, [error, energy, residual] = this.plots;
     const show = (plot, shown) => (plot.show({...shown, begin: 0, end}), plot.moveHead(time));
-    show(error, {title: say('error'), unit: 'm', series: series('error'), none: say(still ? 'beforeRun' : 'noError')});
-    show(energy, {title: say(energyKinds[this.kind]), unit: 'J', series: series(this.kind), none: say('beforeRun')});
+    show(error, {title: say('error'), unit: 'm', series: series('error'), none: none.error});
+    show(energy, {title: say(energyKinds[this.kind]), unit: 'J', series: series(this.kind), none: none.energy});
     energy.box.classList.add('named');
     energy.box.hidden = residual.box.hidden = Boolean(firstOrder);
     this.box.classList.toggle('single', Boolean(firstOrder));
     const percent = series('residual').map(s => ({...s, points: s.points.map(([t, v]) => [t, v === null ? null : 100 * v])}));
-    show(residual, {title: say('residual'), unit: '%', series: percent, none: say(still ? 'beforeRun' : 'noResidual')});
+    show(residual, {title: say('residual'), unit: '%', series: percent, none: none.residual});
   }
 }
