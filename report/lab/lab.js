@@ -8,7 +8,8 @@ const computingBudget = 0.5;  // part of a frame's time, for the methods togethe
 const truthBudget = 0.45;     // part of a frame's time
 const shortestFrame = 17;     // ms
 const longestFrame = 120;     // ms, by which budgets go where drawing is slow
-const slowestPace = 0.2;      // of the clock, while it waits for the truth
+const slowestPace = 0.1;      // of the clock, while it waits for the truth
+const longestWait = 2500;     // ms of waiting for the truth
 const smallScene = 1500;      // particles; larger ones have no truth, and no energy balance unless asked
 const previewBudget = 150;    // ms for finding out how far a scene moves
 
@@ -214,7 +215,7 @@ class LiveLab extends HTMLElement {
   dropTruth() {
     this.truth?.close();
     this.truth = this.truthGone = null;
-    this.late = 0, this.pace = 1;
+    this.late = this.slow = 0, this.pace = 1, this.pending = false;
   }
 
   /** Lets time pass: runs go on up to the clock, as far as the frame's computing allows. `wanted`: at the speed chosen. */
@@ -222,9 +223,9 @@ class LiveLab extends HTMLElement {
     const before = this.clock;
     let aim = Math.min(this.end, before + passed), left = computingBudget * this.frameTime;
     for (const run of [...this.runs].sort((x, y) => y.last - x.last)) {
-      const there = run.advance(aim, Math.max(1, left));
+      const was = run.failed, there = run.advance(aim, Math.max(1, left)), fails = run.failed && !was;
       left -= run.last;
-      if (!there || run.failed) aim = Math.max(before, Math.min(aim, run.time + (run.failed ? 0 : run.sim.h || 0)));
+      if (!there || fails) aim = Math.max(before, Math.min(aim, run.time + (fails ? 0 : run.sim.h || 0)));
     }
     this.clock = aim;
     if (!this.runs.some(run => run.bursting)) this.passed.push(wanted > 0 ? (aim - before) / wanted : 1);
@@ -234,27 +235,30 @@ class LiveLab extends HTMLElement {
     if (this.runs.every(run => run.ended) || (this.clock >= this.end - 1e-9 && this.runs.every(run => run.ended || run.time >= this.end - 1e-6))) this.pause();
   }
 
-  /** Compares runs that moved on with the truth, and keeps what they have come to. */
+  /**
+   * Compares runs that moved on with the truth, and keeps what they have come to. Where the truth is not there within the
+   * frame's computing, `pending` makes the clock wait for it, and go more slowly from then on; but not for ever.
+   */
   sample() {
     // at the start nothing is off yet, and while a slider moves no truth is begun
     const free = !this.hand.held && this.clock > 0 && performance.now() > (this.settled ?? 0);
     if (free) this.findTruth();
-    const begin = performance.now(), moved = this.runs.filter(run => !run.refusal && run.samples[run.samples.length - 1]?.t !== run.time).sort((x, y) => x.time - y.time);
-    let late = false;
-    for (const run of moved) {
+    const begin = performance.now(), left = () => Math.max(1, truthBudget * this.frameTime - (performance.now() - begin));
+    this.pending = false;
+    for (const run of [...this.runs].sort((x, y) => x.time - y.time)) {
       const last = run.samples[run.samples.length - 1];
-      if (last && run.time < last.t + this.end / 500 && !run.ended) continue;
-      const found = this.clock === 0 ? {error: 0, bar: null} : this.truth && free ? this.truth.compare(run.places, run.time, Math.max(1, truthBudget * this.frameTime - (performance.now() - begin))) : null;
-      if (this.truth && free && !found && !run.failed) late = true;
-      run.sample(run.failed ? null : found?.error ?? null, found?.bar ?? null);
+      if (run.refusal || last?.t === run.time || (last && run.time < last.t + this.end / 500 && !run.ended)) continue;
+      const found = this.clock === 0 ? {error: 0, bar: null} : this.truth && free && !run.failed ? this.truth.compare(run.places, run.time, left()) : null;
+      if (!found && this.truth && free && !run.failed && this.truth.isBefore(run.time)) this.pending = true;
+      else run.sample(found?.error ?? null, found?.bar ?? null);
     }
-    // the clock waits a little for the truth, but not for ever
-    if (moved.length) this.late = late ? this.late + 1 : 0, this.pace = late ? Math.max(slowestPace, 0.85 * this.pace) : Math.min(1, 1.05 * this.pace);
-    if (this.late * this.frameTime > 1500) {
-      this.truthCost = this.truth.cost * this.speed * this.frameTime / 1000;
-      this.late = 0, this.pace = 1;
-      if (!this.truth.shed()) this.truth.close(), this.truth = null, this.truthGone = 'slow';
-    }
+    this.pace = this.pending ? Math.max(slowestPace, 0.8 * this.pace) : Math.min(1, 1.04 * this.pace);
+    this.late = this.pending ? this.late + this.frameTime : 0;
+    this.slow = this.pace > 2 * slowestPace ? 0 : this.slow + this.frameTime;
+    if (!this.pending || (this.late < longestWait && this.slow < longestWait)) return;
+    this.truthCost = this.truth.cost * this.speed * this.frameTime / 1000;
+    this.late = this.slow = 0, this.pace = 1;
+    if (!this.truth.shed()) this.truth.close(), this.truth = null, this.truthGone = 'slow';
   }
 
   /** Says which runs have failed, and shows the mode that grows in the first that did. */
@@ -294,6 +298,7 @@ class LiveLab extends HTMLElement {
     delete this.dataset.running;
     this.view.setRunning(false);
     this.showNow(true);
+    this.wake();
   }
 
   /** Asks for the next frame, once. */
@@ -315,10 +320,13 @@ class LiveLab extends HTMLElement {
     } else this.frames = [];
     if (!this.stage) this.showViews();
     if (this.waiting) this.moveHeld();
-    if (this.playing) this.advance(this.speed * this.pace * passed, this.speed * passed);
+    const was = this.pending;
+    if (was) this.sample();
+    else if (this.playing) this.advance(this.speed * this.pace * passed, this.speed * passed);
+    if (was && this.playing) this.passed.push(0);
     const eased = this.draw();
-    this.showNow(false, now);
-    if (this.playing || eased || this.waiting) this.wake();
+    this.showNow(was && !this.pending && !this.playing, now);
+    if (this.playing || eased || this.waiting || this.pending) this.wake();
     else this.lastFrame = null;
   }
 

@@ -20,6 +20,7 @@ const labActs = {
     if (run.sim.steps === begin && !run.ended) this.advance(run.sim.h || run.sim.scene.step);
     this.draw();
     this.showNow(true);
+    this.wake();
   },
 
   act_speed(speed) { this.speed = speed; },
@@ -426,7 +427,7 @@ const labActs = {
     if (!truth?.known) return '';
     if (truth.same) return say('truthSame');
     const words = say(this.byHand ? 'truthByHand' : 'truthIs', {stepper: nameOfMethod(truth.spec.method), h: timeText(truth.followers[0].sim.h || truth.spec.step)});
-    return this.late * this.frameTime > 200 ? `${words} ${say('truthLate')}` : words;
+    return this.late > 200 ? `${words} ${say('truthLate')}` : words;
   },
 };
 Object.defineProperties(LiveLab.prototype, Object.getOwnPropertyDescriptors(labActs));

@@ -10,10 +10,11 @@ class LivePlot extends Plot {
 
   show(shown) {
     super.show(shown);
-    const least = Math.min(0, ...shown.series.flatMap(s => s.points.map(p => p[1] ?? 0)));
-    // of a burst the last eight powers of ten tell enough
-    if (this.powers) this.low = Math.max(this.low, this.most - 8);
-    else if (least < 0) this.low = 1.08 * least / this.size;
+    const well = shown.series.filter(s => s.well), values = (well.length ? well : shown.series).flatMap(s => s.points.map(p => p[1] ?? 0));
+    const least = Math.min(0, ...values);
+    // powers of ten have no place for what lies below zero, and of a burst the last eight tell enough
+    if (least < 0) Object.assign(this, {powers: false, low: 1.08 * least / this.size, most: 1.08 * Math.max(0, ...values) / this.size});
+    else if (this.powers) this.low = Math.max(this.low, this.most - 8);
     this.draw();
   }
 

@@ -237,6 +237,12 @@ class Truth {
     return {error: rmsDistance(places, truth), bar};
   }
 
+  /** Whether a time is still to come for the truth. */
+  isBefore(time) {
+    const {now, sim} = this.followers[0];
+    return !sim.ended && now.t < time - 1e-6 * (sim.h || 1);
+  }
+
   /** Computing for a second of the scene, ms. */
   get cost() { return this.followers.reduce((sum, {spent, stepped}) => sum + (stepped > 0 ? spent / stepped : 0), 0); }
 
