@@ -71,7 +71,7 @@ class LiveLab extends HTMLElement {
       toggle: () => this.act_toggle(), step: () => this.act_step(), restart: () => this.act_restart()
     });
     const {stage} = this.view;
-    new IntersectionObserver(([entry]) => (this.seen = entry.isIntersecting, this.wake())).observe(stage);
+    new IntersectionObserver(([entry]) => (this.seen = entry.isIntersecting, this.wake())).observe(this);
     new ResizeObserver(() => this.draw()).observe(stage);
     dark.addEventListener('change', () => this.runs.length && this.showViews());
     for (const name of ['dragenter', 'dragover', 'dragleave', 'drop']) this.addEventListener(name, event => this.dragged(event));
@@ -335,3 +335,34 @@ class LiveLab extends HTMLElement {
     return frames.length > 2 ? Math.round(1000 * (frames.length - 1) / (frames[frames.length - 1] - frames[0])) : null;
   }
 }
+Object.defineProperties(LiveLab.prototype, Object.getOwnPropertyDescriptors(labActs));
+customElements.define('live-lab', LiveLab);
+
+/**
+ * Opens the lab in a state: {scene, method and step, or methods, toml, changes, experiment, ...} as setState() takes it.
+ * The scene's own lab on the page, another that is there, or one in a window over the page.
+ */
+async function openLab({method, step, tolerance, experiment, ...state}) {
+  if (method) state.methods = [{method: method.replace(/^mysim\//, ''), step, tolerance}];
+  let lab = document.querySelector(`live-lab[data-scene="${CSS.escape(state.scene ?? '')}"]`) ?? document.querySelector('live-lab[data-alone]');
+  if (!lab) {
+    const dialog = make('dialog', {class: 'run lab-window', 'aria-label': say('labTitle')}, lab = make('live-lab', {'data-scene': state.scene}));
+    document.body.append(dialog);
+    dialog.addEventListener('close', () => dialog.remove());
+    dialog.showModal();
+  }
+  await lab.open(state);
+  lab.scrollIntoView({block: 'nearest'});
+  if (experiment && typeof openExperiment === 'function') openExperiment(experiment, lab);
+  return lab;
+}
+
+/** Opens the lab in the state of the address, if it has one. */
+async function followLabAddress() {
+  const state = await stateOf(location.hash);
+  if (state) await openLab(state);
+  else if (/^#lab=/.test(location.hash)) document.querySelector('live-lab[data-alone]')?.open();
+}
+addEventListener('hashchange', followLabAddress);
+if (document.readyState === 'loading') document.addEventListener('DOMContentLoaded', followLabAddress);
+else followLabAddress();

@@ -1,4 +1,4 @@
-// What the lab's controls and the hand do, and how the lab shows what it is at; the second part of <live-lab>.
+// What the lab's controls and the hand do, and how the lab shows what it is at: the second part of <live-lab> (lab.js).
 
 const labActs = {
   act_toggle() { this.playing ? this.pause() : this.play(); },
@@ -349,7 +349,7 @@ const labActs = {
     if (!run) return {name: say('truth'), words: '', state: '', look, failed: false};
     const {step, tolerance, method} = run.spec, last = run.samples[run.samples.length - 1];
     const setting = tolerance && run.stepper?.adaptive ? `${say('tolerance')} ${tolerance}` : timeText(run.refusal ? step : run.sim.h || step);
-    const error = last?.error === null || last?.error === undefined || last.t === 0 ? '' : `${say('error')} ${length(last.error)}${last.bar ? ` ${say('errorBar', {bar: length(last.bar)})}` : ''}`;
+    const error = last?.error === null || last?.error === undefined || last.t === 0 ? '' : `${say(run.errorWord)} ${length(last.error)}${last.bar ? ` ${say('errorBar', {bar: length(last.bar)})}` : ''}`;
     return {name: letter, words: `${nameOfMethod(method)}, ${setting}`, state: run.failed ? say('failed') : error, look, failed: run.failed};
   },
 
@@ -430,34 +430,3 @@ const labActs = {
     return this.late > 200 ? `${words} ${say('truthLate')}` : words;
   },
 };
-Object.defineProperties(LiveLab.prototype, Object.getOwnPropertyDescriptors(labActs));
-customElements.define('live-lab', LiveLab);
-
-/**
- * Opens the lab in a state: {scene, method and step, or methods, toml, changes, experiment, ...} as setState() takes it.
- * The scene's own lab on the page, another that is there, or one in a window over the page.
- */
-async function openLab({method, step, tolerance, experiment, ...state}) {
-  if (method) state.methods = [{method: method.replace(/^mysim\//, ''), step, tolerance}];
-  let lab = document.querySelector(`live-lab[data-scene="${CSS.escape(state.scene ?? '')}"]`) ?? document.querySelector('live-lab[data-alone]');
-  if (!lab) {
-    const dialog = make('dialog', {class: 'run lab-window', 'aria-label': say('labTitle')}, lab = make('live-lab', {'data-scene': state.scene}));
-    document.body.append(dialog);
-    dialog.addEventListener('close', () => dialog.remove());
-    dialog.showModal();
-  }
-  await lab.open(state);
-  lab.scrollIntoView({block: 'nearest'});
-  if (experiment && typeof openExperiment === 'function') openExperiment(experiment, lab);
-  return lab;
-}
-
-/** Opens the lab in the state of the address, if it has one. */
-async function followLabAddress() {
-  const state = await stateOf(location.hash);
-  if (state) await openLab(state);
-  else if (/^#lab=/.test(location.hash)) document.querySelector('live-lab[data-alone]')?.open();
-}
-addEventListener('hashchange', followLabAddress);
-if (document.readyState === 'loading') document.addEventListener('DOMContentLoaded', followLabAddress);
-else followLabAddress();

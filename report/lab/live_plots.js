@@ -60,7 +60,7 @@ class LivePlots {
     }));
     const firstOrder = runs[0]?.sim.scene.firstOrder, [error, energy, residual] = this.plots;
     const show = (plot, shown) => (plot.show({...shown, begin: 0, end}), plot.moveHead(time));
-    show(error, {title: say('error'), unit: 'm', series: series('error'), none: none.error});
+    show(error, {title: say(runs[0]?.errorWord ?? 'error'), unit: 'm', series: series('error'), none: none.error});
     show(energy, {title: say(energyKinds[this.kind]), unit: 'J', series: series(this.kind), none: none.energy});
     energy.box.classList.add('named');
     energy.box.hidden = residual.box.hidden = Boolean(firstOrder);

@@ -160,6 +160,9 @@ class LiveRun {
     this.begin();
   }
 
+  /** What a distance from the truth is called: where balls are touched the truth is that of the same contact rule. */
+  get errorWord() { return this.sim.scene.spheres.length ? 'difference' : 'error'; }
+
   close() { this.sim.close(); }
 }
 

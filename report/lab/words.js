@@ -93,6 +93,7 @@ const labWords = {
 
   // Truth and curves.
   error: ['RMS error', '均方根误差'],
+  difference: ['RMS difference from a finer run', '与更细步长结果的均方根差'],
   errorBar: ['± {bar}', '± {bar}'],
   truthIs: ['Truth: {stepper} at {h}.', '真值：{stepper}，步长 {h}。'],
   truthByHand: ['Truth: {stepper} at {h}, from the state left by the hand.', '真值：{stepper}，步长 {h}，自手动改变后的状态起算。'],
