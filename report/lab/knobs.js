@@ -16,7 +16,7 @@ const knobTable = [
   {path: 'wind.gusts.variation', word: 'gusts', unit: 'm/s²', to: 4, even: true},
   {path: 'aerodynamics.velocity', word: 'airSpeed', unit: 'm/s', to: 4, even: true},
   {path: 'aerodynamics.gusts.variation', word: 'gusts', unit: 'm/s', to: 4, even: true},
-  {path: 'sphere.radius', word: 'ballRadius', unit: 'm', from: 0.3, to: 1.2, even: true},
+  {path: 'sphere.radius', word: 'ballRadius', unit: 'm', from: 0.3, to: 1.1, even: true},
   {path: 'sphere.friction', word: 'friction', unit: '', to: 2, even: true},
   {path: 'sphere.restitution', word: 'restitution', unit: '', most: 1, even: true},
   {path: 'pins.motion.frequency', word: 'frequency', unit: 'Hz', from: 1 / 10, to: 10},

@@ -36,7 +36,7 @@ class LabView {
   build() {
     const {act} = this;
     this.root.lang = labLanguage;
-    this.sceneChoice = make('select', {'data-act': 'scene'});
+    this.sceneChoice = make('select', {'data-act': 'scene', 'aria-label': say('scene')});
     this.sceneChoice.addEventListener('change', () => act.scene(this.sceneChoice.value));
     this.changed = make('span', {class: 'changed'}, say('changed'), labButton('original', say('original'), act.original));
     const language = labButton('language', labLanguage === 'zh' ? 'English' : '中文', () => setLabLanguage(labLanguage === 'zh' ? 'en' : 'zh'), say('language'));
@@ -114,7 +114,7 @@ class LabView {
 
   /** What is chosen of the picture. */
   setLook({view, colour, springs, truth}, count, cloth, scale, firstOrder) {
-    Object.assign(this.view, {value: view}), Object.assign(this.colour, {value: colour});
+    this.view.value = view, this.colour.value = colour;
     this.springs.checked = springs, this.truth.checked = truth;
     this.viewLabel.hidden = count < 2;
     this.springLabel.hidden = !cloth;

@@ -144,7 +144,7 @@ class LiveRun {
     const {energy} = this.sim, row = {t: this.time, error, bar, total: null, kinetic: null, elastic: null, gravitational: null, residual: null};
     if (energy && this.first) {
       const {kinetic, elastic} = energy, gravitational = energy.gravitational - this.first.gravitational, residual = this.residual(energy);
-      Object.assign(row, {kinetic, elastic, gravitational, total: kinetic + elastic + gravitational});
+      Object.assign(row, {kinetic, elastic, gravitational, total: kinetic - this.first.kinetic + elastic - this.first.elastic + gravitational});
       if (Number.isFinite(energy.balance)) row.residual = residual;
     }
     this.samples.push(row);

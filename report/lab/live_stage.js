@@ -164,7 +164,7 @@ class LiveStage extends Stage {
   eased(fit) {
     const was = this.fit, part = 0.12;
     // a picture of another shape is another view
-    const other = !was || this.shape !== `${this.canvas.width} ${this.canvas.height} ${this.panels.length}`;
+    const other = !was || stillWanted.matches || this.shape !== `${this.canvas.width} ${this.canvas.height} ${this.panels.length}`;
     this.shape = `${this.canvas.width} ${this.canvas.height} ${this.panels.length}`;
     this.moving = !other && (Math.abs(was.distance - fit.distance) > 1e-3 * fit.distance || norm(minus(was.target, fit.target)) > 1e-3 * fit.distance);
     if (!this.moving) return fit;
