@@ -289,7 +289,7 @@ const labWords = {
   'pendulum-energy.leapfrog.swings': ['it is off a little and comes back', '略有偏差，但会回来'],
   'pendulum-energy.leapfrog.task': ['Run leapfrog with a step of 10 ms to the end, and watch the balance.', '以 10 ms 的步长运行蛙跳法到底，观察能量差额。'],
   'pendulum-energy.leapfrog.why': [
-    'Leapfrog turns and shears the circle but never changes an area in it. It follows exactly a motion with a slightly different energy.',
+    'Leapfrog turns and shears the circle but never changes an area in it. It follows, almost exactly, a motion whose energy is slightly different.',
     '蛙跳法会转动、剪切这个圆，但从不改变其中的面积。它几乎精确地遵循一个能量略有不同的运动。'
   ],
   'pendulum-energy.leapfrog.formula': ['Up to {t} the energy was off by {low} to {high} J, at the end by {end} J.', '到 {t} 为止，能量偏差在 {low} 到 {high} J 之间，结束时为 {end} J。'],
@@ -462,7 +462,7 @@ const labWords = {
     'Structural and shear springs resist stretching, and a fold stretches nothing. Only a spring over two cells notices a fold.',
     '结构弹簧和剪切弹簧抵抗拉伸，而折叠并不拉伸什么。只有跨两格的弹簧才感觉到折叠。'
   ],
-  'bend-springs.without.formula': ['Sharpest fold: {fold}° (0° is flat). Centre of mass {centre} m below the corners.', '最尖的折角：{fold}°（0° 为平）。质心在两角以下 {centre} m。'],
+  'bend-springs.without.formula': ['Sharpest fold: {fold}° (0° is flat), where the edge between the corners tips over. Centre of mass {centre} m below the corners.', '最尖的折角：{fold}°（0° 为平），出现在两角之间翻倒的上边缘。质心在两角以下 {centre} m。'],
 
   'bend-springs.with.question': ['And with bend springs of {bend} N/m, as stiff as the others: how sharp is the sharpest fold?', '加上 {bend} N/m 的弯曲弹簧（与其他弹簧一样硬）：最尖的折角有多大？'],
   'bend-springs.with.same': ['about as sharp', '差不多一样尖'],
