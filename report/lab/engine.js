@@ -45,10 +45,11 @@ class Instance {
 
   /** Hands a text in, for the next call. */
   give(text) {
-    const bytes = new TextEncoder().encode(text);
-    new Uint8Array(this.calls.memory.buffer, this.calls.text_buffer(bytes.length), bytes.length).set(bytes);
+    const bytes = new TextEncoder().encode(text), at = this.calls.text_buffer(bytes.length);  // which may grow the memory
+    new Uint8Array(this.calls.memory.buffer, at, bytes.length).set(bytes);
   }
 
+  // Places are asked for before the memory is: a call may grow it, and its old buffer is then empty.
   doubles(at, count) { return new Float64Array(this.calls.memory.buffer, at, count); }
   integers(at, count) { return new Int32Array(this.calls.memory.buffer, at, count); }
 }
@@ -88,13 +89,15 @@ class Simulation {
 
   readScene() {
     const {instance} = this, scene = JSON.parse(instance.text(this.call('scene')));
-    const {particles, springCount, triangleCount, pinCount} = scene;
+    const {particles, springCount, constraintCount, triangleCount, pinCount} = scene;
     const integers = (name, count) => instance.integers(this.call(name), count).slice();
     const doubles = (name, count) => instance.doubles(this.call(name), count).slice();
     this.scene = {
       ...scene,
       pins: integers('pins', pinCount),
       springs: integers('spring_ends', 2 * springCount),
+      constraints: integers('constraint_ends', 2 * constraintCount),
+      constraintLengths: doubles('constraint_lengths', constraintCount),
       families: Uint8Array.from(integers('spring_families', springCount)),
       rests: doubles('spring_rests', springCount),
       triangles: integers('triangles', 3 * triangleCount),

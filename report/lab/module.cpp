@@ -66,16 +66,15 @@ std::string quoted(std::string_view text) {
 std::string list_of(const Vec3& v) { return fmt::format("[{},{},{}]", v[0], v[1], v[2]); }
 std::string known(std::optional<double> value) { return value ? fmt::format("{}", *value) : "null"; }
 
+/// The list of a term that has one, or an empty list.
 template <class T>
-size_t length_of(const std::vector<T>& list) {
-  return list.size();
-}
-
-const std::vector<Spring>& springs() {
-  static const std::vector<Spring> none;
-  const auto* found = run().scene().model.find<Springs>();
+auto list_in_term() -> const decltype(T::list)& {
+  static const decltype(T::list) none;
+  const auto* found = run().scene().model.find<T>();
   return found ? found->list : none;
 }
+const auto& springs() { return list_in_term<Springs>(); }
+const auto& constraints() { return list_in_term<Constraints>(); }
 
 }  // namespace
 
@@ -113,10 +112,11 @@ EXPORT(scene) const char* scene_json() {
     camera = fmt::format(R"({{"eye":{},"target":{},"at":{}}})", list_of(s.camera->eye), list_of(s.camera->target),
                          known(s.camera->at));
   return hand_out(fmt::format(
-      R"({{"question":{},"parameters":{},"duration":{},"samples":{},"step":{},"window":{},"tolerance":{},"method":{},"particles":{},"springCount":{},"triangleCount":{},"pinCount":{},"firstOrder":{},"hash":{},"gamma":{},"terms":[{}],"spheres":[{}],"camera":{}}})",
+      R"({{"question":{},"parameters":{},"duration":{},"samples":{},"step":{},"window":{},"tolerance":{},"method":{},"particles":{},"springCount":{},"constraintCount":{},"triangleCount":{},"pinCount":{},"firstOrder":{},"hash":{},"gamma":{},"terms":[{}],"spheres":[{}],"camera":{}}})",
       quoted(s.question), quoted(s.parameters), s.duration, s.samples, s.step, s.window, s.tolerance, quoted(s.method),
-      s.model.particles.size(), springs().size(), s.triangles.size(), s.model.particles.pins.size(),
-      s.model.first_order(), quoted(s.hash), known(uniform_drag_rate(s.model)), terms, spheres, camera));
+      s.model.particles.size(), springs().size(), constraints().size(), s.triangles.size(),
+      s.model.particles.pins.size(), s.model.first_order(), quoted(s.hash), known(uniform_drag_rate(s.model)), terms,
+      spheres, camera));
 }
 
 EXPORT(pins) const int* pins() { return hand_out(run().scene().model.particles.pins); }
@@ -139,6 +139,20 @@ EXPORT(spring_rests) const double* spring_rests() {
   std::vector<double> rests;
   for (const Spring& s : springs()) rests.push_back(s.rest);
   return hand_out(std::move(rests));
+}
+
+/// Both ends of every hard distance.
+EXPORT(constraint_ends) const int* constraint_ends() {
+  std::vector<int> ends;
+  for (const auto& c : constraints()) ends.push_back(c.a), ends.push_back(c.b);
+  return hand_out(std::move(ends));
+}
+
+/// m.
+EXPORT(constraint_lengths) const double* constraint_lengths() {
+  std::vector<double> lengths;
+  for (const auto& c : constraints()) lengths.push_back(c.length);
+  return hand_out(std::move(lengths));
 }
 
 EXPORT(triangles) const int* triangles() {

@@ -32,8 +32,6 @@ constexpr const char* lab_script_names[] = {"scene_text", "engine",     "words",
 /// What the guided experiments open.
 constexpr std::string_view guided_scenes[] = {"circle", "pendulum", "cloth-hang", "slide", "cloth-sphere"};
 
-fs::path module_file() { return fs::path(CROSSCHECK_BINARY_DIR) / "report" / "lab" / "lab.wasm"; }
-
 /// A rule of sums in one order gives the same bits in every build; what solves equations, or chooses steps, need not.
 bool is_same_everywhere(const Stepper& rule) {
   return !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
@@ -41,7 +39,8 @@ bool is_same_everywhere(const Stepper& rule) {
 
 }  // namespace
 
-bool has_lab_module() { return fs::exists(module_file()); }
+fs::path lab_module_file() { return fs::path(CROSSCHECK_BINARY_DIR) / "report" / "lab" / "lab.wasm"; }
+bool has_lab_module() { return fs::exists(lab_module_file()); }
 
 Json lab_fingerprints_json(const std::vector<Scene>& scenes) {
   Json all = Json::object();
@@ -103,7 +102,7 @@ std::string lab_data_html(const std::vector<Scene>& given) {
     if (const auto known = fingerprints.find(scene.name); known != fingerprints.end())
       for (const auto& [rule, digits] : known->second) own["fingerprint"][rule] = digits;
   }
-  return script_json("id=\"lab-module\"", Json(base64(gzipped(content_of_file(module_file())))).dump()) +
+  return script_json("id=\"lab-module\"", Json(base64(gzipped(content_of_file(lab_module_file())))).dump()) +
          script_json("id=\"lab-scenes\"", json.dump());
 }
 

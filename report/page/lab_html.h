@@ -1,6 +1,7 @@
 // The lab's part of the page: the engine's module, the scenes as text, and the scripts that run them (report/lab/).
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -14,8 +15,9 @@ namespace crosscheck {
 /// Debian's packages that make the module; they bring the C library along.
 inline constexpr std::string_view lab_packages = "clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32";
 
-/// Whether the engine was built for the page.
+/// Whether the engine was built for the page, and where it lies then.
 bool has_lab_module();
+std::filesystem::path lab_module_file();
 
 /// Fingerprints of the first steps of each scene, by scene and rule: of the rules whose bits are the same everywhere,
 /// as the instruction set of 128 bits computes them.
