@@ -313,7 +313,7 @@ const labWords = {
   'cloth-bursts.about': ['Predict the largest step before you try it', '先预测最大步长，再验证'],
   'cloth-bursts.remember': [
     'The fastest vibration decides the largest step: h < 2 / ω, and ω grows with the root of stiffness over mass. Softer or heavier cloth bears a larger step.',
-    '最快的振动决定最大步长：h < 2 / ω，而 ω 正比于刚度除以质量的平方根。更软或更重的布料能用更大的步长。'
+    '最快的振动决定最大步长：h < 2 / ω，而 ω 随“刚度 / 质量”的平方根增大。更软或更重的布料能用更大的步长。'
   ],
 
   'cloth-bursts.past.question': [
