@@ -311,7 +311,7 @@ class LiveLab extends HTMLElement {
   frame(now) {
     this.asked = false;
     if (!this.isConnected || !this.view) return;
-    const passed = this.lastFrame && now - this.lastFrame < 500 ? Math.min(0.1, (now - this.lastFrame) / 1000) : 0;
+    const passed = this.lastFrame ? Math.min(0.1, (now - this.lastFrame) / 1000) : 0;  // a page that was away goes on where it was
     this.lastFrame = now;
     this.frameTime = Math.max(shortestFrame, Math.min(longestFrame, 0.8 * this.frameTime + 200 * passed));
     if (this.playing) {

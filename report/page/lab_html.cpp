@@ -67,7 +67,7 @@ Json lab_fingerprints_json(const std::vector<Scene>& scenes) {
 
 LabFingerprints lab_fingerprints(const std::vector<Scene>& scenes) {
   const TemporaryFolder folder("lab");
-  std::vector<std::string> call{fs::read_symlink("/proc/self/exe").string(), "lab", "--fingerprints"};
+  std::vector<std::string> call{CROSSCHECK_BINARY_DIR "/crosscheck", "lab", "--fingerprints"};
   for (const Scene& scene : scenes) {
     const fs::path file = folder.path / (file_name_of(scene.name) + ".toml");
     write_file(file, scene.source);
