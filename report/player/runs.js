@@ -84,6 +84,7 @@ async function choose(button) {
 if (plays) {
   window.listRuns = listRuns;
   document.addEventListener('click', event => {
+    if (!plays) return;
     const marker = event.target.closest?.('[data-run]'), figure = marker?.closest('figure[data-runs]');
     if (figure) playRun(figure.dataset.runs, marker);
     const button = event.target.closest?.('.choose button');
