@@ -45,6 +45,7 @@ addEventListener('load', async () => {
       click(chart.querySelector('[data-run]'));
       await until(() => !document.documentElement.classList.contains('plays'));
       click(chart.querySelector('[data-run]'));
+      await until(() => !document.querySelector('dialog'));
       seen.lists = [...document.querySelectorAll('.run-list')].filter(list => list.offsetHeight > 0).length;
       seen.dialogs = document.querySelectorAll('dialog').length;
     }
