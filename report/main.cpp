@@ -24,6 +24,7 @@ constexpr AddCommand commands[] = {
     add_regress,     // results beside baselines
     add_bench,       // speed against the peers
     add_engine,      // another version of Bullet
+    add_lab,         // a page with the live lab alone
     add_grader,      // grade and assignment
 };
 

@@ -9,7 +9,7 @@ using namespace crosscheck;
 
 namespace {
 
-constexpr AddCommand commands[] = {add_compare, add_report, add_figures, add_render};
+constexpr AddCommand commands[] = {add_compare, add_report, add_figures, add_render, add_lab};
 
 }  // namespace
 

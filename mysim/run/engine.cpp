@@ -39,7 +39,7 @@ RunLoop::RunLoop(World& world, const Run& run, Observer& observer)
 }
 
 bool RunLoop::step() {
-  if (sample_ >= grid_.samples || out_.verdict != Verdict::ok) return false;
+  if (ended()) return false;
   const double t = grid_.time(sample_, step_), t_next = grid_.time(sample_, ++step_);
   try {
     world_.step(t, t_next);

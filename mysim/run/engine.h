@@ -45,6 +45,7 @@ class RunLoop {
   RunLoop(World& world, const Run& run, Observer& observer);
   /// Takes a step and shows it to the observer, where it is to be shown. False when the run has ended: nothing is done.
   bool step();
+  bool ended() const { return sample_ >= grid_.samples || out_.verdict != Verdict::ok; }
   /// s, of the last state.
   double time() const { return out_.end; }
   /// What the run has come to, once it has ended.

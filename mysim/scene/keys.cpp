@@ -59,6 +59,10 @@ constexpr Key pin_keys[] = {
     {"particles", "a list of particles that are held, as in [0, 19]", required},
     {"motion", "how they are moved", optional, table, motion_keys},
 };
+constexpr Key start_keys[] = {
+    {"positions", "a list of three numbers for each particle (m), in their order", required},
+    {"velocities", "a list of three numbers for each particle (m/s), in their order"},
+};
 constexpr Key rotation_keys[] = {
     {"rate", "a finite number (rad/s)", required},
 };
@@ -117,6 +121,7 @@ constexpr Key file_keys[] = {
     {"spring", "", optional, tables, spring_keys},
     {"constraint", "", optional, tables, constraint_keys},
     {"springs", "", optional, table, law_keys},
+    {"start", "", optional, table, start_keys},
     {"pins", "", optional, table, pin_keys},
     {"rotation", "", optional, table, rotation_keys},
     {"gravity", "", optional, table, gravity_keys},

@@ -242,6 +242,16 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
   if (!constraints.list.empty()) scene.model.terms.emplace_back(std::move(constraints));
 }
 
+/// Another state to start from than that in which springs have the lengths that they are given by default.
+void read_start(const TomlTable& file, bool first_order, Scene& scene) {
+  if (!file.has("start")) return;
+  const TomlTable s = file.section("start");
+  const int n = scene.model.particles.size();
+  scene.start.x = s.numbers("positions", 3 * n).reshaped(3, n);
+  if (first_order && s.has("velocities")) s.fail("velocities", fmt::format("none beside [rotation], {}", without_mass));
+  if (s.has("velocities")) scene.start.v = s.numbers("velocities", 3 * n).reshaped(3, n);
+}
+
 void read_spheres(const TomlTable& file, Scene& scene) {
   if (!file.has(Spheres::name)) return;
   Spheres spheres;
@@ -332,10 +342,9 @@ Scene expand(const TomlTable& file, const std::string& name) {
   std::optional<Grid> grid;
   if (file.has("grid")) grid = read_grid(file.section("grid"));
   read_particles(file, grid, first_order, scene);
-  if (!first_order) {
-    read_pairs(file, grid, scene);
-    read_pins(file, scene);
-  }
+  if (!first_order) read_pairs(file, grid, scene);
+  read_start(file, first_order, scene);
+  if (!first_order) read_pins(file, scene);
   for (const TermReader& reader : term_readers)
     if ((!first_order || reader.key == Rotation::name) && file.has(reader.key))
       scene.model.terms.push_back(reader.read(file.section(reader.key), scene));

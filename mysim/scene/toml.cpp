@@ -2,6 +2,8 @@
 #include "mysim/scene/toml.h"
 
 #include <fmt/ranges.h>
+// a fault of the text is a value here, so that builds without exceptions have its message too
+#define TOML_EXCEPTIONS 0
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -105,19 +107,18 @@ const Key* key_in_line(std::string_view text, int line, std::span<const Key> key
 
 std::shared_ptr<const toml::table> parse(std::string_view text, const std::string& name,
                                          std::span<const Key> keys = {}) {
-  try {
-    return std::make_shared<const toml::table>(toml::parse(text, name));
-  } catch (const toml::parse_error& e) {
-    TomlError fault = diagnose_toml(text, static_cast<int>(e.source().begin.line), e.description());
-    if (const Key* key = key_in_line(text, fault.line, keys); key && key->kind == Key::Kind::value) {
-      // a word where a number belongs is not mended by quotes
-      if (fault.what.starts_with("expected a text in quotes") && key->expected.find('"') == std::string_view::npos &&
-          key->expected.find("quotes") == std::string_view::npos)
-        fault.what = "a word stands where none is expected" + fault.what.substr(fault.what.find("; the line"));
-      fault.what += fmt::format("; {} is {}", key->name, key->expected);
-    }
-    throw InputError(fmt::format("{}:{}: not valid TOML: {}", name, fault.line, fault.what));
+  toml::parse_result parsed = toml::parse(text, name);
+  if (parsed) return std::make_shared<const toml::table>(std::move(parsed).table());
+  const toml::parse_error& e = parsed.error();
+  TomlError fault = diagnose_toml(text, static_cast<int>(e.source().begin.line), e.description());
+  if (const Key* key = key_in_line(text, fault.line, keys); key && key->kind == Key::Kind::value) {
+    // a word where a number belongs is not mended by quotes
+    if (fault.what.starts_with("expected a text in quotes") && key->expected.find('"') == std::string_view::npos &&
+        key->expected.find("quotes") == std::string_view::npos)
+      fault.what = "a word stands where none is expected" + fault.what.substr(fault.what.find("; the line"));
+    fault.what += fmt::format("; {} is {}", key->name, key->expected);
   }
+  throw InputError(fmt::format("{}:{}: not valid TOML: {}", name, fault.line, fault.what));
 }
 
 std::string full_key(const std::string& path, std::string_view key) {
@@ -254,6 +255,19 @@ std::vector<int> TomlTable::integers(std::string_view key, int least) const {
   std::vector<int> list;
   for (const toml::node& item : *values)
     list.push_back(node_->whole(item, fmt::format("{}[{}]", key, list.size()), least, greatest_count));
+  return list;
+}
+
+Eigen::VectorXd TomlTable::numbers(std::string_view key, int count) const {
+  const std::string expected = fmt::format("a list of {} finite numbers", count);
+  const toml::node& n = node_->need(key, expected);
+  const toml::array* values = n.as_array();
+  if (!values) node_->refuse(n, key, expected);
+  if (values->size() != static_cast<size_t>(count))
+    node_->fail_at(n.source(), key, fmt::format("expected {}, got {}", expected, values->size()));
+  Eigen::VectorXd list(count);
+  for (int i = 0; i < count; ++i)
+    list[i] = node_->finite((*values)[i], fmt::format("{}[{}]", key, i), "a finite number");
   return list;
 }
 

@@ -83,6 +83,9 @@ int doctor_command() {
       {"python3", "python3-numpy", "runs the example of an outside engine, with NumPy; the tests need it", false},
       {"ffmpeg", "ffmpeg", "writes clips: `render -o FILE.mp4`", false},
       {"clang++", "clang", "another compiler, in which `regress --prove-builds` builds too", false},
+      {"wasm-ld-14", "clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32",
+       "compiles mysim to WebAssembly, with clang: the lab in the page", false},
+      {"node", "nodejs", "the tests run the lab's module in it", false},
       {"chromium", "chromium", "a browser: the tests try the page's player in it; prints the page as PDF", false},
   };
   bool complete = true;

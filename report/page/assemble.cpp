@@ -16,6 +16,7 @@
 #include "report/base/provenance.h"
 #include "report/figures/chart_json.h"
 #include "report/findings/findings_text.h"
+#include "report/page/lab_html.h"
 #include "report/page/player_html.h"
 #include "report/page/shown_runs.h"
 #include "report/pictures/scene_picture.h"
@@ -154,6 +155,7 @@ class Assembly {
     for (const Chart& chart : charts_) add(chart);
     for (ScenePart& part : page_.scenes) add_motions(part);
     draw(workers);
+    page_.lab = lab_data_html(data_.scenes);
     write_file(folder_ / "report.json", report_json(page_, findings_, charts_, data_.rows, name_of(data_.extent)));
     write_file(folder_ / "index.html", page_html(page_));
     bool agree = true;  // where the same rule must agree, it does

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "mysim/base/text.h"
+#include "report/base/assets.h"
 #include "report/page/page.h"
 
 namespace crosscheck {

@@ -14,6 +14,7 @@
 #include "report/figures/chart_json.h"
 #include "report/figures/plot_layout.h"
 #include "report/findings/findings_text.h"
+#include "report/page/lab_html.h"
 #include "report/page/player_html.h"
 #include "report/page/shown_runs.h"
 #include "report/player/packed_numbers.h"
@@ -141,7 +142,8 @@ std::string hero_html(const PageContent& c) {
   return "<figure class=\"hero\">" + out +
          "<div class=\"clockwork\"><button type=\"button\" aria-label=\"Play\">▶</button><input type=\"range\" "
          "min=\"0\" "
-         "max=\"1000\" value=\"0\" aria-label=\"time\"><span class=\"clock\"></span></div></figure>\n";
+         "max=\"1000\" value=\"0\" aria-label=\"time\"><span class=\"clock\"></span></div>" +
+         live_lab_html(c.main_scene) + "</figure>\n";
 }
 
 std::string certificates_matched(const PageContent& c) {
@@ -352,6 +354,7 @@ std::string scene_html(const ScenePart& part, const PageContent& c) {
     out += player_html(scene.name, part.runs[0].key, other == part.runs.end() ? "truth" : other->key) +
            shown_runs_html(part);
   }
+  out += live_lab_html(scene.name);
   out += "<div class=\"charts\">\n";
   for (const PageFigure& figure : part.figures) out += figure_html(figure, c);
   out += "</div>\n" + run_table_html(part);
@@ -490,8 +493,8 @@ std::string chart_numbers_html(const PageContent& c) {
 }  // namespace
 
 std::string page_html(const PageContent& c) {
-  std::string out = page_head("Crosscheck: mysim" + beside_mysim(c), player_styles()) + contents_html(c) + "<main>\n" +
-                    first_screen(c) + changes_html(c);
+  std::string out = page_head("Crosscheck: mysim" + beside_mysim(c), player_styles() + lab_styles()) +
+                    contents_html(c) + "<main>\n" + first_screen(c) + changes_html(c);
   for (size_t i = 0; i < c.chapters.size(); ++i)
     if (!c.chapters[i].entries.empty() || c.chapters[i].id == "same-answer")
       out += chapter_html(c.chapters[i], i + 1, c);
@@ -507,6 +510,7 @@ std::string page_html(const PageContent& c) {
       out += script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", escaped(part.scene->name)),
                          content_of_file(part.motions));
   for (const PlayableRuns& runs : c.runs) out += runs_html(runs);
+  out += c.lab;
   return out + player_scripts() + "<script>\n" + asset("page/chart.js") + asset("page/page.js") +
          "</script>\n</body></html>\n";
 }

@@ -83,6 +83,7 @@ struct PageContent {
   Json charts = Json::object();       // by the names of figures: what they draw (report/figures/chart_json.h)
   std::vector<std::string> methods;   // that stand in it
   std::vector<PlayableRuns> runs;     // that figures play
+  std::string lab;                    // its module and its scenes, for the page's end
   std::string main_scene;             // stands for the others; empty: none
   std::filesystem::path figures;      // the folder of the figures for paper
   std::vector<std::string> notes;     // what was left out, and why

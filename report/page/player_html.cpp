@@ -9,6 +9,7 @@
 #include "mysim/base/files.h"
 #include "mysim/base/json.h"
 #include "report/base/assets.h"
+#include "report/page/lab_html.h"
 
 namespace crosscheck {
 namespace {
@@ -25,7 +26,7 @@ std::string player_styles() { return "<style>\n" + asset("player/player.css") + 
 std::string player_scripts() {
   std::string out = "<script>(() => {\n'use strict';\n";
   for (const char* name : scripts) out += asset(fmt::format("player/{}.js", name));
-  return out + "})();</script>\n";
+  return out + lab_scripts() + "})();</script>\n";
 }
 
 std::string script_json(const std::string& attributes, const std::string& json) {

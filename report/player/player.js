@@ -12,6 +12,13 @@ const dark = matchMedia('(prefers-color-scheme: dark)');
 let plays = 'DecompressionStream' in window && 'WebGL2RenderingContext' in window;
 document.documentElement.classList.toggle('plays', plays);
 
+/** Whether WebGL starts, for what is made of several parts that need it. */
+function startsWebGl() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return Boolean(gl);
+}
+
 /** At its first use WebGL turned out not to start: the posters stay, without controls. */
 function playNothing() {
   plays = false;

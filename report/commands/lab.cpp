@@ -1,0 +1,50 @@
+// lab: a page with the live lab alone.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "report/commands/commands.h"
+#include "report/page/lab_html.h"
+
+namespace crosscheck {
+
+namespace {
+
+struct LabOptions {
+  std::vector<std::string> scenes;
+  std::string file;
+  bool fingerprints = false;
+};
+
+int lab_command(const LabOptions& options) {
+  std::vector<Scene> scenes;
+  for (const std::string& name : options.scenes) scenes.push_back(load_scene(name));
+  if (options.fingerprints) {
+    fmt::print("{}\n", lab_fingerprints_json(scenes).dump(1));
+    return 0;
+  }
+  if (!options.file.ends_with(".html"))
+    throw InputError(fmt::format("lab: -o: expected the name of a page, as in lab.html, got '{}'", options.file));
+  write_file(options.file, lab_page_html(scenes));
+  fmt::print("{}\n", options.file);
+  return 0;
+}
+
+}  // namespace
+
+void add_lab(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<LabOptions>();
+  auto* lab = app.add_subcommand("lab", "writes a page in which mysim runs scenes live, beside the truth");
+  lab->add_option("SCENE", options->scenes, "shipped scenes or TOML files")->required();
+  lab->add_option("-o", options->file, "the page, FILE.html");
+  lab->add_flag("--fingerprints", options->fingerprints,
+                "prints, as JSON, fingerprints of the first 50 steps instead: the page compares its own with them");
+  lab->callback([options, &call] { call.status = lab_command(*options); });
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,223 @@
+// The engine as a WebAssembly module: one instance is one scene and one run of it (engine.js is its other side).
+// Texts are UTF-8 in a buffer of the module's; numbers stand in arrays that are valid until the next call. What is
+// thrown ends the instance (browser.cpp).
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/lab/live_run.h"
+
+#define EXPORT(name) __attribute__((export_name(#name)))
+
+namespace crosscheck {
+namespace {
+
+/// All that one instance knows.
+struct Instance {
+  std::string text;  // what was handed in last, or is handed out
+  std::optional<LiveRun> run;
+  std::vector<int> integers;
+  std::vector<double> numbers;
+};
+
+Instance& instance() {
+  static Instance only;
+  return only;
+}
+
+LiveRun& run() { return *instance().run; }
+
+const char* hand_out(std::string text) {
+  instance().text = std::move(text);
+  return instance().text.c_str();
+}
+
+const int* hand_out(std::vector<int> values) {
+  instance().integers = std::move(values);
+  return instance().integers.data();
+}
+
+const double* hand_out(std::vector<double> values) {
+  instance().numbers = std::move(values);
+  return instance().numbers.data();
+}
+
+const double* hand_out(const Points& points) {
+  return hand_out(std::vector<double>(points.data(), points.data() + points.size()));
+}
+
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char sign : text) {
+    if (sign == '"' || sign == '\\') out += '\\';
+    if (static_cast<unsigned char>(sign) < ' ')
+      out += fmt::format("\\u{:04x}", static_cast<unsigned char>(sign));
+    else
+      out += sign;
+  }
+  return out + '"';
+}
+
+std::string list_of(const Vec3& v) { return fmt::format("[{},{},{}]", v[0], v[1], v[2]); }
+std::string known(std::optional<double> value) { return value ? fmt::format("{}", *value) : "null"; }
+
+/// The list of a term that has one, or an empty list.
+template <class T>
+auto list_in_term() -> const decltype(T::list)& {
+  static const decltype(T::list) none;
+  const auto* found = run().scene().model.find<T>();
+  return found ? found->list : none;
+}
+const auto& springs() { return list_in_term<Springs>(); }
+const auto& constraints() { return list_in_term<Constraints>(); }
+
+}  // namespace
+
+/// A buffer of so many bytes for the text that the next call reads.
+EXPORT(text_buffer) char* text_buffer(int bytes) {
+  instance().text.assign(static_cast<size_t>(bytes), ' ');
+  return instance().text.data();
+}
+
+/// The table of steppers as JSON.
+EXPORT(steppers) const char* steppers_json() {
+  std::string out;
+  for (const Stepper& s : steppers())
+    out += fmt::format(
+        R"({}{{"name":{},"order":{},"evaluations":{},"firstOrder":{},"symplectic":{},"adaptive":{},"hard":{},"linear":{},"formula":{},"what":{}}})",
+        out.empty() ? "" : ",", quoted(s.name), s.order, s.evaluations, s.first_order, s.symplectic, s.adaptive,
+        s.hard_constraints, s.linear != nullptr, quoted(s.limit_formula), quoted(s.what));
+  return hand_out("[" + out + "]");
+}
+
+/// Reads the scene in the text buffer.
+EXPORT(open) void open() { instance().run.emplace(parse_scene(std::string(instance().text), "lab.toml", "lab")); }
+
+/// The scene's single numbers and words as JSON.
+EXPORT(scene) const char* scene_json() {
+  const Scene& s = run().scene();
+  std::string terms, spheres, camera = "null";
+  for (const Term& term : s.model.terms) terms += (terms.empty() ? "" : ",") + quoted(name_of(term));
+  if (const auto* list = s.model.find<Spheres>())
+    for (const Sphere& sphere : list->list)
+      spheres +=
+          fmt::format(R"({}{{"radius":{},"margin":{},"friction":{},"restitution":{}}})", spheres.empty() ? "" : ",",
+                      sphere.radius, sphere.margin, sphere.friction, sphere.restitution);
+  if (s.camera)
+    camera = fmt::format(R"({{"eye":{},"target":{},"at":{}}})", list_of(s.camera->eye), list_of(s.camera->target),
+                         known(s.camera->at));
+  return hand_out(fmt::format(
+      R"({{"question":{},"parameters":{},"duration":{},"samples":{},"step":{},"window":{},"tolerance":{},"method":{},"particles":{},"springCount":{},"constraintCount":{},"triangleCount":{},"pinCount":{},"firstOrder":{},"hash":{},"gamma":{},"terms":[{}],"spheres":[{}],"camera":{}}})",
+      quoted(s.question), quoted(s.parameters), s.duration, s.samples, s.step, s.window, s.tolerance, quoted(s.method),
+      s.model.particles.size(), springs().size(), constraints().size(), s.triangles.size(),
+      s.model.particles.pins.size(), s.model.first_order(), quoted(s.hash), known(uniform_drag_rate(s.model)), terms,
+      spheres, camera));
+}
+
+EXPORT(pins) const int* pins() { return hand_out(run().scene().model.particles.pins); }
+
+/// Both ends of every spring.
+EXPORT(spring_ends) const int* spring_ends() {
+  std::vector<int> ends;
+  for (const Spring& s : springs()) ends.push_back(s.a), ends.push_back(s.b);
+  return hand_out(std::move(ends));
+}
+
+EXPORT(spring_families) const int* spring_families() {
+  std::vector<int> families;
+  for (const Spring& s : springs()) families.push_back(static_cast<int>(s.family));
+  return hand_out(std::move(families));
+}
+
+/// Rest lengths, m.
+EXPORT(spring_rests) const double* spring_rests() {
+  std::vector<double> rests;
+  for (const Spring& s : springs()) rests.push_back(s.rest);
+  return hand_out(std::move(rests));
+}
+
+/// Both ends of every hard distance.
+EXPORT(constraint_ends) const int* constraint_ends() {
+  std::vector<int> ends;
+  for (const auto& c : constraints()) ends.push_back(c.a), ends.push_back(c.b);
+  return hand_out(std::move(ends));
+}
+
+/// m.
+EXPORT(constraint_lengths) const double* constraint_lengths() {
+  std::vector<double> lengths;
+  for (const auto& c : constraints()) lengths.push_back(c.length);
+  return hand_out(std::move(lengths));
+}
+
+EXPORT(triangles) const int* triangles() {
+  std::vector<int> corners;
+  for (const auto& triangle : run().scene().triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  return hand_out(std::move(corners));
+}
+
+/// kg.
+EXPORT(masses) const double* masses() {
+  const Eigen::VectorXd& mass = run().scene().model.particles.mass;
+  return hand_out(std::vector<double>(mass.begin(), mass.end()));
+}
+
+/// rad/s.
+EXPORT(omega) double omega() { return run().omega(); }
+
+/// Of the stepper in this row of the table, s; nan where it is not known.
+EXPORT(critical_step) double critical_step(int row) {
+  return run().critical_step(steppers()[static_cast<size_t>(row)]).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// The rule stands in the text buffer.
+EXPORT(start) void start(double step, double tolerance, double duration, int keep_ledger) {
+  run().start({std::string(instance().text), step, tolerance, duration, keep_ledger != 0});
+}
+
+EXPORT(advance) int advance(double t, int most) { return run().advance(t, most); }
+EXPORT(time) double time() { return run().time(); }
+
+/// What the run has come to, as JSON.
+EXPORT(outcome) const char* outcome_json() {
+  const Outcome out = run().outcome();
+  return hand_out(fmt::format(R"({{"verdict":{},"words":{},"reason":{},"step":{},"steps":{},"evaluations":{}}})",
+                              quoted(name_of(out.verdict)), quoted(in_words(out.verdict)), quoted(out.reason),
+                              std::isfinite(out.step) ? out.step : 0, out.steps, out.evaluations));
+}
+
+/// m.
+EXPORT(positions) const double* positions() { return run().state().x.data(); }
+/// m/s.
+EXPORT(velocities) const double* velocities() { return run().state().v.data(); }
+
+/// Of the spheres at a time, m.
+EXPORT(centres) const double* centres(double t) {
+  std::vector<double> places;
+  if (const auto* spheres = run().scene().model.find<Spheres>())
+    for (const Sphere& sphere : spheres->list)
+      for (const double part : sphere.centre_at(t)) places.push_back(part);
+  return hand_out(std::move(places));
+}
+
+/// Kinetic, elastic and gravitational energy, losses to drag, dashpots and contact, work of wind and pins, balance: J.
+/// Null in first-order scenes.
+EXPORT(energies) const double* energies() {
+  const auto row = run().energies();
+  if (!row) return nullptr;
+  const Energy& e = row->energy;
+  return hand_out(std::vector<double>{e.kinetic, e.elastic, e.gravitational, row->drag, row->dashpots, row->contact,
+                                      row->wind, row->pins, row->balance()});
+}
+
+EXPORT(hold) void hold(int particle, double x, double y, double z) { run().hold(particle, {x, y, z}); }
+EXPORT(release) void release() { run().release(); }
+EXPORT(set_pinned) void set_pinned(int particle, int pinned) { run().set_pinned(particle, pinned != 0); }
+EXPORT(fingerprint) const char* fingerprint() { return hand_out(run().fingerprint()); }
+
+}  // namespace crosscheck

@@ -1,0 +1,130 @@
+#include "report/page/lab_html.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/process.h"
+#include "mysim/base/text.h"
+#include "mysim/simd/instruction_sets.h"
+#include "report/base/assets.h"
+#include "report/figures/chart_json.h"
+#include "report/lab/live_run.h"
+#include "report/page/page.h"
+#include "report/page/player_html.h"
+#include "report/player/packed_numbers.h"
+
+namespace crosscheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// In the order in which they know each other, behind the player's.
+constexpr const char* lab_script_names[] = {"scene_text", "engine",     "words",       "lab_link", "knobs",
+                                            "live_run",   "live_plots", "live_stage",  "hand",     "lab_view",
+                                            "lab_acts",   "lab",        "experiments", "guide"};
+
+/// What the guided experiments open.
+constexpr std::string_view guided_scenes[] = {"circle", "pendulum", "cloth-hang", "slide", "cloth-sphere"};
+
+/// A rule of sums in one order gives the same bits in every build; what solves equations, or chooses steps, need not.
+bool is_same_everywhere(const Stepper& rule) {
+  return !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
+}
+
+}  // namespace
+
+fs::path lab_module_file() { return fs::path(CROSSCHECK_BINARY_DIR) / "report" / "lab" / "lab.wasm"; }
+bool has_lab_module() { return fs::exists(lab_module_file()); }
+
+Json lab_fingerprints_json(const std::vector<Scene>& scenes) {
+  Json all = Json::object();
+  for (const Scene& scene : scenes) {
+    Json& own = all[scene.name] = Json::object();
+    for (const Stepper& rule : steppers()) {
+      if (!is_same_everywhere(rule)) continue;
+      try {
+        LiveRun run(scene);
+        run.start({.rule = std::string(rule.name),
+                   .step = scene.step,
+                   .tolerance = 1e-6,
+                   .duration = scene.duration,
+                   .keep_ledger = false});
+        run.advance(scene.duration, fingerprinted_steps);
+        own[rule.name] = run.fingerprint();
+      } catch (const Unsupported&) {
+        // the rule does not take the scene, nor does the lab offer it
+      }
+    }
+  }
+  return all;
+}
+
+LabFingerprints lab_fingerprints(const std::vector<Scene>& scenes) {
+  const TemporaryFolder folder("lab");
+  std::vector<std::string> call{fs::read_symlink("/proc/self/exe").string(), "lab", "--fingerprints"};
+  for (const Scene& scene : scenes) {
+    const fs::path file = folder.path / (file_name_of(scene.name) + ".toml");
+    write_file(file, scene.source);
+    call.push_back(file.string());
+  }
+  const ProgramResult result = run_program(call, folder.path, {"CROSSCHECK_INSTRUCTIONS=sse2"});
+  if (result.status != 0)
+    throw std::runtime_error(fmt::format("the lab's fingerprints: {}", last_lines(result.err, 1)));
+  LabFingerprints all;
+  const JsonField json = JsonField::parse(result.out, "the lab's fingerprints");
+  for (const Scene& scene : scenes)
+    for (const auto& [rule, digits] : json[file_name_of(scene.name)].items()) all[scene.name][rule] = digits.text();
+  return all;
+}
+
+std::string live_lab_html(const std::string& scene) {
+  return scene.empty() ? "" : fmt::format("<live-lab data-scene=\"{}\"></live-lab>\n", escaped(scene));
+}
+
+std::string lab_styles() { return "<style>\n" + asset("lab/lab.css") + asset("lab/guide.css") + "</style>\n"; }
+
+std::string lab_data_html(const std::vector<Scene>& given) {
+  if (!has_lab_module()) return "";
+  std::vector<Scene> scenes = given;
+  for (const std::string_view name : guided_scenes)
+    if (std::ranges::none_of(scenes, [&](const Scene& scene) { return scene.name == name; }))
+      scenes.push_back(load_scene(std::string(name)));
+  const LabFingerprints fingerprints = lab_fingerprints(scenes);
+  Json json = Json::object();
+  for (const Scene& scene : scenes) {
+    Json& own = json[scene.name] = {{"toml", scene.source}, {"fingerprint", Json::object()}};
+    if (const auto known = fingerprints.find(scene.name); known != fingerprints.end())
+      for (const auto& [rule, digits] : known->second) own["fingerprint"][rule] = digits;
+  }
+  return script_json("id=\"lab-module\"", Json(base64(gzipped(content_of_file(lab_module_file())))).dump()) +
+         script_json("id=\"lab-scenes\"", json.dump());
+}
+
+std::string lab_scripts() {
+  std::string out;
+  for (const char* name : lab_script_names) out += asset(fmt::format("lab/{}.js", name));
+  return out;
+}
+
+std::string lab_page_html(const std::vector<Scene>& scenes) {
+  if (!has_lab_module())
+    throw InputError(
+        fmt::format("lab: mysim was not compiled to WebAssembly; apt-get install --no-install-recommends "
+                    "{}, then start again",
+                    lab_packages));
+  std::vector<std::string> methods;
+  for (const Stepper& rule : steppers()) methods.push_back(fmt::format("mysim/{}", rule.name));
+  return page_head("Crosscheck: the lab", player_styles() + lab_styles()) +
+         "<nav><a class=\"name\" href=\"#top\">Crosscheck</a><span>mysim, live</span></nav>\n<main id=\"top\" "
+         "class=\"lab-page\">\n<live-lab data-alone></live-lab>\n</main>\n" +
+         lab_data_html(scenes) + script_json("id=\"methods-data\"", method_looks_json(methods).dump()) +
+         player_scripts() + "</body></html>\n";
+}
+
+}  // namespace crosscheck

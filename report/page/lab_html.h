@@ -1,0 +1,45 @@
+// The lab's part of the page: the engine's module, the scenes as text, and the scripts that run them (report/lab/).
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mysim/base/json.h"
+#include "mysim/scene/scene.h"
+
+namespace crosscheck {
+
+/// Debian's packages that make the module; they bring the C library along.
+inline constexpr std::string_view lab_packages = "clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32";
+
+/// Whether the engine was built for the page, and where it lies then.
+bool has_lab_module();
+std::filesystem::path lab_module_file();
+
+/// Fingerprints of the first steps of each scene, by scene and rule: of the rules whose bits are the same everywhere,
+/// as the instruction set of 128 bits computes them.
+using LabFingerprints = std::map<std::string, std::map<std::string, std::string>>;
+/// Computed in a program of its own, which runs on that instruction set alone. Throws std::runtime_error where it
+/// fails.
+LabFingerprints lab_fingerprints(const std::vector<Scene>& scenes);
+/// The same in this process, on the instruction set that it has.
+Json lab_fingerprints_json(const std::vector<Scene>& scenes);
+constexpr int fingerprinted_steps = 50;
+
+/// Where the lab of a scene stands: nothing of it is there before it is opened.
+std::string live_lab_html(const std::string& scene);
+/// Styles for the head of a page.
+std::string lab_styles();
+/// The module and the scenes for the end of a page: those given, and those of the guided experiments. Empty where there
+/// is no module.
+std::string lab_data_html(const std::vector<Scene>& scenes);
+/// The scripts of the lab, without <script>: they share their scope with the player's.
+std::string lab_scripts();
+
+/// A page with the lab alone. Throws InputError, with what to install, where there is no module.
+std::string lab_page_html(const std::vector<Scene>& scenes);
+
+}  // namespace crosscheck
