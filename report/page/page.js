@@ -10,7 +10,7 @@
   };
   const methods = JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
   // the charts in sight at once; the others are unpacked when the first of them is asked for
-  const open_charts = JSON.parse(document.getElementById('open-charts')?.textContent ?? '{}');
+  const openCharts = JSON.parse(document.getElementById('open-charts')?.textContent ?? '{}');
   const packed = document.getElementById('charts');
   let unpacking = null;
   const others = () => unpacking ??= packed ? unpacked(packed).then(JSON.parse) : Promise.resolve({});
@@ -20,7 +20,7 @@
   const draw = async box => {
     if (!box.clientWidth) return;
     // without a pause: a page that is printed as it opens does not wait
-    const chart = open_charts[box.dataset.chart] ?? (await others())[box.dataset.chart];
+    const chart = openCharts[box.dataset.chart] ?? (await others())[box.dataset.chart];
     if (chart) charts.draw(box, chart, methods);
   };
   const seen = new IntersectionObserver(entries => {
