@@ -71,7 +71,6 @@ ReportData read_report(const fs::path& folder) {
   for (const JsonField& note : report["notes"].elements()) data.rows.notes.push_back(note.text());
   for (const JsonField& problem : report["problems"].elements()) data.problems.push_back(problem.text());
   for (const auto& [key, value] : report["provenance"].items()) data.provenance.emplace_back(key, value.text());
-  data.provenance = with_scenes(std::move(data.provenance), data.scenes);
   const std::string extent = report["extent"].text();
   const auto at = std::ranges::find(extents, extent);
   if (at == std::end(extents)) throw InputError(fmt::format("{}: extent: unknown word '{}'", folder.string(), extent));
@@ -79,6 +78,7 @@ ReportData read_report(const fs::path& folder) {
   data.all = data.scenes;
   if (data.extent != Extent::named)
     for (const Experiment& e : experiments()) add_missing(data.all, scenes_for(e, {}, data.extent == Extent::full));
+  data.provenance = with_scenes(std::move(data.provenance), data.all);
   return data;
 }
 
