@@ -50,7 +50,7 @@ class LiveLab extends HTMLElement {
     this.replaceChildren(make('p', {class: 'lab-plain', role: 'status'}, say('waiting')));
     await new Promise(done => setTimeout(done));  // the words are there before the compiler takes the thread
     this.lab = await labModule();
-    const missing = !document.getElementById('lab-module') ? 'noModule' : !this.lab ? 'noWasm' : !plays ? 'noWebgl' : null;
+    const missing = !document.getElementById('lab-module') ? 'noModule' : !this.lab ? 'noWasm' : !startsWebGl() ? 'noWebgl' : null;
     if (missing) {
       this.dataset.state = 'unavailable';
       this.dataset.missing = missing;

@@ -43,6 +43,7 @@ struct ShownRun {
   std::string method, setting;
   std::optional<double> error, cpu;  // m, s
   bool beside = false;               // the others on the first screen
+  Run run = {};
 };
 
 struct ScenePart {
@@ -94,6 +95,8 @@ struct PageContent {
 
 /// Names of its figures, in order: each is at #figure-NAME.
 std::vector<std::string> figures_of(const PageContent& content);
+/// The scenes that move on the first screen: the main one, and the last cloth with contact.
+std::vector<const ScenePart*> first_scenes(const PageContent& content);
 /// Whether the figure of that name opens a chapter, so that it is drawn for paper and for readers without scripts.
 bool opens_a_chapter(const PageContent& content, const std::string& figure);
 
