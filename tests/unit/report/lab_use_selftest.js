@@ -144,8 +144,17 @@ const labUse = (() => {
         await until(() => lab.toml === shipped, `${scene} as it is shipped`);
       }
     }
+    // the tolerance of a stepper that chooses its steps
+    const lab = await opened({scene: scenes[0], methods: [{method: 'dopri5'}]}, false), tolerances = [];
+    for (const part of [0, 1]) {
+      slide(knobOf('tolerance-A'), part);
+      tolerances.push(lab.methods[0].tolerance);
+      lab.advance(0.01);
+      all.check(!lab.runs[0].refusal && lab.runs[0].sim.steps > 0 && lab.toml === sceneText(scenes[0]), 'dopri5 does not run:', lab.runs[0].refusal);
+    }
+    all.check(tolerances[0] === 1e-10 && tolerances[1] === 1e-2, 'the tolerances are', tolerances);
     // a slider that still moves is followed soon
-    const lab = await opened({scene: scenes[0]}, false), knob = lab.querySelector('.knobs .knob'), range = knob.querySelector('input[type=range]');
+    const knob = lab.querySelector('.knobs .knob'), range = knob.querySelector('input[type=range]');
     const before = lab.good;
     range.value = Number(range.value) + 50;
     range.dispatchEvent(new Event('input', {bubbles: true}));
@@ -155,15 +164,26 @@ const labUse = (() => {
 
   /** The words at the step's slider for every stepper, and how its mark moves with the stiffness of all springs. */
   async function marks(scenes) {
-    const all = new Complaints(), words = {};
+    const all = new Complaints(), words = {}, refused = [];
     for (const scene of scenes) {
       const lab = await opened({scene}, false), select = () => lab.querySelector('select[data-stepper="A"]');
       words[scene] = {};
       for (const {value} of [...select().options]) {
         choose(select(), value);
+        const [run] = lab.runs, note = lab.querySelector('.method .note').textContent;
+        all.check(lab.methods[0].method === value && run.spec.method === value && lab.view.said.textContent === '', scene, value, 'is not chosen:', lab.view.said.textContent);
+        all.check(run.refusal ? note.includes(run.refusal) : !/does not take/.test(note), scene, value, 'says', note, 'as', run.refusal);
+        if (run.refusal) {
+          refused.push(`${scene} ${value}`);
+          button('run').click();
+          lab.advance(0.1);
+          all.check(lab.reading.t === 0 || lab.reading.ended, scene, value, 'runs though it is refused');
+          lab.pause();
+        }
         if (lab.lab.steppers.find(s => s.name === value).adaptive) continue;
         words[scene][value] = lab.querySelector('.mark-words').textContent;
       }
+      if (![...select().options].some(option => option.value === 'leapfrog')) continue;  // a scene of first order
       choose(select(), 'leapfrog');
       const said = () => timeIn(lab.querySelector('.mark-words').textContent);
       const knob = ['grid.stiffness', 'spring.stiffness'].map(knobOf).find(Boolean), limit = lab.reading?.limitA;
@@ -176,7 +196,15 @@ const labUse = (() => {
       all.check(Math.abs(lab.reading.limitA / limit - 2) < 0.02, scene, 'the limit goes from', limit, 'to', lab.reading.limitA);
       if (bound() && place !== false) all.check(at() !== place, scene, 'the mark stays at', place);
     }
-    return {...all, words};
+    // the address may name a method that does not take the scene
+    for (const [scene, method] of refused.slice(-1).map(words => words.split(' '))) {
+      const lab = await opened({scene, methods: [{method}]}, false), [run] = lab.runs;
+      all.check(run.refusal && lab.querySelector('.method .note').textContent.includes(run.refusal), scene, method, 'is not refused when it is opened');
+      choose(lab.querySelector('select[data-stepper="A"]'), lab.runs[0].sim.scene.method);
+      lab.advance(0.05);
+      all.check(!lab.runs[0].refusal && lab.reading.t > 0, scene, 'does not run after a refusal');
+    }
+    return {...all, words, refused};
   }
 
   // Bursts.
