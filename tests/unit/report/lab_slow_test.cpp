@@ -134,8 +134,10 @@ class LabModule : public InBrowser {
     return scenes;
   }
 
-  /// What a self-test of the lab's use saw, in real time; its complaints are failures. `edit` changes the page before.
-  JsonField use(const std::vector<Scene>& scenes, const std::string& call, void (*edit)(std::string& page) = nullptr) {
+  /// What a self-test of the lab's use saw, in real time; its complaints are failures. `edit` changes the page before,
+  /// and it is opened at `place`.
+  JsonField use(const std::vector<Scene>& scenes, const std::string& call, void (*edit)(std::string& page) = nullptr,
+                const std::string& place = "") {
     real_time_ = true;
     const fs::path file = page_with(
         scenes, self_test("real_time.js") + self_test("lab_use_selftest.js") + self_test("lab_guide_selftest.js"),
@@ -145,7 +147,7 @@ class LabModule : public InBrowser {
       edit(page);
       write_file(file, page);
     }
-    JsonField all = seen(file, {});
+    JsonField all = seen(file.string() + place, {});
     if (const auto problem = all.find("problem")) ADD_FAILURE() << problem->text();
     if (const auto lines = all.find("lines"))
       for (const std::string& line : lines->texts()) ADD_FAILURE() << line;
@@ -326,6 +328,27 @@ TEST_F(LabModule, ScenesChangedByHandComeBackByLinkAndRunNatively) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
   run_natively(use(scenes_of({"cloth-hang", "cloth-carried", "cloth-swing"}), "labUse.changedByHand()"), 5);
+}
+
+TEST_F(LabModule, StandsAsItsAddressSays) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const auto at = [&](const std::string& place) {
+    return use(scenes_of({"cloth-hang", "spring"}), "labUse.byAddress()", nullptr, place);
+  };
+  const JsonField state = at("#lab=" + base64(R"({"scene":"spring","changes":{"spring.stiffness":50},)"
+                                              R"("methods":[{"method":"rk4","step":0.002}]} )"));
+  EXPECT_EQ(state["scene"].text(), "spring");
+  EXPECT_EQ(state["method"].text(), "rk4");
+  EXPECT_EQ(state["step"].number(), 0.002);
+  EXPECT_EQ(state["stiffness"].number(), 50);
+  EXPECT_EQ(state["t"].number(), 0);
+  EXPECT_FALSE(state["running"].boolean());
+  const JsonField experiment = at("#experiment=pendulum-energy");
+  EXPECT_EQ(experiment["experiment"].text(), "pendulum-energy");
+  EXPECT_EQ(experiment["phase"].text(), "ask");
+  EXPECT_EQ(experiment["scene"].text(), "pendulum");
+  EXPECT_EQ(at("#lab=brokenaddress")["scene"].text(), "cloth-hang");
 }
 
 TEST_F(LabModule, DroppedFilesAreOpenedOrRefusedWithTheirLine) {

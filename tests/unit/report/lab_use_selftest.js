@@ -566,6 +566,15 @@ const labUse = (() => {
     return {...all, saves};
   }
 
+  /** The state in which a page stands that was opened by an address. */
+  async function byAddress() {
+    const lab = theLab(), guide = document.querySelector('lab-guide');
+    await until(() => lab.dataset.state === 'ready' && lab.reading, 'the lab of the address');
+    await pause(200);
+    const {scene, t, running} = lab.reading, [{method, step}] = lab.methods;
+    return {scene, t, running, method, step, stiffness: numberAt(lab.toml, 'spring.stiffness'), experiment: guide.dataset.experiment, phase: guide.dataset.phase};
+  }
+
   /** Drops a file on the lab. */
   async function drop(name, text) {
     const dataTransfer = new DataTransfer();
@@ -684,6 +693,6 @@ const labUse = (() => {
   return {
     theLab, button, knobOf, pause, until, frame, Complaints, opened, slide, type, choose, steps, timeIn, say3,
     firstSteps, sliders, marks, bursts, burstsInFrames, handByPointer, keysOfPicture,
-    changedScenes, changedByHand, drops, unavailable, reducedMotion, tabOrder
+    changedScenes, changedByHand, byAddress, drops, unavailable, reducedMotion, tabOrder
   };
 })();
