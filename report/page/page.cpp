@@ -284,6 +284,14 @@ std::string with_critical_step(std::string formula, const PageContent& c) {
   return formula.replace(at, mark.size(), text);
 }
 
+/// Links to the guided experiments of the lab that belong to a chapter.
+std::string experiments_html(const Chapter& chapter) {
+  std::string links;
+  for (const auto& [name, title] : chapter.experiments)
+    links += fmt::format("{}<a href=\"#experiment={}\">{}</a>", links.empty() ? "" : ", ", name, escaped(title));
+  return links.empty() ? "" : fmt::format("<p>Try it in the lab: {}.</p>", links);
+}
+
 std::string chapter_html(const Chapter& chapter, size_t number, const PageContent& c) {
   std::string out =
       fmt::format("<section class=\"chapter\" id=\"{}\">\n<p class=\"of\">Chapter {} of {}</p><h2>{}</h2>\n",
@@ -295,11 +303,11 @@ std::string chapter_html(const Chapter& chapter, size_t number, const PageConten
   out += "<div class=\"lead\"><div>";
   if (chapter.id == "same-answer") out += parity_html(c.scenes);
   if (!leads.empty()) out += leads_html(leads, c) + drawing_without_script(leads[0].entry->figures[leads[0].figure], c);
-  out += fmt::format("</div><div class=\"teach\">{}{}</div></div>\n",
+  out += fmt::format("</div><div class=\"teach\">{}{}{}</div></div>\n",
                      chapter.formula.empty()
                          ? ""
                          : fmt::format("<div class=\"formula\">{}</div>", with_critical_step(chapter.formula, c)),
-                     chapter.teaching);
+                     chapter.teaching, c.lab.empty() ? "" : experiments_html(chapter));
   for (const Chapter::Entry& entry : chapter.entries)
     if (entry.shown) out += shown_html(entry, c);
   std::string folds;

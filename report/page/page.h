@@ -73,6 +73,8 @@ struct Chapter {
   std::vector<std::string> joins;  // ids that charts name as their chapter
   std::vector<std::string> leads;  // figures that open it, "*" for any: the first that there is
   std::string formula, teaching;   // HTML; what a reader learns from it; "{critical}": the main scene's numbers
+  // guided experiments of the lab: their names (report/lab/experiments.js), and what a reader is shown
+  std::vector<std::pair<std::string, std::string>> experiments = {};
   std::vector<Entry> entries = {};
 };
 
