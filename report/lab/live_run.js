@@ -3,7 +3,7 @@
 /** A method as the engine's start() takes it: stepper and options. */
 function startOf({method, step, tolerance}, duration, observe) {
   const [stepper, ...options] = method.split('+');
-  return {stepper, options: options.map(o => `+${o}`).join(''), step: step || 0, tolerance: tolerance || 1e-6, duration, observe};
+  return {stepper, options: options.map(o => `+${o}`).join(''), step: step || undefined, tolerance: tolerance || 1e-6, duration, observe};
 }
 
 /** The places at a time between two states: the cubic through both with their velocities, a line where there are none. */

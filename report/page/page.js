@@ -9,6 +9,14 @@
     return new Response(stream).text();
   };
   const methods = JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
+  // What folds and cards hold may be packed: put back in their templates before anything is looked for there.
+  const held = document.getElementById('held');
+  const putBack = held ? unpacked(held).then(text => {
+    const all = JSON.parse(text);
+    for (const template of document.querySelectorAll('template[data-held]')) template.innerHTML = all[template.dataset.held];
+    held.remove();
+  }) : Promise.resolve();
+
   const packed = document.getElementById('charts');
   const given = packed ? unpacked(packed).then(JSON.parse) : Promise.resolve({});
 
@@ -170,7 +178,8 @@
 
   // Folds: what is in them comes when they are opened first.
 
-  const unfold = fold => {
+  const unfold = async fold => {
+    await putBack;
     const template = fold.querySelector(':scope > template');
     if (!template) return;
     template.replaceWith(template.content);
@@ -211,6 +220,7 @@
 
   /** Goes to what the address names: a scene, a fold, a figure inside one. */
   const goTo = async () => {
+    await putBack;
     const id = decodeURIComponent(location.hash.slice(1));
     if (id === 'scenes' || id === '') show_scene(null);
     if (show_scene(id)) return open.scrollIntoView();
@@ -219,13 +229,13 @@
       for (const template of document.querySelectorAll('template')) {
         if (!id || !template.content.getElementById?.(id)) continue;
         const fold = template.closest('.fold');
-        if (fold) fold.open = true, unfold(fold);
+        if (fold) fold.open = true, await unfold(fold);
         else show_scene(template.dataset.scene);
         target = document.getElementById(id);
         break;
       }
     if (target?.hidden) choose(document.querySelector(`[data-figure="${CSS.escape(id)}"]`));
-    if (target?.matches('.fold')) target.open = true, unfold(target);
+    if (target?.matches('.fold')) target.open = true, await unfold(target);
     target?.scrollIntoView();
   };
   addEventListener('hashchange', goTo);
