@@ -73,7 +73,7 @@ function computedDepartures(scene, set, run, wide) {
 /** Whether the lab runs a method, options and all. */
 const isOfLab = method => Boolean(document.getElementById('lab-module')) && /^mysim\/[a-z0-9-]+(\+(sticky|linear))*$/.test(method);
 
-/** The small scene of a map's cell: its text with the cell's stiffness (over its own) or drag rate, long enough for the step. */
+/** The small scene of a map's cell: its text with the cell's stiffness (over its own) or drag rate, and its step. */
 function textOfCell(toml, kind, value, step) {
   let text = toml;
   if (kind === 'drag') text = `${withoutSection(text, 'drag').trimEnd()}\n\n[drag]\ngamma = ${tomlNumber(value)}  # 1/s\n`;
@@ -83,9 +83,9 @@ function textOfCell(toml, kind, value, step) {
       if (/(^|\.)stiffness(\.|$)/.test(path)) lines[line] = lines[line].slice(0, begin) + tomlNumber(Number((own * value).toPrecision(6))) + lines[line].slice(end);
     text = lines.join('\n');
   }
-  const duration = Math.max(numberAt(text, 'time.duration'), 100 * step);
-  const samples = Math.max(1, Math.min(numberAt(text, 'time.samples'), Math.floor(duration / step)));
-  return withNumbers(text, {'time.duration': Number(duration.toPrecision(6)), 'time.samples': samples, 'time.step': step});
+  // whole steps from one sample to the next, so that it is not shortened
+  const samples = numberAt(text, 'time.samples'), interval = numberAt(text, 'time.duration') / samples;
+  return withNumbers(text, {'time.duration': samples * Math.max(1, Math.ceil(interval / step)) * step, 'time.step': step});
 }
 
 /** The state of the lab in which a mark of a figure opens: {scene, method, step or tolerance, toml}; null where the lab has none. */

@@ -75,7 +75,10 @@ class Motions {
   std::string key(size_t i) const { return fmt::format("{} {}", name_, target_.own ? "own" : std::to_string(i)); }
   bool is_left_out(size_t i) const {
     const JsonField run = json_["runs"][i];
-    return !run.is_null() && !run.find("failure") && !run.find("times");
+    // which steps a rule chooses by itself hangs on rounding where it may choose long ones
+    constexpr double loose = 1e-3;
+    const auto tolerance = run.is_null() ? std::nullopt : run.find("tolerance");
+    return !run.is_null() && !run.find("failure") && !run.find("times") && !(tolerance && tolerance->number() > loose);
   }
 
   /// The largest departure of a run that every build computes with the same bits, m.

@@ -39,7 +39,7 @@ async function playRun(key, marker) {
   if (state) {
     const door = make('button', {type: 'button', class: 'to-lab'}, say('openInLab'));
     door.addEventListener('click', () => (shut(), openLab(state)));
-    box.append(door);
+    box.append(make('p', {class: 'door'}, door));
   }
   if (run && file.scene)
     box.append(make('p', {class: 'hint'}, 'The same run: ',

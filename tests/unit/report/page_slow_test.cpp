@@ -11,7 +11,9 @@
 #include "report/figures/chart_json.h"
 #include "report/figures/figure.h"
 #include "report/page/page.h"
+#include "report/page/lab_html.h"
 #include "report/page/player_html.h"
+#include "report/page/smaller.h"
 #include "report/pictures/scene_picture.h"
 #include "report/player/motions.h"
 #include "tests/unit/experiments/helpers.h"
@@ -145,7 +147,7 @@ class Page : public InBrowser {
   }
   /// The page, and what uses it as a reader would.
   std::filesystem::path page() {
-    std::string html = page_html(content_);
+    std::string html = with_folds_packed(page_html(content_));
     html.insert(html.find("</head>"), scripts({"stage_selftest.js", "page_selftest.js"}));
     return write("page.html", html);
   }
