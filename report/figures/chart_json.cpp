@@ -22,6 +22,31 @@ Json pairs_json(const std::vector<std::pair<double, double>>& pairs) {
   return list;
 }
 
+/// How finely curves are drawn along an axis: a ten-thousandth of what it shows, or of each value where it is
+/// logarithmic. The csv has all digits.
+class Fineness {
+ public:
+  Fineness(const Axis& axis, const std::vector<Curve>& curves, double std::pair<double, double>::*coordinate) {
+    double low = axis.low.value_or(INFINITY), high = axis.high.value_or(-INFINITY);
+    for (const Curve& curve : curves)
+      for (const auto& point : curve.points) {
+        const double value = point.*coordinate;
+        if (!std::isfinite(value)) continue;
+        if (!axis.low) low = std::min(low, value);
+        if (!axis.high) high = std::max(high, value);
+      }
+    if (!axis.logarithmic && high > low) unit_ = std::pow(10, std::floor(std::log10((high - low) / 1e4)));
+  }
+  Json of(double value) const {
+    const std::string text =
+        unit_ > 0 ? fmt::format("{:.12g}", std::round(value / unit_) * unit_) : fmt::format("{:.4g}", value);
+    return std::strtod(text.c_str(), nullptr);
+  }
+
+ private:
+  double unit_ = 0;  // of a linear axis
+};
+
 /// Whether what stands behind the slash is a unit, and not the lower part of a ratio.
 bool is_unit(std::string_view text) { return text.size() <= 6 && text.find_first_of(" ()") == std::string_view::npos; }
 
@@ -63,7 +88,8 @@ void add_tooltip(Json& json, const Tooltip& tip) {
   if (!tip.run.empty()) json["run"] = tip.run;
 }
 
-Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& scaled) {
+Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& scaled, const Fineness& x,
+                 const Fineness& y) {
   Json json{{"name", curve.title}};
   const std::string method = method_in(curve.title);
   if (!method.empty()) json["method"] = method;
@@ -75,7 +101,7 @@ Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& 
   Json points = Json::list(), open = Json::list(), tips = Json::list();
   bool any_open = false;
   for (const size_t i : kept) {
-    points.push(pair_json(curve.points[i]));
+    points.push(Json::list(x.of(curve.points[i].first), y.of(curve.points[i].second)));
     open.push(scaled.contains(curve.points[i]) ? 1 : 0), any_open |= scaled.contains(curve.points[i]);
     if (i < curve.tooltips.size()) add_tooltip(tips.push(Json::object()), curve.tooltips[i]);
   }
@@ -94,8 +120,10 @@ Json numbers_of(const Figure& f) {
   // what is ringed on paper is open here
   if (!scaled.empty()) json["x"]["label"] = f.x.label.substr(0, f.x.label.find(", ringed"));
   json["series"] = Json::list();
+  const Fineness x(f.x, f.curves, &std::pair<double, double>::first),
+      y(f.y, f.curves, &std::pair<double, double>::second);
   for (const Curve& curve : f.curves)
-    if (curve.title != scaled_times && !curve.points.empty()) json["series"].push(series_json(curve, scaled));
+    if (curve.title != scaled_times && !curve.points.empty()) json["series"].push(series_json(curve, scaled, x, y));
   if (!f.failures.empty()) json["failures"] = Json::list();
   for (const FailureMark& mark : f.failures) {
     Json failure{{"x", short_number(mark.x)}, {"kind", mark.kind}, {"method", method_in(mark.title)}};

@@ -520,7 +520,7 @@ const charts = (() => {
           class: 'cell', style: `--own: ${chart.kinds[kind].colour}`
         });
         if (words) box.dataset.words = words;
-        if (run) box.dataset.run = run;
+        if (run) Object.assign(box.dataset, {run, step: cx, value: cy});
         group.append(box);
       });
       if (panel.predicted.length > 1) group.append(svg('path', {class: 'predicted', d: pathOf(panel.predicted.map(([px, py]) => [x.at(px), y.at(py)]))}));

@@ -7,6 +7,7 @@
 #include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/page/page.h"
+#include "report/pictures/png_file.h"
 
 namespace crosscheck {
 namespace {
@@ -98,9 +99,10 @@ unsigned png_number(const std::string& bytes, size_t at) {
 }  // namespace
 
 std::string image_tag(const PageImage& image) {
-  const std::string bytes = content_of_file(image.file);
   if (image.file.extension() == ".svg")
-    return fmt::format("<img src=\"data:image/svg+xml;base64,{}\" alt=\"{}\">", base64(bytes), escaped(image.alt));
+    return fmt::format("<img src=\"data:image/svg+xml;base64,{}\" alt=\"{}\">", base64(content_of_file(image.file)),
+                       escaped(image.alt));
+  const std::string bytes = render::with_few_colours(image.file);
   // so that a page does not move while it loads
   return fmt::format("<img src=\"data:image/png;base64,{}\" width=\"{}\" height=\"{}\" alt=\"{}\">", base64(bytes),
                      png_number(bytes, 16), png_number(bytes, 20), escaped(image.alt));

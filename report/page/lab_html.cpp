@@ -25,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// In the order in which they know each other, behind the player's.
-constexpr const char* lab_script_names[] = {"scene_text", "engine",     "words",       "lab_link", "knobs",
-                                            "live_run",   "live_plots", "live_stage",  "hand",     "lab_view",
-                                            "lab_acts",   "lab",        "experiments", "guide"};
+constexpr const char* lab_script_names[] = {"scene_text", "engine",        "words",      "lab_link",    "knobs",
+                                            "live_run",   "computed_runs", "live_plots", "live_stage",  "hand",
+                                            "lab_view",   "lab_acts",      "lab",        "experiments", "guide"};
 
 /// What the guided experiments open.
 constexpr std::string_view guided_scenes[] = {"circle", "pendulum", "cloth-hang", "slide", "cloth-sphere"};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "experiments/speed_accuracy/work_precision.h"
 #include "mysim/base/pattern.h"
@@ -17,6 +18,7 @@
 #include "report/page/lab_html.h"
 #include "report/page/player_html.h"
 #include "report/page/shown_runs.h"
+#include "report/page/smaller.h"
 #include "report/player/packed_numbers.h"
 
 namespace crosscheck {
@@ -264,8 +266,7 @@ std::string kind_of(const Chapter::Entry& entry) {
 std::string drawing_without_script(const PageFigure& lead, const PageContent& c) {
   const std::filesystem::path file = c.figures / (lead.name + ".svg");
   if (!std::filesystem::exists(file)) return "";
-  return fmt::format("<noscript><img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\"></noscript>", escaped(lead.title),
-                     base64(content_of_file(file)));
+  return "<noscript>" + svg_element(content_of_file(file), lead.title) + "</noscript>";
 }
 
 /// "{critical}" in a formula becomes the fastest frequency and the critical step of the main scene, where both are
@@ -360,7 +361,7 @@ std::string scene_html(const ScenePart& part, const PageContent& c) {
       return run.beside && family_of(run.method).name != family_of(part.runs[0].method).name;
     });
     out += player_html(scene.name, part.runs[0].key, other == part.runs.end() ? "truth" : other->key) +
-           shown_runs_html(part);
+           shown_runs_html(part, !c.lab.empty());
   }
   out += live_lab_html(scene.name);
   out += "<div class=\"charts\">\n";
@@ -517,10 +518,14 @@ std::string page_html(const PageContent& c) {
     if (!part.motions.empty())
       out += script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", escaped(part.scene->name)),
                          content_of_file(part.motions));
-  for (const PlayableRuns& runs : c.runs) out += runs_html(runs);
+  std::map<std::string, std::set<std::string>> shown;
+  for (const ScenePart* part : heroes(c))
+    for (const ShownRun& run : part->runs)
+      if (run.beside) shown[part->scene->name].insert(run.key);
+  out += all_runs_html(c.runs, !c.lab.empty(), shown);
   out += c.lab;
-  return out + player_scripts() + "<script>\n" + asset("page/chart.js") + asset("page/page.js") +
-         "</script>\n</body></html>\n";
+  return out + player_scripts() + "<script>\n" +
+         script_without_comments(asset("page/chart.js") + asset("page/page.js")) + "</script>\n</body></html>\n";
 }
 
 namespace {

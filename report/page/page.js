@@ -11,6 +11,14 @@
   const methods = JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
   // the charts in sight at once; the others are unpacked when the first of them is asked for
   const openCharts = JSON.parse(document.getElementById('open-charts')?.textContent ?? '{}');
+  // What folds and cards hold may be packed: put back in their templates before anything is looked for there.
+  const held = document.getElementById('held');
+  const putBack = held ? unpacked(held).then(text => {
+    const all = JSON.parse(text);
+    for (const template of document.querySelectorAll('template[data-held]')) template.innerHTML = all[template.dataset.held];
+    held.remove();
+  }) : Promise.resolve();
+
   const packed = document.getElementById('charts');
   let unpacking = null;
   const others = () => unpacking ??= packed ? unpacked(packed).then(JSON.parse) : Promise.resolve({});
@@ -175,7 +183,8 @@
 
   // Folds: what is in them comes when they are opened first.
 
-  const unfold = fold => {
+  const unfold = async fold => {
+    await putBack;
     const template = fold.querySelector(':scope > template');
     if (!template) return;
     template.replaceWith(template.content);
@@ -216,6 +225,7 @@
 
   /** Goes to what the address names: a scene, a fold, a figure inside one. */
   const goTo = async () => {
+    await putBack;
     const id = decodeURIComponent(location.hash.slice(1));
     if (id === 'scenes' || id === '') show_scene(null);
     if (show_scene(id)) return open.scrollIntoView();
@@ -224,13 +234,13 @@
       for (const template of document.querySelectorAll('template')) {
         if (!id || !template.content.getElementById?.(id)) continue;
         const fold = template.closest('.fold');
-        if (fold) fold.open = true, unfold(fold);
+        if (fold) fold.open = true, await unfold(fold);
         else show_scene(template.dataset.scene);
         target = document.getElementById(id);
         break;
       }
     if (target?.hidden) choose(document.querySelector(`[data-figure="${CSS.escape(id)}"]`));
-    if (target?.matches('.fold')) target.open = true, unfold(target);
+    if (target?.matches('.fold')) target.open = true, await unfold(target);
     target?.scrollIntoView();
   };
   addEventListener('hashchange', goTo);

@@ -2,6 +2,7 @@
 #include "report/page/player_html.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -10,6 +11,8 @@
 #include "mysim/base/json.h"
 #include "report/base/assets.h"
 #include "report/page/lab_html.h"
+#include "report/page/smaller.h"
+#include "report/player/computed_runs.h"
 
 namespace crosscheck {
 namespace {
@@ -25,8 +28,8 @@ std::string player_styles() { return "<style>\n" + asset("player/player.css") + 
 
 std::string player_scripts() {
   std::string out = "<script>(() => {\n'use strict';\n";
-  for (const char* name : scripts) out += asset(fmt::format("player/{}.js", name));
-  return out + lab_scripts() + "})();</script>\n";
+  for (const char* name : scripts) out += script_without_comments(asset(fmt::format("player/{}.js", name)));
+  return out + script_without_comments(lab_scripts()) + "})();</script>\n";
 }
 
 std::string script_json(const std::string& attributes, const std::string& json) {
@@ -43,13 +46,43 @@ std::string player_html(const std::string& scene, const std::string& a, const st
       escaped(scene), escaped(a), escaped(b));
 }
 
-std::string runs_html(const PlayableRuns& runs) {
+namespace {
+
+std::string runs_html(const PlayableRuns& runs, const std::vector<std::string>& files) {
   const std::string base =
       runs.stage.empty() ? fmt::format("\"scene\":{}", Json(runs.scene).dump()) : "\"stage\":" + runs.stage;
-  std::string methods;
-  for (const auto& file : runs.methods) methods += (methods.empty() ? "" : ",") + content_of_file(file);
   return script_json(fmt::format("class=\"runs\" data-runs=\"{}\"", escaped(runs.key)),
-                     fmt::format("{{{},\"methods\":[{}]}}", base, methods));
+                     fmt::format("{{{},\"methods\":[{}]}}", base, fmt::join(files, ",")));
+}
+
+std::vector<std::string> contents_of(const PlayableRuns& runs) {
+  std::vector<std::string> files;
+  for (const auto& file : runs.methods) files.push_back(content_of_file(file));
+  return files;
+}
+
+}  // namespace
+
+std::string runs_html(const PlayableRuns& runs) { return runs_html(runs, contents_of(runs)); }
+
+std::string all_runs_html(const std::vector<PlayableRuns>& runs, bool lab,
+                          const std::map<std::string, std::set<std::string>>& shown) {
+  std::vector<std::vector<std::string>> files;
+  for (const PlayableRuns& each : runs) files.push_back(contents_of(each));
+  std::set<std::string> scenes;
+  for (const PlayableRuns& each : runs)
+    if (lab && each.stage.empty()) scenes.insert(each.scene);
+  for (const std::string& scene : scenes) {
+    std::vector<FileOfRuns> own;
+    for (size_t i = 0; i < runs.size(); ++i)
+      for (std::string& file : files[i])
+        if (runs[i].stage.empty() && runs[i].scene == scene) own.push_back({runs[i].key.ends_with("-engines"), &file});
+    const auto stay = shown.find(scene);
+    leave_out_computed(own, stay == shown.end() ? std::set<std::string>() : stay->second);
+  }
+  std::string out;
+  for (size_t i = 0; i < runs.size(); ++i) out += runs_html(runs[i], files[i]);
+  return out;
 }
 
 namespace fs = std::filesystem;
@@ -92,7 +125,7 @@ std::string stage_of_map(const std::string& key, const std::vector<Scene>& scene
   for (const Scene& scene : scenes)
     if (const auto small = map_scene(scene, full))
       for (const MapKind& kind : map_kinds())
-        if (key == fmt::format("{}-{}-map", small->name, kind.name)) return stage_json(*small);
+        if (key == fmt::format("{}-{}-map", small->name, kind.name)) return stage_json(*small, has_lab_module());
   return "";
 }
 

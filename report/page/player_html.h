@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "experiments/experiment.h"
@@ -26,6 +27,10 @@ std::string script_json(const std::string& attributes, const std::string& json);
 /// The runs that a figure plays under a click, for the page's end. Throws std::runtime_error where a file cannot be
 /// read.
 std::string runs_html(const PlayableRuns& runs);
+/// The runs of all scenes and maps of a page. Where it has the lab, mysim's runs of a scene that the lab computes stand
+/// there without their motions, but for those of `shown` (keys, by scene), which move before the engine is there.
+std::string all_runs_html(const std::vector<PlayableRuns>& runs, bool lab,
+                          const std::map<std::string, std::set<std::string>>& shown);
 
 // The runs that a click in a figure plays: kept as files while the experiments make them, gathered for the page.
 

@@ -9,6 +9,7 @@
 #include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/tables/speed_accuracy.h"
 #include "report/findings/findings_text.h"
+#include "report/player/computed_runs.h"
 
 namespace crosscheck {
 namespace {
@@ -136,20 +137,22 @@ std::vector<ShownRun> shown_runs(const ScenePart& part, const TableSet& rows,
   return Chooser(part, rows, holds).all();
 }
 
-std::string shown_runs_html(const ScenePart& part) {
+std::string shown_runs_html(const ScenePart& part, bool lab) {
   const double motion = part.facts->motion;
   std::string out =
-      "<div class=\"scroll\"><table class=\"main-runs\"><thead><tr><th>method</th><th>step</th><th>error / % of "
+      fmt::format("<div class=\"scroll\"><table class=\"main-runs\" data-scene=\"{}\">", escaped(part.scene->name)) +
+      "<thead><tr><th>method</th><th>step</th><th>error / % of "
       "motion</th><th>largest error</th><th>CPU time</th><th>× real time</th><th></th></tr></thead><tbody>\n";
   for (const ShownRun& run : part.runs)
     out += fmt::format(
         "<tr data-method=\"{0}\"><th scope=\"row\">{1}</th><td>{2}</td><td>{3}</td><td>{4}</td><td>{5}</td><td>{6}</td>"
         "<td class=\"choose\" data-key=\"{7}\"><button type=\"button\" data-as=\"a\">A</button><button type=\"button\" "
-        "data-as=\"b\">B</button><button type=\"button\" data-as=\"play\">play</button></td></tr>\n",
+        "data-as=\"b\">B</button><button type=\"button\" data-as=\"play\">play</button>{8}</td></tr>\n",
         escaped(run.method), escaped(engine_and_rule(run.method)), prose(run.setting),
         run.error && motion > 0 ? prose(percent(*run.error, motion)) : "–",
         run.error ? prose(nice_length(*run.error)) : "–", run.cpu ? prose(step_text(*run.cpu)) : "–",
-        run.cpu ? prose(nice(part.scene->duration / *run.cpu)) : "–", escaped(run.key));
+        run.cpu ? prose(nice(part.scene->duration / *run.cpu)) : "–", escaped(run.key),
+        lab && is_computed_in_page(run.method) ? "<button type=\"button\" data-as=\"lab\">lab</button>" : "");
   return out + "</tbody></table></div>\n";
 }
 

@@ -11,7 +11,7 @@ namespace crosscheck {
 std::vector<ShownRun> shown_runs(const ScenePart& part, const TableSet& rows,
                                  const std::function<bool(const std::string& method)>& holds);
 
-/// The table of them, with buttons that choose A and B.
-std::string shown_runs_html(const ScenePart& part);
+/// The table of them, with buttons that choose A and B; `lab`: and that open mysim's in the lab.
+std::string shown_runs_html(const ScenePart& part, bool lab);
 
 }  // namespace crosscheck

@@ -5,8 +5,10 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 #include "mysim/base/files.h"
@@ -97,6 +99,101 @@ void pack_tightly(const std::filesystem::path& file) {
   compress2(reinterpret_cast<Bytef*>(tight.data()), &size, reinterpret_cast<const Bytef*>(pixels.data()), pixels.size(),
             Z_BEST_COMPRESSION);
   if (size < packed.size()) write_bytes(before + chunk("IDAT" + tight.substr(0, size)) + after, file);
+}
+
+namespace {
+
+using Rgb = std::array<int, 3>;  // 0 to 255
+
+struct Counted {
+  Rgb colour;
+  double count;  // pixels
+};
+
+/// Colours that are to become one.
+struct ColourBox {
+  std::vector<Counted> colours;
+  Rgb mean{};
+  int widest = 0;     // of red, green and blue
+  double spread = 0;  // squares of distances from the mean along it
+
+  explicit ColourBox(std::vector<Counted> of) : colours(std::move(of)) {
+    double count = 0;
+    std::array<double, 3> sum{}, squares{};
+    for (const Counted& c : colours) {
+      count += c.count;
+      for (size_t k = 0; k < 3; ++k) sum[k] += c.count * c.colour[k], squares[k] += c.count * c.colour[k] * c.colour[k];
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      mean[k] = static_cast<int>(std::lround(sum[k] / count));
+      if (const double own = squares[k] - sum[k] * sum[k] / count; own > spread)
+        spread = own, widest = static_cast<int>(k);
+    }
+    if (colours.size() < 2) spread = 0;
+  }
+};
+
+/// At most 256 colours that stand for these: the box of the widest spread is cut at its mean, again and again.
+std::vector<Rgb> few_of(std::vector<Counted> colours) {
+  std::vector<ColourBox> boxes{ColourBox(std::move(colours))};
+  while (boxes.size() < 256) {
+    const auto worst = std::ranges::max_element(boxes, {}, &ColourBox::spread);
+    if (!(worst->spread > 0)) break;
+    ColourBox box = std::move(*worst);
+    const auto axis = static_cast<size_t>(box.widest);
+    const auto upper = std::partition(box.colours.begin(), box.colours.end(),
+                                      [&](const Counted& c) { return c.colour[axis] <= box.mean[axis]; });
+    std::vector<Counted> high(upper, box.colours.end());
+    box.colours.erase(upper, box.colours.end());
+    if (high.empty()) {  // the mean was rounded to the largest
+      const auto most = std::ranges::max_element(box.colours, {}, [&](const Counted& c) { return c.colour[axis]; });
+      high.push_back(*most);
+      box.colours.erase(most);
+    }
+    *worst = ColourBox(std::move(box.colours));
+    boxes.emplace_back(std::move(high));
+  }
+  std::vector<Rgb> few;
+  for (const ColourBox& box : boxes) few.push_back(box.mean);
+  return few;
+}
+
+}  // namespace
+
+std::string with_few_colours(const std::filesystem::path& file) {
+  const Image image = read_png(file);
+  std::map<Rgb, int> place;  // of each colour that there is: at first its pixels
+  const auto at = [&](size_t i) { return Rgb{image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]}; };
+  for (size_t i = 0; i < image.rgb.size(); i += 3) ++place[at(i)];
+  std::vector<Counted> colours;
+  for (const auto& [colour, count] : place) colours.push_back({colour, static_cast<double>(count)});
+  const std::vector<Rgb> few = few_of(std::move(colours));
+  for (auto& [colour, index] : place)
+    index = static_cast<int>(std::ranges::min_element(few, {},
+                                                      [&](const Rgb& other) {
+                                                        int sum = 0;
+                                                        for (size_t k = 0; k < 3; ++k)
+                                                          sum += (colour[k] - other[k]) * (colour[k] - other[k]);
+                                                        return sum;
+                                                      }) -
+                             few.begin());
+  std::string pixels;
+  for (size_t i = 0; i < image.rgb.size(); i += 3) {
+    if (i % (3 * static_cast<size_t>(image.width)) == 0) pixels += '\0';  // each row: no differences
+    pixels += static_cast<char>(place[at(i)]);
+  }
+  std::string palette = "PLTE", tight(compressBound(pixels.size()), '\0');
+  for (const Rgb& colour : few)
+    for (const int part : colour) palette += static_cast<char>(part);
+  auto size = static_cast<uLongf>(tight.size());
+  compress2(reinterpret_cast<Bytef*>(tight.data()), &size, reinterpret_cast<const Bytef*>(pixels.data()), pixels.size(),
+            Z_BEST_COMPRESSION);
+  const std::string bytes = bytes_of(file);
+  std::string small = bytes.substr(0, signature) +
+                      chunk("IHDR" + big_endian(static_cast<unsigned long>(image.width)) +
+                            big_endian(static_cast<unsigned long>(image.height)) + std::string("\10\3\0\0\0", 5)) +
+                      chunk(palette) + chunk("IDAT" + tight.substr(0, size)) + chunk("IEND");
+  return small.size() < bytes.size() ? small : bytes;
 }
 
 namespace {

@@ -47,14 +47,16 @@ function keysOf(scene) {
 }
 
 /**
- * Where the frames of a run come from: the page's files. What computes runs itself gives a Motion from here too.
+ * Where the frames of a run come from: the page's files, or the engine (computed_runs.js). Throws LabError where it
+ * cannot compute them.
  */
 async function motionOf(scene, key) {
   const found = runOf(scene, key);
   if (!found) return null;
   const wide = 3 * scene.particles, {set, run} = found;
   scene.base ??= baseOf(scene.known, wide);
-  const [base, apart, values] = await Promise.all([scene.base, departuresOf(set, run, wide), valuesOf(set, run, wide)]);
+  const departures = run.computed ? computedDepartures(scene, set, run, wide) : departuresOf(set, run, wide);
+  const [base, apart, values] = await Promise.all([scene.base, departures, valuesOf(set, run, wide)]);
   return new Motion(scene, {key, method: set.name, note: set.note, ...run}, {base, apart, ...values});
 }
 

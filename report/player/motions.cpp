@@ -58,7 +58,10 @@ class MotionNumbers {
     const Eigen::MatrixXd paths = products.vectors.rightCols(modes), found = departures * paths;
     // paths of all frames are of length 1 at most together: what rounding of the shapes costs does not add up
     const double unit = five_digits(std::max(2 * within, found.cwiseAbs().maxCoeff() / largest_number * 1.001));
-    const double path_unit = five_digits(paths.cwiseAbs().maxCoeff() / largest_number * 1.001);
+    // those of the paths do: together they cost half of what is allowed at most
+    const double sizes = found.cwiseAbs().colwise().maxCoeff().sum();
+    const double path_unit = five_digits(
+        std::max(fineness.of_departure > 0 ? within / sizes : 0, paths.cwiseAbs().maxCoeff() / largest_number * 1.001));
     for (Eigen::Index k = modes; k-- > 0;) append(found.col(k), unit, shapes_), append(paths.col(k), path_unit, paths_);
     json["modes"] = modes, json["unit"] = unit, json["path"] = path_unit;
     return json;
@@ -311,10 +314,12 @@ std::string stage_json(const Scene& scene, const MotionBase& base) {
   return json.dump();  // texts of outside programs may hold any bytes
 }
 
-std::string stage_json(const Scene& scene) {
+std::string stage_json(const Scene& scene, bool with_text) {
   CameraPlacement placement = camera_placement(scene, {scene.start.x}, {0});
   placement.floor.reset();
-  return shared_json(scene, placement, {0}).dump();
+  Json json = shared_json(scene, placement, {0});
+  if (with_text) json["toml"] = scene.source;
+  return json.dump();
 }
 
 std::string motions_json(const RecordedRuns& recorded, const MotionBase& base) {

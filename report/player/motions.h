@@ -11,6 +11,7 @@
 //   "every": frames of the scene from one of the run's to the next; or "times" (s), the first and the last where they
 //     are evenly apart, of pictures that are not the scene's; then the base is that of frame "at";
 //   "step" (s) or "tolerance": what was asked for; "larger": departures are to be drawn so many times as large;
+//   "computed": of a run that the page computes itself: it has no shapes and paths; "reference": see computed_runs.h;
 //   "stops" (s), "end", and of a run that failed "failed" (s), "failure" and "reason".
 // `values` holds for each frame the RMS distance from the truth (m), then for each frame the kinetic energy (J): 2000
 // times their exponents of ten, plus 40000; 0 is none. Cells have no values, and are many: their list of runs is
@@ -45,7 +46,8 @@ MotionBase base_of(const Scene& scene, const Run& run);
 /// base) and how far the truth holds. Empty where there is nothing to play.
 std::string stage_json(const Scene& scene, const MotionBase& base);
 /// The same of a scene in which nothing has moved yet: where cells of its maps are played.
-std::string stage_json(const Scene& scene);
+/// With its text where the lab is to open them.
+std::string stage_json(const Scene& scene, bool with_text = false);
 
 /// The file of one method's runs, in their order: of whole runs of a scene, with the last pictures of those that
 /// failed; of cells of a map, whose base is in the file then. Empty where there is nothing to play.

@@ -50,4 +50,55 @@ PackedNumbers pack_small(const std::vector<std::uint16_t>& numbers) {
   return best;
 }
 
+namespace {
+
+std::string from_base64(std::string_view text) {
+  static constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3);
+  unsigned word = 0;
+  int bits = 0;
+  for (const char sign : text) {
+    const size_t value = alphabet.find(sign);
+    if (value == std::string_view::npos) break;
+    word = word << 6 | static_cast<unsigned>(value);
+    if ((bits += 6) >= 8) bytes += static_cast<char>(word >> (bits -= 8) & 255);
+  }
+  return bytes;
+}
+
+/// Of a text that becomes so many bytes.
+std::string inflated(std::string bytes, size_t count) {
+  std::string out(count, '\0');
+  constexpr int gzip_format = 15 + 16;
+  z_stream stream{};
+  stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  if (inflateInit2(&stream, gzip_format) != Z_OK) throw std::runtime_error("zlib cannot begin to read");
+  inflate(&stream, Z_FINISH);
+  const bool whole = stream.total_out == count;
+  inflateEnd(&stream);
+  if (!whole) throw std::runtime_error("packed numbers end too early");
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::uint16_t> unpack(const PackedNumbers& packed) {
+  std::vector<std::uint16_t> numbers(packed.count);
+  if (numbers.empty()) return numbers;
+  const std::string planes = inflated(from_base64(packed.data), 2 * packed.count);
+  for (size_t i = 0; i < packed.count; ++i) {
+    const auto zigzag = static_cast<unsigned char>(planes[i]) | static_cast<unsigned char>(planes[packed.count + i])
+                                                                    << 8;
+    numbers[i] = static_cast<std::uint16_t>(zigzag % 2 == 0 ? zigzag / 2 : -(zigzag / 2) - 1);
+  }
+  for (int k = packed.order; k >= 1; --k)
+    for (size_t i = static_cast<size_t>(k) * packed.lag; i < packed.count; ++i)
+      numbers[i] = static_cast<std::uint16_t>(numbers[i] + numbers[i - packed.lag]);
+  return numbers;
+}
+
 }  // namespace crosscheck

@@ -24,6 +24,9 @@ PackedNumbers pack(std::vector<std::uint16_t> numbers, size_t lag, int order);
 /// With the lag (1 or 3, the coordinates of a place) and the order that make it smallest.
 PackedNumbers pack_small(const std::vector<std::uint16_t>& numbers);
 
+/// The numbers again. Throws std::runtime_error where they are not those of a PackedNumbers.
+std::vector<std::uint16_t> unpack(const PackedNumbers& packed);
+
 /// gzip, as browsers read it. Throws std::runtime_error when zlib refuses.
 std::string gzipped(std::string bytes);
 

@@ -126,10 +126,29 @@ class MotionPlayer extends HTMLElement {
 
   /** Gathers the motions that are shown. */
   async load() {
-    const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []);
-    this.motions = this.given?.motion ? [this.given.motion] : (await Promise.all(keys.map(key => motionOf(this.scene, key)))).filter(Boolean);
-    this.truth = this.picks && await motionOf(this.scene, 'truth');
+    const keys = this.hero ?? (this.picks ? [this.picks.a, this.picks.b] : []), letters = this.hero ? [] : ['A', 'B'];
+    const turn = this.turn = {}, missing = [];
+    const awaited = keys.filter(key => runOf(this.scene, key)?.run.computed && !runOf(this.scene, key).run.there);
+    if (awaited.length) this.tellComputing(awaited);
+    const motions = this.given?.motion ? [this.given.motion] : await Promise.all(keys.map(key => motionOf(this.scene, key).catch(problem => {
+      if (!(problem instanceof LabError)) throw problem;
+      missing.push(problem.message);
+      return null;
+    })));
+    const truth = this.picks && await motionOf(this.scene, 'truth');
+    if (turn !== this.turn) return;  // other runs were chosen meanwhile
+    this.motions = motions.filter(Boolean);
+    this.letters = letters.filter((_, i) => motions[i]);
+    this.missing = [...new Set(missing)];
+    this.truth = truth;
+    delete this.dataset.computing;
     this.arrange();
+  }
+
+  /** Says which runs are being computed. */
+  tellComputing(keys) {
+    this.dataset.computing = '';
+    this.controls.setHint(say('computingRuns', {methods: [...new Set(keys.map(key => inTwo(parts(key).method).join(' ')))].join(', ')}));
   }
 
   /** Chooses other runs. */
@@ -143,7 +162,7 @@ class MotionPlayer extends HTMLElement {
 
   /** Lays out views, difference and plots of the motions. */
   arrange() {
-    const letters = this.hero ? [] : ['A', 'B'], {scene} = this;
+    const {scene, letters} = this;
     this.views = this.motions.map((motion, i) => viewOf(motion, letters[i] ?? ''));
     const pictures = this.motions.find(motion => motion.run.times);
     [this.begin, this.end] = pictures ? [pictures.begin, pictures.end] : [0, scene.times[scene.times.length - 1]];
@@ -172,6 +191,7 @@ class MotionPlayer extends HTMLElement {
       plots.push({title: 'departure from rest', unit: 'm', series: [{name: '', css: a.look.css, well: false, points: off}]});
       this.controls.setHint(this.given.caption);
     }
+    if (this.missing.length) this.controls.setHint([...this.missing, this.picks ? this.words() : ''].join(' '));
     this.controls.setPlots(plots, this.begin, this.end);
     if (this.untouched && !this.hero) this.time = this.picks && !pictures ? Math.min(this.end, scene.at ?? this.end) : this.begin;
     this.time = Math.max(this.begin, Math.min(this.end, this.time));

@@ -35,6 +35,12 @@ async function playRun(key, marker) {
     box.append(make('p', {}, set ? 'It ended before there was a second picture of it to show.' :
                                    'The runs of this method are too large for the page; the command run plays them.'));
   }
+  const state = labStateOf(key, marker);
+  if (state) {
+    const door = make('button', {type: 'button', class: 'to-lab'}, say('openInLab'));
+    door.addEventListener('click', () => (shut(), openLab(state)));
+    box.append(make('p', {class: 'door'}, door));
+  }
   if (run && file.scene)
     box.append(make('p', {class: 'hint'}, 'The same run: ',
         make('code', {}, `./crosscheck run ${scene} --method ${method} ${run.tolerance ? `--tol ${run.tolerance}` : `--step ${run.step}`}`)));
@@ -71,9 +77,15 @@ function listRuns(figure) {
   figure.append(list);
 }
 
-/** A button of the table of runs: puts its run into A or B, or plays it. */
+/** A button of the table of runs: puts its run into A or B, plays it, or opens it in the lab. */
 async function choose(button) {
-  const {key} = button.parentElement.dataset, player = button.closest('article, section').querySelector('motion-player[data-a]');
+  const {key} = button.parentElement.dataset;
+  if (button.dataset.as === 'lab') {
+    const scene = button.closest('table').dataset.scene, {method, place} = parts(key), own = place === 'own';
+    const run = runsOf(`${scene}-${own ? 'engines' : 'speed-accuracy'}`).sets.get(method).runs[own ? 0 : Number(place)];
+    return openLab({scene, method, step: run.step, tolerance: run.tolerance});
+  }
+  const player = button.closest('article, section').querySelector('motion-player[data-a]');
   if (!player?.picks) return;
   await player.pick({[button.dataset.as === 'b' ? 'b' : 'a']: key});
   if (button.dataset.as !== 'play') return;

@@ -10,8 +10,10 @@
 #include "report/base/assets.h"
 #include "report/figures/chart_json.h"
 #include "report/figures/figure.h"
+#include "report/page/lab_html.h"
 #include "report/page/page.h"
 #include "report/page/player_html.h"
+#include "report/page/smaller.h"
 #include "report/pictures/scene_picture.h"
 #include "report/player/motions.h"
 #include "tests/unit/experiments/helpers.h"
@@ -145,7 +147,7 @@ class Page : public InBrowser {
   }
   /// The page, and what uses it as a reader would.
   std::filesystem::path page() {
-    std::string html = page_html(content_);
+    std::string html = with_folds_packed(page_html(content_));
     html.insert(html.find("</head>"), scripts({"stage_selftest.js", "page_selftest.js"}));
     return write("page.html", html);
   }
@@ -309,14 +311,14 @@ TEST_F(PlayerPage, AClothIsDrawnWithItsSphere) {
 /// A page with a chart whose first marker came to its end, whose second blew up; and a map with a cell.
 class RunsPage : public PlayerPage {
  protected:
-  std::filesystem::path charts() {
+  std::filesystem::path charts(bool lab = false) {
     Request request;
     request.scenes = {load_scene("chain")};
     request.methods = find_methods("mysim/leapfrog,mysim/explicit-euler");
     const Scene& scene = request.scenes[0];
     const MotionBase base = base_of(scene, run_of(request, scene));
     PageContent content;
-    content.runs = {{"chain-speed-accuracy", "chain", "", {}}, {"map", "", stage_json(scene), {}}};
+    content.runs = {{"chain-speed-accuracy", "chain", "", {}}, {"map", "", stage_json(scene, lab), {}}};
     request.on_runs = [&](const RecordedRuns& w) {
       content.runs[0].methods.push_back(write(file_name_of(w.method) + ".json", motions_json(w, base)));
     };
@@ -362,6 +364,7 @@ class RunsPage : public PlayerPage {
            {fmt::format("mysim/leapfrog {}\nholds", i + 1), fmt::format("mysim/leapfrog {}", i + 1)}});
     show(map);
     content.methods = {"mysim/leapfrog", "mysim/explicit-euler"};
+    if (lab) content.lab = lab_data_html({scene});
     std::string html = page_html(content);
     html.insert(html.find("</head>"), scripts({"stage_selftest.js", "runs_selftest.js"}));
     return write("runs.html", html);
@@ -387,6 +390,34 @@ TEST_F(RunsPage, AClickOnAMarkerOrAChoiceInTheListPlaysItsRun) {
   EXPECT_NE(saw["windows"][1]["says"].text().find("last"), std::string::npos) << saw["windows"][1]["says"].dump();
   EXPECT_NE(saw["windows"][2]["says"].text().find("Departures"), std::string::npos) << saw["windows"][2]["says"].dump();
   EXPECT_EQ(saw["windows"][3]["says"].text(), saw["windows"][1]["says"].text()) << "the list has the same runs";
+}
+
+TEST_F(RunsPage, WhereTheLabIsARunIsComputedWhenItIsClicked) {
+  NEEDS_CHROMIUM;
+  if (!has_lab_module()) GTEST_SKIP() << "mysim was not compiled to WebAssembly";
+  const auto stored = charts();
+  EXPECT_EQ(read(stored).find("\"computed\":true"), std::string::npos);
+  EXPECT_EQ(read(stored).find("id=\"lab-module\""), std::string::npos);
+  const JsonField before = seen(stored, {}), saw = seen(charts(true), {});
+  EXPECT_NE(read(folder_ / "runs.html").find("\"computed\":true"), std::string::npos);
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
+  ASSERT_EQ(saw["windows"].size(), 4u) << saw.dump();
+  for (const JsonField& w : saw["windows"].elements()) {
+    EXPECT_GT(w["drawn"].number(), 0.001) << w.dump();
+    EXPECT_TRUE(w["moves"].boolean()) << w.dump();
+    EXPECT_NE(w["says"].text().find("Open in the lab"), std::string::npos) << w["says"].dump();
+  }
+  const double apart = before["windows"][0]["apart"].number();
+  EXPECT_NEAR(saw["windows"][0]["apart"].number(), apart, 0.06 * apart) << "m, from the truth: as it was stored";
+  for (const JsonField& w : before["windows"].elements())
+    EXPECT_EQ(w["says"].text().find("Open in the lab"), std::string::npos) << "no door without a lab";
+}
+
+TEST_F(RunsPage, WithoutWebAssemblyItSaysSo) {
+  NEEDS_CHROMIUM;
+  if (!has_lab_module()) GTEST_SKIP() << "mysim was not compiled to WebAssembly";
+  const JsonField saw = seen(charts(true), {"--js-flags=--noexpose-wasm"});
+  EXPECT_NE(saw["hints"].dump().find("does not run WebAssembly"), std::string::npos) << saw.dump();
 }
 
 TEST_F(RunsPage, WithoutWebGlNothingPretendsToPlay) {

@@ -14,6 +14,7 @@
 #include "report/page/page.h"
 #include "report/page/player_html.h"
 #include "report/page/shown_runs.h"
+#include "report/page/smaller.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/made_up_findings.h"
@@ -43,6 +44,32 @@ TEST(Prose, NumbersWithTheirUnitsAreBoldAndNamesAreNot) {
   EXPECT_EQ(prose_with_bold_numbers("at most 3.0e-12 m"),
             "at most <b>3.0<span class=\"n\">\u00a0×\u00a010<sup>−12</sup></span>\u00a0m</b>");
   EXPECT_EQ(prose_with_bold_numbers("cloth-hang-6, a < b"), "cloth-hang-6, a &lt; b");
+}
+
+TEST(Smaller, ScriptsLoseTheirCommentsAndKeepTheirTexts) {
+  EXPECT_EQ(script_without_comments(
+                "// Why.\n/** What. */\nfunction f() {\n  /**\n   * More.\n   */\n  return 1;  // here\n}\n"),
+            "function f() {\nreturn 1;  // here\n}\n");
+  const std::string shader = "const s = `\n  // of the shader\n  x = 1;\n`;\n";
+  EXPECT_EQ(script_without_comments(shader), shader);
+  EXPECT_EQ(script_without_comments("const t = `one ${1} line`;\n  const u = 2;"),
+            "const t = `one ${1} line`;\nconst u = 2;\n");
+}
+
+TEST(Smaller, FoldsArePackedWithWhatTheyHold) {
+  const std::string inner = "<p>a</p><template>b</template>",
+                    end = "<script type=\"text/plain\" id=\"charts\"></script>";
+  const std::string page =
+      "<i></i><template data-scene=\"s\">" + inner + "</template><b></b><template>c</template>" + end;
+  const std::string packed = with_folds_packed(page);
+  EXPECT_TRUE(contains(packed,
+                       "<i></i><template data-scene=\"s\" data-held=\"0\"></template><b></b><template "
+                       "data-held=\"1\"></template><script"));
+  const std::string held = between(packed, "id=\"held\">", "</script>").substr(10);
+  const std::string list = Json(std::vector<std::string>{inner, "c"}).dump();
+  EXPECT_EQ(gunzipped(bytes_of_base64(held), list.size()), list);
+  EXPECT_TRUE(contains(packed, end));
+  EXPECT_EQ(with_folds_packed("<b></b>" + end), "<b></b>" + end) << "nothing is folded";
 }
 
 TEST(Glossary, ExplainsEachWordOnce) {
@@ -190,7 +217,8 @@ TEST_F(WholePage, OnlyFiguresThatOpenAChapterAreDrawnForPaper) {
     EXPECT_EQ(opens_a_chapter(content_, name), !name.starts_with("more-")) << name;
   const std::string html = page_html(content_);
   EXPECT_EQ(count(html, "<noscript>"), 1) << "where the drawing is there";
-  EXPECT_TRUE(contains(section(html, "stability"), "<noscript><img alt=\"t\" src=\"data:image/svg+xml;base64,"));
+  EXPECT_TRUE(contains(section(html, "stability"),
+                       "<noscript><svg role=\"img\" aria-label=\"t\"><text>drawn</text></svg></noscript>"));
   for (const char* way : {"stability-limits.pdf", "stability-limits.csv", "stability-limits.gp", "more-2.csv"})
     EXPECT_TRUE(contains(html, fmt::format("href=\"figures/{}\"", way)));
   EXPECT_FALSE(contains(html, "more-2.pdf")) << "there is none";

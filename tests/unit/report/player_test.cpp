@@ -11,6 +11,7 @@
 #include "experiments/stability/map.h"
 #include "mysim/base/json.h"
 #include "mysim/model/energy.h"
+#include "report/player/computed_runs.h"
 #include "report/player/motions.h"
 #include "report/player/packed_numbers.h"
 #include "tests/unit/experiments/helpers.h"
@@ -99,6 +100,7 @@ TEST(PackedNumbers, AnyNumbersComeBack) {
       const size_t lag = 1 + random() % 40;
       const PackedNumbers p = pack(numbers, lag, order);
       EXPECT_EQ(unpacked(p.count, p.lag, p.order, p.data), numbers) << "seed " << seed << ", order " << order;
+      EXPECT_EQ(unpack(p), numbers) << "seed " << seed << ", order " << order;
     }
   }
 }
@@ -405,6 +407,71 @@ TEST(Runs, AreThePlacesOfTheirRunsInTheOrderOfTheRows) {
   EXPECT_EQ(row, table.rows.size());
   EXPECT_GT(whole, 10u);
   EXPECT_GT(failed, 2u);
+}
+
+TEST(ComputedRuns, AreThoseOfRulesThatABrowserHas) {
+  for (const char* name : {"mysim/leapfrog", "mysim/rk4+sticky", "mysim/implicit-euler+linear", "mysim/dopri5"})
+    EXPECT_TRUE(is_computed_in_page(name)) << name;
+  for (const char* name : {"mysim/leapfrog+fast", "mysim/leapfrog+linear", "mysim/leapfrog+threads=2", "bullet/pbd",
+                           "exec:/a/program", "truth", "mysim/nothing"})
+    EXPECT_FALSE(is_computed_in_page(name)) << name;
+}
+
+TEST(ComputedRuns, KeepTheirWordsAndValuesAndLeaveTheirMotionsOut) {
+  Request request;
+  request.scenes = {load_scene("chain")};
+  request.methods = find_methods("mysim/leapfrog,mysim/explicit-euler,mysim/rk4,bullet/pbd");
+  const Scene& scene = request.scenes[0];
+  std::vector<Kept> kept;
+  request.on_runs = keeping(kept);
+  TableSet rows;
+  speed_accuracy_on(request, scene, rows);
+  const MotionBase base = base_of(scene, run_of(request, scene));
+  std::vector<std::string> before, after;
+  for (const Kept& k : kept) before.push_back(motions_json(k.watched(), base));
+  after = before;
+  std::vector<FileOfRuns> files;
+  for (std::string& json : after) files.push_back({false, &json});
+  leave_out_computed(files, {"mysim/leapfrog 5"});
+  size_t references = 0, computed = 0, failed = 0;
+  for (size_t i = 0; i < after.size(); ++i) {
+    const JsonField was = JsonField::parse(before[i], "before"), now = JsonField::parse(after[i], "after");
+    if (now["name"].text() == "bullet/pbd") {
+      EXPECT_EQ(after[i], before[i]) << "of another engine all is stored";
+      continue;
+    }
+    EXPECT_EQ(now["values"].dump(), was["values"].dump());
+    const int particles = scene.model.particles.size();
+    const ReadMotions old(was, particles), left(now, particles);
+    EXPECT_TRUE(left.all_read());
+    for (size_t r = 0; r < was["runs"].size(); ++r) {
+      const JsonField run = now["runs"][r];
+      if (run.is_null()) continue;
+      for (const char* key : {"frames", "stops", "step"}) EXPECT_EQ(run[key].dump(), was["runs"][r][key].dump());
+      references += run.find("reference").has_value(), failed += run.find("times").has_value();
+      if (run.find("computed")) {
+        ++computed;
+        EXPECT_EQ(run["modes"].natural(), 0u);
+        EXPECT_FALSE(run.find("failure"));
+        EXPECT_NE(fmt::format("{} {}", now["name"].text(), r), "mysim/leapfrog 5") << "it stays";
+      } else {
+        EXPECT_EQ(left.run(r).apart, old.run(r).apart);
+      }
+    }
+  }
+  EXPECT_EQ(references, 1u);
+  EXPECT_GT(computed, 10u);
+  EXPECT_GT(failed, 2u) << "the last pictures of what failed stay";
+}
+
+TEST(ComputedRuns, AreStoredWhereNoneTiesThemToTheBase) {
+  std::string file =
+      R"({"name": "mysim/leapfrog", "runs": [null], "shapes": {"count": 0, "lag": 1, "order": 0, "data": ""},
+    "paths": {"count": 0, "lag": 1, "order": 0, "data": ""}, "values": null})";
+  const std::string before = file;
+  const FileOfRuns files[] = {{true, &file}};
+  leave_out_computed(files, {});
+  EXPECT_EQ(file, before);
 }
 
 TEST(Runs, AsGoodAsTheTruthWeighNextToNothing) {

@@ -1,4 +1,6 @@
 // Clicks on runs as a reader would and writes what it saw into the page, for the test that reads the page back.
+const hints = [];  // below the players
+
 /** What the open window shows, and that it closes. */
 async function look() {
   await until(() => document.querySelector('dialog.run motion-player'));
@@ -17,6 +19,7 @@ async function look() {
     says: [...dialog.querySelectorAll('h3, p')].map(part => part.textContent).join(' | '),
     apart: motions.length > 1 ? Math.max(...motions[0].apartAt(0.3 * end, motions[1]).map(Math.abs)) : null
   };
+  hints.push(player.querySelector('.hint').textContent);
   dialog.querySelector('.close').click();
   shown.closed = await until(() => !document.querySelector('dialog.run'));
   return shown;
@@ -52,5 +55,5 @@ addEventListener('load', async () => {
   } catch (problem) {
     complaints.push(String(problem.stack));
   }
-  tell(seen);
+  tell({...seen, hints});
 });

@@ -1,0 +1,77 @@
+// Scripts, folds and drawings, made smaller.
+#include "report/page/smaller.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "mysim/base/json.h"
+#include "mysim/base/text.h"
+#include "report/page/page.h"
+#include "report/player/packed_numbers.h"
+
+namespace crosscheck {
+
+std::string script_without_comments(std::string_view script) {
+  std::string out;
+  bool in_text = false, in_comment = false;
+  for (size_t at = 0; at < script.size();) {
+    const size_t end = std::min(script.find('\n', at), script.size());
+    std::string_view line = script.substr(at, end - at);
+    at = end + 1;
+    if (!in_text) {
+      line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+      if (in_comment || line.starts_with("/**")) {
+        in_comment = !line.ends_with("*/");
+        continue;
+      }
+      if (line.empty() || line.starts_with("//")) continue;
+    }
+    in_text ^= std::ranges::count(line, '`') % 2 == 1;
+    out.append(line) += '\n';
+  }
+  return out;
+}
+
+std::string with_folds_packed(const std::string& page) {
+  constexpr std::string_view begin = "<template", close = "</template>",
+                             end_of_body = "<script type=\"text/plain\" id=\"charts\"";
+  std::string out;
+  Json held = Json::list();
+  size_t count = 0, from = 0;
+  const auto finish = page.find(end_of_body);
+  if (finish == std::string::npos) return page;
+  for (size_t at = page.find(begin); at < finish; at = page.find(begin, from)) {
+    const size_t inside = page.find('>', at) + 1;
+    // up to the end that belongs to it: templates lie in templates
+    size_t end = inside;
+    for (int depth = 1; depth > 0;) {
+      const size_t next = page.find(begin, end), last = page.find(close, end);
+      if (last == std::string::npos) return page;
+      depth += next < last ? 1 : -1;
+      end = next < last ? next + begin.size() : last + close.size();
+    }
+    out += page.substr(from, inside - 1 - from) + fmt::format(" data-held=\"{}\"></template>", count++);
+    held.push(page.substr(inside, end - close.size() - inside));
+    from = end;
+  }
+  if (count == 0) return page;
+  return out + page.substr(from, finish - from) +
+         fmt::format("<script type=\"text/plain\" id=\"held\">{}</script>\n", base64(gzipped(held.dump()))) +
+         page.substr(finish);
+}
+
+std::string svg_element(std::string_view file, const std::string& label) {
+  const size_t begin = file.find("<svg");
+  if (begin == std::string_view::npos) return "";
+  std::string out = fmt::format("<svg role=\"img\" aria-label=\"{}\"", escaped(label));
+  bool blank = false;
+  for (const char sign : file.substr(begin + 4)) {
+    const bool space = sign == '\n' || sign == '\t' || sign == ' ';
+    if (!space || !blank) out += space ? ' ' : sign;
+    blank = space;
+  }
+  return out;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,20 @@
+// What makes the page smaller without a change of what it shows.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace crosscheck {
+
+/// A script without comments that have lines of their own ("//", "/** ... */") and without indentation. Lines of texts
+/// that go over several (`...`) stay as they are.
+std::string script_without_comments(std::string_view script);
+
+/// The page with what its outermost templates hold in one packed list at its end, which page.js puts back: without
+/// scripts nobody sees it either way.
+std::string with_folds_packed(const std::string& page);
+
+/// An SVG file as an element of the page: its <svg> alone, in few lines.
+std::string svg_element(std::string_view file, const std::string& label);
+
+}  // namespace crosscheck

@@ -1,0 +1,180 @@
+// Which runs are computed, the reference among them, and files without their numbers.
+#include "report/player/computed_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "mysim/base/json.h"
+#include "mysim/base/text.h"
+#include "mysim/steppers/steppers.h"
+#include "reference/method.h"
+#include "report/player/packed_numbers.h"
+#include "report/player/static_geometry.h"
+
+namespace crosscheck {
+namespace {
+
+/// The stepper behind a method's name; null where it is none of mysim's.
+const Stepper* stepper_of(const std::string& method) {
+  if (!family_of(method).is_subject()) return nullptr;
+  const std::string rule = split(method.substr(method.find('/') + 1), '+')[0];
+  const auto found =
+      std::find_if(steppers().begin(), steppers().end(), [&](const Stepper& s) { return s.name == rule; });
+  return found == steppers().end() ? nullptr : &*found;
+}
+
+PackedNumbers packed_of(const JsonField& json) {
+  return {static_cast<size_t>(json["count"].natural()), static_cast<size_t>(json["lag"].natural()),
+          json["order"].whole_number(0, 2), json["data"].text()};
+}
+
+Json built(const JsonField& field) {
+  if (field.is_null()) return nullptr;
+  if (field.is_text()) return field.text();
+  if (field.is_boolean()) return field.boolean();
+  if (field.is_integer()) return field.whole();
+  if (field.is_number()) return field.number();
+  Json out = field.is_list() ? Json::list() : Json::object();
+  if (field.is_list())
+    for (const JsonField& item : field.elements()) out.push(built(item));
+  else
+    for (const auto& [key, value] : field.items()) out[key] = built(value);
+  return out;
+}
+
+/// A file of one method's runs, read back.
+class Motions {
+ public:
+  explicit Motions(const FileOfRuns& file)
+      : target_(file),
+        json_(JsonField::parse(*file.json, "a file of runs")),
+        name_(json_["name"].text()),
+        computed_(is_computed_in_page(name_)) {
+    if (!computed_) return;
+    shapes_ = unpack(packed_of(json_["shapes"])), paths_ = unpack(packed_of(json_["paths"]));
+    for (const JsonField& run : json_["runs"].elements()) {
+      Part part;
+      if (!run.is_null()) part.modes = run["modes"].natural(), part.frames = run["frames"].natural();
+      modes_ += part.modes;
+      parts_.push_back(part);
+    }
+    size_t shape = 0, path = 0;
+    const size_t wide = modes_ == 0 ? 0 : shapes_.size() / modes_;
+    for (Part& part : parts_) {
+      part.shapes = {shapes_.data() + shape, part.modes * wide},
+      part.paths = {paths_.data() + path, part.modes * part.frames};
+      shape += part.shapes.size(), path += part.paths.size();
+    }
+  }
+
+  size_t size() const { return parts_.size(); }  // 0 of what is not computed
+  std::string key(size_t i) const { return fmt::format("{} {}", name_, target_.own ? "own" : std::to_string(i)); }
+  bool is_left_out(size_t i) const {
+    const JsonField run = json_["runs"][i];
+    // which steps a rule chooses by itself hangs on rounding where it may choose long ones
+    constexpr double loose = 1e-3;
+    const auto tolerance = run.is_null() ? std::nullopt : run.find("tolerance");
+    return !run.is_null() && !run.find("failure") && !run.find("times") && !(tolerance && tolerance->number() > loose);
+  }
+
+  /// The largest departure of a run that every build computes with the same bits, m.
+  std::optional<double> departure(size_t i) const {
+    const Stepper* rule = stepper_of(name_);
+    if (!is_left_out(i) || rule->adaptive || (rule->evaluations == 0 && !rule->hard_constraints)) return std::nullopt;
+    const JsonField run = json_["runs"][i];
+    const auto& [modes, frames, shapes, paths] = parts_[i];
+    if (modes == 0) return 0;
+    const size_t wide = shapes.size() / modes;
+    const auto number = [](std::uint16_t bits) { return static_cast<double>(static_cast<std::int16_t>(bits)); };
+    double largest = 0;
+    std::vector<double> off(wide);
+    for (size_t f = 0; f < frames; ++f) {
+      std::ranges::fill(off, 0);
+      for (size_t k = 0; k < modes; ++k)
+        for (size_t c = 0; c < wide; ++c) off[c] += number(paths[k * frames + f]) * number(shapes[k * wide + c]);
+      for (const double each : off) largest = std::max(largest, std::abs(each));
+    }
+    return largest * run["unit"].number() * run["path"].number();
+  }
+  double step(size_t i) const {
+    const auto step = json_["runs"][i].find("step");
+    return step ? step->number() : 0;
+  }
+
+  /// Writes the file again, without the runs that are left out and do not stay.
+  void write(const std::set<std::string>& stay, const std::string& reference) const {
+    std::vector<std::uint16_t> shapes, paths;
+    Json runs = Json::list();
+    for (size_t i = 0; i < size(); ++i) {
+      Json run = built(json_["runs"][i]);
+      if (is_left_out(i) && key(i) != reference && !stay.contains(key(i))) {
+        run.erase("unit"), run.erase("path");
+        run["modes"] = 0, run["computed"] = true;
+      } else {
+        if (key(i) == reference) run["reference"] = true;
+        shapes.insert(shapes.end(), parts_[i].shapes.begin(), parts_[i].shapes.end());
+        paths.insert(paths.end(), parts_[i].paths.begin(), parts_[i].paths.end());
+      }
+      runs.push(std::move(run));
+    }
+    Json file = built(json_);
+    file["runs"] = std::move(runs);
+    file["shapes"] = packed_json(pack_small(shapes)), file["paths"] = packed_json(pack_small(paths));
+    *target_.json = file.dump();
+  }
+
+ private:
+  struct Part {
+    size_t modes = 0, frames = 0;
+    std::span<const std::uint16_t> shapes = {}, paths = {};
+  };
+  FileOfRuns target_;
+  JsonField json_;
+  std::string name_;
+  bool computed_;
+  std::vector<std::uint16_t> shapes_, paths_;
+  std::vector<Part> parts_;
+  size_t modes_ = 0;  // of all runs
+};
+
+/// The key of the run with the longest step among those about as near to the base as the nearest; empty without any.
+std::string reference_of(const std::vector<Motions>& files) {
+  struct Candidate {
+    std::string key;
+    double departure, step;
+  };
+  std::vector<Candidate> all;
+  for (const Motions& file : files)
+    for (size_t i = 0; i < file.size(); ++i)
+      if (const auto departure = file.departure(i)) all.push_back({file.key(i), *departure, file.step(i)});
+  if (all.empty()) return "";
+  const double least = std::ranges::min(all, {}, &Candidate::departure).departure;
+  std::erase_if(all, [&](const Candidate& c) { return c.departure > 1.5 * least; });
+  return std::ranges::max(all, {}, &Candidate::step).key;
+}
+
+}  // namespace
+
+bool is_computed_in_page(const std::string& method) {
+  const Stepper* rule = stepper_of(method);
+  if (!rule) return false;
+  const std::vector<std::string> words = split(method, '+');
+  return std::all_of(words.begin() + 1, words.end(),
+                     [&](const std::string& word) { return word == "sticky" || (word == "linear" && rule->linear); });
+}
+
+void leave_out_computed(std::span<const FileOfRuns> files, const std::set<std::string>& stay) {
+  std::vector<Motions> all;
+  all.reserve(files.size());
+  for (const FileOfRuns& file : files) all.emplace_back(file);
+  const std::string reference = reference_of(all);
+  if (reference.empty()) return;
+  for (const Motions& file : all)
+    if (file.size() > 0) file.write(stay, reference);
+}
+
+}  // namespace crosscheck
