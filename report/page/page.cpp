@@ -519,7 +519,7 @@ std::string page_html(const PageContent& c) {
       out += script_json(fmt::format("class=\"motion\" data-scene=\"{}\"", escaped(part.scene->name)),
                          content_of_file(part.motions));
   std::map<std::string, std::set<std::string>> shown;
-  for (const ScenePart* part : heroes(c))
+  for (const ScenePart* part : first_scenes(c))
     for (const ShownRun& run : part->runs)
       if (run.beside) shown[part->scene->name].insert(run.key);
   out += all_runs_html(c.runs, !c.lab.empty(), shown);
