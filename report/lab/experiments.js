@@ -431,7 +431,7 @@ const labExperiments = (() => {
           watch: watchFold,
           done: (r, {before, run}) => {
             const bend = r.at('grid.stiffness.bend');
-            return bend > 0 && bend <= before.k / 10 && finished(r.runs[0]) && run.fold < 25;
+            return bend > 0 && bend <= before.k / 10 && finished(r.runs[0]) && run.fold < 30;
           },
           values: (r, seen) => ({bend: r.at('grid.stiffness.bend'), fold: degrees(seen.run.fold), limit: stepText(r.runs[0].limit), without: stepText(seen.before.limit)})
         }

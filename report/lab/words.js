@@ -486,11 +486,11 @@ const labWords = {
   ],
   'bend-springs.price.formula': ['ω rose from {omegaBefore} to {omega} rad/s; the mark fell from {limitBefore} to {limit}.', 'ω 从 {omegaBefore} 升到 {omega} rad/s；标记从 {limitBefore} 降到 {limit}。'],
 
-  'bend-springs.enough.question': ['How little bend stiffness keeps every fold below 25°? A guess: which part of the other springs’ {k} N/m?', '弯曲刚度最小取多少，就能让所有折角小于 25°？猜猜是其他弹簧 {k} N/m 的多大部分？'],
+  'bend-springs.enough.question': ['How little bend stiffness keeps every fold below 30°? A guess: which part of the other springs’ {k} N/m?', '弯曲刚度最小取多少，就能让所有折角小于 30°？猜猜是其他弹簧 {k} N/m 的多大部分？'],
   'bend-springs.enough.half': ['about a half', '约一半'],
   'bend-springs.enough.fifth': ['about a fifth', '约五分之一'],
   'bend-springs.enough.tenth': ['a tenth or less', '十分之一或更少'],
-  'bend-springs.enough.task': ['Choose a bend stiffness of at most {most} N/m with which no fold exceeds 25° to the end.', '选一个不超过 {most} N/m 的弯曲刚度，使得到最后没有折角超过 25°。'],
+  'bend-springs.enough.task': ['Choose a bend stiffness of at most {most} N/m with which no fold exceeds 30° to the end.', '选一个不超过 {most} N/m 的弯曲刚度，使得到最后没有折角超过 30°。'],
   'bend-springs.enough.why': [
     'A fold costs a soft spring little force, but the cloth is light: little is enough. And the largest step is as large as without.',
     '软弹簧对折叠的抵抗很小，但布料很轻，这就够了。而且最大步长和没有时一样大。'
