@@ -12,7 +12,8 @@ const labGuideTest = (() => {
       if (value) return value;
       await act();
     }
-    throw new Error(`waited in vain for ${what}: ${guide().innerText}`);
+    const {t, running, ended, verdict, toml} = document.querySelector('live-lab').reading;
+    throw new Error(`waited in vain for ${what}: ${JSON.stringify({t, running, ended, verdict, seen: guide().seen, phase: guide().phase, acting: guide().acting})} ${toml} ${guide().innerText}`);
   }
 
   /** What must not stand in words that a reader sees: a key, a place that was not filled in, a number that is none. */
