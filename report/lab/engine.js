@@ -65,6 +65,15 @@ class Lab {
   open(toml) { return new Simulation(this, toml); }
 }
 
+const growthBudget = 50;  // ms
+
+/** Arrows with the longest of them 1; null where there is none. */
+function longestOne(arrows) {
+  let most = 0;
+  for (let i = 0; i < arrows.length; i += 3) most = Math.max(most, Math.hypot(arrows[i], arrows[i + 1], arrows[i + 2]));
+  return most > 0 && Number.isFinite(most) ? Float64Array.from(arrows, part => part / most) : null;
+}
+
 /** A scene and one run of it. After an error that is not the scene's or a setting's the simulation is broken. */
 class Simulation {
   constructor(lab, toml) {
@@ -186,17 +195,23 @@ class Simulation {
     return {kinetic, elastic, gravitational, total: kinetic + elastic + gravitational, drag, dashpots, contact, wind, pins, balance};
   }
 
-  /** The mode that grows in a run that failed, its longest arrow 1; null where nothing of it is to be seen. */
+  /**
+   * The mode that grows in a run that failed, its longest arrow 1. A run that failed late is not run once more, as no
+   * frame may take that long: its last velocities that are finite stand for the mode.
+   */
   get growth() {
     if (this.going || this.verdict === 'ok' || this.scene.firstOrder) return null;
-    return (this.grown ??= this.growingMode()).mode;
+    this.grown ??= this.growingMode(growthBudget).mode ?? longestOne(this.velocities.every(Number.isFinite) ? this.velocities : this.last.velocities);
+    return this.grown;
   }
 
   /**
    * What grows in a run like this one: how velocities change in a step while none moves a particle by more than a tenth
    * of the shortest spring, and the places then. Later the growth is no longer linear, and the mode is lost in others.
+   * No mode where that takes more than so many ms.
    */
-  growingMode() {
+  growingMode(budget = Infinity) {
+    const until = performance.now() + budget;
     const {rule, step, tolerance, duration} = this.run, [stepper, ...options] = rule.split('+');
     const twin = this.lab.open(this.sceneText()), small = 0.1 * this.scene.rests.reduce((a, b) => Math.min(a, b), Infinity);
     let mode = null, before = null, places = null;
@@ -205,12 +220,14 @@ class Simulation {
       going = twin.advance(twin.t + 0.5 * step);
       const now = twin.velocities.slice(), change = before?.map((v, i) => now[i] - v);
       if (change && !change.every(v => Math.abs(v) * step < small)) break;
+      if (performance.now() > until) {
+        mode = null;
+        break;
+      }
       mode = change, before = now, places = twin.positions.slice();
     }
     twin.close();
-    let most = 0;
-    for (let i = 0; i < (mode?.length ?? 0); i += 3) most = Math.max(most, Math.hypot(mode[i], mode[i + 1], mode[i + 2]));
-    return {mode: most > 0 ? mode.map(part => part / most) : null, places};
+    return {mode: mode && longestOne(mode), places};
   }
 
   /** RMS distance of the particles from those of another run, m. */
