@@ -30,7 +30,7 @@ TEST(LiveRun, IsTheRunOfTheEngine) {
       }
       for (double t = 0; live.advance(t, 1000000); t += scene.duration / 7) {
       }
-      Run run = default_run(scene);
+      crosscheck::Run run = default_run(scene);
       run.tolerance = 1e-6;
       const MethodRun whole = run_and_record(fmt::format("mysim/{}", stepper.name), scene, run);
       SCOPED_TRACE(fmt::format("{} {}", name, stepper.name));
