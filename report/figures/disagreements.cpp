@@ -43,8 +43,8 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
     f.name = name + "-disagreement";
     f.title = text_at(*summary, row, "what");
     f.finding = text_at(*summary, row, "effect");
-    f.caption = fmt::format("Scene {}, hash {}; commit {}.", name, text_at(*summary, row, "scene hash"), input.commit);
-    f.tier = "the curve of mysim or of the closed form in the same scene; the effect is measured in this run";
+    f.caption = fmt::format("Scene {}; commit {}.", name, input.commit);
+    f.tier = "mysim or the closed form in the same scene";
     f.x = {"t / s", false, 0.0, std::nullopt};
     f.y = {quantity.unit.find('/') == std::string::npos ? fmt::format("{} / {}", quantity.name, quantity.unit)
                                                         : fmt::format("{} / ({})", quantity.name, quantity.unit),

@@ -11,6 +11,7 @@
 #include "experiments/tables/table.h"
 #include "report/figures/charts.h"
 #include "report/findings/answers.h"
+#include "report/findings/findings_text.h"
 #include "report/findings/summaries.h"
 
 namespace crosscheck {

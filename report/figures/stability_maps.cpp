@@ -155,8 +155,8 @@ HeatMap map_of(const Table& cells, const Table& limits, const std::string& scene
       whole.push_back(p.title);
   if (!whole.empty()) map.finding += fmt::format(" No run of {} fails.", joined(whole));
   map.caption = fmt::format(
-      "Scene {}; each cell one run of {}from rest, kicked by at most a ten-thousandth of a spring, or from the start, "
-      "where the scene has no rest; growth of less than a millionth over a run counts as none; commit {}.",
+      "Scene {}; each cell a run of {}from rest with a small kick, or from the start where there is no rest; growth of "
+      "less than a millionth counts as none; commit {}.",
       scene, steps_of(steps), commit);
   map.tier =
       "exact for small motion under the discrete rule (dashed); measured limits (dots) lie between a step that held "

@@ -123,8 +123,8 @@ class Simulation {
    * large scenes are faster without. Throws LabError where the rule does not take the scene.
    */
   start({stepper, options = '', step = this.scene.step, tolerance = 1e-6, duration = this.scene.duration, observe = true}) {
-    this.run = {rule: stepper + options, step, tolerance};
-    this.failure = null;
+    this.run = {rule: stepper + options, step, tolerance, duration};
+    this.failure = this.grown = null;
     this.instance.give(this.run.rule);
     this.call('start', step, tolerance, duration, Number(observe));
     this.going = true;
@@ -186,16 +186,31 @@ class Simulation {
     return {kinetic, elastic, gravitational, total: kinetic + elastic + gravitational, drag, dashpots, contact, wind, pins, balance};
   }
 
-  /**
-   * What grows in a run that failed: its velocities, with the longest of them 1, in the last state that is finite. Near
-   * the end the mode that grows is all that is left of them.
-   */
+  /** The mode that grows in a run that failed, its longest arrow 1; null where nothing of it is to be seen. */
   get growth() {
     if (this.going || this.verdict === 'ok' || this.scene.firstOrder) return null;
-    const now = this.velocities, finite = now.every(Number.isFinite), v = finite ? now : this.last.velocities;
+    return (this.grown ??= this.growingMode()).mode;
+  }
+
+  /**
+   * What grows in a run like this one: how velocities change in a step while none moves a particle by more than a tenth
+   * of the shortest spring, and the places then. Later the growth is no longer linear, and the mode is lost in others.
+   */
+  growingMode() {
+    const {rule, step, tolerance, duration} = this.run, [stepper, ...options] = rule.split('+');
+    const twin = this.lab.open(this.sceneText()), small = 0.1 * this.scene.rests.reduce((a, b) => Math.min(a, b), Infinity);
+    let mode = null, before = null, places = null;
+    twin.start({stepper, options: options.map(word => `+${word}`).join(''), step, tolerance, duration, observe: false});
+    for (let going = true, count = 0; going && count < 20000; ++count) {
+      going = twin.advance(twin.t + 0.5 * step);
+      const now = twin.velocities.slice(), change = before?.map((v, i) => now[i] - v);
+      if (change && !change.every(v => Math.abs(v) * step < small)) break;
+      mode = change, before = now, places = twin.positions.slice();
+    }
+    twin.close();
     let most = 0;
-    for (let i = 0; i < v.length; i += 3) most = Math.max(most, Math.hypot(v[i], v[i + 1], v[i + 2]));
-    return most > 0 && Number.isFinite(most) ? Float64Array.from(v, part => part / most) : null;
+    for (let i = 0; i < (mode?.length ?? 0); i += 3) most = Math.max(most, Math.hypot(mode[i], mode[i + 1], mode[i + 2]));
+    return {mode: most > 0 ? mode.map(part => part / most) : null, places};
   }
 
   /** RMS distance of the particles from those of another run, m. */
@@ -220,6 +235,7 @@ class Simulation {
     this.call(name, ...values);
     this.byHand = true;
     this.going = true;
+    this.failure = this.grown = null;
     this.limits.clear();
     this.remember();
     this.begun = {...this.last, centres: this.centres(0)};

@@ -140,23 +140,10 @@ const labExperiments = (() => {
     return toml.replace(/^size = .*$/m, `size = [${2 * columns}, ${2 * rows}]`).replace(/^particles = .*$/m, `particles = [0, ${2 * columns - 1}]`);
   }
 
-  /**
-   * What grows in a run that fails: the same run once more. What grows changes its sign in every step, so that it is what
-   * two steps differ by; it is taken while it moves the particles by less than a tenth of a cell in a step. `places`, m,
-   * are those of that moment.
-   */
+  /** The mode that grows in the lab's run A, the places that it is seen at, and how long its longest arrow is, m. */
   async function growingMode(r) {
-    const [run] = r.runs, sim = (await labModule()).open(r.toml), cell = Math.min(...sim.scene.rests);
-    let mode = null, before = null, places = null;
-    sim.start({stepper: run.method, options: '', step: run.step, tolerance: 1e-6, duration: r.duration, observe: false});
-    for (let going = true; going;) {
-      going = sim.advance(sim.t + 0.5 * run.step, 10);
-      const now = Float64Array.from(sim.velocities), change = before && now.map((v, i) => v - before[i]);
-      if (change && !change.every(v => Math.abs(v) * run.step < 0.1 * cell)) break;
-      mode = change, before = now, places = Float64Array.from(sim.positions);
-    }
-    sim.close();
-    return {mode, places, by: 0.7 * cell};
+    const {mode, places} = r.runs[0].sim.growingMode();
+    return {mode, places, by: 0.7 * Math.min(...r.runs[0].sim.scene.rests)};
   }
 
   return [

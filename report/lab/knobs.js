@@ -174,6 +174,9 @@ class MethodKnobs {
     this.sticky.checked = options.includes('sticky'), this.linear.checked = options.includes('linear');
     this.stickyLabel.hidden = !this.balls, this.linearLabel.hidden = !stepper?.linear;
     this.step.box.hidden = Boolean(stepper?.adaptive), this.tolerance.box.hidden = !stepper?.adaptive;
+    const taken = !run.refusal && !stepper?.adaptive && run.sim.h && Math.abs(run.sim.h / spec.step - 1) > 0.012 ? say('taken', {h: timeText(run.sim.h)}) : '';
+    this.note.textContent = run.refusal ? say('refused', {method: nameOfMethod(spec.method), reason: run.refusal}) : taken;
+    this.note.classList.toggle('failed', Boolean(run.refusal));
     if (stepper?.adaptive) return void this.tolerance.show(spec.tolerance);
     const base = Number.isFinite(scale) && scale > 0 ? scale : 4 * scene.step;
     const high = limit === Infinity ? interval : Math.min(interval, Math.max(2.5 * base, bound ? 2.2 * limit : 0)), low = Math.min(base / 40, bound ? limit / 4 : Infinity, high / 10);
@@ -183,12 +186,9 @@ class MethodKnobs {
     this.box.style.setProperty('--at', part);
     this.tick.hidden = !bound;
     this.box.classList.toggle('bound', bound || limit === 0);
-    this.box.classList.toggle('past', (bound && run.sim.h > limit) || limit === 0);
+    this.box.classList.toggle('past', (bound && !run.refusal && run.sim.h > limit) || limit === 0);
     this.mark.classList.toggle('placed', bound);
     this.mark.textContent = known ? say(bound ? 'limitMark' : 'limitBeyond', {h: timeText(limit), interval: timeText(interval)}) : say(limit === 0 ? 'limitNone' : limit === Infinity ? 'limitAll' : 'limitUnknown');
-    const taken = !run.refusal && run.sim.h && Math.abs(run.sim.h / spec.step - 1) > 0.012 ? say('taken', {h: timeText(run.sim.h)}) : '';
-    this.note.textContent = run.refusal ? say('refused', {method: nameOfMethod(spec.method), reason: run.refusal}) : taken;
-    this.note.classList.toggle('failed', Boolean(run.refusal));
   }
 }
 

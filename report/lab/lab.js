@@ -50,7 +50,7 @@ class LiveLab extends HTMLElement {
     this.replaceChildren(make('p', {class: 'lab-plain', role: 'status'}, say('waiting')));
     await new Promise(done => setTimeout(done));  // the words are there before the compiler takes the thread
     this.lab = await labModule();
-    const missing = !document.getElementById('lab-module') ? 'noModule' : !this.lab ? 'noWasm' : !plays ? 'noWebgl' : null;
+    const missing = !document.getElementById('lab-module') ? 'noModule' : !this.lab ? 'noWasm' : !startsWebGl() ? 'noWebgl' : null;
     if (missing) {
       this.dataset.state = 'unavailable';
       this.dataset.missing = missing;
@@ -311,7 +311,7 @@ class LiveLab extends HTMLElement {
   frame(now) {
     this.asked = false;
     if (!this.isConnected || !this.view) return;
-    const passed = this.lastFrame && now - this.lastFrame < 500 ? Math.min(0.1, (now - this.lastFrame) / 1000) : 0;
+    const passed = this.lastFrame ? Math.min(0.1, (now - this.lastFrame) / 1000) : 0;  // a page that was away goes on where it was
     this.lastFrame = now;
     this.frameTime = Math.max(shortestFrame, Math.min(longestFrame, 0.8 * this.frameTime + 200 * passed));
     if (this.playing) {

@@ -262,12 +262,13 @@ const labActs = {
 
   /** Places at some times of the scene, as far as they are found quickly: what the camera has to hold. */
   preview() {
-    const [a] = this.runs, {scene} = a.sim, pictures = [Float64Array.from(a.sim.positions)];
+    const [a] = this.runs, {scene} = a.sim, pictures = a.refusal ? [] : [Float64Array.from(a.sim.positions)];
     const begin = performance.now(), limit = a.sim.limit('leapfrog');
     for (const spec of [{method: 'leapfrog', step: limit > 0 && Number.isFinite(limit) ? 0.7 * limit : scene.step}, {method: 'rk4', step: scene.step}, {method: scene.method.replace(/^mysim\//, ''), step: scene.step}]) {
       try {
         const sim = this.lab.open(this.toml);
         sim.start(startOf(spec, scene.duration, false));
+        if (a.refusal) pictures.push(Float64Array.from(sim.positions));
         for (let i = 1; i <= 12 && performance.now() - begin < previewBudget; ++i) {
           sim.advance(scene.duration * i / 12, previewBudget - (performance.now() - begin));
           if (sim.verdict !== 'ok' || !isFinite3(sim.positions)) break;
@@ -279,7 +280,7 @@ const labActs = {
         continue;
       }
     }
-    return pictures;
+    return pictures.length ? pictures : [new Float64Array(3 * scene.particles)];
   },
 
   /** What is drawn: the runs, and the truth where it is wanted and known. */

@@ -53,6 +53,7 @@ class LiveRun {
       this.begin();
     } catch (problem) {
       this.refusal = problem.message;
+      this.sim = this.sim.lab.open(this.sim.toml);  // what is thrown ends an instance; the scene and its limits are still asked for
     }
     const {limit} = this;
     this.trails = !this.sim.scene.triangles.length;

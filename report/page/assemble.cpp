@@ -72,7 +72,6 @@ ReportData read_report(const fs::path& folder) {
   for (const JsonField& note : report["notes"].elements()) data.rows.notes.push_back(note.text());
   for (const JsonField& problem : report["problems"].elements()) data.problems.push_back(problem.text());
   for (const auto& [key, value] : report["provenance"].items()) data.provenance.emplace_back(key, value.text());
-  data.provenance = with_scenes(std::move(data.provenance), data.scenes);
   const std::string extent = report["extent"].text();
   const auto at = std::ranges::find(extents, extent);
   if (at == std::end(extents)) throw InputError(fmt::format("{}: extent: unknown word '{}'", folder.string(), extent));
@@ -80,6 +79,7 @@ ReportData read_report(const fs::path& folder) {
   data.all = data.scenes;
   if (data.extent != Extent::named)
     for (const Experiment& e : experiments()) add_missing(data.all, scenes_for(e, {}, data.extent == Extent::full));
+  data.provenance = with_scenes(std::move(data.provenance), data.all);
   return data;
 }
 
@@ -116,23 +116,10 @@ void write_bare(const Scene& scene, const std::vector<const MethodResult*>& show
 
 void draw_scene(const Scene& scene, const std::vector<const MethodResult*>& shown, const MotionBase& base, bool full,
                 const fs::path& folder) {
-  const std::optional<Truth>& truth = base.truth;
-  write_picture(picture_of(scene, shown, usual_shot(scene, full)), picture_file(folder, scene, "-picture"));
   const auto motions = stage_json(scene, base);
   if (!motions.empty()) write_file(motions_file(folder, scene), motions);
   const auto ok = std::ranges::find_if(shown, [](const MethodResult* r) { return r->outcome.verdict == Verdict::ok; });
   if (ok != shown.end()) write_bare(scene, {*ok}, 304, 171, full, picture_file(folder, scene, "-thumbnail"));
-  if (scene.triangles.empty() || !truth) return;
-  // the still picture of the first screen: the engines, and the truth as a result of its own
-  MethodResult known{scene.name, "truth", {}, truth->trajectory, {}, false};
-  std::vector<const MethodResult*> beside;
-  for (const std::string& method : {ours, theirs})
-    for (const MethodResult* r : shown)
-      if (r->method == method) beside.push_back(r);
-  for (const MethodResult* r : shown)
-    if (family_of(r->method).role == Role::outside) beside.push_back(r);
-  beside.push_back(&known);
-  write_bare(scene, beside, 760, 276, full, picture_file(folder, scene, "-hero"));
 }
 
 namespace {
@@ -216,8 +203,38 @@ class Assembly {
         if (std::ranges::any_of(images_of(s), [](const PageImage& image) { return !fs::exists(image.file); }))
           points.push_back({"picture: " + s.name, s.name, [this, &s](TableSet&) { draw_snapshot(s); }});
     }
+    for (ScenePart& part : page_.scenes)
+      if (is_first(part) && part.hero.empty() && !part.scene->triangles.empty()) {
+        part.hero = picture_file(folder_, *part.scene, "-hero");
+        points.push_back({"picture: " + part.scene->name + " by all", part.scene->name,
+                          [this, &part](TableSet&) { draw_first(part); }});
+      }
     for (const std::string& failed : points.empty() ? std::vector<std::string>() : workers(points))
       page_.problems.push_back(failed);
+    for (ScenePart& part : page_.scenes)
+      if (!fs::exists(part.hero)) part.hero.clear();
+  }
+
+  bool is_first(const ScenePart& part) const {
+    const std::vector<const ScenePart*> first = first_scenes(page_);
+    return std::ranges::find(first, &part) != first.end();
+  }
+
+  /// The still picture of the first screen: the runs that move there, and the truth as a result of its own.
+  void draw_first(const ScenePart& part) const {
+    const Scene& scene = *part.scene;
+    std::deque<MethodResult> results;
+    for (const ShownRun& run : part.runs) {
+      if (!run.beside) continue;
+      Recorder recorder;
+      Outcome out = run_method(find_method(run.method), scene, run.run, {&recorder});
+      results.push_back({scene.name, run.method, std::move(out), std::move(recorder.trajectory)});
+    }
+    if (const auto truth = truth_of(scene, default_run(scene)))
+      results.push_back({scene.name, "truth", {}, truth->trajectory});
+    std::vector<const MethodResult*> shown;
+    for (const MethodResult& result : results) shown.push_back(&result);
+    write_bare(scene, shown, 760, 276, data_.extent == Extent::full, part.hero);
   }
 
   void draw_snapshot(const Snapshot& s) const {

@@ -51,11 +51,11 @@ struct WrittenReport {
 WrittenReport write_report(ReportData& data, const std::filesystem::path& folder, const std::filesystem::path& against,
                            const Workers& workers);
 
-/// Where the pictures of a scene stand: "-picture", "-thumbnail", "-hero".
+/// Where the pictures of a scene stand: "-thumbnail", "-hero".
 std::filesystem::path picture_file(const std::filesystem::path& folder, const Scene& scene, const char* which);
 std::filesystem::path motions_file(const std::filesystem::path& folder, const Scene& scene);
 
-/// Draws the pictures of a scene from runs of the methods, and writes the stage of its motions.
+/// Draws the thumbnail of a scene from runs of the methods, and writes the stage of its motions.
 void draw_scene(const Scene& scene, const std::vector<const MethodResult*>& shown, const MotionBase& base, bool full,
                 const std::filesystem::path& folder);
 

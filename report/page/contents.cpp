@@ -38,7 +38,8 @@ std::vector<Chapter> chapters() {
        "that step halving it doubles the cost. The error of rules of order one then halves, of order two falls to a "
        "quarter.</p><p>Implicit and position-based rules take longer steps and pay for them in each step, and in "
        "damping.</p><p>Open marks are times of a part of the run, scaled. Crosses at the top are runs that failed, at "
-       "what they had cost by then.</p>"},
+       "what they had cost by then.</p>",
+       {{"euler-circle", "Euler's circle"}}},
       {"stability",
        "Where methods fail",
        "Failure",
@@ -50,7 +51,8 @@ std::vector<Chapter> chapters() {
        "<b>the kick overshoots by more than it corrects</b>, and the wave grows by a constant factor.</p><p>So one "
        "number decides: the fastest frequency. Stiffer springs, lighter particles and finer grids raise "
        "it.</p><p>Limits here are searched by runs and set beside what eigenvalues predict; runs that fail are data, "
-       "with the step and the time at which they did.</p>"},
+       "with the step and the time at which they did.</p>",
+       {{"cloth-bursts", "Where the cloth bursts"}}},
       {"energy",
        "Energy and the ball",
        "Energy and ball",
@@ -61,7 +63,8 @@ std::vector<Chapter> chapters() {
        "keep it within a band for as long as one likes; <b>implicit Euler damps</b>, like a drag that nobody asked "
        "for, and so do the rules built like it.</p><p>Contact is where engines differ most. Particles on slopes have a "
        "known answer: by Coulomb's law all "
-       "points fall on one line. What sticks where it should slide, or creeps where it should rest, leaves it.</p>"},
+       "points fall on one line. What sticks where it should slide, or creeps where it should rest, leaves it.</p>",
+       {{"pendulum-energy", "The pendulum's energy"}, {"ball-friction", "Sticky ball, sliding ball"}}},
       {"adequacy",
        "How little model is enough",
        "Least model",
@@ -72,7 +75,8 @@ std::vector<Chapter> chapters() {
        "and "
        "is held against the truth of the full scene.</p><p>What can go depends on the error that you accept: <b>at 1 % "
        "of the motion seldom anything, at 10 % often a family of springs</b>. Fewer springs also lower the fastest "
-       "frequency, so that the step may grow.</p>"},
+       "frequency, so that the step may grow.</p>",
+       {{"bend-springs", "What bend springs do"}}},
   };
 }
 

@@ -37,6 +37,12 @@ bool is_same_everywhere(const Stepper& rule) {
   return !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
 }
 
+/// A program that knows the command `lab`: this one, or, in tests, the one that they start.
+fs::path lab_program() {
+  const fs::path self = fs::read_symlink("/proc/self/exe");
+  return self.filename().string().starts_with("crosscheck") ? self : fs::path(CROSSCHECK_BINARY_DIR) / "crosscheck";
+}
+
 }  // namespace
 
 fs::path lab_module_file() { return fs::path(CROSSCHECK_BINARY_DIR) / "report" / "lab" / "lab.wasm"; }
@@ -67,7 +73,7 @@ Json lab_fingerprints_json(const std::vector<Scene>& scenes) {
 
 LabFingerprints lab_fingerprints(const std::vector<Scene>& scenes) {
   const TemporaryFolder folder("lab");
-  std::vector<std::string> call{fs::read_symlink("/proc/self/exe").string(), "lab", "--fingerprints"};
+  std::vector<std::string> call{lab_program().string(), "lab", "--fingerprints"};
   for (const Scene& scene : scenes) {
     const fs::path file = folder.path / (file_name_of(scene.name) + ".toml");
     write_file(file, scene.source);
@@ -121,8 +127,9 @@ std::string lab_page_html(const std::vector<Scene>& scenes) {
   std::vector<std::string> methods;
   for (const Stepper& rule : steppers()) methods.push_back(fmt::format("mysim/{}", rule.name));
   return page_head("Crosscheck: the lab", player_styles() + lab_styles()) +
-         "<nav><a class=\"name\" href=\"#top\">Crosscheck</a><span>mysim, live</span></nav>\n<main id=\"top\" "
-         "class=\"lab-page\">\n<live-lab data-alone></live-lab>\n</main>\n" +
+         "<nav><div><a class=\"name\" href=\"#top\">Crosscheck</a><span class=\"made\">the engine mysim, live in "
+         "this page</span></div></nav>\n<main id=\"top\" class=\"lab-page\">\n<live-lab data-alone></live-lab>\n"
+         "</main>\n" +
          lab_data_html(scenes) + script_json("id=\"methods-data\"", method_looks_json(methods).dump()) +
          player_scripts() + "</body></html>\n";
 }

@@ -82,10 +82,11 @@ std::string changes_html(const PageContent& c) {
   return out + "</section>\n";
 }
 
+}  // namespace
+
 // The first screen.
 
-/// The scenes that move there: the main one, and the last cloth with contact.
-std::vector<const ScenePart*> heroes(const PageContent& c) {
+std::vector<const ScenePart*> first_scenes(const PageContent& c) {
   const ScenePart *main = nullptr, *contact = nullptr;
   for (const ScenePart& part : c.scenes) {
     if (part.motions.empty() || part.thumbnail.empty()) continue;
@@ -97,6 +98,8 @@ std::vector<const ScenePart*> heroes(const PageContent& c) {
   if (contact && contact != main) all.push_back(contact);
   return all;
 }
+
+namespace {
 
 /// Whose view it is, and its error: the largest, which the player replaces by that of its time.
 std::string readouts(const ScenePart& part) {
@@ -124,7 +127,7 @@ std::string readouts(const ScenePart& part) {
 
 std::string hero_html(const PageContent& c) {
   std::string out;
-  for (const ScenePart* part : heroes(c)) {
+  for (const ScenePart* part : first_scenes(c)) {
     Json keys = Json::list();
     std::vector<std::string> names;
     for (const ShownRun& run : part->runs)
@@ -282,6 +285,14 @@ std::string with_critical_step(std::string formula, const PageContent& c) {
   return formula.replace(at, mark.size(), text);
 }
 
+/// Links to the guided experiments of the lab that belong to a chapter.
+std::string experiments_html(const Chapter& chapter) {
+  std::string links;
+  for (const auto& [name, title] : chapter.experiments)
+    links += fmt::format("{}<a href=\"#experiment={}\">{}</a>", links.empty() ? "" : ", ", name, escaped(title));
+  return links.empty() ? "" : fmt::format("<p>Try it in the lab: {}.</p>", links);
+}
+
 std::string chapter_html(const Chapter& chapter, size_t number, const PageContent& c) {
   std::string out =
       fmt::format("<section class=\"chapter\" id=\"{}\">\n<p class=\"of\">Chapter {} of {}</p><h2>{}</h2>\n",
@@ -293,11 +304,11 @@ std::string chapter_html(const Chapter& chapter, size_t number, const PageConten
   out += "<div class=\"lead\"><div>";
   if (chapter.id == "same-answer") out += parity_html(c.scenes);
   if (!leads.empty()) out += leads_html(leads, c) + drawing_without_script(leads[0].entry->figures[leads[0].figure], c);
-  out += fmt::format("</div><div class=\"teach\">{}{}</div></div>\n",
+  out += fmt::format("</div><div class=\"teach\">{}{}{}</div></div>\n",
                      chapter.formula.empty()
                          ? ""
                          : fmt::format("<div class=\"formula\">{}</div>", with_critical_step(chapter.formula, c)),
-                     chapter.teaching);
+                     chapter.teaching, c.lab.empty() ? "" : experiments_html(chapter));
   for (const Chapter::Entry& entry : chapter.entries)
     if (entry.shown) out += shown_html(entry, c);
   std::string folds;
@@ -465,6 +476,31 @@ bool opens_a_chapter(const PageContent& c, const std::string& figure) {
   });
 }
 
+namespace {
+
+/// The numbers of charts: of those in sight when the page opens, or is printed at once, as they are; the others packed.
+std::string chart_numbers_html(const PageContent& c) {
+  Json open = Json::object(), packed = c.charts;
+  std::vector<std::string> shown;
+  const auto show = [&](const std::string& figure) {
+    if (std::ranges::find(shown, figure) != shown.end()) return;
+    shown.push_back(figure);
+    open[figure] = packed[figure];
+    packed.erase(figure);
+  };
+  for (const Chapter& chapter : c.chapters) {
+    if (const std::vector<Lead> leads = leads_of(chapter, c); !leads.empty())
+      show(leads[0].entry->figures[leads[0].figure].name);
+    for (const Chapter::Entry& entry : chapter.entries)
+      for (const PageFigure& figure : entry.figures)
+        if (entry.shown) show(figure.name);
+  }
+  return script_json("id=\"open-charts\"", open.dump()) +
+         fmt::format("<script type=\"text/plain\" id=\"charts\">{}</script>\n", base64(gzipped(packed.dump())));
+}
+
+}  // namespace
+
 std::string page_html(const PageContent& c) {
   std::string out = page_head("Crosscheck: mysim" + beside_mysim(c), player_styles() + lab_styles()) +
                     contents_html(c) + "<main>\n" + first_screen(c) + changes_html(c);
@@ -476,7 +512,7 @@ std::string page_html(const PageContent& c) {
          fold_html("The words that this page uses", "explained", glossary_html()) +
          fold_html("All methods", "table", methods_html(), "methods") +
          fold_html("How this was made", "provenance", made_html(c), "made") + "</section>\n</main>\n";
-  out += fmt::format("<script type=\"text/plain\" id=\"charts\">{}</script>\n", base64(gzipped(c.charts.dump())));
+  out += chart_numbers_html(c);
   out += script_json("id=\"methods-data\"", method_looks_json(c.methods).dump());
   for (const ScenePart& part : c.scenes)
     if (!part.motions.empty())

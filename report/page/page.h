@@ -43,6 +43,7 @@ struct ShownRun {
   std::string method, setting;
   std::optional<double> error, cpu;  // m, s
   bool beside = false;               // the others on the first screen
+  Run run = {};
 };
 
 struct ScenePart {
@@ -72,6 +73,8 @@ struct Chapter {
   std::vector<std::string> joins;  // ids that charts name as their chapter
   std::vector<std::string> leads;  // figures that open it, "*" for any: the first that there is
   std::string formula, teaching;   // HTML; what a reader learns from it; "{critical}": the main scene's numbers
+  // guided experiments of the lab: their names (report/lab/experiments.js), and what a reader is shown
+  std::vector<std::pair<std::string, std::string>> experiments = {};
   std::vector<Entry> entries = {};
 };
 
@@ -94,6 +97,8 @@ struct PageContent {
 
 /// Names of its figures, in order: each is at #figure-NAME.
 std::vector<std::string> figures_of(const PageContent& content);
+/// The scenes that move on the first screen: the main one, and the last cloth with contact.
+std::vector<const ScenePart*> first_scenes(const PageContent& content);
 /// Whether the figure of that name opens a chapter, so that it is drawn for paper and for readers without scripts.
 bool opens_a_chapter(const PageContent& content, const std::string& figure);
 

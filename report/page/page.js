@@ -9,6 +9,8 @@
     return new Response(stream).text();
   };
   const methods = JSON.parse(document.getElementById('methods-data')?.textContent ?? '{}');
+  // the charts in sight at once; the others are unpacked when the first of them is asked for
+  const openCharts = JSON.parse(document.getElementById('open-charts')?.textContent ?? '{}');
   // What folds and cards hold may be packed: put back in their templates before anything is looked for there.
   const held = document.getElementById('held');
   const putBack = held ? unpacked(held).then(text => {
@@ -18,13 +20,16 @@
   }) : Promise.resolve();
 
   const packed = document.getElementById('charts');
-  const given = packed ? unpacked(packed).then(JSON.parse) : Promise.resolve({});
+  let unpacking = null;
+  const others = () => unpacking ??= packed ? unpacked(packed).then(JSON.parse) : Promise.resolve({});
 
   // Charts: drawn when they come near the window, again when it changes its width.
 
   const draw = async box => {
-    const all = await given, chart = all[box.dataset.chart];
-    if (chart && box.clientWidth) charts.draw(box, chart, methods);
+    if (!box.clientWidth) return;
+    // without a pause: a page that is printed as it opens does not wait
+    const chart = openCharts[box.dataset.chart] ?? (await others())[box.dataset.chart];
+    if (chart) charts.draw(box, chart, methods);
   };
   const seen = new IntersectionObserver(entries => {
     for (const entry of entries) if (entry.isIntersecting) draw(entry.target);

@@ -18,9 +18,9 @@ namespace crosscheck {
 namespace {
 
 /// In the order in which they know each other: pages from a folder cannot load modules.
-constexpr const char* scripts[] = {"unpack",   "vectors", "colours", "orbit", "shaders",       "gl",
-                                   "shapes",   "motion",  "bounds",  "stage", "pointer_input", "plot",
-                                   "controls", "player",  "runs"};
+constexpr const char* scripts[] = {"unpack", "vectors",  "colours", "orbit", "shaders",      "gl",
+                                   "shapes", "motion",   "bounds",  "stage", "raster_stage", "pointer_input",
+                                   "plot",   "controls", "player",  "runs"};
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "experiments/speed_accuracy/speed_accuracy.h"
 #include "experiments/tables/speed_accuracy.h"
 #include "report/findings/findings_text.h"
 #include "report/player/computed_runs.h"
@@ -16,7 +17,7 @@ namespace {
 class Chooser {
  public:
   Chooser(const ScenePart& part, const TableSet& rows, const std::function<bool(const std::string&)>& holds)
-      : part_(part), costs_(rows_of<SpeedAccuracyCostRow>(rows)) {
+      : part_(part), base_(default_run(*part.scene)), costs_(rows_of<SpeedAccuracyCostRow>(rows)) {
     std::map<std::string, int> places;
     for (const SpeedAccuracyRow& row : rows_of<SpeedAccuracyRow>(rows)) {
       if (row.scene != part.scene->name) continue;
@@ -24,7 +25,8 @@ class Chooser {
       if (row.verdict != Verdict::ok || !holds(row.method)) continue;
       charted_.push_back({fmt::format("{} {}", row.method, place), row.method,
                           setting_text(std::string(name_of(row.setting)), row.requested),
-                          row.error ? row.error : row.difference, cost_of(row), false});
+                          row.error ? row.error : row.difference, cost_of(row), false,
+                          Setting{row.setting == SettingKind::tolerance, row.requested}.applied_to(base_)});
       requested_.push_back({row.setting, row.requested});
     }
   }
@@ -68,7 +70,7 @@ class Chooser {
     const MethodData* m = part_.facts->find(method);
     if (m && m->ok() && family_of(method).role != Role::truth)
       add({method + " own", method, is_adaptive(method) ? "own tolerance" : step_text(m->step),
-           m->error ? m->error : m->from_contact, cost_at(*m), beside});
+           m->error ? m->error : m->from_contact, cost_at(*m), beside, base_});
   }
   /// Where a run of the chart took the same step, it was timed.
   std::optional<double> cost_at(const MethodData& m) const {
@@ -112,6 +114,7 @@ class Chooser {
   }
 
   const ScenePart& part_;
+  Run base_;  // at the scene's own step
   std::vector<SpeedAccuracyCostRow> costs_;
   std::vector<ShownRun> charted_, chosen_;
   std::vector<std::pair<SettingKind, double>> requested_;

@@ -103,17 +103,17 @@ void pack_tightly(const std::filesystem::path& file) {
 
 namespace {
 
-using Colour = std::array<int, 3>;  // 0 to 255
+using Rgb = std::array<int, 3>;  // 0 to 255
 
 struct Counted {
-  Colour colour;
+  Rgb colour;
   double count;  // pixels
 };
 
 /// Colours that are to become one.
 struct ColourBox {
   std::vector<Counted> colours;
-  Colour mean{};
+  Rgb mean{};
   int widest = 0;     // of red, green and blue
   double spread = 0;  // squares of distances from the mean along it
 
@@ -134,7 +134,7 @@ struct ColourBox {
 };
 
 /// At most 256 colours that stand for these: the box of the widest spread is cut at its mean, again and again.
-std::vector<Colour> few_of(std::vector<Counted> colours) {
+std::vector<Rgb> few_of(std::vector<Counted> colours) {
   std::vector<ColourBox> boxes{ColourBox(std::move(colours))};
   while (boxes.size() < 256) {
     const auto worst = std::ranges::max_element(boxes, {}, &ColourBox::spread);
@@ -153,7 +153,7 @@ std::vector<Colour> few_of(std::vector<Counted> colours) {
     *worst = ColourBox(std::move(box.colours));
     boxes.emplace_back(std::move(high));
   }
-  std::vector<Colour> few;
+  std::vector<Rgb> few;
   for (const ColourBox& box : boxes) few.push_back(box.mean);
   return few;
 }
@@ -162,15 +162,15 @@ std::vector<Colour> few_of(std::vector<Counted> colours) {
 
 std::string with_few_colours(const std::filesystem::path& file) {
   const Image image = read_png(file);
-  std::map<Colour, int> place;  // of each colour that there is: at first its pixels
-  const auto at = [&](size_t i) { return Colour{image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]}; };
+  std::map<Rgb, int> place;  // of each colour that there is: at first its pixels
+  const auto at = [&](size_t i) { return Rgb{image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]}; };
   for (size_t i = 0; i < image.rgb.size(); i += 3) ++place[at(i)];
   std::vector<Counted> colours;
   for (const auto& [colour, count] : place) colours.push_back({colour, static_cast<double>(count)});
-  const std::vector<Colour> few = few_of(std::move(colours));
+  const std::vector<Rgb> few = few_of(std::move(colours));
   for (auto& [colour, index] : place)
     index = static_cast<int>(std::ranges::min_element(few, {},
-                                                      [&](const Colour& other) {
+                                                      [&](const Rgb& other) {
                                                         int sum = 0;
                                                         for (size_t k = 0; k < 3; ++k)
                                                           sum += (colour[k] - other[k]) * (colour[k] - other[k]);
@@ -183,7 +183,7 @@ std::string with_few_colours(const std::filesystem::path& file) {
     pixels += static_cast<char>(place[at(i)]);
   }
   std::string palette = "PLTE", tight(compressBound(pixels.size()), '\0');
-  for (const Colour& colour : few)
+  for (const Rgb& colour : few)
     for (const int part : colour) palette += static_cast<char>(part);
   auto size = static_cast<uLongf>(tight.size());
   compress2(reinterpret_cast<Bytef*>(tight.data()), &size, reinterpret_cast<const Bytef*>(pixels.data()), pixels.size(),

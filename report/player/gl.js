@@ -1,10 +1,12 @@
 // Programs, buffers and textures of one WebGL2 context.
 
+const noContext = new Error('no WebGL2 context');
+
 class Gl {
-  /** Throws where the context cannot be had. */
+  /** Throws `noContext` where the context cannot be had. */
   constructor(canvas) {
     this.gl = canvas.getContext('webgl2', {antialias: true, alpha: false, powerPreference: 'low-power'});
-    if (!this.gl) throw new Error('no WebGL2 context');
+    if (!this.gl) throw noContext;
   }
 
   program(vertex, fragment, define = '') {

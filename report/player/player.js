@@ -1,5 +1,6 @@
 // <motion-player>: the motions of a scene's methods in lock-step. It stands behind the figure with the poster and the
-// scene's data, and puts its canvas over the poster while it is in sight. Without WebGL2 the poster stays alone.
+// scene's data, and puts its canvas over the poster while it is in sight. Without WebGL2 the poster stays alone, but for
+// the first screen, which needs none.
 
 const mostStages = 3;  // drawn scenes alive at once: browsers allow few contexts
 const alive = [];
@@ -7,15 +8,23 @@ const alive = [];
 const stillWanted = matchMedia('(prefers-reduced-motion: reduce)');
 const dark = matchMedia('(prefers-color-scheme: dark)');
 
-/** Whether this browser can play at all. */
-function canPlay() {
-  if (!('DecompressionStream' in window)) return false;
+/** Whether this browser can play at all, by what it knows: to start WebGL takes long where it draws in software. */
+let plays = 'DecompressionStream' in window && 'WebGL2RenderingContext' in window;
+document.documentElement.classList.toggle('plays', plays);
+
+/** Whether WebGL starts, for what is made of several parts that need it. */
+function startsWebGl() {
   const gl = document.createElement('canvas').getContext('webgl2');
   gl?.getExtension('WEBGL_lose_context')?.loseContext();
   return Boolean(gl);
 }
-const plays = canPlay();
-document.documentElement.classList.toggle('plays', plays);
+
+/** At its first use WebGL turned out not to start: the posters stay, without controls. */
+function playNothing() {
+  plays = false;
+  document.documentElement.classList.remove('plays');
+  document.querySelector('dialog.run')?.close();
+}
 
 /** A scene's stage, as it stands at the end of the page. */
 const sceneData = (() => {
@@ -42,6 +51,7 @@ class MotionPlayer extends HTMLElement {
     this.hero = this.dataset.shown ? JSON.parse(this.dataset.shown) : null;
     this.picks = this.dataset.a ? {a: this.dataset.a, b: this.dataset.b} : null;
     this.box = root.querySelector('.stage');
+    this.soft = this.hero && RasterStage.takes(scene);
     Object.assign(this, {time: 0, begin: 0, end: scene.times[scene.times.length - 1], untouched: true, speed: 1, pace: 1, playing: false, seen: false, orbit: new Orbit(scene.from), views: []});
     this.look = {colour: 'plain', springs: !scene.triangles};
     root.classList.toggle('comparing', Boolean(this.picks));
@@ -85,14 +95,16 @@ class MotionPlayer extends HTMLElement {
     const given = await shared;
     await this.loaded;
     if (this.stage) return;
-    while (alive.length >= mostStages) (alive.find(player => !player.seen) ?? alive[0]).sleep();
+    while (!this.soft && alive.length >= mostStages) (alive.find(player => !player.seen) ?? alive[0]).sleep();
     const canvas = make('canvas', {'aria-hidden': 'true'});
     canvas.addEventListener('webglcontextlost', () => this.stage?.canvas === canvas && this.sleep());
+    if (!plays && !this.soft) return;
     try {
-      this.stage = new Stage(canvas, this.scene, given);
+      this.stage = new (this.soft ? RasterStage : Stage)(canvas, this.scene, given);
     } catch (problem) {
-      this.hidden = true;  // the poster stays, without controls
-      throw problem;
+      this.hidden = true;
+      if (problem !== noContext) throw problem;
+      return playNothing();
     }
     this.titles = make('div', {class: 'titles', 'aria-hidden': 'true'});
     this.layer = make(
@@ -106,7 +118,7 @@ class MotionPlayer extends HTMLElement {
         canvas, this.titles);
     attachPointerInput(this.layer, this.orbit, () => this.draw());
     this.box.append(this.layer);
-    alive.push(this);
+    if (!this.soft) alive.push(this);
     this.showViews();
     this.dataset.state = 'ready';
     if (!performance.getEntriesByName('first-motion').length) performance.mark('first-motion');
@@ -219,10 +231,10 @@ class MotionPlayer extends HTMLElement {
   /** Gives its context back; the poster is there again. */
   sleep() {
     this.pause();
-    alive.splice(alive.indexOf(this), 1);
-    const {gl} = this.stage.tools;
+    if (!this.soft) alive.splice(alive.indexOf(this), 1);
+    const {stage} = this;
     this.stage = null;
-    gl.getExtension('WEBGL_lose_context')?.loseContext();
+    stage.release();
     this.layer.remove();
     this.dataset.state = 'asleep';
   }
@@ -282,7 +294,7 @@ class MotionPlayer extends HTMLElement {
 
   draw() {
     if (!this.stage || !this.views.length) return;
-    const {canvas} = this.stage, ratio = Math.min(2, window.devicePixelRatio || 1);
+    const {canvas} = this.stage, ratio = this.soft ? RasterStage.finer : Math.min(2, window.devicePixelRatio || 1);
     const wide = Math.round(this.box.clientWidth * ratio), high = Math.round(this.box.clientHeight * ratio);
     if (!wide || !high) return;
     if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, {width: wide, height: high});

@@ -54,6 +54,7 @@ async function playRun(key, marker) {
   dialog.addEventListener('click', event => event.target === dialog && shut());
   dialog.addEventListener('close', shut);  // by Escape
   dialog.showModal();
+  if (run) await player.wake();  // also where nothing moves by itself: who clicks wants to see it
 }
 
 /** The list of runs below a figure, made when it is opened first. */
@@ -96,6 +97,7 @@ async function choose(button) {
 if (plays) {
   window.listRuns = listRuns;
   document.addEventListener('click', event => {
+    if (!plays) return;
     const marker = event.target.closest?.('[data-run]'), figure = marker?.closest('figure[data-runs]');
     if (figure) playRun(figure.dataset.runs, marker);
     const button = event.target.closest?.('.choose button');

@@ -53,6 +53,9 @@ class Stage {
     Object.assign(this, boundsOf(scene, this.panels.map(p => p.motion)));
   }
 
+  /** Gives the context back. */
+  release() { this.tools.gl.getExtension('WEBGL_lose_context')?.loseContext(); }
+
   /** Writes places and values of a panel's particles (0 to 1, negative for none), four numbers each. */
   write({motion, other, top, points, normals}, time, colour) {
     const {scene, triangles} = this, places = motion.placesAt(time), into = points.data;

@@ -174,7 +174,7 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
   EXPECT_LE(drawn, 5) << "a chapter has one";
   EXPECT_TRUE(fs::exists(folder_ / "one/figures/circle-speed-accuracy-cost.svg")) << "the last scene stands for others";
   EXPECT_FALSE(fs::exists(folder_ / "one/figures/mine-agreement.svg"));
-  EXPECT_TRUE(fs::exists(folder_ / "one/figures/mine-picture.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "one/figures/mine-thumbnail.png"));
   EXPECT_TRUE(fs::exists(folder_ / "one/data/mine-motions.json"));
   EXPECT_NE(page.find("<motion-player data-scene=\"mine\""), std::string::npos);
   EXPECT_NE(page.find("<script type=\"application/json\" class=\"motion\" data-scene=\"mine\">"), std::string::npos);

@@ -23,12 +23,15 @@ class InBrowser : public InFolder {
                                   "--no-first-run",
                                   "--force-prefers-reduced-motion",  // nothing moves unless it is told to
                                   "--user-data-dir=" + (folder_ / "profile").string(),
-                                  "--window-size=900,800",
-                                  "--virtual-time-budget=60000"};
+                                  "--window-size=900,800"};
+    if (!real_time_) call.emplace_back("--virtual-time-budget=60000");
     call.insert(call.end(), flags.begin(), flags.end());
     call.push_back("file://" + page.string());
     return run_program(call, folder_);
   }
+
+  /// Time passes as it does for a reader; the page says by its load event when it is done (real_time.js).
+  bool real_time_ = false;
 
   /// These files of tests/unit as scripts, for the head of a page.
   static std::string scripts(const std::vector<std::string>& names) {

@@ -6,6 +6,7 @@
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/text.h"
 #include "report/base/assets.h"
 #include "report/lab/live_run.h"
 #include "report/page/lab_html.h"
@@ -126,6 +127,59 @@ class LabModule : public InBrowser {
   static std::string self_test(const char* name) {
     return read(fs::path(CROSSCHECK_SOURCE) / "tests/unit/report" / name);
   }
+
+  static std::vector<Scene> scenes_of(const std::vector<std::string>& names) {
+    std::vector<Scene> scenes;
+    for (const std::string& name : names) scenes.push_back(load_scene(name));
+    return scenes;
+  }
+
+  /// What a self-test of the lab's use saw, in real time; its complaints are failures. `edit` changes the page before,
+  /// and it is opened at `place`.
+  JsonField use(const std::vector<Scene>& scenes, const std::string& call, void (*edit)(std::string& page) = nullptr,
+                const std::string& place = "") {
+    real_time_ = true;
+    const fs::path file = page_with(
+        scenes, self_test("real_time.js") + self_test("lab_use_selftest.js") + self_test("lab_guide_selftest.js"),
+        "inRealTime(() => " + call + ")");
+    if (edit) {
+      std::string page = read(file);
+      edit(page);
+      write_file(file, page);
+    }
+    JsonField all = seen(file.string() + place, {});
+    if (const auto problem = all.find("problem")) ADD_FAILURE() << problem->text();
+    if (const auto lines = all.find("lines"))
+      for (const std::string& line : lines->texts()) ADD_FAILURE() << line;
+    return all;
+  }
+
+  /// Every stepper in a scene bursts above its critical step and holds below it.
+  void expect_bursts(const std::string& scene) {
+    const JsonField all = use(scenes_of({scene}), "labUse.bursts('" + scene + "')");
+    const auto tried = all.find("tried");
+    ASSERT_TRUE(tried);
+    EXPECT_EQ(tried->size(), static_cast<size_t>(std::ranges::count_if(steppers(), [](const Stepper& s) {
+                return !s.adaptive && !s.hard_constraints && s.evaluations > 0;
+              })));
+  }
+
+  /// Scenes that the lab saved run natively to the same bits.
+  static void run_natively(const JsonField& all, size_t count) {
+    const auto saves = all.find("saves");
+    ASSERT_TRUE(saves);
+    EXPECT_EQ(saves->size(), count);
+    for (const JsonField& save : saves->elements()) {
+      SCOPED_TRACE(save["name"].text() + ": " + save["command"].text());
+      const Scene scene = parse_scene(save["text"].text(), "saved.toml", "saved");
+      EXPECT_EQ(scene.method, save["method"].text());
+      EXPECT_EQ(scene.step, save["step"].number());
+      LiveRun live(scene);
+      live.start({scene.method, scene.step, 1e-6, scene.duration, false});
+      live.advance(1e300, static_cast<int>(save["steps"].whole()));
+      EXPECT_EQ(live.fingerprint(), save["fingerprint"].text());
+    }
+  }
 };
 
 TEST_F(LabModule, GivesTheNativeBitsInNode) {
@@ -166,6 +220,212 @@ TEST_F(LabModule, FingerprintsAreThoseOfAnyInstructionSet) {
     EXPECT_GE(all.at(scene.name).size(), 7u);
     for (const auto& [rule, digits] : all.at(scene.name)) EXPECT_EQ(digits, expected[scene.name][rule].text()) << rule;
   }
+}
+
+TEST_F(LabModule, FirstStepsHaveTheFingerprintsOfThePage) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const JsonField all = use(shipped(), fmt::format("labUse.firstSteps({})", fingerprinted_steps));
+  EXPECT_GT(all["checked"].number(), 100);  // 20 scenes, most of which take seven such rules
+}
+
+TEST_F(LabModule, SlidersOfClothsChangeTheirNumberAlone) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const JsonField all = use(shipped(), "labUse.sliders(Object.keys(labScenes()).filter(name => /^cloth/.test(name)))");
+  EXPECT_GT(all["moved"].number(), 150);  // three places of each
+}
+
+TEST_F(LabModule, SlidersOfOtherScenesChangeTheirNumberAlone) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const JsonField all = use(shipped(), "labUse.sliders(Object.keys(labScenes()).filter(name => !/^cloth/.test(name)))");
+  EXPECT_GT(all["moved"].number(), 100);
+}
+
+TEST_F(LabModule, MarksAreTheNativeCriticalSteps) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const std::vector<Scene> scenes = shipped();
+  const JsonField all = use(scenes, "labUse.marks(Object.keys(labScenes()))");
+  const auto words = all.find("words");
+  ASSERT_TRUE(words);
+  int marked = 0;
+  for (const Scene& scene : scenes) {
+    const LiveRun live(scene);
+    for (const auto& [rule, field] : (*words)[scene.name].items()) {
+      SCOPED_TRACE(scene.name + " by " + rule);
+      const auto& table = steppers();
+      const auto row = std::ranges::find(table, rule, &Stepper::name);
+      ASSERT_NE(row, table.end());
+      const std::optional<double> limit = live.critical_step(*row);
+      const std::string text = field.text();
+      if (!limit)
+        EXPECT_EQ(text, "no critical step is predicted here");
+      else if (*limit == 0)
+        EXPECT_EQ(text, "predicted: stable at no step");
+      else if (!std::isfinite(*limit))
+        EXPECT_EQ(text, "predicted: stable at every step");
+      else {
+        const std::string before = "predicted critical step ";
+        ASSERT_TRUE(text.starts_with(before)) << text;
+        const size_t unit = text.find(' ', before.size()) + 1;
+        const double size = text.compare(unit, 3, "µs") == 0 ? 1e-6 : text.compare(unit, 2, "ms") == 0 ? 1e-3 : 1;
+        EXPECT_NEAR(std::stod(text.substr(before.size())) * size / *limit, 1, 0.006) << text;  // in three digits
+        ++marked;
+      }
+    }
+  }
+  EXPECT_GT(marked, 60);
+}
+
+TEST_F(LabModule, BurstsAboveTheMarkAloneOnTheHangingCloth) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  expect_bursts("cloth-hang");
+}
+
+TEST_F(LabModule, BurstsAboveTheMarkAloneOnTheFlag) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  expect_bursts("flag");
+}
+
+TEST_F(LabModule, BurstsAboveTheMarkAloneOnASpring) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  expect_bursts("spring");
+}
+
+TEST_F(LabModule, NoFrameComputesLongWhileItBursts) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const JsonField all = use(scenes_of({"cloth-hang"}), "labUse.burstsInFrames('cloth-hang')");
+  EXPECT_GT(all["frames"].number(), 20);
+  // ms; a frame in which the machine did something else is passed over
+  EXPECT_LT(all["longest"].numbers().at(2), 100);
+}
+
+TEST_F(LabModule, AHandHoldsPinsAndLetsGo) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  use(scenes_of({"cloth-hang"}), "labUse.handByPointer('cloth-hang', 399)");
+}
+
+TEST_F(LabModule, KeysOfThePictureDoWhatAPointerDoes) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  use(scenes_of({"cloth-hang"}), "labUse.keysOfPicture('cloth-hang')");
+}
+
+TEST_F(LabModule, ChangedScenesComeBackByLinkAndRunNatively) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  run_natively(use(scenes_of({"cloth-hang", "chain", "circle"}), "labUse.changedScenes()"), 3);
+}
+
+TEST_F(LabModule, ScenesChangedByHandComeBackByLinkAndRunNatively) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  run_natively(use(scenes_of({"cloth-hang", "cloth-carried", "cloth-swing"}), "labUse.changedByHand()"), 5);
+}
+
+TEST_F(LabModule, StandsAsItsAddressSays) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const auto at = [&](const std::string& place) {
+    return use(scenes_of({"cloth-hang", "spring"}), "labUse.byAddress()", nullptr, place);
+  };
+  const JsonField state = at("#lab=" + base64(R"({"scene":"spring","changes":{"spring.stiffness":50},)"
+                                              R"("methods":[{"method":"rk4","step":0.002}]} )"));
+  EXPECT_EQ(state["scene"].text(), "spring");
+  EXPECT_EQ(state["method"].text(), "rk4");
+  EXPECT_EQ(state["step"].number(), 0.002);
+  EXPECT_EQ(state["stiffness"].number(), 50);
+  EXPECT_EQ(state["t"].number(), 0);
+  EXPECT_FALSE(state["running"].boolean());
+  const JsonField experiment = at("#experiment=pendulum-energy");
+  EXPECT_EQ(experiment["experiment"].text(), "pendulum-energy");
+  EXPECT_EQ(experiment["phase"].text(), "ask");
+  EXPECT_EQ(experiment["scene"].text(), "pendulum");
+  EXPECT_EQ(at("#lab=brokenaddress")["scene"].text(), "cloth-hang");
+}
+
+TEST_F(LabModule, DroppedFilesAreOpenedOrRefusedWithTheirLine) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  use(scenes_of({"spring"}), "labUse.drops()");
+}
+
+TEST_F(LabModule, NothingMovesBeforeRunWhereMotionIsReduced) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  use(scenes_of({"cloth-hang", "spring"}), "labUse.reducedMotion()");
+}
+
+TEST_F(LabModule, TabReachesEveryControl) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const JsonField all =
+      use(scenes_of({"cloth-sphere"}),
+          "labUse.tabOrder({scene: 'cloth-sphere', methods: [{method: 'leapfrog'}, {method: 'rk4'}]})");
+  const auto found = all.find("stops");
+  ASSERT_TRUE(found);
+  const std::vector<std::string> stops = found->texts();
+  // from the head to the picture, then what drives it, methods, the scene's numbers, doors
+  auto from = stops.begin();
+  for (const char* next :
+       {"scene", "language", "picture", "run", "step", "restart", "resetView", "A", "step-A range", "B", "step-B range",
+        "grid.mass range", "sphere.friction range", "copyLink", "saveToml", "copyCommand", "openToml"}) {
+    from = std::find(from, stops.end(), next);
+    ASSERT_NE(from, stops.end()) << next << " is not reached behind the one before, in " << fmt::format("{}", stops);
+  }
+}
+
+TEST_F(LabModule, SaysPlainlyThatThereIsNoWebAssembly) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const JsonField all = use(scenes_of({"spring"}), "labUse.unavailable()", [](std::string& page) {
+    page.insert(page.find("<body"), "<script>delete window.WebAssembly;</script>");
+  });
+  EXPECT_EQ(all["missing"].text(), "noWasm");
+  EXPECT_NE(all["words"].text().find("does not run WebAssembly"), std::string::npos) << all["words"].text();
+  EXPECT_EQ(all["still"].text(), "unavailable");
+  EXPECT_EQ(all["controls"].number(), 0);
+  EXPECT_NE(all["chinese"].text(), all["words"].text());
+}
+
+TEST_F(LabModule, SaysPlainlyThatTheModuleIsNotThere) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const JsonField all = use(scenes_of({"spring"}), "labUse.unavailable()", [](std::string& page) {
+    const size_t begin = page.find("<script type=\"application/json\" id=\"lab-module\">");
+    page.erase(begin, page.find("</script>", begin) + 9 - begin);
+  });
+  EXPECT_EQ(all["missing"].text(), "noModule");
+  EXPECT_NE(all["words"].text().find("clang, lld, wasi-libc"), std::string::npos) << all["words"].text();
+  EXPECT_EQ(all["still"].text(), "unavailable");
+  EXPECT_EQ(all["controls"].number(), 0);
+  EXPECT_NE(all["chinese"].text(), all["words"].text());
+}
+
+TEST_F(LabModule, WordsAreThereInBothLanguages) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const JsonField all = use(scenes_of({"spring"}), "labGuideTest.table()");
+  EXPECT_GT(all["keys"].number(), 300);
+}
+
+TEST_F(LabModule, GuidedExperimentsGoToTheirEndInEnglish) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  EXPECT_EQ(use({}, "labGuideTest.run('en', true, true)")["steps"].size(), 22u);
+}
+
+TEST_F(LabModule, GuidedExperimentsGoToTheirEndInChinese) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  EXPECT_EQ(use({}, "labGuideTest.run('zh', false, false)")["steps"].size(), 22u);
 }
 
 }  // namespace

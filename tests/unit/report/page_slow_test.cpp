@@ -424,7 +424,8 @@ TEST_F(RunsPage, WithoutWebGlNothingPretendsToPlay) {
   NEEDS_CHROMIUM;
   const JsonField saw = seen(charts(), {"--disable-3d-apis"});
   EXPECT_EQ(saw["windows"].dump(), "[]");
-  EXPECT_EQ(saw["lists"].number(), 0);
+  EXPECT_EQ(saw["lists"].number(), 0) << "after the first click, which shows what the browser lacks";
+  EXPECT_EQ(saw["dialogs"].number(), 0);
   EXPECT_EQ(saw["complaints"].dump(), "[]");
 }
 
@@ -436,6 +437,30 @@ TEST_F(PlayerPage, WithoutWebGlThePosterStays) {
   EXPECT_EQ(saw["height"].number(), 0) << "no controls that control nothing";
   EXPECT_EQ(saw["canvases"].number(), 0);
   EXPECT_EQ(saw["complaints"].dump(), "[]");
+}
+
+TEST_F(PlayerPage, TheFirstScreenOfAClothNeedsNoWebGl) {
+  NEEDS_CHROMIUM;
+  const Played played(load_scene("cloth-sphere"), {"mysim/symplectic-euler", "mysim/leapfrog"});
+  played.draw(304, 171, folder_ / "poster.png");
+  PageContent content;
+  content.chapters = chapters();
+  content.main_scene = played.scene.name;
+  const SceneData facts{.scene = played.scene.name, .tier = "converged"};
+  ScenePart part{&played.scene, &facts, {}};
+  part.thumbnail = part.hero = folder_ / "poster.png";
+  part.motions = write("motions.json", played.motions);
+  for (const char* method : {"mysim/symplectic-euler", "mysim/leapfrog"})
+    part.runs.push_back({std::string(method) + " own", method, "1 ms", 2e-3, {}, true});
+  content.scenes = {part};
+  content.runs = {played.runs(folder_)};
+  std::string html = page_html(content);
+  html.insert(html.find("</head>"), scripts({"stage_selftest.js", "hero_selftest.js"}));
+  const JsonField saw = seen(write("page.html", html), {"--disable-3d-apis"});
+  EXPECT_EQ(saw["complaints"].dump(), "[]");
+  EXPECT_GT(saw["drawn"].number(), 0.05) << "part of the picture that is not background";
+  EXPECT_EQ(saw["panels"].number(), 3) << "both runs, and the truth";
+  for (const char* what : {"moves", "returns", "turns", "poster"}) EXPECT_TRUE(saw[what].boolean()) << what;
 }
 
 /// Two engines' drapes of 64 x 64 particles in 150 frames, as the page holds them.

@@ -7,11 +7,13 @@
 #include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
 #include "experiments/tables/certificates.h"
+#include "experiments/tables/speed_accuracy.h"
 #include "mysim/base/files.h"
 #include "report/base/provenance.h"
 #include "report/page/assemble.h"
 #include "report/page/page.h"
 #include "report/page/player_html.h"
+#include "report/page/shown_runs.h"
 #include "report/page/smaller.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
@@ -292,6 +294,63 @@ TEST_F(WholePage, TextsOfScenesCannotBecomeMarkup) {
   EXPECT_EQ(count(html, "<script"), count(html, "</script>"));
 }
 
+/// The runs that a scene's part shows of these runs of its chart: method, step (s), error (m), CPU time (s).
+class ShownRuns : public ::testing::Test {
+ protected:
+  void chart(const std::string& method, double step, double error, double cpu) {
+    Table runs = table_of<SpeedAccuracyRow>(), costs = table_of<SpeedAccuracyCostRow>();
+    SpeedAccuracyRow run{.scene = scene_.name, .method = method, .requested = step, .step = step};
+    run.error = error;
+    add(runs, run);
+    add(costs, SpeedAccuracyCostRow{.scene = scene_.name, .method = method, .requested = step, .cpu = cpu});
+    rows_.add(runs), rows_.add(costs);
+  }
+  void own(const std::string& method, double error, Verdict verdict = Verdict::ok) {
+    MethodData& data = facts_.methods.emplace_back();
+    data.method = method, data.verdict = verdict, data.step = time_grid(default_run(scene_)).h, data.error = error;
+  }
+  std::vector<ShownRun> shown(std::optional<RecommendedRun> take) {
+    facts_.scene = scene_.name, facts_.motion = 1;
+    ScenePart part{&scene_, &facts_, {}};
+    part.take = std::move(take);
+    return shown_runs(part, rows_, [](const std::string&) { return true; });
+  }
+  static std::vector<std::string> keys(const std::vector<ShownRun>& runs) {
+    std::vector<std::string> all;
+    for (const ShownRun& run : runs) all.push_back(run.key + (run.beside ? " beside" : ""));
+    return all;
+  }
+  Scene scene_ = load_scene("chain");
+  SceneData facts_;
+  TableSet rows_;
+};
+
+TEST_F(ShownRuns, BeginWithTheRecommendedOneAndEachEnginesOwnAndTakeTheCheapestOfTheOthers) {
+  chart("mysim/leapfrog", 2e-3, 5e-3, 1e-3), chart("mysim/leapfrog", 1e-3, 1e-3, 2e-3);
+  chart("mysim/rk4", 2e-3, 2e-2, 3e-3), chart("mysim/rk4", 1e-3, 4e-3, 6e-3), chart("mysim/rk4", 5e-4, 1e-5, 12e-3);
+  for (const char* method : {"mysim/symplectic-euler", "bullet/deformable-explicit"}) own(method, 1e-3);
+  own("mysim/explicit-euler", 1, Verdict::energy);
+  const auto runs = shown(RecommendedRun{.method = "mysim/leapfrog", .requested = 2e-3});
+  EXPECT_EQ(keys(runs), (std::vector<std::string>{"mysim/leapfrog 0 beside", "bullet/deformable-explicit own beside",
+                                                  "mysim/symplectic-euler own", "mysim/rk4 1"}))
+      << "of rk4 the cheapest within 1 %, of what failed nothing";
+  EXPECT_EQ(runs[0].run.step, 2e-3) << "what the page calls by this step was run at it";
+  EXPECT_EQ(runs[1].run.step, default_run(scene_).step);
+  EXPECT_EQ(runs[0].cpu, 1e-3);
+}
+
+TEST_F(ShownRuns, OfASceneWithoutRecommendationAreTheEnginesOwn) {
+  for (const char* method : {"mysim/symplectic-euler", "bullet/deformable-explicit"}) own(method, 1e-3);
+  EXPECT_EQ(keys(shown({})),
+            (std::vector<std::string>{"mysim/symplectic-euler own beside", "bullet/deformable-explicit own beside"}));
+}
+
+TEST_F(ShownRuns, AreNineAtMost) {
+  for (const Method& method : all_methods())
+    if (method.family().by_default()) own(method.name, 1e-3);
+  EXPECT_EQ(shown({}).size(), 9u);
+}
+
 /// A small report, assembled as the program does it: two scenes under a few methods, their data in the folder.
 class Assembled : public InFolder {
  protected:
@@ -327,8 +386,14 @@ class Assembled : public InFolder {
   std::vector<std::string> drawn_;
 };
 
-/// The numbers of all charts, as the page's script unpacks them.
-JsonField charts_in(const std::string& html) {
+/// The numbers of the charts that are in sight when the page opens.
+JsonField open_charts_in(const std::string& html) {
+  const std::string begin = "<script type=\"application/json\" id=\"open-charts\">";
+  return JsonField::parse(between(html, begin, "</script>").substr(begin.size()), "charts in sight");
+}
+
+/// Those of the others, as the page's script unpacks them.
+JsonField packed_charts_in(const std::string& html) {
   const std::string begin = "<script type=\"text/plain\" id=\"charts\">";
   const std::string bytes = bytes_of_base64(between(html, begin, "</script>").substr(begin.size()));
   size_t length = 0;  // gzip's last four bytes
@@ -340,7 +405,7 @@ TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
   write_tables();
   const WrittenReport report = written(data_, folder_);
   const std::string html = page();
-  const JsonField charts = charts_in(html);
+  const JsonField open = open_charts_in(html), packed = packed_charts_in(html);
   const std::vector<std::string> figures = figures_of(report.page);
   EXPECT_GT(std::set(figures.begin(), figures.end()).size(), 5u);
   int compared = 0;
@@ -349,8 +414,9 @@ TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
     EXPECT_TRUE(contains(html, fmt::format("data-chart=\"{}\"", name)));
     EXPECT_TRUE(std::filesystem::exists(folder_ / "figures" / (name + ".gp")));
     const Table table = read_csv(folder_ / "figures" / (name + ".csv"));
-    const auto chart = charts.find(name);
+    const auto chart = open.find(name) ? open.find(name) : packed.find(name);
     ASSERT_TRUE(chart);
+    if (opens_a_chapter(report.page, name)) EXPECT_TRUE(open.find(name)) << "is drawn where a page is printed at once";
     EXPECT_EQ((*chart)["name"].text(), name);
     if ((*chart)["kind"].text() != "curves") continue;
     std::map<std::string, size_t> rows;

@@ -2,6 +2,8 @@
 async function use(player, seen) {
   const {scene} = player, end = scene.times[scene.times.length - 1], height = document.body.scrollHeight;
   await player.wake();
+  seen.able = document.documentElement.classList.contains('plays');
+  if (!seen.able) return;
   player.pause();
   seen.jump = document.body.scrollHeight - height;
   player.seek(0.1 * end);
@@ -41,15 +43,19 @@ async function use(player, seen) {
 addEventListener('load', async () => {
   const seen = {able: document.documentElement.classList.contains('plays')};
   const player = document.querySelector('motion-player'), poster = document.querySelector('.stage img');
-  const {width, height} = poster.getBoundingClientRect();
-  seen.poster =
-      poster.naturalWidth > 0 && width > 200 && height > 50 && getComputedStyle(poster).visibility === 'visible';
-  seen.height = player.getBoundingClientRect().height;
+  const lookAtPoster = () => {
+    const {width, height} = poster.getBoundingClientRect();
+    seen.poster =
+        poster.naturalWidth > 0 && width > 200 && height > 50 && getComputedStyle(poster).visibility === 'visible';
+    seen.height = player.getBoundingClientRect().height;
+  };
+  lookAtPoster();
   try {
     if (seen.able) await use(player, seen);
   } catch (problem) {
     complaints.push(String(problem.stack));
   }
+  if (!seen.able) lookAtPoster();  // after its first use, which shows what the browser lacks
   seen.canvases = document.querySelectorAll('.stage canvas').length;
   tell(seen);
 });

@@ -30,10 +30,10 @@ addEventListener('load', async () => {
   await until(() => document.querySelectorAll('figure[data-runs]').length === 2);  // the map stands in a fold
   for (const box of document.querySelectorAll('figure[data-runs] .drawn')) await drawn(box);
   const [chart, map] = document.querySelectorAll('figure[data-runs]');
-  const seen = {windows: [], lists: document.querySelectorAll('.run-list').length};
+  const seen = {windows: []}, able = Boolean(document.createElement('canvas').getContext('webgl2'));
   const click = element => element.dispatchEvent(new MouseEvent('click', {bubbles: true}));
   try {
-    if (seen.lists) {
+    if (able) {
       for (const marker of [...chart.querySelectorAll('[data-run]'), map.querySelector('[data-run]')]) {
         click(marker);
         seen.windows.push(await look());
@@ -46,6 +46,11 @@ addEventListener('load', async () => {
       seen.windows.push(await look());
     } else {
       click(chart.querySelector('[data-run]'));
+      await until(() => !document.documentElement.classList.contains('plays'));
+      click(chart.querySelector('[data-run]'));
+      await until(() => !document.querySelector('dialog'));
+      seen.lists = [...document.querySelectorAll('.run-list')].filter(list => list.offsetHeight > 0).length;
+      seen.dialogs = document.querySelectorAll('dialog').length;
     }
   } catch (problem) {
     complaints.push(String(problem.stack));
