@@ -133,9 +133,10 @@ class Controls {
     this.play.setAttribute('aria-label', `${playing ? 'Pause' : 'Play'} ${this.scene.scene}`);
   }
 
+  /** `top`: the largest difference, m; null where it is not known. */
   setPicks(picks, top) {
     this.pickers.forEach((picker, i) => picker.show(picks[i]));
-    this.scale.replaceChildren(make('b', {}, 'A − B'), ...(top > 0 ? ['0', make('i', {class: 'ramp'}), length(top)] : ['no difference']));
+    this.scale.replaceChildren(make('b', {}, 'A − B'), ...(top > 0 ? ['0', make('i', {class: 'ramp'}), length(top)] : top === 0 ? ['no difference'] : []));
   }
 
   /** `scale`: {top, unit} of what colours mean, or null. */

@@ -64,7 +64,7 @@ class MotionPlayer extends HTMLElement {
       pick: this.picks && ((letter, key) => this.pick({[letter]: key}))
     });
     if (this.picks) {
-      this.controls.setPicks([this.picks.a, this.picks.b], 0);
+      this.controls.setPicks([this.picks.a, this.picks.b], null);
       this.controls.setHint(this.words());
     }
     this.controls.setPlaying(false);
@@ -191,6 +191,7 @@ class MotionPlayer extends HTMLElement {
       plots.push({title: 'departure from rest', unit: 'm', series: [{name: '', css: a.look.css, well: false, points: off}]});
       this.controls.setHint(this.given.caption);
     }
+    if (this.missing.length && this.picks) this.controls.setPicks([this.picks.a, this.picks.b], null);
     if (this.missing.length) this.controls.setHint([...this.missing, this.picks ? this.words() : ''].join(' '));
     this.controls.setPlots(plots, this.begin, this.end);
     if (this.untouched && !this.hero) this.time = this.picks && !pictures ? Math.min(this.end, scene.at ?? this.end) : this.begin;

@@ -46,32 +46,6 @@ TEST(Prose, NumbersWithTheirUnitsAreBoldAndNamesAreNot) {
   EXPECT_EQ(prose_with_bold_numbers("cloth-hang-6, a < b"), "cloth-hang-6, a &lt; b");
 }
 
-TEST(Smaller, ScriptsLoseTheirCommentsAndKeepTheirTexts) {
-  EXPECT_EQ(script_without_comments(
-                "// Why.\n/** What. */\nfunction f() {\n  /**\n   * More.\n   */\n  return 1;  // here\n}\n"),
-            "function f() {\nreturn 1;  // here\n}\n");
-  const std::string shader = "const s = `\n  // of the shader\n  x = 1;\n`;\n";
-  EXPECT_EQ(script_without_comments(shader), shader);
-  EXPECT_EQ(script_without_comments("const t = `one ${1} line`;\n  const u = 2;"),
-            "const t = `one ${1} line`;\nconst u = 2;\n");
-}
-
-TEST(Smaller, FoldsArePackedWithWhatTheyHold) {
-  const std::string inner = "<p>a</p><template>b</template>",
-                    end = "<script type=\"text/plain\" id=\"charts\"></script>";
-  const std::string page =
-      "<i></i><template data-scene=\"s\">" + inner + "</template><b></b><template>c</template>" + end;
-  const std::string packed = with_folds_packed(page);
-  EXPECT_TRUE(contains(packed,
-                       "<i></i><template data-scene=\"s\" data-held=\"0\"></template><b></b><template "
-                       "data-held=\"1\"></template><script"));
-  const std::string held = between(packed, "id=\"held\">", "</script>").substr(10);
-  const std::string list = Json(std::vector<std::string>{inner, "c"}).dump();
-  EXPECT_EQ(gunzipped(bytes_of_base64(held), list.size()), list);
-  EXPECT_TRUE(contains(packed, end));
-  EXPECT_EQ(with_folds_packed("<b></b>" + end), "<b></b>" + end) << "nothing is folded";
-}
-
 TEST(Glossary, ExplainsEachWordOnce) {
   const std::string html = glossary_html();
   EXPECT_TRUE(contains(html, "<div id=\"word-truth\">"));
@@ -115,6 +89,32 @@ void expect_links_lead_somewhere(const std::string& html) {
     EXPECT_TRUE(html.find(fmt::format("id=\"{}\"", id)) != std::string::npos ||
                 html.find(fmt::format("<template data-scene=\"{}\">", id)) != std::string::npos)
         << id;
+}
+
+TEST(Smaller, ScriptsLoseTheirCommentsAndKeepTheirTexts) {
+  EXPECT_EQ(script_without_comments(
+                "// Why.\n/** What. */\nfunction f() {\n  /**\n   * More.\n   */\n  return 1;  // here\n}\n"),
+            "function f() {\nreturn 1;  // here\n}\n");
+  const std::string shader = "const s = `\n  // of the shader\n  x = 1;\n`;\n";
+  EXPECT_EQ(script_without_comments(shader), shader);
+  EXPECT_EQ(script_without_comments("const t = `one ${1} line`;\n  const u = 2;"),
+            "const t = `one ${1} line`;\nconst u = 2;\n");
+}
+
+TEST(Smaller, FoldsArePackedWithWhatTheyHold) {
+  const std::string inner = "<p>a</p><template>b</template>",
+                    end = "<script type=\"text/plain\" id=\"charts\"></script>";
+  const std::string page =
+      "<i></i><template data-scene=\"s\">" + inner + "</template><b></b><template>c</template>" + end;
+  const std::string packed = with_folds_packed(page);
+  EXPECT_TRUE(contains(packed,
+                       "<i></i><template data-scene=\"s\" data-held=\"0\"></template><b></b><template "
+                       "data-held=\"1\"></template><script"));
+  const std::string held = between(packed, "id=\"held\">", "</script>").substr(10);
+  const std::string list = Json(std::vector<std::string>{inner, "c"}).dump();
+  EXPECT_EQ(gunzipped(bytes_of_base64(held), list.size()), list);
+  EXPECT_TRUE(contains(packed, end));
+  EXPECT_EQ(with_folds_packed("<b></b>" + end), "<b></b>" + end) << "nothing is folded";
 }
 
 TEST(Contents, LeadToEveryPartThatIsThere) {
