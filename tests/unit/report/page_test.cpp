@@ -416,7 +416,9 @@ TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
     const Table table = read_csv(folder_ / "figures" / (name + ".csv"));
     const auto chart = open.find(name) ? open.find(name) : packed.find(name);
     ASSERT_TRUE(chart);
-    if (opens_a_chapter(report.page, name)) EXPECT_TRUE(open.find(name)) << "is drawn where a page is printed at once";
+    if (opens_a_chapter(report.page, name)) {
+      EXPECT_TRUE(open.find(name)) << "is drawn where a page is printed at once";
+    }
     EXPECT_EQ((*chart)["name"].text(), name);
     if ((*chart)["kind"].text() != "curves") continue;
     std::map<std::string, size_t> rows;
