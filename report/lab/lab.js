@@ -11,6 +11,7 @@ const longestFrame = 120;     // ms, by which budgets go where drawing is slow
 const slowestPace = 0.1;      // of the clock, while it waits for the truth
 const longestWait = 2500;     // ms of waiting for the truth
 const smallScene = 1500;      // particles; larger ones have no truth, and no energy balance unless asked
+const fingerprintedSteps = 50; // as lab_html.h
 const previewBudget = 150;    // ms for finding out how far a scene moves
 
 /** The scenes of the page: {name: {toml, fingerprint}}. */
@@ -177,6 +178,7 @@ class LiveLab extends HTMLElement {
     const [a] = this.runs, {scene} = a.sim;
     Object.assign(this, {clock: 0, end: scene.duration, byHand: false, growth: null, waiting: null, passed: [], average: null});
     this.dropTruth();
+    this.bits = this.bitsOf(a);
     for (const run of this.runs) run.look = lookOfRun(run.letter);
     this.hand.held = this.hand.grabbed = null;
     if (fresh) {
@@ -189,6 +191,25 @@ class LiveLab extends HTMLElement {
     this.sample();
     this.showViews();
     this.showState();
+  }
+
+  /**
+   * Whether the first steps of a scene of the page are here what the native engine made of them, bit for bit: the page
+   * holds their fingerprint. Null where it holds none: other scenes, and rules that need not give the same bits.
+   */
+  bitsOf({spec}) {
+    const {toml, fingerprint} = labScenes()[this.sceneName] ?? {}, expected = fingerprint?.[spec.method];
+    if (!expected || this.toml !== toml) return null;
+    const key = `${this.sceneName} ${spec.method}`;
+    this.knownBits ??= new Map();
+    if (!this.knownBits.has(key)) {
+      const sim = this.lab.open(toml);
+      sim.start({stepper: spec.method, observe: false});
+      sim.call('advance', Infinity, fingerprintedSteps);
+      this.knownBits.set(key, sim.fingerprint() === expected);
+      sim.close();
+    }
+    return this.knownBits.get(key);
   }
 
   restart() {

@@ -417,7 +417,8 @@ const labActs = {
     if (this.playing && this.passed.length > 20 && pace < 0.9) words.push(say('behind', {x: Number(pace.toPrecision(2))}));
     if (!this.playing && this.clock >= this.end - 1e-9 && !runs.some(run => run.failed)) words.push(say('endReached'));
     view.readout.textContent = words.join(' · ');
-    view.truthWords.textContent = this.truthWords();
+    const bits = this.bits === null ? '' : say(this.bits ? 'sameBits' : 'otherBits', {stepper: this.methods[0].method});
+    view.truthWords.textContent = [this.truthWords(), bits].filter(Boolean).join(' ');
   },
 
   /** What the truth is here, or why there is none. */

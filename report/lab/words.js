@@ -98,6 +98,8 @@ const labWords = {
   error: ['RMS error', '均方根误差'],
   difference: ['RMS difference from a finer run', '与更细步长结果的均方根差'],
   errorBar: ['± {bar}', '± {bar}'],
+  sameBits: ['The first 50 steps of {stepper} are those of the native engine, bit for bit.', '{stepper} 的前 50 步与本机引擎逐位相同。'],
+  otherBits: ['The first 50 steps of {stepper} are not those of the native engine: this browser computes otherwise.', '{stepper} 的前 50 步与本机引擎不同：此浏览器的计算方式不一样。'],
   truthIs: ['Truth: {stepper} at {h}.', '真值：{stepper}，步长 {h}。'],
   truthByHand: ['Truth: {stepper} at {h}, from the state left by the hand.', '真值：{stepper}，步长 {h}，自手动改变后的状态起算。'],
   truthSame: ['Truth: the same stepper at a hundredth of the step.', '真值：同一方法，步长为百分之一。'],
