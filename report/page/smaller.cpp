@@ -65,10 +65,20 @@ std::string svg_element(std::string_view file, const std::string& label) {
   const size_t begin = file.find("<svg");
   if (begin == std::string_view::npos) return "";
   std::string out = fmt::format("<svg role=\"img\" aria-label=\"{}\"", escaped(label));
-  bool blank = false;
-  for (const char sign : file.substr(begin + 4)) {
+  bool blank = false, in_tag = true;
+  for (size_t at = begin + 4; at < file.size(); ++at) {
+    const char sign = file[at];
     const bool space = sign == '\n' || sign == '\t' || sign == ' ';
-    if (!space || !blank) out += space ? ' ' : sign;
+    in_tag = sign == '<' || (in_tag && sign != '>');
+    if (in_tag && sign == '.') {  // of a coordinate: no zeros at its end
+      const size_t end = std::min(file.find_first_not_of("0123456789", at + 1), file.size());
+      std::string_view part = file.substr(at, end - at);
+      part.remove_suffix(part.size() - 1 - part.find_last_not_of('0'));
+      if (part.size() > 1) out.append(part);
+      at = end - 1;
+    } else if (!space || !blank) {
+      out += space ? ' ' : sign;
+    }
     blank = space;
   }
   return out;

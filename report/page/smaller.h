@@ -14,7 +14,7 @@ std::string script_without_comments(std::string_view script);
 /// scripts nobody sees it either way.
 std::string with_folds_packed(const std::string& page);
 
-/// An SVG file as an element of the page: its <svg> alone, in few lines.
+/// An SVG file as an element of the page: its <svg> alone, in one line, no coordinate with zeros at its end.
 std::string svg_element(std::string_view file, const std::string& label);
 
 }  // namespace crosscheck

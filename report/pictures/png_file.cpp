@@ -133,10 +133,12 @@ struct ColourBox {
   }
 };
 
-/// At most 256 colours that stand for these: the box of the widest spread is cut at its mean, again and again.
+constexpr size_t most_colours = 128;
+
+/// At most so many colours that stand for these: the box of the widest spread is cut at its mean, again and again.
 std::vector<Rgb> few_of(std::vector<Counted> colours) {
   std::vector<ColourBox> boxes{ColourBox(std::move(colours))};
-  while (boxes.size() < 256) {
+  while (boxes.size() < most_colours) {
     const auto worst = std::ranges::max_element(boxes, {}, &ColourBox::spread);
     if (!(worst->spread > 0)) break;
     ColourBox box = std::move(*worst);

@@ -15,7 +15,7 @@ void set_resolution(const std::filesystem::path& file, double pixels_per_inch);
 /// Packs the same pixels as small as zlib can: a report holds a dozen of them. Throws as set_resolution().
 void pack_tightly(const std::filesystem::path& file);
 
-/// The bytes of a PNG file with at most 256 colours, where that is smaller: what a screen shows beside text.
+/// The bytes of a PNG file with at most 128 colours, where that is smaller: what a screen shows beside text.
 std::string with_few_colours(const std::filesystem::path& file);
 
 }  // namespace crosscheck::render

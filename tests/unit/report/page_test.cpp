@@ -101,6 +101,13 @@ TEST(Smaller, ScriptsLoseTheirCommentsAndKeepTheirTexts) {
             "const t = `one ${1} line`;\nconst u = 2;\n");
 }
 
+TEST(Smaller, DrawingsKeepTheirNumbersAndTheirWords) {
+  EXPECT_EQ(
+      svg_element("<?xml?>\n<svg\n width='10.00'>\n\n<path d='M1.50,20.00 L3.07,.40'/><text>1.00</text></svg>\n",
+                  "a & b"),
+      "<svg role=\"img\" aria-label=\"a &amp; b\" width='10'> <path d='M1.5,20 L3.07,.4'/><text>1.00</text></svg> ");
+}
+
 TEST(Smaller, FoldsArePackedWithWhatTheyHold) {
   const std::string inner = "<p>a</p><template>b</template>",
                     end = "<script type=\"text/plain\" id=\"charts\"></script>";
