@@ -81,10 +81,13 @@ class Motions {
     return !run.is_null() && !run.find("failure") && !run.find("times") && !(tolerance && tolerance->number() > loose);
   }
 
-  /// The largest departure of a run that every build computes with the same bits, m.
-  std::optional<double> departure(size_t i) const {
+  /// Whether every build computes a run with the same bits.
+  bool is_exact(size_t i) const {
     const Stepper* rule = stepper_of(name_);
-    if (!is_left_out(i) || rule->adaptive || (rule->evaluations == 0 && !rule->hard_constraints)) return std::nullopt;
+    return is_left_out(i) && !rule->adaptive && (rule->evaluations > 0 || rule->hard_constraints);
+  }
+  /// The largest departure of a run, m.
+  double departure(size_t i) const {
     const JsonField run = json_["runs"][i];
     const auto& [modes, frames, shapes, paths] = parts_[i];
     if (modes == 0) return 0;
@@ -106,12 +109,13 @@ class Motions {
   }
 
   /// Writes the file again, without the runs that are left out and do not stay.
-  void write(const std::set<std::string>& stay, const std::string& reference) const {
+  void write(const std::set<std::string>& stay, const std::string& reference, double nearest) const {
     std::vector<std::uint16_t> shapes, paths;
     Json runs = Json::list();
     for (size_t i = 0; i < size(); ++i) {
       Json run = built(json_["runs"][i]);
-      if (is_left_out(i) && key(i) != reference && !stay.contains(key(i))) {
+      // what is much nearer to the base than the reference is lost in how finely that is told
+      if (is_left_out(i) && key(i) != reference && !stay.contains(key(i)) && departure(i) >= nearest / 3) {
         run.erase("unit"), run.erase("path");
         run["modes"] = 0, run["computed"] = true;
       } else {
@@ -141,20 +145,21 @@ class Motions {
   size_t modes_ = 0;  // of all runs
 };
 
-/// The key of the run with the longest step among those about as near to the base as the nearest; empty without any.
-std::string reference_of(const std::vector<Motions>& files) {
-  struct Candidate {
-    std::string key;
-    double departure, step;
-  };
+struct Candidate {
+  std::string key;
+  double departure, step;  // m, s
+};
+
+/// The run with the longest step among those about as near to the base as the nearest.
+std::optional<Candidate> reference_of(const std::vector<Motions>& files) {
   std::vector<Candidate> all;
   for (const Motions& file : files)
     for (size_t i = 0; i < file.size(); ++i)
-      if (const auto departure = file.departure(i)) all.push_back({file.key(i), *departure, file.step(i)});
-  if (all.empty()) return "";
+      if (file.is_exact(i)) all.push_back({file.key(i), file.departure(i), file.step(i)});
+  if (all.empty()) return std::nullopt;
   const double least = std::ranges::min(all, {}, &Candidate::departure).departure;
   std::erase_if(all, [&](const Candidate& c) { return c.departure > 1.5 * least; });
-  return std::ranges::max(all, {}, &Candidate::step).key;
+  return std::ranges::max(all, {}, &Candidate::step);
 }
 
 }  // namespace
@@ -171,10 +176,10 @@ void leave_out_computed(std::span<const FileOfRuns> files, const std::set<std::s
   std::vector<Motions> all;
   all.reserve(files.size());
   for (const FileOfRuns& file : files) all.emplace_back(file);
-  const std::string reference = reference_of(all);
-  if (reference.empty()) return;
+  const std::optional<Candidate> reference = reference_of(all);
+  if (!reference) return;
   for (const Motions& file : all)
-    if (file.size() > 0) file.write(stay, reference);
+    if (file.size() > 0) file.write(stay, reference->key, reference->departure);
 }
 
 }  // namespace crosscheck

@@ -22,8 +22,8 @@ struct FileOfRuns {
 };
 
 /// Leaves the motions of what the page computes out of all files of one scene, and marks the reference. Those whose
-/// keys (ShownRun) are given stay, and those that failed or chose their own steps loosely; all do where no run is fit
-/// to be the reference.
+/// keys (ShownRun) are given stay, and those that failed or chose their own steps loosely, or that lie nearer to the
+/// base than the reference; all do where no run is fit to be the reference.
 void leave_out_computed(std::span<const FileOfRuns> files, const std::set<std::string>& stay);
 
 }  // namespace crosscheck
