@@ -55,6 +55,14 @@ TEST(Glossary, ExplainsEachWordOnce) {
   EXPECT_GT(ids.size(), 15u);
 }
 
+/// What was packed as gzip in base64.
+std::string unpacked_text(const std::string& base64) {
+  const std::string bytes = bytes_of_base64(base64);
+  size_t length = 0;  // gzip's last four bytes
+  for (int i = 1; i <= 4; ++i) length = length << 8 | static_cast<unsigned char>(bytes.at(bytes.size() - i));
+  return gunzipped(bytes, length);
+}
+
 /// The part of a text from one word to another.
 std::string between(const std::string& text, const std::string& from, const std::string& to) {
   const size_t begin = text.find(from);
@@ -388,6 +396,24 @@ class Assembled : public InFolder {
     for (const Scene& scene : data_.scenes) write_file(folder_ / "data/scenes" / (scene.name + ".toml"), scene.source);
   }
   std::string page() const { return read(folder_ / "index.html"); }
+  /// The page as it is once its folds are put back.
+  std::string whole_page() const {
+    std::string html = page();
+    const std::string begin = "<script type=\"text/plain\" id=\"held\">";
+    const std::string text = unpacked_text(between(html, begin, "</script>").substr(begin.size()));
+    const JsonField folds = JsonField::parse(text, "folds");
+    int i = 0;
+    for (const JsonField& fold : folds.elements()) {
+      const std::string mark = fmt::format(" data-held=\"{}\">", i++);
+      const size_t at = html.find(mark);
+      if (at == std::string::npos) {
+        ADD_FAILURE() << "no template holds fold " << i - 1;
+        continue;
+      }
+      html.replace(at, mark.size(), ">" + fold.text());
+    }
+    return html;
+  }
 
   ReportData data_;
   std::vector<std::string> drawn_;
@@ -402,16 +428,13 @@ JsonField open_charts_in(const std::string& html) {
 /// Those of the others, as the page's script unpacks them.
 JsonField packed_charts_in(const std::string& html) {
   const std::string begin = "<script type=\"text/plain\" id=\"charts\">";
-  const std::string bytes = bytes_of_base64(between(html, begin, "</script>").substr(begin.size()));
-  size_t length = 0;  // gzip's last four bytes
-  for (int i = 1; i <= 4; ++i) length = length << 8 | static_cast<unsigned char>(bytes.at(bytes.size() - i));
-  return JsonField::parse(gunzipped(bytes, length), "charts");
+  return JsonField::parse(unpacked_text(between(html, begin, "</script>").substr(begin.size())), "charts");
 }
 
 TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
   write_tables();
   const WrittenReport report = written(data_, folder_);
-  const std::string html = page();
+  const std::string html = whole_page();
   const JsonField open = open_charts_in(html), packed = packed_charts_in(html);
   const std::vector<std::string> figures = figures_of(report.page);
   EXPECT_GT(std::set(figures.begin(), figures.end()).size(), 5u);
@@ -455,7 +478,7 @@ TEST_F(Assembled, EveryFigureHasAsManyPointsAsItsTable) {
 TEST_F(Assembled, EverySceneHasACardAndWhatItOpens) {
   write_tables();
   written(data_, folder_);
-  const std::string html = page(), scenes = between(html, "id=\"scenes\"", "id=\"words\"");
+  const std::string html = whole_page(), scenes = between(html, "id=\"scenes\"", "id=\"words\"");
   EXPECT_EQ(count(scenes, "<a class=\"card\""), 2);
   for (const Scene& scene : data_.scenes) {
     SCOPED_TRACE(scene.name);
