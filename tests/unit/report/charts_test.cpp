@@ -232,7 +232,8 @@ TEST(ChartJson, CurvesOfUpTo600PointsAreWhole) {
     const auto& drawn = std::get<Figure>(chart.figure).curves[0].points;
     for (int i = 0; i < count; ++i) {
       ASSERT_NEAR(points[i][0].number(), drawn[i].first, 1e-4 * drawn.back().first) << "of what the axis shows";
-      ASSERT_NEAR(points[i][1].number(), drawn[i].second, 5e-4 * drawn[i].second) << "four digits of a logarithmic axis";
+      ASSERT_NEAR(points[i][1].number(), drawn[i].second, 5e-4 * drawn[i].second)
+          << "four digits of a logarithmic axis";
     }
   }
 }

@@ -150,7 +150,8 @@ TEST(Start, SaysWhatIsWrongWithIt) {
   message("[start]\npositions = [0, 0, 0]\n", "start.positions: expected a list of 6 finite numbers, got 3");
   message("[start]\npositions = [0, 0, 0, 1, 0, nan]\n", "start.positions[5]: expected a finite number");
   message("[start]\npositions = 3\n", "start.positions: expected a list of 6 finite numbers, got 3");
-  message("[start]\nvelocities = [0, 0, 0, 0, 0, 0]\n", "start.positions: is missing; expected a list of three numbers for each particle");
+  message("[start]\nvelocities = [0, 0, 0, 0, 0, 0]\n",
+          "start.positions: is missing; expected a list of three numbers for each particle");
   message("[start]\npositions = [0, 0, 0, 1, 0, 0]\nvelocities = [0, 1, 0, 0, 0, 0]\n", "pins that start at rest");
 }
 
