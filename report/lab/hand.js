@@ -89,8 +89,15 @@ class Hand {
     }
     if (!grabbed.moved && Math.hypot(now[0] - grabbed.from[0], now[1] - grabbed.from[1]) < 4) return;
     grabbed.moved = true;
-    const place = this.under(event, grabbed, this.held?.place);
-    this.hold(grabbed.particle, place, grabbed.run);
+    this.lead(event);
+  }
+
+  /** Puts the particle that a pointer has under it: where the pointer moves, and where the camera or the picture does. */
+  lead({clientX, clientY}) {
+    const {grabbed} = this;
+    grabbed.pointer = {clientX, clientY};
+    const was = this.held?.place, place = this.under(grabbed.pointer, grabbed, was);
+    if (!was || norm(minus(place, was)) > 1e-9 * this.act.stage().size) this.hold(grabbed.particle, place, grabbed.run);
   }
 
   up(event) {

@@ -73,7 +73,7 @@ class LiveLab extends HTMLElement {
     });
     const {stage} = this.view;
     new IntersectionObserver(([entry]) => (this.seen = entry.isIntersecting, this.wake())).observe(this);
-    new ResizeObserver(() => this.draw()).observe(stage);
+    new ResizeObserver(() => (this.draw(), this.wake())).observe(stage);
     dark.addEventListener('change', () => this.runs.length && this.showViews());
     for (const name of ['dragenter', 'dragover', 'dragleave', 'drop']) this.addEventListener(name, event => this.dragged(event));
     this.dataset.state = 'ready';
@@ -340,6 +340,7 @@ class LiveLab extends HTMLElement {
       while (this.frames[0] < now - 1000) this.frames.shift();
     } else this.frames = [];
     if (!this.stage) this.showViews();
+    if (this.stage && this.hand.grabbed?.pointer) this.hand.lead(this.hand.grabbed.pointer);
     if (this.waiting) this.moveHeld();
     const was = this.pending;
     if (was) this.sample();

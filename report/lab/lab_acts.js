@@ -338,8 +338,9 @@ const labActs = {
     return stage.moving;
   },
 
-  /** The camera steps back where a run that is well leaves the view. */
+  /** The camera steps back where a run that is well leaves the view, but not while a pointer leads a particle in it. */
   keepInView() {
+    if (this.hand.grabbed) return;
     const run = this.runs.find(r => !r.failed && !r.bursting && r.places && !this.stage.sees(r.places));
     if (!run || this.pictures.length > 60) return;
     this.pictures.push(Float64Array.from(run.places));

@@ -70,7 +70,8 @@ std::string svg_element(std::string_view file, const std::string& label) {
     const char sign = file[at];
     const bool space = sign == '\n' || sign == '\t' || sign == ' ';
     in_tag = sign == '<' || (in_tag && sign != '>');
-    if (in_tag && sign == '.') {  // of a coordinate: no zeros at its end
+    const bool in_number = sign == '.' && at + 1 < file.size() && file[at + 1] >= '0' && file[at + 1] <= '9';
+    if (in_tag && in_number) {  // of a coordinate: no zeros at its end
       const size_t end = std::min(file.find_first_not_of("0123456789", at + 1), file.size());
       std::string_view part = file.substr(at, end - at);
       part.remove_suffix(part.size() - 1 - part.find_last_not_of('0'));
@@ -81,6 +82,10 @@ std::string svg_element(std::string_view file, const std::string& label) {
     }
     blank = space;
   }
+  // inside HTML the names of the languages are known
+  for (const std::string_view name : {" xmlns=\"", " xmlns:xlink=\""})
+    for (size_t at; (at = out.find(name)) != std::string::npos;)
+      out.erase(at, out.find('"', at + name.size()) + 1 - at);
   return out;
 }
 

@@ -55,14 +55,6 @@ TEST(Glossary, ExplainsEachWordOnce) {
   EXPECT_GT(ids.size(), 15u);
 }
 
-/// What was packed as gzip in base64.
-std::string unpacked_text(const std::string& base64) {
-  const std::string bytes = bytes_of_base64(base64);
-  size_t length = 0;  // gzip's last four bytes
-  for (int i = 1; i <= 4; ++i) length = length << 8 | static_cast<unsigned char>(bytes.at(bytes.size() - i));
-  return gunzipped(bytes, length);
-}
-
 /// The part of a text from one word to another.
 std::string between(const std::string& text, const std::string& from, const std::string& to) {
   const size_t begin = text.find(from);
@@ -397,23 +389,7 @@ class Assembled : public InFolder {
   }
   std::string page() const { return read(folder_ / "index.html"); }
   /// The page as it is once its folds are put back.
-  std::string whole_page() const {
-    std::string html = page();
-    const std::string begin = "<script type=\"text/plain\" id=\"held\">";
-    const std::string text = unpacked_text(between(html, begin, "</script>").substr(begin.size()));
-    const JsonField folds = JsonField::parse(text, "folds");
-    int i = 0;
-    for (const JsonField& fold : folds.elements()) {
-      const std::string mark = fmt::format(" data-held=\"{}\">", i++);
-      const size_t at = html.find(mark);
-      if (at == std::string::npos) {
-        ADD_FAILURE() << "no template holds fold " << i - 1;
-        continue;
-      }
-      html.replace(at, mark.size(), ">" + fold.text());
-    }
-    return html;
-  }
+  std::string whole_page() const { return with_folds_put_back(page()); }
 
   ReportData data_;
   std::vector<std::string> drawn_;

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "mysim/base/json.h"
+
 namespace crosscheck::testing_tools {
 
 // What stands in a PDF as cairo writes it: the size of its page and of its letters.
@@ -68,6 +70,33 @@ inline std::string gunzipped(std::string bytes, size_t length) {
   inflateEnd(&stream);
   if (status != Z_STREAM_END || stream.total_out != length) throw std::runtime_error("not the gzip that was expected");
   return out;
+}
+
+/// What was packed as gzip in base64.
+inline std::string unpacked_text(const std::string& base64) {
+  const std::string bytes = bytes_of_base64(base64);
+  size_t length = 0;  // gzip's last four bytes
+  for (size_t i = 1; i <= 4; ++i) length = length << 8 | static_cast<unsigned char>(bytes.at(bytes.size() - i));
+  return gunzipped(bytes, length);
+}
+
+/// A page as it is once its folds are put back.
+inline std::string with_folds_put_back(std::string page) {
+  const std::string begin = "<script type=\"text/plain\" id=\"held\">";
+  const size_t from = page.find(begin);
+  if (from == std::string::npos) return page;
+  const size_t text = from + begin.size();
+  const JsonField folds = JsonField::parse(unpacked_text(page.substr(text, page.find('<', text) - text)), "folds");
+  int i = 0;
+  for (const JsonField& fold : folds.elements()) {
+    const std::string mark = " data-held=\"" + std::to_string(i++) + "\">";
+    const size_t at = page.find(mark);
+    if (at == std::string::npos)
+      ADD_FAILURE() << "no template holds fold " << i - 1;
+    else
+      page.replace(at, mark.size(), ">" + fold.text());
+  }
+  return page;
 }
 
 inline std::vector<std::uint16_t> unpacked(size_t count, size_t lag, int order, const std::string& data) {
