@@ -254,8 +254,9 @@ void time_speed_accuracy(const Request& request, const Scene& scene, TableSet& t
       });
     }
   // the dear ones are most of the work, and their times spread least
-  const auto times = time_round_robin(
-      runs, {.least = 3, .most = request.full ? 9 : 7, .enough = request.full ? 0.05 : 0.02, .warm = 0.01});
+  const auto times =
+      time_round_robin(runs, request.full ? TimingOptions{.least = 3, .most = 9, .enough = 0.05, .warm = 0.05}
+                                          : TimingOptions{.least = 3, .most = 7, .enough = 0.02, .warm = 0.01});
   const double noise = times.empty() ? 0 : noise_floor(times);
   Table table = table_of<SpeedAccuracyTimingRow>();
   for (size_t i = 0; i < timed.size(); ++i) {

@@ -16,6 +16,7 @@
 #include "mysim/base/text.h"
 #include "reference/truth/independent/integrators.h"
 #include "report/commands/commands.h"
+#include "report/page/lab_html.h"
 
 namespace crosscheck {
 namespace {
@@ -57,7 +58,7 @@ int list_command(const std::string& what, bool json) {
 
 struct Tool {
   const char* name;
-  const char* package;  // Debian's
+  std::string_view package;  // Debian's
   const char* purpose;
   bool required;
 };
@@ -83,8 +84,7 @@ int doctor_command() {
       {"python3", "python3-numpy", "runs the example of an outside engine, with NumPy; the tests need it", false},
       {"ffmpeg", "ffmpeg", "writes clips: `render -o FILE.mp4`", false},
       {"clang++", "clang", "another compiler, in which `regress --prove-builds` builds too", false},
-      {"wasm-ld-14", "clang-14 lld-14 libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32",
-       "compiles mysim to WebAssembly, with clang: the lab in the page", false},
+      {"wasm-ld-14", lab_packages, "compiles mysim to WebAssembly, with clang: the lab in the page", false},
       {"node", "nodejs", "the tests run the lab's module in it", false},
       {"chromium", "chromium", "a browser: the tests try the page's player in it; prints the page as PDF", false},
   };

@@ -173,7 +173,6 @@ class Simulation {
   get t() { return this.broken ? this.last.t : this.call('time'); }
   get h() { return this.failure?.h ?? this.result.step; }
   get steps() { return this.failure?.steps ?? this.result.steps; }
-  get evaluations() { return this.broken ? 0 : this.result.evaluations; }
   get ended() { return !this.going; }
   get verdict() { return this.failure?.verdict ?? this.result.verdict; }
   get reason() { return this.failure?.reason ?? this.result.reason; }
@@ -230,14 +229,6 @@ class Simulation {
     return {mode: mode && longestOne(mode), places};
   }
 
-  /** RMS distance of the particles from those of another run, m. */
-  distance(other) {
-    const a = this.positions, b = other.positions;
-    let sum = 0;
-    for (let i = 0; i < a.length; ++i) sum += (a[i] - b[i]) ** 2;
-    return Math.sqrt(sum / this.scene.particles);
-  }
-
   /** 16 hexadecimal digits over the bits of positions and velocities. */
   fingerprint() { return this.instance.text(this.call('fingerprint')); }
 
@@ -275,37 +266,3 @@ class Simulation {
     this.instance = null;
   }
 }
-
-/** The text with the state that a run starts from, its pins, and its spheres where they start. */
-function withStart(toml, simulation) {
-  const {pins} = simulation.scene, {positions: x, velocities: v, centres} = simulation.begun;
-  const list = values => {
-    const lines = [];
-    for (let i = 0; i < values.length; i += 3) lines.push(`  ${[...values.slice(i, i + 3)].map(tomlDouble).join(', ')},`);
-    return `[\n${lines.join('\n')}\n]`;
-  };
-  const pinned = `particles = [${[...pins].join(', ')}]`;
-  let text = /^\[pins\]/m.test(toml) ? toml.replace(/(^\[pins\][^[]*?)particles\s*=\s*\[[^\]]*\]/m, (_, before) => before + pinned) :
-      pins.length                    ? `${toml.trimEnd()}\n\n[pins]\n${pinned}\n` :
-                                       toml;
-  if (!pins.length) text = withoutSection(withoutSection(text, 'pins.motion'), 'pins');
-  let sphere = 0;
-  text = text.replace(/^(\s*centre\s*=\s*)\[[^\]]*\]/gm, (whole, before) => {
-    const at = 3 * sphere++;
-    return at < centres.length ? `${before}[${[...centres.slice(at, at + 3)].map(tomlDouble).join(', ')}]` : whole;
-  });
-  return `${text.trimEnd()}\n\n[start]\npositions = ${list(x)}\n${v.length ? `velocities = ${list(v)}\n` : ''}`;
-}
-
-/** The text without a section, from its head to the next. */
-function withoutSection(toml, name) {
-  let inside = false;
-  return toml.split('\n').filter(line => {
-    const head = /^\s*\[\[?\s*([\w.-]+)\s*\]/.exec(line);
-    if (head) inside = head[1] === name;
-    return !inside;
-  }).join('\n');
-}
-
-/** The shortest text that gives the same double again. */
-const tomlDouble = value => (Object.is(value, -0) ? '-0.0' : String(value));

@@ -11,10 +11,9 @@ const longestFrame = 120;     // ms, by which budgets go where drawing is slow
 const slowestPace = 0.1;      // of the clock, while it waits for the truth
 const longestWait = 2500;     // ms of waiting for the truth
 const smallScene = 1500;      // particles; larger ones have no truth, and no energy balance unless asked
-const fingerprintedSteps = 50; // as lab_html.h
 const previewBudget = 150;    // ms for finding out how far a scene moves
 
-/** The scenes of the page: {name: {toml, fingerprint}}. */
+/** The scenes of the page: {name: {toml, fingerprint (of each rule, after so many steps), steps}}. */
 const labScenes = (() => {
   let scenes;
   return () => (scenes ??= JSON.parse(document.getElementById('lab-scenes')?.textContent || '{}'));
@@ -198,14 +197,14 @@ class LiveLab extends HTMLElement {
    * holds their fingerprint. Null where it holds none: other scenes, and rules that need not give the same bits.
    */
   bitsOf({spec}) {
-    const {toml, fingerprint} = labScenes()[this.sceneName] ?? {}, expected = fingerprint?.[spec.method];
+    const {toml, fingerprint, steps} = labScenes()[this.sceneName] ?? {}, expected = fingerprint?.[spec.method];
     if (!expected || this.toml !== toml) return null;
     const key = `${this.sceneName} ${spec.method}`;
     this.knownBits ??= new Map();
     if (!this.knownBits.has(key)) {
       const sim = this.lab.open(toml);
       sim.start({stepper: spec.method, observe: false});
-      sim.call('advance', Infinity, fingerprintedSteps);
+      sim.call('advance', Infinity, steps);
       this.knownBits.set(key, sim.fingerprint() === expected);
       sim.close();
     }

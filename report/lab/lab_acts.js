@@ -255,7 +255,7 @@ const labActs = {
     if (!this.stage) return;
     const at = alive.indexOf(this);
     if (at >= 0) alive.splice(at, 1);
-    this.stage.tools.gl.getExtension('WEBGL_lose_context')?.loseContext();
+    this.stage.release();
     this.stage.canvas.remove();
     this.stage = null;
   },

@@ -24,11 +24,17 @@ std::optional<double> LiveRun::critical_step(const Stepper& stepper) const {
   return stepper.limit(omega(), *gamma);
 }
 
+const Stepper* stepper_of_rule(std::string_view rule) {
+  const std::string_view name = rule.substr(0, rule.find('+'));
+  for (const Stepper& stepper : steppers())
+    if (stepper.name == name) return &stepper;
+  return nullptr;
+}
+
 void LiveRun::start(const Settings& settings) {
   const std::vector<std::string> words = split(settings.rule, '+');
-  const auto found =
-      std::find_if(steppers().begin(), steppers().end(), [&](const Stepper& s) { return s.name == words[0]; });
-  if (found == steppers().end()) {
+  const Stepper* found = stepper_of_rule(settings.rule);
+  if (!found) {
     std::vector<std::string> names;
     for (const Stepper& stepper : steppers()) names.emplace_back(stepper.name);
     throw InputError(fmt::format("unknown stepper '{}'{}", words[0], did_you_mean(words[0], names)));
@@ -57,7 +63,7 @@ void LiveRun::start(const Settings& settings) {
 void LiveRun::begin() {
   loop_.reset(), world_.reset(), observers_.reset(), ledger_.reset(), monitor_.reset();
   // what the true motion reaches, it reaches within the scene's own duration
-  const auto bounds = [](const Scene& scene, const Run&) { return motion_bounds_of(scene, default_run(scene)); };
+  const auto bounds = [this](const Scene& scene, const Run&) { return bounds_(scene, default_run(scene)); };
   monitor_ = std::make_unique<DivergenceMonitor>(scene_, run_, bounds);
   std::vector<Observer*> others;
   if (keep_ledger_ && !scene_.model.first_order()) {
@@ -101,7 +107,7 @@ void LiveRun::go_on(const Change& change) {
   for (const int pin : particles.pins)
     if (scene_.start.v.cols() > 0) scene_.start.v.col(pin).setZero();
   changed_ = true;
-  omega_.reset();
+  omega_.reset(), bounds_ = {};
   begin();
 }
 

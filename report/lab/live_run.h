@@ -63,8 +63,9 @@ class LiveRun {
   void begin();
 
   Scene scene_;
-  mutable std::optional<double> omega_;  // once computed
-  int held_ = -1;                        // the particle that a hand has
+  mutable std::optional<double> omega_;  // once computed, as the bounds
+  MotionBoundsCache bounds_;
+  int held_ = -1;  // the particle that a hand has
   bool changed_ = false;
   Stepper rule_{};
   ContactRule contact_ = ContactRule::coulomb;
@@ -77,5 +78,14 @@ class LiveRun {
   std::unique_ptr<World> world_;
   std::unique_ptr<RunLoop> loop_;
 };
+
+/// The stepper of a rule with its options: "leapfrog", "implicit-euler+linear"; null where there is none.
+const Stepper* stepper_of_rule(std::string_view rule);
+
+/// Whether a rule gives the same bits in every build with lanes of two doubles: a rule of sums in one order does; what
+/// solves equations, or chooses its steps, need not.
+inline bool has_same_bits_everywhere(const Stepper& rule) {
+  return !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
+}
 
 }  // namespace crosscheck

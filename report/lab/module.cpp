@@ -76,6 +76,13 @@ auto list_in_term() -> const decltype(T::list)& {
 const auto& springs() { return list_in_term<Springs>(); }
 const auto& constraints() { return list_in_term<Constraints>(); }
 
+template <class Pair>
+std::vector<int> ends_of(const std::vector<Pair>& pairs) {
+  std::vector<int> ends;
+  for (const Pair& pair : pairs) ends.push_back(pair.a), ends.push_back(pair.b);
+  return ends;
+}
+
 }  // namespace
 
 /// A buffer of so many bytes for the text that the next call reads.
@@ -121,12 +128,9 @@ EXPORT(scene) const char* scene_json() {
 
 EXPORT(pins) const int* pins() { return hand_out(run().scene().model.particles.pins); }
 
-/// Both ends of every spring.
-EXPORT(spring_ends) const int* spring_ends() {
-  std::vector<int> ends;
-  for (const Spring& s : springs()) ends.push_back(s.a), ends.push_back(s.b);
-  return hand_out(std::move(ends));
-}
+/// Both ends of every spring, and of every hard distance.
+EXPORT(spring_ends) const int* spring_ends() { return hand_out(ends_of(springs())); }
+EXPORT(constraint_ends) const int* constraint_ends() { return hand_out(ends_of(constraints())); }
 
 EXPORT(spring_families) const int* spring_families() {
   std::vector<int> families;
@@ -139,13 +143,6 @@ EXPORT(spring_rests) const double* spring_rests() {
   std::vector<double> rests;
   for (const Spring& s : springs()) rests.push_back(s.rest);
   return hand_out(std::move(rests));
-}
-
-/// Both ends of every hard distance.
-EXPORT(constraint_ends) const int* constraint_ends() {
-  std::vector<int> ends;
-  for (const auto& c : constraints()) ends.push_back(c.a), ends.push_back(c.b);
-  return hand_out(std::move(ends));
 }
 
 /// m.

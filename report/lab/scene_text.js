@@ -27,8 +27,8 @@ function numbersOf(toml) {
   return found;
 }
 
-/** A number as TOML writes it: the shortest text that gives it again. */
-const tomlNumber = value => (Array.isArray(value) ? `[${value.map(tomlNumber).join(', ')}]` : String(value));
+/** A number as TOML writes it: the shortest text that gives the same double again. */
+const tomlNumber = value => (Array.isArray(value) ? `[${value.map(tomlNumber).join(', ')}]` : Object.is(value, -0) ? '-0.0' : String(value));
 
 /** The first number at a path; 0 where it is left out, undefined where there is none. */
 function numberAt(toml, path) {
@@ -93,4 +93,35 @@ function stepOf(interval, count) {
     if (Math.ceil(interval / step * (1 - 1e-9)) === count) return step;
   }
   return exact;
+}
+
+/** The text with the state that a run starts from, its pins, and its spheres where they start. */
+function withStart(toml, simulation) {
+  const {pins} = simulation.scene, {positions: x, velocities: v, centres} = simulation.begun;
+  const list = values => {
+    const lines = [];
+    for (let i = 0; i < values.length; i += 3) lines.push(`  ${[...values.slice(i, i + 3)].map(tomlNumber).join(', ')},`);
+    return `[\n${lines.join('\n')}\n]`;
+  };
+  const pinned = `particles = [${[...pins].join(', ')}]`;
+  let text = /^\[pins\]/m.test(toml) ? toml.replace(/(^\[pins\][^[]*?)particles\s*=\s*\[[^\]]*\]/m, (_, before) => before + pinned) :
+      pins.length                    ? `${toml.trimEnd()}\n\n[pins]\n${pinned}\n` :
+                                       toml;
+  if (!pins.length) text = withoutSection(withoutSection(text, 'pins.motion'), 'pins');
+  let sphere = 0;
+  text = text.replace(/^(\s*centre\s*=\s*)\[[^\]]*\]/gm, (whole, before) => {
+    const at = 3 * sphere++;
+    return at < centres.length ? `${before}[${[...centres.slice(at, at + 3)].map(tomlNumber).join(', ')}]` : whole;
+  });
+  return `${text.trimEnd()}\n\n[start]\npositions = ${list(x)}\n${v.length ? `velocities = ${list(v)}\n` : ''}`;
+}
+
+/** The text without a section, from its head to the next. */
+function withoutSection(toml, name) {
+  let inside = false;
+  return toml.split('\n').filter(line => {
+    const head = /^\s*\[\[?\s*([\w.-]+)\s*\]/.exec(line);
+    if (head) inside = head[1] === name;
+    return !inside;
+  }).join('\n');
 }

@@ -1,7 +1,6 @@
 #include "report/page/lab_html.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,7 +10,6 @@
 #include "mysim/base/files.h"
 #include "mysim/base/process.h"
 #include "mysim/base/text.h"
-#include "mysim/simd/instruction_sets.h"
 #include "report/base/assets.h"
 #include "report/figures/chart_json.h"
 #include "report/lab/live_run.h"
@@ -32,11 +30,6 @@ constexpr const char* lab_script_names[] = {"scene_text", "engine",        "word
 /// What the guided experiments open.
 constexpr std::string_view guided_scenes[] = {"circle", "pendulum", "cloth-hang", "slide", "cloth-sphere"};
 
-/// A rule of sums in one order gives the same bits in every build; what solves equations, or chooses steps, need not.
-bool is_same_everywhere(const Stepper& rule) {
-  return !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
-}
-
 /// A program that knows the command `lab`: this one, or, in tests, the one that they start.
 fs::path lab_program() {
   const fs::path self = fs::read_symlink("/proc/self/exe");
@@ -53,7 +46,7 @@ Json lab_fingerprints_json(const std::vector<Scene>& scenes) {
   for (const Scene& scene : scenes) {
     Json& own = all[scene.name] = Json::object();
     for (const Stepper& rule : steppers()) {
-      if (!is_same_everywhere(rule)) continue;
+      if (!has_same_bits_everywhere(rule)) continue;
       try {
         LiveRun run(scene);
         run.start({.rule = std::string(rule.name),
@@ -104,7 +97,8 @@ std::string lab_data_html(const std::vector<Scene>& given) {
   const LabFingerprints fingerprints = lab_fingerprints(scenes);
   Json json = Json::object();
   for (const Scene& scene : scenes) {
-    Json& own = json[scene.name] = {{"toml", scene.source}, {"fingerprint", Json::object()}};
+    Json& own =
+        json[scene.name] = {{"toml", scene.source}, {"fingerprint", Json::object()}, {"steps", fingerprinted_steps}};
     if (const auto known = fingerprints.find(scene.name); known != fingerprints.end())
       for (const auto& [rule, digits] : known->second) own["fingerprint"][rule] = digits;
   }

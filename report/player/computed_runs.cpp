@@ -10,8 +10,8 @@
 
 #include "mysim/base/json.h"
 #include "mysim/base/text.h"
-#include "mysim/steppers/steppers.h"
 #include "reference/method.h"
+#include "report/lab/live_run.h"
 #include "report/player/packed_numbers.h"
 #include "report/player/static_geometry.h"
 
@@ -19,12 +19,8 @@ namespace crosscheck {
 namespace {
 
 /// The stepper behind a method's name; null where it is none of mysim's.
-const Stepper* stepper_of(const std::string& method) {
-  if (!family_of(method).is_subject()) return nullptr;
-  const std::string rule = split(method.substr(method.find('/') + 1), '+')[0];
-  const auto found =
-      std::find_if(steppers().begin(), steppers().end(), [&](const Stepper& s) { return s.name == rule; });
-  return found == steppers().end() ? nullptr : &*found;
+const Stepper* mysim_stepper(const std::string& method) {
+  return family_of(method).is_subject() ? stepper_of_rule(method.substr(method.find('/') + 1)) : nullptr;
 }
 
 PackedNumbers packed_of(const JsonField& json) {
@@ -82,10 +78,7 @@ class Motions {
   }
 
   /// Whether every build computes a run with the same bits.
-  bool is_exact(size_t i) const {
-    const Stepper* rule = stepper_of(name_);
-    return is_left_out(i) && !rule->adaptive && (rule->evaluations > 0 || rule->hard_constraints);
-  }
+  bool is_exact(size_t i) const { return is_left_out(i) && has_same_bits_everywhere(*mysim_stepper(name_)); }
   /// The largest departure of a run, m.
   double departure(size_t i) const {
     const JsonField run = json_["runs"][i];
@@ -165,7 +158,7 @@ std::optional<Candidate> reference_of(const std::vector<Motions>& files) {
 }  // namespace
 
 bool is_computed_in_page(const std::string& method) {
-  const Stepper* rule = stepper_of(method);
+  const Stepper* rule = mysim_stepper(method);
   if (!rule) return false;
   const std::vector<std::string> words = split(method, '+');
   return std::all_of(words.begin() + 1, words.end(),

@@ -80,16 +80,9 @@ function projected(places, matrix, [left, top, wide, high], into) {
 const bodyOf = (count, index) =>
     ({places: new Float32Array(3 * count), normals: new Float32Array(3 * count), at: new Float32Array(3 * count), shadow: new Float32Array(3 * count), rgb: [new Float32Array(3 * count), new Float32Array(3 * count)], index, count});
 
-/** Normals of a surface: sums over the triangles at each corner, of length 1. */
+/** Normals of a surface, of length 1. */
 function addNormals({places, normals, index}) {
-  normals.fill(0);
-  for (let t = 0; t < index.length; t += 3) {
-    const a = 3 * index[t], b = 3 * index[t + 1], c = 3 * index[t + 2];
-    const ux = places[b] - places[a], uy = places[b + 1] - places[a + 1], uz = places[b + 2] - places[a + 2];
-    const vx = places[c] - places[a], vy = places[c + 1] - places[a + 1], vz = places[c + 2] - places[a + 2];
-    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    for (const at of [a, b, c]) normals[at] += x, normals[at + 1] += y, normals[at + 2] += z;
-  }
+  sumNormals(places, index, normals, 3);
   for (let i = 0; i < normals.length; i += 3) {
     const long = Math.hypot(normals[i], normals[i + 1], normals[i + 2]) || 1;
     normals[i] /= long, normals[i + 1] /= long, normals[i + 2] /= long;

@@ -68,15 +68,7 @@ class Stage {
     }
     this.tools.fill(points);
     if (!normals) return;
-    const sum = normals.data;
-    sum.fill(0);
-    for (let t = 0; t < triangles.length; t += 3) {
-      const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
-      const ux = places[b] - places[a], uy = places[b + 1] - places[a + 1], uz = places[b + 2] - places[a + 2];
-      const vx = places[c] - places[a], vy = places[c + 1] - places[a + 1], vz = places[c + 2] - places[a + 2];
-      const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-      for (const at of [a, b, c]) sum[at / 3 * 4] += x, sum[at / 3 * 4 + 1] += y, sum[at / 3 * 4 + 2] += z;
-    }
+    sumNormals(places, triangles, normals.data, 4);
     this.tools.fill(normals);
   }
 

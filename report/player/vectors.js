@@ -33,6 +33,21 @@ function perspective(tangent, aspect, near, far) {
   ];
 }
 
+/** Sums of the triangles' normals at each corner, as long as twice their areas; `stride` numbers for each point. */
+function sumNormals(places, triangles, sums, stride) {
+  sums.fill(0);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
+    const ux = places[b] - places[a], uy = places[b + 1] - places[a + 1], uz = places[b + 2] - places[a + 2];
+    const vx = places[c] - places[a], vy = places[c + 1] - places[a + 1], vz = places[c + 2] - places[a + 2];
+    const x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+    for (let k = 0; k < 3; ++k) {
+      const at = stride * triangles[t + k];
+      sums[at] += x, sums[at + 1] += y, sums[at + 2] += z;
+    }
+  }
+}
+
 /** Clip space of a light far away: a box that holds the ball around `centre`. */
 function lightMatrix(direction, centre, radius) {
   const right = unit(cross(Math.abs(direction[1]) > 0.99 ? [1, 0, 0] : [0, 1, 0], direction));

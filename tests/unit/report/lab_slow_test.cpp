@@ -61,7 +61,7 @@ class LabModule : public InBrowser {
     for (const Scene& scene : scenes)
       for (const Stepper& rule : steppers()) {
         NativeRun run{scene.name, std::string(rule.name)};
-        run.exact = !rule.adaptive && (rule.evaluations > 0 || rule.hard_constraints);
+        run.exact = has_same_bits_everywhere(rule);
         run.steps = run.exact ? 1000 : std::clamp(static_cast<int>(scene.window / scene.step), 1, 1000);
         LiveRun live(scene);
         try {

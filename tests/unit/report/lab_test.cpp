@@ -109,16 +109,7 @@ TEST(LiveRun, RefusesWhatTheEngineRefuses) {
             std::string::npos);
 }
 
-const std::string two_particles = R"(question = "q"
-parameters = "p"
-[time]
-duration = 1
-samples = 10
-step = 1e-3
-window = 1
-tolerance = 1e-3
-method = "leapfrog"
-[[particle]]
+const std::string two_particles = scene_text(R"([[particle]]
 position = [0, 0, 0]
 mass = 1
 [[particle]]
@@ -129,7 +120,7 @@ ends = [0, 1]
 stiffness = 100
 [pins]
 particles = [0]
-)";
+)");
 
 TEST(Start, IsWhereTheSceneStartsAndSpringsKeepTheirLengths) {
   const Scene moved = parse_scene(
