@@ -290,7 +290,7 @@ std::string experiments_html(const Chapter& chapter) {
   std::string links;
   for (const auto& [name, title] : chapter.experiments)
     links += fmt::format("{}<a href=\"#experiment={}\">{}</a>", links.empty() ? "" : ", ", name, escaped(title));
-  return links.empty() ? "" : fmt::format("<p>Try it in the lab: {}.</p>", links);
+  return links.empty() ? "" : fmt::format("<p class=\"try\">Try it in the lab: {}.</p>", links);
 }
 
 std::string chapter_html(const Chapter& chapter, size_t number, const PageContent& c) {
