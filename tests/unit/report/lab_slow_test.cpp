@@ -183,8 +183,8 @@ class LabModule : public InBrowser {
 };
 
 TEST_F(LabModule, GivesTheNativeBitsInNode) {
-  NEEDS_LAB;
   NEEDS_PROGRAM("node", "nodejs", "mysim is not run as WebAssembly outside a browser");
+  NEEDS_LAB;
   const std::vector<Scene> scenes = shipped();
   const std::vector<NativeRun> native = native_runs(scenes);
   Json texts = Json::object();
