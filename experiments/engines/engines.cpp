@@ -48,7 +48,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     const auto method =
         std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == family.representative; });
     if (method == methods.end()) continue;
-    if (!request.full && estimated_seconds(*method, scene, run) > 0.3) {
+    if (!request.full && estimated_seconds(*method, scene, run) > 0.15) {
       tables.notes.push_back(fmt::format("statistics leave out {} on {}: its sixteen runs cost much; --full has them",
                                          family.representative, scene.name));
       continue;

@@ -54,7 +54,7 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
     // one or two that fail show where the others end
     if (setting.value == last || (halving > 3 && setting.value > 2 * limit)) continue;
     last = setting.value;
-    const double most = (halving >= 0 ? 1.8 : 0.35) * (full ? 1 : 0.7);  // s
+    const double most = (halving >= 0 ? 1.8 : 0.35) * (full ? 1 : 0.4);  // s
     if (estimated_seconds(method, scene, setting.applied_to(run)) > most) {
       if (dropped) ++*dropped;
       continue;
@@ -116,14 +116,15 @@ struct SettingRun {
 /// The runs of one method; empty where it does not take the scene, or built another one. A note says where it took some
 /// settings and refused others.
 std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const Run& base,
-                                const std::vector<Setting>& settings, bool recorded, std::vector<std::string>& notes) {
+                                const std::vector<Setting>& settings, bool recorded, MotionBoundsCache& bounds,
+                                std::vector<std::string>& notes) {
   const double omega = recorded && !scene.model.first_order() ? highest_frequency(scene.model, scene.start) : 0;
   std::vector<SettingRun> tries;
   std::string refusal;
   size_t refused = 0;
   for (const Setting& setting : settings) {
     Recorder recorder;
-    Outcome out = run_method(method, scene, setting.applied_to(base), {&recorder});
+    Outcome out = run_method(method, scene, setting.applied_to(base), {&recorder}, std::ref(bounds));
     if (out.verdict == Verdict::unsupported) {  // at this step, perhaps not at others
       refusal = out.reason, ++refused;
       continue;
@@ -135,7 +136,7 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
     }
     // its last frames take a run of their own: observing every step makes adaptive methods take other steps
     LastFrames last(omega, setting.tolerance ? 0 : setting.value);
-    if (recorded && out.verdict != Verdict::ok) run_method(method, scene, setting.applied_to(base), {&last});
+    if (recorded && out.verdict != Verdict::ok) run_method(method, scene, setting.applied_to(base), {&last}, std::ref(bounds));
     tries.push_back({setting, std::move(out), std::move(recorder.trajectory), last.path()});
   }
   if (refused > 0 && !tries.empty())
@@ -182,10 +183,11 @@ void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tab
 
   Table table = table_of<SpeedAccuracyRow>();
   std::vector<std::string> shortened;
+  MotionBoundsCache bounds;
   for (const Method& method : methods_for(request, scene)) {
     int dropped = 0;
     const auto settings = settings_of(method, scene, base, request.full, &dropped);
-    const std::vector<SettingRun> tries = runs_at(method, scene, base, settings, bool(request.on_runs), tables.notes);
+    const std::vector<SettingRun> tries = runs_at(method, scene, base, settings, bool(request.on_runs), bounds, tables.notes);
     if (dropped > 0 && (!tries.empty() || settings.empty()))
       shortened.push_back(fmt::format("{} ({})", method.name, dropped));
     if (request.on_runs && !tries.empty()) {
@@ -256,7 +258,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, TableSet& t
   // the dear ones are most of the work, and their times spread least
   const auto times =
       time_round_robin(runs, request.full ? TimingOptions{.least = 3, .most = 9, .enough = 0.05, .warm = 0.05}
-                                          : TimingOptions{.least = 3, .most = 7, .enough = 0.02, .warm = 0.01});
+                                          : TimingOptions{.least = 2, .most = 7, .enough = 0.01, .warm = 0.01});
   const double noise = times.empty() ? 0 : noise_floor(times);
   Table table = table_of<SpeedAccuracyTimingRow>();
   for (size_t i = 0; i < timed.size(); ++i) {

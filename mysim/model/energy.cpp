@@ -30,6 +30,14 @@ Energy energy_of(const Model& model, const State& state) {
   return e;
 }
 
+/// The springs that hold a pin, in their order.
+static Springs springs_at_pins(const Springs& springs, const Particles& particles) {
+  Springs held{.law = springs.law};
+  for (const Spring& s : springs.list)
+    if (particles.pinned[s.a] || particles.pinned[s.b]) held.list.push_back(s);
+  return held;
+}
+
 Power power_of(const Model& model, const State& state, Forces& scratch) {
   const Particles& particles = model.particles;
   Power p;
@@ -47,7 +55,7 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
       [&](const Drag& t) { p.drag -= free_power(particles, force_of(t), state.v); },
       [&](const OneOf<Wind, Aerodynamics> auto& t) { p.wind += free_power(particles, force_of(t), state.v); },
       [&](const Springs& t) {
-        if (particles.move) p.pins -= on_pins(force_of(t));
+        if (particles.move) p.pins -= on_pins(force_of(springs_at_pins(t, particles)));
       },
       [&](const Dashpots& t) {
         const Points& f = force_of(t);

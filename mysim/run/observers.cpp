@@ -224,8 +224,7 @@ Verdict DivergenceMonitor::moves_too_fast(const State& state) {
     State middle{last_.t, last_.x, (state.x - before_.x) / span};
     particles.place_pins(middle);
     ledger_->observe(middle, false);
-    const LedgerRow row = ledger_->now(middle);
-    external_work_ = std::max(external_work_, std::abs(row.wind + row.pins));
+    external_work_ = std::max(external_work_, std::abs(ledger_->external_work()));
   }
   const double available = initial_energy_ + gravitational_change_ + external_work_ +
                            2 * h * h * squared_acceleration_ + squared_rounding_ / (span * span);

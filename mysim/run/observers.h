@@ -85,6 +85,8 @@ class Ledger : public Observer {
   /// True where no closure of the balance is claimed.
   bool contact_inferred() const { return inferred_ || estimated_; }
   LedgerRow now(const State& state) const;
+  /// What wind and moved pins have given so far, J.
+  double external_work() const { return wind_.value() + pins_.value(); }
 
  private:
   const Model& model_;
