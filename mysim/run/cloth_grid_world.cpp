@@ -48,6 +48,12 @@ class ClothGridWorld : public World {
       begin += part;
     }
     set_factors(composition, h);
+    // pins stay where they are, and losses are summed one by one: such contacts are left to the callback
+    if (std::is_same_v<T, double> && spheres_ && !spheres_->moving() && !record_contact_loss_ &&
+        scene.model.particles.pins.empty())
+      for (const Sphere& s : spheres_->list)
+        resting_spheres_.push_back(
+            {{s.centre[0], s.centre[1], s.centre[2]}, s.contact_radius(), s.friction, s.restitution});
     slabs_.put(s_.x + kicks_.back().drift_after * s_.v, s_.v);
   }
 
@@ -138,7 +144,9 @@ class ClothGridWorld : public World {
             bounding_spheres_.data(),
             static_cast<int>(bounding_spheres_.size()),
             &ClothGridWorld::contact_tile,
-            nullptr};
+            nullptr,
+            resting_spheres_.data(),
+            static_cast<int>(resting_spheres_.size())};
   }
 
   void place_pins(Slab& slab, const Vec3& shift) {
@@ -193,7 +201,8 @@ class ClothGridWorld : public World {
     Vec3 place = at(x), speed = at(v);
     // where it was and how fast when the step began
     const Vec3 v_n = slab.body.velocity(here), x_n = slab.body.position(here) - kicks_.back().drift_after * v_n;
-    const auto lost = resolve_spheres(*spheres_, resolve_contact, t_, t_next_, x_n, v_n, place, speed);
+    const auto lost =
+        resolve_spheres(*spheres_, resolve_contact, t_, t_next_, x_n, v_n, place, speed, record_contact_loss_);
     if (!lost) return;
     if (record_contact_loss_) result.lost.push_back(scene_.model.particles.mass[i] * *lost);
     for (int c = 0; c < 3; ++c) x[c * lanes<T>] = static_cast<T>(place[c]), v[c * lanes<T>] = static_cast<T>(speed[c]);
@@ -207,6 +216,7 @@ class ClothGridWorld : public World {
   bool record_contact_loss_;
   std::vector<Kick> kicks_;
   std::vector<BoundingSphere> bounding_spheres_;
+  std::vector<RestingSphere> resting_spheres_;  // where contacts are resolved in lanes
   int stride_ = 0;
   State s_;
   double t_ = 0, t_next_ = 0;  // s, of the step under way
@@ -237,8 +247,10 @@ std::unique_ptr<World> make_cloth_grid_world(const Stepper& stepper, ContactRule
   if (model.find<Spheres>() && (contact != ContactRule::coulomb || composition.fractions.size() > 1)) return nullptr;
   const auto topology = find_grid_topology(*springs, model.particles.size());
   if (!topology) return nullptr;
+#ifndef __wasm__  // the page has no single precision
   if (execution.path == ExecutionPath::single_precision)
     return make_world<float>(*topology, composition, scene, h, true, execution.threads, observer);
+#endif
   const bool fast = execution.path == ExecutionPath::fastest;
   return make_world<double>(*topology, composition, scene, h, fast, execution.threads, observer);
 }

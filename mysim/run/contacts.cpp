@@ -6,7 +6,8 @@
 namespace crosscheck {
 
 std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction act, double t_n, double t,
-                                      const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) {
+                                      const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v,
+                                      bool with_loss) {
   assert(t > t_n);
   bool touched = false;
   const Vec3 change = v - v_n;    // by all other forces, m/s
@@ -20,6 +21,7 @@ std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction ac
     if (!(act(sphere, centre, x_n + displacement, x, relative) > 0)) continue;
     touched = true;
     v = relative + velocity;
+    if (!with_loss) continue;
 
     const Vec3 impulse = v - v_before;
     const Vec3 seen = sphere.motion ? Vec3(change - velocity + velocity_at(*sphere.motion, t_n)) : change;
@@ -33,6 +35,7 @@ std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction ac
     given += along.dot(displacement);
   }
   if (!touched) return std::nullopt;
+  if (!with_loss) return 0;
   return impacts - (friction.dot(x - x_n) + given) / (t - t_n);
 }
 

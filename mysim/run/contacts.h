@@ -26,9 +26,11 @@ using ContactFunction = double (*)(const Sphere&, const Vec3& centre, const Vec3
                                    Eigen::Ref<Vec3> v);
 
 /// Lets every sphere act, each in its own frame, on a particle that was at x_n with v_n at time t_n and would be at x
-/// with v at t. What the contacts took, J per kilogram of the particle; nothing where none touched.
+/// with v at t. What the contacts took, J per kilogram of the particle (0 where it is not asked for: it costs as much
+/// as the contact itself); nothing where none touched.
 std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction act, double t_n, double t,
-                                      const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v);
+                                      const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v,
+                                      bool with_loss = true);
 
 class Contacts {
  public:

@@ -31,6 +31,8 @@ class Instance {
       fail: (kind, message) => {
         throw new LabError(this.text(kind), this.text(message));
       },
+      power: Math.pow,
+      number: (text) => Number(this.text(text)),
       matches: (expression, text) => Number(new RegExp(this.text(expression)).test(this.text(text)))
     };
     this.calls = new WebAssembly.Instance(module, {page, wasi_snapshot_preview1: {fd_close: none, fd_seek: none, fd_write: none}}).exports;

@@ -28,6 +28,8 @@ FORCE_INLINE void store(T* p, const Three<T>& a) {
 }
 
 template <class T>
+inline constexpr bool is_double = sizeof(T) == 8;
+template <class T>
 inline constexpr int tile_size = 3 * lanes<T>;  // numbers of a tile
 
 /// m^2: nothing that is not 0 comes so close.
@@ -98,6 +100,65 @@ FORCE_INLINE bool touches(const Three<T>& x, const BoundingSphere& sphere) {
   return L::any_less(L::fma(dz, dz, L::fma(dy, dy, dx * dx)), L::all(T(sphere.squared_radius)));
 }
 
+template <class T>
+FORCE_INLINE Three<T> operator+(const Three<T>& a, const Three<T>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+FORCE_INLINE Three<T> operator-(const Three<T>& a, const Three<T>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+FORCE_INLINE Three<T> scaled(V<T> by, const Three<T>& a) {
+  return {by * a.x, by * a.y, by * a.z};
+}
+template <class T>
+FORCE_INLINE V<T> dot(const Three<T>& a, const Three<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T, class Mask>
+FORCE_INLINE Three<T> choose(Mask mask, const Three<T>& a, const Three<T>& b) {
+  return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
+}
+
+// resolve_contact() of terms/sphere.h for particles side by side, operation by operation: a test holds the two to the
+// same bits. One after the other they take five times as long, as each root waits for the one before.
+
+template <class T>
+FORCE_INLINE Three<T> shortened(const Three<T>& a, V<T> by) {
+  using L = Lanes<T>;
+  const V<T> length = L::root(dot<T>(a, a)), none = L::all(0);
+  return choose<T>(length <= by, Three<T>{none, none, none}, scaled<T>(L::all(1) - by / length, a));
+}
+template <class T>
+FORCE_INLINE Three<T> normal_of(const Three<T>& d, V<T> length) {
+  using L = Lanes<T>;
+  const V<T> none = L::all(0);
+  return choose<T>(length > none, Three<T>{d.x / length, d.y / length, d.z / length}, Three<T>{none, L::all(1), none});
+}
+template <class T>
+FORCE_INLINE void resolve_contact(const RestingSphere& s, const Three<T>& x_n, Three<T>& x, Three<T>& v) {
+  using L = Lanes<T>;
+  const V<T> none = L::all(0), radius = L::all(s.contact_radius), friction = L::all(s.friction);
+  const Three<T> centre{L::all(s.centre[0]), L::all(s.centre[1]), L::all(s.centre[2])};
+  Three<T> d = x - centre;
+  V<T> distance = L::root(dot<T>(d, d));
+  const auto touching = distance < radius;
+  const V<T> push = radius - distance;
+  Three<T> n = normal_of<T>(d, distance), at = centre + scaled<T>(radius, n);
+  if (s.friction > 0) {
+    const Three<T> moved = at - x_n, along_normal = scaled<T>(dot<T>(moved, n), n);
+    d = x_n + along_normal + shortened<T>(moved - along_normal, friction * push) - centre;
+    distance = L::root(dot<T>(d, d));
+    n = normal_of<T>(d, distance), at = centre + scaled<T>(radius, n);
+  }
+  const V<T> inward = dot<T>(v, n), change = L::all(-(1 + s.restitution)) * inward;
+  const Three<T> held = shortened<T>(v - scaled<T>(inward, n), friction * change) + scaled<T>(inward + change, n);
+  const Three<T> zero{none, none, none};  // the sphere's velocity: -0 becomes 0
+  x = choose<T>(touching, at, x);
+  v = choose<T>(touching, choose<T>(inward < none, held, v) + zero, v);
+}
+
 /// Kick, contacts and drift of a row.
 template <class T>
 FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int row, T* x, const T* f) {
@@ -110,17 +171,22 @@ FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int 
       *v_b = s.v + (static_cast<long>(row) * s.tiles + b) * tile_size<T>;
     alignas(64) T end[tile_size<T>], speed[tile_size<T>];
     bool touched = false;
+    const bool in_lanes = is_double<T> && step.resting_sphere_count > 0;
     for (int lane = 0; lane < lanes<T>; lane += L::width) {
       const long own = (static_cast<long>(row) * s.tiles + b) * s.stride + lane;
       const V<T> damping = L::load(s.damping + own), inverse_mass_dt = L::load(s.inverse_mass_dt + own),
                  dt = L::load(s.dt + own);
       const Three<T> p = load(x_b + lane), u = load(v_b + lane),
                      pull = load(f + static_cast<long>(b) * tile_size<T> + lane);
-      const Three<T> v{u.x + L::fnma(damping, u.x, L::fma(inverse_mass_dt, pull.x, dt * fall_x)),
-                       u.y + L::fnma(damping, u.y, L::fma(inverse_mass_dt, pull.y, dt * fall_y)),
-                       u.z + L::fnma(damping, u.z, L::fma(inverse_mass_dt, pull.z, dt * fall_z))};
-      const Three<T> e{L::fma(drift_before, v.x, p.x), L::fma(drift_before, v.y, p.y), L::fma(drift_before, v.z, p.z)};
-      if (step.bounding_sphere_count > 0) {
+      Three<T> v{u.x + L::fnma(damping, u.x, L::fma(inverse_mass_dt, pull.x, dt * fall_x)),
+                 u.y + L::fnma(damping, u.y, L::fma(inverse_mass_dt, pull.y, dt * fall_y)),
+                 u.z + L::fnma(damping, u.z, L::fma(inverse_mass_dt, pull.z, dt * fall_z))};
+      Three<T> e{L::fma(drift_before, v.x, p.x), L::fma(drift_before, v.y, p.y), L::fma(drift_before, v.z, p.z)};
+      if constexpr (is_double<T>)
+        for (int i = 0; i < step.resting_sphere_count; ++i)
+          if (touches(e, step.bounding_spheres[i]))
+            resolve_contact<T>(step.resting_spheres[i], p - scaled<T>(drift_after, u), e, v);
+      if (step.bounding_sphere_count > 0 && !in_lanes) {
         store(end + lane, e), store(speed + lane, v);
         for (int i = 0; i < step.bounding_sphere_count; ++i) touched |= touches(e, step.bounding_spheres[i]);
       } else {
@@ -129,7 +195,7 @@ FORCE_INLINE void move_row(const ClothGrid<T>& s, const KickDrift<T>& step, int 
               Three<T>{L::fma(drift_after, v.x, e.x), L::fma(drift_after, v.y, e.y), L::fma(drift_after, v.z, e.z)});
       }
     }
-    if (step.bounding_sphere_count == 0) continue;
+    if (step.bounding_sphere_count == 0 || in_lanes) continue;
     if (touched) step.on_contact(step.user_data, row, b, end, speed);
     for (int lane = 0; lane < lanes<T>; lane += L::width) {
       const Three<T> e = load(end + lane), v = load(speed + lane);

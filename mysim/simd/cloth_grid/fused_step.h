@@ -58,6 +58,12 @@ struct ClothGrid {
   int stride;                               // of these: lanes, or 0 where one tile is for all
 };
 
+/// A sphere that does not move (terms/sphere.h).
+struct RestingSphere {
+  double centre[3], contact_radius;  // m
+  double friction, restitution;      // 1
+};
+
 /// Parameters of a fused step besides the springs. `damping` is a number of its own: in 1 - damping, rounded, a
 /// fraction of it would be gone in every step.
 template <class T>
@@ -68,6 +74,9 @@ struct KickDrift {
   int bounding_sphere_count;
   ContactCallback<T> on_contact;
   void* user_data;
+  // where there are any, contacts are resolved in lanes and not by the callback; in double precision alone
+  const RestingSphere* resting_spheres;
+  int resting_sphere_count;
 };
 
 /// The functions of one instruction set.
