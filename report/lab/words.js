@@ -184,8 +184,8 @@ const labWords = {
   'euler-circle.title': ["Euler's circle", '欧拉法与圆'],
   'euler-circle.about': ['Why a point leaves the circle that it should stay on', '点为什么会离开本应停留的圆'],
   'euler-circle.remember': [
-    'The fastest motion of a system decides the largest step: h ω must stay below a number that belongs to the stepper. Twice as fast, half the step.',
-    '系统中最快的运动决定最大步长：h ω 必须小于该方法的一个固定数值。运动快一倍，步长就要减半。'
+    'The fastest motion in a scene decides the largest step: h ω must stay below the stepper’s own number. RK4’s is 2.83; explicit Euler’s is 0, as it always drifts outwards. Twice as fast, half the step.',
+    '场景中最快的运动决定最大步长：h ω 必须小于该方法的一个固定数值（RK4：2.83；显式欧拉：0，任何步长都会向外漂）。运动快一倍，步长就要减半。'
   ],
 
   'euler-circle.tangent.question': [
@@ -214,8 +214,8 @@ const labWords = {
   'euler-circle.half.formula': ['{fine} m outside with {hFine}, {coarse} m with {hCoarse}.', '步长 {hFine} 时偏出 {fine} m，步长 {hCoarse} 时偏出 {coarse} m。'],
 
   'euler-circle.mean.question': [
-    'The trapezoidal rule takes the mean of two slopes: that at the start, and that where Euler would end. What does it do with the same step?',
-    '梯形法取两个斜率的平均：起点的斜率，和欧拉法终点处的斜率。同样的步长下它会怎样？'
+    'The trapezoidal rule goes by the mean of two velocities: that at the start, and that where Euler would end. What does it do with the same step?',
+    '梯形法取两个速度的平均：起点的速度，和欧拉法终点处的速度。同样的步长下它会怎样？'
   ],
   'euler-circle.mean.far': ['it ends as far outside', '偏得一样远'],
   'euler-circle.mean.hardly': ['it hardly leaves the circle', '几乎不离开圆'],
@@ -228,8 +228,8 @@ const labWords = {
   'euler-circle.mean.formula': ['After {n} steps of {h}: trapezoidal {radius} m (predicted {predicted} m), Euler {euler} m.', '{n} 步、步长 {h} 之后：梯形法 {radius} m（预测 {predicted} m），欧拉法 {euler} m。'],
 
   'euler-circle.faster.question': [
-    'The point now turns four times as fast: ω = 4 rad/s. Which step gives Euler the same spiral over two turns as 0.1 s did before?',
-    '现在点转得快四倍：ω = 4 rad/s。步长取多少，欧拉法两圈的螺旋才和之前 0.1 s 时一样？'
+    'The point now turns four times as fast: its turning speed ω is 4 rad/s and no longer 1. Which step gives Euler the same spiral over two turns as 0.1 s did before?',
+    '现在点转得快四倍：转动速度 ω 从 1 rad/s 变为 4 rad/s。步长取多少，欧拉法两圈的螺旋才和之前 0.1 s 时一样？'
   ],
   'euler-circle.faster.same': ['the same, 0.1 s', '不变，0.1 s'],
   'euler-circle.faster.half': ['half, 0.05 s', '一半，0.05 s'],
@@ -241,14 +241,14 @@ const labWords = {
   ],
   'euler-circle.faster.formula': ['h ω = {h} × {omega} rad/s = {product}; radius {radius} m.', 'h ω = {h} × {omega} rad/s = {product}；半径 {radius} m。'],
 
-  'euler-circle.largest.question': ['RK4 takes four slopes in a step and keeps to the circle very well. Is there a step at which it runs away, too?', 'RK4 每步取四个斜率，能很好地保持在圆上。是否存在某个步长，让它也跑飞？'],
+  'euler-circle.largest.question': ['RK4 goes by four velocities in each step and keeps to the circle very well. Is there a step at which it runs away, too?', 'RK4 每步取四个速度，能很好地保持在圆上。是否存在某个步长，让它也跑飞？'],
   'euler-circle.largest.never': ['no, it is never worse than inexact', '没有，最多只是不精确'],
   'euler-circle.largest.some': ['yes, past a certain step', '有，超过某个步长就会'],
   'euler-circle.largest.always': ['yes, at every step', '有，任何步长都会'],
   'euler-circle.largest.task': ['ω is still 4 rad/s. Make the step larger until RK4 leaves the circle outwards.', 'ω 仍是 4 rad/s。增大步长，直到 RK4 向圆外跑。'],
   'euler-circle.largest.why': [
-    'With a = h ω each step multiplies the radius by √(1 − a⁶/72 + a⁸/576). Below a = 2.83 that is less than 1, above it is more.',
-    '记 a = h ω，每步半径乘以 √(1 − a⁶/72 + a⁸/576)。a 小于 2.83 时该因子小于 1，大于则大于 1。'
+    'Each step multiplies the radius by √(1 − a⁶/72 + a⁸/576), with a = h ω. Up to a = √8 = 2.83, RK4’s own number, that is at most 1; past it more, and more again in the next step.',
+    '记 a = h ω，每步半径乘以 √(1 − a⁶/72 + a⁸/576)。a 不超过 √8 = 2.83（RK4 自己的数值）时该因子至多为 1；超过后大于 1，步步放大。'
   ],
   'euler-circle.largest.formula': ['Largest step: 2.83 / ω = 2.83 / {omega} = {limit}. With {h} each step multiplies the radius by {factor}.', '最大步长：2.83 / ω = 2.83 / {omega} = {limit}。步长 {h} 时每步半径乘以 {factor}。'],
 
