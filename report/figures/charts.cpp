@@ -39,7 +39,9 @@ void append_tier(Chart& chart) {
       []<class F>(F& figure) {
         if constexpr (std::derived_from<F, FigureInfo>) {
           if (figure.tier.empty()) throw std::logic_error("figure " + figure.name + " does not say what it rests on");
-          figure.caption += (figure.tier.starts_with("measured") ? " It is " : " Against: ") + figure.tier + ".";
+          figure.caption += (figure.tier == "measured"             ? " Measured."
+                             : figure.tier.starts_with("measured") ? " It is " + figure.tier + "."
+                                                                   : " Against: " + figure.tier + ".");
         }
       },
       chart.figure);

@@ -232,7 +232,8 @@ std::string reader_name(const std::string& title) {
   if (method.empty()) return title;
   // what follows a colon, as an order, has no room on paper
   const std::string words = title.substr(0, title.find(": "));
-  const size_t end = words.find_first_of(":, ");
+  // a program's name has a colon of its own
+  const size_t end = words.find_first_of(":, ", words.starts_with(method) ? method.size() : 0);
   std::string rest = end == std::string::npos ? "" : words.substr(end);
   // of what is said of a method in its title only what stands in parentheses or after a comma is its own
   if (rest.starts_with(' ') && !rest.starts_with(" (")) rest.clear();

@@ -174,7 +174,10 @@ std::string energy_text(double energy) {
   const auto [factor, unit] = energy < 0.1    ? std::pair{1e3, "mJ"}
                               : energy < 1000 ? std::pair{1., "J"}
                                               : std::pair{1e-3, "kJ"};
-  return fmt::format("{:.2g} {}", factor * energy, unit);
+  // two digits, without an exponent
+  const double value = factor * energy;
+  return value < 100 ? fmt::format("{:.2g} {}", value, unit)
+                     : fmt::format("{:.0f} {}", 10 * std::round(value / 10), unit);
 }
 
 /// A run above its limit on the scene, or the first scene that has one: its last steps as a curve and in pictures.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "experiments/speed_accuracy/work_precision.h"
+#include "experiments/tables/energy.h"
 #include "experiments/tables/sphere.h"
 #include "experiments/tables/stability.h"
 #include "mysim/base/text.h"
@@ -16,8 +17,10 @@ namespace crosscheck {
 
 const std::vector<Question>& questions() {
   static const std::vector<Question> table = {
-      {"Do they agree?", "same-answer", "certificate"}, {"Which method, which step?", "speed-accuracy", "chart"},
-      {"Where do methods fail?", "stability", "chart"}, {"What happens at the ball?", "energy", "picture"},
+      {"Do they agree?", "same-answer", "certificate"},
+      {"Which method, which step?", "speed-accuracy", "chart"},
+      {"Where do methods fail?", "stability", "chart"},
+      {"What happens at the ball?", "energy", "picture", "answer-energy", "What happens to the energy?"},
       {"What can be left out?", "adequacy", "chart"},
   };
   return table;
@@ -225,6 +228,34 @@ std::optional<Finding> ball_answer(const std::vector<Scene>&, const std::vector<
                                                : ""}}};
 }
 
+/// Where nothing touches: how far the balance of mysim's best stays open, and what backward Euler takes.
+std::optional<Finding> energy_answer(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,
+                                     const TableSet& rows) {
+  if (ball_answer(scenes, data, rows)) return std::nullopt;
+  std::optional<double> drag;
+  for (const DampingRow& row : rows_of<DampingRow>(rows))
+    if (row.equivalent_drag && std::abs(row.h_omega - 0.1) < 1e-9 && row.method == "mysim/implicit-euler")
+      drag = *row.equivalent_drag * row.step / row.h_omega;
+  // of the subject's methods the symplectic one that keeps it best
+  std::optional<Finding> best;
+  for (const EnergyRow& row : rows_of<EnergyRow>(rows)) {
+    const bool shown = std::ranges::any_of(scenes, [&](const Scene& s) { return s.name == row.scene; });
+    if (!shown || !family_of(row.method).is_subject() || !row.symplectic || row.verdict != Verdict::ok ||
+        !row.closure_claimed || !row.largest_residual || !(row.turned_over.value_or(0) > 0))
+      continue;
+    const double open = 100 * *row.largest_residual / *row.turned_over;
+    if (best && best->value <= open) continue;
+    best = Finding{
+        .rule = "answer-energy",
+        .method = row.method,
+        .value = open,
+        .words = {
+            {"where", row.scene},
+            {"damping", drag ? fmt::format("; implicit-euler damps like a drag of {:.2g} ω at hω = 0.1", *drag) : ""}}};
+  }
+  return best;
+}
+
 std::optional<Finding> model_answer(const std::vector<Scene>& scenes, const std::vector<SceneData>&,
                                     const TableSet& rows) {
   const Scene* scene = main_scene(scenes, rows);
@@ -251,7 +282,7 @@ std::optional<Finding> model_answer(const std::vector<Scene>& scenes, const std:
 std::vector<Finding> answer_findings(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,
                                      const TableSet& rows) {
   std::vector<Finding> all;
-  for (const auto answer : {agreement_answer, method_answer, failure_answer, ball_answer, model_answer})
+  for (const auto answer : {agreement_answer, method_answer, failure_answer, ball_answer, energy_answer, model_answer})
     if (auto finding = answer(scenes, data, rows)) all.push_back(std::move(*finding));
   return all;
 }

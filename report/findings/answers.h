@@ -13,6 +13,10 @@ struct Question {
   std::string_view text;     // as the reader asks it
   std::string_view chapter;  // by its id, also of its answer: a finding of topic "answer"
   std::string_view link;     // to that chapter
+  // what is asked instead where the scenes leave that question open, and the rule of its answer
+  std::string_view other_rule = {}, other_text = {};
+
+  std::string_view text_before(const Finding& answer) const { return answer.rule == other_rule ? other_text : text; }
 };
 const std::vector<Question>& questions();
 

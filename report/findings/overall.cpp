@@ -97,15 +97,23 @@ void other_law_of_all(const Scenes& scenes, std::vector<Finding>& out) {
 
 /// Methods that failed where others held, and scenes on which all failed.
 void failures_of_all(const Scenes& scenes, std::vector<Finding>& out) {
-  std::map<std::string, std::vector<std::string>> failed;
+  std::map<std::string, std::vector<std::string>> failed, crashed;
   std::vector<std::string> all;
   for (const SceneData& scene : scenes) {
     const bool held = std::ranges::any_of(scene.methods, &MethodData::ok),
                ran = std::ranges::any_of(scene.methods, &MethodData::supported);
     if (ran && !held) all.push_back(scene.scene);
     for (const MethodData& m : scene.methods)
-      if (held && m.supported() && !m.ok()) failed[m.method].push_back(scene.scene);
+      if (held && m.supported() && !m.ok())
+        (m.verdict == Verdict::crash || m.verdict == Verdict::timeout ? crashed : failed)[m.method].push_back(
+            scene.scene);
   }
+  // of the program, which says nothing of its physics
+  for (const auto& [method, where] : crashed)
+    out.push_back({.rule = "crashed-of-all",
+                   .method = method,
+                   .value = static_cast<double>(where.size()),
+                   .words = {{"where", listed(where)}}});
   for (const auto& [method, where] : failed)
     out.push_back({.rule = "failed-of-all",
                    .method = method,

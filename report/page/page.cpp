@@ -182,7 +182,7 @@ std::string first_screen(const PageContent& c) {
   for (const Question& question : questions())
     if (const Finding* answer = answer_to(question, c.findings))
       out += fmt::format("<div class=\"question\"><h3><span>{}</span><a href=\"#{}\">{} →</a></h3><p>{}</p></div>\n",
-                         question.text, has_contents(c, question.chapter) ? question.chapter : "scenes",
+                         question.text_before(*answer), has_contents(c, question.chapter) ? question.chapter : "scenes",
                          question.chapter == "same-answer" ? certificates_matched(c) : std::string(question.link),
                          prose_with_bold_numbers(sentence_of(*answer)));
   for (const std::string& problem : c.problems)
@@ -301,7 +301,9 @@ std::string chapter_html(const Chapter& chapter, size_t number, const PageConten
   if (const Finding* answer = question == questions().end() ? nullptr : answer_to(*question, c.findings))
     out += fmt::format("<p class=\"answer\">{}</p>\n", prose_with_bold_numbers(sentence_of(*answer)));
   const std::vector<Lead> leads = leads_of(chapter, c);
-  out += "<div class=\"lead\"><div>";
+  // a certificate of a few scenes is a few lines high: the text stands below it
+  const bool is_short = chapter.id == "same-answer" && leads.empty() && c.scenes.size() <= 4;
+  out += fmt::format("<div class=\"lead{}\"><div>", is_short ? " short" : "");
   if (chapter.id == "same-answer") out += parity_html(c.scenes);
   if (!leads.empty()) out += leads_html(leads, c) + drawing_without_script(leads[0].entry->figures[leads[0].figure], c);
   out += fmt::format("</div><div class=\"teach\">{}{}{}</div></div>\n",

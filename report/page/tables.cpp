@@ -172,7 +172,8 @@ std::string parity_html(const std::vector<ScenePart>& scenes) {
   if (methods.empty()) return "";
   std::string out =
       "<figure class=\"parity-figure\"><div class=\"scroll\"><table class=\"parity\"><thead><tr><th>scene</th>";
-  for (const std::string& method : methods) out += fmt::format("<th class=\"text\">{}</th>", escaped(method));
+  for (const std::string& method : methods)
+    out += fmt::format("<th class=\"text\" title=\"{}\">{}</th>", escaped(method), escaped(name_in_sentence(method)));
   out += "</tr></thead><tbody>\n";
   for (const ScenePart& part : scenes) {
     if (part.certificates.empty()) continue;
