@@ -79,6 +79,28 @@ std::optional<Finding> difference_answer(const std::vector<SceneData>& data) {
                  .words = {{"where", apart.where}}};
 }
 
+/// "; mine.py, too, by at most 2e-14 m", "; mine.py and mysim by up to 1.3 mm": programs of the reader's beside mysim's
+/// representative at the same step, on scenes without contact.
+std::string programs_apart(const std::vector<SceneData>& data) {
+  std::vector<std::pair<std::string, Largest>> programs;
+  bool round_off = true;
+  for (const SceneData& scene : data)
+    for (const MethodData& m : scene.methods) {
+      if (family_of(m.method).role != Role::outside || !m.ok() || !m.difference || scene.touched()) continue;
+      auto known = std::ranges::find(programs, m.method, &std::pair<std::string, Largest>::first);
+      if (known == programs.end()) known = programs.insert(programs.end(), {m.method, {}});
+      known->second.take(*m.difference, scene.scene);
+      round_off &= scene.round_off && *m.difference <= *scene.round_off;
+    }
+  if (programs.empty()) return "";
+  std::string out;
+  for (const auto& [method, apart] : programs)
+    out += fmt::format("{} {} {}", out.empty() ? "." : ",", name_in_sentence(method),
+                       round_off ? "does so, too, by at most " + nice_length(apart.value)
+                                 : "parts from mysim by up to " + nice_length(apart.value));
+  return out;
+}
+
 std::optional<Finding> agreement_answer(const std::vector<Scene>&, const std::vector<SceneData>& data,
                                         const TableSet&) {
   size_t same = 0;
@@ -103,7 +125,8 @@ std::optional<Finding> agreement_answer(const std::vector<Scene>&, const std::ve
     f.value = worst.value;
     f.words = {{"most", worst.value == 0 ? "nothing" : "at most " + nice_length(worst.value)},
                {"scenes", counted(same, "scene")},
-               {"contact", in_contact.any() ? "; with contact by at most " + nice_length(in_contact.value) : ""}};
+               {"contact", in_contact.any() ? "; with contact by at most " + nice_length(in_contact.value) : ""},
+               {"programs", programs_apart(data)}};
   } else if (in_contact.any()) {
     f.rule = "answer-agreement-contact", f.value = in_contact.value, f.words = {{"where", in_contact.where}};
   } else {
@@ -249,9 +272,10 @@ std::optional<Finding> energy_answer(const std::vector<Scene>& scenes, const std
         .rule = "answer-energy",
         .method = row.method,
         .value = open,
-        .words = {
-            {"where", row.scene},
-            {"damping", drag ? fmt::format("; implicit-euler damps like a drag of {:.2g} ω at hω = 0.1", *drag) : ""}}};
+        .words = {{"where", row.scene},
+                  {"damping",
+                   drag ? fmt::format(". On one spring implicit-euler damps like a drag of {:.2g} ω at hω = 0.1", *drag)
+                        : ""}}};
   }
   return best;
 }

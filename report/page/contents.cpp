@@ -20,9 +20,9 @@ std::vector<Chapter> chapters() {
        "rest length, pin and ball is read back from the other engine's memory and held against the scene: a dot for "
        "each.</p><p>Then <b>the same rule at the same step</b> must give the same motion, but for round-off: "
        "symplectic "
-       "Euler is in both, and what it differs by is the floor below which nothing else may be claimed.</p><p>A hollow "
-       "dot is a law that the other world writes otherwise; its cause and its size are below, each in the smallest "
-       "scene that shows it.</p>"},
+       "Euler is in both, and what it differs by is the floor below which nothing else may be claimed.</p><p>A ring is "
+       "a law that the other engine writes otherwise, or what it does not tell; a law's cause and size are below, in "
+       "the smallest scene that shows it.</p>"},
       {"speed-accuracy",
        "Speed against accuracy",
        "Speed",
@@ -58,13 +58,14 @@ std::vector<Chapter> chapters() {
        "Energy and ball",
        {"sphere"},
        {"sphere-cone", "energy-damping", "*-energy-drift", "*-energy"},
-       "<i>tan <em>θ</em> &gt; <em>μ</em></i><span>Coulomb: on a slope of angle θ it slides, else it sticks</span>",
+       "",
        "<p>Energy is added up for every engine by the same formulas, from its positions and speeds. Symplectic rules "
        "keep it within a band for as long as one likes; <b>implicit Euler damps</b>, like a drag that nobody asked "
-       "for, and so do the rules built like it.</p><p>Contact is where engines differ most. Particles on slopes have a "
-       "known answer: by Coulomb's law all "
-       "points fall on one line. What sticks where it should slide, or creeps where it should rest, leaves it.</p>",
-       {{"pendulum-energy", "The pendulum's energy"}, {"ball-friction", "Sticky ball, sliding ball"}}},
+       "for, and so do the rules built like it.</p>",
+       {{"pendulum-energy", "The pendulum's energy"}, {"ball-friction", "Sticky ball, sliding ball"}},
+       "<i>tan <em>θ</em> &gt; <em>μ</em></i><span>Coulomb: on a slope of angle θ it slides, else it sticks</span>",
+       "<p>Contact is where engines differ most. Particles on slopes have a known answer: by Coulomb's law all points "
+       "fall on one line. What sticks where it should slide, or creeps where it should rest, leaves it.</p>"},
       {"adequacy",
        "How little model is enough",
        "Least model",

@@ -150,8 +150,10 @@ std::string hero_html(const PageContent& c) {
 
 std::string certificates_matched(const PageContent& c) {
   size_t all = 0, matched = 0;
+  const auto read_back = [](const CertificateRow& row) { return row.parity == Parity::match; };
   for (const ScenePart& part : c.scenes)
-    for (const Certificate* certificate : part.certificates) ++all, matched += !certificate->mismatch();
+    for (const Certificate* certificate : part.certificates)
+      ++all, matched += !certificate->mismatch() && std::ranges::any_of(certificate->rows, read_back);
   return all == 0 ? "chapter" : fmt::format("certificate, {} of {}", matched, all);
 }
 
@@ -279,8 +281,8 @@ std::string with_critical_step(std::string formula, const PageContent& c) {
   for (const ScenePart& part : c.scenes) {
     const MethodData* m = part.facts->find(subject_method(is_symplectic_of_second_order));
     if (part.scene->name == c.main_scene && m && m->limit && *m->limit > 0)
-      text = fmt::format(". On {}: <em>ω</em> = {:.3g} /s, so <em>h</em> &lt; {:.3g} ms", escaped(c.main_scene),
-                         2 / *m->limit, 1e3 * *m->limit);
+      text = fmt::format(". On {}, as it starts: <em>ω</em> = {:.3g} /s, so <em>h</em> &lt; {:.3g} ms",
+                         escaped(c.main_scene), 2 / *m->limit, 1e3 * *m->limit);
   }
   return formula.replace(at, mark.size(), text);
 }
@@ -301,16 +303,18 @@ std::string chapter_html(const Chapter& chapter, size_t number, const PageConten
   if (const Finding* answer = question == questions().end() ? nullptr : answer_to(*question, c.findings))
     out += fmt::format("<p class=\"answer\">{}</p>\n", prose_with_bold_numbers(sentence_of(*answer)));
   const std::vector<Lead> leads = leads_of(chapter, c);
+  const bool contact =
+      std::ranges::any_of(c.scenes, [](const ScenePart& part) { return part.scene->model.find<Spheres>(); });
+  const std::string formula = chapter.formula + (contact ? chapter.contact_formula : "");
   // a certificate of a few scenes is a few lines high: the text stands below it
   const bool is_short = chapter.id == "same-answer" && leads.empty() && c.scenes.size() <= 4;
   out += fmt::format("<div class=\"lead{}\"><div>", is_short ? " short" : "");
   if (chapter.id == "same-answer") out += parity_html(c.scenes);
   if (!leads.empty()) out += leads_html(leads, c) + drawing_without_script(leads[0].entry->figures[leads[0].figure], c);
-  out += fmt::format("</div><div class=\"teach\">{}{}{}</div></div>\n",
-                     chapter.formula.empty()
-                         ? ""
-                         : fmt::format("<div class=\"formula\">{}</div>", with_critical_step(chapter.formula, c)),
-                     chapter.teaching, c.lab.empty() ? "" : experiments_html(chapter));
+  out += fmt::format(
+      "</div><div class=\"teach\">{}{}{}</div></div>\n",
+      formula.empty() ? "" : fmt::format("<div class=\"formula\">{}</div>", with_critical_step(formula, c)),
+      chapter.teaching + (contact ? chapter.contact_teaching : ""), c.lab.empty() ? "" : experiments_html(chapter));
   for (const Chapter::Entry& entry : chapter.entries)
     if (entry.shown) out += shown_html(entry, c);
   std::string folds;

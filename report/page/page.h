@@ -75,6 +75,7 @@ struct Chapter {
   std::string formula, teaching;   // HTML; what a reader learns from it; "{critical}": the main scene's numbers
   // guided experiments of the lab: their names (report/lab/experiments.js), and what a reader is shown
   std::vector<std::pair<std::string, std::string>> experiments = {};
+  std::string contact_formula = {}, contact_teaching = {};  // besides, where a scene has a ball
   std::vector<Entry> entries = {};
 };
 
