@@ -79,11 +79,9 @@ std::optional<Finding> difference_answer(const std::vector<SceneData>& data) {
                  .words = {{"where", apart.where}}};
 }
 
-/// "; mine.py, too, by at most 2e-14 m", "; mine.py and mysim by up to 1.3 mm": programs of the reader's beside mysim's
-/// representative at the same step, on scenes without contact.
-std::string programs_apart(const std::vector<SceneData>& data) {
+/// The largest differences of the reader's programs from mysim's representative at the same step, without contact.
+std::vector<std::pair<std::string, Largest>> programs_apart(const std::vector<SceneData>& data, bool& round_off) {
   std::vector<std::pair<std::string, Largest>> programs;
-  bool round_off = true;
   for (const SceneData& scene : data)
     for (const MethodData& m : scene.methods) {
       if (family_of(m.method).role != Role::outside || !m.ok() || !m.difference || scene.touched()) continue;
@@ -92,13 +90,24 @@ std::string programs_apart(const std::vector<SceneData>& data) {
       known->second.take(*m.difference, scene.scene);
       round_off &= scene.round_off && *m.difference <= *scene.round_off;
     }
-  if (programs.empty()) return "";
-  std::string out;
-  for (const auto& [method, apart] : programs)
-    out += fmt::format("{} {} {}", out.empty() ? "." : ",", name_in_sentence(method),
-                       round_off ? "does so, too, by at most " + nice_length(apart.value)
-                                 : "parts from mysim by up to " + nice_length(apart.value));
-  return out;
+  return programs;
+}
+
+/// Adds the reader's programs to an answer of agreement: among those that part by round-off, or after them. It then has
+/// no room for contact.
+void add_programs(const std::vector<SceneData>& data, Finding& f) {
+  bool round_off = true;
+  const auto programs = programs_apart(data, round_off);
+  if (programs.empty()) return;
+  std::string names, after;
+  for (const auto& [method, apart] : programs) {
+    names += ", " + name_in_sentence(method);
+    after += fmt::format("; {} by up to {}", name_in_sentence(method), nice_length(apart.value));
+    if (round_off) f.value = std::max(f.value, apart.value);
+  }
+  if (round_off && f.value > 0) f.words["most"] = "at most " + nice_length(f.value);
+  f.words["programs"] = round_off ? names : "";
+  f.words["contact"] = round_off ? "" : after;
 }
 
 std::optional<Finding> agreement_answer(const std::vector<Scene>&, const std::vector<SceneData>& data,
@@ -126,7 +135,8 @@ std::optional<Finding> agreement_answer(const std::vector<Scene>&, const std::ve
     f.words = {{"most", worst.value == 0 ? "nothing" : "at most " + nice_length(worst.value)},
                {"scenes", counted(same, "scene")},
                {"contact", in_contact.any() ? "; with contact by at most " + nice_length(in_contact.value) : ""},
-               {"programs", programs_apart(data)}};
+               {"programs", ""}};
+    add_programs(data, f);
   } else if (in_contact.any()) {
     f.rule = "answer-agreement-contact", f.value = in_contact.value, f.words = {{"where", in_contact.where}};
   } else {
@@ -274,7 +284,7 @@ std::optional<Finding> energy_answer(const std::vector<Scene>& scenes, const std
         .value = open,
         .words = {{"where", row.scene},
                   {"damping",
-                   drag ? fmt::format(". On one spring implicit-euler damps like a drag of {:.2g} ω at hω = 0.1", *drag)
+                   drag ? fmt::format("; on one spring implicit-euler damps like a drag of {:.2g} ω at hω = 0.1", *drag)
                         : ""}}};
   }
   return best;

@@ -21,7 +21,7 @@ const std::vector<FindingRule>& finding_rules() {
   static const std::vector<FindingRule> rules = {
       // what the page opens with
       {"answer-agreement", "answer", same, apart, "m", other_engine,
-       "Yes: same rule, same step, and mysim and {other} part by {most} on {scenes}{contact}{programs}.",
+       "Yes: same rule, same step, and mysim{programs} and {other} part by {most} on {scenes}{contact}.",
        "over scenes without contact: max of largest difference of methods of the same rule; with contact: the same",
        {"engines"}},
       {"answer-agreement-no", "answer", same, apart, "m", other_engine,
@@ -65,7 +65,7 @@ const std::vector<FindingRule>& finding_rules() {
        "On {where}, with contact, {other} and mysim's {method} part by {value} until {until}.",
        "largest difference of the last scene with contact", {"engines"}},
       {"answer-energy", "answer", ball, "largest residual of the balance over the energy turned over", "%", measured,
-       "On {where} {method} keeps the energy balance to {value} of the energy turned over{damping}.",
+       "On {where} {method} keeps the energy balance to {value}{damping}.",
        "largest residual / energy turned over; equivalent drag at h omega = 0.1 by the closed form's side",
        {"energy", "energy-damping"}},
       {"answer-model", "answer", "adequacy", "spring evaluations over those of the full model", "%", "converged",

@@ -390,6 +390,59 @@ TEST_F(Answers, AreOneToEachQuestionInAtMost25Words) {
   EXPECT_TRUE(contains(sentence_of(all[4]), "bend and shear springs"));
 }
 
+TEST_F(Answers, NameTheReadersProgram) {
+  for (const auto& [difference, words] :
+       {std::pair{6e-12, "mysim, mine and Bullet part by at most 6.0e-12 m on 2 scenes."},
+        {1.3e-3, "mysim and Bullet part by at most 3.4e-12 m on 2 scenes; mine by up to 1.3 mm."}}) {
+    std::vector<SceneData> facts = facts_;
+    facts[1].methods.push_back(run("exec:./mine", 1e-3));
+    facts[1].methods.back().difference = difference;
+    const std::vector<Finding> all = answer_findings(scenes_, facts, full());
+    EXPECT_EQ(all[0].rule, "answer-agreement");
+    EXPECT_TRUE(contains(sentence_of(all[0]), words)) << sentence_of(all[0]);
+    expect_short(all);
+  }
+}
+
+TEST_F(Answers, AreOfTheEnergyWhereNothingTouches) {
+  TableSet rows;
+  Table energy = table_of<EnergyRow>(), damping = table_of<DampingRow>();
+  for (const auto& [method, symplectic, residual] :
+       {std::tuple{"mysim/leapfrog", true, 4e-5}, {"mysim/symplectic-euler", true, 9e-5}, {"mysim/rk4", false, 1e-6}})
+    add(energy, EnergyRow{.scene = "cloth-hang",
+                          .method = method,
+                          .symplectic = symplectic,
+                          .closure_claimed = true,
+                          .turned_over = 2.,
+                          .largest_residual = residual});
+  add(damping, DampingRow{.method = "mysim/implicit-euler", .step = 0.01, .h_omega = 0.1, .equivalent_drag = 0.98});
+  rows.add(energy), rows.add(damping);
+  std::vector<SceneData> facts(facts_.begin(), facts_.begin() + 2);
+  std::vector<Scene> scenes(scenes_.begin(), scenes_.begin() + 2);
+  const std::vector<Finding> all = answer_findings(scenes, facts, rows);
+  expect_short(all);
+  const Finding* answer = answer_to(questions()[3], all);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->method, "mysim/leapfrog") << "rk4 keeps it better here, and not for long";
+  EXPECT_DOUBLE_EQ(answer->value, 2e-3);
+  EXPECT_TRUE(contains(sentence_of(*answer), "a drag of 0.098 ω at hω = 0.1.")) << sentence_of(*answer);
+  EXPECT_EQ(questions()[3].text_before(*answer), "What happens to the energy?");
+  EXPECT_EQ(answer_findings(scenes_, facts_, rows)[3 - 1].rule, "answer-contact") << "a ball goes before";
+}
+
+TEST_F(Answers, OfAProgramThatFellOverSayNothingOfItsPhysics) {
+  std::vector<SceneData> facts = facts_;
+  facts[0].methods.push_back(run("exec:./mine", {}, Verdict::crash));
+  facts[1].methods.push_back(run("exec:./mine", {}, Verdict::energy));
+  const std::vector<Finding> all = overall_findings(scenes_, facts, {});
+  const auto said = [&](const char* rule) {
+    const auto at = std::ranges::find(all, rule, &Finding::rule);
+    return at == all.end() ? std::string() : sentence_of(*at);
+  };
+  EXPECT_EQ(said("crashed-of-all"), "mine gave no answer on chain: the program failed or took too long.");
+  EXPECT_EQ(said("failed-of-all"), "mine failed on cloth-hang, where other methods hold at the same step.");
+}
+
 TEST_F(Answers, OfAQuestionThatNoTableSpeaksOfThereAreNone) {
   const std::vector<Finding> few = answers({});
   expect_short(few);
