@@ -54,10 +54,12 @@ std::vector<Point> picture_points(const Request& request, const fs::path& folder
   for (const Scene& scene : request.scenes)
     points.push_back({"picture: " + scene.name, content_of(request, scene), [&request, &scene, folder](TableSet&) {
                         MethodResults results;
-                        std::vector<const MethodResult*> shown;
+                        const MethodResult* shown = nullptr;  // a thumbnail has one
                         for (const std::string& name : methods_pictured(request, scene)) {
                           const MethodResult& r = result_of(request, scene, find_method(name), results);
-                          if (r.trajectory.frames() > 0) shown.push_back(&r);
+                          if (r.outcome.verdict != Verdict::ok || r.trajectory.frames() == 0) continue;
+                          shown = &r;
+                          break;
                         }
                         draw_scene(scene, shown, base_of(scene, run_of(request, scene)), request.full, folder);
                       }});

@@ -114,12 +114,11 @@ void write_bare(const Scene& scene, const std::vector<const MethodResult*>& show
 
 }  // namespace
 
-void draw_scene(const Scene& scene, const std::vector<const MethodResult*>& shown, const MotionBase& base, bool full,
+void draw_scene(const Scene& scene, const MethodResult* shown, const MotionBase& base, bool full,
                 const fs::path& folder) {
   const auto motions = stage_json(scene, base);
   if (!motions.empty()) write_file(motions_file(folder, scene), motions);
-  const auto ok = std::ranges::find_if(shown, [](const MethodResult* r) { return r->outcome.verdict == Verdict::ok; });
-  if (ok != shown.end()) write_bare(scene, {*ok}, 304, 171, full, picture_file(folder, scene, "-thumbnail"));
+  if (shown) write_bare(scene, {shown}, 304, 171, full, picture_file(folder, scene, "-thumbnail"));
 }
 
 namespace {

@@ -55,8 +55,8 @@ WrittenReport write_report(ReportData& data, const std::filesystem::path& folder
 std::filesystem::path picture_file(const std::filesystem::path& folder, const Scene& scene, const char* which);
 std::filesystem::path motions_file(const std::filesystem::path& folder, const Scene& scene);
 
-/// Draws the thumbnail of a scene from runs of the methods, and writes the stage of its motions.
-void draw_scene(const Scene& scene, const std::vector<const MethodResult*>& shown, const MotionBase& base, bool full,
+/// Writes the stage of a scene's motions, and draws its thumbnail from a run; null: none is drawn.
+void draw_scene(const Scene& scene, const MethodResult* shown, const MotionBase& base, bool full,
                 const std::filesystem::path& folder);
 
 }  // namespace crosscheck
