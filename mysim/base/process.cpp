@@ -348,17 +348,6 @@ void drain(Pipe& pipe, std::string& text, bool whole) {
 
 namespace {
 
-/// Whether the child ended within so many milliseconds; it stays a zombie.
-bool ends_within(pid_t child, int milliseconds) {
-  for (int waited = 0;; ++waited) {
-    siginfo_t info{};
-    if (waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == child)
-      return true;
-    if (waited >= milliseconds) return false;
-    usleep(1000);
-  }
-}
-
 ProgramResult run_watched(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
                           const std::vector<std::string>& extra_env, double timeout) {
   Pipe out, err, report, hold;
@@ -380,7 +369,11 @@ ProgramResult run_watched(const std::vector<std::string>& argv, const std::files
     if (wait[0].revents != 0) break;
   }
   Pipe::close_end(hold.write_end);
-  if (!ends_within(watcher, 12000)) kill(watcher, SIGKILL);
+  // it reports when all has ended, at the latest ten seconds after time is up; one that was stopped does not
+  pollfd reported{report.read_end, POLLIN, 0};
+  int ready;
+  while ((ready = poll(&reported, 1, 12000)) < 0 && errno == EINTR) continue;
+  if (ready <= 0) kill(watcher, SIGKILL);
   wait_for(watcher, result);
   // nobody else could tell that those inside have ended; 0: the watcher had, before it was looked at
   if (space != "0" && space != pid_namespace_of()) remove_temporary_folders_of(space);
