@@ -25,6 +25,7 @@ constexpr AddCommand commands[] = {
     add_bench,       // speed against the peers
     add_engine,      // another version of Bullet
     add_lab,         // a page with the live lab alone
+    add_check,       // what an adapter lacks
     add_grader,      // grade and assignment
 };
 

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <sstream>
 
@@ -143,19 +144,19 @@ std::string start_of(const std::string& process) {
   return field;
 }
 
-std::string process_namespace() {
+}  // namespace
+
+std::string pid_namespace_of(std::string_view process) {
   std::error_code error;
-  std::string link = fs::read_symlink("/proc/self/ns/pid", error).string();  // "pid:[4026531836]"
+  std::string link = fs::read_symlink(fmt::format("/proc/{}/ns/pid", process), error).string();  // "pid:[4026531836]"
   std::erase_if(link, [](char c) { return c < '0' || c > '9'; });
   return link.empty() ? "0" : link;
 }
 
-}  // namespace
-
 std::string temporary_name(std::string_view purpose) {
   const std::string self = fmt::format("{}", getpid());
   return (fs::temp_directory_path() /
-          fmt::format("crosscheck-{}-{}.{}.{}-XXXXXX", purpose, self, start_of(self), process_namespace()))
+          fmt::format("crosscheck-{}-{}.{}.{}-XXXXXX", purpose, self, start_of(self), pid_namespace_of()))
       .string();
 }
 
@@ -171,22 +172,38 @@ TemporaryFolder::~TemporaryFolder() {
   fs::remove_all(path, ignored);
 }
 
-void remove_stale_temporary_folders() {
+namespace {
+
+/// Removes this user's temporary folders whose owner (its number, when it was started, its namespace) is gone.
+void remove_temporary_folders(
+    const std::function<bool(const std::string&, const std::string&, const std::string&)>& is_gone) {
   static const Pattern ours(R"(crosscheck-[a-z]+-([0-9]+)\.([0-9]*)\.([0-9]+)-[A-Za-z0-9]{6})");
   std::error_code error;
   const fs::path place = fs::temp_directory_path(error);
-  const std::string here = process_namespace();
   for (fs::directory_iterator at(place, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
     if (!name.starts_with("crosscheck-")) continue;
     const auto parts = ours.match(name);
-    if (!parts || (*parts)[3] != here) continue;
-    if (start_of((*parts)[1]) == (*parts)[2] && !(*parts)[2].empty()) continue;
+    if (!parts || !is_gone((*parts)[1], (*parts)[2], (*parts)[3])) continue;
     struct stat about {};
     if (lstat(at->path().c_str(), &about) != 0 || !S_ISDIR(about.st_mode)) continue;
     std::error_code ignored;
     if (about.st_uid == geteuid() || geteuid() == 0) fs::remove_all(at->path(), ignored);
   }
+}
+
+}  // namespace
+
+void remove_stale_temporary_folders() {
+  const std::string here = pid_namespace_of();
+  remove_temporary_folders([&](const std::string& owner, const std::string& start, const std::string& space) {
+    return space == here && (start.empty() || start_of(owner) != start);
+  });
+}
+
+void remove_temporary_folders_of(const std::string& pid_namespace) {
+  remove_temporary_folders(
+      [&](const std::string&, const std::string&, const std::string& space) { return space == pid_namespace; });
 }
 
 }  // namespace crosscheck

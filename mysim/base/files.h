@@ -84,4 +84,10 @@ std::string temporary_name(std::string_view purpose);
 /// other users too.
 void remove_stale_temporary_folders();
 
+/// The pid namespace of a process, as names of temporary folders hold it: a number.
+std::string pid_namespace_of(std::string_view process = "self");
+
+/// Removes the folders of a namespace all of whose processes have ended.
+void remove_temporary_folders_of(const std::string& pid_namespace);
+
 }  // namespace crosscheck

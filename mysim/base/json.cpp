@@ -172,6 +172,17 @@ struct Json::Parts {
       return false;
     }
 
+    /// The place that was read when it ended: "readback.links[3].stiffness".
+    std::string place() const {
+      std::string path;
+      if (open_.empty()) return path;
+      const Json& parent = *open_.back();
+      find_path(root, parent, path);
+      if (parent.kind_ == Kind::list) return path + fmt::format("[{}]", parent.list_->size());
+      if (!parent.object_->empty()) path += (path.empty() ? "" : ".") + parent.object_->back().first;
+      return path;
+    }
+
     Json root;
     std::string wrong;           // why it is no JSON
     std::optional<size_t> read;  // bytes, up to the first that are none
@@ -254,6 +265,14 @@ struct JsonField::Document {
 
 namespace {
 
+/// Whether a word begins as programs write numbers that are not finite, which JSON has not.
+bool starts_with_non_finite(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  std::string word(text.substr(0, 3));
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return word == "nan" || word == "inf" || text.starts_with("1.#");
+}
+
 /// Where the word begins that ends what was read, with so many bytes where it is a text.
 size_t begin_of_word(std::string_view text, size_t read, size_t length_of_text, const std::string& wrong) {
   size_t at = read > 0 ? read - 1 : 0;
@@ -282,8 +301,12 @@ JsonField JsonField::parse(std::string_view text, std::string name, const char* 
     const size_t line = before.rfind('\n') + 1;  // npos + 1 is 0
     why = fmt::format("line {}, column {}: {}", 1 + std::count(before.begin(), before.end(), '\n'), at - line + 1, why);
     std::string_view rest = text.substr(at);
+    const bool beyond_all = reader.wrong.starts_with("number overflow");
+    const std::string place = beyond_all || starts_with_non_finite(rest) ? reader.place() : "";
     rest = rest.substr(0, std::min<size_t>(rest.find_first_of("\r\n"), 20));
     if (!rest.empty()) why += ", " + Json(rest).dump();
+    if (!place.empty())
+      why += fmt::format("; {}: expected a finite number: JSON has no other, leave out a key that has none", place);
   }
   throw InputError(fmt::format("{}: expected {}; {}", name, expected, why));
 }

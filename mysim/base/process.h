@@ -33,19 +33,21 @@ struct CannotStart : std::runtime_error {
 };
 
 struct ProgramResult {
-  int status = 0;              // exit code; 128 + signal number if a signal ended it
-  int signal = 0;              // that ended it; 0 when it exited by itself
-  bool timed_out = false;      // only with a time-out, as the next
-  bool left_children = false;  // it ended, and something of it kept its output open
-  double cpu_seconds = 0;      // user and system time of the program and of the children it waited for
-  std::string out, err;        // all of stdout and of stderr
+  int status = 0;               // exit code; 128 + signal number if a signal ended it
+  int signal = 0;               // that ended it; 0 when it exited by itself
+  bool timed_out = false;       // only with a time-out, as the next two
+  bool left_children = false;   // it ended, and processes of it did not, which were killed
+  bool killed_watcher = false;  // it ended the process that watches over it: what it left behind may go on
+  double cpu_seconds = 0;       // user and system time of the program and of the children it waited for
+  std::string out, err;         // all of stdout and of stderr
 };
 
 /// Runs argv[0] (a path, or looked up in PATH) in the folder cwd with stdin empty, in the environment of
 /// program_environment(extra_env), until it has ended and its output is closed.
-/// With a timeout (s) it is not trusted to behave: it may hang, crash, chatter, or leave children behind. It has a
-/// process group of its own; when it has ended, or time is up, or this thread ends, the whole group is killed; and only
-/// the last 64 KiB of stdout and of stderr are kept. Throws CannotStart.
+/// With a timeout (s) it is not trusted to behave: it may hang, crash, chatter, detach itself, or leave children
+/// behind. When it has ended, or time is up, or this thread ends, all that descends from it is killed: it runs in a pid
+/// namespace of its own where the kernel allows that, elsewhere under a process that orphans are handed to. Only the
+/// last 64 KiB of stdout and of stderr are kept. Throws CannotStart.
 ProgramResult run_program(const std::vector<std::string>& argv, const std::filesystem::path& cwd,
                           const std::vector<std::string>& extra_env = {}, std::optional<double> timeout = {});
 

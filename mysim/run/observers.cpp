@@ -260,7 +260,8 @@ void DivergenceMonitor::earlier(const State& state) {
 }
 
 Verdict DivergenceMonitor::observe(const State& state, bool sample) {
-  if (!state.x.allFinite() || !state.v.allFinite()) return Verdict::nan;
+  // neither are numbers whose squares, which every error and energy is made of, are infinite
+  if (!std::isfinite(state.x.squaredNorm()) || !std::isfinite(state.v.squaredNorm())) return Verdict::nan;
   if (model_.first_order()) return Verdict::ok;  // no energy to judge by
   if (!begun_) begin(state);
   const Verdict moves = paired_ || seen_ >= 2 ? moves_too_fast(state) : Verdict::ok;

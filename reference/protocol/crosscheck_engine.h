@@ -10,7 +10,9 @@
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
+#include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -199,8 +201,9 @@ struct Scene {
   Motion pin_motion{};
   std::string spring_law = "hooke";
   std::vector<Spring> springs;
-  Vec gravity{};             // m/s^2
-  std::vector<double> drag;  // N s/m, for each particle; zeros where the scene has none
+  std::vector<Spring> constraints;  // hard distances, their lengths as rest lengths, their stiffness infinite
+  Vec gravity{};                    // m/s^2
+  std::vector<double> drag;         // N s/m, for each particle; zeros where the scene has none
   std::vector<std::string> options;
 
   /// The scene's term of that type, or null.
@@ -272,6 +275,10 @@ inline Scene read_scene(const std::string& file) {
     for (const Json& p : (*springs)["list"].list)
       s.springs.push_back({p["a"].integer(), p["b"].integer(), p["stiffness"].number(), p["rest_length"].number()});
   }
+  if (const Json* constraints = s.term("constraints"))
+    for (const Json& p : (*constraints)["list"].list)
+      s.constraints.push_back(
+          {p["a"].integer(), p["b"].integer(), std::numeric_limits<double>::infinity(), p["length"].number()});
   if (const Json* gravity = s.term("gravity")) s.gravity = (*gravity)["acceleration"].vec();
   if (const Json* drag = s.term("drag"))
     for (size_t i = 0; i < s.x.size(); ++i) s.drag[i] = (*drag)["coefficient"].list.at(i).number();
@@ -295,42 +302,191 @@ inline void write_npy(const std::string& file, const std::vector<std::vector<Vec
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
-/// What the certificate sees: read it from your engine's own data, not from the scene.
-struct Readback {
-  std::vector<double> mass;
-  std::vector<char> pinned;
-  std::vector<Spring> links;  // in the scene's order
-  Vec gravity{};
-  std::string precision = "double";
+// run.json: what the program says of its run. A key that is not known is left out of the file.
+
+/// No number: the key is left out. A stiffness of `hard` is left out too, as JSON has no infinity.
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double hard = std::numeric_limits<double>::infinity();
+
+/// A sphere as the engine has it.
+struct Ball {
+  Vec centre;                                                          // m, at the start
+  double radius = unknown, friction = unknown, restitution = unknown;  // m, at which particles touch; mu; e
 };
 
-inline std::string json_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
+/// Where prescribed motions have led.
+struct Places {
+  double t;                  // s
+  std::vector<Vec> pins;     // m, in the scene's order
+  std::vector<Vec> centres;  // m, of spheres
+};
+
+/// Forces in a state of the program's own choice. A list that stays empty is not told; zeros say that the engine has
+/// no such thing.
+struct Probe {
+  double t = 0;                              // s
+  std::vector<Vec> x, v;                     // m, m/s
+  std::vector<Vec> springs, dashpots, wind;  // N: at x; at x and v; at x and t with the free particles at rest
+};
+
+/// What the certificate sees: read it from your engine's own data, not from the scene. All of PROTOCOL.md's table.
+struct Readback {
+  std::vector<double> mass;   // kg; of held particles anything
+  std::vector<char> pinned;   // 1 where held
+  std::vector<Spring> links;  // springs, then constraints, in the scene's order; stiffness may be `hard` or `unknown`
+  std::optional<Vec> gravity = {};                // m/s^2
+  std::string precision = "double";               // or "single"
+  std::optional<std::vector<double>> drag = {};   // 1/s, c / m of each particle
+  std::optional<std::vector<Ball>> spheres = {};  // an empty list: none
+  double margin = unknown;                        // m
+  std::optional<bool> may_sleep = {};
+  double step = unknown;                        // s
+  std::vector<Vec> start_x = {}, start_v = {};  // m, m/s: what the first step began from
+  std::optional<Places> later = {};
+  std::optional<Probe> probe = {};
+  std::map<std::string, std::string> mapped = {}, settings = {};
+};
+
+struct RunReport {
+  double cpu_seconds = unknown;                                      // of stepping alone
+  long steps = -1, force_evaluations = -1, coincident_springs = -1;  // below zero: not counted
+  double step = unknown;                                             // s, as used
+  std::string verdict = {}, reason = {};  // of a run that failed by its own word: energy, stretch, nan, solver, frozen
+  double end = unknown;                   // s, when it failed
+  std::vector<std::string> different_law = {};  // "ingredient: how its law differs"
+  std::optional<Readback> readback = {};
+};
+
+/// A state that shows a spring's law: the start, all of it stretched by a tenth or more about the origin until no
+/// spring is within a hundredth of its rest length, and growing, so that dashpots pull too.
+inline Probe probe_state(const Scene& scene) {
+  Probe probe;
+  for (int tenths = 11;; ++tenths) {
+    const double factor = tenths / 10.;
+    bool shows = true;
+    for (const Spring& s : scene.springs) {
+      const double l = factor * length(scene.x[s.a] - scene.x[s.b]);
+      shows &= l == 0 || std::abs(l - s.rest_length) > 0.01 * s.rest_length;
+    }
+    if (!shows && tenths < 30) continue;  // hopeless beyond: some springs stay unattested
+    for (const Vec& x : scene.x) {
+      probe.x.push_back(factor * x);
+      probe.v.push_back(0.5 * x);  // 0.5 /s
+    }
+    return probe;
+  }
 }
 
-inline void write_run_json(const std::string& file, double cpu_seconds, long steps, long force_evaluations,
-                           const Readback* readback = nullptr) {
-  std::ofstream out(file);
-  out << "{\"cpu_seconds\": " << json_of(cpu_seconds) << ", \"steps\": " << steps
-      << ", \"force_evaluations\": " << force_evaluations;
-  if (readback) {
-    const char* comma = "";
-    out << ",\n \"readback\": {\"precision\": \"" << readback->precision << "\", \"mass\": [";
-    for (double m : readback->mass) out << std::exchange(comma, ", ") << json_of(m);
-    out << "],\n  \"pinned\": [";
-    comma = "";
-    for (char p : readback->pinned) out << std::exchange(comma, ", ") << int(p);
-    out << "],\n  \"links\": [";
-    comma = "";
-    for (const Spring& s : readback->links)
-      out << std::exchange(comma, ", ") << "{\"a\": " << s.a << ", \"b\": " << s.b
-          << ", \"rest_length\": " << json_of(s.rest_length) << ", \"stiffness\": " << json_of(s.stiffness) << "}";
-    out << "],\n  \"gravity\": [" << json_of(readback->gravity[0]) << ", " << json_of(readback->gravity[1]) << ", "
-        << json_of(readback->gravity[2]) << "]}";
+/// Writes JSON: numbers with all their digits, lists, objects without the keys that have no value.
+class JsonWriter {
+ public:
+  static std::string of(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    return text;
   }
-  out << "}\n";
+  static std::string of(long value) { return std::to_string(value); }
+  static std::string of(int value) { return std::to_string(value); }
+  static std::string of(char value) { return std::to_string(int(value)); }
+  static std::string of(bool value) { return value ? "true" : "false"; }
+  static std::string of(const Vec& v) { return '[' + of(v[0]) + ", " + of(v[1]) + ", " + of(v[2]) + ']'; }
+  static std::string of(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+      char code[8];
+      std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(static_cast<unsigned char>(c)));
+      const bool control = static_cast<unsigned char>(c) < 32;
+      out += control ? code : c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+    }
+    return out + '"';
+  }
+  static std::string of(const Spring& s) {
+    JsonWriter w;
+    w.add("a", s.a), w.add("b", s.b), w.add("rest_length", s.rest_length), w.add("stiffness", s.stiffness);
+    return w.object();
+  }
+  static std::string of(const Ball& s) {
+    JsonWriter w;
+    w.add("centre", s.centre), w.add("radius", s.radius), w.add("friction", s.friction);
+    w.add("restitution", s.restitution);
+    return w.object();
+  }
+  static std::string of(const Places& p) {
+    JsonWriter w;
+    w.add("t", p.t), w.add("pins", p.pins), w.add("centres", p.centres);
+    return w.object();
+  }
+  static std::string of(const Probe& p) {
+    JsonWriter w;
+    w.add("t", p.t), w.add("x", p.x), w.add("v", p.v);
+    w.add_unless_empty("springs", p.springs), w.add_unless_empty("dashpots", p.dashpots);
+    w.add_unless_empty("wind", p.wind);
+    return w.object();
+  }
+  static std::string of(const std::map<std::string, std::string>& texts) {
+    JsonWriter w;
+    for (const auto& text : texts) w.add(text.first, text.second);
+    return w.object();
+  }
+  static std::string of(const Readback& r) {
+    JsonWriter w;
+    w.add("precision", r.precision), w.add("mass", r.mass), w.add("pinned", r.pinned), w.add("links", r.links);
+    w.add("gravity", r.gravity), w.add("drag", r.drag), w.add("spheres", r.spheres), w.add("margin", r.margin);
+    w.add("may_sleep", r.may_sleep), w.add("step", r.step);
+    if (!r.start_x.empty()) {
+      JsonWriter start;
+      start.add("x", r.start_x), start.add("v", r.start_v);
+      w.add_raw("start", start.object());
+    }
+    w.add("later", r.later), w.add("probe", r.probe);
+    w.add_unless_empty("mapped", r.mapped), w.add_unless_empty("settings", r.settings);
+    return w.object();
+  }
+  template <class T>
+  static std::string of(const std::vector<T>& list) {
+    std::string out = "[";
+    for (const T& item : list) out += (out.size() > 1 ? ", " : "") + of(item);
+    return out + ']';
+  }
+
+  void add(const std::string& key, double value) {
+    if (std::isfinite(value)) add_raw(key, of(value));
+  }
+  template <class T>
+  void add(const std::string& key, const std::optional<T>& value) {
+    if (value) add_raw(key, of(*value));
+  }
+  template <class T>
+  void add(const std::string& key, const T& value) {
+    add_raw(key, of(value));
+  }
+  template <class T>
+  void add_unless_empty(const std::string& key, const T& value) {
+    if (!value.empty()) add_raw(key, of(value));
+  }
+  void add_count(const std::string& key, long count) {
+    if (count >= 0) add_raw(key, of(count));
+  }
+  std::string object() const { return '{' + members_ + '}'; }
+
+ private:
+  void add_raw(const std::string& key, const std::string& value) {
+    members_ += (members_.empty() ? "" : ",\n ") + of(key) + ": " + value;
+  }
+  std::string members_;
+};
+
+inline void write_run_json(const std::string& file, const RunReport& run) {
+  JsonWriter w;
+  w.add("cpu_seconds", run.cpu_seconds);
+  w.add_count("steps", run.steps), w.add_count("force_evaluations", run.force_evaluations);
+  w.add_count("coincident_springs", run.coincident_springs);
+  w.add("step", run.step), w.add("end", run.end);
+  w.add_unless_empty("verdict", run.verdict), w.add_unless_empty("reason", run.reason);
+  w.add_unless_empty("different_law", run.different_law);
+  w.add("readback", run.readback);
+  std::ofstream out(file);
+  out << w.object() << '\n';
   out.close();
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }

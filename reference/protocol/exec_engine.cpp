@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -107,13 +108,28 @@ Outcome failed(Outcome out, Verdict verdict, const std::string& what, const Prog
   return out;
 }
 
+/// Bytes of run.json at most. A number takes 26 with its blank and comma; a particle has 27 of them (mass, pin, drag,
+/// two vectors of the start, five of the probe, one of later places) and a link 4 with as many keys (60): 702 and 164,
+/// which three times over leave room for lines of their own. A mebibyte is for texts.
+std::uintmax_t largest_run_json(const Scene& scene) {
+  const auto* springs = scene.model.find<Springs>();
+  const auto* constraints = scene.model.find<Constraints>();
+  const std::uintmax_t links = (springs ? springs->list.size() : 0) + (constraints ? constraints->list.size() : 0);
+  return (1 << 20) + 2106 * static_cast<std::uintmax_t>(scene.model.particles.size()) + 492 * links;
+}
+
 /// Reads what the program wrote. Throws InputError where it breaks the protocol.
 Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, Outcome& out) {
   for (const char* file : {"run.json", "trajectory.npy", "velocities.npy"}) {
     const fs::file_status status = fs::status(folder / file);
     if (fs::exists(status) && !fs::is_regular_file(status)) throw InputError(fmt::format("{}: expected a file", file));
   }
-  if (fs::exists(folder / "run.json")) read_run_json(folder / "run.json", out);
+  if (fs::exists(folder / "run.json")) {
+    const auto size = fs::file_size(folder / "run.json"), most = largest_run_json(scene);
+    if (size > most)
+      throw InputError(fmt::format("run.json: expected at most {} bytes for a scene of this size, got {}", most, size));
+    read_run_json(folder / "run.json", out, run.duration);
+  }
   if (!fs::exists(folder / "trajectory.npy")) throw InputError("trajectory.npy: missing in the folder for results");
   Frames frames{read_positions(folder / "trajectory.npy", scene, run, out.verdict != Verdict::ok), {}};
   const int count = static_cast<int>(frames.x.size());
@@ -123,6 +139,38 @@ Frames read_results(const fs::path& folder, const Scene& scene, const Run& run, 
 }
 
 }  // namespace
+
+// A number of the engine's precision carries half an ulp (2^-53; 2^-24 where it is single or not told), of which
+// sixteen are allowed for home, displacement and their sum, as for the first frame; and one that adds its steps up is
+// off by half an ulp of the time for each step, in which the pin moves by so much of its path.
+std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run, const Outcome& out) {
+  const Particles& particles = scene.model.particles;
+  const TimeGrid grid = time_grid(run);
+  const auto is_float = [](double value) { return static_cast<double>(static_cast<float>(value)) == value; };
+  const auto is_single = [&](const Points& x) { return std::ranges::all_of(x.reshaped(), is_float); };
+  const bool is_double =
+      out.readback && out.readback->precision == "double" && !std::ranges::all_of(frames.x, is_single);
+  const double ulp = std::ldexp(1, is_double ? -53 : -24),
+               path = particles.move ? max_speed(*particles.move) * run.duration : 0,
+               steps = static_cast<double>(grid.samples) * grid.steps_per_sample,
+               allowed = ulp * (16 * (scene.size() + largest_column(scene.start.x)) + (16 + steps) * path);
+  double worst = 0, when = 0;
+  int which = -1;
+  for (size_t frame = 0; frame < frames.x.size(); ++frame) {
+    const double t = grid.time(static_cast<int>(frame), 0);
+    const Vec3 moved = particles.move ? displacement_at(*particles.move, t) : Vec3::Zero();
+    for (size_t i = 0; i < particles.pins.size(); ++i) {
+      const Vec3 off = frames.x[frame].col(particles.pins[i]) - particles.pin_home.col(static_cast<int>(i)) - moved;
+      // what is not finite is a failed run by itself
+      if (off.norm() > std::max(worst, allowed)) worst = off.norm(), when = t, which = particles.pins[i];
+    }
+  }
+  if (which < 0) return "";
+  return fmt::format(
+      "it led the pinned particle {} away from where it is prescribed: {:.3g} m at t = {:.4g} s, where "
+      "rounding explains {:.2g} m",
+      which, worst, when, allowed);
+}
 
 Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& run, Observer& observer) {
   const TemporaryFolder folder("engine");
@@ -148,6 +196,11 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
                       why = last_stderr_line.empty() ? last_line(end.out) : last_stderr_line;
     throw Unsupported(why.empty() ? "the program says so (exit status 3) and gives no reason" : why);
   }
+  if (end.killed_watcher)
+    return failed(out, Verdict::crash,
+                  "killed the process that watches over it, and what it left behind may go on: this kernel allows no "
+                  "pid namespace to contain it",
+                  end);
   if (end.signal != 0 || end.status != 0) return failed(out, Verdict::crash, exit_text(end), end);
 
   Frames frames;
@@ -162,13 +215,15 @@ Outcome run_outside_engine(const Program& program, const Scene& scene, const Run
     return failed(none, Verdict::crash, "did not deliver: " + what, end);
   }
   const Verdict reported = out.verdict;
+  const std::string misled = misled_pin(frames, scene, run, out);
   replay(frames, scene, run, observer, out);
   if (reported != Verdict::ok && out.reason.empty()) out.reason = "by the program's own word";
 
   auto remark = [&](const std::string& what) { out.remark += (out.remark.empty() ? "" : "; ") + what; };
   if (const std::string last_stderr_line = last_line(end.err); !last_stderr_line.empty())
     remark("it wrote on stderr, last: " + last_stderr_line);
-  if (end.left_children) remark("it left a process behind that kept its output open, which was killed");
+  if (!misled.empty()) remark(misled);
+  if (end.left_children) remark("it left a process behind, which was killed");
   if (out.step != time_grid(run).h)
     remark(fmt::format("it took steps of {:.6g} s, asked were {:.6g} s", out.step, time_grid(run).h));
   return out;

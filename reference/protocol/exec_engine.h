@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mysim/run/run.h"
+#include "reference/protocol/trajectory_files.h"
 
 namespace crosscheck {
 
@@ -24,5 +25,9 @@ Program find_program(const std::string& text);
 /// the reason, when it does not deliver; throws Unsupported when it says so. What a good run wrote on stderr is the
 /// outcome's remark. Without velocities the states have none.
 Outcome run_outside_engine(const Program& program, const Scene& scene, const Run& run, Observer& observer);
+
+/// The pin that the delivered frames lead furthest from where it is prescribed, in words; empty where all are in place
+/// within the rounding of the engine's precision, which the outcome's read-back tells.
+std::string misled_pin(const Frames& frames, const Scene& scene, const Run& run, const Outcome& out);
 
 }  // namespace crosscheck

@@ -1,6 +1,8 @@
 // Outcomes as JSON, and back.
 #include "reference/protocol/run_json.h"
 
+#include <fmt/format.h>
+
 #include "mysim/base/errors.h"
 #include "reference/protocol/scene_json.h"
 
@@ -144,19 +146,33 @@ std::string run_json(const Outcome& out) {
   return json.dump(1) + "\n";
 }
 
-void read_run_json(const std::filesystem::path& path, Outcome& out) {
+void read_run_json(const std::filesystem::path& path, Outcome& out, double duration) {
   const JsonField f = JsonField::parse_file(path.string());
-  auto count = [&](const char* key, long& value) {
-    if (const auto found = f.find(key)) value = static_cast<long>(found->number_from(0));
+  constexpr double most_counted = 9007199254740992;  // 2^53: whole numbers beyond are no longer told apart
+  constexpr double most_seconds = 1e9;
+  auto number = [&](const char* key, double lowest, double highest, const char* expected) -> std::optional<double> {
+    const auto found = f.find(key);
+    if (!found) return std::nullopt;
+    const double value = found->number();
+    if (!(value >= lowest && value <= highest)) found->fail(expected);
+    return value;
   };
-  auto number = [&](const char* key, double& value) {
-    if (const auto found = f.find(key)) value = found->number_from(0);
+  auto count = [&](const char* key, long& value) {
+    if (const auto told = number(key, 0, most_counted, "a number of them, from 0 to 2^53"))
+      value = static_cast<long>(*told);
+  };
+  auto seconds = [&](const char* key, double lowest, double highest, double& value) {
+    const std::string expected = lowest > 0 ? fmt::format("seconds above 0, at most {:g}", highest)
+                                            : fmt::format("seconds from 0 to {:g}", highest);
+    if (const auto told = number(key, lowest, highest, expected.c_str())) value = *told;
   };
   if (const auto verdict = f.find("verdict")) out.verdict = verdict_of(*verdict);
   if (const auto reason = f.find("reason")) out.reason = reason->text();
-  number("end", out.end);
-  number("step", out.step);
-  number("cpu_seconds", out.cpu_seconds);
+  // i h may round to a little more than the duration
+  const double latest = duration * (1 + 1e-9), no_step = std::numeric_limits<double>::min();
+  seconds("end", 0, latest, out.end);
+  seconds("step", no_step, latest, out.step);
+  seconds("cpu_seconds", 0, most_seconds, out.cpu_seconds);
   count("steps", out.steps);
   count("force_evaluations", out.evaluations);
   count("coincident_springs", out.degenerate_springs);

@@ -36,7 +36,8 @@ struct EngineTask {
 };
 
 /// Reads the file back: the scene has the hash, the run the step of those that were written. What engines do not see
-/// (camera, default method) is left empty. Throws InputError: "FILE: PLACE: expected ...".
+/// (camera, default method) is left empty. Throws InputError: "FILE: PLACE: expected ...";
+/// Unsupported where there is a term of a later version.
 EngineTask read_scene_json(const std::filesystem::path& file);
 
 }  // namespace crosscheck

@@ -69,9 +69,11 @@ int engine_command(const EngineCommand& command) {
   const double evaluations = answer.got[answer.got.size() - 2], seconds = answer.got.back();
   if (!(evaluations >= 0 && evaluations < 1e15 && seconds >= 0))
     throw std::runtime_error("the student's code answered something else");
-  crosscheck_engine::write_run_json(command.folder + "/run.json", seconds,
-                                    static_cast<long>(scene.samples) * scene.steps_per_sample,
-                                    static_cast<long>(evaluations));
+  crosscheck_engine::RunReport report;
+  report.cpu_seconds = seconds;
+  report.steps = static_cast<long>(scene.samples) * scene.steps_per_sample;
+  report.force_evaluations = static_cast<long>(evaluations);
+  crosscheck_engine::write_run_json(command.folder + "/run.json", report);
   return 0;
 }
 

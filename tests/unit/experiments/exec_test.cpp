@@ -6,6 +6,7 @@
 #include "experiments/metrics.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
+#include "mysim/base/files.h"
 #include "mysim/base/json.h"
 #include "mysim/base/process.h"
 #include "reference/certificate/certificate.h"
@@ -123,18 +124,108 @@ TEST_F(Exec, NoiseIsARemarkOnAGoodRun) {
   EXPECT_EQ(run(deliver("x.npy") + "echo fine\n").outcome.remark, "") << "stdout is no remark";
 }
 
-TEST_F(Exec, AChildThatStaysIsKilledAndSaid) {
-  const MethodRun a = run(deliver("x.npy") + "sleep 60 & echo $! > '" + (folder_ / "pid").string() + "'\n");
-  EXPECT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
-  EXPECT_TRUE(contains(a.outcome.remark, "left a process behind"));
-  const pid_t left = std::stoi(read(folder_ / "pid"));
-  for (int i = 0; i < 100 && kill(left, 0) == 0; ++i) {
-    // a killed orphan stays a zombie until init takes it
-    const std::string status = read("/proc/" + std::to_string(left) + "/stat");
-    if (status.find(") Z") != std::string::npos) return;
-    usleep(10000);
+TEST_F(Exec, WhatAProgramLeavesBehindIsKilled) {
+  // each leaves something behind that writes on until it is killed, with its output closed or not
+  write("beat.sh", "while :; do echo >> '" + (folder_ / "beats").string() + "'; sleep 0.02; done\n");
+  const std::string beat = "sh '" + (folder_ / "beat.sh").string() + "'", quiet = " > /dev/null 2>&1 &\n",
+                    wait = "while ! [ -s '" + (folder_ / "beats").string() + "' ]; do sleep 0.01; done\n";
+  const std::pair<const char*, std::string> cases[] = {
+      {"a child with the output open", beat + " &\n"},
+      {"a child with its own output", beat + quiet},
+      {"a session of its own", "setsid " + beat + quiet},
+      {"a double fork in a session of its own", "(setsid sh -c \"" + beat + " &\" &)" + quiet},
+      {"deaf to signals", "(trap '' TERM HUP INT; " + beat + ")" + quiet}};
+  for (const auto& [what, text] : cases) {
+    SCOPED_TRACE(what);
+    std::filesystem::remove(folder_ / "beats");
+    const MethodRun a = run(deliver("x.npy") + text + wait);
+    ASSERT_EQ(a.outcome.verdict, Verdict::ok) << a.outcome.reason;
+    EXPECT_EQ(a.outcome.remark, "it left a process behind, which was killed");
+    const auto beats = std::filesystem::file_size(folder_ / "beats");
+    EXPECT_GT(beats, 0u);
+    usleep(100000);  // five beats
+    EXPECT_EQ(std::filesystem::file_size(folder_ / "beats"), beats) << "it lives on";
   }
-  EXPECT_NE(kill(left, 0), 0);
+}
+
+TEST_F(Exec, TemporaryFoldersOfAKilledProgramGoWithIt) {
+  const std::string name = (folder_ / "name").string();
+  const std::string text =
+      "d=$(readlink /proc/self/ns/pid | tr -dc 0-9)\nf=${TMPDIR:-/tmp}/crosscheck-kept-2.5.$d-abcdef\n"
+      "mkdir \"$f\"; echo \"$f\" > '" +
+      name + "'\nsleep 60\n";
+  EXPECT_EQ(run(text, "+timeout=0.5").outcome.verdict, Verdict::timeout);
+  std::string made = read(name);
+  ASSERT_FALSE(made.empty());
+  made.pop_back();
+  if (made.find("." + pid_namespace_of() + "-") != std::string::npos) {
+    std::filesystem::remove(made);
+    GTEST_SKIP() << "this kernel allows no pid namespace: the next start removes such folders";
+  }
+  EXPECT_FALSE(std::filesystem::exists(made)) << made;
+}
+
+TEST_F(Exec, AProgramThatKillsItsParentHarmsNobody) {
+  const MethodRun a = run("kill -KILL $PPID\n" + deliver("x.npy"));
+  // in a pid namespace nothing happens; elsewhere its watcher is gone, and that is said
+  if (a.outcome.verdict == Verdict::ok)
+    EXPECT_EQ(a.trajectory.frames(), 5);
+  else
+    EXPECT_TRUE(contains(a.outcome.reason, "killed the process that watches over it"));
+}
+
+TEST_F(Exec, AHugeRunJsonIsRefusedByItsSize) {
+  const MethodRun a = run(deliver("x.npy") + "truncate -s 300M \"$2/run.json\"\n");
+  EXPECT_EQ(a.outcome.verdict, Verdict::crash);
+  EXPECT_TRUE(contains(a.outcome.reason,
+                       "run.json: expected at most 1058476 bytes for a scene of this size, got "
+                       "314572800"));
+}
+
+TEST_F(Exec, PositionsWhoseSquaresAreInfiniteAreAFailedRun) {
+  for (const int particle : {0, 2}) {  // a pin too
+    auto far = run_and_record("symplectic-euler", scene_, run_).trajectory.x;
+    far[4](1, particle) = 1e300;
+    write("far.npy", npy_bytes(far));
+    EXPECT_EQ(run(deliver("far.npy")).outcome.verdict, Verdict::nan);
+  }
+}
+
+TEST_F(Exec, APinThatIsLedAwayIsTold) {
+  const Trajectory right = run_and_record("symplectic-euler", scene_, run_).trajectory;
+  const struct {
+    double off;
+    std::string remark;
+  } cases[] = {{1e-7, ""},  // what single precision may do: sixteen half ulps of 3 m are 3e-6 m
+               {1e-3, "it led the pinned particle 0 away from where it is prescribed: 0.001 m at t = 0.04 s"}};
+  for (const auto& [off, remark] : cases) {
+    auto x = right.x;
+    x[2](2, 0) += off;
+    write("led.npy", npy_bytes(x));
+    const Outcome out = run(deliver("led.npy")).outcome;
+    EXPECT_EQ(out.verdict, Verdict::ok) << out.reason;
+    EXPECT_TRUE(begins(out.remark, remark)) << out.remark;
+    EXPECT_EQ(out.remark.empty(), remark.empty()) << out.remark;
+  }
+  // an engine that says that it computes in double precision is held to it
+  Json readback{{"mass", Json::list(1, 1, 1, 1)},
+                {"pinned", Json::list(1, 0, 0, 0)},
+                {"links", Json::list()},
+                {"precision", "double"}};
+  write("run.json", Json{{"readback", readback}}.dump());
+  auto x = right.x;
+  x[2](2, 0) += 1e-7;
+  write("led.npy", npy_bytes(x));
+  EXPECT_TRUE(
+      contains(run(deliver("led.npy") + deliver("run.json", "run.json")).outcome.remark, "1e-07 m at t = 0.04"));
+}
+
+TEST_F(Exec, AProgramThatAttestedNothingIsSaidToHaveAttestedNothing) {
+  for (const char* json : {"", "{}", "{\"steps\": 3}"}) {
+    const Outcome out =
+        run(deliver("x.npy") + (*json ? fmt::format("echo '{}' > \"$2/run.json\"\n", json) : "")).outcome;
+    EXPECT_EQ(summary_of(certify("engine", scene_, out)), "nothing was read back; not attested: whole scene");
+  }
 }
 
 TEST_F(Exec, SeesTheSceneAndIsSeenAsOtherMethodsAre) {

@@ -167,6 +167,11 @@ TEST(JsonField, WhatIsNoJsonIsToldWithLineAndColumn) {
       {"", "f: expected JSON; line 1, column 1: unexpected end of input"},
       {"{\n \"a\": inf\n}", "f: expected JSON; line 2, column 7: invalid literal, \"inf\""},
       {"{\"steps\": NaN}", "f: expected JSON; line 1, column 11: invalid literal, \"NaN}\""},
+      {"{\"a\": [1, {\"b\": -inf}]}",
+       "f: expected JSON; line 1, column 17: invalid number; expected digit after '-', \"-inf}]}\"; a[1].b: expected a "
+       "finite number"},
+      {"{\"a\": {\"b\": [1, 1e999]}}",
+       "f: expected JSON; line 1, column 17: number overflow parsing '1e999', \"1e999]}}\"; a.b[1]: expected a finite"},
       {"{\"a\" 1}", "f: expected JSON; line 1, column 6: unexpected number literal; expected ':', \"1}\""},
       {"[1, 2", "f: expected JSON; line 1, column 6: unexpected end of input; expected ']'"},
       {"[1]\n]", "f: expected JSON; line 2, column 1: unexpected ']'; expected end of input, \"]\""},

@@ -1,0 +1,575 @@
+// Small scenes, and what each call of the program shows.
+#include "experiments/check/protocol_kit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "experiments/scenes/ingredients.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/json.h"
+#include "mysim/base/process.h"
+#include "reference/certificate/certificate.h"
+#include "reference/method.h"
+#include "reference/protocol/exec_engine.h"
+#include "reference/protocol/run_json.h"
+#include "reference/protocol/scene_json.h"
+#include "reference/protocol/trajectory_files.h"
+
+namespace crosscheck {
+
+std::string_view name_of(Conformance state) {
+  switch (state) {
+    case Conformance::ok:
+      return "ok";
+    case Conformance::lacks:
+      return "lacks";
+    case Conformance::refuses:
+      return "refuses";
+  }
+  return "unknown";
+}
+
+bool ConformanceReport::complete() const {
+  return std::ranges::none_of(lines,
+                              [](const ConformanceLine& l) { return l.required && l.state == Conformance::lacks; });
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct KitScene {
+  const char* name;
+  const char* text;
+};
+
+// of one or two particles; every ingredient of the protocol but the triangles' wind is in one of them
+constexpr KitScene kit_scenes[] = {
+    {"fall", R"(question = "Does a thrown particle fall?"
+parameters = "The simplest motion; its path along x tells when a frame was taken."
+[time]
+duration = 0.2
+samples = 4
+step = 2e-3
+window = 0.2
+tolerance = 1e-3
+method = "leapfrog"
+[[particle]]
+position = [0, 1, 0]
+mass = 1
+velocity = [1, 0, 0]
+[gravity]
+acceleration = [0, -9.81, 0]
+)"},
+    {"damped-spring", R"(question = "Do a spring, its dashpot and drag act?"
+parameters = "A period of half a second, of which dashpot and drag take a tenth each."
+[time]
+duration = 0.5
+samples = 5
+step = 1e-3
+window = 0.5
+tolerance = 1e-3
+method = "leapfrog"
+[[particle]]
+position = [0, 0, 0]
+mass = 0.5
+[[particle]]
+position = [0, -0.9, 0]
+mass = 0.5
+velocity = [0.3, 0, 0]
+[[spring]]
+ends = [0, 1]
+stiffness = 80
+rest = 1
+dashpot = 0.5
+[pins]
+particles = [0]
+[gravity]
+acceleration = [0, -9.81, 0]
+[drag]
+gamma = 2
+)"},
+    {"led-pin", R"(question = "Is a moved pin where it is led?"
+parameters = "A tenth of a metre to and fro pulls the weight along; the pin is far from home at every sample, the last too."
+[time]
+duration = 0.5
+samples = 5
+step = 1e-3
+window = 0.5
+tolerance = 1e-3
+method = "leapfrog"
+[[particle]]
+position = [0, 0, 0]
+mass = 0.5
+[[particle]]
+position = [0, -1, 0]
+mass = 0.5
+[[spring]]
+ends = [0, 1]
+stiffness = 80
+rest = 1
+[pins]
+particles = [0]
+[pins.motion]
+amplitude = [0.1, 0, 0]
+frequency = 0.8
+ramp = 0.1
+[gravity]
+acceleration = [0, -9.81, 0]
+)"},
+    {"ball", R"(question = "Does a particle slide over a ball?"
+parameters = "It starts in contact; friction takes most of its speed."
+[time]
+duration = 0.3
+samples = 5
+step = 1e-3
+window = 0.3
+tolerance = 1e-3
+method = "leapfrog"
+[[particle]]
+position = [0, 1.02, 0]
+mass = 1
+velocity = [1, 0, 0]
+[gravity]
+acceleration = [0, -9.81, 0]
+[sphere]
+centre = [0, 0, 0]
+radius = 1
+margin = 0.02
+friction = 0.2
+)"},
+    {"rod", R"(question = "Does a distance stay what it is?"
+parameters = "A pendulum let go from the horizontal."
+[time]
+duration = 0.3
+samples = 5
+step = 5e-4
+window = 0.3
+tolerance = 1e-3
+method = "xpbd"
+[[particle]]
+position = [0, 0, 0]
+mass = 0.5
+[[particle]]
+position = [0.5, 0, 0]
+mass = 0.5
+[[constraint]]
+ends = [0, 1]
+[pins]
+particles = [0]
+[gravity]
+acceleration = [0, -9.81, 0]
+)"},
+    {"circle", R"(question = "Does a first-order system run?"
+parameters = "A sixth of a turn."
+[time]
+duration = 1
+samples = 5
+step = 0.01
+window = 1
+tolerance = 1e-3
+method = "rk4"
+[[particle]]
+position = [1, 0, 0]
+[rotation]
+rate = 1
+)"},
+    {"gusts", R"(question = "Does the wind come and go?"
+parameters = "Gusts as strong as the mean."
+[time]
+duration = 1
+samples = 5
+step = 1e-3
+window = 1
+tolerance = 1e-3
+method = "leapfrog"
+[[particle]]
+position = [0, 1, 0]
+mass = 0.1
+[drag]
+gamma = 4
+[wind]
+acceleration = [0, 0, 5]
+[wind.gusts]
+variation = 1
+side = [1.5, 0, 0]
+seed = 1
+)"},
+};
+
+// s: a step of these scenes costs microseconds, and an interpreter starts in less than a second
+constexpr double call_limit = 30;
+
+constexpr auto called = "How it is called", answers = "What it answers", scene_file = "scene.json",
+               run_file = "run.json", options_section = "How it is called";
+
+/// What one call left behind; the folder goes with it.
+struct KitCall {
+  TemporaryFolder folder{"kit"};
+  ProgramResult end;
+  double limit = call_limit;  // s
+  fs::path results() const { return folder.path / "out"; }
+  bool refused() const { return end.signal == 0 && end.status == 3 && !end.timed_out; }
+  bool good() const { return end.signal == 0 && end.status == 0 && !end.timed_out && !end.killed_watcher; }
+  /// The last line that it wrote on stderr, or on stdout.
+  std::string last_line() const {
+    std::string line = last_lines(end.err.find_first_not_of(" \t\r\n") == std::string::npos ? end.out : end.err, 1);
+    line.erase(std::find(line.begin(), line.end(), '\n'), line.end());
+    return line;
+  }
+  std::string how() const {
+    if (end.timed_out) return fmt::format("did not end within {:g} s", limit);
+    if (end.signal != 0) return fmt::format("was ended by signal {}", end.signal);
+    return fmt::format("ended with exit status {}", end.status);
+  }
+};
+
+class Kit {
+ public:
+  explicit Kit(const std::string& text)
+      : text_(text.starts_with(program_prefix) ? text.substr(program_prefix.size()) : text),
+        program_(find_program(text_)),
+        method_(exec_method(text_)) {
+    report_.program = std::string(program_prefix) + text_;
+  }
+
+  ConformanceReport report() {
+    for (const KitScene& row : kit_scenes)
+      if (!hangs_) try_scene(parse_scene(row.text, row.name));
+    if (hangs_) {
+      add("", "scenes", Conformance::lacks, true, "the others are not tried, as it does not end", answers);
+      return std::move(report_);
+    }
+    if (taken_ == 0)
+      add("", "scenes", Conformance::lacks, true, "no scene of the kit is taken: run one of them at least", answers);
+    try_certificate();
+    try_changed_scenes();
+    return std::move(report_);
+  }
+
+ private:
+  void add(const std::string& scene, const std::string& topic, Conformance state, bool required,
+           const std::string& told, const char* section) {
+    report_.lines.push_back({scene, topic, state, required, told, state == Conformance::lacks ? section : ""});
+  }
+  void add(const std::string& scene, const std::string& topic, bool ok, bool required, const std::string& told,
+           const char* section) {
+    add(scene, topic, ok ? Conformance::ok : Conformance::lacks, required, told, section);
+  }
+  /// A line that is ok where the work throws no InputError; its message, without the folder, where it does.
+  bool add_tried(const Scene& scene, const std::string& topic, const char* section, const KitCall& call,
+                 const std::function<std::string()>& work) {
+    try {
+      add(scene.name, topic, true, true, work(), section);
+      return true;
+    } catch (const InputError& error) {
+      std::string what = error.what();
+      if (what.starts_with(call.results().string() + "/")) what.erase(0, call.results().string().size() + 1);
+      add(scene.name, topic, false, true, what, section);
+      return false;
+    }
+  }
+
+  void call(KitCall& made, const std::string& scene_text) const {
+    made.limit = std::min(program_.timeout, call_limit);
+    write_file(made.folder.path / "scene.json", scene_text);
+    fs::create_directories(made.results());
+    try {
+      made.end =
+          run_program({program_.path.string(), (made.folder.path / "scene.json").string(), made.results().string()},
+                      ".", {}, made.limit);
+    } catch (const CannotStart& error) {
+      made.end.status = 127, made.end.err = "cannot be started: " + error.reason;
+    }
+  }
+
+  void try_scene(const Scene& scene) {
+    const Run run = default_run(scene);
+    KitCall made;
+    call(made, scene_json(scene, run, program_.options));
+    if (made.refused()) {
+      add(scene.name, "starts and ends", Conformance::refuses, false,
+          made.last_line().empty() ? "exit status 3 without a reason: write one line on stderr" : made.last_line(),
+          answers);
+      return;
+    }
+    ++taken_;
+    hangs_ = made.end.timed_out;
+    if (!made.good()) {
+      const std::string line = made.last_line();
+      add(scene.name, "starts and ends", false, true,
+          fmt::format("it {}{}: exit 0 with an answer, or 3 with a line where the scene has what it lacks", made.how(),
+                      line.empty() ? "" : " (" + line + ")"),
+          answers);
+      return;
+    }
+    add(scene.name, "starts and ends", true, true, fmt::format("in {:.2g} s of CPU time", made.end.cpu_seconds),
+        answers);
+    if (made.end.left_children)
+      add(scene.name, "leaves nothing behind", false, true,
+          "a process of it had not ended 0.2 s after it: wait for what it starts", called);
+    if (!try_files(scene, run, made)) return;
+    try_whole(scene, run, made);
+  }
+
+  /// The files as such. False: there is no trajectory to go on with.
+  bool try_files(const Scene& scene, const Run& run, const KitCall& made) {
+    const int frames = time_grid(run).samples + 1, particles = scene.model.particles.size();
+    const fs::path x = made.results() / "trajectory.npy", v = made.results() / "velocities.npy",
+                   json = made.results() / "run.json";
+    if (!fs::exists(x)) {
+      add(scene.name, "trajectory", false, true, "trajectory.npy is missing: write it into OUTDIR", answers);
+      return false;
+    }
+    std::vector<Points> path;
+    if (!add_tried(scene, "trajectory", answers, made, [&] {
+          path = read_npy(x, frames, frames, particles);
+          return fmt::format("{} frames of {}", frames, particles == 1 ? "one particle" : "two particles");
+        }))
+      return false;
+    const bool begins = add_tried(scene, "first frame", answers, made, [&] {
+      read_positions(x, scene, run);
+      return std::string("the scene's start");
+    });
+    if (scene.name == "fall") try_times(scene, run, path);
+    std::vector<Points> speeds;
+    if (scene.model.first_order())
+      ;
+    else if (!fs::exists(v))
+      add(scene.name, "velocities", false, false, "write velocities.npy too: without it there are no energies",
+          answers);
+    else if (add_tried(scene, "velocities", answers, made,
+                       [&] {
+                         speeds = read_npy(v, frames, frames, particles);
+                         return std::string("of the same shape");
+                       }) &&
+             scene.name == "fall")
+      try_speeds(scene, run, speeds);
+    if (fs::exists(json))
+      try_run_json(scene, run, made, json);
+    else
+      add(scene.name, "run.json", false, false, "write run.json: cost and read-back are told there", run_file);
+    return begins;
+  }
+
+  /// Nothing acts along x in this scene, and every consistent rule goes there at the speed of the start: where a
+  /// particle is tells the time, to much less than the half step that is allowed.
+  void try_times(const Scene& scene, const Run& run, const std::vector<Points>& path) {
+    const TimeGrid grid = time_grid(run);
+    for (size_t i = 0; i < path.size(); ++i) {
+      const double t = grid.time(static_cast<int>(i), 0),
+                   told = (path[i](0, 0) - scene.start.x(0, 0)) / scene.start.v(0, 0);
+      if (std::abs(told - t) <= grid.h / 2) continue;
+      add(scene.name, "sample times", false, true,
+          fmt::format("frame {} shows t = {:.6g} s, expected {:.6g} s: write frames at run.times", i, told, t),
+          scene_file);
+      return;
+    }
+    add(scene.name, "sample times", true, true, "at run.times", scene_file);
+  }
+
+  /// A rule of first order is off by g h / 2, velocities half a step late or early by as much.
+  void try_speeds(const Scene& scene, const Run& run, const std::vector<Points>& speeds) {
+    const TimeGrid grid = time_grid(run);
+    const Vec3 g = scene.model.find<Gravity>()->acceleration;
+    for (size_t i = 0; i < speeds.size(); ++i) {
+      const Vec3 right = scene.start.v.col(0) + grid.time(static_cast<int>(i), 0) * g;
+      const double off = (speeds[i].col(0) - right).norm(), allowed = 1.5 * g.norm() * grid.h;
+      if (off <= allowed) continue;
+      add(scene.name, "speeds", false, true,
+          fmt::format("frame {} is off by {:.3g} m/s, at most {:.3g} is a rule's: velocities in m/s at run.times", i,
+                      off, allowed),
+          answers);
+      return;
+    }
+    add(scene.name, "speeds", true, true, "those of a fall", answers);
+  }
+
+  void try_run_json(const Scene& scene, const Run& run, const KitCall& made, const fs::path& file) {
+    Outcome told;
+    if (!add_tried(scene, "run.json", run_file, made, [&] {
+          read_run_json(file, told, run.duration);
+          return std::string("is understood");
+        }))
+      return;
+    if (scene.name != first_json_ && !first_json_.empty()) return;
+    first_json_ = scene.name;
+    const JsonField json = JsonField::parse_file(file.string());
+    for (const auto& [key, what] : {std::pair{"cpu_seconds", "the time of stepping alone"},
+                                    {"steps", "how many steps it took"},
+                                    {"force_evaluations", "what the steps cost in evaluations"}})
+      add(scene.name, fmt::format("run.json: {}", key), json.find(key).has_value(), false,
+          json.find(key) ? what : fmt::format("add the key: {}", what), run_file);
+  }
+
+  /// The call again as every command makes it: verdict, pins, ingredients, certificate.
+  void try_whole(const Scene& scene, const Run& run, const KitCall& made) {
+    Recorder recorder;
+    const Outcome out = run_method(method_, scene, run, {&recorder});
+    add(scene.name, "verdict", out.verdict == Verdict::ok, true,
+        out.verdict == Verdict::ok ? "ok" : fmt::format("{}: {}", name_of(out.verdict), out.reason), answers);
+    if (out.verdict != Verdict::ok) return;
+    const int frames = recorder.trajectory.frames();
+    Frames delivered{recorder.trajectory.x, {}};
+    if (!scene.model.particles.pins.empty()) {
+      const std::string misled = misled_pin(delivered, scene, run, out);
+      add(scene.name, scene.model.particles.move ? "pins led" : "pins held", misled.empty(), true,
+          misled.empty() ? "where they are prescribed" : misled + ": place pins at home + d(t) at the end of each step",
+          scene_file);
+    }
+    const bool same = read_npy(made.results() / "trajectory.npy", frames, frames, scene.model.particles.size()) ==
+                      recorder.trajectory.x;
+    add(scene.name, "same call twice", same, false,
+        same ? "the same bytes" : "other bytes: seed what is random, add in a fixed order; results cannot be blessed",
+        answers);
+    try_ingredients(scene, run, recorder.trajectory);
+    if (!scene.model.first_order()) collect_rows(scene, out);
+  }
+
+  /// Each ingredient that the program did not refuse must act: its path is nearer to mysim's of the scene than to
+  /// mysim's of the scene without it. What it does otherwise than mysim may be large, as long as it is that.
+  void try_ingredients(const Scene& scene, const Run& run, const Trajectory& theirs) {
+    const auto path_of = [&](const Scene& of) -> std::optional<Trajectory> {
+      Recorder recorder;
+      const bool ok = run_method(find_method(scene.method), of, run, {&recorder}).verdict == Verdict::ok;
+      return ok ? std::optional(recorder.trajectory) : std::nullopt;
+    };
+    const std::optional<Trajectory> whole = path_of(scene);
+    if (!whole) throw std::logic_error("mysim has no result on the kit's scene " + scene.name);
+    for (const Ingredient& ingredient : ingredients_of(scene)) {
+      Trajectory less = *whole;
+      if (scene.model.first_order())
+        for (Points& x : less.x) x = scene.start.x;
+      else if (const auto path = path_of(without(scene, ingredient)))
+        less = *path;
+      else
+        continue;
+      const double with = largest_rms_distance(theirs, *whole), without_it = largest_rms_distance(theirs, less);
+      add(scene.name, fmt::format("acts: {}", ingredient.name), with < without_it, true,
+          with < without_it
+              ? fmt::format("{:.2g} m from mysim", with)
+              : fmt::format("its path is {:.2g} m from mysim's without it, {:.2g} m from mysim's with it: compute it, "
+                            "or exit 3",
+                            without_it, with),
+          scene_file);
+    }
+  }
+
+  void collect_rows(const Scene& scene, const Outcome& out) {
+    has_readback_ |= out.readback.has_value();
+    if (!out.readback) return;
+    for (const CertificateRow& row : certify(method_.name, scene, out).rows) {
+      const auto [at, is_new] = rows_.try_emplace(row.quantity, scene.name, row);
+      const bool worse = rank(row.parity) > rank(at->second.second.parity);
+      if (worse) at->second = {scene.name, row};
+    }
+  }
+  static int rank(Parity parity) {
+    return parity == Parity::mismatch ? 3 : parity == Parity::unattested ? 2 : parity == Parity::different_law ? 1 : 0;
+  }
+  /// The key of the read-back that tells a row.
+  static std::string key_of(const std::string& quantity) {
+    static constexpr std::pair<std::string_view, std::string_view> keys[] = {
+        {"start", "start"},
+        {"spring law", "probe.springs"},
+        {"dashpots", "probe.dashpots"},
+        {"wind", "probe.wind"},
+        {"motion", "later"},
+        {"sleeping", "may_sleep"},
+        {"contact radius", "spheres[].radius"},
+        {"friction", "spheres[].friction"},
+        {"restitution", "spheres[].restitution"},
+        {"nothing else",
+         "what it denies: zeros and empty lists for what the scene has not (gravity, drag, spheres, "
+         "later, probe.dashpots, probe.wind)"}};
+    for (const auto& [begin, key] : keys)
+      if (quantity.starts_with(begin)) return std::string(key);
+    return quantity.ends_with("stiffness") ? "links[].stiffness or probe.springs" : quantity;
+  }
+
+  void try_certificate() {
+    if (taken_ == 0) return;
+    if (!has_readback_) {
+      add("", "certificate", false, false,
+          "nothing is attested: add readback to run.json, read from the engine's own data", run_file);
+      return;
+    }
+    for (const auto& [quantity, where] : rows_) {
+      const auto& [scene, row] = where;
+      const std::string topic = "certificate: " + quantity;
+      if (row.parity == Parity::mismatch)
+        add(scene, topic, false, true,
+            fmt::format("asked {}, read back {}: another scene was built", row.requested, row.read_back), run_file);
+      else if (row.parity == Parity::unattested)
+        add(scene, topic, false, false, fmt::format("add to readback: {}", key_of(quantity)), run_file);
+      else
+        add(scene, topic, true, false, std::string(name_of(row.parity)), run_file);
+    }
+  }
+
+  /// The first scene that the program takes, in forms that other versions and callers may write.
+  void try_changed_scenes() {
+    if (taken_ == 0) return;
+    for (const KitScene& row : kit_scenes) {
+      const Scene scene = parse_scene(row.text, row.name);
+      const Run run = default_run(scene);
+      const std::string text = scene_json(scene, run, program_.options);
+      KitCall plain;
+      call(plain, text);
+      if (!plain.good()) continue;
+      const auto changed = [&](const std::string& from, const std::string& to) {
+        const size_t at = text.find(from);
+        if (at == std::string::npos) throw std::logic_error("scene.json holds no " + from);
+        return text.substr(0, at) + to + text.substr(at + from.size());
+      };
+      KitCall term, key, option;
+      call(term, changed("\"terms\": [", "\"terms\": [{\"type\":\"a-term-of-a-later-version\",\"strength\":1.0},"));
+      if (term.refused())
+        add(scene.name, "unknown term", Conformance::refuses, false, term.last_line(), answers);
+      else
+        add(scene.name, "unknown term", false, true,
+            fmt::format("a term that nobody knows: it {}, expected exit status 3 and the reason: look at the type of "
+                        "every term",
+                        term.how()),
+            answers);
+      call(key, changed("\"version\": 1,", "\"version\": 1,\n \"a-key-of-a-later-version\": {\"x\":[1,2]},"));
+      add(scene.name, "unknown key", key.good(), true,
+          key.good() ? "is ignored" : fmt::format("it {}: ignore keys that you do not know", key.how()), scene_file);
+      std::vector<std::string> options = program_.options;
+      options.push_back("an-option-that-nobody-has=1");
+      call(option, scene_json(scene, run, options));
+      const bool said =
+          !option.good() && option.end.signal == 0 && !option.end.timed_out && !option.last_line().empty();
+      add(scene.name, "unknown option", option.good() || said, true,
+          option.good() ? "is ignored"
+          : said        ? "is refused: " + option.last_line()
+                        : fmt::format("it {}: ignore it, or refuse it with a line", option.how()),
+          options_section);
+      return;
+    }
+  }
+
+  std::string text_;
+  Program program_;
+  Method method_;
+  ConformanceReport report_;
+  int taken_ = 0;  // scenes that were not refused
+  bool has_readback_ = false;
+  bool hangs_ = false;
+  std::string first_json_;  // the scene whose run.json has lines for its keys
+  std::map<std::string, std::pair<std::string, CertificateRow>> rows_;  // by quantity: the worst, and its scene
+};
+
+}  // namespace
+
+ConformanceReport try_adapter(const std::string& program) { return Kit(program).report(); }
+
+}  // namespace crosscheck

@@ -1,0 +1,25 @@
+// An adapter that is spoiled on purpose, and what the conformance kit finds lacking in it.
+#pragma once
+
+#include <set>
+
+#include "experiments/check/protocol_kit.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck::testing_tools {
+
+class ProtocolKit : public InFolder {
+ protected:
+  /// The shipped example behind a script that spoils the scene or the answer.
+  ConformanceReport spoiled(const std::string& before, const std::string& after = "") const {
+    return try_adapter("exec:" + script("adapter", before + CROSSCHECK_EXAMPLE " \"$1\" \"$2\" || exit $?\n" + after));
+  }
+  static std::set<std::string> lacking(const ConformanceReport& report, bool required) {
+    std::set<std::string> topics;
+    for (const ConformanceLine& line : report.lines)
+      if (line.state == Conformance::lacks && line.required == required) topics.insert(line.topic);
+    return topics;
+  }
+};
+
+}  // namespace crosscheck::testing_tools
