@@ -21,7 +21,8 @@ bool glob_matches(const std::string& glob, const std::string& text) {
 const KnownBreak* known_break(const Answer& answer, const std::vector<KnownBreak>& known) {
   for (const KnownBreak& one : known)
     if (glob_matches(one.method, answer.method) && glob_matches(one.relation, std::string(answer.relation->name)) &&
-        (one.scene.empty() || glob_matches(one.scene, answer.scene)))
+        (one.scene.empty() || glob_matches(one.scene, answer.scene)) &&
+        (!one.times || (!answer.finding.what.empty() && answer.finding.ratio() <= *one.times)))
       return &one;
   return nullptr;
 }
@@ -34,7 +35,8 @@ std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file) {
   const TomlTable root = TomlTable::parse_text(read_file(file, "a table of known breaks"), file.string());
   std::vector<KnownBreak> list;
   for (const TomlTable& s : root.sections("known")) {
-    KnownBreak one{s.text("method"), s.text("relation"), s.has("scene") ? s.text("scene") : "", s.text("reason")};
+    KnownBreak one{s.text("method"), s.text("relation"), s.has("scene") ? s.text("scene") : "", s.text("reason"), {}};
+    if (s.has("times")) one.times = s.positive("times");
     if (std::none_of(relations().begin(), relations().end(),
                      [&](const Relation& r) { return glob_matches(one.relation, std::string(r.name)); }))
       s.fail("relation", "the name of a relation, got '" + one.relation + "'");

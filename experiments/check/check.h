@@ -15,10 +15,11 @@ namespace crosscheck {
 struct KnownBreak {
   std::string method, relation, scene;  // globs; no scene: all
   std::string reason;                   // one sentence with the cause as measured
+  std::optional<double> times;          // up to so many times the tolerance; none: whatever the size
 };
 /// Where those that come with Crosscheck stand.
 std::filesystem::path shipped_known_breaks();
-/// [[known]] tables with method, relation, reason, and scene where it is one alone. Throws InputError.
+/// [[known]] tables with method, relation, reason, scene where it is one alone, and times. Throws InputError.
 std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file);
 
 /// One relation asked of one method on one scene.

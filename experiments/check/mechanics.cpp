@@ -44,8 +44,10 @@ Rest at_rest(Subject& subject, const Scene& scene) {
   if (rest.unsettled > 1e-3 * scene.size())
     throw CannotBeAsked(
         fmt::format("it has not come to rest: in the last quarter it moved by {:.2g} m", rest.unsettled));
-  // a particle at rest is rounded in every step, and each time pulled back
-  rest.unsettled += subject.noise(scene).start;
+  // what is damped keeps no velocity that roundings made
+  const double steps = static_cast<double>(std::max(1L, run.outcome.steps));
+  rest.unsettled += 10 * subject.unit_roundoff() * std::sqrt(steps) * lengths_in(scene, run.path);
+  if (subject.method().adaptive) rest.unsettled += subject.noise(scene).start;
   return rest;
 }
 

@@ -18,9 +18,19 @@ const Trajectory& halved(Subject& subject, const Scene& scene, int times) {
   return subject.run(scene, run).path;
 }
 
+/// The rounding of the finest of these runs, m.
+std::vector<double> noise_at(Subject& subject, Scene scene, int times) {
+  scene.step = std::ldexp(scene.step, -times);
+  return subject.noise(scene).x;
+}
+
 /// `fine` must be no more than `part` of `coarse`, and twice the noise.
-RelationResult shrinking(std::string what, const Trajectory& path, const std::vector<double>& coarse,
-                         const std::vector<double>& fine, double part, const std::vector<double>& noise) {
+RelationResult shrinking(std::string what, const Scene& scene, const Trajectory& path,
+                         const std::vector<double>& coarse, const std::vector<double>& fine, double part,
+                         const std::vector<double>& noise) {
+  if (!(noise[1] <= 0.01 * lengths_in(scene, path)))
+    throw CannotBeAsked(
+        fmt::format("at the finest step rounding alone may grow to {:.2g} m before the first sample", noise[1]));
   RelationResult worst{std::move(what), "m", 0, 2 * noise[0]};
   std::optional<double> since;
   for (int i = 1; i < path.frames(); ++i) {
@@ -43,25 +53,26 @@ RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
   return shrinking(fmt::format("a half against a quarter of the step, where order {} allows 2^-{} of the whole against "
                                "a half",
                                order, order - 0.5),
-                   one, distances(one, two), distances(two, four), std::exp2(0.5 - order), subject.noise(scene).x);
+                   scene, one, distances(one, two), distances(two, four), std::exp2(0.5 - order),
+                   noise_at(subject, scene, 2));
 }
 
 RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
   if (subject.method().adaptive) throw CannotBeAsked(own_steps);
-  const auto noise = subject.noise(scene).x;
+  const auto noise = noise_at(subject, scene, 3);
   const Trajectory &one = halved(subject, scene, 0), &two = halved(subject, scene, 1),
                    &four = halved(subject, scene, 2), &eight = halved(subject, scene, 3);
   // order one makes it a quarter; whatever ends below a half in two halvings has a limit
   RelationResult found =
-      shrinking("a quarter against an eighth of the step, which is to be half of the whole against a half", one,
+      shrinking("a quarter against an eighth of the step, which is to be half of the whole against a half", scene, one,
                 distances(one, two), distances(four, eight), 0.5, noise);
   const auto more = subject.with_iterations(2);
   if (!more) return found;
   // n and 2n iterations of ever finer steps come to one answer where their difference shrinks with the step
   Subject other(*more);
   return worse(found, shrinking("n against 2n iterations at half the step, which is to be less than at the whole step",
-                                one, distances(one, halved(other, scene, 0)), distances(two, halved(other, scene, 1)),
-                                std::sqrt(0.5), noise));
+                                scene, one, distances(one, halved(other, scene, 0)),
+                                distances(two, halved(other, scene, 1)), std::sqrt(0.5), noise));
 }
 
 RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {

@@ -53,14 +53,18 @@ double Subject::unit_roundoff() const {
   return single_.value_or(method_.family().single_precision) ? 0x1p-24 : 0x1p-53;
 }
 
+double Subject::rounding(double lengths, long steps) const {
+  const double n = static_cast<double>(std::max(1L, steps)), u = unit_roundoff();
+  return (10 * std::sqrt(n) + (method_.position_based ? n * std::sqrt(n) : 0)) * u * lengths;
+}
+
 Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   const Run settings = run_for_relations(scene);
   const SubjectRun& plain = run(scene, settings);
   const double scale = std::max(lengths, lengths_in(scene, plain.path));
-  const double steps = static_cast<double>(std::max(1L, plain.outcome.steps));
   Noise noise;
-  noise.start =
-      std::max(10 * unit_roundoff() * std::sqrt(steps), method_.adaptive ? settings.tolerance * steps : 0) * scale;
+  noise.start = rounding(scale, plain.outcome.steps);
+  if (method_.adaptive) noise.start = std::max(noise.start, settings.tolerance * scale * plain.outcome.steps);
   // velocities are rounded in the same proportion
   double speed = 0;
   for (const Points& v : plain.path.v) speed = std::max(speed, largest_column(v));
@@ -102,7 +106,7 @@ std::optional<Method> Subject::with_iterations(int times) const {
   }
 }
 
-std::optional<std::vector<double>> Subject::iteration_difference(const Scene& scene) {
+std::optional<std::vector<double>> Subject::iteration_error(const Scene& scene) {
   const auto twice = with_iterations(2);
   if (!twice) return std::nullopt;
   if (!twice_) twice_ = std::make_shared<Subject>(*twice);
@@ -111,7 +115,7 @@ std::optional<std::vector<double>> Subject::iteration_difference(const Scene& sc
   std::vector<double> apart(here.path.frames());
   double most = 0;
   for (size_t i = 0; i < apart.size(); ++i)
-    apart[i] = most = std::max(most, largest_column(here.path.x[i] - there.path.x[i]));
+    apart[i] = most = std::max(most, 2 * largest_column(here.path.x[i] - there.path.x[i]));
   return apart;
 }
 

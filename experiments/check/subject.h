@@ -60,10 +60,13 @@ class Subject {
   };
   /// `lengths` (m): the lengths that occur, where they are larger than in this run.
   Noise noise(const Scene& scene, double lengths = 0);
+  /// The part of it that is no growth, m.
+  double rounding(double lengths, long steps) const;
 
   /// Position-based solvers go through particles and links one after the other: another order is another unconverged
-  /// answer. How far n and 2n iterations are apart up to each sample, m; nothing where the engine has no option n=.
-  std::optional<std::vector<double>> iteration_difference(const Scene& scene);
+  /// answer. The error of n of them falls as 1 / n, so that it is twice the distance of n and 2n iterations: that for
+  /// each sample, m; nothing where the engine has no option n=.
+  std::optional<std::vector<double>> iteration_error(const Scene& scene);
   /// The same engine with so many times the iterations; nothing without an option n=.
   std::optional<Method> with_iterations(int times) const;
 

@@ -27,7 +27,8 @@ std::vector<int> seeded_order(int n, unsigned seed) {
   std::mt19937_64 engine(seed + 2000);
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
-  for (int i = n - 1; i > 0; --i) std::swap(order[i], order[static_cast<int>(uniform(engine) * (i + 1))]);
+  // S. Sattolo, Inf. Process. Lett. 22, 1986: one cycle, in which nothing keeps its place
+  for (int i = n - 1; i > 0; --i) std::swap(order[i], order[static_cast<int>(uniform(engine) * i)]);
   return order;
 }
 

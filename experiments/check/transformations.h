@@ -18,7 +18,7 @@ struct Placement {
 };
 /// A seeded rotation, all as likely.
 Eigen::Matrix3d seeded_turn(unsigned seed);
-/// Numbers 0 to n - 1 in a seeded order.
+/// Numbers 0 to n - 1 in a seeded order in which none is where it was.
 std::vector<int> seeded_order(int n, unsigned seed);
 
 /// The scene with everything that has a direction or a place.
@@ -49,7 +49,7 @@ std::vector<Scene> small_nets();      // five particles, one of them pinned, swi
 std::vector<Scene> falling_nets();    // a tetrahedron at rest: soft, stiff, with dashpots
 std::vector<Scene> resting_nets();    // the same without gravity
 std::vector<Scene> flying_nets();     // thrown, turning, vibrating, nothing outside acts
-std::vector<Scene> vibrating_nets();  // the same for twenty times as long
+std::vector<Scene> vibrating_nets();  // two particles on a spring, turning and vibrating for 16 s
 std::vector<Scene> symmetric_nets();  // a strip that hangs from its middle
 std::vector<Scene> pinned_nets();     // one with a standing pin, one with a moved one
 std::vector<Scene> hanging_chains();  // three masses on springs of three stiffnesses, with drag, with dashpots

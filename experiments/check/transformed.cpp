@@ -16,10 +16,11 @@ RelationResult beside_placed(Subject& subject, const Scene& scene, const Placeme
                   subject.noise(scene, lengths).x, lengths);
 }
 
-/// The bound of runs that differ in the order of what is summed or gone through.
-std::vector<double> bound_of_order(Subject& subject, const Scene& scene) {
+/// The bound of runs that differ in the order of what is summed or gone through: each is off by its own iterations.
+std::vector<double> bound_of_order(Subject& subject, const Scene& scene, const Scene& other) {
   std::vector<double> bound = subject.noise(scene).x;
-  if (const auto iterations = subject.iteration_difference(scene)) bound = sum_of(std::move(bound), *iterations);
+  for (const Scene* one : {&scene, &other})
+    if (const auto error = subject.iteration_error(*one)) bound = sum_of(std::move(bound), *error);
   return bound;
 }
 
@@ -40,20 +41,21 @@ RelationResult shifted_start(Subject& subject, const Scene& scene, unsigned seed
 RelationResult order_of_particles(Subject& subject, const Scene& scene, unsigned seed) {
   const std::vector<int> order = seeded_order(scene.model.particles.size(), seed);
   const Trajectory& here = subject.run(scene).path;
-  const Trajectory there = with_positions(subject.run(renumbered(scene, order)).path, [&](const Points& x) {
+  const Scene other = renumbered(scene, order);
+  const Trajectory there = with_positions(subject.run(other).path, [&](const Points& x) {
     Points back(3, x.cols());
     for (int i = 0; i < x.cols(); ++i) back.col(order[i]) = x.col(i);
     return back;
   });
   return farthest("the run against that with the particles in another order", here, there,
-                  bound_of_order(subject, scene), lengths_in(scene, here));
+                  bound_of_order(subject, scene, other), lengths_in(scene, here));
 }
 
 RelationResult order_of_springs(Subject& subject, const Scene& scene, unsigned seed) {
   const Trajectory& here = subject.run(scene).path;
-  return farthest("the run against that with the springs in another order", here,
-                  subject.run(springs_reordered(scene, seed)).path, bound_of_order(subject, scene),
-                  lengths_in(scene, here));
+  const Scene other = springs_reordered(scene, seed);
+  return farthest("the run against that with the springs in another order", here, subject.run(other).path,
+                  bound_of_order(subject, scene, other), lengths_in(scene, here));
 }
 
 RelationResult scaled_scene(Subject& subject, const Scene& scene, unsigned) {
@@ -85,7 +87,7 @@ RelationResult mirror_symmetry(Subject& subject, const Scene& scene, unsigned) {
     for (int i = 0; i < x.cols(); ++i) image.col(mirror.image[i]) = reflected.col(i);
     return image;
   });
-  return farthest("the run against its mirror image", here, there, bound_of_order(subject, scene),
+  return farthest("the run against its mirror image", here, there, bound_of_order(subject, scene, scene),
                   lengths_in(scene, here));
 }
 
