@@ -71,8 +71,8 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   const bool velocities = plain.path.v.back().cols() == plain.path.x.back().cols();
   noise.x.assign(plain.path.frames(), 3 * noise.start);
   if (velocities) noise.v.assign(plain.path.frames(), 3 * noise.start / scale * speed);
-  for (const unsigned seed : {1U, 2U, 3U}) {
-    const SubjectRun& moved = run(perturbed(scene, noise.start, seed), settings);
+  for (const auto& [seed, way] : {std::pair{1U, 1}, {1U, -1}, {2U, 1}, {2U, -1}}) {
+    const SubjectRun& moved = run(perturbed(scene, way * noise.start, seed), settings);
     double x = 0, v = 0;
     for (int i = 0; i < plain.path.frames(); ++i) {
       x = std::max(x, largest_column(moved.path.x[i] - plain.path.x[i]));

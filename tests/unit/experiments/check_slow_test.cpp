@@ -27,14 +27,18 @@ TEST(RelationsOfAllEngines, AreBrokenOnlyWhereThatIsKnown) {
 TEST(Defects, AreNamedByTheirOwnRelationAndNoOther) {
   for (const char* base : {"leapfrog", "bullet/deformable-explicit"})
     for (const Defect& defect : defects()) {
+      const Method method = defect.make(base);
+      if (const Stepper* rule = stepper_of(method); rule && rule->order < defect.least_order) continue;
       SCOPED_TRACE(fmt::format("{} in {}", defect.what, base));
       Progress progress(0);
       std::set<std::string> broken;
-      for (const Answer& a : ask_all({defect.make(base)}, {}, 1, {}, progress))
+      for (const Answer& a : ask_all({method}, {}, 1, {}, progress))
         if (a.mark == RelationMark::broken) broken.insert(std::string(a.relation->name));
       EXPECT_TRUE(broken.contains(defect.relation));
       for (const std::string& name : broken)
-        EXPECT_TRUE(name == defect.relation || defect.also.contains(name)) << name << " is named too";
+        EXPECT_TRUE(name == defect.relation || defect.also.contains(name) ||
+                    (base != std::string("leapfrog") && defect.also_in_bullet.contains(name)))
+            << name << " is named too";
     }
 }
 

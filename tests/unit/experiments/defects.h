@@ -51,6 +51,8 @@ struct Defect {
   std::function<Method(const std::string& base)> make;
   std::set<std::string> also = {};  // relations that it must break, or may, too
   std::string because = {};
+  int least_order = 1;  // of the rule in which it is a defect
+  std::set<std::string> also_in_bullet = {};
 };
 
 inline std::vector<Spring>& springs_in(Scene& s) { return s.model.find<Springs>()->list; }
@@ -132,8 +134,12 @@ inline const std::vector<Defect>& defects() {
        scene_defect([](Scene& s, R) { springs_in(s)[0].k *= 1 + 1e-6; }),
        {"mirror"},
        "the image of the first spring is another"},
-      {"half-step", "stiffness is off by a part of order one in the step",
-       scene_defect([](Scene& s, R run) { multiply_stiffness(s, 1 + 0.1 / steps_between(run)); })},
+      {"half-step",
+       "stiffness is off by a part of order one in the step",
+       scene_defect([](Scene& s, R run) { multiply_stiffness(s, 1 + 0.1 / steps_between(run)); }),
+       {},
+       "a rule of order one has such an error by itself",
+       2},
       {"scaling", "1e-6 N/m are added to every spring", scene_defect([](Scene& s, R) {
          for (Spring& e : springs_in(s)) e.k += 1e-6;
        })},
@@ -161,20 +167,26 @@ inline const std::vector<Defect>& defects() {
          if (!g || !has_pins(s)) return;
          const Eigen::VectorXd& mass = s.model.particles.mass;
          const Vec3 arm = s.start.x * mass / mass.sum() - Vec3(s.model.particles.pin_home.col(0));
-         g->acceleration += 1e-8 * g->acceleration.cross(arm) / s.size();
+         g->acceleration += 1e-8 * g->acceleration.cross(arm) / arm.norm();
        })},
       {"pins", "pins sink", state_defect([](const Scene& s, State& state) {
          const auto* g = s.model.find<Gravity>();
          if (!g) return;
          for (const int pin : s.model.particles.pins) state.x.col(pin) += 1e-9 * state.t * state.t * g->acceleration;
        })},
-      {"energy", "springs have dashpots that nobody asked for", scene_defect([](Scene& s, R run) {
+      {"energy",
+       "springs have dashpots that nobody asked for",
+       scene_defect([](Scene& s, R run) {
          if (s.model.find<Dashpots>()) return;
          Dashpots dashpots;
          for (const Spring& e : springs_in(s))
            dashpots.list.push_back({e.a, e.b, 1e-2 * e.k * run.duration / run.samples});
          s.model.terms.emplace_back(std::move(dashpots));
-       })},
+       }),
+       {},
+       "Bullet solves dashpots by conjugate residuals, which stop at 1e-8",
+       1,
+       {"momentum", "angular-momentum", "turned", "scaling"}},
       {"resume", "speeds at the start are a hundredth too high", scene_defect([](Scene& s, R) {
          if (has_pins(s)) s.start.v *= 1.01;
        })},
