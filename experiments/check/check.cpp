@@ -48,11 +48,11 @@ std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file) {
 
 std::string Answer::sentence() const {
   if (mark == RelationMark::not_asked || finding.what.empty()) return reason;
-  const std::string allowed = fmt::format("the tolerance of {:.2g} {}", finding.tolerance, finding.unit);
-  std::string text = finding.tolerance <= 0
-                         ? fmt::format("{:.2g} {}, where none is allowed", finding.measured, finding.unit)
-                     : finding.holds() ? fmt::format("{:.2g} of {}", finding.ratio(), allowed)
-                                       : fmt::format("{:.3g} times {}", finding.ratio(), allowed);
+  const std::string unit = finding.unit == "1" ? "" : " " + finding.unit;
+  const std::string allowed = fmt::format("the tolerance of {:.2g}{}", finding.tolerance, unit);
+  std::string text = finding.tolerance <= 0 ? fmt::format("{:.2g}{}, where none is allowed", finding.measured, unit)
+                     : finding.holds()      ? fmt::format("{:.2g} of {}", finding.ratio(), allowed)
+                                            : fmt::format("{:.3g} times {}", finding.ratio(), allowed);
   if (finding.since) text += fmt::format(", since {:.3g} s", *finding.since);
   if (!finding.holds()) text += ": " + finding.what;
   return mark == RelationMark::known ? text + "; known: " + reason : text;
