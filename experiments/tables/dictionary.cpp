@@ -6,6 +6,7 @@
 #include "experiments/tables/adequacy.h"
 #include "experiments/tables/bench.h"
 #include "experiments/tables/certificates.h"
+#include "experiments/tables/check.h"
 #include "experiments/tables/cost.h"
 #include "experiments/tables/disagreements.h"
 #include "experiments/tables/energy.h"
@@ -28,11 +29,12 @@ using AllRows = std::tuple<                                                     
     LinkStiffnessRow, NetworkStiffnessRow,                                                //
     DisagreementRow, DisagreementCurveRow, ContactAngleRow,                               //
     SpeedAccuracyRow, SpeedAccuracyTimingRow, SpeedAccuracyCostRow, ParetoRow<Cost::evaluations>,
-    ParetoRow<Cost::cpu>,                                                    //
-    CheapestRow<Cost::evaluations>, CheapestRow<Cost::cpu>, EngineSpeedRow,  //
-    LimitRow, FailureRow, GrowthRow, MapRow, MapLimitRow, MapCheckRow,       //
-    SizeCostRow, PhaseCostRow, RooflineRow,                                  //
-    KernelRow, SceneKernelRow, EqualErrorRow, OwnRunRow, SameStepRow, ImplicitStepRow, ThreadsRow>;
+    ParetoRow<Cost::cpu>,                                                                           //
+    CheapestRow<Cost::evaluations>, CheapestRow<Cost::cpu>, EngineSpeedRow,                         //
+    LimitRow, FailureRow, GrowthRow, MapRow, MapLimitRow, MapCheckRow,                              //
+    SizeCostRow, PhaseCostRow, RooflineRow,                                                         //
+    KernelRow, SceneKernelRow, EqualErrorRow, OwnRunRow, SameStepRow, ImplicitStepRow, ThreadsRow,  //
+    RelationRow>;
 
 struct DictionaryRow {
   std::string table_name, column_name, unit, type, description;

@@ -1,13 +1,22 @@
-// check: what can be asked of an engine without any truth; with --protocol, what an adapter lacks still.
+// check: what can be asked of an engine without any truth; with --protocol, what its adapter still lacks.
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
+#include "experiments/check/check.h"
 #include "experiments/check/protocol_kit.h"
+#include "experiments/scenes/scenes.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
 #include "mysim/base/json.h"
+#include "mysim/base/output_folder.h"
+#include "mysim/base/text.h"
+#include "report/base/provenance.h"
 #include "report/commands/commands.h"
+#include "report/page/page.h"
 
 namespace crosscheck {
 namespace {
@@ -47,19 +56,132 @@ int check_protocol(const std::string& program, bool json) {
   return report.complete() ? 0 : 1;
 }
 
+struct CheckOptions {
+  std::vector<std::string> words;  // methods and scenes
+  std::string known, junit, out;
+  unsigned seed = 1;
+  std::string program;  // of the conformance kit; empty: relations are asked
+  bool json = false;
+};
+
+/// Words become scenes where a shipped one is called so, or a file ends in .toml; else methods.
+void sort_words(const std::vector<std::string>& words, std::vector<Method>& methods, std::vector<Scene>& scenes) {
+  std::vector<std::string> names;
+  const auto shipped = shipped_scenes();
+  for (const std::string& word : words) {
+    if (word.ends_with(".toml") || std::find(shipped.begin(), shipped.end(), word) != shipped.end()) {
+      names.push_back(word);
+      continue;
+    }
+    try {
+      methods.push_back(find_method(word));
+    } catch (const InputError& error) {
+      const std::string scene = closest_match(word, {shipped.begin(), shipped.end()});
+      throw InputError(fmt::format("{}{}", error.what(),
+                                   scene.empty() ? "" : fmt::format("; nor a scene: did you mean '{}'?", scene)));
+    }
+  }
+  if (methods.empty()) throw InputError("check: expected at least one method beside the scenes");
+  if (!names.empty()) scenes = load_scenes(names);
+}
+
+void print_answers(const std::vector<Answer>& answers) {
+  for (const Answer& a : answers)
+    fmt::print("{:<16} {:<17} {:<20} {:<20} {}\n", name_of(a.mark), a.relation->name, a.method, a.scene, a.sentence());
+  fmt::print("\n");
+  std::string counts;
+  for (const auto mark : {RelationMark::holds, RelationMark::broken, RelationMark::known, RelationMark::not_asked})
+    counts += fmt::format(
+        "{}{} {}", counts.empty() ? "" : ", ",
+        std::count_if(answers.begin(), answers.end(), [&](const Answer& a) { return a.mark == mark; }), name_of(mark));
+  fmt::print("{} answers: {}\n", answers.size(), counts);
+}
+
+Json json_of(const std::vector<Answer>& answers) {
+  Json all{{"format", 1}, {"passed", status_of(answers) == 0}, {"relations", Json::list()}};
+  for (const Answer& a : answers) {
+    Json one{{"method", a.method}, {"relation", a.relation->name}, {"says", a.relation->sentence},
+             {"scene", a.scene},   {"scene_hash", a.scene_hash},   {"mark", name_of(a.mark)}};
+    if (!a.finding.what.empty())
+      one.update({{"compared", a.finding.what},
+                  {"unit", a.finding.unit},
+                  {"measured", a.finding.measured},
+                  {"tolerance", a.finding.tolerance},
+                  {"allowed", a.relation->allowed}});
+    if (a.finding.since) one["since"] = *a.finding.since;
+    if (!a.reason.empty()) one["reason"] = a.reason;
+    all["relations"].push(std::move(one));
+  }
+  return all;
+}
+
+/// A case for each answer: failed where broken, skipped where known or not asked.
+std::string junit_of(const std::vector<Answer>& answers) {
+  size_t failures = 0, skipped = 0;
+  std::string body;
+  for (const Answer& a : answers) {
+    body += fmt::format("  <testcase classname=\"{}\" name=\"{}: {}\"", escaped(a.method),
+                        escaped(std::string(a.relation->name)), escaped(a.scene));
+    if (a.mark == RelationMark::holds) {
+      body += "/>\n";
+      continue;
+    }
+    const bool broken = a.mark == RelationMark::broken;
+    ++(broken ? failures : skipped);
+    body += fmt::format("><{} message=\"{}\"/></testcase>\n", broken ? "failure" : "skipped", escaped(a.sentence()));
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n<testsuite name=\"check\" tests=\"{}\" "
+      "failures=\"{}\" errors=\"0\" skipped=\"{}\">\n{}</testsuite>\n</testsuites>\n",
+      answers.size(), failures, skipped, body);
+}
+
+int check_relations(const CheckOptions& options, const std::string& line) {
+  std::vector<Method> methods;
+  std::vector<Scene> scenes;
+  sort_words(options.words, methods, scenes);
+  const auto known =
+      read_known_breaks(options.known.empty() ? shipped_known_breaks() : std::filesystem::path(options.known));
+  std::optional<OutputFolder> folder;
+  if (!options.out.empty()) folder.emplace(options.out, "check");
+  Progress progress(static_cast<int>(methods.size() * relations().size()));
+  const std::vector<Answer> answers = ask_all(methods, scenes, options.seed, known, progress);
+  progress.done();
+  if (folder) {
+    write_csv(table_of(answers), provenance(line), folder->path());
+    folder->finish();
+  }
+  if (!options.junit.empty()) write_file(options.junit, junit_of(answers));
+  if (options.json)
+    fmt::print("{}\n", json_of(answers).dump(1));
+  else
+    print_answers(answers);
+  return status_of(answers);
+}
+
 }  // namespace
 
 void add_check(CLI::App& app, Invocation& call) {
-  struct Options {
-    std::string program;
-    bool json = false;
-  };
-  const auto options = std::make_shared<Options>();
-  auto* check = app.add_subcommand("check", "says line by line what an engine behind the protocol lacks still");
-  check->add_option("--protocol", options->program, "exec:PROGRAM: runs the conformance kit of the engine protocol")
-      ->required();
+  const auto options = std::make_shared<CheckOptions>();
+  auto* check =
+      app.add_subcommand("check", "asks methods for relations that need no truth: symmetries, conservation, order");
+  auto* words = check->add_option("METHOD", options->words,
+                                  "methods, and the scenes to ask on (default: the smallest scene of each relation)");
+  check
+      ->add_option("--protocol", options->program,
+                   "exec:PROGRAM: says line by line what an adapter of the engine protocol still lacks")
+      ->excludes(words);
+  check->add_option("--known", options->known, "TOML file of known breaks, instead of those that come with Crosscheck");
+  check->add_option("--seed", options->seed, "seed of turns, shifts and orders (default: 1)");
   check->add_flag("--json", options->json, "prints JSON");
-  check->callback([options, &call] { call.status = check_protocol(options->program, options->json); });
+  check->add_option("--junit", options->junit, "file for JUnit XML");
+  check->add_option("--out", options->out, "folder for relations.csv (default: none is written)");
+  check->callback([options, &call] {
+    if (options->program.empty() && options->words.empty())
+      throw InputError("check: expected a method, or --protocol exec:PROGRAM");
+    call.status = options->program.empty() ? check_relations(*options, call.line)
+                                           : check_protocol(options->program, options->json);
+  });
 }
 
 }  // namespace crosscheck

@@ -32,6 +32,7 @@ void add_render(CLI::App& app, Invocation& call);
 void add_advise(CLI::App& app, Invocation& call);
 void add_regress(CLI::App& app, Invocation& call);
 void add_bench(CLI::App& app, Invocation& call);
+void add_check(CLI::App& app, Invocation& call);
 void add_engine(CLI::App& app, Invocation& call);
 void add_lab(CLI::App& app, Invocation& call);
 void add_check(CLI::App& app, Invocation& call);

@@ -1,0 +1,128 @@
+// Relations asked of methods, and the table of known breaks.
+#include "experiments/check/check.h"
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/scene/toml.h"
+
+namespace crosscheck {
+namespace {
+
+bool glob_matches(const std::string& glob, const std::string& text) {
+  return fnmatch(glob.c_str(), text.c_str(), FNM_EXTMATCH) == 0;
+}
+
+const KnownBreak* known_break(const Answer& answer, const std::vector<KnownBreak>& known) {
+  for (const KnownBreak& one : known)
+    if (glob_matches(one.method, answer.method) && glob_matches(one.relation, std::string(answer.relation->name)) &&
+        (one.scene.empty() || glob_matches(one.scene, answer.scene)) &&
+        (!one.times || (!answer.finding.what.empty() && answer.finding.ratio() <= *one.times)))
+      return &one;
+  return nullptr;
+}
+
+}  // namespace
+
+std::filesystem::path shipped_known_breaks() { return CROSSCHECK_KNOWN_BREAKS; }
+
+std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file) {
+  const TomlTable root = TomlTable::parse_text(read_file(file, "a table of known breaks"), file.string());
+  std::vector<KnownBreak> list;
+  for (const TomlTable& s : root.sections("known")) {
+    KnownBreak one{s.text("method"), s.text("relation"), s.has("scene") ? s.text("scene") : "", s.text("reason"), {}};
+    if (s.has("times")) one.times = s.positive("times");
+    if (std::none_of(relations().begin(), relations().end(),
+                     [&](const Relation& r) { return glob_matches(one.relation, std::string(r.name)); }))
+      s.fail("relation", "the name of a relation, got '" + one.relation + "'");
+    list.push_back(std::move(one));
+  }
+  root.finish();
+  return list;
+}
+
+std::string Answer::sentence() const {
+  if (mark == RelationMark::not_asked || finding.what.empty()) return reason;
+  const std::string unit = finding.unit == "1" ? "" : " " + finding.unit;
+  const std::string allowed = fmt::format("the tolerance of {:.2g}{}", finding.tolerance, unit);
+  std::string text = finding.tolerance <= 0 ? fmt::format("{:.2g}{}, where none is allowed", finding.measured, unit)
+                     : finding.holds()      ? fmt::format("{:.2g} of {}", finding.ratio(), allowed)
+                                            : fmt::format("{:.3g} times {}", finding.ratio(), allowed);
+  if (finding.since) text += fmt::format(", since {:.3g} s", *finding.since);
+  if (!finding.holds()) text += ": " + finding.what;
+  return mark == RelationMark::known ? text + "; known: " + reason : text;
+}
+
+Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsigned seed,
+           const std::vector<KnownBreak>& known) {
+  Answer answer{subject.method().name, scene.name, &relation, RelationMark::holds, {}, "", hash_of(scene)};
+  try {
+    answer.finding = relation.ask(subject, scene, seed);
+    if (!answer.finding.holds()) answer.mark = RelationMark::broken;
+  } catch (const CannotBeAsked& why) {
+    answer.mark = RelationMark::not_asked, answer.reason = why.what();
+  } catch (const RunFailed& how) {
+    answer.mark = RelationMark::broken, answer.reason = how.what();
+    answer.finding.since = how.end;
+  }
+  if (answer.mark != RelationMark::broken) return answer;
+  if (const KnownBreak* one = known_break(answer, known)) {
+    answer.mark = RelationMark::known;
+    answer.reason += (answer.reason.empty() ? "" : "; known: ") + one->reason;
+  }
+  return answer;
+}
+
+std::vector<Answer> ask_all(const std::vector<Method>& methods, const std::vector<Scene>& scenes, unsigned seed,
+                            const std::vector<KnownBreak>& known, Progress& progress) {
+  std::vector<Answer> answers;
+  for (const Method& method : methods) {
+    Subject subject(method);
+    for (const Relation& relation : relations()) {
+      progress.begin(fmt::format("{}: {}", method.name, relation.name));
+      for (const Scene& scene : scenes.empty() ? relation.smallest() : scenes)
+        if (scenes.empty() || relation.excluded(scene).empty())
+          answers.push_back(ask(relation, subject, scene, seed, known));
+    }
+  }
+  return answers;
+}
+
+int status_of(const std::vector<Answer>& answers) {
+  const auto any = [&](RelationMark mark) {
+    return std::any_of(answers.begin(), answers.end(), [&](const Answer& a) { return a.mark == mark; });
+  };
+  return !any(RelationMark::broken) && (any(RelationMark::holds) || any(RelationMark::known)) ? 0 : 1;
+}
+
+Table table_of(const std::vector<Answer>& answers) {
+  Table table = table_of<RelationRow>();
+  for (const Answer& a : answers) {
+    RelationRow row{a.method,
+                    std::string(a.relation->name),
+                    a.scene,
+                    a.mark,
+                    a.finding.what,
+                    a.finding.unit,
+                    {},
+                    {},
+                    {},
+                    {},
+                    a.reason,
+                    a.scene_hash};
+    row.since = a.finding.since;
+    if (!a.finding.what.empty()) {
+      row.measured = a.finding.measured, row.tolerance = a.finding.tolerance;
+      if (std::isfinite(a.finding.ratio())) row.ratio = a.finding.ratio();
+    }
+    add(table, row);
+  }
+  return table;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,51 @@
+// `check`: relations asked of methods, and which broken ones are known.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "experiments/check/relations.h"
+#include "experiments/tables/check.h"
+#include "mysim/base/progress.h"
+
+namespace crosscheck {
+
+/// A relation that a method breaks by design, or by a cause that was measured.
+struct KnownBreak {
+  std::string method, relation, scene;  // globs; no scene: all
+  std::string reason;                   // one sentence with the cause as measured
+  std::optional<double> times;          // up to so many times the tolerance; none: whatever the size
+};
+/// Where those that come with Crosscheck stand.
+std::filesystem::path shipped_known_breaks();
+/// [[known]] tables with method, relation, reason, scene where it is one alone, and times. Throws InputError.
+std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file);
+
+/// One relation asked of one method on one scene.
+struct Answer {
+  std::string method, scene;
+  const Relation* relation;
+  RelationMark mark = RelationMark::holds;
+  RelationResult finding;  // where it could be asked
+  std::string reason;      // why not; how a run failed; why it is known
+  std::string scene_hash;
+
+  /// "0.02 of the tolerance of 1e-12 m", "35 times the tolerance of 2e-3 J since 0.4 s", or the reason.
+  std::string sentence() const;
+};
+
+Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsigned seed,
+           const std::vector<KnownBreak>& known);
+
+/// Every relation of every method: on its smallest scenes where no scene is given, else on each of these that it says
+/// something about.
+std::vector<Answer> ask_all(const std::vector<Method>& methods, const std::vector<Scene>& scenes, unsigned seed,
+                            const std::vector<KnownBreak>& known, Progress& progress);
+
+/// 0 where something was asked and nothing but known breaks was found; else 1.
+int status_of(const std::vector<Answer>& answers);
+
+Table table_of(const std::vector<Answer>& answers);
+
+}  // namespace crosscheck

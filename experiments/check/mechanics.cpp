@@ -1,0 +1,246 @@
+// Relations of mechanics: free fall, momentum, energy, pins, equilibrium.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "experiments/check/compare.h"
+#include "experiments/metrics.h"
+#include "mysim/model/energy.h"
+
+namespace crosscheck {
+namespace {
+
+/// Over the samples, the value (in `unit`) against its bound.
+RelationResult over_time(std::string what, std::string unit, const Trajectory& path, const std::vector<double>& bound,
+                         const std::function<double(int)>& value) {
+  RelationResult worst{std::move(what), std::move(unit), 0, bound[0]};
+  std::optional<double> since;
+  for (int i = 0; i < path.frames(); ++i) {
+    const RelationResult here{worst.what, worst.unit, value(i), bound[i]};
+    if (!here.holds() && !since) since = path.t[i];
+    if (here.ratio() > worst.ratio()) worst = here;
+  }
+  worst.since = since;
+  return worst;
+}
+
+void require_velocities(const Trajectory& path) {
+  if (path.v.back().cols() != path.x.back().cols()) throw CannotBeAsked("it reports no velocities");
+}
+
+Vec3 start_velocity_of_the_centre(const Scene& scene) { return centre_of_mass(scene, scene.start.v); }
+
+/// A damped run, at its end: where it is, and what it still moved by in its last quarter, m.
+struct Rest {
+  Points x;
+  double unsettled;
+};
+Rest at_rest(Subject& subject, const Scene& scene) {
+  const SubjectRun& run = subject.run(scene);
+  Rest rest{run.path.x.back(), 0};
+  for (int i = run.path.frames() * 3 / 4; i < run.path.frames(); ++i)
+    rest.unsettled = std::max(rest.unsettled, largest_column(run.path.x[i] - rest.x));
+  if (rest.unsettled > 1e-3 * scene.size())
+    throw CannotBeAsked(
+        fmt::format("it has not come to rest: in the last quarter it moved by {:.2g} m", rest.unsettled));
+  // what is damped keeps no velocity that roundings made
+  const double steps = static_cast<double>(std::max(1L, run.outcome.steps));
+  rest.unsettled += 10 * subject.unit_roundoff() * std::sqrt(steps) * lengths_in(scene, run.path);
+  if (subject.method().adaptive) rest.unsettled += subject.noise(scene).start;
+  return rest;
+}
+
+double extension_of(const Spring& spring, const Points& x) {
+  return (x.col(spring.a) - x.col(spring.b)).norm() - spring.rest;
+}
+
+}  // namespace
+
+RelationResult free_fall(Subject& subject, const Scene& scene, unsigned) {
+  const SubjectRun& run = subject.run(scene);
+  const Trajectory& path = run.path;
+  const std::vector<double> noise = subject.noise(scene).x;
+  const Points& start = scene.start.x;
+  const Vec3 from = centre_of_mass(scene, start), v = start_velocity_of_the_centre(scene),
+             g = scene.model.find<Gravity>()->acceleration;
+  const auto fallen = [&](int i) { return Vec3(centre_of_mass(scene, path.x[i]) - from); };
+  RelationResult relative = over_time("motion of a particle relative to the others", "m", path, noise, [&](int i) {
+    return largest_column(((path.x[i] - start).colwise() - fallen(i)).eval());
+  });
+  // a rule of order two falls g t^2 / 2 exactly, one of order one g t (t + h) / 2 or g t (t - h) / 2; what else there
+  // is falls between these
+  const Method& method = subject.method();
+  const bool known = stepper_of(method) != nullptr;
+  const double h = method.adaptive || (known && order_of(method) > 1) ? 0 : run.outcome.step;
+  RelationResult centre = over_time(
+      known && h == 0 ? "the centre of mass against g t^2 / 2" : "the centre of mass against g t (t +- h) / 2", "m",
+      path, noise, [&](int i) {
+        const double t = path.t[i];
+        const Vec3 off = fallen(i) - v * t - g * (t * t / 2), late = g * (t * h / 2);
+        if (known) return std::min((off - late).norm(), (off + late).norm());
+        const double along = late.squaredNorm() > 0 ? std::clamp(off.dot(late) / late.squaredNorm(), -1.0, 1.0) : 0;
+        return (off - along * late).norm();
+      });
+  return worse(std::move(relative), std::move(centre));
+}
+
+RelationResult no_force_no_motion(Subject& subject, const Scene& scene, unsigned) {
+  const Trajectory& path = subject.run(scene).path;
+  return over_time("motion of a net on which nothing acts", "m", path, subject.noise(scene).x,
+                   [&](int i) { return largest_column(path.x[i] - scene.start.x); });
+}
+
+RelationResult momentum_kept(Subject& subject, const Scene& scene, unsigned) {
+  const Trajectory& path = subject.run(scene).path;
+  const Vec3 from = centre_of_mass(scene, scene.start.x), v = start_velocity_of_the_centre(scene);
+  // momentum over mass, seen in places: engines that report no velocities are asked too
+  return over_time("the centre of mass against uniform motion", "m", path, subject.noise(scene).x,
+                   [&](int i) { return (centre_of_mass(scene, path.x[i]) - from - v * path.t[i]).norm(); });
+}
+
+RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsigned) {
+  const Eigen::VectorXd& mass = scene.model.particles.mass;
+  const auto changes_in = [&](const Trajectory& path) {
+    require_velocities(path);
+    std::vector<double> changes;
+    Vec3 first;
+    double most = 0;
+    for (int i = 0; i < path.frames(); ++i) {
+      Vec3 sum = Vec3::Zero();
+      for (int p = 0; p < mass.size(); ++p) sum += mass[p] * Vec3(path.x[i].col(p)).cross(Vec3(path.v[i].col(p)));
+      if (i == 0) first = sum;
+      changes.push_back(most = std::max(most, (sum - first).norm()));
+    }
+    return changes;
+  };
+  const Trajectory& path = subject.run(scene).path;
+  const std::vector<double> whole = changes_in(path);
+  const Subject::Noise noise = subject.noise(scene);
+  double far = 0, fast = 0;
+  for (int i = 0; i < path.frames(); ++i)
+    far = std::max(far, largest_column(path.x[i])), fast = std::max(fast, largest_column(path.v[i]));
+  // m x' x v + m x x v', at the largest distance and speed
+  std::vector<double> bound(noise.x.size());
+  for (size_t i = 0; i < bound.size(); ++i) bound[i] = mass.sum() * (noise.x[i] * fast + noise.v[i] * far);
+  const Stepper* rule = stepper_of(subject.method());
+  // half drifts and kicks along central forces keep it; other rules change it by an error of their order
+  if (subject.method().adaptive || (rule && rule->symplectic))
+    return over_time("change of angular momentum", "kg m^2/s", path, bound, [&](int i) { return whole[i]; });
+  Run finer = run_for_relations(scene);
+  finer.step /= 2;
+  const std::vector<double> half = changes_in(subject.run(scene, finer).path);
+  const int order = order_of(subject.method());
+  for (size_t i = 0; i < bound.size(); ++i) bound[i] += std::exp2(0.5 - order) * whole[i];
+  return over_time(
+      fmt::format("change of angular momentum at half the step, where order {} allows 2^-{} of that at the whole",
+                  order, order - 0.5),
+      "kg m^2/s", path, bound, [&](int i) { return half[i]; });
+}
+
+RelationResult energy_without_drift(Subject& subject, const Scene& scene, unsigned) {
+  const SubjectRun& run = subject.run(scene);
+  const Trajectory& path = run.path;
+  require_velocities(path);
+  const int tenth = path.frames() / 10;
+  if (tenth < 3) throw CannotBeAsked("the scene has fewer than thirty samples");
+  std::vector<double> energy, mean, swing;
+  double scale = 0;
+  for (int i = 0; i < path.frames(); ++i) {
+    const Energy e = energy_of(scene.model, {path.t[i], path.x[i], path.v[i]});
+    energy.push_back(e.total());
+    scale = std::max({scale, std::abs(e.total()), e.kinetic + e.elastic});
+  }
+  for (int part = 0; part < 10; ++part) {
+    const auto from = energy.begin() + part * tenth, to = from + tenth;
+    double sum = 0;
+    for (auto e = from; e != to; ++e) sum += *e;
+    mean.push_back(sum / tenth);
+    swing.push_back(*std::max_element(from, to) - *std::min_element(from, to));
+  }
+  std::vector<double> sorted = swing;
+  std::nth_element(sorted.begin(), sorted.begin() + 5, sorted.end());
+  const double steps = static_cast<double>(std::max(1L, run.outcome.steps));
+  const double rounding = 10 * subject.unit_roundoff() * std::sqrt(steps) * scale;
+  RelationResult found{"mean energy of the last tenth against the first", "J", std::abs(mean[9] - mean[0]),
+                       sorted[5] + rounding};
+  for (int part = 1; part < 10 && !found.since && !found.holds(); ++part)
+    if (std::abs(mean[part] - mean[0]) > found.tolerance) found.since = path.t[part * tenth];
+  return found;
+}
+
+RelationResult pins_on_their_path(Subject& subject, const Scene& scene, unsigned) {
+  const SubjectRun& run = subject.run(scene);
+  const Trajectory& path = run.path;
+  const Particles& p = scene.model.particles;
+  // a place is computed anew or rounded in every step; nothing grows on a pin
+  const double steps = static_cast<double>(std::max(1L, run.outcome.steps));
+  const std::vector<double> bound(path.frames(),
+                                  10 * subject.unit_roundoff() * std::sqrt(steps) * lengths_in(scene, path));
+  return over_time(p.move ? "pins against their prescribed path" : "pins against their place", "m", path, bound,
+                   [&](int i) {
+                     State there = scene.start;
+                     there.t = path.t[i];
+                     p.place_pins(there);
+                     double most = 0;
+                     for (const int pin : p.pins) most = std::max(most, (path.x[i].col(pin) - there.x.col(pin)).norm());
+                     return most;
+                   });
+}
+
+RelationResult rest_without_damping(Subject& subject, const Scene& scene, unsigned) {
+  Scene more = scene;
+  constexpr double factor = 1.6;
+  if (auto* drag = more.model.find<Drag>()) drag->c *= factor;
+  if (auto* dashpots = more.model.find<Dashpots>())
+    for (auto& d : dashpots->list) d.c *= factor;
+  more.hash = hash_of(more);
+  const Rest here = at_rest(subject, scene), there = at_rest(subject, more);
+  return {"the shape of rest against that with 1.6 times the damping", "m", largest_column(here.x - there.x),
+          here.unsettled + there.unsettled};
+}
+
+RelationResult extension_by_stiffness(Subject& subject, const Scene& scene, unsigned) {
+  const Rest rest = at_rest(subject, scene);
+  const std::vector<Spring> chain = hanging_chain_of(scene);
+  const Eigen::VectorXd& mass = scene.model.particles.mass;
+  // tension over the mass below is the same for all springs of a chain, g; by the engine's own law
+  SpringLaw law = scene.model.find<Springs>()->law;
+  if (subject.method().spring_law != SpringLaw::hooke) law = subject.method().spring_law;
+  std::vector<double> pull;
+  double stiffest = 0, mean = 0;
+  for (size_t i = 0; i < chain.size(); ++i) {
+    const double below = mass.tail(mass.size() - 1 - static_cast<int>(i)).sum();
+    const Tension tension = tension_of(chain[i], law, extension_of(chain[i], rest.x) + chain[i].rest);
+    pull.push_back(tension.force / below);
+    mean += pull.back() / static_cast<double>(chain.size());
+    stiffest = std::max(stiffest, tension.slope / below);
+  }
+  RelationResult found{"tension over the mass below, the same for all springs", "m/s^2", 0,
+                       4 * stiffest * rest.unsettled};
+  for (const double p : pull) found.measured = std::max(found.measured, std::abs(p - mean));
+  return found;
+}
+
+RelationResult stiffness_has_effect(Subject& subject, const Scene& scene, unsigned) {
+  const Rest soft = at_rest(subject, scene);
+  const std::vector<Spring> chain = hanging_chain_of(scene);
+  std::optional<RelationResult> worst;
+  for (const Spring& spring : chain) {
+    Scene stiff = scene;
+    for (Spring& s : stiff.model.find<Springs>()->list)
+      if (s.a == spring.a && s.b == spring.b) s.k *= 4;
+    stiff.hash = hash_of(stiff);
+    const Rest hard = at_rest(subject, stiff);
+    const double before = extension_of(spring, soft.x), after = extension_of(spring, hard.x);
+    // any effect that is more than what is still to settle
+    RelationResult found{
+        fmt::format("extension of the spring between {} and {} with four times its stiffness, of that before", spring.a,
+                    spring.b),
+        "1", after / before, 1 - 2 * (soft.unsettled + hard.unsettled) / std::abs(before)};
+    worst = worst ? worse(*worst, std::move(found)) : std::move(found);
+  }
+  return *worst;
+}
+
+}  // namespace crosscheck

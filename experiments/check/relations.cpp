@@ -1,0 +1,126 @@
+// The table of relations.
+#include "experiments/check/relations.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <limits>
+
+#include "experiments/check/compare.h"
+#include "experiments/check/transformations.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/text.h"
+
+namespace crosscheck {
+namespace {
+
+// why a relation says nothing about a scene
+
+std::string any_scene(const Scene&) { return ""; }
+std::string with_springs(const Scene& s) {
+  return s.model.find<Springs>() || s.model.find<Constraints>() ? "" : "no springs";
+}
+std::string movable(const Scene& s) {
+  if (s.model.first_order()) return "its field has a place and a direction";
+  // the last bounces before rest are decided by roundings there, which no perturbation of the start shows
+  if (const auto* spheres = s.model.find<Spheres>())
+    for (const Sphere& sphere : spheres->list)
+      if (sphere.restitution > 0) return "endless bounces are decided by rounding";
+  return "";
+}
+std::string symmetric(const Scene& s) { return mirror_of(s) ? "" : "not symmetric"; }
+std::string smooth(const Scene& s) { return s.model.find<Spheres>() ? "contacts leave no order" : ""; }
+std::string unchanging(const Scene& s) { return outside_of(s).changing ? "what acts changes with time" : ""; }
+std::string pinned(const Scene& s) { return s.model.particles.pins.empty() ? "no pins" : ""; }
+std::string hanging_chain(const Scene& s) { return hanging_chain_of(s).empty() ? "no damped chain that hangs" : ""; }
+
+std::string falling(const Scene& s) {
+  const Outside o = outside_of(s);
+  if (!o.gravity) return "no gravity";
+  if (o.pins || o.wind || o.air || o.drag || o.spheres || o.constraints) return "not gravity alone acts from outside";
+  if (!springs_at_rest(s)) return "springs are not at rest";
+  return largest_column((s.start.v.colwise() - Vec3(s.start.v.col(0))).eval()) > 0 ? "its particles start unlike" : "";
+}
+std::string resting(const Scene& s) {
+  const Outside o = outside_of(s);
+  if (o.gravity || o.wind || o.air || o.spheres || o.field || o.changing) return "something acts";
+  if (!springs_at_rest(s)) return "springs are not at rest";
+  return largest_column(s.start.v) > 0 ? "it starts in motion" : "";
+}
+std::string isolated(const Scene& s) {
+  const Outside o = outside_of(s);
+  return o.pins || o.gravity || o.wind || o.air || o.drag || o.spheres || o.field ? "something acts from outside" : "";
+}
+std::string undamped(const Scene& s) {
+  const Outside o = outside_of(s);
+  return o.drag || o.dashpots || o.wind || o.air || o.spheres || o.constraints || o.field || o.changing
+             ? "energy is taken or given"
+             : "";
+}
+
+constexpr auto rounding =
+    "three times what a perturbation of 10 u L sqrt(n) (unit round-off, lengths, steps) is measured to grow to";
+constexpr auto rounding_and_iterations = "the same, and with sequential projection what n and 2n iterations differ by";
+constexpr auto settling = "what the runs still move by in their last quarter, and 10 u L sqrt(n)";
+
+constexpr Relation table[] = {
+    {"free-fall", "an unpinned net falls as its rule says, without relative motion", rounding, falling_nets, falling,
+     free_fall},
+    {"turned", "a turned start gives the turned run", rounding, small_nets, movable, turned_start},
+    {"shifted", "a shifted start gives the shifted run", rounding, small_nets, movable, shifted_start},
+    {"no-force", "no force, no motion", rounding, resting_nets, resting, no_force_no_motion},
+    {"rest-shape", "the shape of rest does not depend on damping", settling, hanging_chains, hanging_chain,
+     rest_without_damping},
+    {"extension", "in a hanging chain stiffness times extension is the weight below", settling, hanging_chains_in_drag,
+     hanging_chain, extension_by_stiffness},
+    {"stiffness", "the stiffness of every spring has an effect", settling, hanging_chains_in_drag, hanging_chain,
+     stiffness_has_effect},
+    {"one-answer", "finer steps and more iterations lead to one answer",
+     "half of the first difference in two halvings, and twice the rounding", small_nets, smooth, one_answer},
+    {"particle-order", "the order of particles does not matter", rounding_and_iterations, small_nets, any_scene,
+     order_of_particles},
+    {"spring-order", "the order of springs does not matter", rounding_and_iterations, small_nets, with_springs,
+     order_of_springs},
+    {"half-step", "half the step gives the same motion within the rule's order",
+     "2^(1/2 - order) of the first difference, and twice the rounding", small_nets, smooth, half_the_step},
+    {"scaling", "a scene scaled in length, mass or time gives the scaled run", rounding, small_nets, any_scene,
+     scaled_scene},
+    {"momentum", "a free net keeps its momentum", rounding, flying_nets, isolated, momentum_kept},
+    {"angular-momentum", "a free net keeps its angular momentum",
+     "rounding, and of rules that are not symplectic 2^(1/2 - order) of the change at twice the step", flying_nets,
+     isolated, angular_momentum_kept},
+    {"mirror", "a symmetric scene stays symmetric", rounding_and_iterations, symmetric_nets, symmetric,
+     mirror_symmetry},
+    {"pins", "pins stay where they are, or on their path", "10 u L sqrt(n)", pinned_nets, pinned, pins_on_their_path},
+    {"energy", "an undamped net's energy has no drift beyond its swing",
+     "the swing within a tenth of the run (median), and 10 u E sqrt(n)", vibrating_nets, undamped,
+     energy_without_drift},
+    {"resume", "stopped, and begun again from its state, a run goes on as it would have",
+     "rounding, and what half the step changes", small_nets, unchanging, stop_and_go_on},
+    {"repeatable", "the same call twice gives the same bits", "none", small_nets, any_scene, same_call_twice},
+};
+
+}  // namespace
+
+double RelationResult::ratio() const {
+  if (std::isnan(measured) || std::isnan(tolerance)) return std::numeric_limits<double>::infinity();
+  if (measured <= 0) return 0;
+  return tolerance > 0 ? measured / tolerance : std::numeric_limits<double>::infinity();
+}
+
+RelationResult worse(RelationResult a, RelationResult b) { return b.ratio() > a.ratio() ? std::move(b) : std::move(a); }
+
+std::span<const Relation> relations() { return table; }
+
+const Relation& find_relation(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Relation& relation : table) {
+    if (relation.name == name) return relation;
+    names.emplace_back(relation.name);
+  }
+  throw InputError(fmt::format("unknown relation '{}'; expected one of: {}{}", name, fmt::join(names, ", "),
+                               did_you_mean(name, names)));
+}
+
+}  // namespace crosscheck

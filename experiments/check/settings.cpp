@@ -1,0 +1,118 @@
+// Relations of one scene that is solved in other steps, with more iterations, in two parts, or twice.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "experiments/check/compare.h"
+#include "experiments/check/transformations.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr auto own_steps = "it chooses its own steps";
+
+/// The run with its step halved so many times.
+const Trajectory& halved(Subject& subject, const Scene& scene, int times) {
+  Run run = run_for_relations(scene);
+  run.step = std::ldexp(run.step, -times);
+  return subject.run(scene, run).path;
+}
+
+/// The rounding of the finest of these runs, m.
+std::vector<double> noise_at(Subject& subject, Scene scene, int times) {
+  scene.step = std::ldexp(scene.step, -times);
+  return subject.noise(scene).x;
+}
+
+/// `fine` must be no more than `part` of `coarse`, and twice the noise.
+RelationResult shrinking(std::string what, const Scene& scene, const Trajectory& path,
+                         const std::vector<double>& coarse, const std::vector<double>& fine, double part,
+                         const std::vector<double>& noise) {
+  if (!(noise[1] <= 0.01 * lengths_in(scene, path)))
+    throw CannotBeAsked(
+        fmt::format("at the finest step rounding alone may grow to {:.2g} m before the first sample", noise[1]));
+  RelationResult worst{std::move(what), "m", 0, 2 * noise[0]};
+  std::optional<double> since;
+  for (int i = 1; i < path.frames(); ++i) {
+    const RelationResult here{worst.what, "m", fine[i], part * coarse[i] + 2 * noise[i]};
+    if (!here.holds() && !since) since = path.t[i];
+    if (here.ratio() > worst.ratio()) worst = here;
+  }
+  worst.since = since;
+  return worst;
+}
+
+}  // namespace
+
+RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
+  if (subject.method().adaptive) throw CannotBeAsked(own_steps);
+  const Trajectory &one = halved(subject, scene, 0), &two = halved(subject, scene, 1),
+                   &four = halved(subject, scene, 2);
+  const int order = order_of(subject.method());
+  // the error C h^p makes the second difference 2^-p of the first; half a power is left for terms of higher order
+  return shrinking(fmt::format("a half against a quarter of the step, where order {} allows 2^-{} of the whole against "
+                               "a half",
+                               order, order - 0.5),
+                   scene, one, distances(one, two), distances(two, four), std::exp2(0.5 - order),
+                   noise_at(subject, scene, 2));
+}
+
+RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
+  if (subject.method().adaptive) throw CannotBeAsked(own_steps);
+  const auto noise = noise_at(subject, scene, 3);
+  const Trajectory &one = halved(subject, scene, 0), &two = halved(subject, scene, 1),
+                   &four = halved(subject, scene, 2), &eight = halved(subject, scene, 3);
+  // order one makes it a quarter; whatever ends below a half in two halvings has a limit
+  RelationResult found =
+      shrinking("a quarter against an eighth of the step, which is to be half of the whole against a half", scene, one,
+                distances(one, two), distances(four, eight), 0.5, noise);
+  const auto more = subject.with_iterations(2);
+  if (!more) return found;
+  // n and 2n iterations of ever finer steps come to one answer where their difference shrinks with the step
+  Subject other(*more);
+  return worse(found, shrinking("n against 2n iterations at half the step, which is to be less than at the whole step",
+                                scene, one, distances(one, halved(other, scene, 0)),
+                                distances(two, halved(other, scene, 1)), std::sqrt(0.5), noise));
+}
+
+RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
+  const Run run = run_for_relations(scene);
+  const Trajectory& whole = subject.run(scene, run).path;
+  const int middle = run.samples / 2;
+  if (middle < 1) throw CannotBeAsked("the scene has no sample between its start and its end");
+  if (whole.v[middle].cols() != scene.start.v.cols())
+    throw CannotBeAsked("it reports no velocities, and cannot be resumed without them");
+  Scene later = scene;
+  later.start.x = whole.x[middle], later.start.v = whole.v[middle];
+  later.duration = scene.duration * (run.samples - middle) / run.samples, later.samples = run.samples - middle;
+  const Trajectory& rest = subject.run(later).path;
+  Trajectory second_half;
+  for (int i = middle; i <= run.samples; ++i) {
+    second_half.t.push_back(whole.t[i]);
+    second_half.x.push_back(whole.x[i]);
+  }
+  // a rule that keeps more than positions and velocities is begun anew, which is an error of its order
+  std::vector<double> bound = subject.noise(scene).x;
+  if (!subject.method().adaptive) bound = sum_of(std::move(bound), distances(whole, halved(subject, scene, 1)));
+  bound.erase(bound.begin(), bound.begin() + middle);
+  return farthest("the second half against a run that starts from the middle", second_half, rest, bound,
+                  lengths_in(scene, whole));
+}
+
+RelationResult same_call_twice(Subject& subject, const Scene& scene, unsigned seed) {
+  const Run run = run_for_relations(scene);
+  const Trajectory first = subject.fresh_run(scene, run).path;
+  // another call between them, which must leave nothing behind
+  const Scene other = placed(scene, {Eigen::Matrix3d::Identity(), 0.01 * scene.size() * seeded_turn(seed).col(0)});
+  subject.fresh_run(other, run);
+  const Trajectory second = subject.fresh_run(scene, run).path;
+  RelationResult found{"two calls with the same arguments, bit for bit", "m", 0, 0};
+  for (int i = 0; i < first.frames(); ++i) {
+    if (first.x[i] == second.x[i] && first.v[i] == second.v[i]) continue;
+    if (!found.since) found.since = first.t[i];
+    found.measured = std::max({found.measured, largest_column(first.x[i] - second.x[i]), 0x1p-1074});
+  }
+  return found;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,122 @@
+// Runs of an engine that relations are asked of, and their rounding.
+#include "experiments/check/subject.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "experiments/metrics.h"
+
+namespace crosscheck {
+
+Run run_for_relations(const Scene& scene) {
+  Run run = default_run(scene);
+  run.tolerance = 1e-9;
+  run.timed = false;
+  return run;
+}
+
+double lengths_in(const Scene& scene, const Trajectory& path) {
+  double largest = 0;
+  for (const Points& x : path.x) largest = std::max(largest, largest_column(x));
+  return scene.size() + largest;
+}
+
+SubjectRun Subject::fresh_run(const Scene& scene, const Run& run) {
+  Recorder recorder;
+  SubjectRun made;
+  made.outcome = run_method(method_, scene, run, {&recorder});
+  made.path = std::move(recorder.trajectory);
+  const Outcome& out = made.outcome;
+  if (out.verdict == Verdict::unsupported) throw CannotBeAsked(out.reason);
+  if (out.readback) single_ = out.readback->precision == "single";
+  if (out.verdict != Verdict::ok)
+    throw RunFailed(
+        fmt::format("a run on {} {}{}", scene.name, in_words(out.verdict), out.reason.empty() ? "" : ": " + out.reason),
+        out.end);
+  if (made.path.frames() != run.samples + 1)
+    throw RunFailed(
+        fmt::format("a run on {} has {} frames, expected {}", scene.name, made.path.frames(), run.samples + 1),
+        out.end);
+  return made;
+}
+
+const SubjectRun& Subject::run(const Scene& scene, const Run& run) {
+  const std::string key =
+      fmt::format("{} {:a} {:a} {} {:a}", hash_of(scene), run.step, run.duration, run.samples, run.tolerance);
+  const auto known = runs_.find(key);
+  return known != runs_.end() ? known->second : runs_.emplace(key, fresh_run(scene, run)).first->second;
+}
+
+double Subject::unit_roundoff() const {
+  return single_.value_or(method_.family().single_precision) ? 0x1p-24 : 0x1p-53;
+}
+
+double Subject::rounding(double lengths, long steps) const {
+  const double n = static_cast<double>(std::max(1L, steps)), u = unit_roundoff();
+  return (10 * std::sqrt(n) + (method_.position_based ? n * std::sqrt(n) : 0)) * u * lengths;
+}
+
+Subject::Noise Subject::noise(const Scene& scene, double lengths) {
+  const Run settings = run_for_relations(scene);
+  const SubjectRun& plain = run(scene, settings);
+  const double scale = std::max(lengths, lengths_in(scene, plain.path));
+  Noise noise;
+  noise.start = rounding(scale, plain.outcome.steps);
+  if (method_.adaptive) noise.start = std::max(noise.start, settings.tolerance * scale * plain.outcome.steps);
+  // velocities are rounded in the same proportion
+  double speed = 0;
+  for (const Points& v : plain.path.v) speed = std::max(speed, largest_column(v));
+  const bool velocities = plain.path.v.back().cols() == plain.path.x.back().cols();
+  noise.x.assign(plain.path.frames(), 3 * noise.start);
+  if (velocities) noise.v.assign(plain.path.frames(), 3 * noise.start / scale * speed);
+  for (const auto& [seed, way] : {std::pair{1U, 1}, {1U, -1}, {2U, 1}, {2U, -1}}) {
+    const SubjectRun& moved = run(perturbed(scene, way * noise.start, seed), settings);
+    double x = 0, v = 0;
+    for (int i = 0; i < plain.path.frames(); ++i) {
+      x = std::max(x, largest_column(moved.path.x[i] - plain.path.x[i]));
+      noise.x[i] = std::max(noise.x[i], 3 * x);
+      if (!velocities) continue;
+      v = std::max(v, largest_column(moved.path.v[i] - plain.path.v[i]));
+      noise.v[i] = std::max(noise.v[i], 3 * v);
+    }
+  }
+  return noise;
+}
+
+std::optional<Method> Subject::with_iterations(int times) const {
+  // the option n= is what position-based methods call their iterations by; without it there is one
+  std::string name;
+  int iterations = 1;
+  if (!method_.position_based) return std::nullopt;
+  for (size_t at = 0; at <= method_.name.size();) {
+    const size_t end = std::min(method_.name.find('+', at), method_.name.size());
+    const std::string part = method_.name.substr(at, end - at);
+    at = end + 1;
+    if (!part.starts_with("n="))
+      name += (name.empty() ? "" : "+") + part;
+    else
+      std::from_chars(part.data() + 2, part.data() + part.size(), iterations);
+  }
+  try {
+    return find_method(fmt::format("{}+n={}", name, times * iterations));
+  } catch (const std::exception&) {  // no such option
+    return std::nullopt;
+  }
+}
+
+std::optional<std::vector<double>> Subject::iteration_error(const Scene& scene) {
+  const auto twice = with_iterations(2);
+  if (!twice) return std::nullopt;
+  if (!twice_) twice_ = std::make_shared<Subject>(*twice);
+  const SubjectRun& here = run(scene);
+  const SubjectRun& there = twice_->run(scene);
+  std::vector<double> apart(here.path.frames());
+  double most = 0;
+  for (size_t i = 0; i < apart.size(); ++i)
+    apart[i] = most = std::max(most, 2 * largest_column(here.path.x[i] - there.path.x[i]));
+  return apart;
+}
+
+}  // namespace crosscheck

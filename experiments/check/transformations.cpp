@@ -1,0 +1,258 @@
+// Scenes made from other scenes.
+#include "experiments/check/transformations.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <set>
+
+#include "mysim/base/random.h"
+
+namespace crosscheck {
+
+Eigen::Matrix3d seeded_turn(unsigned seed) {
+  std::mt19937_64 engine(seed + 1000);
+  // K. Shoemake, Uniform random rotations, Graphics Gems III, 1992
+  const double u = uniform(engine), a = 2 * std::numbers::pi * uniform(engine),
+               b = 2 * std::numbers::pi * uniform(engine);
+  return Eigen::Quaterniond(std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a), std::sqrt(1 - u) * std::cos(a),
+                            std::sqrt(u) * std::sin(b))
+      .toRotationMatrix();
+}
+
+std::vector<int> seeded_order(int n, unsigned seed) {
+  std::mt19937_64 engine(seed + 2000);
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  // S. Sattolo, Inf. Process. Lett. 22, 1986: one cycle, in which nothing keeps its place
+  for (int i = n - 1; i > 0; --i) std::swap(order[i], order[static_cast<int>(uniform(engine) * i)]);
+  return order;
+}
+
+Scene placed(Scene scene, const Placement& placement) {
+  const Eigen::Matrix3d& turn = placement.turn;
+  const auto turn_motion = [&](std::optional<Motion>& motion) {
+    if (motion) motion->amplitude = (turn * motion->amplitude).eval();
+  };
+  const auto turn_wind = [&](WindSignal& wind) {
+    wind.mean = (turn * wind.mean).eval();
+    if (wind.gusts) wind.gusts->side = (turn * wind.gusts->side).eval();
+  };
+  scene.start.x = placement.of(scene.start.x);
+  scene.start.v = (turn * scene.start.v).eval();
+  Particles& p = scene.model.particles;
+  p.pin_home = placement.of(p.pin_home);
+  turn_motion(p.move);
+  for (Term& term : scene.model.terms)
+    std::visit(
+        Overloaded{[&](Gravity& g) { g.acceleration = (turn * g.acceleration).eval(); },
+                   [&](Wind& w) { turn_wind(w.acceleration); }, [&](Aerodynamics& air) { turn_wind(air.velocity); },
+                   [&](Spheres& spheres) {
+                     for (Sphere& s : spheres.list) {
+                       s.centre = (turn * s.centre + placement.shift).eval();
+                       turn_motion(s.motion);
+                     }
+                   },
+                   [](OneOf<Rotation, Springs, Dashpots, Constraints, Drag> auto&) {}},
+        term);
+  scene.hash = hash_of(scene);
+  return scene;
+}
+
+Scene renumbered(const Scene& scene, const std::vector<int>& order) {
+  Scene other = scene;
+  const int n = scene.model.particles.size();
+  std::vector<int> number(n);  // what a particle is called now
+  for (int i = 0; i < n; ++i) number[order[i]] = i;
+  const auto reorder = [&](const Points& from, Points& to) {
+    for (int i = 0; i < from.cols(); ++i) to.col(i) = from.col(order[i]);
+  };
+  const Particles& from = scene.model.particles;
+  Particles& to = other.model.particles;
+  reorder(scene.start.x, other.start.x);
+  reorder(scene.start.v, other.start.v);
+  for (int i = 0; i < n; ++i) to.mass[i] = from.mass[order[i]], to.pinned[i] = from.pinned[order[i]];
+  std::map<int, int> homes;  // pins ascend
+  for (size_t i = 0; i < from.pins.size(); ++i) homes[number[from.pins[i]]] = static_cast<int>(i);
+  to.pins.clear();
+  for (const auto& [pin, home] : homes) {
+    to.pin_home.col(static_cast<int>(to.pins.size())) = from.pin_home.col(home);
+    to.pins.push_back(pin);
+  }
+  const auto rename_ends = [&](auto& list) {
+    for (auto& e : list) e.a = number[e.a], e.b = number[e.b];
+  };
+  const auto rename_corners = [&](std::vector<std::array<int, 3>>& triangles) {
+    for (auto& triangle : triangles)
+      for (int& corner : triangle) corner = number[corner];
+  };
+  for (Term& term : other.model.terms)
+    std::visit(Overloaded{[&](OneOf<Springs, Dashpots, Constraints> auto& t) { rename_ends(t.list); },
+                          [&](Drag& drag) {
+                            const Eigen::VectorXd c = drag.c;
+                            for (int i = 0; i < n; ++i) drag.c[i] = c[order[i]];
+                          },
+                          [&](Aerodynamics& air) { rename_corners(air.triangles); },
+                          [](OneOf<Rotation, Gravity, Wind, Spheres> auto&) {}},
+               term);
+  rename_corners(other.triangles);
+  other.hash = hash_of(other);
+  return other;
+}
+
+Scene springs_reordered(Scene scene, unsigned seed) {
+  std::mt19937_64 engine(seed + 3000);
+  const auto reorder = [&](auto& list) {
+    const auto old = list;
+    const std::vector<int> order = seeded_order(static_cast<int>(list.size()), seed);
+    for (size_t i = 0; i < list.size(); ++i) {
+      list[i] = old[order[i]];
+      if (uniform(engine) < 0.5) std::swap(list[i].a, list[i].b);
+    }
+  };
+  for (Term& term : scene.model.terms)
+    std::visit(Overloaded{[&](OneOf<Springs, Dashpots, Constraints> auto& t) { reorder(t.list); },
+                          [](OneOf<Rotation, Gravity, Drag, Wind, Aerodynamics, Spheres> auto&) {}},
+               term);
+  scene.hash = hash_of(scene);
+  return scene;
+}
+
+Scene scaled(Scene scene, const Scaling& scaling) {
+  const auto [length, mass, time] = scaling;
+  const double speed = length / time, acceleration = speed / time;
+  const auto scale_motion = [&](std::optional<Motion>& motion) {
+    if (motion) motion->amplitude *= length, motion->frequency /= time, motion->ramp *= time;
+  };
+  const auto scale_wind = [&](WindSignal& wind, double unit) {
+    wind.mean *= unit;
+    if (!wind.gusts) return;
+    wind.gusts->side *= unit;
+    for (Gust* gust : {&wind.gusts->along, &wind.gusts->across})
+      for (Gust::Wave& wave : gust->waves) wave.omega /= time;
+  };
+  scene.start.x *= length, scene.start.v *= speed;
+  Particles& p = scene.model.particles;
+  p.mass *= mass, p.pin_home *= length;
+  scale_motion(p.move);
+  for (Term& term : scene.model.terms)
+    std::visit(
+        Overloaded{[&](Rotation& t) { t.rate /= time; }, [&](Gravity& t) { t.acceleration *= acceleration; },
+                   [&](Springs& t) {
+                     for (Spring& s : t.list) s.k *= mass / (time * time), s.rest *= length;
+                   },
+                   [&](Dashpots& t) {
+                     for (auto& d : t.list) d.c *= mass / time;
+                   },
+                   [&](Constraints& t) {
+                     for (auto& c : t.list) c.length *= length;
+                   },
+                   [&](Drag& t) { t.c *= mass / time; }, [&](Wind& t) { scale_wind(t.acceleration, acceleration); },
+                   [&](Aerodynamics& t) {
+                     t.density *= mass / (length * length * length);
+                     scale_wind(t.velocity, speed);
+                   },
+                   [&](Spheres& t) {
+                     for (Sphere& s : t.list) {
+                       s.centre *= length, s.radius *= length, s.margin *= length;
+                       scale_motion(s.motion);
+                     }
+                   }},
+        term);
+  scene.duration *= time, scene.step *= time, scene.window *= time, scene.tolerance *= length;
+  scene.hash = hash_of(scene);
+  return scene;
+}
+
+namespace {
+
+/// The particles' images, or nothing: each has one at the mirrored place, with its mass and velocity, pinned as it is.
+std::optional<std::vector<int>> images_of(const Scene& scene, const Scene& other, double near) {
+  const Particles& p = scene.model.particles;
+  std::vector<int> image(p.size(), -1);
+  for (int i = 0; i < p.size(); ++i) {
+    for (int j = 0; j < p.size() && image[i] < 0; ++j)
+      if ((other.start.x.col(i) - scene.start.x.col(j)).norm() <= near &&
+          (other.start.v.cols() == 0 || (other.start.v.col(i) - scene.start.v.col(j)).norm() <= near / scene.step) &&
+          p.mass[i] == p.mass[j] && p.pinned[i] == p.pinned[j])
+        image[i] = j;
+    if (image[i] < 0) return std::nullopt;
+  }
+  return image;
+}
+
+/// What joins particles, by its ends and its numbers.
+std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<int>& image) {
+  std::multiset<std::vector<double>> all;
+  const auto add = [&](double kind, int a, int b, double first, double second) {
+    const auto [low, high] = std::minmax(image[a], image[b]);
+    all.insert({kind, static_cast<double>(low), static_cast<double>(high), first, second});
+  };
+  for (const Term& term : scene.model.terms)
+    std::visit(Overloaded{[&](const Springs& t) {
+                            for (const Spring& s : t.list) add(0, s.a, s.b, s.k, static_cast<float>(s.rest));
+                          },
+                          [&](const Dashpots& t) {
+                            for (const auto& d : t.list) add(1, d.a, d.b, d.c, 0);
+                          },
+                          [&](const Constraints& t) {
+                            for (const auto& c : t.list) add(2, c.a, c.b, static_cast<float>(c.length), 0);
+                          },
+                          [&](const Drag& t) {
+                            for (int i = 0; i < t.c.size(); ++i) add(3, i, i, t.c[i], 0);
+                          },
+                          [](const OneOf<Rotation, Gravity, Wind, Aerodynamics, Spheres> auto&) {}},
+               term);
+  return all;
+}
+
+/// Whether a direction or a place of the two scenes differs.
+bool same_outside(const Scene& scene, const Scene& other, double near) {
+  const auto same = [](const Vec3& a, const Vec3& b) { return (a - b).norm() <= 1e-12 * a.norm(); };
+  const auto same_motion = [&](const std::optional<Motion>& a, const std::optional<Motion>& b) {
+    return !a || same(a->amplitude, b->amplitude);
+  };
+  const auto same_wind = [&](const WindSignal& a, const WindSignal& b) {
+    return same(a.mean, b.mean) && (!a.gusts || same(a.gusts->side, b.gusts->side));
+  };
+  bool all = same_motion(scene.model.particles.move, other.model.particles.move);
+  if (const auto* g = scene.model.find<Gravity>())
+    all = all && same(g->acceleration, other.model.find<Gravity>()->acceleration);
+  if (const auto* w = scene.model.find<Wind>())
+    all = all && same_wind(w->acceleration, other.model.find<Wind>()->acceleration);
+  // the triangles of a sheet cut its squares along one diagonal
+  all = all && !scene.model.find<Aerodynamics>() && !scene.model.first_order();
+  if (const auto* spheres = scene.model.find<Spheres>())
+    for (size_t i = 0; i < spheres->list.size(); ++i) {
+      const Sphere &a = spheres->list[i], &b = other.model.find<Spheres>()->list[i];
+      all = all && (a.centre - b.centre).norm() <= near && same_motion(a.motion, b.motion);
+    }
+  return all;
+}
+
+}  // namespace
+
+std::optional<Mirror> mirror_of(const Scene& scene) {
+  const Vec3 low = scene.start.x.rowwise().minCoeff(), high = scene.start.x.rowwise().maxCoeff();
+  const double near = 1e-9 * scene.size();
+  std::vector<int> itself(scene.model.particles.size());
+  std::iota(itself.begin(), itself.end(), 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (high[axis] - low[axis] <= near) continue;  // a plane that holds all of them says little
+    Mirror mirror;
+    mirror.reflection.turn(axis, axis) = -1;
+    mirror.reflection.shift[axis] = low[axis] + high[axis];
+    const Scene other = placed(scene, mirror.reflection);
+    if (!same_outside(scene, other, near)) continue;
+    const auto image = images_of(scene, other, near);
+    if (!image || joined(scene, *image) != joined(scene, itself)) continue;
+    mirror.image = *image;
+    return mirror;
+  }
+  return std::nullopt;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,94 @@
+// Relations between a scene's run and that of a transformed scene.
+#include <fmt/format.h>
+
+#include "experiments/check/compare.h"
+#include "experiments/check/transformations.h"
+
+namespace crosscheck {
+namespace {
+
+RelationResult beside_placed(Subject& subject, const Scene& scene, const Placement& placement, const char* what) {
+  const Scene other = placed(scene, placement);
+  const Trajectory& here = subject.run(scene).path;
+  const Trajectory& there = subject.run(other).path;
+  const double lengths = std::max(lengths_in(scene, here), lengths_in(other, there));
+  return farthest(what, with_positions(here, [&](const Points& x) { return placement.of(x); }), there,
+                  subject.noise(scene, lengths).x, lengths);
+}
+
+/// The bound of runs that differ in the order of what is summed or gone through: each is off by its own iterations.
+std::vector<double> bound_of_order(Subject& subject, const Scene& scene, const Scene& other) {
+  std::vector<double> bound = subject.noise(scene).x;
+  for (const Scene* one : {&scene, &other})
+    if (const auto error = subject.iteration_error(*one)) bound = sum_of(std::move(bound), *error);
+  return bound;
+}
+
+}  // namespace
+
+RelationResult turned_start(Subject& subject, const Scene& scene, unsigned seed) {
+  return beside_placed(subject, scene, {seeded_turn(seed), Vec3::Zero()},
+                       "the turned run against the run of the turned start");
+}
+
+RelationResult shifted_start(Subject& subject, const Scene& scene, unsigned seed) {
+  // by the scene's own size, in a seeded direction
+  const Vec3 shift = scene.size() * seeded_turn(seed).col(0);
+  return beside_placed(subject, scene, {Eigen::Matrix3d::Identity(), shift},
+                       "the shifted run against the run of the shifted start");
+}
+
+RelationResult order_of_particles(Subject& subject, const Scene& scene, unsigned seed) {
+  const std::vector<int> order = seeded_order(scene.model.particles.size(), seed);
+  const Trajectory& here = subject.run(scene).path;
+  const Scene other = renumbered(scene, order);
+  const Trajectory there = with_positions(subject.run(other).path, [&](const Points& x) {
+    Points back(3, x.cols());
+    for (int i = 0; i < x.cols(); ++i) back.col(order[i]) = x.col(i);
+    return back;
+  });
+  return farthest("the run against that with the particles in another order", here, there,
+                  bound_of_order(subject, scene, other), lengths_in(scene, here));
+}
+
+RelationResult order_of_springs(Subject& subject, const Scene& scene, unsigned seed) {
+  const Trajectory& here = subject.run(scene).path;
+  const Scene other = springs_reordered(scene, seed);
+  return farthest("the run against that with the springs in another order", here, subject.run(other).path,
+                  bound_of_order(subject, scene, other), lengths_in(scene, here));
+}
+
+RelationResult scaled_scene(Subject& subject, const Scene& scene, unsigned) {
+  const Trajectory& here = subject.run(scene).path;
+  const auto noise = subject.noise(scene).x;
+  // powers of two, which scale every rounding too
+  struct Case {
+    const char* what;
+    Scaling scaling;
+  };
+  std::optional<RelationResult> worst;
+  for (const auto& [what, scaling] : {Case{"lengths a 128th", {0x1p-7, 1, 1}}, Case{"masses a 1024th", {1, 0x1p-10, 1}},
+                                      Case{"times a quarter", {1, 1, 0x1p-2}}}) {
+    const Trajectory there = with_positions(subject.run(scaled(scene, scaling)).path,
+                                            [&](const Points& x) { return Points(x / scaling.length); });
+    RelationResult found = farthest(fmt::format("the run against that with {}, scaled back", what), here, there, noise,
+                                    lengths_in(scene, here));
+    worst = worst ? worse(*worst, std::move(found)) : std::move(found);
+  }
+  return *worst;
+}
+
+RelationResult mirror_symmetry(Subject& subject, const Scene& scene, unsigned) {
+  const Mirror mirror = *mirror_of(scene);
+  const Trajectory& here = subject.run(scene).path;
+  const Trajectory there = with_positions(here, [&](const Points& x) {
+    const Points reflected = mirror.reflection.of(x);
+    Points image(3, x.cols());
+    for (int i = 0; i < x.cols(); ++i) image.col(mirror.image[i]) = reflected.col(i);
+    return image;
+  });
+  return farthest("the run against its mirror image", here, there, bound_of_order(subject, scene, scene),
+                  lengths_in(scene, here));
+}
+
+}  // namespace crosscheck

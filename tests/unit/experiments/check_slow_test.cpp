@@ -1,0 +1,61 @@
+// Relations: no engine here breaks what is not known, no defect is taken for another, no seed gives a false alarm.
+
+#include "experiments/check/check.h"
+#include "tests/unit/experiments/defects.h"
+#include "tests/unit/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+TEST(RelationsOfAllEngines, AreBrokenOnlyWhereThatIsKnown) {
+  std::vector<Method> methods;
+  for (const Stepper& s : steppers()) methods.push_back(find_method(std::string(s.name)));
+  for (const char* name : {"bullet/deformable-explicit", "bullet/deformable-implicit", "bullet/pbd+n=10"})
+    methods.push_back(find_method(name));
+  Progress progress(0);
+  std::set<std::string> holding;
+  for (const Answer& a : ask_all(methods, {}, 1, read_known_breaks(shipped_known_breaks()), progress)) {
+    EXPECT_NE(a.mark, RelationMark::broken)
+        << a.method << " " << a.relation->name << " " << a.scene << ": " << a.sentence();
+    if (a.mark == RelationMark::holds) holding.insert(a.method);
+  }
+  EXPECT_EQ(holding.size(), methods.size());
+}
+
+TEST(Defects, AreNamedByTheirOwnRelationAndNoOther) {
+  for (const char* base : {"leapfrog", "bullet/deformable-explicit"})
+    for (const Defect& defect : defects()) {
+      const Method method = defect.make(base);
+      if (const Stepper* rule = stepper_of(method); rule && rule->order < defect.least_order) continue;
+      SCOPED_TRACE(fmt::format("{} in {}", defect.what, base));
+      Progress progress(0);
+      std::set<std::string> broken;
+      for (const Answer& a : ask_all({method}, {}, 1, {}, progress))
+        if (a.mark == RelationMark::broken) broken.insert(std::string(a.relation->name));
+      EXPECT_TRUE(broken.contains(defect.relation));
+      for (const std::string& name : broken)
+        EXPECT_TRUE(name == defect.relation || defect.also.contains(name) ||
+                    (base != std::string("leapfrog") && defect.also_in_bullet.contains(name)))
+            << name << " is named too";
+    }
+}
+
+TEST(Seeds, OfTurnsShiftsAndOrdersGiveNoFalseAlarm) {
+  for (const char* name : {"leapfrog", "bullet/deformable-explicit"}) {
+    Subject subject(find_method(name));
+    for (unsigned seed = 2; seed < 42; ++seed)
+      for (const char* relation : {"turned", "shifted", "particle-order", "spring-order"}) {
+        const Relation& asked = find_relation(relation);
+        for (const Scene& scene : asked.smallest()) {
+          const Answer answer = ask(asked, subject, scene, seed, {});
+          EXPECT_EQ(answer.mark, RelationMark::holds)
+              << name << " " << relation << " seed " << seed << ": " << answer.sentence();
+        }
+      }
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck

@@ -1,0 +1,143 @@
+// Relations: each finds the engine that breaks it, and a good engine breaks none.
+
+#include "experiments/check/check.h"
+#include "experiments/check/transformations.h"
+#include "tests/unit/experiments/defects.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+std::vector<Answer> all_answers(const Method& method, const std::vector<KnownBreak>& known = {}) {
+  Progress progress(0);
+  return ask_all({method}, {}, 1, known, progress);
+}
+
+TEST(Relations, AllHoldForLeapfrog) {
+  for (const Answer& answer : all_answers(find_method("leapfrog")))
+    EXPECT_EQ(answer.mark, RelationMark::holds)
+        << answer.relation->name << " " << answer.scene << ": " << answer.sentence();
+}
+
+TEST(Relations, EachFindsItsDefect) {
+  std::set<std::string> covered;
+  for (const Defect& defect : defects()) {
+    SCOPED_TRACE(defect.what);
+    covered.insert(defect.relation);
+    const Relation& relation = find_relation(defect.relation);
+    Subject subject(defect.make("leapfrog"));
+    bool found = false;
+    for (const Scene& scene : relation.smallest())
+      found = found || ask(relation, subject, scene, 1, {}).mark == RelationMark::broken;
+    EXPECT_TRUE(found) << defect.relation;
+  }
+  for (const Relation& relation : relations())
+    EXPECT_TRUE(covered.contains(std::string(relation.name))) << relation.name;
+}
+
+TEST(Relations, SayWhySomethingCannotBeAsked) {
+  Subject adaptive(find_method("dopri5"));
+  const Answer answer = ask(find_relation("half-step"), adaptive, small_nets()[0], 1, {});
+  EXPECT_EQ(answer.mark, RelationMark::not_asked);
+  EXPECT_EQ(answer.sentence(), "it chooses its own steps");
+
+  Method silent = with_defect("leapfrog", nullptr, [](const Scene&, State& s) { s.v.resize(3, 0); });
+  Subject without(silent);
+  for (const char* name : {"energy", "angular-momentum", "resume"}) {
+    const Relation& relation = find_relation(name);
+    const Answer said = ask(relation, without, relation.smallest()[0], 1, {});
+    EXPECT_EQ(said.mark, RelationMark::not_asked) << name;
+    EXPECT_TRUE(contains(said.sentence(), "no velocities")) << name;
+  }
+}
+
+TEST(Relations, TakeARunThatFailsForBroken) {
+  Method dead = find_method("leapfrog");
+  dead.engine = [](const Scene&, const crosscheck::Run&, Observer&) {
+    Outcome out;
+    out.verdict = Verdict::crash, out.reason = "it is gone", out.end = 0.25;
+    return out;
+  };
+  Subject subject(dead);
+  const Answer answer = ask(find_relation("turned"), subject, small_nets()[0], 1, {});
+  EXPECT_EQ(answer.mark, RelationMark::broken);
+  EXPECT_TRUE(contains(answer.sentence(), "it is gone"));
+  EXPECT_EQ(answer.finding.since, 0.25);
+}
+
+TEST(Relations, OfNamedScenesAreThoseThatSaySomething) {
+  Progress progress(0);
+  std::set<std::string> asked;
+  for (const Answer& a : ask_all({find_method("leapfrog")}, {shipped_scene("spring")}, 1, {}, progress)) {
+    asked.insert(std::string(a.relation->name));
+    EXPECT_EQ(a.mark, RelationMark::holds) << a.relation->name << ": " << a.sentence();
+  }
+  for (const char* name : {"turned", "pins", "energy", "repeatable"}) EXPECT_TRUE(asked.contains(name)) << name;
+  for (const char* name : {"free-fall", "momentum", "no-force"}) EXPECT_FALSE(asked.contains(name)) << name;
+}
+
+TEST(Relations, PassWhereNothingButKnownBreaksWasFound) {
+  const auto status = [](std::initializer_list<RelationMark> marks) {
+    std::vector<Answer> answers;
+    for (const RelationMark mark : marks) answers.push_back({"m", "s", &relations()[0], mark, {}, "", ""});
+    return status_of(answers);
+  };
+  using enum RelationMark;
+  EXPECT_EQ(status({holds, known, not_asked}), 0);
+  EXPECT_EQ(status({known}), 0);
+  EXPECT_EQ(status({holds, broken}), 1);
+  EXPECT_EQ(status({not_asked}), 1);
+  EXPECT_EQ(status({}), 1);
+}
+
+class KnownBreaks : public InFolder {};
+
+TEST_F(KnownBreaks, CoverAMethodARelationAndASize) {
+  const auto file =
+      write("known.toml",
+            "[[known]]\nmethod = \"mysim/expl*\"\nrelation = \"energy\"\ntimes = 1e6\nreason = \"It grows.\"\n");
+  const auto known = read_known_breaks(file);
+  const auto mark = [&](const char* method, double times) {
+    auto list = known;
+    list[0].times = times;
+    Subject subject(find_method(method));
+    const Relation& energy = find_relation("energy");
+    return ask(energy, subject, energy.smallest()[0], 1, list).mark;
+  };
+  EXPECT_EQ(mark("explicit-euler", 1e6), RelationMark::known);
+  EXPECT_EQ(mark("explicit-euler", 2), RelationMark::broken);
+  EXPECT_EQ(mark("trapezoidal", 1e6), RelationMark::broken);
+}
+
+TEST_F(KnownBreaks, RefuseWhatTheyDoNotKnow) {
+  struct Case {
+    const char *text, *message;
+  };
+  for (const auto& [text, message] :
+       {Case{"[[known]]\nmethod = \"a\"\nrelation = \"enrgy\"\nreason = \"r\"\n",
+             "known.toml:3: known[0].relation: expected the name of a relation, got 'enrgy'"},
+        Case{"[[known]]\nmethod = \"a\"\nrelation = \"energy\"\n", "reason"},
+        Case{"[[knwon]]\nmethod = \"a\"\n", "knwon"}}) {
+    const auto file = write("known.toml", text);
+    EXPECT_TRUE(contains(refusal_of([&] { read_known_breaks(file); }), message));
+  }
+  EXPECT_TRUE(contains(refusal_of([] { find_relation("enrgy"); }), "unknown relation 'enrgy'"));
+  EXPECT_TRUE(contains(refusal_of([] { find_relation("enrgy"); }), "did you mean 'energy'?"));
+}
+
+TEST(Transformations, UndoneGiveTheSceneAgain) {
+  const Scene scene = small_cloth();
+  const std::vector<int> order = seeded_order(scene.model.particles.size(), 5);
+  std::vector<int> back(order.size());
+  for (size_t i = 0; i < order.size(); ++i) back[order[i]] = static_cast<int>(i);
+  EXPECT_EQ(hash_of(renumbered(renumbered(scene, order), back)), hash_of(scene));
+  EXPECT_NE(hash_of(renumbered(scene, order)), hash_of(scene));
+  EXPECT_EQ(hash_of(scaled(scaled(scene, {4, 2, 0.5}), {0.25, 0.5, 2})), hash_of(scene));
+  EXPECT_NEAR(seeded_turn(3).determinant(), 1, 1e-14);
+}
+
+}  // namespace
+}  // namespace crosscheck
