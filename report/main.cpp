@@ -23,10 +23,9 @@ constexpr AddCommand commands[] = {
     add_advise,      // the cheapest method for a tolerance
     add_regress,     // results beside baselines
     add_bench,       // speed against the peers
-    add_check,       // relations that need no truth
+    add_check,       // relations that need no truth; what an adapter lacks
     add_engine,      // another version of Bullet
     add_lab,         // a page with the live lab alone
-    add_check,       // what an adapter lacks
     add_grader,      // grade and assignment
 };
 

@@ -35,7 +35,6 @@ void add_bench(CLI::App& app, Invocation& call);
 void add_check(CLI::App& app, Invocation& call);
 void add_engine(CLI::App& app, Invocation& call);
 void add_lab(CLI::App& app, Invocation& call);
-void add_check(CLI::App& app, Invocation& call);
 
 /// `grade` and `assignment`, by their names alone: the grader knows their options.
 void add_grader(CLI::App& app, Invocation& call);
