@@ -86,7 +86,7 @@ double IncrementalPotential::value(const Points& u) {
     inertia += particles.mass[i] / (2 * h_ * h_) * u.col(i).squaredNorm();
     drag += drag_[i] / (2 * h_) * moved_.col(i).squaredNorm();
   }
-  double springs = 0, given = 0;
+  double springs = 0, given = 0, given_size = 0;  // size: of its parts, which cancel where heights have both signs
   for (const Term& term : model_.terms)
     std::visit(
         [&]<class T>(const T& t) {
@@ -94,21 +94,30 @@ double IncrementalPotential::value(const Points& u) {
             springs = potential_energy(t, particles, at);
           else if constexpr (HasPotential<T>)
             given += potential_energy(t, particles, at);
+          if constexpr (std::is_same_v<T, Gravity>)
+            for (int i = 0; i < particles.size(); ++i)
+              given_size += particles.mass[i] * std::abs(t.acceleration.dot(at.x.col(i)));
         },
         term);
   if (const auto* wind = model_.find<Wind>()) {
     const Vec3 w = wind->acceleration.at(at.t);
     for (int i = 0; i < particles.size(); ++i)
-      if (!particles.pinned[i]) given -= particles.mass[i] * w.dot(at.x.col(i));
+      if (!particles.pinned[i]) {
+        const double part = particles.mass[i] * w.dot(at.x.col(i));
+        given -= part, given_size += std::abs(part);
+      }
   }
   for (int i = 0; i < particles.size(); ++i)
-    if (!particles.pinned[i]) given -= frozen_air_.f.col(i).dot(at.x.col(i));
+    if (!particles.pinned[i]) {
+      const double part = frozen_air_.f.col(i).dot(at.x.col(i));
+      given -= part, given_size += std::abs(part);
+    }
   a_.setZero();
   frozen_damping_.add_product(0, 1, moved_, a_);
   const double dashpots = dot(moved_, a_) / (2 * h_);
   // a sum of n parts is rounded by at most n eps of their sizes; a spring's energy by k |e| eps |x|, since its ends
   // are, and sum k |e| <= sqrt(sum k e^2) sqrt(sum k)
-  rounding_ = particles.size() * eps * (inertia + drag + dashpots + springs + std::abs(given)) +
+  rounding_ = particles.size() * eps * (inertia + drag + dashpots + springs + given_size) +
               8 * eps * std::sqrt(2 * springs * stiffness_) * at.x.cwiseAbs().maxCoeff();
   return inertia + drag + dashpots + springs + given;
 }
