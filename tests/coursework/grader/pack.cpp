@@ -25,7 +25,7 @@ namespace coursework {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr size_t block = 1 << 16;
+constexpr size_t block_size = 1 << 16;
 
 void check_archive(archive* a, la_ssize_t result) {
   if (result < ARCHIVE_OK) throw std::runtime_error(fmt::format("zip: {}", archive_error_string(a)));
@@ -65,14 +65,14 @@ void write_zip(const fs::path& zip, const std::map<std::string, std::string>& fi
 void unpack_zip(const fs::path& zip, const fs::path& folder) {
   const std::unique_ptr<archive, int (*)(archive*)> in(archive_read_new(), archive_read_free);
   check_archive(in.get(), archive_read_support_format_zip(in.get()));
-  check_archive(in.get(), archive_read_open_filename(in.get(), zip.c_str(), block));
+  check_archive(in.get(), archive_read_open_filename(in.get(), zip.c_str(), block_size));
   archive_entry* entry = nullptr;
   while (archive_read_next_header(in.get(), &entry) == ARCHIVE_OK) {
     const fs::path name = archive_entry_pathname(entry);
     if (name.is_absolute() || *name.lexically_normal().begin() == "..")
       throw std::runtime_error(fmt::format("{}: {} points outside of it", zip.string(), name.string()));
     if (archive_entry_filetype(entry) == AE_IFDIR) continue;
-    std::string content, part(block, '\0');
+    std::string content, part(block_size, '\0');
     for (la_ssize_t got; (got = archive_read_data(in.get(), part.data(), part.size())) != 0;) {
       if (got < 0) throw std::runtime_error(fmt::format("{}: {}", zip.string(), archive_error_string(in.get())));
       content.append(part.data(), static_cast<size_t>(got));
