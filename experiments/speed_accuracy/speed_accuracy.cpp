@@ -136,7 +136,8 @@ std::vector<SettingRun> runs_at(const Method& method, const Scene& scene, const 
     }
     // its last frames take a run of their own: observing every step makes adaptive methods take other steps
     LastFrames last(omega, setting.tolerance ? 0 : setting.value);
-    if (recorded && out.verdict != Verdict::ok) run_method(method, scene, setting.applied_to(base), {&last}, std::ref(bounds));
+    if (recorded && out.verdict != Verdict::ok)
+      run_method(method, scene, setting.applied_to(base), {&last}, std::ref(bounds));
     tries.push_back({setting, std::move(out), std::move(recorder.trajectory), last.path()});
   }
   if (refused > 0 && !tries.empty())
@@ -187,7 +188,8 @@ void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tab
   for (const Method& method : methods_for(request, scene)) {
     int dropped = 0;
     const auto settings = settings_of(method, scene, base, request.full, &dropped);
-    const std::vector<SettingRun> tries = runs_at(method, scene, base, settings, bool(request.on_runs), bounds, tables.notes);
+    const std::vector<SettingRun> tries =
+        runs_at(method, scene, base, settings, bool(request.on_runs), bounds, tables.notes);
     if (dropped > 0 && (!tries.empty() || settings.empty()))
       shortened.push_back(fmt::format("{} ({})", method.name, dropped));
     if (request.on_runs && !tries.empty()) {

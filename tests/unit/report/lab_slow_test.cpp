@@ -18,8 +18,9 @@
 // clang's package first: CI installs what stands between "package" and the blank
 #define NEEDS_LAB                                                                                                  \
   if (!has_lab_module())                                                                                           \
-  GTEST_SKIP() << "package clang-14,lld-14,libc++-14-dev-wasm32,libclang-rt-14-dev-wasm32,binaryen was not installed when " \
-                  "this was built: mysim is not run as WebAssembly"
+  GTEST_SKIP()                                                                                                     \
+      << "package clang-14,lld-14,libc++-14-dev-wasm32,libclang-rt-14-dev-wasm32,binaryen was not installed when " \
+         "this was built: mysim is not run as WebAssembly"
 
 namespace crosscheck {
 namespace {
