@@ -209,7 +209,7 @@ seed = 1
 constexpr double call_limit = 30;
 
 constexpr auto called = "How it is called", answers = "What it answers", scene_file = "scene.json",
-               run_file = "run.json", options_section = "How it is called";
+               run_file = "run.json";
 
 /// What one call left behind; the folder goes with it.
 struct KitCall {
@@ -552,7 +552,7 @@ class Kit {
           option.good() ? "is ignored"
           : said        ? "is refused: " + option.last_line()
                         : fmt::format("it {}: ignore it, or refuse it with a line", option.how()),
-          options_section);
+          called);
       return;
     }
   }
