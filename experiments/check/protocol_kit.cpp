@@ -46,39 +46,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Duration and window, samples, step and method of a scene, and its ingredients as a scene file has them.
 struct KitScene {
-  const char* name;
-  const char* text;
+  const char *name, *question, *parameters;
+  double duration;  // s
+  int samples;
+  double step;  // s
+  const char *method, *ingredients;
+
+  Scene scene() const {
+    return parse_scene(fmt::format("question = \"{}\"\nparameters = \"{}\"\n[time]\nduration = {}\nsamples = {}\n"
+                                   "step = {}\nwindow = {}\ntolerance = 1e-3\nmethod = \"{}\"\n{}",
+                                   question, parameters, duration, samples, step, duration, method, ingredients),
+                       name);
+  }
 };
 
 // of one or two particles; every ingredient of the protocol but the triangles' wind is in one of them
 constexpr KitScene kit_scenes[] = {
-    {"fall", R"(question = "Does a thrown particle fall?"
-parameters = "The simplest motion; its path along x tells when a frame was taken."
-[time]
-duration = 0.2
-samples = 4
-step = 2e-3
-window = 0.2
-tolerance = 1e-3
-method = "leapfrog"
-[[particle]]
+    {"fall", "Does a thrown particle fall?", "The simplest motion; its path along x tells when a frame was taken.", 0.2,
+     4, 2e-3, "leapfrog", R"([[particle]]
 position = [0, 1, 0]
 mass = 1
 velocity = [1, 0, 0]
 [gravity]
 acceleration = [0, -9.81, 0]
 )"},
-    {"damped-spring", R"(question = "Do a spring, its dashpot and drag act?"
-parameters = "A period of half a second, of which dashpot and drag take a tenth each."
-[time]
-duration = 0.5
-samples = 5
-step = 1e-3
-window = 0.5
-tolerance = 1e-3
-method = "leapfrog"
-[[particle]]
+    {"damped-spring", "Do a spring, its dashpot and drag act?",
+     "A period of half a second, of which dashpot and drag take a tenth each.", 0.5, 5, 1e-3, "leapfrog",
+     R"([[particle]]
 position = [0, 0, 0]
 mass = 0.5
 [[particle]]
@@ -97,16 +93,9 @@ acceleration = [0, -9.81, 0]
 [drag]
 gamma = 2
 )"},
-    {"led-pin", R"(question = "Is a moved pin where it is led?"
-parameters = "A tenth of a metre to and fro pulls the weight along; the pin is far from home at every sample, the last too."
-[time]
-duration = 0.5
-samples = 5
-step = 1e-3
-window = 0.5
-tolerance = 1e-3
-method = "leapfrog"
-[[particle]]
+    {"led-pin", "Is a moved pin where it is led?",
+     "A tenth of a metre to and fro pulls the weight along; the pin is far from home at every sample, the last too.",
+     0.5, 5, 1e-3, "leapfrog", R"([[particle]]
 position = [0, 0, 0]
 mass = 0.5
 [[particle]]
@@ -125,16 +114,8 @@ ramp = 0.1
 [gravity]
 acceleration = [0, -9.81, 0]
 )"},
-    {"ball", R"(question = "Does a particle slide over a ball?"
-parameters = "It starts in contact; friction takes most of its speed."
-[time]
-duration = 0.3
-samples = 5
-step = 1e-3
-window = 0.3
-tolerance = 1e-3
-method = "leapfrog"
-[[particle]]
+    {"ball", "Does a particle slide over a ball?", "It starts in contact; friction takes most of its speed.", 0.3, 5,
+     1e-3, "leapfrog", R"([[particle]]
 position = [0, 1.02, 0]
 mass = 1
 velocity = [1, 0, 0]
@@ -146,16 +127,8 @@ radius = 1
 margin = 0.02
 friction = 0.2
 )"},
-    {"rod", R"(question = "Does a distance stay what it is?"
-parameters = "A pendulum let go from the horizontal."
-[time]
-duration = 0.3
-samples = 5
-step = 5e-4
-window = 0.3
-tolerance = 1e-3
-method = "xpbd"
-[[particle]]
+    {"rod", "Does a distance stay what it is?", "A pendulum let go from the horizontal.", 0.3, 5, 5e-4, "xpbd",
+     R"([[particle]]
 position = [0, 0, 0]
 mass = 0.5
 [[particle]]
@@ -168,30 +141,12 @@ particles = [0]
 [gravity]
 acceleration = [0, -9.81, 0]
 )"},
-    {"circle", R"(question = "Does a first-order system run?"
-parameters = "A sixth of a turn."
-[time]
-duration = 1
-samples = 5
-step = 0.01
-window = 1
-tolerance = 1e-3
-method = "rk4"
-[[particle]]
+    {"circle", "Does a first-order system run?", "A sixth of a turn.", 1, 5, 0.01, "rk4", R"([[particle]]
 position = [1, 0, 0]
 [rotation]
 rate = 1
 )"},
-    {"gusts", R"(question = "Does the wind come and go?"
-parameters = "Gusts as strong as the mean."
-[time]
-duration = 1
-samples = 5
-step = 1e-3
-window = 1
-tolerance = 1e-3
-method = "leapfrog"
-[[particle]]
+    {"gusts", "Does the wind come and go?", "Gusts as strong as the mean.", 1, 5, 1e-3, "leapfrog", R"([[particle]]
 position = [0, 1, 0]
 mass = 0.1
 [drag]
@@ -243,7 +198,7 @@ class Kit {
 
   ConformanceReport report() {
     for (const KitScene& row : kit_scenes)
-      if (!hangs_) try_scene(parse_scene(row.text, row.name));
+      if (!hangs_) try_scene(row.scene());
     if (hangs_) {
       add("", "scenes", Conformance::lacks, true, "the others are not tried, as it does not end", answers);
       return std::move(report_);
@@ -519,7 +474,7 @@ class Kit {
   void try_changed_scenes() {
     if (taken_ == 0) return;
     for (const KitScene& row : kit_scenes) {
-      const Scene scene = parse_scene(row.text, row.name);
+      const Scene scene = row.scene();
       const Run run = default_run(scene);
       const std::string text = scene_json(scene, run, program_.options);
       KitCall plain;
