@@ -100,6 +100,7 @@ std::span<const Experiment> experiments() {
        stiffness_points},
       {"disagreements", "Where does Bullet solve another problem than the scene states, and by how much?",
        disagreements_points},
+      {"relations", "What must hold in any engine, without any truth: does it?", relations_points},
   };
   return table;
 }
@@ -131,13 +132,15 @@ void add_missing(std::vector<Scene>& all, const std::vector<Scene>& more) {
       all.push_back(scene);
 }
 
+std::vector<Method> default_methods() {
+  std::vector<Method> methods = all_methods();
+  std::erase_if(methods, [](const Method& method) { return !method.family().by_default(); });
+  return methods;
+}
+
 std::vector<Method> methods_of(const Request& request, const Scene& scene) {
   if (!request.methods.empty()) return request.methods;
-  std::vector<Method> methods;
-  // truth is what the others are held against, integrators of others are no engines, and single precision doubles the
-  // work where few scenes need it: these run when they are named
-  for (Method& method : all_methods())
-    if (method.family().by_default()) methods.push_back(std::move(method));
+  std::vector<Method> methods = default_methods();
   if (scene.model.find<Spheres>()) methods.push_back(find_method(sticky_method()));
   return methods;
 }

@@ -104,6 +104,7 @@ std::vector<Point> sphere_points(const Request& request);
 std::vector<Point> speed_accuracy_points(const Request& request);
 std::vector<Point> cost_points(const Request& request);
 std::vector<Point> adequacy_points(const Request& request);
+std::vector<Point> relations_points(const Request& request);
 void conclude_adequacy(TableSet& tables);
 /// Adds what follows from the errors and the costs of all scenes (speed_accuracy/work_precision.cpp).
 void conclude_speed_accuracy(TableSet& tables);
@@ -123,6 +124,9 @@ bool has_own_charts(const std::string& experiment, const std::string& scene, boo
 /// Appends those scenes of which none of the same name is there.
 void add_missing(std::vector<Scene>& all, const std::vector<Scene>& more);
 
+/// What runs where no method is named: all of mysim and of Bullet. Truth is what the others are held against,
+/// integrators of others are no engines, and single precision doubles the work where few scenes need it.
+std::vector<Method> default_methods();
 /// The methods that a request runs on a scene: the ones it names, or all of mysim and Bullet; on a scene with a sphere
 /// also the assignment's sticky sphere, to be seen failing.
 std::vector<Method> methods_of(const Request& request, const Scene& scene);

@@ -78,17 +78,16 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
   return answer;
 }
 
-std::vector<Answer> ask_all(const std::vector<Method>& methods, const std::vector<Scene>& scenes, unsigned seed,
-                            const std::vector<KnownBreak>& known, Progress& progress) {
+std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
+                               const std::vector<KnownBreak>& known,
+                               const std::function<void(const Relation&)>& begin) {
   std::vector<Answer> answers;
-  for (const Method& method : methods) {
-    Subject subject(method);
-    for (const Relation& relation : relations()) {
-      progress.begin(fmt::format("{}: {}", method.name, relation.name));
-      for (const Scene& scene : scenes.empty() ? relation.smallest() : scenes)
-        if (scenes.empty() || relation.excluded(scene).empty())
-          answers.push_back(ask(relation, subject, scene, seed, known));
-    }
+  Subject subject(method);
+  for (const Relation& relation : relations()) {
+    if (begin) begin(relation);
+    for (const Scene& scene : scenes.empty() ? relation.smallest() : scenes)
+      if (scenes.empty() || relation.excluded(scene).empty())
+        answers.push_back(ask(relation, subject, scene, seed, known));
   }
   return answers;
 }

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "experiments/check/relations.h"
 #include "experiments/tables/check.h"
-#include "mysim/base/progress.h"
 
 namespace crosscheck {
 
@@ -38,10 +38,11 @@ struct Answer {
 Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsigned seed,
            const std::vector<KnownBreak>& known);
 
-/// Every relation of every method: on its smallest scenes where no scene is given, else on each of these that it says
-/// something about.
-std::vector<Answer> ask_all(const std::vector<Method>& methods, const std::vector<Scene>& scenes, unsigned seed,
-                            const std::vector<KnownBreak>& known, Progress& progress);
+/// Every relation of a method: on its smallest scenes where no scene is given, else on each of these that it says
+/// something about. `begin`: is told each relation before it is asked.
+std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
+                               const std::vector<KnownBreak>& known,
+                               const std::function<void(const Relation&)>& begin = {});
 
 /// 0 where something was asked and nothing but known breaks was found; else 1.
 int status_of(const std::vector<Answer>& answers);

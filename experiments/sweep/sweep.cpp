@@ -93,7 +93,7 @@ class Batch {
 
   void start(size_t worker) {
     std::fflush(nullptr);  // or the child prints it again
-    const pid_t parent = getpid(), pid = fork();
+    const pid_t parent = getpid(), pid = progress_.fork();
     if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
     if (pid == 0) {
       // no worker outlives a killed sweep, or a resumed one would compute the same points at the same time

@@ -55,7 +55,8 @@ struct Progress::Display {
 
   std::mutex mutex;  // of all that follows, `part` excepted
   std::condition_variable ended;
-  bool end = false, shown = false;  // shown: a line stands on the terminal
+  std::condition_variable waits;
+  bool waiting = false, end = false, shown = false;  // shown: a line stands on the terminal
   int total, begun = 0;
   std::string what;
   double expected = 0;
@@ -73,6 +74,8 @@ struct Progress::Display {
     pthread_sigmask(SIG_SETMASK, &all, &before);
     thread = std::thread([this] { look(); });
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    std::unique_lock lock(mutex);
+    waits.wait(lock, [this] { return waiting; });
   }
 
   static double since(Clock::time_point from) { return std::chrono::duration<double>(Clock::now() - from).count(); }
@@ -84,6 +87,8 @@ struct Progress::Display {
 
   void look() {
     std::unique_lock lock(mutex);
+    waiting = true;
+    waits.notify_one();
     while (!ended.wait_for(lock, std::chrono::milliseconds(250), [this] { return end; })) {
       const double elapsed = since(start);
       if (elapsed < silent || begun == 0 || what.empty()) continue;
@@ -141,6 +146,11 @@ void Progress::part(double done) { display_->part.store(done, std::memory_order_
 void Progress::expect(int more) {
   const std::lock_guard lock(display_->mutex);
   display_->total += more;
+}
+
+pid_t Progress::fork() {
+  const std::lock_guard lock(display_->mutex);
+  return ::fork();
 }
 
 void Progress::done() {

@@ -2,6 +2,8 @@
 // the first two seconds.
 #pragma once
 
+#include <sys/types.h>
+
 #include <memory>
 #include <string>
 
@@ -36,6 +38,9 @@ class Progress {
   void expect(int more);
   /// Takes the line from the terminal: what is printed afterwards stands alone. The next step shows it again.
   void done();
+  /// fork() at a moment when the thread sleeps: else it may hold a lock, of an allocator for one, that nobody would
+  /// ever open in the child.
+  pid_t fork();
 
  private:
   struct Display;

@@ -145,10 +145,18 @@ int check_relations(const CheckOptions& options, const std::string& line) {
   std::optional<OutputFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out, "check");
   Progress progress(static_cast<int>(methods.size() * relations().size()));
-  const std::vector<Answer> answers = ask_all(methods, scenes, options.seed, known, progress);
+  std::vector<Answer> answers;
+  for (const Method& method : methods)
+    for (Answer& answer : answers_of(method, scenes, options.seed, known, [&](const Relation& relation) {
+           progress.begin(fmt::format("{}: {}", method.name, relation.name));
+         }))
+      answers.push_back(std::move(answer));
   progress.done();
   if (folder) {
-    write_csv(table_of(answers), provenance(line), folder->path());
+    const Table table = table_of(answers);
+    const Provenance lines = provenance(line);
+    write_csv(table, lines, folder->path());
+    write_file(folder->path() / "index.html", relations_page_html(rows_of<RelationRow>(table), lines));
     folder->finish();
   }
   if (!options.junit.empty()) write_file(options.junit, junit_of(answers));
@@ -175,7 +183,7 @@ void add_check(CLI::App& app, Invocation& call) {
   check->add_option("--seed", options->seed, "seed of turns, shifts and orders (default: 1)");
   check->add_flag("--json", options->json, "prints JSON");
   check->add_option("--junit", options->junit, "file for JUnit XML");
-  check->add_option("--out", options->out, "folder for relations.csv (default: none is written)");
+  check->add_option("--out", options->out, "folder for a page and relations.csv (default: none is written)");
   check->callback([options, &call] {
     if (options->program.empty() && options->words.empty())
       throw InputError("check: expected a method, or --protocol exec:PROGRAM");

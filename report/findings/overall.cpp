@@ -5,6 +5,7 @@
 #include <map>
 
 #include "experiments/speed_accuracy/work_precision.h"
+#include "experiments/tables/check.h"
 #include "experiments/tables/disagreements.h"
 #include "experiments/tables/order.h"
 #include "report/findings/answers.h"
@@ -160,6 +161,39 @@ void disagreements(const TableSet& rows, std::vector<Finding>& out) {
                    .words = {{"ways", counted(count, "known way")}}});
 }
 
+/// What holds in an engine without any truth, over all its methods; a break without a known cause is a finding.
+void relations_of_engines(const TableSet& rows, std::vector<Finding>& out) {
+  struct Counts {
+    size_t asked = 0, held = 0;
+    std::vector<std::string> broken;  // names of relations
+  };
+  std::vector<std::pair<std::string, Counts>> engines;
+  for (const RelationRow& row : rows_of<RelationRow>(rows)) {
+    if (row.mark == RelationMark::not_asked) continue;
+    const std::string name = engine_of(row.method);
+    auto at = std::ranges::find(engines, name, &std::pair<std::string, Counts>::first);
+    if (at == engines.end()) at = engines.insert(at, {name, {}});
+    Counts& counts = at->second;
+    ++counts.asked, counts.held += row.mark == RelationMark::holds;
+    if (row.mark == RelationMark::broken && std::ranges::find(counts.broken, row.relation) == counts.broken.end())
+      counts.broken.push_back(row.relation);
+  }
+  for (const auto& [engine, counts] : engines) {
+    const std::string rest = counts.held == counts.asked ? ""
+                             : counts.broken.empty()     ? ", and the others break for known causes"
+                                                         : "";
+    out.push_back({.rule = "relations",
+                   .method = engine,
+                   .value = static_cast<double>(counts.held),
+                   .words = {{"asked", counted(counts.asked, "question")}, {"rest", rest}}});
+    if (!counts.broken.empty())
+      out.push_back({.rule = "relations-broken",
+                     .method = engine,
+                     .value = static_cast<double>(counts.broken.size()),
+                     .words = {{"which", listed(counts.broken)}}});
+  }
+}
+
 }  // namespace
 
 std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const std::vector<SceneData>& data,
@@ -172,6 +206,7 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
        {speed_findings, stability_findings, energy_findings, sphere_findings, adequacy_findings, cost_findings})
     for (Finding& f : of_experiment(rows)) out.push_back(std::move(f));
   disagreements(rows, out);
+  relations_of_engines(rows, out);
   return out;
 }
 

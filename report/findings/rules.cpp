@@ -91,6 +91,12 @@ const std::vector<FindingRule>& finding_rules() {
       {"known-disagreements", "failure", same, "known departures from the scene", "1", measured,
        "{method} departs from what a scene asks in {ways}, each measured in the smallest scene that shows it.",
        "rows, by engine", {"disagreements"}},
+      {"relations", "agreement", same, "relations that hold", "1", "none is needed",
+       "Without any truth: of {asked} that any engine must answer alike, {method} does in {value}{rest}.",
+       "rows whose mark is holds, by engine, of those whose mark is not cannot be asked", {"relations"}},
+      {"relations-broken", "failure", same, "relations broken without a known cause", "1", "none is needed",
+       "{method} breaks what must hold in any engine: {which}.",
+       "relations of the rows whose mark is broken, by engine", {"relations"}},
 
       // speed against accuracy
       {"nearest-of-all", "accuracy", speed, "scenes", "1", "see each scene",

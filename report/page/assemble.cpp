@@ -138,6 +138,7 @@ class Assembly {
     page_.findings = findings_.overall;
     page_.notes = data.rows.notes, page_.problems = data.problems, page_.provenance = data.provenance;
     page_.chapters = chapters();
+    page_.relations = rows_of<RelationRow>(data.rows);
     page_.figures = figures_;
     if (const Scene* main = main_scene(data.scenes, data.rows)) page_.main_scene = main->name;
     if (!against.empty()) {

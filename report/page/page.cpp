@@ -327,6 +327,8 @@ std::string chapter_html(const Chapter& chapter, size_t number, const PageConten
   if (!said.empty())
     folds += fold_html("What was found", fmt::format("{} finding{}", said.size(), said.size() == 1 ? "" : "s"),
                        findings_html(said));
+  if (chapter.id == "same-answer" && !c.relations.empty())
+    folds += fold_html("What must hold without any truth", "table", relations_html(c.relations), "relations");
   for (const Chapter::Entry& entry : chapter.entries) {
     if (entry.shown) continue;
     Chapter::Entry rest = entry;

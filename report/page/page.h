@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/tables/check.h"
 #include "mysim/base/json.h"
 #include "report/figures/charts.h"
 #include "report/findings/answers.h"
@@ -83,16 +84,17 @@ struct PageContent {
   std::vector<Finding> findings;  // of the whole report
   std::vector<ScenePart> scenes;
   std::vector<Chapter> chapters;
-  Json charts = Json::object();       // by the names of figures: what they draw (report/figures/chart_json.h)
-  std::vector<std::string> methods;   // that stand in it
-  std::vector<PlayableRuns> runs;     // that figures play
-  std::string lab;                    // its module and its scenes, for the page's end
-  std::string main_scene;             // stands for the others; empty: none
-  std::filesystem::path figures;      // the folder of the figures for paper
-  std::vector<std::string> notes;     // what was left out, and why
-  std::vector<std::string> problems;  // what failed to be made
-  std::string against;                // an earlier report, or empty
-  std::vector<Change> changes;        // since then
+  Json charts = Json::object();        // by the names of figures: what they draw (report/figures/chart_json.h)
+  std::vector<std::string> methods;    // that stand in it
+  std::vector<RelationRow> relations;  // that were asked
+  std::vector<PlayableRuns> runs;      // that figures play
+  std::string lab;                     // its module and its scenes, for the page's end
+  std::string main_scene;              // stands for the others; empty: none
+  std::filesystem::path figures;       // the folder of the figures for paper
+  std::vector<std::string> notes;      // what was left out, and why
+  std::vector<std::string> problems;   // what failed to be made
+  std::string against;                 // an earlier report, or empty
+  std::vector<Change> changes;         // since then
   Provenance provenance;
 };
 
@@ -124,6 +126,9 @@ std::vector<Chapter> chapters();
 /// A long table is folded unless it is to be open.
 std::string page_table_html(const PageTable& table);
 
+/// A terminal's text as a page writes it, without hints at command-line options.
+std::string readable(std::string text);
+
 /// <img> with the image inside the page; and a <figure> of it with its caption.
 std::string image_tag(const PageImage& image);
 std::string image_html(const PageImage& image, const std::string& css_class);
@@ -135,6 +140,10 @@ std::string statistics_html(const Table& statistics);
 std::string certificate_html(const Certificate& certificate);
 /// All certificates in one picture: a dot for each quantity of each scene, in a column for each method.
 std::string parity_html(const std::vector<ScenePart>& scenes);
+/// Relations that need no truth: a row of marks for each engine, and the breaks with their causes; empty without rows.
+std::string relations_html(const std::vector<RelationRow>& rows);
+/// A page of that alone.
+std::string relations_page_html(const std::vector<RelationRow>& rows, const Provenance& lines);
 /// One recommendation a scene: the method to take for 1 % of the motion, with step, error, cost and what binds the
 /// step.
 std::string recommendation_table_html(const std::vector<ScenePart>& scenes);

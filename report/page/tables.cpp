@@ -244,9 +244,6 @@ std::string recommendation_table_html(const std::vector<ScenePart>& scenes) {
          rows + "</tbody></table></div>\n</section>\n";
 }
 
-namespace {
-
-/// A terminal's text as a page writes it, without hints at command-line options.
 std::string readable(std::string text) {
   constexpr std::pair<std::string_view, std::string_view> table[] = {{": give --tol, not --step", ""},
                                                                      {"--step", "the scene's step"},
@@ -259,6 +256,8 @@ std::string readable(std::string text) {
       text.replace(at, spelt.size(), written);
   return text;
 }
+
+namespace {
 
 std::string row_of(const Method& method) {
   const Stepper* own = stepper_of(method);

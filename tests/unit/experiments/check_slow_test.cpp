@@ -14,13 +14,13 @@ TEST(RelationsOfAllEngines, AreBrokenOnlyWhereThatIsKnown) {
   for (const Stepper& s : steppers()) methods.push_back(find_method(std::string(s.name)));
   for (const char* name : {"bullet/deformable-explicit", "bullet/deformable-implicit", "bullet/pbd+n=10"})
     methods.push_back(find_method(name));
-  Progress progress(0);
   std::set<std::string> holding;
-  for (const Answer& a : ask_all(methods, {}, 1, read_known_breaks(shipped_known_breaks()), progress)) {
-    EXPECT_NE(a.mark, RelationMark::broken)
-        << a.method << " " << a.relation->name << " " << a.scene << ": " << a.sentence();
-    if (a.mark == RelationMark::holds) holding.insert(a.method);
-  }
+  for (const Method& method : methods)
+    for (const Answer& a : answers_of(method, {}, 1, read_known_breaks(shipped_known_breaks()))) {
+      EXPECT_NE(a.mark, RelationMark::broken)
+          << a.method << " " << a.relation->name << " " << a.scene << ": " << a.sentence();
+      if (a.mark == RelationMark::holds) holding.insert(a.method);
+    }
   EXPECT_EQ(holding.size(), methods.size());
 }
 
@@ -30,9 +30,8 @@ TEST(Defects, AreNamedByTheirOwnRelationAndNoOther) {
       const Method method = defect.make(base);
       if (const Stepper* rule = stepper_of(method); rule && rule->order < defect.least_order) continue;
       SCOPED_TRACE(fmt::format("{} in {}", defect.what, base));
-      Progress progress(0);
       std::set<std::string> broken;
-      for (const Answer& a : ask_all({method}, {}, 1, {}, progress))
+      for (const Answer& a : answers_of(method, {}, 1, {}))
         if (a.mark == RelationMark::broken) broken.insert(std::string(a.relation->name));
       EXPECT_TRUE(broken.contains(defect.relation));
       for (const std::string& name : broken)

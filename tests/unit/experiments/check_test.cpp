@@ -12,8 +12,7 @@ namespace {
 using namespace testing_tools;
 
 std::vector<Answer> all_answers(const Method& method, const std::vector<KnownBreak>& known = {}) {
-  Progress progress(0);
-  return ask_all({method}, {}, 1, known, progress);
+  return answers_of(method, {}, 1, known);
 }
 
 TEST(Relations, AllHoldForLeapfrog) {
@@ -68,10 +67,27 @@ TEST(Relations, TakeARunThatFailsForBroken) {
   EXPECT_EQ(answer.finding.since, 0.25);
 }
 
+TEST(Relations, AreAPartOfEveryReportAndOfANamedScenesForProgramsAlone) {
+  Request request;
+  EXPECT_EQ(relations_points(request).size(), default_methods().size());
+  request.scenes_only = true;
+  EXPECT_TRUE(relations_points(request).empty());
+  request.methods = {find_method("leapfrog"), find_method("exec:" CROSSCHECK_EXAMPLE)};
+  const std::vector<Point> points = relations_points(request);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_TRUE(contains(points[0].name, "exec:"));
+
+  request.scenes_only = false;
+  TableSet tables;
+  relations_points(request)[0].compute(tables);
+  const Table* table = tables.table("relations");
+  ASSERT_NE(table, nullptr);
+  EXPECT_GE(table->rows.size(), relations().size());
+}
+
 TEST(Relations, OfNamedScenesAreThoseThatSaySomething) {
-  Progress progress(0);
   std::set<std::string> asked;
-  for (const Answer& a : ask_all({find_method("leapfrog")}, {shipped_scene("spring")}, 1, {}, progress)) {
+  for (const Answer& a : answers_of(find_method("leapfrog"), {shipped_scene("spring")}, 1, {})) {
     asked.insert(std::string(a.relation->name));
     EXPECT_EQ(a.mark, RelationMark::holds) << a.relation->name << ": " << a.sentence();
   }

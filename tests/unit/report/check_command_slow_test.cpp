@@ -41,6 +41,7 @@ TEST_F(CliCheck, WritesATableJsonAndJUnit) {
   const std::string table = rows(folder_ / "results/relations.csv");
   EXPECT_TRUE(begins(table, "method [1],relation [1],scene [1],mark [1]"));
   EXPECT_TRUE(contains(table, "mysim/leapfrog,turned,own,holds"));
+  EXPECT_TRUE(contains(read(folder_ / "results/index.html"), "class=\"parity relations\""));
 }
 
 TEST_F(CliCheck, BadInputIsExitTwoWithAMessage) {

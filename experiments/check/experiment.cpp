@@ -1,0 +1,22 @@
+// Experiment `relations`: every relation asked of every engine, on the smallest scenes that can show it.
+#include "experiments/experiment.h"
+
+#include "experiments/check/check.h"
+#include "mysim/base/files.h"
+
+namespace crosscheck {
+
+std::vector<Point> relations_points(const Request& request) {
+  std::vector<Method> methods = request.methods.empty() ? default_methods() : request.methods;
+  // what comes with Crosscheck answers the same whatever the scenes are, and does so in the report of all of them
+  if (request.scenes_only) std::erase_if(methods, [](const Method& method) { return method.fingerprint.empty(); });
+  const std::string known = read_file(shipped_known_breaks(), "a table of known breaks");
+  std::vector<Point> points;
+  for (const Method& method : methods)
+    points.push_back({"relations: " + method.name, method.fingerprint + "\n" + known, [method](TableSet& tables) {
+                        tables.add(table_of(answers_of(method, {}, 1, read_known_breaks(shipped_known_breaks()))));
+                      }});
+  return points;
+}
+
+}  // namespace crosscheck

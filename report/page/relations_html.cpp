@@ -1,0 +1,101 @@
+// Marks of the relations that need no truth: a row for each engine; and what is broken, by how much, and why.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "experiments/check/relations.h"
+#include "report/figures/plot_layout.h"
+#include "report/findings/findings_text.h"
+#include "report/page/page.h"
+
+namespace crosscheck {
+namespace {
+
+/// What is told of a relation that was asked on several scenes: the worst, and that it cannot be asked if that is all.
+RelationMark worse_mark(RelationMark a, RelationMark b) {
+  for (const RelationMark mark : {RelationMark::broken, RelationMark::known, RelationMark::holds})
+    if (a == mark || b == mark) return mark;
+  return RelationMark::not_asked;
+}
+
+/// The dots of the parity certificates: full, a ring, a red square.
+std::string_view css_class(RelationMark mark) {
+  constexpr std::string_view names[] = {"match", "mismatch", "law", "unattested"};
+  return names[static_cast<int>(mark)];
+}
+
+std::string sentence_of_relation(const std::string& name) {
+  const auto all = relations();
+  const auto at = std::ranges::find(all, name, &Relation::name);
+  return at == all.end() ? name : std::string(at->sentence);  // of a report by another version
+}
+
+/// "140 times what is allowed, 2e-5 J, since 0.4 s"; where the run failed, when it did.
+std::string size_of_break(const RelationRow& row) {
+  const std::string unit = row.unit == "1" ? "" : " " + row.unit;
+  std::string text;
+  if (row.ratio)
+    text = fmt::format("{} times what is allowed, {}{}", *row.ratio < 1e4 ? times_text(*row.ratio) : nice(*row.ratio),
+                       nice(row.tolerance.value_or(0)), unit);
+  else if (row.measured)
+    text = fmt::format("{}{}, where nothing is allowed", nice(*row.measured), unit);
+  if (row.since) text += fmt::format("{}{:.2g} s", text.empty() ? "fails at " : ", since ", *row.since);
+  return text;
+}
+
+}  // namespace
+
+std::string relations_html(const std::vector<RelationRow>& rows) {
+  if (rows.empty()) return "";
+  std::vector<std::string> methods, names;
+  std::map<std::pair<std::string, std::string>, RelationMark> marks;  // by method and relation
+  const auto note = [](std::vector<std::string>& list, const std::string& name) {
+    if (std::ranges::find(list, name) == list.end()) list.push_back(name);
+  };
+  for (const RelationRow& row : rows) {
+    note(methods, row.method), note(names, row.relation);
+    const auto [at, is_new] = marks.emplace(std::pair{row.method, row.relation}, row.mark);
+    if (!is_new) at->second = worse_mark(at->second, row.mark);
+  }
+  std::string out = "<div class=\"scroll\"><table class=\"parity relations\"><thead><tr><th>method</th>";
+  for (const std::string& name : names)
+    out += fmt::format("<th title=\"{}\"><span>{}</span></th>", escaped(sentence_of_relation(name)), escaped(name));
+  out += "</tr></thead><tbody>\n";
+  for (const std::string& method : methods) {
+    out +=
+        fmt::format("<tr><th scope=\"row\" title=\"{}\">{}</th>", escaped(method), escaped(name_in_sentence(method)));
+    for (const std::string& name : names) {
+      const auto at = marks.find({method, name});
+      const RelationMark mark = at == marks.end() ? RelationMark::not_asked : at->second;
+      const std::string said = fmt::format("{}: {}", sentence_of_relation(name), name_of(mark));
+      out += mark == RelationMark::not_asked
+                 ? fmt::format("<td class=\"none\" title=\"{}\">–</td>", escaped(said))
+                 : fmt::format("<td><i class=\"{0}\" role=\"img\" aria-label=\"{1}\" title=\"{1}\"></i></td>",
+                               css_class(mark), escaped(said));
+    }
+    out += "</tr>\n";
+  }
+  out +=
+      "</tbody></table></div><p class=\"note\">What any engine must keep, asked on the smallest scenes that can show "
+      "it. Full: it holds, to within rounding or the rule's order; ring: broken for a known cause; red square: broken; "
+      "–: it cannot be asked.</p>\n";
+  PageTable breaks{
+      "What is broken, by how much, and why", {"method", "what must hold", "scene", "by how much", "why"}, {}};
+  for (const RelationRow& row : rows)
+    if (row.mark == RelationMark::broken || row.mark == RelationMark::known)
+      breaks.rows.push_back({row.method, sentence_of_relation(row.relation), row.scene, size_of_break(row),
+                             row.reason.empty() ? "not known" : readable(row.reason)});
+  return out + (breaks.rows.empty() ? "" : "<div class=\"breaks\">" + page_table_html(breaks) + "</div>\n");
+}
+
+std::string relations_page_html(const std::vector<RelationRow>& rows, const Provenance& lines) {
+  return page_head("Crosscheck: what must hold without any truth") +
+         "<main>\n<section class=\"chapter\"><h2>What must hold without any truth</h2>\n" + relations_html(rows) +
+         "</section>\n<section class=\"chapter\"><h3>How this was made</h3>\n" + provenance_html(lines) +
+         "</section>\n</main></body></html>\n";
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,76 @@
+// Relations on the page: a row of marks for each engine, the causes of breaks, and what the findings say of them.
+
+#include "experiments/check/relations.h"
+#include "report/page/page.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/report/made_up_findings.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+RelationRow row(const std::string& method, const std::string& relation, RelationMark mark) {
+  RelationRow r{.method = method, .relation = relation, .scene = "small-net", .mark = mark, .unit = "m"};
+  r.measured = 3e-9, r.tolerance = 1e-10, r.ratio = 30, r.since = 0.25;
+  if (mark == RelationMark::known) r.reason = "one pass goes through the springs in turn";
+  return r;
+}
+
+std::vector<RelationRow> rows_of_two_engines() {
+  return {row("mysim/xpbd", "free-fall", RelationMark::holds),  row("mysim/xpbd", "free-fall", RelationMark::not_asked),
+          row("mysim/xpbd", "mirror", RelationMark::known),     row("mysim/xpbd", "resume", RelationMark::not_asked),
+          row("exec:./mine", "free-fall", RelationMark::holds), row("exec:./mine", "free-fall", RelationMark::broken),
+          row("exec:./mine", "mirror", RelationMark::holds)};
+}
+
+size_t count_of(const std::string& text, const std::string& part) {
+  size_t n = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+TEST(RelationsOnThePage, HaveARowOfMarksForEachEngineAndTheWorstMarkOfSeveralScenes) {
+  const std::string html = relations_html(rows_of_two_engines());
+  const std::string marks = html.substr(0, html.find("</table>"));
+  EXPECT_EQ(count_of(marks, "<tr>"), 3u);                      // the head and two engines
+  EXPECT_EQ(count_of(marks, "class=\"match\""), 2u) << marks;  // xpbd falls freely, mine is symmetric
+  EXPECT_EQ(count_of(marks, "class=\"law\""), 1u);             // xpbd's order of springs
+  EXPECT_EQ(count_of(marks, "class=\"mismatch\""), 1u);        // mine falls freely in one scene of two
+  EXPECT_EQ(count_of(marks, "class=\"none\""), 2u);            // what no scene could be asked, and what was not asked
+  EXPECT_TRUE(contains(marks, find_relation("mirror").sentence)) << "the sentence is in the head";
+  EXPECT_EQ(relations_html({}), "");
+}
+
+TEST(RelationsOnThePage, SayByHowMuchAndWhy) {
+  const std::string html = relations_html(rows_of_two_engines());
+  const std::string breaks = html.substr(html.find("</table>"));
+  EXPECT_TRUE(contains(breaks, "one pass goes through the springs in turn"));
+  EXPECT_TRUE(contains(breaks, "30\u00a0times what is allowed")) << breaks;
+  EXPECT_TRUE(contains(breaks, "since 0.25\u00a0s"));
+  EXPECT_TRUE(contains(breaks, "not known"));
+  RelationRow gone = row("exec:./mine", "turned", RelationMark::broken);
+  gone.ratio = gone.measured = gone.tolerance = std::nullopt, gone.reason = "it fell over";
+  EXPECT_TRUE(contains(relations_html({gone}), "fails at 0.25\u00a0s"));
+}
+
+TEST(RelationsOnThePage, AreToldEngineByEngine) {
+  TableSet tables;
+  Table table = table_of<RelationRow>();
+  for (const RelationRow& r : rows_of_two_engines()) add(table, r);
+  tables.add(table);
+  const std::vector<Finding> all = overall_findings({}, {}, tables);
+  const std::vector<Finding> held = of_rule(all, "relations"), broken = of_rule(all, "relations-broken");
+  ASSERT_EQ(held.size(), 2u);
+  EXPECT_EQ(held[0].method, "mysim");
+  EXPECT_EQ(held[0].value, 1);  // of two that could be asked
+  EXPECT_TRUE(contains(sentence_of(held[0]), "known causes")) << sentence_of(held[0]);
+  EXPECT_EQ(held[1].value, 2);
+  EXPECT_FALSE(contains(sentence_of(held[1]), "known causes"));
+  ASSERT_EQ(broken.size(), 1u);
+  EXPECT_TRUE(contains(sentence_of(broken[0]), "free-fall")) << sentence_of(broken[0]);
+  for (const Finding& f : all) EXPECT_LE(words_in(sentence_of(f)), 25u) << sentence_of(f);
+}
+
+}  // namespace
+}  // namespace crosscheck
