@@ -90,7 +90,7 @@ const std::vector<FindingRule>& finding_rules() {
        "verdict is unsupported", {"engines"}},
       {"known-disagreements", "failure", same, "known departures from the scene", "1", measured,
        "{method} departs from what a scene asks in {ways}, each measured in the smallest scene that shows it.",
-       "rows, by engine", {"disagreements"}},
+       "rows that are explained or reproduced, by engine", {"disagreements"}},
 
       // speed against accuracy
       {"nearest-of-all", "accuracy", speed, "scenes", "1", "see each scene",
