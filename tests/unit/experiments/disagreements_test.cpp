@@ -88,6 +88,21 @@ TEST(Disagreements, AHealthyMethodHasNone) {
   }
 }
 
+TEST(Disagreements, WorldsInThisProcessRefuseWhatWouldHangThem) {
+  const auto refusal = [](const std::string& method, const std::string& scene) {
+    const Scene of = scene_of(row(scene));
+    const Outcome out = run_method(find_method(method), of, default_run(of), {});
+    EXPECT_EQ(out.verdict, Verdict::unsupported) << method;
+    return out.reason;
+  };
+  for (const auto method : {"bullet/deformable-explicit", "bullet/deformable-implicit", "bullet/pbd",
+                            "bullet/deformable-explicit+bodies", "bullet32/deformable-explicit"})
+    EXPECT_EQ(refusal(method, "network-in-pieces"),
+              "Bullet's contact search hangs on a body whose springs do not join all particles");
+  EXPECT_TRUE(contains(refusal("bullet/deformable-explicit+bodies", "distance-field"), "springs and gravity only"));
+  EXPECT_TRUE(contains(refusal("bullet/deformable-explicit+bodies", "small-things"), "springs and gravity only"));
+}
+
 Series series(Verdict verdict, std::vector<std::pair<double, double>> points, double cpu = 0) {
   Series s{{"curve", "method"}, {}, std::move(points)};
   s.outcome.verdict = verdict, s.outcome.process_seconds = cpu, s.outcome.reason = "no such thing";
