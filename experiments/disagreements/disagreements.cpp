@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "experiments/scenes/scenes.h"
 #include "experiments/tables/disagreements.h"
+#include "mysim/base/errors.h"
 #include "mysim/run/observers.h"
 #include "reference/method.h"
 
@@ -48,28 +50,132 @@ std::vector<Series> run_variants(const Disagreement& disagreement, const Scene& 
   for (const Variant& variant : disagreement.variants) {
     Scene own = scene;
     if (auto* springs = own.model.find<Springs>()) springs->law = variant.law;
+    if (variant.change) variant.change(own);
     Run run = default_run(own);
     if (variant.step > 0) run.step = variant.step;
     Recorder recorder;
     Series series{variant, run_method(find_method(variant.method), own, run, {&recorder}), {}};
     const Trajectory& path = recorder.trajectory;
     if (all.empty()) first = path;
+    auto value = [&](const State& s, const Points& of_first) {
+      return disagreement.value ? disagreement.value(own, s) : largest_column(s.x - of_first);
+    };
     for (int i = 0; i < path.frames() && i < first.frames(); ++i)
-      series.points.emplace_back(path.t[i], disagreement.value
-                                                ? disagreement.value(own, {path.t[i], path.x[i], path.v[i]})
-                                                : largest_column(path.x[i] - first.x[i]));
+      series.points.emplace_back(path.t[i], value({path.t[i], path.x[i], path.v[i]}, first.x[i]));
+    if (series.points.empty() && series.outcome.verdict == Verdict::timeout)
+      series.points.emplace_back(0, value(own.start, own.start.x));
     all.push_back(std::move(series));
   }
   return all;
 }
 
+Disagreement with_worlds_of(Disagreement disagreement, const std::string& program) {
+  auto of_program = [&](const std::string& method) {
+    const MethodFamily& family = family_of(method);
+    if (family.role != Role::peer) return method;
+    const std::string rest = method.substr(std::min(method.size(), family.name.size() + 1));
+    return rest.empty() ? program : fmt::format("{}+world={}", program, rest);
+  };
+  disagreement.world = of_program(disagreement.world);
+  for (Variant& variant : disagreement.variants) variant.method = of_program(variant.method);
+  return disagreement;
+}
+
+std::string_view name_of(TroubleState state) {
+  switch (state) {
+    case TroubleState::explained:
+      return "explained";
+    case TroubleState::reproduced:
+      return "reproduced";
+    case TroubleState::not_reproduced:
+      return "not reproduced";
+    case TroubleState::not_asked:
+      break;
+  }
+  return "not asked";
+}
+
+bool holds(const Condition& c, const std::vector<Series>& all) {
+  const Series &a = all.at(c.a), &b = all.at(c.b);
+  if (c.kind == Condition::Kind::hangs)
+    return a.outcome.verdict == Verdict::timeout && b.outcome.verdict == Verdict::ok &&
+           a.outcome.process_seconds > c.by * b.outcome.process_seconds;
+  double most = 0;
+  for (size_t i = 0; i < std::min(a.points.size(), b.points.size()) && a.points[i].first < c.until; ++i)
+    // what is no number is far from all
+    if (const double apart = std::abs(a.points[i].second - b.points[i].second); !(apart <= most))
+      most = std::isnan(apart) ? INFINITY : apart;
+  if (c.kind == Condition::Kind::apart) return most > c.by;
+  return most <= c.by && a.outcome.verdict == Verdict::ok && b.outcome.verdict == Verdict::ok;
+}
+
+namespace {
+
+bool all_hold(const std::vector<Condition>& conditions, const std::vector<Series>& all) {
+  return std::ranges::all_of(conditions, [&](const Condition& c) { return holds(c, all); });
+}
+
+}  // namespace
+
+std::string why_not_asked(const Disagreement& disagreement, const std::vector<Series>& all) {
+  const auto why = [](const Series& s) {
+    return fmt::format("{} ({}): {}", s.variant.label, s.variant.method,
+                       s.outcome.reason.empty() ? in_words(s.outcome.verdict) : s.outcome.reason);
+  };
+  for (const Series& s : all)
+    if (s.points.empty() || s.outcome.verdict == Verdict::unsupported) return why(s);
+  if (all_hold(disagreement.symptom, all)) return "";
+  for (const Series& s : all)
+    if (s.outcome.verdict != Verdict::ok) return fmt::format("{}, {}", why(s), in_words(s.outcome.verdict));
+  return "";
+}
+
+TroubleState state_of(const Disagreement& disagreement, const std::vector<Series>& all) {
+  if (!why_not_asked(disagreement, all).empty()) return TroubleState::not_asked;
+  if (!all_hold(disagreement.symptom, all)) return TroubleState::not_reproduced;
+  const auto& cause = disagreement.cause_removed;
+  return !cause.empty() && all_hold(cause, all) ? TroubleState::explained : TroubleState::reproduced;
+}
+
+std::string criterion_of(const Disagreement& d) {
+  auto in_words = [&](const std::vector<Condition>& conditions) {
+    std::string text;
+    for (const Condition& c : conditions) {
+      const std::string &a = d.variants.at(c.a).label, &b = d.variants.at(c.b).label,
+                        until = std::isinf(c.until) ? "" : fmt::format(" before {:g} s", c.until);
+      text += text.empty() ? "" : "; ";
+      if (c.kind == Condition::Kind::hangs)
+        text += fmt::format("\"{}\" takes more than {:g} times the CPU time of \"{}\" and does not end", a, c.by, b);
+      else
+        text += fmt::format("\"{}\" is {} {:g} {} {} \"{}\"{}", a,
+                            c.kind == Condition::Kind::apart ? "more than" : "within", c.by, d.unit,
+                            c.kind == Condition::Kind::apart ? "from" : "of", b, until);
+    }
+    return text;
+  };
+  return "reproduced: " + in_words(d.symptom) +
+         (d.cause_removed.empty() ? "" : ". Explained: " + in_words(d.cause_removed));
+}
+
 std::vector<Point> disagreements_points(const Request& request) {
   if (request.scenes_only) return {};
+  std::string program, fingerprint;
+  for (const Method& method : request.methods)
+    // a program with worlds of Bullet's is told from any other by the world that it is asked for
+    if (const size_t at = method.name.find("+world=");
+        method.name.starts_with(program_prefix) && at != method.name.npos) {
+      if (!program.empty() && program != method.name.substr(0, at))
+        throw InputError(fmt::format("disagreements: expected one program with +world=, got {} and {}", program,
+                                     method.name.substr(0, at)));
+      program = method.name.substr(0, at), fingerprint = method.fingerprint;
+    }
   std::vector<Point> points;
-  for (const Disagreement& d : disagreements())
-    points.push_back({"disagreement: " + d.name, scene_of(d).hash, [d](TableSet& tables) {
+  for (const Disagreement& each : disagreements())
+    points.push_back({"disagreement: " + each.name, fmt::format("{} {} {}", scene_of(each).hash, program, fingerprint),
+                      [d = program.empty() ? each : with_worlds_of(each, program)](TableSet& tables) {
                         const Scene scene = scene_of(d);
                         const std::vector<Series> all = run_variants(d, scene);
+                        const TroubleState state = state_of(d, all);
                         Table table = table_of<DisagreementCurveRow>(d.name + "-disagreement");
                         table.columns.back() = {d.quantity, d.unit};
                         for (const Series& s : all)
@@ -77,13 +183,15 @@ std::vector<Point> disagreements_points(const Request& request) {
                             add(table, DisagreementCurveRow{s.variant.label, s.variant.method, s.outcome.step,
                                                             s.outcome.verdict, t, value});
                         Table summary = table_of<DisagreementRow>();
-                        std::string effect = d.effect(all);
-                        if (d.measured) {
+                        const bool asked = state != TroubleState::not_asked;
+                        std::string effect = asked ? d.effect(all) : why_not_asked(d, all);
+                        if (asked && d.measured) {
                           const TableWithSentence more = d.measured(d);
                           tables.add(more.table);
                           effect += " " + more.sentence;
                         }
-                        add(summary, DisagreementRow{d.name, d.world, d.what, d.cause, effect, scene.hash});
+                        add(summary, DisagreementRow{d.name, d.world, d.what, d.cause, effect, d.threads,
+                                                     std::string(name_of(state)), criterion_of(d), scene.hash});
                         tables.add(table);
                         tables.add(summary);
                       }});

@@ -1,6 +1,7 @@
 // Known disagreements between Bullet and a scene's definition: the scenes, their runs, and the direction of contact.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -25,14 +26,15 @@ struct DirectionError {
 std::vector<DirectionError> direction_errors(const std::string& method, Scene scene, const std::vector<double>& angles);
 
 // Known disagreements: where Bullet's worlds solve another problem than the scene's, each in the smallest scene that
-// shows it, with its cause and the measured size of its effect. The table is in disagreements/table.cpp; a new one
-// is a scene file in scenes/disagreements/ and a row.
+// shows it, with its cause, the measured size of its effect, and the upstream threads that it answers. The table is in
+// disagreements/table.cpp; a new one is a scene file in scenes/disagreements/ and a row.
 
-/// One curve of the figure: a method at a step, perhaps on the scene with another spring law.
+/// One curve of the figure: a method at a step, perhaps on the scene with another spring law or otherwise changed.
 struct Variant {
   std::string label, method;
   double step = 0;  // s; 0: the scene's own
   SpringLaw law = SpringLaw::hooke;
+  void (*change)(Scene&) = nullptr;
 };
 
 struct Series {
@@ -42,6 +44,29 @@ struct Series {
   double last() const { return points.back().second; }
 };
 
+/// What the curves of two variants do, told by their numbers in the row.
+struct Condition {
+  enum class Kind {
+    apart,   // at some common time farther than `by` from each other
+    within,  // both runs are ok and never farther than `by` from each other
+    hangs,   // the first did not end in its time, in which it took `by` times what the second took in all (CPU)
+  };
+  Kind kind;
+  int a, b;
+  double by;                // in the row's unit, or a ratio
+  double until = INFINITY;  // s: later times do not count
+};
+bool holds(const Condition& condition, const std::vector<Series>& all);
+
+/// Computed from the curves, never said by hand.
+enum class TroubleState {
+  explained,       // the symptom is there, and with its cause taken away it is not
+  reproduced,      // the symptom is there; no variant takes its cause away, or it does not help
+  not_reproduced,  // the method does what is asked
+  not_asked,       // a variant cannot be run, or fails otherwise than by the symptom
+};
+std::string_view name_of(TroubleState state);
+
 struct Disagreement;
 /// A table of its own and what it says, one sentence.
 struct TableWithSentence {
@@ -50,16 +75,20 @@ struct TableWithSentence {
 };
 
 struct Disagreement {
-  std::string name;   // of the scene file too
-  std::string world;  // the Bullet world that has it
-  std::string what;   // a heading: what cannot be matched, or fails
-  std::string cause;  // one sentence
+  std::string name;     // of the scene file too
+  std::string world;    // the Bullet world that has it
+  std::string what;     // a heading: what cannot be matched, or fails
+  std::string cause;    // one sentence
+  std::string threads;  // upstream, that it answers: "bullet3#4496, ..."; empty: none known
   std::string quantity, unit;
   std::vector<Variant> variants;  // the first is the scene's own
   /// The quantity; none: the largest distance of a particle from its place in the first variant's run (m), on a
   /// logarithmic axis.
   std::function<double(const Scene&, const State&)> value;
   std::function<std::string(const std::vector<Series>&)> effect;  // the measured size, one sentence
+  /// All that must hold for the symptom to be there, and for the cause to be the one; where that is empty, no variant
+  /// takes the cause away.
+  std::vector<Condition> symptom, cause_removed;
   std::function<TableWithSentence(const Disagreement&)> measured =
       nullptr;  // where curves over time do not show it all
 };
@@ -67,7 +96,17 @@ struct Disagreement {
 std::vector<Disagreement> disagreements();
 Scene scene_of(const Disagreement& disagreement);
 
-/// Runs the variants; each curve ends where its run failed.
+/// The same with Bullet's worlds as the program has them: "exec:PROGRAM" as `program`.
+Disagreement with_worlds_of(Disagreement disagreement, const std::string& program);
+
+/// Runs the variants; each curve ends where its run failed, at the start where it delivered nothing.
 std::vector<Series> run_variants(const Disagreement& disagreement, const Scene& scene);
+
+TroubleState state_of(const Disagreement& disagreement, const std::vector<Series>& all);
+/// Why nothing can be said, in words: the first variant that was refused or, where the symptom is not there, failed.
+/// Empty where something can.
+std::string why_not_asked(const Disagreement& disagreement, const std::vector<Series>& all);
+/// The conditions in words, with the variants' labels.
+std::string criterion_of(const Disagreement& disagreement);
 
 }  // namespace crosscheck

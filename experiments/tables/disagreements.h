@@ -7,7 +7,7 @@ namespace crosscheck {
 
 /// A case where one of Bullet's worlds solves another problem than the scene's.
 struct DisagreementRow {
-  std::string name, world, what, cause, effect, scene_hash;
+  std::string name, world, what, cause, effect, threads, state, criterion, scene_hash;
 
   static constexpr std::string_view table = "disagreements";
   static constexpr auto columns = [](auto&& column) {
@@ -16,6 +16,10 @@ struct DisagreementRow {
         column("what", "1", &DisagreementRow::what, "what cannot be matched, or fails"),
         column("cause", "1", &DisagreementRow::cause, "why"),
         column("effect", "1", &DisagreementRow::effect, "its size as measured"),
+        column("threads", "1", &DisagreementRow::threads, "upstream reports that it answers; empty: none known"),
+        column("state", "1", &DisagreementRow::state,
+               "explained, reproduced, not reproduced or not asked, computed by the criterion"),
+        column("criterion", "1", &DisagreementRow::criterion, "what the curves must do for that"),
         column("scene hash", "1", &DisagreementRow::scene_hash, "fingerprint of the scene file");
   };
 };

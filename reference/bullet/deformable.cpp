@@ -182,7 +182,8 @@ DeformableForces::DeformableForces(const Scene& scene, double h, bool implicit, 
     world.addForce(&body.body(), scene_force_.get());
   }
   if (gravity) {
-    gravity_force_ = std::make_unique<btDeformableGravityForce>(to_bullet(gravity->acceleration / factor_));
+    gravity_force_ = std::make_unique<btDeformableGravityForce>(
+        to_bullet(gravity->acceleration / factor_ / body.body().m_gravityFactor));
     world.addForce(&body.body(), gravity_force_.get());
     mapped_["gravity"] = factor_ != 1 ? "gravity force, g / (1 - h gamma)" : "gravity force, g as it is";
   }
@@ -248,7 +249,8 @@ void DeformableForces::read_back(btAlignedObjectArray<btDeformableLagrangianForc
   SceneForce* own = nullptr;
   for (int i = 0; i < in_world.size(); ++i) {
     if (in_world[i]->getForceType() == BT_GRAVITY_FORCE)
-      gravity += from_bullet(static_cast<btDeformableGravityForce*>(in_world[i])->m_gravity) * factor_;
+      gravity += from_bullet(static_cast<btDeformableGravityForce*>(in_world[i])->m_gravity) * factor_ *
+                 double(soft_body_.body().m_gravityFactor);
     if (in_world[i]->getForceType() == SceneForce::type) own = static_cast<SceneForce*>(in_world[i]);
   }
   r.gravity = gravity;
@@ -321,7 +323,7 @@ class BodySolver : public btDeformableBodySolver {
 class DeformableWorld : public SoftBodyWorld<btDeformableMultiBodyDynamicsWorld> {
  public:
   DeformableWorld(const Scene& scene, double h, const DeformableSettings& settings)
-      : SoftBodyWorld(scene, h), implicit_(settings.implicit) {
+      : SoftBodyWorld(scene, h, settings.defaults), implicit_(settings.implicit) {
     if (scene.model.find<Constraints>())
       throw Unsupported("Bullet's deformable world has springs only, no hard distances");
     solver_.setDeformableSolver(&body_solver_);

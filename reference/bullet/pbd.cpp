@@ -24,9 +24,16 @@ double newton_per_metre(double kLST, double mu, double h, int n) {
   return mu / (h * h) * std::expm1(-n * std::log1p(-kLST));
 }
 
+std::string gravity_text(const BulletDefaults& defaults) {
+  return defaults.gravity_factor == 1
+             ? "world info, g as it is"
+             : fmt::format("world info, g / {0:g}, and {0:g} as the body's gravity factor", defaults.gravity_factor);
+}
+
 class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
  public:
-  PbdWorld(const Scene& scene, double h, const PbdSettings& settings) : SoftBodyWorld(scene, h), settings_(settings) {
+  PbdWorld(const Scene& scene, double h, const PbdSettings& settings)
+      : SoftBodyWorld(scene, h, settings.defaults), settings_(settings) {
     const Model& model = scene.model;
     const std::optional<double> rate = uniform_drag_rate(model);
     if (!rate) throw Unsupported("Bullet's position-based world has one drag rate for the whole body");
@@ -39,12 +46,12 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     info.m_sparsesdf.setDefaultVoxelsz(static_cast<btScalar>(settings.voxel));
     info.m_sparsesdf.Reset();
     const auto* gravity = model.find<Gravity>();
-    info.m_gravity = gravity ? to_bullet(gravity->acceleration) : btVector3(0, 0, 0);
+    info.m_gravity = gravity ? to_bullet(gravity->acceleration / settings.defaults.gravity_factor) : btVector3(0, 0, 0);
     info.m_dispatcher = &collision_.dispatcher;
     info.m_broadphase = &collision_.broadphase;
 
     soft_body_ = std::make_unique<SoftBody>(scene, info, settings.defaults);
-    set_stiffness();
+    if (!settings.defaults.kLST) set_stiffness();
     auto& cfg = body().m_cfg;
     cfg.piterations = settings.iterations;
     cfg.viterations = 0;
@@ -54,12 +61,14 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     if (settings.own_wind) use_own_wind(*model.find<Aerodynamics>());
     add_to_world();
 
-    mapped_["stiffness"] = settings.demo ? "kLST = 1, the default of Bullet's demos, whatever the scene asks"
-                                         : fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", settings.iterations);
+    mapped_["stiffness"] = settings.defaults.kLST
+                               ? fmt::format("kLST = {:g}, whatever the scene asks", *settings.defaults.kLST)
+                           : settings.demo ? "kLST = 1, the default of Bullet's demos, whatever the scene asks"
+                                           : fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", settings.iterations);
     const char *added = "added forces on the nodes at x_n, v_n",
                *own = "Bullet's own model of lift and drag on two sides, C as drag";
     const Overloaded tell{
-        [&](const Gravity&) { mapped_["gravity"] = "world info, g as it is"; },
+        [&](const Gravity&) { mapped_["gravity"] = gravity_text(settings.defaults); },
         [&](const Drag&) { mapped_["drag"] = fmt::format("kDP = 1 - exp(-gamma h) = {:.6g}", double(cfg.kDP)); },
         [&](const Wind&) { mapped_["wind"] = "added force m a(t) on each node"; },
         [&](const Dashpots&) { mapped_["dashpots"] = added; },
@@ -86,13 +95,13 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
   std::optional<Readback> read_back() override {
     Readback r = soft_body_->read_back();
     const auto& cfg = body().m_cfg;
-    if (const auto* springs = scene_.model.find<Springs>(); springs && !settings_.demo)
+    if (const auto* springs = scene_.model.find<Springs>(); springs && !settings_.demo && !settings_.defaults.kLST)
       for (size_t l = 0; l < springs->list.size(); ++l) {
         const double mu = pair_mass(scene_.model.particles, springs->list[l]);
         const double kLST = body().m_links[static_cast<int>(l)].m_material->m_kLST;
         r.links[l].stiffness = std::isinf(mu) ? springs->list[l].k : newton_per_metre(kLST, mu, h_, cfg.piterations);
       }
-    r.gravity = from_bullet(world_->getWorldInfo().m_gravity);
+    r.gravity = from_bullet(world_->getWorldInfo().m_gravity) * double(body().m_gravityFactor);
     r.drag = std::vector<double>(scene_.model.particles.size(), -std::log1p(-cfg.kDP) / h_);
     obstacles_.read_back(*world_, body(), r);
     r.later = prescribed_places();
@@ -187,7 +196,7 @@ Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, const Pb
   out.evaluations = out.steps;
   if (const auto* springs = scene.model.find<Springs>())
     out.different_law.push_back(
-        settings.demo
+        settings.demo || settings.defaults.kLST
             ? "springs: links as stiff as the iterations make them, whatever stiffness the scene asks for"
             : fmt::format("springs: position-based links {}are solved like an implicit step, one after the other",
                           springs->law == SpringLaw::hooke

@@ -3,16 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "mysim/base/errors.h"
 
 namespace crosscheck::bullet {
-namespace {
 
-/// True when the springs join all particles into one connected graph.
-bool connected(const Model& model) {
+std::vector<int> pieces_of(const Model& model) {
   const int n = model.particles.size();
   std::vector<int> parent(n);
   std::iota(parent.begin(), parent.end(), 0);
@@ -20,19 +19,21 @@ bool connected(const Model& model) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  int pieces = n;
   if (const auto* springs = model.find<Springs>())
-    for (const Spring& s : springs->list)
-      if (const int a = root(s.a), b = root(s.b); a != b) parent[a] = b, --pieces;
+    for (const Spring& s : springs->list) parent[root(s.a)] = root(s.b);
   if (const auto* constraints = model.find<Constraints>())
-    for (const auto& c : constraints->list)
-      if (const int a = root(c.a), b = root(c.b); a != b) parent[a] = b, --pieces;
-  return pieces == 1;
+    for (const auto& c : constraints->list) parent[root(c.a)] = root(c.b);
+  std::vector<int> number(n, -1), piece(n);
+  int pieces = 0;
+  for (int i = 0; i < n; ++i) {
+    int& known = number[root(i)];
+    if (known < 0) known = pieces++;
+    piece[i] = known;
+  }
+  return piece;
 }
 
-}  // namespace
-
-void require_supported(const Scene& scene) {
+void require_supported(const Scene& scene, bool may_hang) {
   const Model& model = scene.model;
   if (model.first_order()) throw Unsupported("Bullet has no first-order systems: its bodies have mass and velocity");
   const auto* spheres = model.find<Spheres>();
@@ -42,7 +43,7 @@ void require_supported(const Scene& scene) {
     if (s.margin != spheres->list[0].margin)
       throw Unsupported("a soft body of Bullet has one margin, the scene's spheres have several");
   }
-  if (model.particles.size() > 1 && !connected(model))
+  if (!may_hang && std::ranges::max(pieces_of(model)) > 0)
     throw Unsupported("Bullet's contact search hangs on a body whose springs do not join all particles");
 }
 
@@ -92,6 +93,12 @@ SoftBody::SoftBody(const Scene& scene, btSoftBodyWorldInfo& info, const BulletDe
     bt_body_->getCollisionShape()->setMargin(static_cast<btScalar>(spheres ? spheres->list[0].margin : 10.0));
   bt_body_->updateBounds();  // of the constructor's margin until now: they bound the speeds of the first step
   bt_body_->m_cfg.kDF = 1;
+  bt_body_->setGravityFactor(static_cast<btScalar>(defaults.gravity_factor));
+  if (defaults.kLST) {
+    bt_body_->m_materials[0]->m_kLST = static_cast<btScalar>(*defaults.kLST);
+    bt_body_->updateLinkConstants();
+    restore_lengths();
+  }
   if (!defaults.sleep) bt_body_->setActivationState(DISABLE_DEACTIVATION);
   built_ = read_state(0);
   // the implicit world starts from m_vn, the explicit one from m_v: one velocity that both hold, or none

@@ -31,15 +31,21 @@ struct CollisionPipeline {
   btDbvtBroadphase broadphase;
 };
 
-/// Throws Unsupported where Bullet would hang (a spring graph in several pieces near a sphere) or cannot follow
-/// (first-order scenes, restitution). To be called before a world is built.
-void require_supported(const Scene& scene);
+/// Throws Unsupported where Bullet would hang (a spring graph in several pieces near a sphere; not asked where
+/// `may_hang`) or cannot follow (first-order scenes, restitution). To be called before a world is built.
+void require_supported(const Scene& scene, bool may_hang = false);
 
-/// Parameters left at Bullet's defaults, to be seen failing.
+/// The piece of the spring graph that each particle belongs to, counted from 0 in the order of their first particles.
+std::vector<int> pieces_of(const Model& model);
+
+/// Parameters left at Bullet's defaults, or set against its advice, to be seen failing.
 struct BulletDefaults {
-  bool rest = false;    // the first step overwrites rest lengths with the lengths it finds
-  bool margin = false;  // 0.25 m
-  bool sleep = false;   // what is slower than 0.04 m/s for 2 s is put to sleep
+  bool rest = false;           // the first step overwrites rest lengths with the lengths it finds
+  bool margin = false;         // 0.25 m
+  bool sleep = false;          // what is slower than 0.04 m/s for 2 s is put to sleep
+  bool pieces = false;         // a network in pieces near a sphere is not refused, upon which Bullet never returns
+  double gravity_factor = 1;   // of the body; the world's gravity is the scene's divided by it
+  std::optional<double> kLST;  // of all links, whatever stiffness the scene asks for
 };
 
 class SoftBody {
@@ -171,7 +177,8 @@ std::string normal_error_text(const Scene& scene, double voxel);
 template <class BulletWorld>
 class SoftBodyWorld : public World {
  public:
-  explicit SoftBodyWorld(const Scene& scene, double h) : scene_(supported(scene)), h_(h), obstacles_(scene.model) {}
+  SoftBodyWorld(const Scene& scene, double h, const BulletDefaults& defaults)
+      : scene_(supported(scene, defaults)), h_(h), obstacles_(scene.model) {}
   const State& state(double t) override { return soft_body_->read_state(t); }
 
  protected:
@@ -214,8 +221,8 @@ class SoftBodyWorld : public World {
   std::unique_ptr<SoftBody> soft_body_;
 
  private:
-  static const Scene& supported(const Scene& scene) {
-    require_supported(scene);
+  static const Scene& supported(const Scene& scene, const BulletDefaults& defaults) {
+    require_supported(scene, defaults.pieces);
     return scene;
   }
 };

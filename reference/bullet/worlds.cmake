@@ -11,4 +11,5 @@ set(BULLET_WORLDS_SOURCES
   deformable.cpp
   pbd.cpp
   soft_body.cpp
-  worlds.cpp)
+  worlds.cpp
+  bodies.cpp)

@@ -5,9 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <optional>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
+#include "reference/bullet/bodies.h"
 #include "reference/bullet/deformable.h"
 #include "reference/bullet/pbd.h"
 
@@ -16,15 +18,28 @@ namespace {
 
 using Options = std::vector<std::string>;
 
-/// Reads "voxel=A", A in metres, into voxel; false where it is another option or no such length.
-bool read_voxel(const std::string& option, double& voxel) {
-  const std::string_view key = "voxel=";
-  if (!option.starts_with(key)) return false;
+/// The number behind "KEY=" between two others; nothing where it is another option or no such number.
+std::optional<double> read_number(const std::string& option, std::string_view key, double low, double high) {
+  if (!option.starts_with(key)) return std::nullopt;
   double value = 0;
   const char* end = option.data() + option.size();
-  if (std::from_chars(option.data() + key.size(), end, value).ptr != end || !(value >= 1e-4 && value <= 1))
+  if (std::from_chars(option.data() + key.size(), end, value).ptr != end || !(value >= low && value <= high))
+    return std::nullopt;
+  return value;
+}
+
+/// Reads what both worlds have; false where it is another option or no such number.
+bool read_common(const std::string& option, double& voxel, BulletDefaults& defaults) {
+  if (const auto a = read_number(option, "voxel=", 1e-4, 1))  // m
+    voxel = *a;
+  else if (const auto f = read_number(option, "gravity-factor=", 0.01, 100))
+    defaults.gravity_factor = *f;
+  else if (const auto k = read_number(option, "kLST=", 0, 1e6))
+    defaults.kLST = *k;
+  else if (option == "default-rest")
+    defaults.rest = true;
+  else
     return false;
-  voxel = value;
   return true;
 }
 
@@ -36,19 +51,31 @@ Engine deformable(const DeformableSettings& settings) {
 
 WorldChoice deformable_explicit(const Options& options) {
   DeformableSettings settings;
+  bool bodies = false;
   for (const std::string& option : options) {
-    if (option == "default-rest")
-      settings.defaults.rest = true;
-    else if (option == "default-margin")
+    if (option == "default-margin")
       settings.defaults.margin = true;
     else if (option == "default-sleep")
       settings.defaults.sleep = true;
-    else if (!read_voxel(option, settings.voxel))
+    else if (option == "in-pieces")
+      settings.defaults.pieces = true;
+    else if (option == "bodies")
+      bodies = true;
+    else if (!read_common(option, settings.voxel, settings.defaults))
       refuse_option("bullet/deformable-explicit", option,
-                    "+default-rest, +default-margin, +default-sleep, +voxel=0.0001 to +voxel=1 (m) or none");
+                    "+default-rest, +default-margin, +default-sleep, +voxel=0.0001 to +voxel=1 (m), "
+                    "+gravity-factor=0.01 to +gravity-factor=100, +kLST=0 to +kLST=1e6, +bodies alone, +in-pieces (in "
+                    "a process of its own) or none");
   }
-  return {"Bullet's deformable world, explicit: springs in N/m, Coulomb friction",
-          options.empty() ? "symplectic-euler" : "", deformable(settings)};
+  if (bodies && options.size() > 1)
+    refuse_option("bullet/deformable-explicit", "bodies", "+bodies without other options");
+  if (bodies)
+    return {"Bullet's deformable world, explicit: a body and a spring force of its own for each piece of the network",
+            "", run_bodies};
+  WorldChoice choice{"Bullet's deformable world, explicit: springs in N/m, Coulomb friction",
+                     options.empty() ? "symplectic-euler" : "", deformable(settings)};
+  choice.may_hang = settings.defaults.pieces;
+  return choice;
 }
 
 WorldChoice deformable_implicit(const Options& options) {
@@ -72,14 +99,12 @@ WorldChoice pbd(const Options& options) {
   PbdSettings settings;
   int iterations = 0;
   for (const std::string& option : options) {
-    if (read_voxel(option, settings.voxel)) continue;
+    if (read_common(option, settings.voxel, settings.defaults)) continue;
     const char *begin = option.data() + 2, *end = option.data() + option.size();
     if (option == "demo")
       settings.demo = true;
     else if (option == "own-wind")
       settings.own_wind = true;
-    else if (option == "default-rest")
-      settings.defaults.rest = true;
     else if (option == "default-voxel")
       settings.voxel = 0.25;
     else if (!option.starts_with("n=") || iterations != 0 || std::from_chars(begin, end, iterations).ptr != end ||
@@ -87,7 +112,7 @@ WorldChoice pbd(const Options& options) {
       refuse_option(
           "bullet/pbd", option,
           "+n=1 to +n=1000 (iterations), +demo, +own-wind, +default-rest, +default-voxel, +voxel=0.0001 to +voxel=1 "
-          "(m) or none");
+          "(m), +gravity-factor=0.01 to +gravity-factor=100, +kLST=0 to +kLST=1e6 or none");
   }
   settings.iterations = iterations > 0 ? iterations : settings.demo ? 10 : 1;
   return {"Bullet's position-based world, stiffness mapped per link; different link and friction laws", "",

@@ -24,6 +24,11 @@ void describe(Method& method, const bullet::WorldChoice& chosen) {
 
 Method in_double_precision(const std::string& world, const MethodOptions& options) {
   bullet::WorldChoice chosen = bullet::choose_world(world, options);
+  if (chosen.may_hang)
+    throw InputError(
+        fmt::format("method bullet/{}: +in-pieces may hang and has no time limit here; expected it in a "
+                    "process of its own: bullet32/{}+in-pieces+timeout=SECONDS, or exec:",
+                    world, world));
   Method method{"bullet/" + world, chosen.what, chosen.rule, chosen.engine, ContactLoss::inferred};
   describe(method, chosen);
   method.style = chosen.style;
@@ -35,9 +40,10 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
 
 /// No longer of the same rule: its round-off is of another size.
 Method in_single_precision(const std::string& world, const MethodOptions& options) {
-  const bullet::WorldChoice chosen = bullet::choose_world(world, options);  // refuses bad options before it runs
-  Program program{CROSSCHECK_BULLET32, {"world=" + world}};
-  program.options.insert(program.options.end(), options.begin(), options.end());
+  Program program{CROSSCHECK_BULLET32, {}};
+  for (const std::string& option : options) add_option(program, "bullet32/" + world, option);
+  const bullet::WorldChoice chosen = bullet::choose_world(world, program.options);  // refuses before it runs
+  program.options.insert(program.options.begin(), "world=" + world);
   Method method{"bullet32/" + world, chosen.what + "; in single precision, as a program of its own", "",
                 [program](const Scene& scene, const Run& run, Observer& observer) {
                   if (!std::filesystem::exists(program.path))

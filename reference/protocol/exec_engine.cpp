@@ -40,11 +40,11 @@ std::optional<fs::path> find_in_path(const std::string& name) {
   return std::nullopt;
 }
 
-double parse_timeout(const std::string& text, const std::string& value) {
+double parse_timeout(const std::string& method, const std::string& value) {
   char* end = nullptr;
   const double seconds = std::strtod(value.c_str(), &end);
   if (value.empty() || *end != '\0' || !std::isfinite(seconds) || !(seconds > 0))
-    throw InputError(fmt::format("method exec:{}: timeout: expected seconds above zero, got '{}'", text, value));
+    throw InputError(fmt::format("method {}: timeout: expected seconds above zero, got '{}'", method, value));
   return std::min(seconds, 1e8);
 }
 
@@ -68,13 +68,15 @@ Program find_program(const std::string& text) {
                                  text, program.path.string()));
   if (end == text.size()) return program;
   std::istringstream options(text.substr(end + 1));
-  for (std::string option; std::getline(options, option, '+');) {
-    if (option.starts_with("timeout="))
-      program.timeout = parse_timeout(text, option.substr(8));
-    else
-      program.options.push_back(option);
-  }
+  for (std::string option; std::getline(options, option, '+');) add_option(program, "exec:" + text, option);
   return program;
+}
+
+void add_option(Program& program, const std::string& method, const std::string& option) {
+  if (option.starts_with("timeout="))
+    program.timeout = parse_timeout(method, option.substr(8));
+  else
+    program.options.push_back(option);
 }
 
 namespace {

@@ -21,6 +21,10 @@ struct Program {
 /// the program. Throws InputError when there is no such program.
 Program find_program(const std::string& text);
 
+/// Adds what stands behind a plus: timeout=SECONDS is Crosscheck's. `method` is named where that is no time: throws
+/// InputError.
+void add_option(Program& program, const std::string& method, const std::string& option);
+
 /// Runs the program on the scene and plays what it delivered to the observer. Verdict::timeout and Verdict::crash, with
 /// the reason, when it does not deliver; throws Unsupported when it says so. What a good run wrote on stderr is the
 /// outcome's remark. Without velocities the states have none.

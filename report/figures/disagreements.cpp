@@ -29,6 +29,10 @@ class Styles {
   std::map<std::string, int> seen_;
 };
 
+std::string state_in_words(const std::string& state, const std::string& threads) {
+  return fmt::format("Upstream: {}; here {}.", threads.empty() ? "no report known" : threads, state);
+}
+
 }  // namespace
 
 std::vector<Chart> disagreement_charts(const ChartInput& input) {
@@ -67,7 +71,8 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
     std::erase_if(f.curves,
                   [](const Curve& c) { return c.points.empty(); });  // the curve that the others are compared with
     charts.push_back({"", std::move(f), "disagreements",
-                      fmt::format("{}: {}", text_at(*summary, row, "world"), text_at(*summary, row, "cause"))});
+                      fmt::format("{}: {} {}", text_at(*summary, row, "world"), text_at(*summary, row, "cause"),
+                                  state_in_words(text_at(*summary, row, "state"), text_at(*summary, row, "threads")))});
   }
   return charts;
 }

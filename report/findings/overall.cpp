@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "experiments/disagreements/disagreements.h"
 #include "experiments/speed_accuracy/work_precision.h"
 #include "experiments/tables/check.h"
 #include "experiments/tables/disagreements.h"
@@ -153,7 +154,9 @@ void orders(const TableSet& rows, std::vector<Finding>& out) {
 /// By engine: a row names one of its worlds, or those of several.
 void disagreements(const TableSet& rows, std::vector<Finding>& out) {
   std::map<std::string, size_t> by_engine;
-  for (const DisagreementRow& row : rows_of<DisagreementRow>(rows)) ++by_engine[engine_of(row.world)];
+  for (const DisagreementRow& row : rows_of<DisagreementRow>(rows))
+    if (row.state == name_of(TroubleState::explained) || row.state == name_of(TroubleState::reproduced))
+      ++by_engine[engine_of(row.world)];
   for (const auto& [engine, count] : by_engine)
     out.push_back({.rule = "known-disagreements",
                    .method = engine,

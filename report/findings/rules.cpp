@@ -90,7 +90,7 @@ const std::vector<FindingRule>& finding_rules() {
        "verdict is unsupported", {"engines"}},
       {"known-disagreements", "failure", same, "known departures from the scene", "1", measured,
        "{method} departs from what a scene asks in {ways}, each measured in the smallest scene that shows it.",
-       "rows, by engine", {"disagreements"}},
+       "rows that are explained or reproduced, by engine", {"disagreements"}},
       {"relations", "agreement", same, "relations that hold", "1", "none is needed",
        "Without any truth: of {asked} that any engine must answer alike, {method} does in {value}{rest}.",
        "rows whose mark is holds, by engine, of those whose mark is not cannot be asked", {"relations"}},

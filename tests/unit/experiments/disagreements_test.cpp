@@ -1,11 +1,15 @@
-// Every known disagreement is there: its scene, its failing variant, the matched one, and a sentence with numbers.
+// Every known disagreement is there by its own criterion, with a sentence of numbers, and in no healthy method.
 
+#include <map>
 #include <numbers>
 #include <set>
 
 #include "experiments/disagreements/disagreements.h"
+#include "experiments/disagreements/upstream.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
+#include "experiments/tables/disagreements.h"
+#include "mysim/base/errors.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {
@@ -13,27 +17,28 @@ namespace {
 
 using namespace testing_tools;
 
-/// Which variant fails, which one shows that a matched Bullet does not (-1: none), and by how much, at any time up to
-/// `until`, the first must be off and the other may be: in the table's unit.
 struct Expected {
   std::string name;
-  int failing, matched;
-  double apart, together, until;
+  TroubleState state;
 };
 const Expected expected[] = {
-    {"pbd-friction", 2, 1, 0.2, 2e-3, INFINITY},        // of 0.29 m
-    {"pbd-stiffness", 1, 4, 3, 0.3, INFINITY},          // of 5.9 mm
-    {"link-law", 1, -1, 0.2, 0, INFINITY},              // of 1 m to and fro
-    {"implicit-freeze", 2, 1, 0.01, 1e-3, INFINITY},    // m, in the first sample, where it is stopped
-    {"indefinite-hessian", 2, 1, 20, 1e-3, INFINITY},   // as much again as the 20 J at the start
-    {"rest-lengths", 1, -1, 0.1, 0, INFINITY},          // the 0.1 m by which it starts pushed together
-    {"wind-at-rest", 1, 2, 1, 0.2, INFINITY},           // of 2.4 m/s
-    {"speed-clamp", 1, 2, 20, 0.1, INFINITY},           // of 80 m
-    {"distance-field", 1, 2, 1, 0.1, INFINITY},         // mm: a^2 / 4R is 15.6 and 0.1
-    {"contact-direction", 3, 4, 4, 1.5, INFINITY},      // mrad: a / 2R is 9.8 at 20 mm and 0.6 at 1.25 mm
-    {"contact-hop", 1, -1, 0.01, 0, 0.6},               // mm: (v h)^2 / 2R = 0.03 at 1.5 m/s
-    {"single-precision", 2, 1, 1e-7, 1e-13, INFINITY},  // m: one rounding of 1.5 m; round-off of 3000 steps
+    {"pbd-friction", TroubleState::explained},       {"pbd-stiffness", TroubleState::explained},
+    {"link-law", TroubleState::explained},           {"implicit-freeze", TroubleState::explained},
+    {"indefinite-hessian", TroubleState::explained}, {"rest-lengths", TroubleState::explained},
+    {"wind-at-rest", TroubleState::explained},       {"speed-clamp", TroubleState::explained},
+    {"distance-field", TroubleState::explained},     {"contact-direction", TroubleState::explained},
+    {"contact-hop", TroubleState::reproduced},       {"single-precision", TroubleState::explained},
+    {"network-in-pieces", TroubleState::explained},  {"one-stiffness", TroubleState::explained},
+    {"gravity-factor", TroubleState::explained},     {"stiffness-unused", TroubleState::explained},
+    {"over-relaxation", TroubleState::explained},    {"small-things", TroubleState::explained},
+    {"sleeping", TroubleState::explained},
 };
+
+Disagreement row(const std::string& name) {
+  for (Disagreement& d : disagreements())
+    if (d.name == name) return std::move(d);
+  throw std::logic_error(name);
+}
 
 double apart(const Series& a, const Series& b, double until = INFINITY) {
   double most = 0;
@@ -56,29 +61,137 @@ TEST(Disagreements, EachIsThereAndSaysSo) {
     ASSERT_EQ(series.size(), all[d].variants.size());
     for (const Series& s : series) {
       EXPECT_NE(s.outcome.verdict, Verdict::unsupported) << s.variant.method << ": " << s.outcome.reason;
-      EXPECT_GE(s.points.size(), 2u) << s.variant.method;
+      // of one that hangs the start alone
+      EXPECT_GE(s.points.size(), s.outcome.verdict == Verdict::timeout ? 1u : 2u) << s.variant.method;
     }
     EXPECT_EQ(series[0].outcome.verdict, Verdict::ok);  // the scene's own definition
-    fmt::print("{:20} off by {:.3g} {}", e.name, apart(series[0], series[e.failing], e.until), all[d].unit);
-    EXPECT_GT(apart(series[0], series[e.failing], e.until), e.apart);
-    if (e.matched >= 0) {
-      fmt::print(", matched by {:.3g}", apart(series[0], series[e.matched]));
-      EXPECT_LT(apart(series[0], series[e.matched]), e.together);
-      EXPECT_EQ(series[e.matched].outcome.verdict, Verdict::ok);
-    }
+    EXPECT_EQ(why_not_asked(all[d], series), "");
+    for (const auto* conditions : {&all[d].symptom, &all[d].cause_removed})
+      for (const Condition& c : *conditions)
+        EXPECT_TRUE(holds(c, series)) << "condition on " << c.a << " and " << c.b << ": " << criterion_of(all[d])
+                                      << "; apart by " << apart(series[c.a], series[c.b], c.until);
+    EXPECT_EQ(name_of(state_of(all[d], series)), name_of(e.state));
     const std::string effect = all[d].effect(series);
-    fmt::print("\n  {}\n", effect);
+    fmt::print("{}: {}\n", e.name, effect);
     EXPECT_FALSE(effect.empty());
     for (const auto no_number : {"nan", "inf"}) EXPECT_EQ(effect.find(no_number), std::string::npos) << effect;
   }
 }
 
+TEST(Disagreements, AHealthyMethodHasNone) {
+  for (Disagreement d : disagreements()) {
+    SCOPED_TRACE(d.name);
+    // what is asked in place of each world, at a step that it holds
+    for (Variant& v : d.variants)
+      if (find_method(v.method).family().role == Role::peer) v.method = d.variants[0].method, v.step = 0;
+    EXPECT_EQ(name_of(state_of(d, run_variants(d, scene_of(d)))), "not reproduced");
+  }
+}
+
+TEST(Disagreements, WorldsInThisProcessRefuseWhatWouldHangThem) {
+  const auto refusal = [](const std::string& method, const std::string& scene) {
+    const Scene of = scene_of(row(scene));
+    const Outcome out = run_method(find_method(method), of, default_run(of), {});
+    EXPECT_EQ(out.verdict, Verdict::unsupported) << method;
+    return out.reason;
+  };
+  for (const auto method : {"bullet/deformable-explicit", "bullet/deformable-implicit", "bullet/pbd",
+                            "bullet/deformable-explicit+bodies", "bullet32/deformable-explicit"})
+    EXPECT_EQ(refusal(method, "network-in-pieces"),
+              "Bullet's contact search hangs on a body whose springs do not join all particles");
+  EXPECT_TRUE(contains(refusal("bullet/deformable-explicit+bodies", "distance-field"), "springs and gravity only"));
+  EXPECT_TRUE(contains(refusal("bullet/deformable-explicit+bodies", "small-things"), "springs and gravity only"));
+}
+
+Series series(Verdict verdict, std::vector<std::pair<double, double>> points, double cpu = 0) {
+  Series s{{"curve", "method"}, {}, std::move(points)};
+  s.outcome.verdict = verdict, s.outcome.process_seconds = cpu, s.outcome.reason = "no such thing";
+  return s;
+}
+
+TEST(Disagreements, ConditionsLookAtCommonTimesAndAtVerdicts) {
+  using enum Condition::Kind;
+  const std::vector<Series> all{series(Verdict::ok, {{0, 0}, {1, 0}, {2, 0}}, 0.1),
+                                series(Verdict::ok, {{0, 0}, {1, 1}, {2, 3}}),
+                                series(Verdict::energy, {{0, 0}, {1, 1}}), series(Verdict::timeout, {{0, 0}}, 1),
+                                series(Verdict::ok, {{0, NAN}})};
+  EXPECT_TRUE(holds({apart, 1, 0, 2}, all));
+  EXPECT_FALSE(holds({apart, 1, 0, 3}, all));
+  EXPECT_FALSE(holds({apart, 1, 0, 2, 2}, all)) << "later times do not count";
+  EXPECT_FALSE(holds({apart, 2, 0, 2}, all)) << "nor those that only one of them reached";
+  EXPECT_TRUE(holds({within, 1, 0, 3}, all));
+  EXPECT_FALSE(holds({within, 1, 0, 2}, all));
+  EXPECT_FALSE(holds({within, 2, 0, 3}, all)) << "a failed run is within nothing";
+  EXPECT_TRUE(holds({apart, 4, 0, 1e300}, all));
+  EXPECT_FALSE(holds({within, 4, 0, 1e300}, all));
+  EXPECT_TRUE(holds({hangs, 3, 0, 9}, all));
+  EXPECT_FALSE(holds({hangs, 3, 0, 11}, all)) << "a slow start is no hang";
+  EXPECT_FALSE(holds({hangs, 1, 0, 0}, all));
+}
+
+TEST(Disagreements, StateFollowsFromSymptomAndCause) {
+  using enum Condition::Kind;
+  Disagreement d;
+  std::vector<Series> all{series(Verdict::ok, {{0, 0}}), series(Verdict::ok, {{0, 2}})};
+  d.symptom = {{apart, 1, 0, 1}};
+  EXPECT_EQ(state_of(d, all), TroubleState::reproduced);
+  d.cause_removed = {{within, 0, 0, 0}};
+  EXPECT_EQ(state_of(d, all), TroubleState::explained);
+  d.cause_removed = {{within, 1, 0, 1}};
+  EXPECT_EQ(state_of(d, all), TroubleState::reproduced);
+  d.symptom = {{apart, 1, 0, 3}};
+  EXPECT_EQ(state_of(d, all), TroubleState::not_reproduced);
+  all.push_back(series(Verdict::crash, {}));
+  EXPECT_EQ(state_of(d, all), TroubleState::not_asked);
+  EXPECT_EQ(why_not_asked(d, all), "curve (method): no such thing");
+  all.back() = series(Verdict::frozen, {{0, 0}});
+  EXPECT_EQ(state_of(d, all), TroubleState::not_asked) << "what failed does not do what is asked";
+  EXPECT_TRUE(why_not_asked(d, all).starts_with("curve (method): no such thing, ")) << why_not_asked(d, all);
+  d.symptom = {{apart, 1, 0, 1}};
+  EXPECT_EQ(state_of(d, all), TroubleState::reproduced) << "another run's failure does not hide the symptom";
+}
+
+TEST(Disagreements, AProgramTakesThePlaceOfBulletsWorlds) {
+  const Disagreement d = with_worlds_of(row("network-in-pieces"), "exec:./other");
+  EXPECT_EQ(d.world, "exec:./other");
+  EXPECT_EQ(d.variants[0].method, "mysim/leapfrog");
+  EXPECT_EQ(d.variants[1].method, "exec:./other+world=deformable-explicit+in-pieces+timeout=0.5");
+  EXPECT_EQ(with_worlds_of(row("one-stiffness"), "exec:./other").world, "exec:./other+world=deformable-explicit");
+}
+
+/// Its rows on a program: the adapter in single precision, or an engine that knows nothing of Bullet's worlds.
+TEST(Disagreements, AreAskedOfAProgram) {
+  const std::string adapter = "exec:" CROSSCHECK_BULLET32_PROGRAM, healthy = "exec:" CROSSCHECK_EXAMPLE;
+  for (const auto name : {"one-stiffness", "gravity-factor"}) {
+    const Disagreement d = row(name);
+    const auto state = [&](const std::string& program) {
+      return name_of(state_of(d, run_variants(with_worlds_of(d, program), scene_of(d))));
+    };
+    EXPECT_EQ(state(adapter), "explained") << name;
+    EXPECT_EQ(state(healthy), "not reproduced") << name;
+  }
+  // a program without spheres, or without the option, says so
+  Disagreement d = with_worlds_of(row("gravity-factor"), adapter);
+  d.variants[1].method += "+no-such-option";
+  EXPECT_TRUE(contains(why_not_asked(d, run_variants(d, scene_of(d))), "unknown option '+no-such-option'"));
+  Request request;
+  request.methods = {find_method(adapter + "+world=pbd"), find_method(healthy + "+world=pbd")};
+  try {
+    find_experiment("disagreements").points(request);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(contains(error.what(), "disagreements: expected one program with +world=, got exec:"));
+  }
+  request.methods = {find_method(healthy)};
+  EXPECT_EQ(find_experiment("disagreements").points(request)[0].content,
+            find_experiment("disagreements").points({})[0].content)
+      << "a program that is asked for no world is no Bullet";
+}
+
 TEST(Disagreements, LinkLawInMysimIsThePositionBasedWorlds) {
-  for (const Disagreement& d : disagreements())
-    if (d.name == "link-law") {
-      const std::vector<Series> all = run_variants(d, scene_of(d));
-      EXPECT_LT(apart(all[1], all[2]), 0.1 * apart(all[0], all[1]));
-    }
+  const Disagreement d = row("link-law");
+  const std::vector<Series> all = run_variants(d, scene_of(d));
+  EXPECT_LT(apart(all[1], all[2]), 0.1 * apart(all[0], all[1]));
 }
 
 /// The direction of a field of distances to a ball that is read from a grid, trilinear within a voxel: its gradient.
@@ -147,6 +260,32 @@ TEST(Disagreements, ExperimentWritesACurveForEachAndOneSummary) {
       labels.insert(std::get<std::string>(curves->at(row, "curve")));
     EXPECT_EQ(labels.size(), d.variants.size());
   }
+  std::map<std::string, std::string> texts;
+  for (const UpstreamText& text : upstream_texts(result, "Bullet 9.9")) texts[text.file] = text.text;
+  ASSERT_EQ(texts.size(), 3u);
+  for (const DisagreementRow& d : rows_of<DisagreementRow>(*summary)) {
+    EXPECT_TRUE(contains(texts["upstream-gallery.md"], d.effect)) << d.name;
+    EXPECT_TRUE(contains(texts["upstream-gallery.md"], d.criterion)) << d.name;
+  }
+  for (const auto name : {"network-in-pieces", "contact-direction"}) {
+    const std::string& text = texts[fmt::format("upstream-{}.md", name)];
+    EXPECT_TRUE(contains(text, fmt::format("Version: Bullet 9.9, {}.", row(name).world))) << text;
+    EXPECT_TRUE(contains(text, "int main(")) << text;
+    for (const auto key : {"{version}", "{program}", "{effect}", "{threads}"}) EXPECT_FALSE(contains(text, key)) << key;
+  }
+}
+
+TEST(Disagreements, WhatIsNotThereIsNotReported) {
+  TableSet rows;
+  Table table = table_of<DisagreementRow>();
+  add(table, DisagreementRow{"network-in-pieces", "exec:./other", "it hangs", "why", "it ends", "x#1", "not reproduced",
+                             "as said", "0"});
+  rows.add(table);
+  const auto texts = upstream_texts(rows, "Bullet 9.9");
+  ASSERT_EQ(texts.size(), 1u);
+  EXPECT_TRUE(contains(texts[0].text, "**not reproduced** · scene `network-in-pieces` · exec:./other"));
+  EXPECT_TRUE(contains(texts[0].text, "Upstream: x#1."));
+  EXPECT_TRUE(upstream_texts({}, "Bullet 9.9").empty());
 }
 
 }  // namespace

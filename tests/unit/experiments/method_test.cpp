@@ -144,7 +144,17 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
       {"rk4+sticky=1", "unknown option '+sticky=1'"},
       {"bullet/deformable-explicit+n=2",
        "method bullet/deformable-explicit: unknown option '+n=2'; expected +default-rest, +default-margin, "
-       "+default-sleep, +voxel=0.0001 to +voxel=1 (m) or none"},
+       "+default-sleep, +voxel=0.0001 to +voxel=1 (m), +gravity-factor=0.01 to +gravity-factor=100, +kLST=0 to "
+       "+kLST=1e6, +bodies alone, +in-pieces (in a process of its own) or none"},
+      {"bullet/deformable-explicit+in-pieces",
+       "method bullet/deformable-explicit: +in-pieces may hang and has no time limit here; expected it in a process of "
+       "its own: bullet32/deformable-explicit+in-pieces+timeout=SECONDS, or exec:"},
+      {"bullet/deformable-explicit+bodies+default-rest", "unknown option '+bodies'; expected +bodies without other"},
+      {"bullet/deformable-explicit+timeout=1", "unknown option '+timeout=1'"},
+      {"bullet32/pbd+timeout=0", "method bullet32/pbd: timeout: expected seconds above zero, got '0'"},
+      {"bullet/pbd+kLST=-1", "unknown option '+kLST=-1'"},
+      {"bullet/pbd+gravity-factor=0", "unknown option '+gravity-factor=0'"},
+      {"bullet/pbd+in-pieces", "unknown option '+in-pieces'"},
       {"bullet/deformable-explicit+voxel=0", "unknown option '+voxel=0'"},
       {"bullet/deformable-explicit+voxel=0.02m", "unknown option '+voxel=0.02m'"},
       {"bullet/pbd+voxel=2", "unknown option '+voxel=2'"},
