@@ -1,10 +1,14 @@
-// Stiffness of position-based links: formula and measurement, for one link and for a chain.
+// Stiffness of position-based links: formula and measurement, for one link and for a chain; and the effective stiffness
+// of hanging nets over step and iterations.
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "experiments/tables/stiffness.h"
+#include "reference/bullet/parameters.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 
@@ -53,7 +57,7 @@ Chart single_links(const Table& table, const std::string& commit) {
     }
     for (int i = 0; i <= 40; ++i) {
       const double kLST = low * std::pow(high / low, i / 40.);
-      formula.points.emplace_back(kLST, std::expm1(-static_cast<double>(n) * std::log1p(-kLST)));
+      formula.points.emplace_back(kLST, bullet::newton_per_metre(kLST, 1, 1, static_cast<int>(n)));
     }
     f.curves.push_back(std::move(formula));
     f.curves.push_back(std::move(measured));
@@ -109,12 +113,73 @@ Chart networks(const Table& table, const std::string& commit) {
           "holds for short steps only."};
 }
 
+/// A measure of the effective stiffness: its column, and the words of its figure.
+struct Measure {
+  std::string_view name, title, quantity, how;
+  std::optional<double> EffectiveStiffnessRow::*value;
+};
+constexpr Measure measures[] = {{"stiffness-effective", "Effective stiffness of a hanging cloth, by its sag", "by sag",
+                                 "Sag asked over sag", &EffectiveStiffnessRow::by_sag},
+                                {"stiffness-effective-period", "Effective stiffness of a hanging cloth, by its period",
+                                 "by period", "Period asked over period, squared", &EffectiveStiffnessRow::by_period}};
+
+/// Of the last net of the table, the cloth. Methods that have no iterations to choose stand in the table alone.
+Chart effective_stiffness(const std::vector<EffectiveStiffnessRow>& rows, const Measure& measure,
+                          const std::string& commit) {
+  Figure f;
+  f.name = measure.name;
+  f.title = measure.title;
+  f.x = {"time step / ms", true, std::nullopt, std::nullopt};
+  f.y = {fmt::format("effective stiffness {} / % of that asked", measure.quantity), true, std::nullopt, std::nullopt};
+  static constexpr const char* dashes[] = {"1", "(8,4)", "(2,2)", "(10,3,2,3)"};
+  const EffectiveStiffnessRow* softest = nullptr;
+  for (const EffectiveStiffnessRow& row : rows) {
+    if (row.net != rows.back().net || !(row.*measure.value)) continue;
+    const Method* method = builtin_method(row.method);
+    if (!method || !method->position_based) continue;
+    const bool sub_steps = method->family().is_subject();
+    const std::string title = fmt::format(
+        "{}, {}", name_in_sentence(row.method),
+        sub_steps ? counted(static_cast<size_t>(row.iterations), "sub-step") : iterations_text(row.iterations));
+    auto curve = std::find_if(f.curves.begin(), f.curves.end(), [&](const Curve& c) { return c.title == title; });
+    if (curve == f.curves.end()) {
+      MethodStyle style = style_of(row.method);
+      const auto of_method = std::count_if(f.curves.begin(), f.curves.end(),
+                                           [&](const Curve& c) { return c.style.colour == style.colour; });
+      style.dash = dashes[of_method % 4], style.marker += static_cast<int>(of_method) % 4;
+      curve = f.curves.insert(f.curves.end(), {title, style, {}, true, true});
+    }
+    curve->points.emplace_back(1e3 * row.step, 100 * *(row.*measure.value));
+    if (!softest || *(row.*measure.value) < *(softest->*measure.value)) softest = &row;
+  }
+  for (Curve& curve : f.curves) std::sort(curve.points.begin(), curve.points.end());
+  f.guides.push_back({false, 100, "as asked"});
+  if (softest)
+    f.finding = fmt::format(
+        "At a step of {} with {} {} makes the cloth {} times softer than asked.", step_text(softest->step),
+        family_of(softest->method).is_subject() ? counted(static_cast<size_t>(softest->iterations), "sub-step")
+                                                : iterations_text(softest->iterations),
+        name_in_sentence(softest->method), times_text(1 / *(softest->*measure.value)));
+  f.caption = fmt::format(
+      "{}: a {}, held along its upper edge, springs of 50 N/m, particles of 10 g, strains of some "
+      "thousandths at most; commit {}.",
+      measure.how, rows.back().net, commit);
+  f.tier = "converged (dynamic relaxation; rk4 at a small step)";
+  return {"", std::move(f), "stiffness",
+          "Solved for a few times in a step, a cloth is softer than its springs: sag and period tell by how much. More "
+          "iterations of a link whose stiffness is split among them do not help; shorter steps do."};
+}
+
 }  // namespace
 
 std::vector<Chart> stiffness_charts(const ChartInput& input) {
   std::vector<Chart> charts;
   if (const Table* table = input.result.table("stiffness")) charts.push_back(single_links(*table, input.commit));
   if (const Table* table = input.result.table("stiffness-network")) charts.push_back(networks(*table, input.commit));
+  if (const auto rows = rows_of<EffectiveStiffnessRow>(input.result); !rows.empty())
+    for (const Measure& measure : measures)
+      if (std::ranges::any_of(rows, [&](const auto& row) { return (row.*measure.value).has_value(); }))
+        charts.push_back(effective_stiffness(rows, measure, input.commit));
   return charts;
 }
 

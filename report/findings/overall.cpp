@@ -172,6 +172,7 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
        {speed_findings, stability_findings, energy_findings, sphere_findings, adequacy_findings, cost_findings})
     for (Finding& f : of_experiment(rows)) out.push_back(std::move(f));
   disagreements(rows, out);
+  for (Finding& f : stiffness_findings(rows)) out.push_back(std::move(f));
   return out;
 }
 

@@ -91,6 +91,10 @@ const std::vector<FindingRule>& finding_rules() {
       {"known-disagreements", "failure", same, "known departures from the scene", "1", measured,
        "{method} departs from what a scene asks in {ways}, each measured in the smallest scene that shows it.",
        "rows, by engine", {"disagreements"}},
+      {"effective-stiffness", "failure", same, "stiffness asked for over the effective one", "1", "converged",
+       "At a step of {step} with {passes}, {method} makes a hanging cloth {value} times softer than asked{more}.",
+       "1 / stiffness by sag of the last net at the step nearest to 1/60 s with the fewest iterations; with the most",
+       {"stiffness-effective"}, "stiffness-effective"},
 
       // speed against accuracy
       {"nearest-of-all", "accuracy", speed, "scenes", "1", "see each scene",
