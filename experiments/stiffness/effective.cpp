@@ -75,8 +75,8 @@ std::optional<double> sag(const Net& net, const Method& method, double step) {
   return last > 0 && std::abs(last - depth(3)) < 1e-3 * last ? std::optional(last) : std::nullopt;
 }
 
-/// s: the period of the centre of mass after the net is let go, without drag. Nothing where the run fails, or the
-/// method's own damping leaves less than three turning points.
+/// s: the period of the centre of mass after the net is let go, without drag. Nothing where the run fails, the method's
+/// own damping leaves less than three turning points, or the step is too long to see them.
 std::optional<double> period(const Net& net, const Method& method, double step) {
   const Scene scene = parse_scene(net.text, "hanging-net");
   // four periods, of a net that may be ten times softer
@@ -87,7 +87,9 @@ std::optional<double> period(const Net& net, const Method& method, double step) 
   if (out.verdict != Verdict::ok) return std::nullopt;
   std::vector<Vec3> path;
   for (const Points& x : recorder.trajectory.x) path.push_back(centre_of_mass(scene, x));
-  return period_of_path(recorder.trajectory.t, path);
+  const auto found = period_of_path(recorder.trajectory.t, path);
+  // between two turning points lie at least six steps, or a parabola through three of them does not find either
+  return found && *found >= 12 * step ? found : std::nullopt;
 }
 
 /// A method over steps and iterations; where it takes one pass in a step, the step is divided instead.

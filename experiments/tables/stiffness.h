@@ -65,7 +65,8 @@ struct EffectiveStiffnessRow {
                "effective stiffness over the one asked for: sag asked / sag"),
         column("period asked", "s", &EffectiveStiffnessRow::expected_period,
                "period of the scene's slowest vibration along gravity"),
-        column("period", "s", &EffectiveStiffnessRow::period, "measured; empty where it is damped too soon"),
+        column("period", "s", &EffectiveStiffnessRow::period,
+               "measured; empty where it is damped too soon, or has less than twelve steps"),
         column("stiffness by period", "1", &EffectiveStiffnessRow::by_period,
                "effective stiffness over the one asked for: (period asked / period)^2");
   };

@@ -84,8 +84,7 @@ constexpr std::string_view a_positive = "a number above zero", a_share = "a numb
                            always = "everywhere", coulomb = "everywhere: Coulomb's law, without restitution",
                            // the bound is that of a chain of three links, experiment `stiffness`
     in_nets =
-        "on one link of small strain; in a net up to k h^2 / mu of about 0.01, above which it is softer than asked"; in a net for k h^2 / mu up to about 0.01, and above "
-        "that the net is softer than asked, the more so the larger it is";
+        "on one link of small strain; in a net up to k h^2 / mu of about 0.01, above which it is softer than asked";
 
 NumberRule plain(Quantity quantity, std::string_view name, std::string_view how = "as it is",
                  std::string_view holds = always) {

@@ -16,7 +16,7 @@ class CliTranslate : public Cli {
     const ProgramResult result = call(words);
     const std::string& text = status == 0 ? result.out : result.err;
     EXPECT_EQ(result.status, status) << result.err;
-    if (status != 0) EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), status == 0 ? 0 : 1) << result.err;
     for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
   }
 };
