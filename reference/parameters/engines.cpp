@@ -14,53 +14,53 @@
 
 namespace crosscheck {
 
-std::string_view name_of(Quantity quantity) {
+std::string_view name_of(SceneNumber quantity) {
   switch (quantity) {
-    case Quantity::mass:
+    case SceneNumber::mass:
       return "mass m";
-    case Quantity::drag:
+    case SceneNumber::drag:
       return "drag rate gamma";
-    case Quantity::stiffness:
+    case SceneNumber::stiffness:
       return "spring stiffness k";
-    case Quantity::dashpot:
+    case SceneNumber::dashpot:
       return "dashpot c";
-    case Quantity::gravity:
+    case SceneNumber::gravity:
       return "gravity g";
-    case Quantity::friction:
+    case SceneNumber::friction:
       return "friction mu";
   }
   return "";
 }
-std::string_view unit_of(Quantity quantity) {
+std::string_view unit_of(SceneNumber quantity) {
   switch (quantity) {
-    case Quantity::mass:
+    case SceneNumber::mass:
       return "kg";
-    case Quantity::drag:
+    case SceneNumber::drag:
       return "1/s";
-    case Quantity::stiffness:
+    case SceneNumber::stiffness:
       return "N/m";
-    case Quantity::dashpot:
+    case SceneNumber::dashpot:
       return "N s/m";
-    case Quantity::gravity:
+    case SceneNumber::gravity:
       return "m/s^2";
-    case Quantity::friction:
+    case SceneNumber::friction:
       return "1";
   }
   return "";
 }
-std::string_view holder_of(Quantity quantity) {
+std::string_view holder_of(SceneNumber quantity) {
   switch (quantity) {
-    case Quantity::mass:
+    case SceneNumber::mass:
       return "free particle";
-    case Quantity::drag:
+    case SceneNumber::drag:
       return "free particle";
-    case Quantity::stiffness:
+    case SceneNumber::stiffness:
       return "spring";
-    case Quantity::dashpot:
+    case SceneNumber::dashpot:
       return "dashpot";
-    case Quantity::gravity:
+    case SceneNumber::gravity:
       return "scene";
-    case Quantity::friction:
+    case SceneNumber::friction:
       return "sphere";
   }
   return "";
@@ -86,20 +86,20 @@ constexpr std::string_view a_positive = "a number above zero", a_share = "a numb
     in_nets =
         "on one link of small strain; in a net up to k h^2 / mu of about 0.01, above which it is softer than asked";
 
-NumberRule plain(Quantity quantity, std::string_view name, std::string_view how = "as it is",
+NumberRule plain(SceneNumber quantity, std::string_view name, std::string_view how = "as it is",
                  std::string_view holds = always) {
   return {quantity, name, unit_of(quantity), how, how, holds, as_it_is, as_it_is};
 }
 NumberRule mass_as_it_is() {
-  NumberRule rule = plain(Quantity::mass, "mass");
+  NumberRule rule = plain(SceneNumber::mass, "mass");
   rule.expected = a_positive, rule.valid = above_zero;
   return rule;
 }
-NumberRule nothing(Quantity quantity, std::string_view why) { return {quantity, "", "", why, why, "nowhere"}; }
+NumberRule nothing(SceneNumber quantity, std::string_view why) { return {quantity, "", "", why, why, "nowhere"}; }
 
 /// kLST under the engine's name for it.
 NumberRule link(std::string_view name, Gather gather) {
-  return {.quantity = Quantity::stiffness,
+  return {.quantity = SceneNumber::stiffness,
           .name = name,
           .unit = "1",
           .formula = "1 - (1 + k h^2 / mu)^(-1/n), mu = 1 / (1/m_a + 1/m_b), without the term of a pin",
@@ -117,7 +117,7 @@ NumberRule link(std::string_view name, Gather gather) {
 
 /// kDP under the engine's name for it.
 NumberRule step_damping(std::string_view name) {
-  return {.quantity = Quantity::drag,
+  return {.quantity = SceneNumber::drag,
           .name = name,
           .unit = "1",
           .formula = "1 - exp(-gamma h)",
@@ -132,7 +132,7 @@ NumberRule step_damping(std::string_view name) {
 }
 
 NumberRule compliance(std::string_view name, std::string_view formula) {
-  return {.quantity = Quantity::stiffness,
+  return {.quantity = SceneNumber::stiffness,
           .name = name,
           .unit = "m/N",
           .formula = formula,
@@ -146,10 +146,10 @@ NumberRule compliance(std::string_view name, std::string_view formula) {
 }
 
 std::vector<EngineNumbers> make_table() {
-  NumberRule inverse_mass{Quantity::mass,  "mInvMass", "1/kg",    "1 / m, and 0 of a pin",
-                          "m = 1 / value", always,     inverse,   inverse,
-                          Gather::each,    a_positive, above_zero};
-  NumberRule total_mass{.quantity = Quantity::mass,
+  NumberRule inverse_mass{SceneNumber::mass, "mInvMass", "1/kg",    "1 / m, and 0 of a pin",
+                          "m = 1 / value",   always,     inverse,   inverse,
+                          Gather::each,      a_positive, above_zero};
+  NumberRule total_mass{.quantity = SceneNumber::mass,
                         .name = "total_mass",
                         .unit = "kg",
                         .formula = "m times the number of particles, pins among them: all are as heavy",
@@ -160,7 +160,7 @@ std::vector<EngineNumbers> make_table() {
                         .gather = Gather::mean,
                         .expected = a_positive,
                         .valid = above_zero};
-  NumberRule factor{.quantity = Quantity::drag,
+  NumberRule factor{.quantity = SceneNumber::drag,
                     .name = "drag",
                     .unit = "1",
                     .formula = "h gamma (m_cfg.drag)",
@@ -171,8 +171,8 @@ std::vector<EngineNumbers> make_table() {
                     .gather = Gather::same,
                     .expected = a_share,
                     .valid = below_one};
-  const auto undragged = [](Quantity quantity, std::string_view name, std::string_view formula, std::string_view back,
-                            std::string_view holds) {
+  const auto undragged = [](SceneNumber quantity, std::string_view name, std::string_view formula,
+                            std::string_view back, std::string_view holds) {
     const auto to = [](double value, const Context& at) {
       return bullet::before_drag(value, bullet::drag_factor(at.gamma, at.h));
     };
@@ -190,7 +190,7 @@ std::vector<EngineNumbers> make_table() {
   };
   // Jolt takes gamma h / n of a velocity in each of n sub-steps: this much leaves exp(-gamma h) of it
   NumberRule jolt_damping{
-      .quantity = Quantity::drag,
+      .quantity = SceneNumber::drag,
       .name = "mLinearDamping",
       .unit = "1/s",
       .formula = "n / h (1 - exp(-gamma h / n))",
@@ -205,64 +205,65 @@ std::vector<EngineNumbers> make_table() {
             return share > 0 ? share / (1 - share) / -std::log1p(-share) : 1;
           }};
   constexpr std::string_view stays = "k stays; the springs' dashpots are left out";
-  return {{.title = "the scene's own numbers",
-           .iterations = "",
-           .of =
-               [](const Method& m) {
-                 return m.family().is_engine() && !m.position_based && (m.implicit || m.family().is_subject());
-               },
-           .rules = {mass_as_it_is(), plain(Quantity::drag, "gamma"), plain(Quantity::stiffness, "k"),
-                     plain(Quantity::dashpot, "c"), plain(Quantity::friction, "friction", "as it is", coulomb)}},
-          {.title = "XPBD, one pass over the springs in a step",
-           .iterations = "",
-           .of = [](const Method& m) { return m.position_based && m.spring_law == SpringLaw::hooke; },
-           .rules = {mass_as_it_is(),
-                     plain(Quantity::drag, "gamma", "as it is: v / (1 + h gamma), as is what a constraint adds to v"),
-                     compliance("compliance", "1 / k; in the step compliance / h^2 beside the inverse masses"),
-                     plain(Quantity::dashpot, "c", "as it is, implicit along the line"),
-                     plain(Quantity::friction, "friction", "as it is", coulomb)}},
-          {.title = "Bullet's position-based links",
-           .iterations = "piterations",
-           .of = [](const Method& m) { return m.position_based && m.spring_law == SpringLaw::bullet_link; },
-           .deaf = "demo",
-           .source = "Bullet 3.24, btSoftBody::PSolve_Links",
-           .rules = {mass_as_it_is(), step_damping("kDP"), link("kLST", Gather::each),
-                     plain(Quantity::dashpot, "c", "as it is, as forces added to the nodes at x_n, v_n"),
-                     plain(Quantity::friction, "friction", "kDF = 1 times the ball's friction",
-                           "as Coulomb's cone only: a node sticks from tan(slope) on, below that it creeps")}},
-          {.title = "Bullet's explicit deformable world",
-           .iterations = "",
-           .of = [](const Method& m) { return m.family().role == Role::peer && !m.position_based && !m.implicit; },
-           .source = "Bullet 3.24, btDeformableMassSpringForce",
-           .rules = {mass_as_it_is(), factor,
-                     undragged(Quantity::stiffness, "stiffness", "k / (1 - h gamma)", "k = value (1 - h gamma)",
-                               "h below the critical step, 2 / omega without drag"),
-                     plain(Quantity::dashpot, "c", "as it is, solved implicitly after the step"),
-                     undragged(Quantity::gravity, "gravity", "g / (1 - h gamma)", "g = value (1 - h gamma)", always),
-                     plain(Quantity::friction, "friction", "kDF = 1 times the ball's friction", coulomb)}},
-          {.name = "jolt",
-           .title = "Jolt's soft bodies",
-           .iterations = "mNumIterations",
-           .usual_iterations = 5,
-           .sub_steps = true,
-           .single_precision = true,
-           .source = "Jolt, SoftBodyMotionProperties::ApplyEdgeConstraints and IntegratePositions",
-           .rules = {inverse_mass, jolt_damping,
-                     compliance("mCompliance",
-                                "1 / k; in a sub-step of h / n compliance n^2 / h^2 beside the inverse masses"),
-                     nothing(Quantity::dashpot, stays),
-                     plain(Quantity::friction, "mFriction",
-                           "mu on body and ball, of which Jolt takes the geometric mean", coulomb)}},
-          {.name = "godot",
-           .title = "GodotPhysics' SoftBody3D",
-           .iterations = "simulation_precision",
-           .usual_iterations = 5,
-           .single_precision = true,
-           .stand_in = "bullet/pbd",
-           .source = "Godot 4, godot_soft_body_3d.cpp, \"based on Bullet soft body\"",
-           .rules = {total_mass, step_damping("damping_coefficient"), link("linear_stiffness", Gather::median),
-                     nothing(Quantity::dashpot, stays),
-                     plain(Quantity::friction, "friction", "the ball's own friction alone", coulomb)}}};
+  return {
+      {.title = "the scene's own numbers",
+       .iterations = "",
+       .of =
+           [](const Method& m) {
+             return m.family().is_engine() && !m.position_based && (m.implicit || m.family().is_subject());
+           },
+       .rules = {mass_as_it_is(), plain(SceneNumber::drag, "gamma"), plain(SceneNumber::stiffness, "k"),
+                 plain(SceneNumber::dashpot, "c"), plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
+      {.title = "XPBD, one pass over the springs in a step",
+       .iterations = "",
+       .of = [](const Method& m) { return m.position_based && m.spring_law == SpringLaw::hooke; },
+       .rules = {mass_as_it_is(),
+                 plain(SceneNumber::drag, "gamma", "as it is: v / (1 + h gamma), as is what a constraint adds to v"),
+                 compliance("compliance", "1 / k; in the step compliance / h^2 beside the inverse masses"),
+                 plain(SceneNumber::dashpot, "c", "as it is, implicit along the line"),
+                 plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
+      {.title = "Bullet's position-based links",
+       .iterations = "piterations",
+       .of = [](const Method& m) { return m.position_based && m.spring_law == SpringLaw::bullet_link; },
+       .deaf = "demo",
+       .source = "Bullet 3.24, btSoftBody::PSolve_Links",
+       .rules = {mass_as_it_is(), step_damping("kDP"), link("kLST", Gather::each),
+                 plain(SceneNumber::dashpot, "c", "as it is, as forces added to the nodes at x_n, v_n"),
+                 plain(SceneNumber::friction, "friction", "kDF = 1 times the ball's friction",
+                       "as Coulomb's cone only: a node sticks from tan(slope) on, below that it creeps")}},
+      {.title = "Bullet's explicit deformable world",
+       .iterations = "",
+       .of = [](const Method& m) { return m.family().role == Role::peer && !m.position_based && !m.implicit; },
+       .source = "Bullet 3.24, btDeformableMassSpringForce",
+       .rules = {mass_as_it_is(), factor,
+                 undragged(SceneNumber::stiffness, "stiffness", "k / (1 - h gamma)", "k = value (1 - h gamma)",
+                           "h below the critical step, 2 / omega without drag"),
+                 plain(SceneNumber::dashpot, "c", "as it is, solved implicitly after the step"),
+                 undragged(SceneNumber::gravity, "gravity", "g / (1 - h gamma)", "g = value (1 - h gamma)", always),
+                 plain(SceneNumber::friction, "friction", "kDF = 1 times the ball's friction", coulomb)}},
+      {.name = "jolt",
+       .title = "Jolt's soft bodies",
+       .iterations = "mNumIterations",
+       .usual_iterations = 5,
+       .sub_steps = true,
+       .single_precision = true,
+       .source = "Jolt, SoftBodyMotionProperties::ApplyEdgeConstraints and IntegratePositions",
+       .rules = {inverse_mass, jolt_damping,
+                 compliance("mCompliance",
+                            "1 / k; in a sub-step of h / n compliance n^2 / h^2 beside the inverse masses"),
+                 nothing(SceneNumber::dashpot, stays),
+                 plain(SceneNumber::friction, "mFriction",
+                       "mu on body and ball, of which Jolt takes the geometric mean", coulomb)}},
+      {.name = "godot",
+       .title = "GodotPhysics' SoftBody3D",
+       .iterations = "simulation_precision",
+       .usual_iterations = 5,
+       .single_precision = true,
+       .stand_in = "bullet/pbd",
+       .source = "Godot 4, godot_soft_body_3d.cpp, \"based on Bullet soft body\"",
+       .rules = {total_mass, step_damping("damping_coefficient"), link("linear_stiffness", Gather::median),
+                 nothing(SceneNumber::dashpot, stays),
+                 plain(SceneNumber::friction, "friction", "the ball's own friction alone", coulomb)}}};
 }
 
 }  // namespace

@@ -78,7 +78,8 @@ NumbersFile read_numbers(const std::string& text, const std::string& name, const
         list ? file.numbers(rule.name, count) : Eigen::VectorXd::Constant(1, file.number(rule.name));
     for (Eigen::Index i = 0; i < read.size(); ++i) {
       const double v = read[i];
-      const bool pinned = v == 1 && rule.quantity == Quantity::stiffness;  // between two pins, in a list that we wrote
+      const bool pinned =
+          v == 1 && rule.quantity == SceneNumber::stiffness;  // between two pins, in a list that we wrote
       if (rule.valid ? rule.valid(v) || (pinned && read.size() > 1) : v >= 0 && std::isfinite(v)) continue;
       file.fail(read.size() > 1 ? fmt::format("{}[{}]", rule.name, i) : std::string(rule.name),
                 fmt::format("{}, got {:.17g}", rule.expected.empty() ? "a number not below zero" : rule.expected, v));
@@ -133,22 +134,22 @@ class SceneFile {
 std::string scene_toml(const Scene& source, const Scene& changed, double within) {
   SceneFile file(source, within);
   // what rounding explains keeps the file's own digits
-  const auto same = [&](Quantity quantity) {
+  const auto same = [&](SceneNumber quantity) {
     return std::ranges::equal(values_of(source, quantity), values_of(changed, quantity),
                               [&](double a, double b) { return std::abs(a - b) <= within * std::abs(a); });
   };
-  if (!same(Quantity::gravity))
-    throw InputError(
-        fmt::format("{}: gravity.acceleration: the numbers stand for {:.6g} m/s^2, the scene has {:.6g}; "
-                    "change it there first",
-                    source.name, values_of(changed, Quantity::gravity)[0], values_of(source, Quantity::gravity)[0]));
+  if (!same(SceneNumber::gravity))
+    throw InputError(fmt::format(
+        "{}: gravity.acceleration: the numbers stand for {:.6g} m/s^2, the scene has {:.6g}; "
+        "change it there first",
+        source.name, values_of(changed, SceneNumber::gravity)[0], values_of(source, SceneNumber::gravity)[0]));
   const Particles& particles = changed.model.particles;
   int single = 0;
   while (file.has(fmt::format("particle[{}]", single))) ++single;
   const int on_grid = particles.size() - single;  // those of [grid] come first
 
   std::vector<std::pair<std::string, double>> values;
-  if (!same(Quantity::mass))
+  if (!same(SceneNumber::mass))
     for (int i = 0; i < particles.size(); ++i) {
       if (particles.pinned[i]) continue;
       if (i < on_grid)
@@ -158,12 +159,12 @@ std::string scene_toml(const Scene& source, const Scene& changed, double within)
     }
   const auto* springs = changed.model.find<Springs>();
   int listed = 0;  // [[spring]]s so far
-  if (springs && !same(Quantity::stiffness))
+  if (springs && !same(SceneNumber::stiffness))
     for (const Spring& s : springs->list)
       values.emplace_back(s.family == Family::single ? fmt::format("spring[{}].stiffness", listed++)
                                                      : fmt::format("grid.stiffness.{}", name_of(s.family)),
                           s.k);
-  if (const auto* dashpots = changed.model.find<Dashpots>(); dashpots && !same(Quantity::dashpot)) {
+  if (const auto* dashpots = changed.model.find<Dashpots>(); dashpots && !same(SceneNumber::dashpot)) {
     size_t of_grid = dashpots->list.size();  // those of single springs come last
     std::vector<int> with_dashpot;
     for (int i = 0; file.has(fmt::format("spring[{}]", i)); ++i)
@@ -173,14 +174,14 @@ std::string scene_toml(const Scene& source, const Scene& changed, double within)
       values.emplace_back(i < of_grid ? "grid.dashpot" : fmt::format("spring[{}].dashpot", with_dashpot[i - of_grid]),
                           dashpots->list[i].c);
   }
-  if (const auto* drag = changed.model.find<Drag>(); drag && !same(Quantity::drag)) {
+  if (const auto* drag = changed.model.find<Drag>(); drag && !same(SceneNumber::drag)) {
     const bool rate = file.has("drag.gamma");
     for (int i = 0; i < particles.size(); ++i)
       if (!particles.pinned[i])
         values.emplace_back(rate ? "drag.gamma" : "drag.coefficient",
                             rate ? drag->c[i] / particles.mass[i] : drag->c[i]);
   }
-  if (const auto* spheres = changed.model.find<Spheres>(); spheres && !same(Quantity::friction))
+  if (const auto* spheres = changed.model.find<Spheres>(); spheres && !same(SceneNumber::friction))
     for (size_t i = 0; i < spheres->list.size(); ++i)
       values.emplace_back(
           file.has(fmt::format("sphere[{}]", i)) ? fmt::format("sphere[{}].friction", i) : "sphere.friction",

@@ -13,36 +13,36 @@
 
 namespace crosscheck {
 
-std::vector<double> values_of(const Scene& scene, Quantity quantity) {
+std::vector<double> values_of(const Scene& scene, SceneNumber quantity) {
   const Particles& particles = scene.model.particles;
   std::vector<double> values;
   const auto of_free = [&](auto value) {
     for (int i = 0; i < particles.size(); ++i)
       if (!particles.pinned[i]) values.push_back(value(i));
   };
-  if (quantity == Quantity::mass) of_free([&](int i) { return particles.mass[i]; });
+  if (quantity == SceneNumber::mass) of_free([&](int i) { return particles.mass[i]; });
   // a term of another kind is no number of an engine's: what it is to engines stands in their certificates
   const Overloaded take{
       [&](const Springs& springs) {
-        if (quantity == Quantity::stiffness)
+        if (quantity == SceneNumber::stiffness)
           for (const Spring& s : springs.list) values.push_back(s.k);
       },
       [&](const Dashpots& dashpots) {
-        if (quantity == Quantity::dashpot)
+        if (quantity == SceneNumber::dashpot)
           for (const auto& d : dashpots.list) values.push_back(d.c);
       },
       [&](const Drag& drag) {
-        if (quantity != Quantity::drag) return;
+        if (quantity != SceneNumber::drag) return;
         if (const auto rate = uniform_drag_rate(scene.model))
           values.push_back(*rate);
         else
           of_free([&](int i) { return drag.c[i] / particles.mass[i]; });
       },
       [&](const Gravity& gravity) {
-        if (quantity == Quantity::gravity) values.push_back(gravity.acceleration.norm());
+        if (quantity == SceneNumber::gravity) values.push_back(gravity.acceleration.norm());
       },
       [&](const Spheres& spheres) {
-        if (quantity == Quantity::friction)
+        if (quantity == SceneNumber::friction)
           for (const Sphere& s : spheres.list) values.push_back(s.friction);
       },
       [](const OneOf<Rotation, Constraints, Wind, Aerodynamics> auto&) {},
@@ -55,33 +55,33 @@ namespace {
 
 using Gather = NumberRule::Gather;
 
-void set_values(Scene& scene, Quantity quantity, std::span<const double> values) {
+void set_values(Scene& scene, SceneNumber quantity, std::span<const double> values) {
   Particles& particles = scene.model.particles;
   size_t next = 0;
   const auto value = [&] { return values.size() == 1 ? values[0] : values[next++]; };
-  if (quantity == Quantity::mass)
+  if (quantity == SceneNumber::mass)
     for (int i = 0; i < particles.size(); ++i)
       if (!particles.pinned[i]) particles.mass[i] = value();
-  if (quantity == Quantity::drag) {
+  if (quantity == SceneNumber::drag) {
     auto& c = scene.model.find<Drag>()->c;
     for (int i = 0; i < particles.size(); ++i)
       if (!particles.pinned[i] || values.size() == 1) c[i] = value() * particles.mass[i];
   }
-  if (quantity == Quantity::stiffness)
+  if (quantity == SceneNumber::stiffness)
     for (Spring& s : scene.model.find<Springs>()->list) s.k = value();
-  if (quantity == Quantity::dashpot)
+  if (quantity == SceneNumber::dashpot)
     for (auto& d : scene.model.find<Dashpots>()->list) d.c = value();
-  if (quantity == Quantity::gravity) {
+  if (quantity == SceneNumber::gravity) {
     Vec3& g = scene.model.find<Gravity>()->acceleration;
     if (g.norm() > 0) g *= value() / g.norm();
   }
-  if (quantity == Quantity::friction)
+  if (quantity == SceneNumber::friction)
     for (Sphere& s : scene.model.find<Spheres>()->list) s.friction = value();
 }
 
-NumberContext context_of(const Scene& scene, Quantity quantity, size_t which, double h, int n) {
+NumberContext context_of(const Scene& scene, SceneNumber quantity, size_t which, double h, int n) {
   NumberContext at{h, n, uniform_drag_rate(scene.model).value_or(0), 0, scene.model.particles.size()};
-  if (quantity == Quantity::stiffness)
+  if (quantity == SceneNumber::stiffness)
     at.mu = bullet::pair_mass(scene.model.particles, scene.model.find<Springs>()->list[which]);
   return at;
 }
@@ -93,7 +93,7 @@ std::string range_text(std::span<const double> values) {
 
 /// Nothing moves between two pins: a link there is 1 whatever the stiffness, which does not come back.
 bool lies_between_pins(const NumberRule& rule, const NumberContext& at) {
-  return rule.quantity == Quantity::stiffness && std::isinf(at.mu) && rule.condition;
+  return rule.quantity == SceneNumber::stiffness && std::isinf(at.mu) && rule.condition;
 }
 
 /// The engine's numbers of one quantity; `at` has the context of each of the scene's.
@@ -220,7 +220,7 @@ Translation translate(const Scene& scene, const TranslationTarget& target, doubl
     if (values.empty()) continue;
     if (!rule.to) {
       t.lost.push_back(fmt::format("{}: {}", name_of(rule.quantity), rule.formula));
-      if (rule.quantity == Quantity::dashpot)
+      if (rule.quantity == SceneNumber::dashpot)
         std::erase_if(t.back.model.terms, [](const Term& term) { return std::holds_alternative<Dashpots>(term); });
       continue;
     }
@@ -235,7 +235,7 @@ Translation translate(const Scene& scene, const TranslationTarget& target, doubl
     TranslatedNumber& number = t.numbers[i];
     number.back = values_of(t.back, number.rule->quantity);
     number.stated = stated_error(*number.rule, number, target.single_precision, contexts[i]);
-    if (number.rule->quantity == Quantity::stiffness) number.here = range_here(scene, *number.rule, t, contexts[i]);
+    if (number.rule->quantity == SceneNumber::stiffness) number.here = range_here(scene, *number.rule, t, contexts[i]);
   }
   return t;
 }

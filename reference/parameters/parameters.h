@@ -15,14 +15,14 @@
 namespace crosscheck {
 
 /// The numbers of a scene, in the order in which they are read back: a stiffness may hang on masses and drag.
-enum class Quantity { mass, drag, stiffness, dashpot, gravity, friction };
-std::string_view name_of(Quantity quantity);    // "spring stiffness k"
-std::string_view unit_of(Quantity quantity);    // of the scene: "N/m"
-std::string_view holder_of(Quantity quantity);  // what has one: "spring"
+enum class SceneNumber { mass, drag, stiffness, dashpot, gravity, friction };
+std::string_view name_of(SceneNumber quantity);    // "spring stiffness k"
+std::string_view unit_of(SceneNumber quantity);    // of the scene: "N/m"
+std::string_view holder_of(SceneNumber quantity);  // what has one: "spring"
 
 /// The numbers of the scene: of each free particle, spring, dashpot or sphere; one of a drag rate gamma = c / m (1/s)
 /// that is the same everywhere, and of the size of gravity. Empty where the scene has none.
-std::vector<double> values_of(const Scene& scene, Quantity quantity);
+std::vector<double> values_of(const Scene& scene, SceneNumber quantity);
 
 /// What a formula may depend on beside the number itself.
 struct NumberContext {
@@ -38,7 +38,7 @@ struct NumberRule {
   /// all; one, that of the middle spring or of the mean particle.
   enum class Gather { each, same, median, mean };
 
-  Quantity quantity;
+  SceneNumber quantity;
   std::string_view name, unit;  // in the engine and in files of its numbers
   std::string_view formula, inverse;
   std::string_view holds;                                // where

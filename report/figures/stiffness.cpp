@@ -115,12 +115,12 @@ Chart networks(const Table& table, const std::string& commit) {
 }
 
 /// A measure of the effective stiffness: its column, the net that shows it, and the words of its figure.
-struct Measure {
+struct EffectiveMeasure {
   std::string_view name, net, title, quantity, how, tier;
   std::optional<double> EffectiveStiffnessRow::*value;
 };
 // by its period a chain alone: a cloth this small swings so fast that implicit rules stop it before it turns twice
-constexpr Measure measures[] = {
+constexpr EffectiveMeasure effective_measures[] = {
     {"stiffness-effective", "cloth", "Effective stiffness of a hanging cloth, by its sag", "by sag",
      "Sag asked over sag", "converged (dynamic relaxation)", &EffectiveStiffnessRow::by_sag},
     {"stiffness-effective-period", "chain", "Effective stiffness of a hanging chain, by its period", "by period",
@@ -134,7 +134,7 @@ std::string curve_title(const EffectiveStiffnessRow& row) {
 }
 
 /// Methods that have no iterations to choose stand in the table alone.
-Chart effective_stiffness(const std::vector<EffectiveStiffnessRow>& rows, const Measure& measure,
+Chart effective_stiffness(const std::vector<EffectiveStiffnessRow>& rows, const EffectiveMeasure& measure,
                           const std::string& commit) {
   Figure f;
   f.name = measure.name;
@@ -184,7 +184,7 @@ std::vector<Chart> stiffness_charts(const ChartInput& input) {
   if (const Table* table = input.result.table("stiffness")) charts.push_back(single_links(*table, input.commit));
   if (const Table* table = input.result.table("stiffness-network")) charts.push_back(networks(*table, input.commit));
   if (const auto rows = rows_of<EffectiveStiffnessRow>(input.result); !rows.empty())
-    for (const Measure& measure : measures)
+    for (const EffectiveMeasure& measure : effective_measures)
       if (std::ranges::any_of(rows, [&](const auto& row) {
             return row.net.starts_with(measure.net) && (row.*measure.value).has_value();
           }))

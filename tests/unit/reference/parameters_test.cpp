@@ -75,7 +75,7 @@ TEST(Translation, StatedErrorIsReached) {
   for (const char* to : {"bullet32/pbd+n=4", "jolt"}) {
     const Translation t = translate(scene, find_target(to, 0), scene.step);
     for (const TranslatedNumber& number : t.numbers) {
-      if (number.rule->quantity != Quantity::stiffness) continue;
+      if (number.rule->quantity != SceneNumber::stiffness) continue;
       double most = 0;
       for (size_t i = 0; i < number.scene.size(); ++i)
         most = std::max(most, std::abs(number.back[i] / number.scene[i] - 1));
@@ -92,7 +92,7 @@ Scene one_spring(double k, bool pinned, const std::string& more = "") {
                   k, pinned ? "[pins]\nparticles = [0]\n" : "", more));
 }
 
-double engine_number(const Translation& t, Quantity quantity) {
+double engine_number(const Translation& t, SceneNumber quantity) {
   for (const TranslatedNumber& number : t.numbers)
     if (number.rule->quantity == quantity) return number.engine[0];
   ADD_FAILURE() << "no " << name_of(quantity);
@@ -114,13 +114,13 @@ TEST(Translation, OfALinkHasTheMeasuredValues) {
                         {0.5, 1. / 1000, 1, 1e6}}) {
     const Scene scene = one_spring(c.k, true);
     const Translation t = translate(scene, find_target(fmt::format("bullet/pbd+n={}", c.n), 0), c.h);
-    EXPECT_NEAR(engine_number(t, Quantity::stiffness), c.kLST, 3e-5 * c.kLST) << c.k;
+    EXPECT_NEAR(engine_number(t, SceneNumber::stiffness), c.kLST, 3e-5 * c.kLST) << c.k;
     const Translation sliders = translate(scene, find_target("godot", c.n), c.h);
-    EXPECT_NEAR(engine_number(sliders, Quantity::stiffness), c.kLST, 3e-5 * c.kLST);
-    EXPECT_EQ(engine_number(sliders, Quantity::mass), 2) << "all particles, the pin among them";
+    EXPECT_NEAR(engine_number(sliders, SceneNumber::stiffness), c.kLST, 3e-5 * c.kLST);
+    EXPECT_EQ(engine_number(sliders, SceneNumber::mass), 2) << "all particles, the pin among them";
     // two free ends: half the reduced mass, so that half the stiffness has the same share
     const Translation free = translate(one_spring(c.k / 2, false), t.target, c.h);
-    EXPECT_NEAR(engine_number(free, Quantity::stiffness), c.kLST, 3e-5 * c.kLST);
+    EXPECT_NEAR(engine_number(free, SceneNumber::stiffness), c.kLST, 3e-5 * c.kLST);
   }
 }
 
@@ -128,17 +128,17 @@ TEST(Translation, OfOtherNumbersIsTheFormulas) {
   const Scene scene = one_spring(250, true, "[drag]\ngamma = 2\n[gravity]\nacceleration = [0, -10, 0]\n");
   const double h = 0.01;
   const auto in = [&](const char* to) { return translate(scene, find_target(to, 0), h); };
-  EXPECT_DOUBLE_EQ(engine_number(in("bullet/pbd"), Quantity::drag), -std::expm1(-0.02));
-  EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-explicit"), Quantity::drag), 0.02);
-  EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-explicit"), Quantity::stiffness), 250 / 0.98);
-  EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-explicit"), Quantity::gravity), 10 / 0.98);
-  EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-implicit"), Quantity::stiffness), 250);
-  EXPECT_DOUBLE_EQ(engine_number(in("mysim/xpbd"), Quantity::stiffness), 0.004);
-  EXPECT_DOUBLE_EQ(engine_number(in("mysim/xpbd"), Quantity::dashpot), 0.5);
+  EXPECT_DOUBLE_EQ(engine_number(in("bullet/pbd"), SceneNumber::drag), -std::expm1(-0.02));
+  EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-explicit"), SceneNumber::drag), 0.02);
+  EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-explicit"), SceneNumber::stiffness), 250 / 0.98);
+  EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-explicit"), SceneNumber::gravity), 10 / 0.98);
+  EXPECT_DOUBLE_EQ(engine_number(in("bullet/deformable-implicit"), SceneNumber::stiffness), 250);
+  EXPECT_DOUBLE_EQ(engine_number(in("mysim/xpbd"), SceneNumber::stiffness), 0.004);
+  EXPECT_DOUBLE_EQ(engine_number(in("mysim/xpbd"), SceneNumber::dashpot), 0.5);
   // sub-steps of 1 ms, each of which leaves 1 - 1e-3 value: ten of them leave exp(-0.02)
   const Translation jolt = in("jolt+n=10");
-  EXPECT_NEAR(std::pow(1 - 1e-3 * engine_number(jolt, Quantity::drag), 10), std::exp(-0.02), 1e-7);
-  EXPECT_FLOAT_EQ(engine_number(jolt, Quantity::stiffness), 0.004);
+  EXPECT_NEAR(std::pow(1 - 1e-3 * engine_number(jolt, SceneNumber::drag), 10), std::exp(-0.02), 1e-7);
+  EXPECT_FLOAT_EQ(engine_number(jolt, SceneNumber::stiffness), 0.004);
   ASSERT_EQ(jolt.lost.size(), 1u);
   EXPECT_NE(jolt.lost[0].find("dashpot"), std::string::npos);
   EXPECT_EQ(jolt.back.model.find<Dashpots>(), nullptr);
@@ -150,9 +150,9 @@ TEST(Translation, IsWhatTheWorldsHold) {
   const Translation t = translate(scene, find_target("bullet/pbd+n=4", 0), scene.step);
   const Outcome out = run_and_record("bullet/pbd+n=4", t.back, {scene.step, scene.step, 1}).outcome;
   ASSERT_TRUE(out.readback);
-  const auto k = values_of(scene, Quantity::stiffness);
+  const auto k = values_of(scene, SceneNumber::stiffness);
   for (size_t i = 0; i < k.size(); ++i) EXPECT_NEAR(*out.readback->links[i].stiffness, k[i], 1e-10 * k[i]);
-  EXPECT_NEAR((*out.readback->drag)[0], values_of(scene, Quantity::drag)[0], 1e-12);
+  EXPECT_NEAR((*out.readback->drag)[0], values_of(scene, SceneNumber::drag)[0], 1e-12);
 }
 
 TEST(Translation, OneSliderForManySpringsSaysWhatItCosts) {
@@ -160,7 +160,7 @@ TEST(Translation, OneSliderForManySpringsSaysWhatItCosts) {
   const Scene scene = shipped_scene("chain");
   const Translation t = translate(scene, find_target("godot", 0), scene.step);
   for (const TranslatedNumber& number : t.numbers)
-    if (number.rule->quantity == Quantity::stiffness) {
+    if (number.rule->quantity == SceneNumber::stiffness) {
       EXPECT_EQ(number.engine.size(), 1u);
       EXPECT_NEAR(number.stated, 1, 1e-5);
       EXPECT_NEAR(number.back[0], 2 * number.scene[0], 1e-4 * number.scene[0]);
@@ -283,8 +283,8 @@ TEST(SceneFile, HoldsWhatComesBack) {
     if (auto* spheres = other.model.find<Spheres>())
       for (Sphere& s : spheres->list) s.friction = 0.125;
     const Scene read = parse_scene(scene_toml(scene, other, 1e-12), "changed");
-    for (const Quantity quantity :
-         {Quantity::mass, Quantity::drag, Quantity::stiffness, Quantity::dashpot, Quantity::friction}) {
+    for (const SceneNumber quantity :
+         {SceneNumber::mass, SceneNumber::drag, SceneNumber::stiffness, SceneNumber::dashpot, SceneNumber::friction}) {
       const auto is = values_of(read, quantity), wanted = values_of(other, quantity);
       ASSERT_EQ(is.size(), wanted.size());
       for (size_t i = 0; i < is.size(); ++i) EXPECT_NEAR(is[i], wanted[i], 1e-12 * wanted[i]) << name_of(quantity);
