@@ -82,9 +82,9 @@ constexpr std::string_view a_positive = "a number above zero", a_share = "a numb
                                "a number above 0 and below 1: a link at 1 is rigid, above 1 it over-relaxes, from "
                                "2 on it explodes, and none of these is a stiffness",
                            always = "everywhere", coulomb = "everywhere: Coulomb's law, without restitution",
-                           // the bound is that of a chain of three links, experiment `stiffness`
+                           // sequential_limit
     in_nets =
-        "on one link of small strain; in a net up to k h^2 / mu of about 0.01, above which it is softer than asked";
+        "on one link of small strain; in a net up to k h^2 / mu of about 0.03, above which it is softer than asked";
 
 NumberRule plain(SceneNumber quantity, std::string_view name, std::string_view how = "as it is",
                  std::string_view holds = always) {

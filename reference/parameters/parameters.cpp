@@ -175,9 +175,9 @@ std::string range_here(const Scene& scene, const NumberRule& rule, const Transla
     if (std::isfinite(at[i].mu)) all.push_back(scene.model.find<Springs>()->list[i].k * h * h / at[i].mu);
   if (all.empty()) return "all springs lie between pins";
   return fmt::format("k h^2 / mu is {} here, {}", range_text(all),
-                     std::ranges::max(all) <= 0.01 ? "inside"
-                     : at.size() == 1              ? "on a single link"
-                                                   : "outside: expect a softer net");
+                     std::ranges::max(all) <= sequential_limit ? "inside"
+                     : at.size() == 1                          ? "on a single link"
+                                                               : "outside: expect a softer net");
 }
 
 }  // namespace
