@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "experiments/metrics.h"
-#include "mysim/base/eigenvalues.h"
+#include "experiments/period.h"
 #include "mysim/model/energy.h"
 #include "mysim/model/system.h"
 #include "reference/method.h"
@@ -93,36 +93,6 @@ bool run_for(const Scene& scene, double duration, const std::function<void(const
   return out.verdict == Verdict::ok;
 }
 
-/// Times of the turning points of y(t), those that turn back by `least` or more, to the vertex of a parabola.
-std::vector<double> turning_points(const std::vector<double>& t, const std::vector<double>& y, double least) {
-  std::vector<double> out;
-  size_t extreme = 0;
-  int going = 0;  // 1 up, -1 down, 0 not known yet
-  size_t low = 0, high = 0;
-  for (size_t i = 1; i < y.size(); ++i) {
-    if (going == 0) {
-      if (y[i] < y[low]) low = i;
-      if (y[i] > y[high]) high = i;
-      if (y[high] - y[low] < least) continue;
-      going = high > low ? 1 : -1;
-      extreme = i;
-      continue;
-    }
-    if (going * (y[i] - y[extreme]) > 0) {
-      extreme = i;
-    } else if (going * (y[extreme] - y[i]) >= least) {
-      const size_t e = extreme;
-      const double left = y[e] - y[e - 1], right = y[e + 1] - y[e];
-      // equal steps: the vertex lies within half of one
-      const double shift = left == right ? 0 : 0.5 * (left + right) / (left - right);
-      out.push_back(t[e] + std::clamp(shift, -0.5, 0.5) * (t[e + 1] - t[e]));
-      going = -going;
-      extreme = i;
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 std::optional<double> sag_of(const Scene& scene) {
@@ -143,17 +113,8 @@ std::optional<double> period_of(const Scene& scene, double about) {
       path.push_back(centre_of_mass(scene, s.x));
     });
     if (!held || path.empty()) return std::nullopt;
-    Vec3 mean = Vec3::Zero();
-    for (const Vec3& p : path) mean += p / static_cast<double>(path.size());
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const Vec3& p : path) spread += (p - mean) * (p - mean).transpose();
-    const Vec3 along = symmetric_eigensystem(spread).vectors.col(2);
-    std::vector<double> y;
-    for (const Vec3& p : path) y.push_back(along.dot(p - mean));
-    const auto [low, high] = std::minmax_element(y.begin(), y.end());
-    if (!(*high > *low)) return std::nullopt;
-    const std::vector<double> turns = turning_points(t, y, 0.1 * (*high - *low));
-    if (turns.size() >= 3) return 2 * (turns.back() - turns.front()) / static_cast<double>(turns.size() - 1);
+    if (const auto period = period_of_path(t, path)) return period;
+    if (std::ranges::count(path, path[0]) == std::ssize(path)) return std::nullopt;  // nothing moves
   }
   return std::nullopt;
 }

@@ -24,6 +24,7 @@ constexpr AddCommand commands[] = {
     add_regress,     // results beside baselines
     add_bench,       // speed against the peers
     add_check,       // relations that need no truth; what an adapter lacks
+    add_translate,   // what a scene's numbers are in another engine
     add_engine,      // another version of Bullet
     add_lab,         // a page with the live lab alone
     add_grader,      // grade and assignment

@@ -1,12 +1,14 @@
-// Experiment `stiffness`: how many N/m a position-based link really has, against the formula that hands it over; and
-// where the formula stops holding in a network.
+// Experiment `stiffness`: how many N/m a position-based link really has, against the formula that hands it over; where
+// the formula stops holding in a network; and how stiff hanging nets are over step and iterations (effective.cpp).
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "experiments/experiment.h"
+#include "experiments/stiffness/effective.h"
 #include "experiments/tables/stiffness.h"
+#include "reference/bullet/parameters.h"
 
 namespace crosscheck {
 namespace {
@@ -43,7 +45,7 @@ Table single_links(bool full, double h) {
   for (const int n : {1, 4, 10})
     for (const double kLST : shares) {
       if (std::pow(1 - kLST, -n) > 2000) continue;  // rigid to three digits already
-      const double mass = 1, k = mass / (h * h) * std::expm1(-n * std::log1p(-kLST)), K = k * h * h / mass,
+      const double mass = 1, k = bullet::newton_per_metre(kLST, mass, h, n), K = k * h * h / mass,
                    g = 1e-4 * k / mass / (1 + K);
       // what is left after m steps is (1 + K)^(-m/2): 60 / ln(1 + K) steps leave 1e-13
       const double steps = std::ceil(60 / std::log1p(K)) + 10;
@@ -81,6 +83,7 @@ std::vector<Point> stiffness_points(const Request& request) {
   for (const int n : {1, 10})
     points.push_back({fmt::format("stiffness: chain, {} iterations", n), content,
                       [=](TableSet& tables) { tables.add(networks(full, n)); }});
+  for (Point& point : effective_stiffness_points(full)) points.push_back(std::move(point));
   return points;
 }
 

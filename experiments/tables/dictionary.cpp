@@ -26,7 +26,7 @@ using AllRows = std::tuple<                                                     
     ReboundRow, LeavingRow, ConeRow, DrapeRow, PenetrationRow, DrapeTimeRow,              //
     AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,                          //
     OrderRow, OrderSlopeRow,                                                              //
-    LinkStiffnessRow, NetworkStiffnessRow,                                                //
+    LinkStiffnessRow, NetworkStiffnessRow, EffectiveStiffnessRow,                         //
     DisagreementRow, DisagreementCurveRow, ContactAngleRow,                               //
     SpeedAccuracyRow, SpeedAccuracyTimingRow, SpeedAccuracyCostRow, ParetoRow<Cost::evaluations>,
     ParetoRow<Cost::cpu>,                                                                           //

@@ -40,4 +40,36 @@ struct NetworkStiffnessRow {
   };
 };
 
+/// The stiffness that a hanging net has under a method, by its sag and by its period.
+struct EffectiveStiffnessRow {
+  std::string net, method;
+  double step = 0;
+  long iterations = 0;
+  double stiffness = 0, expected_sag = 0;
+  std::optional<double> sag = {}, by_sag = {};
+  double expected_period = 0;
+  std::optional<double> period = {}, by_period = {};
+
+  static constexpr std::string_view table = "stiffness-effective";
+  static constexpr auto columns = [](auto&& column) {
+    column("net", "1", &EffectiveStiffnessRow::net, "what hangs: a chain, or a cloth held along its upper edge"),
+        column("method", "1", &EffectiveStiffnessRow::method, "method that was run"),
+        column("step", "s", &EffectiveStiffnessRow::step, "time step of a frame"),
+        column("iterations", "1", &EffectiveStiffnessRow::iterations,
+               "iterations over all springs in that step; of mysim/xpbd sub-steps of one pass each"),
+        column("k h^2/mu", "1", &EffectiveStiffnessRow::stiffness,
+               "stiffness k of the springs, made dimensionless by the step h and the reduced mass mu"),
+        column("sag asked", "m", &EffectiveStiffnessRow::expected_sag, "sag of the scene at rest"),
+        column("sag", "m", &EffectiveStiffnessRow::sag, "measured; empty where the net failed or came to no rest"),
+        column("stiffness by sag", "1", &EffectiveStiffnessRow::by_sag,
+               "effective stiffness over the one asked for: sag asked / sag"),
+        column("period asked", "s", &EffectiveStiffnessRow::expected_period,
+               "period of the scene's slowest vibration along gravity"),
+        column("period", "s", &EffectiveStiffnessRow::period,
+               "measured; empty where it is damped too soon, or has less than twelve steps"),
+        column("stiffness by period", "1", &EffectiveStiffnessRow::by_period,
+               "effective stiffness over the one asked for: (period asked / period)^2");
+  };
+};
+
 }  // namespace crosscheck

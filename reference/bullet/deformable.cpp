@@ -9,6 +9,7 @@
 #include <set>
 
 #include "mysim/base/errors.h"
+#include "reference/bullet/parameters.h"
 #include "reference/bullet/soft_body.h"
 
 namespace crosscheck::bullet {
@@ -198,9 +199,9 @@ void DeformableForces::carry_drag(const Drag* drag, SceneForce::CarriedTerms& ou
     ours.drag = drag;
     mapped_["drag"] = "force class of our own, implicit: the implicit world ignores the body's drag factor";
   } else if (rate && h_ * *rate < 1) {
-    factor = static_cast<btScalar>(h_ * *rate);
+    factor = static_cast<btScalar>(drag_factor(*rate, h_));
     factor_ = 1 - factor;
-    ours.factor = 1 / factor_;
+    ours.factor = before_drag(1, factor);
     mapped_["drag"] = fmt::format("body drag factor h gamma = {:.6g}", double(factor));
   } else {
     ours.drag = drag;
@@ -216,13 +217,14 @@ void DeformableForces::carry_springs(const Springs* springs, const Dashpots* das
   const std::optional<double> dashpot =
       scene_.model.particles.move ? std::nullopt : one_dashpot_each(springs, dashpots);
   if (can && (shipped || !implicit_)) {
+    const double factor = soft_body_.body().m_cfg.drag;
     const std::set<double> all = stiffnesses(*springs);
     auto& links = soft_body_.body().m_links;
     for (size_t l = 0; l < springs->list.size(); ++l)
       links[static_cast<int>(l)].m_bbending = springs->list[l].k != *all.begin();
-    spring_force_ = std::make_unique<btDeformableMassSpringForce>(static_cast<btScalar>(*all.begin() / factor_),
-                                                                  static_cast<btScalar>(dashpot.value_or(0)), true,
-                                                                  *all.rbegin() / factor_);
+    spring_force_ = std::make_unique<btDeformableMassSpringForce>(
+        static_cast<btScalar>(before_drag(*all.begin(), factor)), static_cast<btScalar>(dashpot.value_or(0)), true,
+        before_drag(*all.rbegin(), factor));
     mapped_["stiffness"] = factor_ != 1 ? "Bullet's own mass-spring force, k / (1 - h gamma)"
                                         : "Bullet's own mass-spring force, k as it is";
     if (dashpot) mapped_["dashpots"] = "Bullet's own mass-spring force, solved implicitly";

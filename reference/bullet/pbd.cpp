@@ -9,20 +9,11 @@
 #include <map>
 
 #include "mysim/base/errors.h"
+#include "reference/bullet/parameters.h"
 #include "reference/bullet/soft_body.h"
 
 namespace crosscheck::bullet {
 namespace {
-
-/// kLST of a link of stiffness k between particles of reduced mass mu: one link, relaxed n times, is backward Euler.
-double link_stiffness(double k, double mu, double h, int n) {
-  return std::isinf(mu) ? 1 : -std::expm1(-std::log1p(k * h * h / mu) / n);
-}
-
-/// The stiffness (N/m) that kLST stands for: the inverse of link_stiffness.
-double newton_per_metre(double kLST, double mu, double h, int n) {
-  return mu / (h * h) * std::expm1(-n * std::log1p(-kLST));
-}
 
 std::string gravity_text(const BulletDefaults& defaults) {
   return defaults.gravity_factor == 1
@@ -55,7 +46,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     auto& cfg = body().m_cfg;
     cfg.piterations = settings.iterations;
     cfg.viterations = 0;
-    cfg.kDP = static_cast<btScalar>(-std::expm1(-*rate * h_));
+    cfg.kDP = static_cast<btScalar>(damping_of_drag(*rate, h_));
     cfg.kKHR = btScalar(0.1);  // at 1 contacts bounce, at 0 links pull nodes into the sphere
     cfg.collisions = btSoftBody::fCollision::SDF_RS;
     if (settings.own_wind) use_own_wind(*model.find<Aerodynamics>());
@@ -64,7 +55,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
     mapped_["stiffness"] = settings.defaults.kLST
                                ? fmt::format("kLST = {:g}, whatever the scene asks", *settings.defaults.kLST)
                            : settings.demo ? "kLST = 1, the default of Bullet's demos, whatever the scene asks"
-                                           : fmt::format("kLST = 1 - (1 + k h^2 / mu)^(-1/{})", settings.iterations);
+                                           : link_stiffness_text(settings.iterations);
     const char *added = "added forces on the nodes at x_n, v_n",
                *own = "Bullet's own model of lift and drag on two sides, C as drag";
     const Overloaded tell{
@@ -102,7 +93,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
         r.links[l].stiffness = std::isinf(mu) ? springs->list[l].k : newton_per_metre(kLST, mu, h_, cfg.piterations);
       }
     r.gravity = from_bullet(world_->getWorldInfo().m_gravity) * double(body().m_gravityFactor);
-    r.drag = std::vector<double>(scene_.model.particles.size(), -std::log1p(-cfg.kDP) / h_);
+    r.drag = std::vector<double>(scene_.model.particles.size(), drag_of_damping(cfg.kDP, h_));
     obstacles_.read_back(*world_, body(), r);
     r.later = prescribed_places();
     r.probe = probe(0);

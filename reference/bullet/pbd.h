@@ -14,8 +14,8 @@ struct PbdSettings {
   BulletDefaults defaults;
 };
 
-/// btSoftRigidDynamicsWorld: position-based links. Stiffness is mapped per link by kLST = 1 - (1 + k h^2/mu)^(-1/n),
-/// with mu the pair's reduced mass and n the iterations; drag by kDP = 1 - exp(-gamma h). Its link law is not Hooke's
+/// btSoftRigidDynamicsWorld: position-based links. Stiffness is mapped per link and drag for the whole body
+/// (parameters.h). Its link law is not Hooke's
 /// and its friction is not Coulomb's: both are marked as different laws. Throws Unsupported with the reason.
 Outcome run_pbd(const Scene& scene, const Run& run, Observer& observer, const PbdSettings& settings);
 

@@ -166,12 +166,6 @@ Readback SoftBody::read_back() const {
   return r;
 }
 
-double pair_mass(const Particles& particles, const Spring& spring) {
-  const double inverse = (particles.pinned[spring.a] ? 0 : 1 / particles.mass[spring.a]) +
-                         (particles.pinned[spring.b] ? 0 : 1 / particles.mass[spring.b]);
-  return inverse > 0 ? 1 / inverse : std::numeric_limits<double>::infinity();
-}
-
 namespace {
 
 btTransform at(const Vec3& place) {

@@ -73,9 +73,6 @@ class SoftBody {
   State state_, built_;  // now; as built
 };
 
-/// mu of the pair of ends, 1 / (1/m_a + 1/m_b) with pins of infinite mass, kg; infinite between two pins.
-double pair_mass(const Particles& particles, const Spring& spring);
-
 // A state into which a body is put for a moment, to probe its world's forces.
 
 /// Puts the nodes to 1.1 times the start, so that all springs pull, with velocities that are no rigid motion: x + P x

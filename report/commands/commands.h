@@ -33,6 +33,7 @@ void add_advise(CLI::App& app, Invocation& call);
 void add_regress(CLI::App& app, Invocation& call);
 void add_bench(CLI::App& app, Invocation& call);
 void add_check(CLI::App& app, Invocation& call);
+void add_translate(CLI::App& app, Invocation& call);
 void add_engine(CLI::App& app, Invocation& call);
 void add_lab(CLI::App& app, Invocation& call);
 

@@ -1,10 +1,15 @@
-// Stiffness of position-based links: formula and measurement, for one link and for a chain.
+// Stiffness of position-based links: formula and measurement, for one link and for a chain; and the effective stiffness
+// of hanging nets over step and iterations.
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "experiments/tables/stiffness.h"
+#include "reference/bullet/parameters.h"
 #include "report/figures/charts.h"
 #include "report/findings/findings_text.h"
 
@@ -53,7 +58,7 @@ Chart single_links(const Table& table, const std::string& commit) {
     }
     for (int i = 0; i <= 40; ++i) {
       const double kLST = low * std::pow(high / low, i / 40.);
-      formula.points.emplace_back(kLST, std::expm1(-static_cast<double>(n) * std::log1p(-kLST)));
+      formula.points.emplace_back(kLST, bullet::newton_per_metre(kLST, 1, 1, static_cast<int>(n)));
     }
     f.curves.push_back(std::move(formula));
     f.curves.push_back(std::move(measured));
@@ -109,12 +114,81 @@ Chart networks(const Table& table, const std::string& commit) {
           "holds for short steps only."};
 }
 
+/// A measure of the effective stiffness: its column, the net that shows it, and the words of its figure.
+struct EffectiveMeasure {
+  std::string_view name, net, title, quantity, how, tier;
+  std::optional<double> EffectiveStiffnessRow::*value;
+};
+// by its period a chain alone: a cloth this small swings so fast that implicit rules stop it before it turns twice
+constexpr EffectiveMeasure effective_measures[] = {
+    {"stiffness-effective", "cloth", "Effective stiffness of a hanging cloth, by its sag", "by sag",
+     "Sag asked over sag", "converged (dynamic relaxation)", &EffectiveStiffnessRow::by_sag},
+    {"stiffness-effective-period", "chain", "Effective stiffness of a hanging chain, by its period", "by period",
+     "Square of period asked over period", "converged (rk4 at a small step)", &EffectiveStiffnessRow::by_period}};
+
+/// "4 iterations of pbd": a name that begins with a method's is cut to that at a curve's end.
+std::string curve_title(const EffectiveStiffnessRow& row) {
+  const auto n = static_cast<size_t>(row.iterations);
+  return fmt::format("{} of {}", family_of(row.method).is_subject() ? counted(n, "sub-step") : counted(n, "iteration"),
+                     row.method.substr(row.method.find('/') + 1));
+}
+
+/// Methods that have no iterations to choose stand in the table alone.
+Chart effective_stiffness(const std::vector<EffectiveStiffnessRow>& rows, const EffectiveMeasure& measure,
+                          const std::string& commit) {
+  Figure f;
+  f.name = measure.name;
+  f.title = measure.title;
+  f.x = {"time step / ms", true, std::nullopt, std::nullopt};
+  f.y = {fmt::format("effective stiffness {} / % of that asked", measure.quantity), true, std::nullopt, std::nullopt};
+  static constexpr const char *dashes[] = {"1", "(8,4)", "(2,2)", "(10,3,2,3)"},
+                              *greys[] = {"#111111", "#555555", "#8A8A8A", "#333333"},
+                              *browns[] = {"#7A3B00", "#D66A08", "#E8A33D", "#9A4200"};
+  std::map<std::string, size_t> by_method;  // curves so far
+  const EffectiveStiffnessRow* softest = nullptr;
+  for (const EffectiveStiffnessRow& row : rows) {
+    const Method* method = builtin_method(row.method);
+    if (!row.net.starts_with(measure.net) || !(row.*measure.value) || !method || !method->position_based) continue;
+    const std::string title = curve_title(row);
+    auto curve = std::ranges::find(f.curves, title, &Curve::title);
+    if (curve == f.curves.end()) {
+      // shades of the engine's colour: curves of one colour would share one name
+      const bool ours = method->family().is_subject();
+      const size_t place = std::min<size_t>(by_method[row.method]++, 3);
+      const MethodStyle style{(ours ? greys : browns)[place], dashes[place],
+                              style_of(row.method).marker + static_cast<int>(place)};
+      curve = f.curves.insert(f.curves.end(), {title, style, {}, true, true});
+    }
+    curve->points.emplace_back(1e3 * row.step, 100 * *(row.*measure.value));
+    if (!softest || *(row.*measure.value) < *(softest->*measure.value)) softest = &row;
+  }
+  for (Curve& curve : f.curves) std::ranges::sort(curve.points);
+  if (softest) {
+    f.finding = fmt::format("At a step of {} with {} the {} is {} times softer than asked.", step_text(softest->step),
+                            curve_title(*softest), measure.net, times_text(1 / *(softest->*measure.value)));
+    f.caption = fmt::format(
+        "{}; a {} that hangs from its upper end, of k h² / μ = {:.2g} at a step of {}; strains of some "
+        "thousandths at most; commit {}.",
+        measure.how, softest->net, softest->stiffness, step_text(softest->step), commit);
+  }
+  f.tier = measure.tier;
+  return {"", std::move(f), "stiffness",
+          "Solved for a few times in a step, a net is softer than its springs: sag and period tell by how much. "
+          "Iterations that share a link's stiffness among them do not help; sub-steps in their place do."};
+}
+
 }  // namespace
 
 std::vector<Chart> stiffness_charts(const ChartInput& input) {
   std::vector<Chart> charts;
   if (const Table* table = input.result.table("stiffness")) charts.push_back(single_links(*table, input.commit));
   if (const Table* table = input.result.table("stiffness-network")) charts.push_back(networks(*table, input.commit));
+  if (const auto rows = rows_of<EffectiveStiffnessRow>(input.result); !rows.empty())
+    for (const EffectiveMeasure& measure : effective_measures)
+      if (std::ranges::any_of(rows, [&](const auto& row) {
+            return row.net.starts_with(measure.net) && (row.*measure.value).has_value();
+          }))
+        charts.push_back(effective_stiffness(rows, measure, input.commit));
   return charts;
 }
 

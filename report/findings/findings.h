@@ -67,6 +67,8 @@ std::vector<Finding> cost_findings(const TableSet& rows);
 /// Of experiment `stability`: limits beside theory, and methods without a stable step.
 std::vector<Finding> limit_findings(const TableSet& rows);
 std::vector<Finding> stability_findings(const TableSet& rows);
+/// Of experiment `stiffness`: how soft position-based methods make a cloth at the step of a game.
+std::vector<Finding> stiffness_findings(const TableSet& rows);
 /// Of experiment `energy`.
 std::vector<Finding> energy_findings(const TableSet& rows);
 /// Of experiment `sphere`: all of them, those on where particles leave a ball, and on the cloth that slides off.

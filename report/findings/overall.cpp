@@ -210,6 +210,7 @@ std::vector<Finding> overall_findings(const std::vector<Scene>& scenes, const st
     for (Finding& f : of_experiment(rows)) out.push_back(std::move(f));
   disagreements(rows, out);
   relations_of_engines(rows, out);
+  for (Finding& f : stiffness_findings(rows)) out.push_back(std::move(f));
   return out;
 }
 

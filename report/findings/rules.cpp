@@ -97,6 +97,10 @@ const std::vector<FindingRule>& finding_rules() {
       {"relations-broken", "failure", same, "relations broken without a known cause", "1", "none is needed",
        "{method} breaks what must hold in any engine: {which}.",
        "relations of the rows whose mark is broken, by engine", {"relations"}},
+      {"effective-stiffness", "failure", same, "stiffness asked for over the effective one", "1", "converged",
+       "At a step of {step} with {passes}, {method} makes a hanging cloth {value} times softer than asked{more}.",
+       "1 / stiffness by sag of the last net at the step nearest to 1/60 s with the fewest iterations; with the most",
+       {"stiffness-effective"}, "stiffness-effective"},
 
       // speed against accuracy
       {"nearest-of-all", "accuracy", speed, "scenes", "1", "see each scene",

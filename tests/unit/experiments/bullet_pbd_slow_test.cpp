@@ -1,8 +1,11 @@
 // Bullet's position-based world: the stiffness of its links, the law its networks converge to, drag and added forces.
 
+#include <numbers>
+
 #include "experiments/experiment.h"
 #include "experiments/scenes/scenes.h"
 #include "experiments/sweep/sweep.h"
+#include "experiments/tables/stiffness.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
 
@@ -53,6 +56,44 @@ TEST(BulletPbdStiffness, OfANetworkIsTheFormulasOnlyWhereTheStepIsSmall) {
     EXPECT_GT(at_smallest, 1e-4);     // and is more than round-off
     EXPECT_NEAR(last_slope, 4, 0.2);  // as k h^2/mu, to first order
   }
+}
+
+TEST(EffectiveStiffness, ComesBackWithSubStepsAndNotWithIterations) {
+  const std::vector<EffectiveStiffnessRow> rows =
+      rows_of<EffectiveStiffnessRow>(*stiffness().table("stiffness-effective"));
+  const auto at = [&](const std::string& net, const std::string& method, double step, long n) {
+    for (const EffectiveStiffnessRow& row : rows)
+      if (row.net == net && row.method == method && row.step == step && row.iterations == n) return row;
+    ADD_FAILURE() << net << " " << method << " " << step << " " << n;
+    return EffectiveStiffnessRow{};
+  };
+  for (const std::string net : {"chain of 8", "cloth of 6 x 6"}) {
+    SCOPED_TRACE(net);
+    const double game = 1. / 60;
+    for (const std::string method : {"bullet/pbd", "mysim/xpbd"}) {
+      // in one pass softer than asked, and by more than its halved step
+      const double long_step = at(net, method, game, 1).by_sag.value(),
+                   half = at(net, method, game / 2, 1).by_sag.value();
+      EXPECT_LT(long_step, 0.8);
+      EXPECT_LT(long_step, half);
+      EXPECT_LT(half, 1);
+      EXPECT_NEAR(at(net, method, 1. / 480, 1).by_sag.value(), 1, 0.03);
+    }
+    // sixteen sub-steps are a step of a sixteenth: k h^2 / mu falls to a 256th, and with it what is missing
+    const double one = 1 - at(net, "mysim/xpbd", game, 1).by_sag.value(),
+                 sixteen = 1 - at(net, "mysim/xpbd", game, 16).by_sag.value();
+    EXPECT_LT(sixteen, one / 50);
+    EXPECT_GT(at(net, "bullet/pbd", game, 1).by_sag.value() * 1.1, at(net, "bullet/pbd", game, 16).by_sag.value())
+        << "iterations among which a link's stiffness is split do not help";
+    // the implicit world solves all springs at once: rest is the scene's, up to the relaxation that found it (1e-5)
+    EXPECT_NEAR(at(net, "bullet/deformable-implicit", game, 1).by_sag.value(), 1, 2e-5);
+  }
+  // of the chain both are known: m g / k n (n + 1) / 2, and 2 sqrt(k/m) sin(pi / (4 n + 2))
+  const EffectiveStiffnessRow chain = at("chain of 8", "mysim/xpbd", 1. / 60, 1);
+  EXPECT_NEAR(chain.expected_sag, 0.05 * 0.05 / 200 * 36, 1e-5 * chain.expected_sag);
+  const double omega = 2 * std::sqrt(200 / 0.05) * std::sin(std::numbers::pi / 34);
+  // higher modes of the fall move its turning points
+  EXPECT_NEAR(chain.expected_period, 2 * std::numbers::pi / omega, 2e-3 * chain.expected_period);
 }
 
 /// A soft cloth of 16 x 16, let go upright: its springs stretch by about a sixth.

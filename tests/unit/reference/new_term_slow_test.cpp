@@ -27,6 +27,7 @@ const std::vector<Place> places = {
     {"reference/protocol/scene_json.cpp", "term_readers", "std::variant_size_v<Term>"},
     {"reference/bullet/deformable.cpp", "DeformableForces", "Tide"},
     {"reference/bullet/pbd.cpp", "PbdWorld", "Tide"},
+    {"reference/parameters/parameters.cpp", "values_of", "Tide"},
 };
 
 TEST(NewTerm, DoesNotCompileWhereItIsNotAnswered) {

@@ -1,0 +1,149 @@
+// Effective stiffness: a chain and a cloth hang from their upper ends; what they sag by, and how fast they swing up and
+// down, says how stiff a method made them. Loads are so small that strains stay below some thousandths: sag goes as
+// 1 / k then, the period as 1 / sqrt(k).
+#include "experiments/stiffness/effective.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "experiments/measures.h"
+#include "experiments/metrics.h"
+#include "experiments/period.h"
+#include "experiments/tables/stiffness.h"
+#include "reference/bullet/parameters.h"
+
+namespace crosscheck {
+namespace {
+
+struct Net {
+  std::string name;
+  std::string text;  // of its scene, without drag
+  double omega;      // rad/s, about that of its slowest vibration along gravity
+};
+
+constexpr double load = 0.05;  // m/s^2
+
+std::string heading(double h) {
+  return fmt::format(
+      "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 1\nstep = {}\nwindow = 1\ntolerance = "
+      "1e-6\n"
+      "method = \"leapfrog\"\n[gravity]\nacceleration = [0, {}, 0]\n",
+      h, -load);
+}
+
+/// Masses of 50 g on springs of 200 N/m and 0.1 m. The slowest vibration of n masses on a fixed end is
+/// 2 sqrt(k/m) sin(pi / (4 n + 2)).
+Net hanging_chain_of(int masses) {
+  const double mass = 0.05, k = 200;
+  std::string text = heading(1e-3);
+  for (int i = 0; i <= masses; ++i)
+    text += fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = {}\n", -0.1 * i, mass);
+  for (int i = 0; i < masses; ++i) text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\n", i, i + 1, k);
+  text += "[pins]\nparticles = [0]\n";
+  return {fmt::format("chain of {}", masses), std::move(text),
+          2 * std::sqrt(k / mass) * std::sin(std::numbers::pi / (4 * masses + 2))};
+}
+
+/// Particles of 10 g on structural, shear and bend springs of 50 N/m, held along the upper edge. Along a column of n
+/// rows below the edge it is about a chain of structural springs: enough to choose a duration by.
+Net hanging_cloth_of(int side) {
+  std::string text =
+      heading(1e-3) + fmt::format(
+                          "[grid]\nsize = [{0}, {0}]\norigin = [0, 0, 0]\nu = [1, 0, 0]\nv = [0, -1, 0]\nmass = "
+                          "{1}\n[grid.stiffness]\nstructural = 50\nshear = 50\nbend = 50\n[pins]\nparticles = [0",
+                          side, 0.01 * side * side);
+  for (int i = 1; i < side; ++i) text += fmt::format(", {}", i);
+  return {fmt::format("cloth of {0} x {0}", side), text + "]\n",
+          2 * std::sqrt(50 / 0.01) * std::sin(std::numbers::pi / (4 * (side - 1) + 2))};
+}
+
+/// The depth of the lowest particle when the net hangs still under a drag of rate omega, below its start, m. Nothing
+/// where the run fails, or where the last quarter of the run still moves it by a thousandth of that depth.
+std::optional<double> sag(const Net& net, const Method& method, double step) {
+  const Scene scene = parse_scene(net.text + fmt::format("[drag]\ngamma = {}\n", net.omega), "hanging-net");
+  Recorder recorder;
+  // drag at rate omega leaves exp(-omega t / 2) of a vibration of omega or above, and of one a fifth as fast, in a net
+  // that is 25 times softer, exp(-omega t / 24): 80 / omega leaves a thirtieth of a tenth of it at worst
+  const Outcome out = run_method(method, scene, {step, 80 / net.omega, 4, 1e-6, false}, {&recorder});
+  if (out.verdict != Verdict::ok) return std::nullopt;
+  const auto depth = [&](int frame) {
+    return (recorder.trajectory.x[0].row(1) - recorder.trajectory.x[frame].row(1)).maxCoeff();
+  };
+  const double last = depth(4);
+  return last > 0 && std::abs(last - depth(3)) < 1e-3 * last ? std::optional(last) : std::nullopt;
+}
+
+/// s: the period of the centre of mass after the net is let go, without drag. Nothing where the run fails, the method's
+/// own damping leaves less than three turning points, or the step is too long to see them.
+std::optional<double> period(const Net& net, const Method& method, double step) {
+  const Scene scene = parse_scene(net.text, "hanging-net");
+  // four periods, of a net that may be ten times softer
+  const double duration = 4 * 3 * 2 * std::numbers::pi / net.omega;
+  Recorder recorder;
+  const int steps = static_cast<int>(std::ceil(duration / step));
+  const Outcome out = run_method(method, scene, {step, steps * step, steps, 1e-6, false}, {&recorder});
+  if (out.verdict != Verdict::ok) return std::nullopt;
+  std::vector<Vec3> path;
+  for (const Points& x : recorder.trajectory.x) path.push_back(centre_of_mass(scene, x));
+  const auto found = period_of_path(recorder.trajectory.t, path);
+  // between two turning points lie at least six steps, or a parabola through three of them does not find either
+  return found && *found >= 12 * step ? found : std::nullopt;
+}
+
+/// A method over steps and iterations; where it takes one pass in a step, the step is divided instead.
+struct Choice {
+  std::string_view method;
+  enum class Iterations { none, option, sub_steps } iterations;
+};
+constexpr Choice choices[] = {{"bullet/pbd", Choice::Iterations::option},
+                              {"mysim/xpbd", Choice::Iterations::sub_steps},
+                              {"bullet/deformable-implicit", Choice::Iterations::none}};
+
+void measure(const Net& net, bool full, TableSet& tables) {
+  Table table = table_of<EffectiveStiffnessRow>();
+  const Scene scene = parse_scene(net.text, "hanging-net");
+  const Spring& spring = scene.model.find<Springs>()->list.back();
+  const double mu = bullet::pair_mass(scene.model.particles, spring);
+  const double expected_sag = sag_of(scene).value(),
+               expected_period = period(net, find_method("mysim/rk4"), 0.1 / std::sqrt(spring.k / mu)).value();
+  std::vector<double> steps = {1. / 30, 1. / 60, 1. / 120, 1. / 240, 1. / 480};
+  if (full) steps.insert(steps.end(), {1. / 960, 1. / 1920});
+  std::vector<int> iterations = {1, 4, 16};
+  if (full) iterations.push_back(64);
+  for (const Choice& choice : choices)
+    for (const int n : iterations)
+      for (const double h : steps) {
+        if (choice.iterations == Choice::Iterations::none && n > 1) continue;
+        const bool option = choice.iterations == Choice::Iterations::option;
+        const Method method =
+            find_method(option ? fmt::format("{}+n={}", choice.method, n) : std::string(choice.method));
+        const double step = choice.iterations == Choice::Iterations::sub_steps ? h / n : h;
+        EffectiveStiffnessRow row{.net = net.name,
+                                  .method = std::string(choice.method),
+                                  .step = h,
+                                  .iterations = n,
+                                  .stiffness = spring.k * h * h / mu,
+                                  .expected_sag = expected_sag,
+                                  .sag = sag(net, method, step),
+                                  .expected_period = expected_period,
+                                  .period = period(net, method, step)};
+        if (row.sag) row.by_sag = expected_sag / *row.sag;
+        if (row.period) row.by_period = std::pow(expected_period / *row.period, 2);
+        add(table, row);
+      }
+  tables.add(table);
+}
+
+}  // namespace
+
+std::vector<Point> effective_stiffness_points(bool full) {
+  std::vector<Point> points;
+  for (const Net& net : {hanging_chain_of(8), hanging_cloth_of(6)})
+    points.push_back({fmt::format("stiffness: effective, {}", net.name), full ? "full" : "quick",
+                      [net, full](TableSet& tables) { measure(net, full, tables); }});
+  return points;
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,338 @@
+// The table of engines: a row for each, with a rule for each number of a scene; and the engine of a name.
+#include "reference/parameters/parameters.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "mysim/base/errors.h"
+#include "mysim/base/text.h"
+#include "reference/bullet/parameters.h"
+
+namespace crosscheck {
+
+std::string_view name_of(SceneNumber quantity) {
+  switch (quantity) {
+    case SceneNumber::mass:
+      return "mass m";
+    case SceneNumber::drag:
+      return "drag rate gamma";
+    case SceneNumber::stiffness:
+      return "spring stiffness k";
+    case SceneNumber::dashpot:
+      return "dashpot c";
+    case SceneNumber::gravity:
+      return "gravity g";
+    case SceneNumber::friction:
+      return "friction mu";
+  }
+  return "";
+}
+std::string_view unit_of(SceneNumber quantity) {
+  switch (quantity) {
+    case SceneNumber::mass:
+      return "kg";
+    case SceneNumber::drag:
+      return "1/s";
+    case SceneNumber::stiffness:
+      return "N/m";
+    case SceneNumber::dashpot:
+      return "N s/m";
+    case SceneNumber::gravity:
+      return "m/s^2";
+    case SceneNumber::friction:
+      return "1";
+  }
+  return "";
+}
+std::string_view holder_of(SceneNumber quantity) {
+  switch (quantity) {
+    case SceneNumber::mass:
+      return "free particle";
+    case SceneNumber::drag:
+      return "free particle";
+    case SceneNumber::stiffness:
+      return "spring";
+    case SceneNumber::dashpot:
+      return "dashpot";
+    case SceneNumber::gravity:
+      return "scene";
+    case SceneNumber::friction:
+      return "sphere";
+  }
+  return "";
+}
+
+namespace {
+
+using Context = NumberContext;
+using Gather = NumberRule::Gather;
+
+double as_it_is(double value, const Context&) { return value; }
+double inverse(double value, const Context&) { return 1 / value; }
+bool above_zero(double value) { return value > 0 && std::isfinite(value); }
+bool below_one(double value) { return value >= 0 && value < 1; }
+bool between_zero_and_one(double value) { return value > 0 && value < 1; }
+
+constexpr std::string_view a_positive = "a number above zero", a_share = "a number from 0 to below 1",
+                           a_link =
+                               "a number above 0 and below 1: a link at 1 is rigid, above 1 it over-relaxes, from "
+                               "2 on it explodes, and none of these is a stiffness",
+                           always = "everywhere", coulomb = "everywhere: Coulomb's law, without restitution",
+                           // sequential_limit
+    in_nets =
+        "on one link of small strain; in a net up to k h^2 / mu of about 0.03, above which it is softer than asked";
+
+NumberRule plain(SceneNumber quantity, std::string_view name, std::string_view how = "as it is",
+                 std::string_view holds = always) {
+  return {quantity, name, unit_of(quantity), how, how, holds, as_it_is, as_it_is};
+}
+NumberRule mass_as_it_is() {
+  NumberRule rule = plain(SceneNumber::mass, "mass");
+  rule.expected = a_positive, rule.valid = above_zero;
+  return rule;
+}
+NumberRule nothing(SceneNumber quantity, std::string_view why) { return {quantity, "", "", why, why, "nowhere"}; }
+
+/// kLST under the engine's name for it.
+NumberRule link(std::string_view name, Gather gather) {
+  return {.quantity = SceneNumber::stiffness,
+          .name = name,
+          .unit = "1",
+          .formula = "1 - (1 + k h^2 / mu)^(-1/n), mu = 1 / (1/m_a + 1/m_b), without the term of a pin",
+          .inverse = "k = mu / h^2 ((1 - value)^-n - 1)",
+          .holds = in_nets,
+          .to = [](double k, const Context& at) { return bullet::link_stiffness(k, at.mu, at.h, at.n); },
+          .from = [](double kLST, const Context& at) { return bullet::newton_per_metre(kLST, at.mu, at.h, at.n); },
+          .gather = gather,
+          .expected = a_link,
+          .valid = between_zero_and_one,
+          // and k goes as mu, whose masses come back rounded, too
+          .condition = [](double kLST, const Context& at) { return 1 + bullet::link_condition(kLST, at.n); },
+          .one_by_one = true};
+}
+
+/// kDP under the engine's name for it.
+NumberRule step_damping(std::string_view name) {
+  return {.quantity = SceneNumber::drag,
+          .name = name,
+          .unit = "1",
+          .formula = "1 - exp(-gamma h)",
+          .inverse = "gamma = -ln(1 - value) / h",
+          .holds = "where all drag rates are the same",
+          .to = [](double gamma, const Context& at) { return bullet::damping_of_drag(gamma, at.h); },
+          .from = [](double kDP, const Context& at) { return bullet::drag_of_damping(kDP, at.h); },
+          .gather = Gather::same,
+          .expected = a_share,
+          .valid = below_one,
+          .condition = [](double kDP, const Context&) { return kDP > 0 ? kDP / (1 - kDP) / -std::log1p(-kDP) : 1; }};
+}
+
+NumberRule compliance(std::string_view name, std::string_view formula) {
+  return {.quantity = SceneNumber::stiffness,
+          .name = name,
+          .unit = "m/N",
+          .formula = formula,
+          .inverse = "k = 1 / value",
+          .holds = in_nets,
+          .to = inverse,
+          .from = inverse,
+          .expected = a_positive,
+          .valid = above_zero,
+          .one_by_one = true};
+}
+
+std::vector<EngineNumbers> make_table() {
+  NumberRule inverse_mass{SceneNumber::mass, "mInvMass", "1/kg",    "1 / m, and 0 of a pin",
+                          "m = 1 / value",   always,     inverse,   inverse,
+                          Gather::each,      a_positive, above_zero};
+  NumberRule total_mass{.quantity = SceneNumber::mass,
+                        .name = "total_mass",
+                        .unit = "kg",
+                        .formula = "m times the number of particles, pins among them: all are as heavy",
+                        .inverse = "m = value / number of particles",
+                        .holds = "where all masses are the same",
+                        .to = [](double m, const Context& at) { return m * at.particles; },
+                        .from = [](double total, const Context& at) { return total / at.particles; },
+                        .gather = Gather::mean,
+                        .expected = a_positive,
+                        .valid = above_zero};
+  NumberRule factor{.quantity = SceneNumber::drag,
+                    .name = "drag",
+                    .unit = "1",
+                    .formula = "h gamma (m_cfg.drag)",
+                    .inverse = "gamma = value / h",
+                    .holds = "h gamma < 1, where all drag rates are the same",
+                    .to = [](double gamma, const Context& at) { return bullet::drag_factor(gamma, at.h); },
+                    .from = [](double value, const Context& at) { return bullet::drag_of_factor(value, at.h); },
+                    .gather = Gather::same,
+                    .expected = a_share,
+                    .valid = below_one};
+  const auto undragged = [](SceneNumber quantity, std::string_view name, std::string_view formula,
+                            std::string_view back, std::string_view holds) {
+    const auto to = [](double value, const Context& at) {
+      return bullet::before_drag(value, bullet::drag_factor(at.gamma, at.h));
+    };
+    const auto from = [](double value, const Context& at) { return value * (1 - bullet::drag_factor(at.gamma, at.h)); };
+    return NumberRule{.quantity = quantity,
+                      .name = name,
+                      .unit = unit_of(quantity),
+                      .formula = formula,
+                      .inverse = back,
+                      .holds = holds,
+                      .to = to,
+                      .from = from,
+                      // gamma itself comes back rounded
+                      .condition = [](double, const Context& at) { return 1 / (1 - at.h * at.gamma); }};
+  };
+  // Jolt takes gamma h / n of a velocity in each of n sub-steps: this much leaves exp(-gamma h) of it
+  NumberRule jolt_damping{
+      .quantity = SceneNumber::drag,
+      .name = "mLinearDamping",
+      .unit = "1/s",
+      .formula = "n / h (1 - exp(-gamma h / n))",
+      .inverse = "gamma = -n / h ln(1 - value h / n)",
+      .holds = "where all drag rates are the same",
+      .to = [](double gamma, const Context& at) { return bullet::damping_of_drag(gamma, at.h / at.n) * at.n / at.h; },
+      .from = [](double value, const Context& at) { return bullet::drag_of_damping(value * at.h / at.n, at.h / at.n); },
+      .gather = Gather::same,
+      .condition =
+          [](double value, const Context& at) {
+            const double share = value * at.h / at.n;
+            return share > 0 ? share / (1 - share) / -std::log1p(-share) : 1;
+          }};
+  constexpr std::string_view stays = "k stays; the springs' dashpots are left out";
+  return {
+      {.title = "the scene's own numbers",
+       .iterations = "",
+       .of =
+           [](const Method& m) {
+             return m.family().is_engine() && !m.position_based && (m.implicit || m.family().is_subject());
+           },
+       .rules = {mass_as_it_is(), plain(SceneNumber::drag, "gamma"), plain(SceneNumber::stiffness, "k"),
+                 plain(SceneNumber::dashpot, "c"), plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
+      {.title = "XPBD, one pass over the springs in a step",
+       .iterations = "",
+       .of = [](const Method& m) { return m.position_based && m.spring_law == SpringLaw::hooke; },
+       .rules = {mass_as_it_is(),
+                 plain(SceneNumber::drag, "gamma", "as it is: v / (1 + h gamma), as is what a constraint adds to v"),
+                 compliance("compliance", "1 / k; in the step compliance / h^2 beside the inverse masses"),
+                 plain(SceneNumber::dashpot, "c", "as it is, implicit along the line"),
+                 plain(SceneNumber::friction, "friction", "as it is", coulomb)}},
+      {.title = "Bullet's position-based links",
+       .iterations = "piterations",
+       .of = [](const Method& m) { return m.position_based && m.spring_law == SpringLaw::bullet_link; },
+       .deaf = "demo",
+       .source = "Bullet 3.24, btSoftBody::PSolve_Links",
+       .rules = {mass_as_it_is(), step_damping("kDP"), link("kLST", Gather::each),
+                 plain(SceneNumber::dashpot, "c", "as it is, as forces added to the nodes at x_n, v_n"),
+                 plain(SceneNumber::friction, "friction", "kDF = 1 times the ball's friction",
+                       "as Coulomb's cone only: a node sticks from tan(slope) on, below that it creeps")}},
+      {.title = "Bullet's explicit deformable world",
+       .iterations = "",
+       .of = [](const Method& m) { return m.family().role == Role::peer && !m.position_based && !m.implicit; },
+       .source = "Bullet 3.24, btDeformableMassSpringForce",
+       .rules = {mass_as_it_is(), factor,
+                 undragged(SceneNumber::stiffness, "stiffness", "k / (1 - h gamma)", "k = value (1 - h gamma)",
+                           "h below the critical step, 2 / omega without drag"),
+                 plain(SceneNumber::dashpot, "c", "as it is, solved implicitly after the step"),
+                 undragged(SceneNumber::gravity, "gravity", "g / (1 - h gamma)", "g = value (1 - h gamma)", always),
+                 plain(SceneNumber::friction, "friction", "kDF = 1 times the ball's friction", coulomb)}},
+      {.name = "jolt",
+       .title = "Jolt's soft bodies",
+       .iterations = "mNumIterations",
+       .usual_iterations = 5,
+       .sub_steps = true,
+       .single_precision = true,
+       .source = "Jolt, SoftBodyMotionProperties::ApplyEdgeConstraints and IntegratePositions",
+       .rules = {inverse_mass, jolt_damping,
+                 compliance("mCompliance",
+                            "1 / k; in a sub-step of h / n compliance n^2 / h^2 beside the inverse masses"),
+                 nothing(SceneNumber::dashpot, stays),
+                 plain(SceneNumber::friction, "mFriction",
+                       "mu on body and ball, of which Jolt takes the geometric mean", coulomb)}},
+      {.name = "godot",
+       .title = "GodotPhysics' SoftBody3D",
+       .iterations = "simulation_precision",
+       .usual_iterations = 5,
+       .single_precision = true,
+       .stand_in = "bullet/pbd",
+       .source = "Godot 4, godot_soft_body_3d.cpp, \"based on Bullet soft body\"",
+       .rules = {total_mass, step_damping("damping_coefficient"), link("linear_stiffness", Gather::median),
+                 nothing(SceneNumber::dashpot, stays),
+                 plain(SceneNumber::friction, "friction", "the ball's own friction alone", coulomb)}}};
+}
+
+}  // namespace
+
+std::span<const EngineNumbers> engine_numbers() {
+  static const std::vector<EngineNumbers> table = make_table();
+  return table;
+}
+
+namespace {
+
+/// N of "n=N".
+std::optional<int> iterations_in(const std::string& option) {
+  int n = 0;
+  const char *begin = option.data() + 2, *end = option.data() + option.size();
+  if (!option.starts_with("n=") || std::from_chars(begin, end, n).ptr != end || n < 1 || n > 1000) return std::nullopt;
+  return n;
+}
+
+std::string with_iterations(std::string name, int said, int wanted) {
+  if (wanted == 0 || said == wanted) return name;
+  if (said != 0) throw InputError(fmt::format("--iterations {}: {} says otherwise", wanted, name));
+  return fmt::format("{}+n={}", name, wanted);
+}
+
+}  // namespace
+
+TranslationTarget find_target(const std::string& name, int iterations) {
+  const std::vector<std::string> parts = split(name, '+');
+  int said = 0;
+  for (size_t i = 1; i < parts.size(); ++i)
+    if (const auto n = iterations_in(parts[i])) said = *n;
+  std::vector<std::string_view> engines;
+  for (const EngineNumbers& engine : engine_numbers()) {
+    if (engine.name.empty()) continue;
+    engines.push_back(engine.name);
+    if (parts[0] != engine.name) continue;
+    for (size_t i = 1; i < parts.size(); ++i)
+      if (!iterations_in(parts[i]))
+        refuse_option(std::string(engine.name), parts[i],
+                      fmt::format("+n=1 to +n=1000 ({}) or none", engine.iterations));
+    const bool given = said + iterations > 0;
+    TranslationTarget target{with_iterations(name, said, iterations), &engine,
+                             given ? std::max(said, iterations) : engine.usual_iterations, given,
+                             engine.single_precision};
+    if (!engine.stand_in.empty()) {
+      target.runs = find_method(fmt::format("{}+n={}", engine.stand_in, target.iterations));
+      target.stand_in = true;
+    }
+    return target;
+  }
+  // of one that is not known at all, find_method() says what methods there are
+  Method method = find_method(name);
+  for (const EngineNumbers& engine : engine_numbers()) {
+    if (!engine.of || !engine.of(method) || (!engine.deaf.empty() && std::ranges::count(parts, engine.deaf) > 0))
+      continue;
+    if (iterations > 0 && engine.iterations.empty())
+      throw InputError(
+          fmt::format("--iterations: {} has none to choose: it takes one pass in a step; give --step", method.name));
+    if (const std::string full = with_iterations(name, said, iterations); full != name) method = find_method(full);
+    const bool single = method.family().single_precision || engine.single_precision;
+    const int n = std::max({1, said, iterations});
+    std::string full_name = method.name;
+    return {std::move(full_name), &engine, n, said + iterations > 0, single, std::move(method)};
+  }
+  throw InputError(fmt::format(
+      "{}: its numbers are not known; expected a method of mysim or of Bullet that takes the scene's stiffness, or one "
+      "of: {}",
+      method.name, fmt::join(engines, ", ")));
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,236 @@
+// translate: what the numbers of a scene become in another engine, or an engine's numbers in a scene; exit 1 where the
+// engine has none for it, or refuses to run it.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "experiments/estimate.h"
+#include "experiments/scenes/scenes.h"
+#include "experiments/translate/translated_run.h"
+#include "mysim/base/errors.h"
+#include "mysim/base/files.h"
+#include "mysim/base/json.h"
+#include "report/commands/command_line.h"
+#include "report/commands/commands.h"
+#include "report/findings/report_data.h"
+
+namespace crosscheck {
+namespace {
+
+struct TranslateOptions {
+  std::string scene, to, run;
+  std::vector<std::string> from;  // method and file, or empty
+  double step = 0;                // s
+  int iterations = 0;
+  std::filesystem::path out;
+  bool json = false;
+};
+
+std::string with_unit(std::string_view number, std::string_view unit) {
+  return unit == "1" ? std::string(number) : fmt::format("{} {}", number, unit);
+}
+
+std::string range(const std::vector<double>& values, std::string_view unit) {
+  const auto [least, most] = std::ranges::minmax(values);
+  const std::string low = fmt::format("{:.6g}", least), high = fmt::format("{:.6g}", most);
+  return with_unit(low == high ? low : low + " to " + high, unit);
+}
+
+void print(const TranslatedNumber& number) {
+  const NumberRule& rule = *number.rule;
+  fmt::print("  {}: {}\n", name_of(rule.quantity), range(number.scene, unit_of(rule.quantity)));
+  fmt::print("    {} = {}\n", rule.name, rule.formula);
+  fmt::print("    {} = {}{}\n", rule.name, range(number.engine, rule.unit),
+             std::ranges::count(number.engine, number.engine[0]) < std::ssize(number.engine)
+                 ? fmt::format(", one for each {}", holder_of(rule.quantity))
+             : number.scene.size() > 1 ? ", one for all"
+                                       : "");
+  fmt::print("    holds {}\n", rule.holds);
+  if (!number.here.empty()) fmt::print("    {}\n", number.here);
+  fmt::print("    back within {:.2g}: {}\n", number.stated, range(number.back, unit_of(rule.quantity)));
+}
+
+void print(const TranslatedRun& run) {
+  fmt::print("\nmeasured by {}: ", run.method);
+  if (run.outcome.verdict != Verdict::ok) {
+    fmt::print("{}{}\n", in_words(run.outcome.verdict), run.outcome.reason.empty() ? "" : ": " + run.outcome.reason);
+  } else if (const auto distance = run.error ? run.error : run.difference) {
+    fmt::print("{} {}, {:.3g} % of the motion of {}\n  largest RMS over the particles until {:.3g} s, beside {}{}\n",
+               run.error ? "error" : "difference", nice_length(*distance), 100 * *distance / run.motion,
+               nice_length(run.motion), run.until, run.beside,
+               run.bar ? fmt::format(", error bar {}", nice_length(*run.bar)) : "");
+  } else {
+    fmt::print("it ran; there is nothing to hold it against\n");
+  }
+  for (const std::string& law : run.outcome.different_law) fmt::print("  different law: {}\n", law);
+}
+
+Json json_of(const TranslatedNumber& number) {
+  const NumberRule& rule = *number.rule;
+  return {{"quantity", name_of(rule.quantity)},
+          {"unit", unit_of(rule.quantity)},
+          {"scene", number.scene},
+          {"name", rule.name},
+          {"engine_unit", rule.unit},
+          {"formula", rule.formula},
+          {"inverse", rule.inverse},
+          {"engine", number.engine},
+          {"back", number.back},
+          {"holds", rule.holds},
+          {"here", number.here},
+          {"stated_error", number.stated}};
+}
+
+Json json_of(const TranslatedRun& run) {
+  return {{"method", run.method},
+          {"verdict", name_of(run.outcome.verdict)},
+          {"reason", run.outcome.reason},
+          {"error", run.error},
+          {"difference", run.difference},
+          {"beside", run.beside},
+          {"bar", run.bar},
+          {"motion", run.motion},
+          {"until", run.until},
+          {"different_law", run.outcome.different_law}};
+}
+
+/// Why the numbers were not run.
+std::string not_measured(const TranslationTarget& target) {
+  return fmt::format("not measured here: this build does not run {}; --run exec:PROGRAM measures it by a program",
+                     target.numbers->title);
+}
+
+int to_engine(const TranslateOptions& options) {
+  const Scene scene = load_scene(options.scene);
+  const TranslationTarget target = find_target(options.to, options.iterations);
+  Run run = default_run(scene);
+  if (options.step > 0) run.step = options.step;
+  std::optional<Method> method = target.runs;
+  if (!options.run.empty()) method = find_method(options.run);
+  Translation t;
+  try {
+    t = translate(scene, target, time_grid(run).h);
+  } catch (const Unsupported& why) {
+    fmt::print(stderr, "crosscheck: {} has no numbers for {}: {}\n", target.name, options.scene, why.what());
+    return 1;
+  }
+  std::optional<TranslatedRun> measured;
+  if (method) {
+    require_resources_to_keep({find_method(scene.method), *method}, scene, run);
+    Progress progress(1);
+    progress.begin(fmt::format("running {} and the truth of {}", method->name, scene.name));
+    measured = run_translated(scene, t, *method);
+    progress.done();
+  }
+  if (!options.out.empty()) write_file(options.out, numbers_toml(scene, t));
+
+  const bool stand_in = target.stand_in && options.run.empty();
+  if (options.json) {
+    Json json{{"format", 1},
+              {"scene", options.scene},
+              {"scene_hash", scene.hash},
+              {"to", target.name},
+              {"engine", target.numbers->title},
+              {"source", target.numbers->source},
+              {"step", t.h},
+              {"iterations", target.numbers->iterations.empty() ? Json() : Json(target.iterations)},
+              {"numbers", Json::list()},
+              {"lost", t.lost},
+              {"measured", measured ? json_of(*measured) : Json()},
+              {"stand_in", stand_in}};
+    for (const TranslatedNumber& number : t.numbers) json["numbers"].push(json_of(number));
+    fmt::print("{}\n", json.dump(1));
+  } else {
+    fmt::print("{} in the numbers of {}: {}\n", scene.name, target.name, target.numbers->title);
+    fmt::print("  step h = {:.6g} s{}\n", t.h,
+               target.numbers->iterations.empty()
+                   ? ""
+                   : fmt::format(", n = {} ({})", target.iterations, target.numbers->iterations));
+    for (const TranslatedNumber& number : t.numbers) print(number);
+    for (const std::string& lost : t.lost) fmt::print("  lost: {}\n", lost);
+    if (!target.numbers->source.empty()) fmt::print("  formulas read in {}\n", target.numbers->source);
+    if (measured)
+      print(*measured);
+    else
+      fmt::print("\n{}\n", not_measured(target));
+    if (stand_in)
+      fmt::print("  {} follows the same rule with the same numbers in double precision; {} itself was not run\n",
+                 measured->method, target.numbers->title);
+    if (!options.out.empty()) fmt::print("\n{}\n", options.out.string());
+  }
+  return measured && measured->outcome.verdict == Verdict::unsupported ? 1 : 0;
+}
+
+int from_engine(const TranslateOptions& options) {
+  const Scene scene = load_scene(options.scene);
+  const TranslationTarget target = find_target(options.from[0], options.iterations);
+  const std::string& file = options.from[1];
+  const NumbersFile numbers =
+      read_numbers(read_file(file, "an engine's numbers (TOML)"), file, scene, target, options.step);
+  const Scene changed = scene_of(scene, *target.numbers, numbers);
+  if (!options.out.empty()) write_file(options.out, scene_toml(scene, changed, rounding_of(changed, target, numbers)));
+  if (options.json) {
+    Json json{{"format", 1},
+              {"scene", options.scene},
+              {"from", target.name},
+              {"step", numbers.h},
+              {"iterations", target.numbers->iterations.empty() ? Json() : Json(numbers.iterations)},
+              {"numbers", Json::list()}};
+    for (const auto& [rule, values] : numbers.numbers)
+      json["numbers"].push({{"quantity", name_of(rule->quantity)},
+                            {"unit", unit_of(rule->quantity)},
+                            {"name", rule->name},
+                            {"inverse", rule->inverse},
+                            {"engine", values},
+                            {"scene", values_of(changed, rule->quantity)},
+                            {"was", values_of(scene, rule->quantity)}});
+    fmt::print("{}\n", json.dump(1));
+    return 0;
+  }
+  fmt::print("{} of {} in {}: {}\n  step h = {:.6g} s{}\n", file, target.name, scene.name, target.numbers->title,
+             numbers.h, target.numbers->iterations.empty() ? "" : fmt::format(", n = {}", numbers.iterations));
+  for (const auto& [rule, values] : numbers.numbers) {
+    fmt::print("  {} = {}: {}\n", rule->name, range(values, rule->unit), rule->inverse);
+    fmt::print("    {} = {}; the scene had {}\n", name_of(rule->quantity),
+               range(values_of(changed, rule->quantity), unit_of(rule->quantity)),
+               range(values_of(scene, rule->quantity), unit_of(rule->quantity)));
+  }
+  if (!options.out.empty()) fmt::print("\n{}\n", options.out.string());
+  return 0;
+}
+
+int translate_command(const TranslateOptions& options) {
+  if (options.to.empty() == options.from.empty())
+    throw InputError("translate: expected either --to METHOD or --from METHOD FILE");
+  if (!options.from.empty() && !options.run.empty())
+    throw InputError("--run: goes with --to: what comes back is a scene, which `run` runs");
+  return options.to.empty() ? from_engine(options) : to_engine(options);
+}
+
+}  // namespace
+
+void add_translate(CLI::App& app, Invocation& call) {
+  const auto options = std::make_shared<TranslateOptions>();
+  auto* translate = app.add_subcommand(
+      "translate", "what masses, drag, stiffness, dashpots and friction of a scene become in another engine, and back");
+  translate->add_option("SCENE", options->scene, "a shipped scene or a TOML file")->required();
+  translate->add_option(
+      "--to", options->to,
+      "METHOD that is given the scene: a method of mysim or of Bullet, or jolt, godot; +n=N: iterations");
+  translate->add_option("--from", options->from, "METHOD FILE: an engine's numbers (TOML, as --to --out writes them)")
+      ->expected(2)
+      ->type_name("METHOD FILE");
+  translate->add_option("--step", options->step, "time step, s (the scene's, or the file's)")->check(above_zero());
+  translate->add_option("--iterations", options->iterations, "iterations or sub-steps in a step (the engine's usual)")
+      ->check(CLI::Range(1, 1000));
+  translate->add_option("--run", options->run,
+                        "METHOD that runs the translated scene, such as exec:PROGRAM (default: that of --to)");
+  translate->add_option("--out", options->out, "FILE.toml: with --to the engine's numbers, with --from the scene");
+  translate->add_flag("--json", options->json, "prints JSON");
+  translate->callback([options, &call] { call.status = translate_command(*options); });
+}
+
+}  // namespace crosscheck
