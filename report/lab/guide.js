@@ -53,6 +53,16 @@ const guideProgress = (() => {
   };
 })();
 
+const experimentOfAddress = () => /^#experiment=([\w-]+)/.exec(location.hash)?.[1];
+
+/** Writes the experiment that is shown into the address, or none: then a link to it opens it again. */
+function writeExperiment(name) {
+  if (!name && !experimentOfAddress()) return;
+  try {
+    history.replaceState(null, '', name ? `#experiment=${name}` : location.href.replace(/#.*/, ''));
+  } catch { /* the address stays */ }
+}
+
 /** The experiments whose scenes are in this page. */
 const experimentsHere = () => labExperiments.filter(({scenes}) => scenes.every(name => name in labScenes()));
 
@@ -74,12 +84,14 @@ class LabGuide extends HTMLElement {
   }
 
   showList() {
+    if (this.experiment) writeExperiment(null);
     this.experiment = this.step = null;
     this.sandbox = false;
     this.render();
   }
 
   showSandbox() {
+    writeExperiment(null);
     this.experiment = this.step = null;
     this.sandbox = true;
     this.render();
@@ -101,9 +113,7 @@ class LabGuide extends HTMLElement {
     Object.assign(this, {experiment, number, step, sandbox: false, seen: {run: {}}, guess: null, result: null, acting: null, phase: 'ask'});
     const known = !again && guideProgress.of(experiment, step);
     if (known) Object.assign(this, {phase: 'why', guess: known.guess, result: known, seen: {before: known.before, run: {}}});
-    try {
-      history.replaceState(null, '', `#experiment=${experiment.name}`);
-    } catch { /* the address stays */ }
+    writeExperiment(experiment.name);
     this.render();
     this.focusFirst();
     await this.setLab(step.start);
@@ -334,7 +344,6 @@ function openExperiment(name, lab) {
   lab ? guideOf(lab).show(name) : openLab({scene, experiment: name});
 }
 
-const experimentOfAddress = () => /^#experiment=([\w-]+)/.exec(location.hash)?.[1];
 const followExperiment = () => experimentOfAddress() && openExperiment(experimentOfAddress());
 addEventListener('hashchange', followExperiment);
 // the lab's own page begins with the experiments

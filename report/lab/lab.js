@@ -12,6 +12,8 @@ const slowestPace = 0.1;      // of the clock, while it waits for the truth
 const longestWait = 2500;     // ms of waiting for the truth
 const smallScene = 1500;      // particles; larger ones have no truth, and no energy balance unless asked
 const previewBudget = 150;    // ms for finding out how far a scene moves
+const slowDrawing = 40;       // ms between frames beyond what their scripts take: then drawing is what takes it
+const coarseRatio = 0.7;      // of the pixels along a side, while a picture moves where drawing is slow
 
 /** The scenes of the page: {name: {toml, fingerprint (of each rule, after so many steps), steps}}. */
 const labScenes = (() => {
@@ -57,7 +59,7 @@ class LiveLab extends HTMLElement {
       this.replaceChildren(make('p', {class: 'lab-plain'}, say(missing)));
       return false;
     }
-    Object.assign(this, {runs: [], clock: 0, speed: 1, playing: false, seen: true, frameTime: shortestFrame, frames: [], passed: [], pictures: []});
+    Object.assign(this, {runs: [], clock: 0, speed: 1, playing: false, seen: true, drawing: 0, drawsSlowly: false, frameTime: shortestFrame, frames: [], passed: [], pictures: []});
     this.look = {view: 'over', colour: 'plain', springs: false, truth: false};
     const bind = name => (...given) => this[name](...given);
     this.view = new LabView(Object.fromEntries([
@@ -331,7 +333,8 @@ class LiveLab extends HTMLElement {
   frame(now) {
     this.asked = false;
     if (!this.isConnected || !this.view) return;
-    const passed = this.lastFrame ? Math.min(0.1, (now - this.lastFrame) / 1000) : 0;  // a page that was away goes on where it was
+    const begin = performance.now(), apart = this.lastFrame ? now - this.lastFrame : 0;  // ms
+    const passed = Math.min(0.1, apart / 1000);  // a page that was away goes on where it was
     this.lastFrame = now;
     this.frameTime = Math.max(shortestFrame, Math.min(longestFrame, 0.8 * this.frameTime + 200 * passed));
     if (this.playing) {
@@ -347,8 +350,20 @@ class LiveLab extends HTMLElement {
     if (was && this.playing) this.passed.push(0);
     const eased = this.draw();
     this.showNow(was && !this.pending && !this.playing, now);
+    this.watchDrawing(apart, performance.now() - begin);
     if (this.playing || eased || this.waiting || this.pending) this.wake();
     else this.lastFrame = null;
+  }
+
+  /** Without a graphics processor drawing may take many times what computing does: then the stage becomes a coarse one. */
+  watchDrawing(apart, script) {
+    if (!this.playing || !this.stage || this.stage.coarse) return void (this.drawing = 0);
+    this.drawing += 0.2 * (Math.min(100, apart - (this.scripted ?? 0)) - this.drawing);
+    this.scripted = script;
+    if (this.drawing < slowDrawing) return;
+    this.drawsSlowly = true;
+    this.sleep();
+    this.showViews();
   }
 
   get framesPerSecond() {

@@ -241,7 +241,7 @@ const labActs = {
     const shown = stageScene(this.sceneName, sim, flat ? null : 0, from);
     const times = Array.from({length: 13}, (_, i) => scene.duration * i / 12).map(t => sim.centres(t));
     shown.spheres.forEach((sphere, i) => (sphere.centres = times.map(c => [...c.subarray(3 * i, 3 * i + 3)])));
-    this.stage = new LiveStage(canvas, shown);
+    this.stage = new LiveStage(canvas, shown, this.drawsSlowly);
     this.stage.made = made;
     this.stage.hold(this.pictures);
     if (fresh || !this.orbit) this.orbit = new Orbit(from);
@@ -313,7 +313,7 @@ const labActs = {
   draw() {
     const {stage, view} = this;
     if (!stage || !view || !this.drawn?.length) return false;
-    const {canvas} = stage, ratio = Math.min(2, window.devicePixelRatio || 1), box = view.stage;
+    const {canvas} = stage, box = view.stage, ratio = Math.min(2, window.devicePixelRatio || 1) * (stage.coarse && this.playing ? coarseRatio : 1);
     const wide = Math.round(box.clientWidth * ratio), high = Math.round(box.clientHeight * ratio);
     if (!wide || !high) return false;
     if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, {width: wide, height: high});
@@ -374,7 +374,7 @@ const labActs = {
   /** All that depends on scene and methods. */
   showState() {
     const {view} = this;
-    view.setScene(Object.keys(labScenes()), this.sceneName, textAt(this.toml, 'question'), this.toml !== this.original || this.byHand, this.dataset.alone !== undefined);
+    view.setScene(Object.keys(labScenes()), this.sceneName, questionInLanguage(textAt(this.toml, 'question')), this.toml !== this.original || this.byHand, this.dataset.alone !== undefined);
     view.setMethods(this.methods, this.runs, this.lab.steppers, this.scale);
     view.knobs.show(this.toml);
     view.setChosen(this.hand.chosen, this.hand.chosen !== null && [...this.runs[0].sim.scene.pins].includes(this.hand.chosen), false);

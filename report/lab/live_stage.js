@@ -30,8 +30,8 @@ function stageScene(name, sim, floor, from) {
 }
 
 class LiveStage extends Stage {
-  constructor(canvas, scene) {
-    super(canvas, scene, scene.shared);
+  constructor(canvas, scene, coarse) {
+    super(canvas, scene, scene.shared, coarse);
     const rows = new Int32Array(3 * scene.particles);
     for (let i = 0; i < scene.particles; ++i) rows.set([i, scene.particles + i, 0], 3 * i);
     this.shapes.arrows = this.rods(rows);
@@ -156,8 +156,9 @@ class LiveStage extends Stage {
   eased(fit) {
     const was = this.fit, part = 0.12;
     // a picture of another shape is another view
-    const other = !was || stillWanted.matches || this.shape !== `${this.canvas.width} ${this.canvas.height} ${this.panels.length}`;
-    this.shape = `${this.canvas.width} ${this.canvas.height} ${this.panels.length}`;
+    const {clientWidth, clientHeight} = this.canvas, shape = `${clientWidth} ${clientHeight} ${this.panels.length}`;
+    const other = !was || stillWanted.matches || this.shape !== shape;
+    this.shape = shape;
     this.moving = !other && (Math.abs(was.distance - fit.distance) > 1e-3 * fit.distance || norm(minus(was.target, fit.target)) > 1e-3 * fit.distance);
     if (!this.moving) return fit;
     return {target: plus(was.target, part, minus(fit.target, was.target)), distance: was.distance + part * (fit.distance - was.distance)};

@@ -146,6 +146,28 @@ const labWords = {
   unknownScene: ['This page has no scene {name}.', '本页没有场景 {name}。'],
   broken: ['The engine stopped: {reason}', '引擎停止：{reason}'],
 
+  // The questions of the shipped scenes, as their files ask them.
+  'question.bounce': ['How high does a particle rise again that a ball throws back?', '质点被球弹回后能升多高？'],
+  'question.chain-link': ['To what does a position-based world converge as its step shrinks?', '步长缩小时，基于位置的方法收敛到什么？'],
+  'question.chain': ['Do the engines agree on a chain of springs that is whipped about?', '对一条甩动的弹簧链，各引擎结果一致吗？'],
+  'question.circle': ['How fast does each rule leave a circle that it should stay on?', '本应停留在圆上时，各种方法以多快的速度离开它？'],
+  'question.cloth-carried': ['Does a ball that moves take the cloth on it along?', '移动的球会带着上面的布一起走吗？'],
+  'question.cloth-hang': ['Do the engines agree on a cloth that falls, swings and comes to hang?', '布料下落、摆动、最后静止悬挂，各引擎结果一致吗？'],
+  'question.cloth-inextensible': ['Does a cloth whose threads cannot stretch swing as it should?', '线不可伸长的布料，摆动正确吗？'],
+  'question.cloth-sphere': ['Does a cloth that falls on a ball slide, hold and rest as friction says?', '布料落到球上后，滑动、停住、静止都符合摩擦定律吗？'],
+  'question.cloth-stiff': ['Which methods bear the long step of an animation on a cloth a thousand times stiffer?', '布料硬一千倍时，哪些方法承受得住动画用的长步长？'],
+  'question.cloth-student': ['What do the two rules of the assignment do to a cloth as a student would set it up?', '按学生的设置，作业中的两种方法会让布料怎样？'],
+  'question.cloth-swing': ['Do the engines agree when the cloth is moved by hand?', '用手移动布料时，各引擎结果一致吗？'],
+  'question.cloth-wind': ['Do the engines agree on a cloth in gusts of wind?', '布料处在阵风中，各引擎结果一致吗？'],
+  'question.flag': ['Does a flag fly as the air presses on it?', '在气流的压力下，旗帜会飘扬吗？'],
+  'question.jelly': ['Does a block of jelly land, wobble and come to rest?', '一块果冻落下后会晃动并最终静止吗？'],
+  'question.normal-modes': ['Does a chain of springs keep the frequencies of its modes?', '弹簧链能保持各模态的频率吗？'],
+  'question.pendulum': ['What does each rule do to a pendulum that swings slowly and vibrates fast?', '单摆摆动慢、振动快，各种方法会让它怎样？'],
+  'question.projectile': ['Does a thrown particle follow its parabola, slowed by the air?', '抛出的质点受空气阻力减速，轨迹正确吗？'],
+  'question.rod': ['Which methods keep a length that must not change?', '哪些方法能保持不变的长度？'],
+  'question.slide': ['Where does a particle that slides down a ball leave it?', '质点沿球面滑下，在哪里离开球面？'],
+  'question.spring': ['Does one mass on a vertical spring keep its period and its energy?', '竖直弹簧上的质点能保持周期和能量吗？'],
+
   // The guide around the experiments.
   'guide.title': ['Guided experiments', '引导实验'],
   'guide.lead': ['First a guess, then a look, then the reason. Take them in any order, skip what you like.', '先猜，再看，最后讲原因。顺序随意，可以跳过。'],
@@ -507,6 +529,12 @@ let labLanguage = [document.documentElement.lang, navigator.language].some(name 
 function say(key, values = {}) {
   const words = labWords[key]?.[labLanguages[labLanguage]] ?? key;
   return words.replace(/\{(\w+)\}/g, (place, name) => (name in values ? String(values[name]) : place));
+}
+
+/** A scene's question in the reader's language, where it is that of a shipped scene; else as the scene asks it. */
+function questionInLanguage(question) {
+  const key = Object.keys(labWords).find(each => each.startsWith('question.') && labWords[each][labLanguages.en] === question);
+  return key ? say(key) : question;
 }
 
 /** Chooses a language; all that shows words hears 'lab-language' on the document. */

@@ -4,8 +4,8 @@ const noContext = new Error('no WebGL2 context');
 
 class Gl {
   /** Throws `noContext` where the context cannot be had. */
-  constructor(canvas) {
-    this.gl = canvas.getContext('webgl2', {antialias: true, alpha: false, powerPreference: 'low-power'});
+  constructor(canvas, antialias) {
+    this.gl = canvas.getContext('webgl2', {antialias, alpha: false, powerPreference: 'low-power'});
     if (!this.gl) throw noContext;
   }
 

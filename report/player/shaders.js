@@ -80,13 +80,14 @@ uniform mat4 to_key;
 uniform sampler2DShadow key_map;
 uniform float lift;      // m, off the surface before it is looked up
 uniform float shadowed;  // 0 where nothing casts a shadow
+uniform float taps;      // at most 12: places at which the shadow is looked up
 in vec3 place, normal;
 in float value;
 out vec4 result;
 vec3 linear(vec3 srgb) { return pow(srgb, vec3(2.2)); }
 vec4 shown(vec3 light) { return vec4(pow(light, vec3(1.0 / 2.2)), 1); }
 
-// part of the key light that arrives: 12 places in a spiral, turned from pixel to pixel
+// part of the key light that arrives: places in a spiral, turned from pixel to pixel
 float lit(vec3 p, float spread) {
   if (shadowed < 0.5) return 1.0;
   vec3 q = (to_key * vec4(p, 1)).xyz * 0.5 + 0.5;
@@ -94,10 +95,11 @@ float lit(vec3 p, float spread) {
   q.z = min(q.z, 1.0);  // the ground lies behind all that casts shadows
   float turn = 6.2832 * fract(52.98 * fract(dot(gl_FragCoord.xy, vec2(0.0671, 0.00584)))), sum = 0.0;
   for (int i = 0; i < 12; ++i) {
+    if (float(i) >= taps) break;
     float angle = 2.39996 * float(i) + turn;
-    sum += texture(key_map, vec3(q.xy + spread * sqrt((float(i) + 0.5) / 12.0) * vec2(cos(angle), sin(angle)), q.z));
+    sum += texture(key_map, vec3(q.xy + spread * sqrt((float(i) + 0.5) / taps) * vec2(cos(angle), sin(angle)), q.z));
   }
-  return sum / 12.0;
+  return sum / taps;
 }
 
 vec3 light_on(vec3 n, float through) {

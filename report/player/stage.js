@@ -11,10 +11,10 @@ function gridOf(count, wide, high, title) {
 }
 
 class Stage {
-  /** `shared`: triangles, springs and rests of the scene. */
-  constructor(canvas, scene, shared) {
-    Object.assign(this, {canvas, scene, shared, triangles: shared.triangles, panels: []});
-    const tools = this.tools = new Gl(canvas), gl = tools.gl;
+  /** `shared`: triangles, springs and rests of the scene; `coarse`: drawn for speed, with edges and shadows less smooth. */
+  constructor(canvas, scene, shared, coarse = false) {
+    Object.assign(this, {canvas, scene, shared, coarse, triangles: shared.triangles, panels: []});
+    const tools = this.tools = new Gl(canvas, !coarse), gl = tools.gl;
     const shade = fragmentCommon;
     this.programs = {
       cloth: tools.program(clothVertex, shade + clothFragment),
@@ -133,6 +133,7 @@ class Stage {
       key_map: this.map.texture,
       lift: 0.006 * this.reach,
       shadowed: flat ? 0 : 1,
+      taps: this.coarse ? 4 : 12,
       scale_map: look.panel.other ? this.scales.apart : this.scales.heat,
       by_value: look.valued ? 1 : 0,
       ramp: look.panel.look.ramp.flat(),

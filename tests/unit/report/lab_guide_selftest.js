@@ -26,6 +26,7 @@ const labGuideTest = (() => {
     let now = performance.now();
     lab.wake = () => {};
     lab.draw = () => false;
+    lab.watchDrawing = () => {};
     if (!picture) {
       const none = () => {};
       lab.sleep(), lab.stage = {show: none, setPins: none, sees: () => true, size: 1};
@@ -107,6 +108,7 @@ const labGuideTest = (() => {
       }
     await until(() => guide().dataset.phase === 'sandbox', 'the sandbox');
     read('sandbox', 'h3, p, li');
+    check(location.hash === '', 'in the sandbox the address keeps', location.hash);
     byKey('all').click();
     check(guide().querySelectorAll('.entry.done').length === labExperiments.length, 'done are', guide().querySelectorAll('.entry.done').length);
     // a step that was done says again what came of it, and can be repeated; and each has an address
@@ -116,6 +118,9 @@ const labGuideTest = (() => {
     check(guide().dataset.phase === 'why' && guide().querySelector('.why'), 'a step that was done is', guide().dataset.phase);
     byKey('again').click();
     await until(() => guide().dataset.phase === 'ask' && guide().seen.before, 'the step again');
+    check(location.hash === '#experiment=cloth-bursts', 'beside an experiment the address is', location.hash);
+    byKey('all').click();
+    check(location.hash === '' && guide().dataset.phase === 'list', 'the list of experiments stands at', location.hash);
     return seen;
   }
 

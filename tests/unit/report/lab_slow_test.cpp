@@ -410,6 +410,27 @@ TEST_F(LabModule, SaysPlainlyThatTheModuleIsNotThere) {
   EXPECT_NE(all["chinese"].text(), all["words"].text());
 }
 
+TEST_F(LabModule, AFingerDragsAParticleAndMovesASlider) {
+  NEEDS_PROGRAM("node", "nodejs", "no finger touches the lab");
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  const fs::path page = folder_ / "lab.html";
+  write_file(page, lab_page_html(scenes_of({"cloth-hang"})));
+  const fs::path script = fs::path(CROSSCHECK_SOURCE) / "tests/unit/report/by_touch.js";
+  const ProgramResult result =
+      run_program({"node", script.string(), page.string(), (folder_ / "profile").string()}, folder_);
+  ASSERT_EQ(result.status, 0) << last_lines(result.err, 20);
+  const JsonField saw = JsonField::parse(result.out, "what was touched");
+  const JsonField drag = saw["drag"], slider = saw["slider"];
+  // the finger goes 60 pixels to the left and 40 down; the camera follows a part of it
+  EXPECT_LT(drag["to"][0].number(), drag["from"][0].number() - 30);
+  EXPECT_GT(drag["to"][1].number(), drag["from"][1].number() + 15);
+  EXPECT_TRUE(drag["byHand"].boolean());
+  EXPECT_LT(slider["is"].number(), 0.8 * slider["was"].number());
+  for (const JsonField& each : {drag, slider})
+    EXPECT_EQ(each["scrolled"][0].dump(), each["scrolled"][1].dump()) << "the page does not scroll meanwhile";
+}
+
 TEST_F(LabModule, WordsAreThereInBothLanguages) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;

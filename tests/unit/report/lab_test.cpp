@@ -5,6 +5,7 @@
 
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
+#include "report/base/assets.h"
 #include "report/lab/live_run.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
@@ -107,6 +108,16 @@ TEST(LiveRun, RefusesWhatTheEngineRefuses) {
             std::string::npos);
   EXPECT_NE(refusal_of([&] { live.start(settings_of(circle, "rk4+linear")); }).find("unknown option '+linear'"),
             std::string::npos);
+}
+
+TEST(Words, HaveTheQuestionOfEveryShippedScene) {
+  const std::string words = asset("lab/words.js");
+  for (const std::string_view name : shipped_scenes()) {
+    const Scene scene = load_scene(std::string(name));
+    EXPECT_NE(words.find(fmt::format("'question.{}': ['{}', ", name, scene.question)), std::string::npos)
+        << name
+        << ": the lab shows its question in Chinese where the table of words has it as the scene's file asks it";
+  }
 }
 
 const std::string two_particles = scene_text(R"([[particle]]
