@@ -109,14 +109,14 @@ class World {
       edge.mRestLength = rest;
       shared.mEdgeConstraints.push_back(edge);
     }
-    shared.Optimize();  // without it no edge is solved
+    shared.Optimize();  // without it the first step reads out of bounds
     const position = new Jolt.RVec3(...origin), upright = Jolt.Quat.prototype.sIdentity();
     const creation = new Jolt.SoftBodyCreationSettings(shared, position, upright, 0);
     creation.mNumIterations = iterations;
     creation.mLinearDamping = damping;   // default 0.1 / s
     creation.mMaxLinearVelocity = 1e15;  // m/s, default 500: faster vertices are slowed in silence
     creation.mUpdatePosition = false;    // else the frame follows, and vertices are rounded once more in each step
-    creation.mAllowSleeping = false;     // else what is slower than 0.03 m/s for half a second stops
+    creation.mAllowSleeping = false;     // else what is slower than 0.17 m/s for half a second stops
     creation.mFriction = 1;              // of a contact: sqrt(body's times sphere's)
     creation.mRestitution = 0;           // of a contact: the larger of the two
     const body = this.bodies.CreateSoftBody(creation);
