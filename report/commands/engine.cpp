@@ -1,8 +1,12 @@
-// engine bullet: builds the Bullet adapter against another Bullet tree, as a program for exec:.
+// engine: programs for exec: that put another engine behind the protocol: Bullet's adapter built against another Bullet
+// tree, Jolt's with npm's build of Jolt inside.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -13,6 +17,7 @@
 #include "mysim/base/hash.h"
 #include "mysim/base/process.h"
 #include "mysim/base/progress.h"
+#include "mysim/base/text.h"
 #include "report/commands/commands.h"
 
 namespace crosscheck {
@@ -23,6 +28,34 @@ struct EngineOptions {
   std::string what;
   fs::path prefix, program;
 };
+
+fs::path source() { return fs::path(CROSSCHECK_SOURCE_DIR).parent_path(); }
+
+/// Runs a program in the folder; on failure prints the end of what it said. True when all went well.
+bool run_tool(const std::vector<std::string>& argv, const fs::path& folder, const EngineOptions& options,
+              const std::string& what) {
+  const ProgramResult result = run_program(argv, folder);
+  if (result.status == 0) return true;
+  fmt::print(stderr, "crosscheck: engine {}: {} failed; the last lines of its output:\n{}\n", options.what, what,
+             last_lines(result.out + result.err, 30));
+  return false;
+}
+
+/// Throws InputError where the program cannot be written, before it is made.
+void require_program(const fs::path& program) {
+  if (fs::is_directory(program))
+    throw InputError(fmt::format("-o {}: expected the name of a program, got a folder", program.string()));
+  require_writable(program.has_parent_path() ? program.parent_path() : ".");
+}
+
+/// Writes the program under a temporary name and renames it, so that no half program is ever started.
+void install(const std::string& program, const fs::path& as) {
+  write_file(as, program);
+  fs::permissions(as, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
+                          fs::perms::others_exec);
+}
+
+// Bullet
 
 /// Throws InputError unless the folder holds what the adapter's CMakeLists.txt looks for.
 void require_bullet(const fs::path& prefix) {
@@ -35,33 +68,13 @@ void require_bullet(const fs::path& prefix) {
                   prefix.string()));
 }
 
-/// Runs cmake; on failure prints the end of what it said. True when all went well.
-bool cmake(const std::vector<std::string>& words, const std::string& what) {
-  std::vector<std::string> argv{"cmake"};
-  argv.insert(argv.end(), words.begin(), words.end());
-  const ProgramResult result = run_program(argv, fs::current_path());
-  if (result.status == 0) return true;
-  fmt::print(stderr, "crosscheck: engine bullet: {} failed; the last lines of its output:\n{}\n", what,
-             last_lines(result.out + result.err, 30));
-  return false;
-}
-
-/// Copies the program under a temporary name and renames it, so that no half program is ever started.
-void install(const fs::path& program, const fs::path& as) {
-  write_file(as, read_file(program, "a program"));
-  fs::permissions(as, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
-                          fs::perms::others_exec);
-}
-
-int engine_command(const EngineOptions& options) {
-  if (options.what != "bullet") throw InputError(fmt::format("engine {}: expected bullet", options.what));
+int build_bullet(const EngineOptions& options) {
+  if (options.prefix.empty())
+    throw InputError("engine bullet: expected --prefix DIR, an installation or a source tree of Bullet");
   require_bullet(options.prefix);
-  const fs::path prefix = fs::canonical(options.prefix), source = fs::path(CROSSCHECK_SOURCE_DIR).parent_path();
-  if (fs::is_directory(options.program))
-    throw InputError(fmt::format("-o {}: expected the name of a program, got a folder", options.program.string()));
-  require_writable(options.program.has_parent_path() ? options.program.parent_path() : ".");
-
-  const fs::path build = source / "build" / "engines" / fmt::format("{:016x}", Fnv1a::of(prefix.string()));
+  require_program(options.program);
+  const fs::path prefix = fs::canonical(options.prefix);
+  const fs::path build = source() / "build" / "engines" / fmt::format("{:016x}", Fnv1a::of(prefix.string()));
   fmt::print(stderr, "crosscheck: building the adapter against {} in {}\n", prefix.string(), build.string());
   // a precision or a library found once may be another after the tree was built again
   std::error_code none;
@@ -70,17 +83,93 @@ int engine_command(const EngineOptions& options) {
   progress.begin("configuring", 2);
   const unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   const bool configured =
-      cmake({"-S", (source / "reference/bullet/adapter").string(), "-B", build.string(), "-G", "Ninja",
-             "-DCMAKE_BUILD_TYPE=Release", "-DBULLET_PREFIX=" + prefix.string(),
-             "-DCROSSCHECK_BUILD=" CROSSCHECK_BINARY_DIR, "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
-            "cmake");
+      run_tool({"cmake", "-S", (source() / "reference/bullet/adapter").string(), "-B", build.string(), "-G", "Ninja",
+                "-DCMAKE_BUILD_TYPE=Release", "-DBULLET_PREFIX=" + prefix.string(),
+                "-DCROSSCHECK_BUILD=" CROSSCHECK_BINARY_DIR, "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
+               fs::current_path(), options, "cmake");
   if (!configured) fs::remove_all(build, none);
   progress.begin("compiling the adapter", 30);  // s, on two cores
-  if (!configured || !cmake({"--build", build.string(), "--parallel", std::to_string(jobs)}, "the build")) return 1;
+  if (!configured || !run_tool({"cmake", "--build", build.string(), "--parallel", std::to_string(jobs)},
+                               fs::current_path(), options, "the build"))
+    return 1;
   progress.done();
-  install(build / "bullet_engine", options.program);
-  fmt::print("{}\n", options.program.string());
+  install(read_file(build / "bullet_engine", "a program"), options.program);
   return 0;
+}
+
+// Jolt
+
+/// The text with `from`, which must occur so many times, replaced by `to`.
+std::string replaced(std::string text, std::string_view from, std::string_view to, int times, const fs::path& file) {
+  int found = 0;
+  for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size(), ++found)
+    text.replace(at, from.size(), to);
+  if (found != times)
+    throw InputError(fmt::format("{}: expected '{}' {} times, found it {} times", file.string(), from, times, found));
+  return text;
+}
+
+/// Node takes a file without an ending for a script, not for a module: what only modules have is taken out of the
+/// bundle. Its function is defined before the adapter runs, wherever it stands.
+std::string jolt_program(const fs::path& package) {
+  const fs::path bundle = package / "dist/jolt-physics.wasm-compat.js";
+  std::string text = read_file(bundle, "Jolt's WebAssembly with its JavaScript");
+  text = replaced(std::move(text), "import.meta.url", "\"file:///jolt.js\"", 2, bundle);
+  text = replaced(std::move(text), "export default Jolt;", "", 1, bundle);
+  return fmt::format("{}\n/* jolt-physics of npm, from here to the end:\n{}*/\n{}\n",
+                     read_file(source() / "reference/jolt/jolt_engine.js", "Jolt's adapter"),
+                     read_file(package / "LICENSE", "the licence of jolt-physics"), text);
+}
+
+int build_jolt(const EngineOptions& options) {
+  if (!options.prefix.empty())
+    throw InputError(
+        "engine jolt: --prefix: a native Jolt is not supported, expected none: npm's jolt-physics is used");
+  require_program(options.program);
+  for (const auto& [tool, package] : {std::pair{"node", "nodejs"}, {"npm", "npm"}})
+    if (!on_path(tool)) {
+      fmt::print(stderr,
+                 "crosscheck: engine jolt: there is no {}; package {} is not installed: "
+                 "apt-get install --no-install-recommends nodejs npm\n",
+                 tool, package);
+      return 1;
+    }
+  // npm holds what it fetches against the checksum in package-lock.json, and keeps it in its own cache; two that are
+  // started at once have a folder each
+  const fs::path folder = source() / "build" / "engines" / fmt::format("jolt-{}", getpid());
+  for (const char* file : {"package.json", "package-lock.json"})
+    write_file(folder / file, read_file(source() / "reference/jolt" / file, "what npm is to fetch"));
+  Progress progress(1);
+  progress.begin("fetching jolt-physics", 5);  // s
+  const bool fetched =
+      run_tool({"npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund", "--no-update-notifier", "--prefer-offline"},
+               folder, options, "npm");
+  if (fetched) {
+    progress.done();
+    install(jolt_program(folder / "node_modules/jolt-physics"), options.program);
+  }
+  std::error_code none;
+  fs::remove_all(folder, none);
+  return fetched ? 0 : 1;
+}
+
+struct EngineKind {
+  std::string_view name;
+  int (*build)(const EngineOptions& options);  // 0, or 1 with a message
+};
+constexpr EngineKind engine_kinds[] = {{"bullet", build_bullet}, {"jolt", build_jolt}};
+
+int engine_command(const EngineOptions& options) {
+  const auto* kind = std::ranges::find(engine_kinds, options.what, &EngineKind::name);
+  if (kind == std::end(engine_kinds)) {
+    std::vector<std::string> names;
+    for (const EngineKind& known : engine_kinds) names.emplace_back(known.name);
+    throw InputError(fmt::format("engine {}: expected {}{}", options.what, fmt::join(names, " or "),
+                                 did_you_mean(options.what, names)));
+  }
+  const int status = kind->build(options);
+  if (status == 0) fmt::print("{}\n", options.program.string());
+  return status;
 }
 
 }  // namespace
@@ -88,9 +177,9 @@ int engine_command(const EngineOptions& options) {
 void add_engine(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<EngineOptions>();
   auto* engine =
-      app.add_subcommand("engine", "builds Bullet's adapter against another version of Bullet, as a program for exec:");
-  engine->add_option("NAME", options->what, "bullet")->required();
-  engine->add_option("--prefix", options->prefix, "an installation or a source tree of Bullet")->required();
+      app.add_subcommand("engine", "writes a program for exec: Bullet's adapter against another Bullet, or Jolt's");
+  engine->add_option("NAME", options->what, "bullet or jolt")->required();
+  engine->add_option("--prefix", options->prefix, "bullet: an installation or a source tree of Bullet");
   engine->add_option("-o", options->program, "PROG: the program to write")->required();
   engine->callback([options, &call] { call.status = engine_command(*options); });
 }

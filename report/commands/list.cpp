@@ -85,7 +85,8 @@ int doctor_command() {
       {"ffmpeg", "ffmpeg", "writes clips: `render -o FILE.mp4`", false},
       {"clang++", "clang", "another compiler, in which `regress --prove-builds` builds too", false},
       {"wasm-ld-14", lab_packages, "compiles mysim to WebAssembly, with clang: the lab in the page", false},
-      {"node", "nodejs", "the tests run the lab's module in it", false},
+      {"node", "nodejs", "runs Jolt as an engine: `engine jolt`; the tests run the lab's module in it", false},
+      {"npm", "npm", "fetches Jolt, for `engine jolt`", false},
       {"chromium", "chromium", "a browser: the tests try the page's player in it; prints the page as PDF", false},
   };
   bool complete = true;

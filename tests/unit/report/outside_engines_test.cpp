@@ -91,5 +91,34 @@ TEST_F(OutsideEngines, AnInterruptLeavesNoFolderAndNoProcess) {
   }
 }
 
+TEST_F(OutsideEngines, JoltNamesThePackageThatItsToolsAreMissingFrom) {
+  struct Row {
+    std::vector<std::string> tools;  // all that is in PATH; they fail
+    std::string said;
+  };
+  for (const Row& row : {Row{{}, "there is no node; package nodejs is not installed"},
+                         {{"node"}, "there is no npm; package npm is not installed"},
+                         {{"node", "npm"}, "engine jolt: npm failed; the last lines of its output:\nno registry\n"}}) {
+    fs::create_directories(folder_ / "bin");
+    for (const std::string& tool : row.tools) script("bin/" + tool, "echo no registry >&2\nexit 1\n");
+    const ProgramResult result = run_program({CROSSCHECK_PROGRAM, "engine", "jolt", "-o", "jolt"}, folder_,
+                                             {"PATH=" + (folder_ / "bin").string(), "ASAN_OPTIONS=detect_leaks=0"});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_TRUE(contains(result.err, row.said));
+    EXPECT_FALSE(fs::exists(folder_ / "jolt"));
+  }
+}
+
+TEST_F(OutsideEngines, JoltsVersionIsOneAndHasAChecksum) {
+  const fs::path folder = fs::path(CROSSCHECK_SOURCE) / "reference/jolt";
+  const JsonField lock = JsonField::parse(read(folder / "package-lock.json"), "package-lock.json");
+  const JsonField package = lock["packages"]["node_modules/jolt-physics"];
+  const std::string version = package["version"].text();
+  EXPECT_EQ(JsonField::parse(read(folder / "package.json"), "package.json")["dependencies"]["jolt-physics"].text(),
+            version);
+  EXPECT_TRUE(contains(read(folder / "jolt_engine.js"), "const jolt_version = '" + version + "';"));
+  EXPECT_TRUE(begins(package["integrity"].text(), "sha512-"));
+}
+
 }  // namespace
 }  // namespace crosscheck

@@ -1,0 +1,110 @@
+// Jolt as an engine: the program that `engine jolt` writes, where npm is there.
+
+#include <fmt/format.h>
+
+#include "reference/protocol/trajectory_files.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+#include "tests/unit/report/cli.h"
+
+namespace crosscheck::testing_tools {
+namespace {
+
+class Jolt : public Cli {
+ protected:
+  /// Builds the program; it is moved, since it needs nothing that was beside it. Empty where it was not built.
+  std::string built() const {
+    const ProgramResult made = call({"engine", "jolt", "-o", "made"});
+    EXPECT_EQ(made.status, 0) << "npm has to reach its registry, or to have jolt-physics in its cache: " << made.err;
+    if (made.status != 0) return "";
+    fs::create_directories(folder_ / "moved");
+    fs::rename(folder_ / "made", folder_ / "moved/jolt");
+    return "exec:" + (folder_ / "moved/jolt").string();
+  }
+};
+
+std::string scene_text(double duration, int samples, double step, const std::string& rest) {
+  return fmt::format(
+      "question = \"Where does it hang?\"\nparameters = \"Round numbers.\"\n[time]\nduration = {0}\nsamples = {1}\n"
+      "step = {2}\nwindow = {0}\ntolerance = 1e-3\nmethod = \"leapfrog\"\n[gravity]\nacceleration = [0, -9.81, 0]\n{3}",
+      duration, samples, step, rest);
+}
+
+TEST_F(Jolt, SpeaksTheProtocolAndIsWhatItsReadBackSays) {
+  NEEDS_PROGRAM("npm", "nodejs,npm", "Jolt is not fetched and tried");
+  const std::string jolt = built();
+  ASSERT_FALSE(jolt.empty());
+  const ProgramResult kit = call({"check", "--protocol", jolt});
+  EXPECT_EQ(kit.status, 0) << kit.out;
+  EXPECT_TRUE(contains(kit.out, " 0 lacking, of which 0 required, 3 refused"));
+  EXPECT_TRUE(contains(kit.out, "not in Jolt: dashpots: Jolt damps velocities only, not along springs"));
+  for (const char* scene : {"spring", "projectile", "rod", "slide"}) {
+    const ProgramResult compared = call({"compare", scene, "--methods", "xpbd," + jolt, "--out", scene});
+    EXPECT_EQ(compared.status, 0) << compared.out;
+    EXPECT_TRUE(contains(compared.out, "read back, no mismatch"));
+    EXPECT_FALSE(contains(compared.out, "not attested"));
+  }
+  for (const auto& [scene, why] : {std::pair{"flag", "aerodynamics"}, {"chain-link", "the law bullet-link"}}) {
+    const ProgramResult refused = call({"run", scene, "--method", jolt, "--out", "refused"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_TRUE(contains(refused.err, why));
+  }
+}
+
+TEST_F(Jolt, AChainHangsWhereOnePassInSinglePrecisionLeavesIt) {
+  NEEDS_PROGRAM("npm", "nodejs,npm", "Jolt is not fetched and tried");
+  const std::string jolt = built();
+  ASSERT_FALSE(jolt.empty());
+  constexpr double g = 9.81, m = 0.1, k = 100, gamma = 5, h = 1. / 256;
+  std::string chain = fmt::format("[pins]\nparticles = [0]\n[drag]\ngamma = {}\n", gamma);
+  for (int i = 0; i < 4; ++i) chain += fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = {}\n", -0.5 * i, m);
+  for (int i = 0; i < 3; ++i)
+    chain += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = {}\nrest = 0.5\n", i, i + 1, k);
+  write("chain.toml", scene_text(6, 6, h, chain));
+  for (const int n : {1, 2}) {
+    const ProgramResult run =
+        call({"run", "chain.toml", "--method", fmt::format("{}+n={}", jolt, n), "--out", "chain"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const Points end = read_npy(folder_ / "chain/trajectory.npy", 7, 7, 4).back();
+    // a sub-step d lets all fall by s = g d^2 (1 - gamma d), and a pass from the pin downwards takes that back: edges
+    // that are e longer give m e_i / (k d^2) = j s with j particles below, and what a pass leaves is (j - 1) s
+    const double d = h / n, s = g * d * d * (1 - gamma * d), soft = m / (k * d * d);
+    const double sag = (3 * soft + 2) * s + (2 * soft + 1) * s + soft * s;
+    // three roundings of a coordinate below 1 m in each sub-step, by 3e-8 m, are forces too: of 1 + 2 + 3 particles
+    const double rounding = 6 * 3 * 3e-8 * soft;
+    EXPECT_NEAR(-1.5 - end(1, 3), sag, rounding) << n;
+    EXPECT_LT(rounding, 0.5 * std::abs(sag - 6 * m * g / k)) << "the closed form is not that of exact springs";
+  }
+}
+
+TEST_F(Jolt, FreezesWhereAStepOfTheFallIsLessThanHalfAUnitInTheLastPlace) {
+  NEEDS_PROGRAM("npm", "nodejs,npm", "Jolt is not fetched and tried");
+  const std::string jolt = built();
+  ASSERT_FALSE(jolt.empty());
+  struct Row {
+    double height;  // m, over the frame's origin
+    int power;      // the step is 2^power s
+    bool frozen;
+  };
+  // units in the last place are 2^-24 m at 0.9 m and 2^-17 m at 100 m; g h^2 is 0.61, 0.15, 1.2, 0.31 of them
+  for (const Row& row : {Row{0.9, -14, false}, {0.9, -15, true}, {100, -10, false}, {100, -11, true}}) {
+    write("fall.toml", scene_text(0.125, 1, std::ldexp(1, row.power),
+                                  fmt::format("[[particle]]\nposition = [0, {}, 0]\nmass = 1\n", row.height)));
+    const ProgramResult run = call({"run", "fall.toml", "--method", jolt + "+frame=world", "--out", "fall"});
+    EXPECT_EQ(contains(run.out, "frozen"), row.frozen) << row.height << " m, 2^" << row.power << ": " << run.out;
+    const ProgramResult near = call({"run", "fall.toml", "--method", jolt, "--out", "near"});
+    EXPECT_FALSE(contains(near.out, "frozen")) << "the frame is where the particle starts";
+  }
+}
+
+TEST_F(Jolt, BreaksNoRelationButForKnownCauses) {
+  NEEDS_PROGRAM("npm", "nodejs,npm", "Jolt is not fetched and tried");
+  const std::string jolt = built();
+  ASSERT_FALSE(jolt.empty());
+  const ProgramResult checked = call({"check", jolt});
+  EXPECT_EQ(checked.status, 0) << checked.out;
+  EXPECT_TRUE(contains(checked.out, "holds            momentum"));
+}
+
+}  // namespace
+}  // namespace crosscheck::testing_tools
