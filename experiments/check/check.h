@@ -13,7 +13,7 @@ namespace crosscheck {
 
 /// A relation that a method breaks by design, or by a cause that was measured.
 struct KnownBreak {
-  std::string method, relation, scene;  // globs; no scene: all
+  std::string method, relation, scene;  // globs; no scene: all; of a pair "A & B" the method is that text
   std::string reason;                   // one sentence with the cause as measured
   std::optional<double> times;          // up to so many times the tolerance; none: whatever the size
 };
@@ -35,6 +35,9 @@ struct Answer {
   std::string sentence() const;
 };
 
+/// A broken one becomes known where a row of the list covers it.
+void mark_known(Answer& answer, const std::vector<KnownBreak>& known);
+
 Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsigned seed,
            const std::vector<KnownBreak>& known);
 
@@ -42,6 +45,10 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
 /// something about.
 std::vector<Answer> ask_all(const std::vector<Method>& methods, const std::vector<Scene>& scenes, unsigned seed,
                             const std::vector<KnownBreak>& known, Progress& progress);
+
+/// Whether each two of the methods agree (agreement.h), on these scenes or on the small net.
+std::vector<Answer> ask_pairs(const std::vector<Method>& methods, const std::vector<Scene>& scenes,
+                              const std::vector<KnownBreak>& known, Progress& progress);
 
 /// 0 where something was asked and nothing but known breaks was found; else 1.
 int status_of(const std::vector<Answer>& answers);

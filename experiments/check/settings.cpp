@@ -11,19 +11,6 @@ namespace {
 
 constexpr auto own_steps = "it chooses its own steps";
 
-/// The run with its step halved so many times.
-const Trajectory& halved(Subject& subject, const Scene& scene, int times) {
-  Run run = run_for_relations(scene);
-  run.step = std::ldexp(run.step, -times);
-  return subject.run(scene, run).path;
-}
-
-/// The rounding of the finest of these runs, m.
-std::vector<double> noise_at(Subject& subject, Scene scene, int times) {
-  scene.step = std::ldexp(scene.step, -times);
-  return subject.noise(scene).x;
-}
-
 /// `fine` must be no more than `part` of `coarse`, and twice the noise.
 RelationResult shrinking(std::string what, const Scene& scene, const Trajectory& path,
                          const std::vector<double>& coarse, const std::vector<double>& fine, double part,
@@ -43,6 +30,17 @@ RelationResult shrinking(std::string what, const Scene& scene, const Trajectory&
 }
 
 }  // namespace
+
+const Trajectory& halved(Subject& subject, const Scene& scene, int times) {
+  Run run = run_for_relations(scene);
+  run.step = std::ldexp(run.step, -times);
+  return subject.run(scene, run).path;
+}
+
+std::vector<double> noise_at(Subject& subject, Scene scene, int times) {
+  scene.step = std::ldexp(scene.step, -times);
+  return subject.noise(scene).x;
+}
 
 RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
   if (subject.method().adaptive) throw CannotBeAsked(own_steps);
