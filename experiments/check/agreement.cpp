@@ -66,13 +66,15 @@ LimitEstimate limit_of(Subject& subject, const Scene& scene) {
   if (method.family().role == Role::truth) return limit_of_truth(scene);
   if (const std::string law = other_law(subject.run(scene).outcome); !law.empty())
     throw CannotBeAsked(fmt::format("{} follows another law of {}", method.name, law));
-  if (method.adaptive) {
+  // beside a sphere adaptive rules keep to the run's step too, since contact acts on whole steps
+  const bool contact = scene.model.find<Spheres>() != nullptr;
+  if (method.adaptive && !contact) {
     Run finer = run_for_relations(scene);
     finer.tolerance /= 10;
     const Trajectory& path = subject.run(scene, finer).path;
     return {path, sum_of(distances(subject.run(scene).path, path), subject.noise(scene).x)};
   }
-  const int order = scene.model.find<Spheres>() ? 1 : order_of(method);
+  const int order = contact ? 1 : order_of(method);
   const Trajectory& quarter = halved(subject, scene, 2);
   const std::vector<double> first = distances(halved(subject, scene, 0), halved(subject, scene, 1)),
                             second = distances(halved(subject, scene, 1), quarter), noise = noise_at(subject, scene, 2);

@@ -20,8 +20,8 @@ struct LimitEstimate {
 /// step is at most 2^(1/2 - p) of that of the whole and a half, p being the order (1 where there is contact), the
 /// series is taken to go on like that of C h^p, and the limit lies within three times d2 / (2^p - 1): Richardson's
 /// estimate, with the factor that bars of converged truths have (reference/truth/truth.h). Twice the rounding comes on
-/// top. Of an adaptive rule the difference of two tolerances; of a truth its own bar, which is a mean over the
-/// particles, times the root of their number. Throws CannotBeAsked and RunFailed.
+/// top. Of an adaptive rule without contact the difference of two tolerances; of a truth its own bar, which is a mean
+/// over the particles, times the root of their number. Throws CannotBeAsked and RunFailed.
 LimitEstimate limit_of(Subject& subject, const Scene& scene);
 
 /// Where both are known to a hundredth of the lengths in the scene, the two limits may differ by both bars. Cannot be

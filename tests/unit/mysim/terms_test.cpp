@@ -296,5 +296,15 @@ TEST(Aerodynamics, ATriangleWithoutAreaHasNoForce) {
   EXPECT_TRUE(force_in(net, {1, 2, 3}).isZero(0));
 }
 
+TEST(Terms, EnergyOfALinkIsNeverBelowZero) {
+  // near the rest length both parts of it cancel, and an implicit step takes a root of the sum
+  for (int i = -200; i <= 200; ++i) {
+    const double length = 1.7 * (1 + i * eps);
+    State state{0, Points::Zero(3, 2), Points::Zero(3, 2)};
+    state.x(0, 1) = length;
+    EXPECT_GE(potential_energy(Springs{{{0, 1, 1, 1.7, Family::single}}, SpringLaw::bullet_link}, {}, state), 0) << i;
+  }
+}
+
 }  // namespace
 }  // namespace crosscheck
