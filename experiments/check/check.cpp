@@ -79,7 +79,7 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
     answer.mark = RelationMark::not_asked, answer.reason = why.what();
   } catch (const RunFailed& how) {
     answer.mark = RelationMark::broken, answer.reason = how.what();
-    answer.finding.since = how.end;
+    answer.finding.since = how.end, answer.failure = how.verdict;
   }
   mark_known(answer, known);
   return answer;

@@ -30,6 +30,7 @@ struct Answer {
   RelationResult finding;  // where it could be asked
   std::string reason;      // why not; how a run failed; why it is known
   std::string scene_hash;
+  Verdict failure = Verdict::ok;  // of a run that failed
 
   /// "0.02 of the tolerance of 1e-12 m", "35 times the tolerance of 2e-3 J since 0.4 s", or the reason.
   std::string sentence() const;

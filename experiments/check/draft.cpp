@@ -18,7 +18,8 @@ double to_digits(double value, int digits) {
 
 namespace {
 
-std::string list(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
+/// Without the sign of -0.
+std::string list(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0] + 0.0, v[1] + 0.0, v[2] + 0.0); }
 
 std::string motion_text(const Motion& m) {
   return fmt::format("amplitude = {}\nfrequency = {}\nramp = {}\n", list(m.amplitude), m.frequency, m.ramp);

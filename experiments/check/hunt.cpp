@@ -11,10 +11,10 @@
 namespace crosscheck {
 namespace {
 
-/// Whether an answer is the same break as another: measured, or by a run that failed. Twice the tolerance, where the
-/// first was as much, so that the smallest scene is no border case.
+/// Whether an answer is the same break as another: measured, or by a run that failed in the same way. Twice the
+/// tolerance, where the first was as much, so that the smallest scene is no border case.
 bool same_break(const Answer& answer, const Answer& first) {
-  if (answer.mark != RelationMark::broken || answer.finding.what.empty() != first.finding.what.empty()) return false;
+  if (answer.mark != RelationMark::broken || answer.failure != first.failure) return false;
   return answer.finding.what.empty() || answer.finding.ratio() >= std::min(2.0, first.finding.ratio());
 }
 

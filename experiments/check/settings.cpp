@@ -92,6 +92,10 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
   if (middle < 1) throw CannotBeAsked("the scene has no sample between its start and its end");
   if (whole.v[middle].cols() != scene.start.v.cols())
     throw CannotBeAsked("it reports no velocities, and cannot be resumed without them");
+  // of what is at rest to rounding no run says how it would go on
+  double moved = 0;
+  for (int i = middle; i <= run.samples; ++i) moved = std::max(moved, largest_column(whole.x[i] - whole.x[middle]));
+  if (moved <= 2 * subject.noise(scene).start) throw CannotBeAsked("it has come to rest before its middle");
   Scene later = scene;
   later.start.x = whole.x[middle], later.start.v = whole.v[middle];
   later.duration = scene.duration * (run.samples - middle) / run.samples, later.samples = run.samples - middle;

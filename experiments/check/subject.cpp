@@ -35,11 +35,11 @@ SubjectRun Subject::fresh_run(const Scene& scene, const Run& run) {
   if (out.verdict != Verdict::ok)
     throw RunFailed(
         fmt::format("a run on {} {}{}", scene.name, in_words(out.verdict), out.reason.empty() ? "" : ": " + out.reason),
-        out.end);
+        out.end, out.verdict);
   if (made.path.frames() != run.samples + 1)
     throw RunFailed(
-        fmt::format("a run on {} has {} frames, expected {}", scene.name, made.path.frames(), run.samples + 1),
-        out.end);
+        fmt::format("a run on {} has {} frames, expected {}", scene.name, made.path.frames(), run.samples + 1), out.end,
+        Verdict::crash);
   return made;
 }
 

@@ -21,8 +21,9 @@ struct CannotBeAsked : std::runtime_error {
 
 /// A run that a relation needs ended before its time. what() is how.
 struct RunFailed : std::runtime_error {
-  RunFailed(const std::string& how, double at) : std::runtime_error(how), end(at) {}
+  RunFailed(const std::string& how, double at, Verdict what) : std::runtime_error(how), end(at), verdict(what) {}
   double end;  // s
+  Verdict verdict;
 };
 
 struct SubjectRun {
