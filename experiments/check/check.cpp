@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/check/agreement.h"
+#include "experiments/check/transformations.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/scene/toml.h"
@@ -37,7 +39,8 @@ std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file) {
   for (const TomlTable& s : root.sections("known")) {
     KnownBreak one{s.text("method"), s.text("relation"), s.has("scene") ? s.text("scene") : "", s.text("reason"), {}};
     if (s.has("times")) one.times = s.positive("times");
-    if (std::none_of(relations().begin(), relations().end(),
+    if (!glob_matches(one.relation, std::string(agreement().name)) &&
+        std::none_of(relations().begin(), relations().end(),
                      [&](const Relation& r) { return glob_matches(one.relation, std::string(r.name)); }))
       s.fail("relation", "the name of a relation, got '" + one.relation + "'");
     list.push_back(std::move(one));
@@ -58,6 +61,14 @@ std::string Answer::sentence() const {
   return mark == RelationMark::known ? text + "; known: " + reason : text;
 }
 
+void mark_known(Answer& answer, const std::vector<KnownBreak>& known) {
+  if (answer.mark != RelationMark::broken) return;
+  const KnownBreak* one = known_break(answer, known);
+  if (!one) return;
+  answer.mark = RelationMark::known;
+  answer.reason += (answer.reason.empty() ? "" : "; known: ") + one->reason;
+}
+
 Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsigned seed,
            const std::vector<KnownBreak>& known) {
   Answer answer{subject.method().name, scene.name, &relation, RelationMark::holds, {}, "", hash_of(scene)};
@@ -68,14 +79,23 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
     answer.mark = RelationMark::not_asked, answer.reason = why.what();
   } catch (const RunFailed& how) {
     answer.mark = RelationMark::broken, answer.reason = how.what();
-    answer.finding.since = how.end;
+    answer.finding.since = how.end, answer.failure = how.verdict;
   }
-  if (answer.mark != RelationMark::broken) return answer;
-  if (const KnownBreak* one = known_break(answer, known)) {
-    answer.mark = RelationMark::known;
-    answer.reason += (answer.reason.empty() ? "" : "; known: ") + one->reason;
-  }
+  mark_known(answer, known);
   return answer;
+}
+
+std::vector<Answer> ask_pairs(const std::vector<Method>& methods, const std::vector<Scene>& scenes,
+                              const std::vector<KnownBreak>& known, Progress& progress) {
+  std::vector<Answer> answers;
+  std::vector<Subject> subjects(methods.begin(), methods.end());
+  for (const Scene& scene : scenes.empty() ? small_nets() : scenes)
+    for (size_t i = 0; i < methods.size(); ++i)
+      for (size_t j = i + 1; j < methods.size(); ++j) {
+        progress.begin(fmt::format("{}: {}", pair_name(methods[i], methods[j]), agreement().name));
+        answers.push_back(ask_agreement(subjects[i], subjects[j], scene, known));
+      }
+  return answers;
 }
 
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,

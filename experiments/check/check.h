@@ -8,12 +8,13 @@
 
 #include "experiments/check/relations.h"
 #include "experiments/tables/check.h"
+#include "mysim/base/progress.h"
 
 namespace crosscheck {
 
 /// A relation that a method breaks by design, or by a cause that was measured.
 struct KnownBreak {
-  std::string method, relation, scene;  // globs; no scene: all
+  std::string method, relation, scene;  // globs; no scene: all; of a pair "A & B" the method is that text
   std::string reason;                   // one sentence with the cause as measured
   std::optional<double> times;          // up to so many times the tolerance; none: whatever the size
 };
@@ -30,10 +31,14 @@ struct Answer {
   RelationResult finding;  // where it could be asked
   std::string reason;      // why not; how a run failed; why it is known
   std::string scene_hash;
+  Verdict failure = Verdict::ok;  // of a run that failed
 
   /// "0.02 of the tolerance of 1e-12 m", "35 times the tolerance of 2e-3 J since 0.4 s", or the reason.
   std::string sentence() const;
 };
+
+/// A broken one becomes known where a row of the list covers it.
+void mark_known(Answer& answer, const std::vector<KnownBreak>& known);
 
 Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsigned seed,
            const std::vector<KnownBreak>& known);
@@ -43,6 +48,10 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
                                const std::vector<KnownBreak>& known,
                                const std::function<void(const Relation&)>& begin = {});
+
+/// Whether each two of the methods agree (agreement.h), on these scenes or on the small net.
+std::vector<Answer> ask_pairs(const std::vector<Method>& methods, const std::vector<Scene>& scenes,
+                              const std::vector<KnownBreak>& known, Progress& progress);
 
 /// 0 where something was asked and nothing but known breaks was found; else 1.
 int status_of(const std::vector<Answer>& answers);

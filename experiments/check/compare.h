@@ -22,6 +22,12 @@ std::vector<double> distances(const Trajectory& a, const Trajectory& b);
 
 std::vector<double> sum_of(std::vector<double> a, const std::vector<double>& b);
 
+/// The run with its step halved so many times (settings.cpp).
+const Trajectory& halved(Subject& subject, const Scene& scene, int times);
+
+/// The rounding of such a run, m, up to each sample.
+std::vector<double> noise_at(Subject& subject, Scene scene, int times);
+
 /// The order of the method's rule; 1 where it is not known.
 int order_of(const Method& method);
 

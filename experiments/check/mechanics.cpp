@@ -38,6 +38,7 @@ struct Rest {
 };
 Rest at_rest(Subject& subject, const Scene& scene) {
   const SubjectRun& run = subject.run(scene);
+  if (run.path.frames() < 9) throw CannotBeAsked("the scene has fewer than eight samples, of which two show its rest");
   Rest rest{run.path.x.back(), 0};
   for (int i = run.path.frames() * 3 / 4; i < run.path.frames(); ++i)
     rest.unsettled = std::max(rest.unsettled, largest_column(run.path.x[i] - rest.x));

@@ -11,29 +11,21 @@ namespace {
 
 constexpr auto own_steps = "it chooses its own steps";
 
-/// The run with its step halved so many times.
-const Trajectory& halved(Subject& subject, const Scene& scene, int times) {
-  Run run = run_for_relations(scene);
-  run.step = std::ldexp(run.step, -times);
-  return subject.run(scene, run).path;
-}
-
-/// The rounding of the finest of these runs, m.
-std::vector<double> noise_at(Subject& subject, Scene scene, int times) {
-  scene.step = std::ldexp(scene.step, -times);
-  return subject.noise(scene).x;
-}
-
-/// `fine` must be no more than `part` of `coarse`, and twice the noise.
+/// `fine` must be no more than `part` of `coarse`, and twice the noise, as long as `coarse` is at most a hundredth of
+/// the lengths: beyond that a vibration is out of phase by so much that no power of the step is seen.
 RelationResult shrinking(std::string what, const Scene& scene, const Trajectory& path,
                          const std::vector<double>& coarse, const std::vector<double>& fine, double part,
                          const std::vector<double>& noise) {
-  if (!(noise[1] <= 0.01 * lengths_in(scene, path)))
+  const double most = 0.01 * lengths_in(scene, path);
+  if (!(noise[1] <= most))
     throw CannotBeAsked(
         fmt::format("at the finest step rounding alone may grow to {:.2g} m before the first sample", noise[1]));
+  if (coarse[1] > most)
+    throw CannotBeAsked(
+        fmt::format("the first halving of the step changes {:.2g} m before the first sample", coarse[1]));
   RelationResult worst{std::move(what), "m", 0, 2 * noise[0]};
   std::optional<double> since;
-  for (int i = 1; i < path.frames(); ++i) {
+  for (int i = 1; i < path.frames() && coarse[i] <= most; ++i) {
     const RelationResult here{worst.what, "m", fine[i], part * coarse[i] + 2 * noise[i]};
     if (!here.holds() && !since) since = path.t[i];
     if (here.ratio() > worst.ratio()) worst = here;
@@ -44,17 +36,35 @@ RelationResult shrinking(std::string what, const Scene& scene, const Trajectory&
 
 }  // namespace
 
+const Trajectory& halved(Subject& subject, const Scene& scene, int times) {
+  Run run = run_for_relations(scene);
+  run.step = std::ldexp(run.step, -times);
+  return subject.run(scene, run).path;
+}
+
+std::vector<double> noise_at(Subject& subject, Scene scene, int times) {
+  scene.step = std::ldexp(scene.step, -times);
+  return subject.noise(scene).x;
+}
+
 RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
   if (subject.method().adaptive) throw CannotBeAsked(own_steps);
-  const Trajectory &one = halved(subject, scene, 0), &two = halved(subject, scene, 1),
-                   &four = halved(subject, scene, 2);
+  const Trajectory& one = halved(subject, scene, 0);
   const int order = order_of(subject.method());
   // the error C h^p makes the second difference 2^-p of the first; half a power is left for terms of higher order
-  return shrinking(fmt::format("a half against a quarter of the step, where order {} allows 2^-{} of the whole against "
-                               "a half",
-                               order, order - 0.5),
-                   scene, one, distances(one, two), distances(two, four), std::exp2(0.5 - order),
-                   noise_at(subject, scene, 2));
+  const auto difference = [&](int times) {
+    return distances(halved(subject, scene, times), halved(subject, scene, times + 1));
+  };
+  const std::string allowed = fmt::format("where order {} allows 2^-{} of", order, order - 0.5);
+  RelationResult found =
+      shrinking(fmt::format("a half against a quarter of the step, {} the whole against a half", allowed), scene, one,
+                difference(0), difference(1), std::exp2(0.5 - order), noise_at(subject, scene, 2));
+  if (found.holds()) return found;
+  // at one step terms of higher order may cancel the first difference; they do not at the next one too
+  RelationResult finer =
+      shrinking(fmt::format("a quarter against an eighth of the step, {} a half against a quarter", allowed), scene,
+                one, difference(1), difference(2), std::exp2(0.5 - order), noise_at(subject, scene, 3));
+  return finer.ratio() < found.ratio() ? finer : found;
 }
 
 RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
@@ -82,6 +92,10 @@ RelationResult stop_and_go_on(Subject& subject, const Scene& scene, unsigned) {
   if (middle < 1) throw CannotBeAsked("the scene has no sample between its start and its end");
   if (whole.v[middle].cols() != scene.start.v.cols())
     throw CannotBeAsked("it reports no velocities, and cannot be resumed without them");
+  // of what is at rest to rounding no run says how it would go on
+  double moved = 0;
+  for (int i = middle; i <= run.samples; ++i) moved = std::max(moved, largest_column(whole.x[i] - whole.x[middle]));
+  if (moved <= 2 * subject.noise(scene).start) throw CannotBeAsked("it has come to rest before its middle");
   Scene later = scene;
   later.start.x = whole.x[middle], later.start.v = whole.v[middle];
   later.duration = scene.duration * (run.samples - middle) / run.samples, later.samples = run.samples - middle;

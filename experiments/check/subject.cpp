@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "experiments/metrics.h"
 
@@ -34,11 +35,11 @@ SubjectRun Subject::fresh_run(const Scene& scene, const Run& run) {
   if (out.verdict != Verdict::ok)
     throw RunFailed(
         fmt::format("a run on {} {}{}", scene.name, in_words(out.verdict), out.reason.empty() ? "" : ": " + out.reason),
-        out.end);
+        out.end, out.verdict);
   if (made.path.frames() != run.samples + 1)
     throw RunFailed(
-        fmt::format("a run on {} has {} frames, expected {}", scene.name, made.path.frames(), run.samples + 1),
-        out.end);
+        fmt::format("a run on {} has {} frames, expected {}", scene.name, made.path.frames(), run.samples + 1), out.end,
+        Verdict::crash);
   return made;
 }
 
@@ -53,9 +54,9 @@ double Subject::unit_roundoff() const {
   return single_.value_or(method_.family().single_precision) ? 0x1p-24 : 0x1p-53;
 }
 
-double Subject::rounding(double lengths, long steps) const {
+double Subject::rounding(double lengths, long steps, bool projected) const {
   const double n = static_cast<double>(std::max(1L, steps)), u = unit_roundoff();
-  return (10 * std::sqrt(n) + (method_.position_based ? n * std::sqrt(n) : 0)) * u * lengths;
+  return (10 * std::sqrt(n) + (projected ? n * std::sqrt(n) : 0)) * u * lengths;
 }
 
 Subject::Noise Subject::noise(const Scene& scene, double lengths) {
@@ -63,7 +64,7 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   const SubjectRun& plain = run(scene, settings);
   const double scale = std::max(lengths, lengths_in(scene, plain.path));
   Noise noise;
-  noise.start = rounding(scale, plain.outcome.steps);
+  noise.start = rounding(scale, plain.outcome.steps, method_.position_based || scene.model.find<Spheres>());
   if (method_.adaptive) noise.start = std::max(noise.start, settings.tolerance * scale * plain.outcome.steps);
   // velocities are rounded in the same proportion
   double speed = 0;
@@ -82,6 +83,9 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
       noise.v[i] = std::max(noise.v[i], 3 * v);
     }
   }
+  if (scene.model.find<Spheres>())
+    for (size_t i = 0; i < noise.x.size(); ++i)
+      if (noise.x[i] > 3 * most_growth * noise.start) noise.x[i] = std::numeric_limits<double>::infinity();
   return noise;
 }
 

@@ -34,7 +34,7 @@ using AllRows = std::tuple<                                                     
     LimitRow, FailureRow, GrowthRow, MapRow, MapLimitRow, MapCheckRow,                              //
     SizeCostRow, PhaseCostRow, RooflineRow,                                                         //
     KernelRow, SceneKernelRow, EqualErrorRow, OwnRunRow, SameStepRow, ImplicitStepRow, ThreadsRow,  //
-    RelationRow>;
+    RelationRow, HuntFindingRow, HuntCaseRow>;
 
 struct DictionaryRow {
   std::string table_name, column_name, unit, type, description;

@@ -42,6 +42,7 @@ constexpr Key spring_keys[] = {
     {"stiffness", "a number above zero (N/m)", required},
     {"rest", "a number not below zero (m)"},
     {"dashpot", "a number above zero (N s/m)"},
+    {"family", "\"structural\", \"shear\" or \"bend\", as a grid's"},
 };
 constexpr Key constraint_keys[] = {
     {"ends", "two different particles, as in [0, 1]", required},

@@ -189,6 +189,18 @@ Ends read_ends(const TomlTable& s, const Scene& scene) {
   return {ends[0], ends[1], (scene.start.x.col(ends[0]) - scene.start.x.col(ends[1])).norm()};
 }
 
+Family read_family(const TomlTable& s) {
+  if (!s.has("family")) return Family::single;
+  const std::string word = s.text("family");
+  std::vector<std::string> words;
+  for (const Family family : {Family::structural, Family::shear, Family::bend}) {
+    if (word == name_of(family)) return family;
+    words.emplace_back(name_of(family));
+  }
+  s.fail("family", fmt::format("\"{}\", \"{}\" or \"{}\", got \"{}\"{}", words[0], words[1], words[2], word,
+                               did_you_mean(word, words)));
+}
+
 /// Springs, their dashpots and hard distances: of the grid first, then one by one.
 void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& scene) {
   Springs springs;
@@ -213,7 +225,7 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
              fmt::format("ends that do not coincide at the start, as the rest length is above zero, got particles "
                          "{} and {} at the same place",
                          a, b));
-    springs.list.push_back({a, b, s.positive("stiffness"), rest, Family::single});
+    springs.list.push_back({a, b, s.positive("stiffness"), rest, read_family(s)});
     if (s.has("dashpot")) dashpots.list.push_back({a, b, s.positive("dashpot")});
   }
   for (const TomlTable& s : file.sections("constraint")) {

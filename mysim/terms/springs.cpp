@@ -74,9 +74,10 @@ double potential_energy(const Springs& springs, const Particles&, const State& s
     if (springs.law == SpringLaw::hooke) {
       energy += 0.5 * s.k * (length - s.rest) * (length - s.rest);
     } else {
-      // log1p keeps the digits near the rest length, where both parts nearly cancel
+      // log1p keeps the digits near the rest length, where both parts nearly cancel; what rounding then leaves below
+      // zero is none
       const double r2 = s.rest * s.rest, excess = length * length - r2;
-      energy += 0.5 * s.k * (r2 > 0 ? excess - 2 * r2 * std::log1p(excess / (2 * r2)) : excess);
+      energy += 0.5 * s.k * std::max(0.0, r2 > 0 ? excess - 2 * r2 * std::log1p(excess / (2 * r2)) : excess);
     }
   }
   return energy;

@@ -15,7 +15,9 @@
 #include "mysim/base/output_folder.h"
 #include "mysim/base/text.h"
 #include "report/base/provenance.h"
+#include "report/commands/command_line.h"
 #include "report/commands/commands.h"
+#include "report/commands/hunt.h"
 #include "report/page/page.h"
 
 namespace crosscheck {
@@ -61,7 +63,10 @@ struct CheckOptions {
   std::string known, junit, out;
   unsigned seed = 1;
   std::string program;  // of the conformance kit; empty: relations are asked
-  bool json = false;
+  bool json = false, pairs = false;
+  double hunt = 0;  // s; 0: no scenes are drawn
+  std::string shard;
+  int jobs = 0;
 };
 
 /// Words become scenes where a shipped one is called so, or a file ends in .toml; else methods.
@@ -142,6 +147,19 @@ int check_relations(const CheckOptions& options, const std::string& line) {
   sort_words(options.words, methods, scenes);
   const auto known =
       read_known_breaks(options.known.empty() ? shipped_known_breaks() : std::filesystem::path(options.known));
+  if (options.pairs && methods.size() < 2) throw InputError("check --pairs: expected at least two methods");
+  if (options.hunt > 0) {
+    if (!scenes.empty())
+      throw InputError(
+          fmt::format("check --hunt: expected methods alone, as it draws its scenes, got scene {}", scenes[0].name));
+    return hunt_command({{methods, known, options.seed},
+                         options.hunt,
+                         options.shard,
+                         options.jobs,
+                         options.out.empty() ? "out/hunt" : options.out,
+                         options.known,
+                         line});
+  }
   std::optional<OutputFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out, "check");
   Progress progress(static_cast<int>(methods.size() * relations().size()));
@@ -151,6 +169,8 @@ int check_relations(const CheckOptions& options, const std::string& line) {
            progress.begin(fmt::format("{}: {}", method.name, relation.name));
          }))
       answers.push_back(std::move(answer));
+  if (options.pairs)
+    for (Answer& answer : ask_pairs(methods, scenes, known, progress)) answers.push_back(std::move(answer));
   progress.done();
   if (folder) {
     const Table table = table_of(answers);
@@ -183,7 +203,19 @@ void add_check(CLI::App& app, Invocation& call) {
   check->add_option("--seed", options->seed, "seed of turns, shifts and orders (default: 1)");
   check->add_flag("--json", options->json, "prints JSON");
   check->add_option("--junit", options->junit, "file for JUnit XML");
-  check->add_option("--out", options->out, "folder for a page and relations.csv (default: none is written)");
+  check->add_option(
+      "--out", options->out,
+      "folder for a page and relations.csv (default: none is written), or for findings (default: out/hunt)");
+  check->add_flag("--pairs", options->pairs, "asks too whether each two of the methods come to one answer");
+  auto* hunt = check
+                   ->add_option("--hunt", options->hunt,
+                                "draws scenes for so many seconds, and makes each that breaks a relation, or on which "
+                                "two methods disagree, as small as it goes; goes on where the folder's last one ended")
+                   ->check(above_zero());
+  check->add_option("--shard", options->shard, "I/N: of the hunt's cases every Nth from the Ith on")->needs(hunt);
+  check->add_option("--jobs", options->jobs, "number of processes of the hunt (default: one per core)")
+      ->check(CLI::Range(1, 256))
+      ->needs(hunt);
   check->callback([options, &call] {
     if (options->program.empty() && options->words.empty())
       throw InputError("check: expected a method, or --protocol exec:PROGRAM");

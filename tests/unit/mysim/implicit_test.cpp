@@ -254,5 +254,18 @@ TEST(ImplicitEuler, LinearOptionIsOfTheFirstOrderToo) {
   EXPECT_NEAR(slope(error(2e-4), error(1e-4)), 1, 0.1);  // the next term is h omega = 0.04
 }
 
+TEST(Implicit, LinksAtRestAreSolvedWhereRoundingLeavesThemNoEnergy) {
+  const Scene scene = small_scene(
+      "[[particle]]\nposition = [1, -0.29, 0]\nmass = 1\n[[particle]]\nposition = [-0.3527, 0, 1]\nmass = 1\n"
+      "[[spring]]\nends = [0, 1]\nstiffness = 1\n[springs]\nlaw = \"bullet-link\"\n[gravity]\n"
+      "acceleration = [0, -9.8, 0]\n",
+      0x1p-7, 0x1p-12, 1);
+  for (const double step : {0x1p-12, 0x1p-13, 0x1p-14, 0x1p-15}) {
+    NullObserver nobody;
+    const Outcome out = simulate(stepper("implicit-euler"), ContactRule::coulomb, scene, {step, 0x1p-7, 1}, nobody);
+    EXPECT_EQ(out.verdict, Verdict::ok) << step << ": " << out.reason;
+  }
+}
+
 }  // namespace
 }  // namespace crosscheck

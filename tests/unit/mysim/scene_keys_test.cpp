@@ -123,6 +123,8 @@ TEST(SceneKeys, FaultsNameTheLineTheKeyAndWhatWasExpected) {
        "bad.toml:19: grid.stiffness.structural: ", "expected none beside"},
       {"dashpot = 0.25", "dashpot = -1", "bad.toml:31: spring[0].dashpot: ", "expected a number above zero, got -1"},
       {"dashpot = 0.25", "damping = 1", "bad.toml:31: spring[0].damping: ", "unknown key"},
+      {"dashpot = 0.25", "family = \"bent\"", "bad.toml:31: spring[0].family: ",
+       "expected \"structural\", \"shear\" or \"bend\", got \"bent\"; did you mean 'bend'?"},
       {"ends = [24, 25]", "ends = [24, 24]", "bad.toml:33: constraint[0].ends: ", "two different particles"},
       {"ends = [24, 25]", "ends = [24, 26]",
        "bad.toml:33: constraint[0].ends[1]: ", "a particle from 0 to 25 (there are 26), got 26"},
@@ -172,6 +174,14 @@ TEST(SceneKeys, AirNeedsTrianglesAndALawNeedsSprings) {
   EXPECT_TRUE(contains(fault_of(two_particles + "[sphere]\ncentre = [9, 9, 9]\nradius = 1\n[sphere.motion]\n"
                                                 "amplitude = [0, 1, 0]\nfrequency = 1\n"),
                        "bad.toml:19: sphere.motion.ramp: is missing"));
+}
+
+TEST(SceneKeys, SingleSpringsMayBelongToAFamilyWhichPhysicsDoesNotSee) {
+  const std::string spring = two_particles + "[[spring]]\nends = [0, 1]\nstiffness = 1\n";
+  const Scene single = small_scene(spring), shear = small_scene(spring + "family = \"shear\"\n");
+  EXPECT_EQ(single.model.find<Springs>()->list[0].family, Family::single);
+  EXPECT_EQ(shear.model.find<Springs>()->list[0].family, Family::shear);
+  EXPECT_EQ(single.hash, shear.hash);
 }
 
 TEST(SceneKeys, SpheresAreTablesAndNotNone) {

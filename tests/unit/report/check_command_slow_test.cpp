@@ -44,13 +44,59 @@ TEST_F(CliCheck, WritesATableJsonAndJUnit) {
   EXPECT_TRUE(contains(read(folder_ / "results/index.html"), "class=\"parity relations\""));
 }
 
+TEST_F(CliCheck, AsksPairs) {
+  const ProgramResult result = call({"check", "leapfrog", "rk4", "spring", "--pairs"});
+  EXPECT_EQ(result.status, 0) << result.out;
+  EXPECT_TRUE(contains(result.out, "holds            agreement         mysim/leapfrog & mysim/rk4"));
+}
+
+TEST_F(CliCheck, HuntsGoesOnAndTellsWhatItFound) {
+  const auto none = write("none.toml", "");
+  // the seventh kind vibrates for long, and explicit Euler's energy grows
+  const std::vector<std::string> hunt{"check", "explicit-euler", "--known", "none.toml", "--hunt", "1",       "--jobs",
+                                      "1",     "--out",          "hunt",    "--seed",    "3",      "--shard", "7/12"};
+  const ProgramResult first = call(hunt);
+  EXPECT_EQ(first.status, 1) << first.err;
+  EXPECT_TRUE(contains(first.out, "broken   energy"));
+  const fs::path scene = folder_ / "hunt/energy-mysim-explicit-euler-springs.toml",
+                 text = folder_ / "hunt/energy-mysim-explicit-euler-springs.md";
+  ASSERT_TRUE(fs::exists(scene)) << first.out;
+  EXPECT_TRUE(fs::exists(folder_ / "hunt/energy-mysim-explicit-euler-springs.png"));
+  const std::string told = read(text);
+  for (const std::string& part :
+       {std::string("**Expected:**"), std::string("**Seen:**"), std::string("times the tolerance of"), read(scene),
+        std::string("`crosscheck check mysim/explicit-euler energy-mysim-explicit-euler-springs.toml --seed "),
+        std::string(" --known none.toml`"), std::string("- commit: ")})
+    EXPECT_TRUE(contains(told, part));
+  // the file shows it again
+  const ProgramResult again = call({"check", "explicit-euler", scene.string(), "--known", "none.toml"});
+  EXPECT_EQ(again.status, 1);
+  EXPECT_TRUE(contains(again.out, "broken           energy"));
+  // a second run keeps the cases of the first, and adds to them
+  const auto cases = [&] {
+    const std::string table = rows(folder_ / "hunt/hunt-cases.csv");
+    return std::count(table.begin(), table.end(), '\n');
+  };
+  const std::string before = rows(folder_ / "hunt/hunt-cases.csv");
+  const auto count = cases();
+  EXPECT_EQ(call(hunt).status, 1);
+  EXPECT_GT(cases(), count);
+  EXPECT_TRUE(begins(rows(folder_ / "hunt/hunt-cases.csv"), before));
+}
+
 TEST_F(CliCheck, BadInputIsExitTwoWithAMessage) {
   for (const auto& [words, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"check", "leapfog"}, "leapfrog"},
            {{"check", "leapfrog", "cloth-hnag"}, "did you mean 'cloth-hang'?"},
            {{"check", "cloth-hang"}, "expected at least one method"},
            {{"check", "leapfrog", "gone.toml"}, "gone.toml"},
-           {{"check", "leapfrog", "--known", "gone.toml"}, "gone.toml"}}) {
+           {{"check", "leapfrog", "--known", "gone.toml"}, "gone.toml"},
+           {{"check", "leapfrog", "--pairs"}, "check --pairs: expected at least two methods"},
+           {{"check", "leapfrog", "spring", "--hunt", "1"},
+            "expected methods alone, as it draws its scenes, got scene spring"},
+           {{"check", "leapfrog", "--hunt", "0"}, "--hunt"},
+           {{"check", "leapfrog", "--hunt", "1", "--shard", "3/2"}, "expected I/N with 1 <= I <= N"},
+           {{"check", "leapfrog", "--shard", "1/2"}, "--hunt"}}) {
     const ProgramResult result = call(words);
     EXPECT_EQ(result.status, 2) << words.back();
     EXPECT_TRUE(contains(result.err, said));

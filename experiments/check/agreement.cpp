@@ -1,0 +1,110 @@
+// Limits of two methods, side by side.
+#include "experiments/check/agreement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "experiments/check/compare.h"
+#include "reference/truth/exact/exact.h"
+#include "reference/truth/truth.h"
+
+namespace crosscheck {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+std::vector<Scene> no_scenes() { return {}; }
+std::string says_nothing(const Scene&) { return "it is asked of two methods"; }
+RelationResult of_two(Subject&, const Scene&, unsigned) { throw CannotBeAsked("it is asked of two methods"); }
+
+constexpr Relation of_pairs{"agreement",
+                            "two methods have one limit as their steps go to 0",
+                            "of each, 3 / (2^order - 1) of what a quarter of the step changes, and twice the rounding",
+                            no_scenes,
+                            says_nothing,
+                            of_two};
+
+/// What a method does otherwise than the scene asks, at any step. That springs or dashpots are solved in another manner
+/// is no other law: it vanishes with the step.
+std::string other_law(const Outcome& out) {
+  for (const std::string& law : out.different_law)
+    if (!law.starts_with("springs:") && !law.starts_with("dashpots:")) return law.substr(0, law.find(':'));
+  return "";
+}
+
+SpringLaw law_of(const Method& method, const Scene& scene) {
+  const auto* springs = scene.model.find<Springs>();
+  if (!springs || method.spring_law != SpringLaw::hooke) return method.spring_law;
+  return springs->law;
+}
+
+LimitEstimate limit_of_truth(const Scene& scene) {
+  const Run run = run_for_relations(scene);
+  // converged truths are not looked up in the cache, which a scene that is asked once would only fill
+  const auto truth = exact_solution(scene)         ? truth_of(scene, run)
+                     : scene.model.find<Spheres>() ? std::nullopt
+                                                   : converged_truth(scene, run);
+  if (!truth) throw CannotBeAsked("no truth is known of the scene");
+  LimitEstimate limit{truth->trajectory, truth->error_bars};
+  const size_t frames = static_cast<size_t>(limit.path.frames());
+  if (limit.bar.empty()) limit.bar.assign(frames, truth->error_bar);
+  for (double& bar : limit.bar) bar *= std::sqrt(static_cast<double>(scene.model.particles.size()));
+  return limit;
+}
+
+}  // namespace
+
+const Relation& agreement() { return of_pairs; }
+
+std::string pair_name(const Method& a, const Method& b) { return a.name + " & " + b.name; }
+
+LimitEstimate limit_of(Subject& subject, const Scene& scene) {
+  const Method& method = subject.method();
+  if (method.family().role == Role::truth) return limit_of_truth(scene);
+  if (const std::string law = other_law(subject.run(scene).outcome); !law.empty())
+    throw CannotBeAsked(fmt::format("{} follows another law of {}", method.name, law));
+  // beside a sphere adaptive rules keep to the run's step too, since contact acts on whole steps
+  const bool contact = scene.model.find<Spheres>() != nullptr;
+  if (method.adaptive && !contact) {
+    Run finer = run_for_relations(scene);
+    finer.tolerance /= 10;
+    const Trajectory& path = subject.run(scene, finer).path;
+    return {path, sum_of(distances(subject.run(scene).path, path), subject.noise(scene).x)};
+  }
+  const int order = contact ? 1 : order_of(method);
+  const Trajectory& quarter = halved(subject, scene, 2);
+  const std::vector<double> first = distances(halved(subject, scene, 0), halved(subject, scene, 1)),
+                            second = distances(halved(subject, scene, 1), quarter), noise = noise_at(subject, scene, 2);
+  LimitEstimate limit{quarter, {}};
+  bool shrinks = true;
+  for (size_t i = 0; i < noise.size(); ++i) {
+    shrinks = shrinks && second[i] <= std::exp2(0.5 - order) * first[i] + 2 * noise[i];
+    limit.bar.push_back(shrinks ? 3 * second[i] / (std::exp2(order) - 1) + 2 * noise[i] : unknown);
+  }
+  return limit;
+}
+
+Answer ask_agreement(Subject& a, Subject& b, const Scene& scene, const std::vector<KnownBreak>& known) {
+  Answer answer{pair_name(a.method(), b.method()), scene.name, &of_pairs, RelationMark::holds, {}, "", hash_of(scene)};
+  try {
+    if (law_of(a.method(), scene) != law_of(b.method(), scene))
+      throw CannotBeAsked("their springs follow different laws");
+    const LimitEstimate one = limit_of(a, scene), other = limit_of(b, scene);
+    const std::vector<double> bar = sum_of(one.bar, other.bar);
+    if (bar.at(1) == unknown) throw CannotBeAsked("their halved steps do not show the order of the rule");
+    answer.finding = farthest("the limits that the two come to as their steps go to 0", one.path, other.path, bar,
+                              lengths_in(scene, one.path));
+    if (!answer.finding.holds()) answer.mark = RelationMark::broken;
+  } catch (const CannotBeAsked& why) {
+    answer.mark = RelationMark::not_asked, answer.reason = why.what();
+  } catch (const RunFailed& how) {
+    answer.mark = RelationMark::not_asked, answer.reason = how.what();
+  }
+  mark_known(answer, known);
+  return answer;
+}
+
+}  // namespace crosscheck

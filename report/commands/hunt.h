@@ -1,0 +1,25 @@
+// check --hunt: random scenes until a time is over, and a report for each fault that they show.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "experiments/check/hunt.h"
+
+namespace crosscheck {
+
+struct HuntOptions {
+  Hunt hunt;
+  double seconds = 0;  // no case is begun later
+  std::string shard;   // I/N, or empty: all
+  int jobs = 0;        // processes at a time; 0: one per core
+  std::filesystem::path out;
+  std::string known_file;    // as given; empty: the list that comes with Crosscheck
+  std::string command_line;  // as given
+};
+
+/// Goes on after the last case that the folder holds. 1 where something is broken that is not known, where a case could
+/// not be finished, and where nothing could be asked; else 0.
+int hunt_command(const HuntOptions& options);
+
+}  // namespace crosscheck

@@ -1,0 +1,74 @@
+// The hunter finds an engine that is wrong in one thing, and makes the scene that shows it small.
+
+#include <ctime>
+
+#include "experiments/check/hunt.h"
+#include "experiments/tables/typed.h"
+#include "tests/unit/experiments/defects.h"
+#include "tests/unit/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+struct Mutant {
+  const char* what;
+  const char* kind;  // of the smallest scene, a part of it
+  const char* base;
+  ChangeScene wrong;
+  const char* beside;
+};
+
+const Mutant mutants[] = {
+    {"friction of contacts a fifth too low", "sphere", "leapfrog",
+     [](Scene& s, const crosscheck::Run&) {
+       if (auto* spheres = s.model.find<Spheres>())
+         for (Sphere& ball : spheres->list) ball.friction *= 0.8;
+     },
+     "symplectic-euler"},
+    {"contacts a hundredth of the radius too far out", "sphere", "symplectic-euler",
+     [](Scene& s, const crosscheck::Run&) {
+       if (auto* spheres = s.model.find<Spheres>())
+         for (Sphere& ball : spheres->list) ball.radius *= 1.01;
+     },
+     "rk4"},
+    {"rest lengths of shear springs a hundredth too long", "springs", "leapfrog",
+     [](Scene& s, const crosscheck::Run&) {
+       if (auto* springs = s.model.find<Springs>())
+         for (Spring& e : springs->list)
+           if (e.family == Family::shear) e.rest *= 1.01;
+     },
+     "rk4"},
+    {"gravity of Bullet a hundredth too strong", "gravity", "bullet/deformable-explicit",
+     [](Scene& s, const crosscheck::Run&) { multiply_gravity(s, 1.01); }, "symplectic-euler"},
+};
+
+TEST(Mutants, AreFoundWithinAMinuteOnAtMostFourParticles) {
+  for (const Mutant& mutant : mutants) {
+    SCOPED_TRACE(mutant.what);
+    const Hunt hunt{{with_defect(mutant.base, mutant.wrong), find_method(mutant.beside)},
+                    read_known_breaks(shipped_known_breaks())};
+    const std::clock_t begin = std::clock();
+    const auto seconds = [&] { return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; };
+    std::vector<HuntFindingRow> broken;
+    long index = 0;
+    for (; broken.empty() && seconds() < 60; ++index) {
+      TableSet tables;
+      compute_case(hunt, draw(hunt.seed, index), tables);
+      broken = rows_of<HuntFindingRow>(*tables.table("hunt-findings"));
+      std::erase_if(broken, [](const HuntFindingRow& row) { return row.mark == RelationMark::known; });
+    }
+    EXPECT_LT(seconds(), 60);
+    ASSERT_FALSE(broken.empty());
+    for (const HuntFindingRow& row : broken) {
+      fmt::print("{}: case {}, {:.1f} s: {} {}: {} of {} particles, {} trials: {}\n", mutant.what, index - 1, seconds(),
+                 row.relation, row.methods, row.particles, row.particles_drawn, row.trials, row.sentence);
+      EXPECT_LE(row.particles, 4) << row.scene;
+      EXPECT_TRUE(contains(row.kind, mutant.kind)) << row.scene;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck

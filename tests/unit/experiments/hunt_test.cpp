@@ -1,0 +1,198 @@
+// The hunter: what it draws, how it makes scenes smaller, when two methods agree, and what it keeps of a case.
+
+#include "experiments/check/hunt.h"
+#include "experiments/check/compare.h"
+#include "experiments/check/transformations.h"
+#include "experiments/sweep/store.h"
+#include "experiments/tables/typed.h"
+#include "tests/unit/experiments/defects.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/temporary.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+TEST(Draw, IsAFunctionOfSeedAndIndex) {
+  for (long index = 0; index < 3 * drawn_kinds; ++index) {
+    EXPECT_EQ(draw(1, index).draft.text(), draw(1, index).draft.text());
+    EXPECT_NE(draw(1, index).draft.text(), draw(2, index).draft.text());
+    EXPECT_NE(draw(1, index).draft.text(), draw(1, index + drawn_kinds).draft.text());
+  }
+}
+
+TEST(Draw, GivesScenesWithEveryIngredientAndOneForEveryRelation) {
+  std::set<std::string> terms, asked;
+  std::set<Family> families;
+  int moved = 0, gusts = 0, links = 0, frictions = 0, rebounds = 0;
+  for (long index = 0; index < 20 * drawn_kinds; ++index) {
+    const Scene scene = draw(3, index).draft.scene();
+    SCOPED_TRACE(scene.source);
+    EXPECT_GE(scene.model.particles.size(), 1);
+    EXPECT_LE(scene.model.particles.size(), 30);
+    for (const Term& term : scene.model.terms) terms.emplace(name_of(term));
+    moved += scene.model.particles.move.has_value();
+    if (const auto* wind = scene.model.find<Wind>()) gusts += wind->acceleration.gusts.has_value();
+    if (const auto* springs = scene.model.find<Springs>()) {
+      links += springs->law == SpringLaw::bullet_link;
+      for (const Spring& s : springs->list) families.insert(s.family);
+    }
+    if (const auto* spheres = scene.model.find<Spheres>())
+      for (const Sphere& s : spheres->list) frictions += s.friction > 0, rebounds += s.restitution > 0;
+    for (const Relation& relation : relations())
+      if (relation.excluded(scene).empty()) asked.emplace(relation.name);
+  }
+  // air presses on the triangles of a grid, and what is drawn has none
+  EXPECT_EQ(terms, (std::set<std::string>{"rotation", "gravity", "springs", "dashpots", "constraints", "drag", "wind",
+                                          "sphere"}));
+  EXPECT_EQ(families.size(), 4U);
+  for (const int count : {moved, gusts, links, frictions, rebounds}) EXPECT_GT(count, 0);
+  for (const Relation& relation : relations()) EXPECT_TRUE(asked.contains(std::string(relation.name))) << relation.name;
+}
+
+/// A net of many parts, and a question that only gravity and one shear spring answer.
+SceneDraft large_draft() {
+  for (long index = 0;; index += drawn_kinds) {
+    SceneDraft draft = draw(5, index).draft;
+    if (draft.size() > 15 && draft.gravity && draft.gamma &&
+        std::ranges::any_of(draft.springs, [](const auto& s) { return s.family == Family::shear; }))
+      return draft;
+  }
+}
+bool has_shear_and_gravity(const Scene& scene) {
+  const auto* springs = scene.model.find<Springs>();
+  return springs && scene.model.find<Gravity>() &&
+         std::ranges::any_of(springs->list, [](const Spring& s) { return s.family == Family::shear; });
+}
+
+TEST(Shrink, FindsTheSmallestThatStillShowsIt) {
+  const Shrunk smallest = shrink(large_draft(), has_shear_and_gravity, 1000);
+  EXPECT_TRUE(has_shear_and_gravity(smallest.draft.scene()));
+  EXPECT_EQ(smallest.draft.kind(), "springs-gravity");
+  EXPECT_EQ(smallest.draft.size(), 2);
+  EXPECT_EQ(smallest.draft.springs.size(), 1U);
+  EXPECT_EQ(smallest.draft.samples, 1);
+  for (const auto& p : smallest.draft.particles) EXPECT_EQ(p.mass, 1);
+  EXPECT_EQ(smallest.draft.springs[0].k, 1);
+  EXPECT_FALSE(smallest.draft.springs[0].rest);
+  EXPECT_TRUE(smallest.draft.gravity->isZero(0));
+  EXPECT_EQ(shrink(large_draft(), has_shear_and_gravity, 1000).draft.text(), smallest.draft.text());
+}
+
+TEST(Shrink, KeepsWhatTogetherIsNeeded) {
+  // three particles of a sum of masses that no two have, and a time that must not be halved twice
+  SceneDraft draft = large_draft();
+  for (auto& p : draft.particles) p.mass = 0.4;
+  const double duration = draft.duration;
+  const Shrunk smallest = shrink(
+      draft, [&](const Scene& s) { return s.model.particles.mass.sum() > 1.05 && s.duration > 0.3 * duration; }, 1000);
+  EXPECT_GE(smallest.draft.size(), 2);  // a mass may become 1
+  EXPECT_GT(smallest.draft.particles[0].mass + smallest.draft.particles[1].mass, 1.05);
+  EXPECT_EQ(smallest.draft.duration, duration / 2);
+}
+
+TEST(Shrink, StopsAfterSoManyTrialsAndAsksNothingTwice) {
+  std::set<std::string> asked;
+  const Shrunk smallest = shrink(
+      large_draft(),
+      [&](const Scene& s) {
+        EXPECT_TRUE(asked.insert(s.source).second) << s.source;
+        return has_shear_and_gravity(s);
+      },
+      9);
+  EXPECT_EQ(smallest.trials, 9);
+  EXPECT_EQ(asked.size(), 9U);
+  EXPECT_TRUE(has_shear_and_gravity(smallest.draft.scene()));
+}
+
+/// Gravity a hundredth too strong.
+Method heavy(const std::string& base) {
+  return with_defect(base, [](Scene& s, const crosscheck::Run&) { multiply_gravity(s, 1.01); });
+}
+Answer agreement_of(const Method& a, const Method& b, const Scene& scene) {
+  Subject one(a), other(b);
+  return ask_agreement(one, other, scene, {});
+}
+
+TEST(Agreement, HoldsForRulesOfOneLimitAndNotForAnother) {
+  const Scene net = small_nets()[0], spring = shipped_scene("spring");
+  for (const char* other :
+       {"rk4", "symplectic-euler", "implicit-euler", "dopri5", "xpbd", "bullet/deformable-explicit"}) {
+    const Answer answer = agreement_of(find_method("leapfrog"), find_method(other), net);
+    EXPECT_EQ(answer.mark, RelationMark::holds) << other << ": " << answer.sentence();
+    EXPECT_GT(answer.finding.measured, 0) << other;
+    EXPECT_EQ(agreement_of(find_method("leapfrog"), heavy(other), net).mark, RelationMark::broken) << other;
+  }
+  const Method exact = find_method("truth/exact");
+  EXPECT_EQ(agreement_of(find_method("leapfrog"), exact, spring).mark, RelationMark::holds);
+  EXPECT_EQ(agreement_of(heavy("leapfrog"), exact, spring).mark, RelationMark::broken);
+}
+
+TEST(Agreement, SaysWhyItCannotBeAsked) {
+  const Method leapfrog = find_method("leapfrog");
+  EXPECT_TRUE(
+      contains(agreement_of(leapfrog, find_method("bullet/pbd"), small_nets()[0]).sentence(), "different laws"));
+  EXPECT_TRUE(
+      contains(agreement_of(leapfrog, find_method("bullet/deformable-explicit"), draw(1, 1).draft.scene()).sentence(),
+               "bullet/deformable-explicit follows another law of contact"));
+  EXPECT_TRUE(contains(agreement_of(leapfrog, find_method("truth/converged"), draw(1, 13).draft.scene()).sentence(),
+                       "no truth is known"));
+}
+
+class KnownPairs : public InFolder {};
+
+TEST_F(KnownPairs, AreRowsOfTheListToo) {
+  const auto known = read_known_breaks(write(
+      "known.toml", "[[known]]\nmethod = \"* & mysim/rk4\"\nrelation = \"agreement\"\nreason = \"It is heavy.\"\n"));
+  Subject a(heavy("leapfrog")), b(find_method("rk4"));
+  const Answer answer = ask_agreement(a, b, small_nets()[0], known);
+  EXPECT_EQ(answer.mark, RelationMark::known);
+  EXPECT_TRUE(contains(answer.sentence(), "known: It is heavy."));
+}
+
+TEST(Hunt, KeepsTheSmallestSceneOfEachBreak) {
+  const Hunt hunt{{heavy("leapfrog"), find_method("rk4")}, {}, 1, 200};
+  const long projectile = 8;
+  TableSet tables, again;
+  compute_case(hunt, draw(1, projectile), tables);
+  compute_case(hunt, draw(1, projectile), again);
+  EXPECT_EQ(table_set_json(tables), table_set_json(again));
+  const auto findings = rows_of<HuntFindingRow>(*tables.table("hunt-findings"));
+  ASSERT_EQ(findings.size(), 1U);
+  const HuntFindingRow& found = findings[0];
+  EXPECT_EQ(found.methods, "mysim/leapfrog & mysim/rk4");
+  EXPECT_EQ(found.relation, "agreement");
+  EXPECT_EQ(found.kind, "gravity");
+  EXPECT_EQ(found.particles, 1);
+  // the file shows it, and nothing but it
+  Subject a(hunt.methods[0]), b(hunt.methods[1]);
+  EXPECT_EQ(ask_agreement(a, b, parse_scene(found.scene, found.kind), {}).sentence(), found.sentence);
+  const auto cases = rows_of<HuntCaseRow>(*tables.table("hunt-cases"));
+  ASSERT_EQ(cases.size(), 1U);
+  EXPECT_EQ(cases[0].broken, 1);
+  EXPECT_GT(cases[0].holds, 5);
+}
+
+TEST(Hunt, PutsFindingsOfOneKindTogether) {
+  const auto row = [](long index, const char* methods, const char* kind, int particles, RelationMark mark) {
+    HuntFindingRow r;
+    r.index = index, r.methods = methods, r.relation = "turned", r.kind = kind, r.particles = particles, r.mark = mark;
+    return r;
+  };
+  using enum RelationMark;
+  const std::vector<HuntFindingRow> rows{row(0, "a", "springs", 9, known),  row(1, "a", "springs", 3, broken),
+                                         row(2, "a", "gravity", 1, known),  row(3, "a", "springs", 2, broken),
+                                         row(4, "b", "springs", 2, broken), row(5, "a", "pins-springs", 2, broken)};
+  const auto groups = grouped(rows);
+  ASSERT_EQ(groups.size(), 4U);
+  EXPECT_EQ(groups[0].cases, 2);
+  EXPECT_EQ(groups[0].smallest.index, 3);
+  EXPECT_EQ(groups[1].smallest.index, 4);
+  EXPECT_EQ(groups[2].smallest.index, 5);
+  EXPECT_EQ(groups[3].cases, 2);
+  EXPECT_EQ(groups[3].smallest.mark, known);
+}
+
+}  // namespace
+}  // namespace crosscheck
