@@ -105,7 +105,7 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   const auto changes_in = [&](const Trajectory& path) {
     require_velocities(path);
     std::vector<double> changes;
-    Vec3 first;
+    Vec3 first = Vec3::Zero();
     double most = 0;
     for (int i = 0; i < path.frames(); ++i) {
       Vec3 sum = Vec3::Zero();

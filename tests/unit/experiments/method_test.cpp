@@ -70,9 +70,9 @@ TEST(Methods, NoProductFileAsksForAnEngineByTheBeginningOfAName) {
 
 /// Files whose data are named methods: settings of Bullet's own, a bench's rows, rules behind findings, a class's
 /// charts.
-constexpr std::string_view name_methods_as_data[] = {"experiments/disagreements/table.cpp",
-                                                     "experiments/stiffness/stiffness.cpp",
-                                                     "experiments/bench/bench.cpp", "report/commands/grader.cpp"};
+constexpr std::string_view name_methods_as_data[] = {
+    "experiments/disagreements/table.cpp", "experiments/stiffness/stiffness.cpp", "experiments/stiffness/effective.cpp",
+    "experiments/bench/bench.cpp", "report/commands/grader.cpp"};
 
 TEST(Methods, NoOtherFileNamesAMethodOfAPeer) {
   for (const auto room : {"experiments", "report"})

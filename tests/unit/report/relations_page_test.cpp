@@ -38,7 +38,7 @@ TEST(RelationsOnThePage, HaveARowOfMarksForEachEngineAndTheWorstMarkOfSeveralSce
   EXPECT_EQ(count_of(marks, "class=\"law\""), 1u);             // xpbd's order of springs
   EXPECT_EQ(count_of(marks, "class=\"mismatch\""), 1u);        // mine falls freely in one scene of two
   EXPECT_EQ(count_of(marks, "class=\"none\""), 2u);            // what no scene could be asked, and what was not asked
-  EXPECT_TRUE(contains(marks, find_relation("mirror").sentence)) << "the sentence is in the head";
+  EXPECT_TRUE(contains(marks, std::string(find_relation("mirror").sentence))) << "the sentence is in the head";
   EXPECT_EQ(relations_html({}), "");
 }
 
