@@ -33,17 +33,23 @@ std::string sentence_of_relation(const std::string& name) {
   return at == all.end() ? name : std::string(at->sentence);  // of a report by another version
 }
 
+/// "30", "4.2", "480 000": two digits of a factor.
+std::string two_digits(double factor) {
+  if (factor < 100) return times_text(factor);
+  const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
+  return factor < 1e12 ? count_text(std::lround(std::round(factor / unit) * unit)) : nice(factor);
+}
+
 /// "140 times what is allowed, 2e-5 J, since 0.4 s"; where the run failed, when it did.
 std::string size_of_break(const RelationRow& row) {
   const std::string unit = row.unit == "1" ? "" : " " + row.unit;
   std::string text;
   if (row.ratio)
-    text = fmt::format("{} times what is allowed, {}{}", *row.ratio < 1e4 ? times_text(*row.ratio) : nice(*row.ratio),
-                       nice(row.tolerance.value_or(0)), unit);
+    text = fmt::format("{} times what is allowed, {}{}", two_digits(*row.ratio), nice(row.tolerance.value_or(0)), unit);
   else if (row.measured)
     text = fmt::format("{}{}, where nothing is allowed", nice(*row.measured), unit);
   if (row.since) text += fmt::format("{}{:.2g} s", text.empty() ? "fails at " : ", since ", *row.since);
-  return text;
+  return readable(text);
 }
 
 }  // namespace
