@@ -167,6 +167,12 @@ MethodResult& result_of(const Request& request, const Scene& scene, const Method
                                            ledger.contact_inferred()});
 }
 
+MethodResult recorded_result(const Method& method, const Scene& scene, const Run& run) {
+  Recorder recorder;
+  Outcome out = run_method(method, scene, run, {&recorder});
+  return {scene.name, method.name, std::move(out), std::move(recorder.trajectory)};
+}
+
 std::string content_of(const Request& request, const Scene& scene) {
   std::string text = fmt::format("{} full={} step={}", content_of(scene), request.full, exact_text(request.step));
   for (const Method& method : methods_of(request, scene))

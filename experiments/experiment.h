@@ -137,6 +137,9 @@ using MethodResults = std::deque<MethodResult>;
 /// The method's result on the scene at the request's step, from those so far or by running it now.
 MethodResult& result_of(const Request& request, const Scene& scene, const Method& method, MethodResults& results);
 
+/// A run of the method with its path, and nothing else that is observed.
+MethodResult recorded_result(const Method& method, const Scene& scene, const Run& run);
+
 /// Tables SCENE-energy and engines-energy: the ledgers of the results at the request's step.
 void add_energies(const Request& request, const Scene& scene, MethodResults& results, TableSet& tables);
 

@@ -86,25 +86,24 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
 }
 
 std::vector<Answer> ask_pairs(const std::vector<Method>& methods, const std::vector<Scene>& scenes,
-                              const std::vector<KnownBreak>& known, Progress& progress) {
+                              const std::vector<KnownBreak>& known, const AboutToAsk& begin) {
   std::vector<Answer> answers;
   std::vector<Subject> subjects(methods.begin(), methods.end());
   for (const Scene& scene : scenes.empty() ? small_nets() : scenes)
     for (size_t i = 0; i < methods.size(); ++i)
       for (size_t j = i + 1; j < methods.size(); ++j) {
-        progress.begin(fmt::format("{}: {}", pair_name(methods[i], methods[j]), agreement().name));
+        if (begin) begin(fmt::format("{}: {}", pair_name(methods[i], methods[j]), agreement().name));
         answers.push_back(ask_agreement(subjects[i], subjects[j], scene, known));
       }
   return answers;
 }
 
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
-                               const std::vector<KnownBreak>& known,
-                               const std::function<void(const Relation&)>& begin) {
+                               const std::vector<KnownBreak>& known, const AboutToAsk& begin) {
   std::vector<Answer> answers;
   Subject subject(method);
   for (const Relation& relation : relations()) {
-    if (begin) begin(relation);
+    if (begin) begin(fmt::format("{}: {}", method.name, relation.name));
     for (const Scene& scene : scenes.empty() ? relation.smallest() : scenes)
       if (scenes.empty() || relation.excluded(scene).empty())
         answers.push_back(ask(relation, subject, scene, seed, known));

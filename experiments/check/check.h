@@ -8,7 +8,6 @@
 
 #include "experiments/check/relations.h"
 #include "experiments/tables/check.h"
-#include "mysim/base/progress.h"
 
 namespace crosscheck {
 
@@ -43,15 +42,17 @@ void mark_known(Answer& answer, const std::vector<KnownBreak>& known);
 Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsigned seed,
            const std::vector<KnownBreak>& known);
 
+/// Is told what is asked next, "mysim/leapfrog: turned".
+using AboutToAsk = std::function<void(const std::string&)>;
+
 /// Every relation of a method: on its smallest scenes where no scene is given, else on each of these that it says
-/// something about. `begin`: is told each relation before it is asked.
+/// something about.
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
-                               const std::vector<KnownBreak>& known,
-                               const std::function<void(const Relation&)>& begin = {});
+                               const std::vector<KnownBreak>& known, const AboutToAsk& begin = {});
 
 /// Whether each two of the methods agree (agreement.h), on these scenes or on the small net.
 std::vector<Answer> ask_pairs(const std::vector<Method>& methods, const std::vector<Scene>& scenes,
-                              const std::vector<KnownBreak>& known, Progress& progress);
+                              const std::vector<KnownBreak>& known, const AboutToAsk& begin = {});
 
 /// 0 where something was asked and nothing but known breaks was found; else 1.
 int status_of(const std::vector<Answer>& answers);

@@ -10,12 +10,12 @@ std::vector<Point> relations_points(const Request& request) {
   std::vector<Method> methods = request.methods.empty() ? default_methods() : request.methods;
   // what comes with Crosscheck answers the same whatever the scenes are, and does so in the report of all of them
   if (request.scenes_only) std::erase_if(methods, [](const Method& method) { return method.fingerprint.empty(); });
-  const std::string known = read_file(shipped_known_breaks(), "a table of known breaks");
+  const std::string text = read_file(shipped_known_breaks(), "a table of known breaks");
+  const std::vector<KnownBreak> known = read_known_breaks(shipped_known_breaks());
   std::vector<Point> points;
   for (const Method& method : methods)
-    points.push_back({"relations: " + method.name, method.fingerprint + "\n" + known, [method](TableSet& tables) {
-                        tables.add(table_of(answers_of(method, {}, 1, read_known_breaks(shipped_known_breaks()))));
-                      }});
+    points.push_back({"relations: " + method.name, method.fingerprint + "\n" + text,
+                      [method, known](TableSet& tables) { tables.add(table_of(answers_of(method, {}, 1, known))); }});
   return points;
 }
 

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "experiments/check/agreement.h"
 #include "experiments/check/compare.h"
 #include "experiments/check/transformations.h"
 #include "mysim/base/errors.h"
@@ -113,12 +115,16 @@ RelationResult worse(RelationResult a, RelationResult b) { return b.ratio() > a.
 
 std::span<const Relation> relations() { return table; }
 
+const Relation* relation_named(std::string_view name) {
+  if (name == agreement().name) return &agreement();
+  const auto* at = std::ranges::find(table, name, &Relation::name);
+  return at == std::end(table) ? nullptr : at;
+}
+
 const Relation& find_relation(const std::string& name) {
+  if (const Relation* relation = relation_named(name)) return *relation;
   std::vector<std::string> names;
-  for (const Relation& relation : table) {
-    if (relation.name == name) return relation;
-    names.emplace_back(relation.name);
-  }
+  for (const Relation& relation : table) names.emplace_back(relation.name);
   throw InputError(fmt::format("unknown relation '{}'; expected one of: {}{}", name, fmt::join(names, ", "),
                                did_you_mean(name, names)));
 }

@@ -40,7 +40,9 @@ struct Relation {
 
 /// The table (relations.cpp).
 std::span<const Relation> relations();
-/// Throws InputError that names the nearest.
+/// By name, also the one that is asked of pairs (agreement.h); null where there is none.
+const Relation* relation_named(std::string_view name);
+/// The same. Throws InputError that names the nearest.
 const Relation& find_relation(const std::string& name);
 
 // The functions of the table. Those of transformed scenes are in transformed.cpp, those of mechanics in mechanics.cpp,

@@ -95,16 +95,20 @@ std::string_view name_of(TroubleState state) {
   return "not asked";
 }
 
+double most_apart(const Series& a, const Series& b, double until) {
+  double most = 0;
+  for (size_t i = 0; i < std::min(a.points.size(), b.points.size()) && a.points[i].first < until; ++i)
+    if (const double apart = std::abs(a.points[i].second - b.points[i].second); !(apart <= most))
+      most = std::isnan(apart) ? INFINITY : apart;
+  return most;
+}
+
 bool holds(const Condition& c, const std::vector<Series>& all) {
   const Series &a = all.at(c.a), &b = all.at(c.b);
   if (c.kind == Condition::Kind::hangs)
     return a.outcome.verdict == Verdict::timeout && b.outcome.verdict == Verdict::ok &&
            a.outcome.process_seconds > c.by * b.outcome.process_seconds;
-  double most = 0;
-  for (size_t i = 0; i < std::min(a.points.size(), b.points.size()) && a.points[i].first < c.until; ++i)
-    // what is no number is far from all
-    if (const double apart = std::abs(a.points[i].second - b.points[i].second); !(apart <= most))
-      most = std::isnan(apart) ? INFINITY : apart;
+  const double most = most_apart(a, b, c.until);
   if (c.kind == Condition::Kind::apart) return most > c.by;
   return most <= c.by && a.outcome.verdict == Verdict::ok && b.outcome.verdict == Verdict::ok;
 }

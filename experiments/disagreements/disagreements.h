@@ -44,6 +44,10 @@ struct Series {
   double last() const { return points.back().second; }
 };
 
+/// How far two curves are from each other at the most, in the row's unit, before a time (s). What is no number is
+/// infinitely far from all.
+double most_apart(const Series& a, const Series& b, double until = INFINITY);
+
 /// What the curves of two variants do, told by their numbers in the row.
 struct Condition {
   enum class Kind {

@@ -37,10 +37,9 @@ double largest(const Series& s) {
   return most;
 }
 
-double most_apart(const Series& a, const Series& b) {
+double largest_size(const Series& s) {
   double most = 0;
-  for (size_t i = 0; i < std::min(a.points.size(), b.points.size()); ++i)
-    most = std::max(most, std::abs(a.points[i].second - b.points[i].second));
+  for (const auto& point : s.points) most = std::max(most, std::abs(point.second));
   return most;
 }
 
@@ -146,15 +145,10 @@ std::string field_effect(const std::vector<Series>& all) {
 }
 
 std::string direction_effect(const std::vector<Series>& all) {
-  auto most = [](const Series& s) {
-    double mrad = 0;
-    for (const auto& point : s.points) mrad = std::max(mrad, std::abs(point.second));
-    return mrad;
-  };
   return fmt::format(
       "Sliding down from rest the particle moves up to {:.2g} mrad off the tangent, with a quarter of the step up to "
       "{:.2g} mrad; with voxels of 20 mm {:.2g} mrad, with 1.25 mm {:.2g} mrad; in mysim {:.1g} mrad.",
-      most(all[1]), most(all[2]), most(all[3]), most(all[4]), most(all[0]));
+      largest_size(all[1]), largest_size(all[2]), largest_size(all[3]), largest_size(all[4]), largest_size(all[0]));
 }
 
 TableWithSentence directions(const Disagreement& d) {
@@ -179,13 +173,8 @@ TableWithSentence directions(const Disagreement& d) {
 }
 
 std::string hop_effect(const std::vector<Series>& all) {
-  auto most = [](const Series& s) {
-    double mm = 0;
-    for (const auto& point : s.points) mm = std::max(mm, std::abs(point.second));
-    return mm;
-  };
   return fmt::format("While it slides the particle leaves the surface by up to {:.2g} mm, in mysim by {:.2g} mm.",
-                     most(all[1]), most(all[0]));
+                     largest_size(all[1]), largest_size(all[0]));
 }
 
 std::string precision_effect(const std::vector<Series>& all) {
@@ -238,12 +227,10 @@ std::string over_relaxation_effect(const std::vector<Series>& all) {
     if (s.points.size() <= to) return NAN;
     return std::pow(std::abs(s.points[to].second / s.points[from].second), 1. / (to - from));
   };
-  double most = 0;
-  for (const auto& point : all[3].points) most = std::max(most, std::abs(point.second));
   return fmt::format(
       "The stretch of 0.1 mm is multiplied by {:.3f} in each step at kLST 1.5 (expected 1.366) and by {:.3f} at 1.25 "
       "(expected 0.809); it reaches {:.2g} mm ({}).",
-      growth(all[3]), growth(all[2]), most, in_words(all[3].outcome.verdict));
+      growth(all[3]), growth(all[2]), largest_size(all[3]), in_words(all[3].outcome.verdict));
 }
 
 std::string small_effect(const std::vector<Series>& all) {

@@ -42,6 +42,8 @@ inline std::string link_stiffness_text(int n) { return fmt::format("kLST = 1 - (
 /// back.
 inline double damping_of_drag(double gamma, double h) { return -std::expm1(-gamma * h); }
 inline double drag_of_damping(double kDP, double h) { return -std::log1p(-kDP) / h; }
+/// d ln gamma / d ln kDP: how many times larger a relative error of kDP is in the drag rate that it stands for.
+inline double damping_condition(double kDP) { return kDP > 0 ? kDP / (1 - kDP) / -std::log1p(-kDP) : 1; }
 
 // The explicit deformable world: v' = (v + h f / m) (1 - h gamma), where a drag as a force at v_n would leave the share
 // of the forces whole. They are handed over divided by what the drag factor leaves.

@@ -14,57 +14,24 @@
 
 namespace crosscheck {
 
-std::string_view name_of(SceneNumber quantity) {
-  switch (quantity) {
-    case SceneNumber::mass:
-      return "mass m";
-    case SceneNumber::drag:
-      return "drag rate gamma";
-    case SceneNumber::stiffness:
-      return "spring stiffness k";
-    case SceneNumber::dashpot:
-      return "dashpot c";
-    case SceneNumber::gravity:
-      return "gravity g";
-    case SceneNumber::friction:
-      return "friction mu";
-  }
-  return "";
-}
-std::string_view unit_of(SceneNumber quantity) {
-  switch (quantity) {
-    case SceneNumber::mass:
-      return "kg";
-    case SceneNumber::drag:
-      return "1/s";
-    case SceneNumber::stiffness:
-      return "N/m";
-    case SceneNumber::dashpot:
-      return "N s/m";
-    case SceneNumber::gravity:
-      return "m/s^2";
-    case SceneNumber::friction:
-      return "1";
-  }
-  return "";
-}
-std::string_view holder_of(SceneNumber quantity) {
-  switch (quantity) {
-    case SceneNumber::mass:
-      return "free particle";
-    case SceneNumber::drag:
-      return "free particle";
-    case SceneNumber::stiffness:
-      return "spring";
-    case SceneNumber::dashpot:
-      return "dashpot";
-    case SceneNumber::gravity:
-      return "scene";
-    case SceneNumber::friction:
-      return "sphere";
-  }
-  return "";
-}
+namespace {
+
+struct NumberWords {
+  std::string_view name, unit, holder;
+};
+constexpr NumberWords number_words[] = {
+    {"mass m", "kg", "free particle"},       {"drag rate gamma", "1/s", "free particle"},
+    {"spring stiffness k", "N/m", "spring"}, {"dashpot c", "N s/m", "dashpot"},
+    {"gravity g", "m/s^2", "scene"},         {"friction mu", "1", "sphere"}};  // in the order of SceneNumber
+static_assert(std::size(number_words) == static_cast<size_t>(SceneNumber::friction) + 1);
+
+const NumberWords& words_of(SceneNumber quantity) { return number_words[static_cast<size_t>(quantity)]; }
+
+}  // namespace
+
+std::string_view name_of(SceneNumber quantity) { return words_of(quantity).name; }
+std::string_view unit_of(SceneNumber quantity) { return words_of(quantity).unit; }
+std::string_view holder_of(SceneNumber quantity) { return words_of(quantity).holder; }
 
 namespace {
 
@@ -128,7 +95,7 @@ NumberRule step_damping(std::string_view name) {
           .gather = Gather::same,
           .expected = a_share,
           .valid = below_one,
-          .condition = [](double kDP, const Context&) { return kDP > 0 ? kDP / (1 - kDP) / -std::log1p(-kDP) : 1; }};
+          .condition = [](double kDP, const Context&) { return bullet::damping_condition(kDP); }};
 }
 
 NumberRule compliance(std::string_view name, std::string_view formula) {
@@ -199,11 +166,7 @@ std::vector<EngineNumbers> make_table() {
       .to = [](double gamma, const Context& at) { return bullet::damping_of_drag(gamma, at.h / at.n) * at.n / at.h; },
       .from = [](double value, const Context& at) { return bullet::drag_of_damping(value * at.h / at.n, at.h / at.n); },
       .gather = Gather::same,
-      .condition =
-          [](double value, const Context& at) {
-            const double share = value * at.h / at.n;
-            return share > 0 ? share / (1 - share) / -std::log1p(-share) : 1;
-          }};
+      .condition = [](double value, const Context& at) { return bullet::damping_condition(value * at.h / at.n); }};
   constexpr std::string_view stays = "k stays; the springs' dashpots are left out";
   return {
       {.title = "the scene's own numbers",

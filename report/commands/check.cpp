@@ -164,13 +164,11 @@ int check_relations(const CheckOptions& options, const std::string& line) {
   if (!options.out.empty()) folder.emplace(options.out, "check");
   Progress progress(static_cast<int>(methods.size() * relations().size()));
   std::vector<Answer> answers;
+  const AboutToAsk begin = [&](const std::string& what) { progress.begin(what); };
   for (const Method& method : methods)
-    for (Answer& answer : answers_of(method, scenes, options.seed, known, [&](const Relation& relation) {
-           progress.begin(fmt::format("{}: {}", method.name, relation.name));
-         }))
-      answers.push_back(std::move(answer));
+    for (Answer& answer : answers_of(method, scenes, options.seed, known, begin)) answers.push_back(std::move(answer));
   if (options.pairs)
-    for (Answer& answer : ask_pairs(methods, scenes, known, progress)) answers.push_back(std::move(answer));
+    for (Answer& answer : ask_pairs(methods, scenes, known, begin)) answers.push_back(std::move(answer));
   progress.done();
   if (folder) {
     const Table table = table_of(answers);

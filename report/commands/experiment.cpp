@@ -47,25 +47,26 @@ std::vector<UpstreamText> texts_of(const TableSet& rows, const Provenance& lines
   return upstream_texts(rows, value_of(lines, "engines"));
 }
 
-std::vector<std::string> files_of(const TableSet& rows, const Provenance& lines) {
+std::vector<std::string> files_of(const TableSet& rows, const std::vector<UpstreamText>& texts) {
   std::vector<std::string> files{"dictionary.csv"};
   for (const Table& table : rows.tables) files.push_back(table.name + ".csv");
   for (const Certificate& c : rows.certificates) files.push_back(file_of(c));
-  for (const UpstreamText& text : texts_of(rows, lines)) files.push_back(text.file);
+  for (const UpstreamText& text : texts) files.push_back(text.file);
   return files;
 }
 
-void write_tables(const TableSet& rows, const Provenance& lines, const std::filesystem::path& out) {
+void write_tables(const TableSet& rows, const std::vector<UpstreamText>& texts, const Provenance& lines,
+                  const std::filesystem::path& out) {
   for (const Table& table : rows.tables) write_csv(table, lines, out);
   write_csv(dictionary(rows.tables), lines, out);
   for (const Certificate& c : rows.certificates) write_file(out / file_of(c), certificate_json(c));
-  for (const UpstreamText& text : texts_of(rows, lines)) write_file(out / text.file, text.text);
+  for (const UpstreamText& text : texts) write_file(out / text.file, text.text);
 }
 
-void print_tables(const TableSet& rows, const Provenance& lines, const std::filesystem::path& out) {
+void print_tables(const TableSet& rows, const std::vector<UpstreamText>& texts, const std::filesystem::path& out) {
   for (const Table& table : rows.tables)
     fmt::print("{}  {} rows\n", (out / (table.name + ".csv")).string(), table.rows.size());
-  for (const UpstreamText& text : texts_of(rows, lines)) fmt::print("{}\n", (out / text.file).string());
+  for (const UpstreamText& text : texts) fmt::print("{}\n", (out / text.file).string());
   for (const std::string& note : rows.notes) fmt::print("note: {}\n", note);
 }
 
@@ -126,10 +127,11 @@ int experiment_command(const ExperimentOptions& options) {
   }
   std::vector<std::string> missing;
   const TableSet rows = joined(plan, {&store, 1}, missing);
-  folder.announce(files_of(rows, plan.provenance));
-  write_tables(rows, plan.provenance, options.out);
+  const std::vector<UpstreamText> texts = texts_of(rows, plan.provenance);
+  folder.announce(files_of(rows, texts));
+  write_tables(rows, texts, plan.provenance, options.out);
   folder.finish();
-  print_tables(rows, plan.provenance, options.out);
+  print_tables(rows, texts, options.out);
   for (const std::string& name : missing) fmt::print(stderr, "crosscheck: missing in the tables: {}\n", name);
   return failed.empty() && missing.empty() ? 0 : 1;
 }
@@ -152,9 +154,10 @@ int merge_command(const MergeOptions& options) {
     return 1;
   }
   OutputFolder folder(options.out, "merge");
-  write_tables(rows, plan.provenance, folder.path());
+  const std::vector<UpstreamText> texts = texts_of(rows, plan.provenance);
+  write_tables(rows, texts, plan.provenance, folder.path());
   folder.finish();
-  print_tables(rows, plan.provenance, options.out);
+  print_tables(rows, texts, options.out);
   return 0;
 }
 

@@ -24,10 +24,6 @@ std::string name_of_files(const HuntFindingRow& row) {
   return file_name_of(fmt::format("{}-{}-{}", row.relation, row.methods, row.kind));
 }
 
-const Relation& relation_of(const HuntFindingRow& row) {
-  return row.relation == agreement().name ? agreement() : find_relation(row.relation);
-}
-
 /// The methods of a row: of a pair, both.
 std::vector<Method> methods_of(const HuntFindingRow& row, const Hunt& hunt) {
   std::vector<Method> methods;
@@ -55,11 +51,8 @@ std::string draw_finding(const HuntFindingRow& row, const Hunt& hunt, const std:
   try {
     const Scene scene = parse_scene(row.scene, row.kind);
     std::vector<MethodResult> results;
-    for (const Method& method : methods_of(row, hunt)) {
-      Recorder recorder;
-      Outcome outcome = run_method(method, scene, run_for_relations(scene), {&recorder});
-      results.push_back({scene.name, method.name, std::move(outcome), std::move(recorder.trajectory)});
-    }
+    for (const Method& method : methods_of(row, hunt))
+      results.push_back(recorded_result(method, scene, run_for_relations(scene)));
     std::vector<const MethodResult*> shown;
     for (const MethodResult& result : results) shown.push_back(&result);
     Shot shot = usual_shot(scene, false);
@@ -74,7 +67,7 @@ std::string draw_finding(const HuntFindingRow& row, const Hunt& hunt, const std:
 /// The report text, as it may be sent to whoever makes the engine.
 std::string report_text(const FindingGroup& group, const HuntOptions& options, const std::string& no_picture) {
   const HuntFindingRow& row = group.smallest;
-  const Relation& relation = relation_of(row);
+  const Relation& relation = find_relation(row.relation);
   const std::string name = name_of_files(row);
   std::string text = fmt::format("# {}: {} is broken\n\n", row.methods, row.relation);
   text += fmt::format("**Expected:** {}. Allowed: {}.\n\n", relation.sentence, relation.allowed);

@@ -59,15 +59,15 @@ std::vector<MethodResult> answers_of(const Scene& scene, const std::vector<Metho
                                      Progress& progress) {
   std::vector<MethodResult> answers;
   for (const Method& method : methods) {
-    Recorder recorder;
-    Outcome out = run_method(with_progress(method, progress), scene, run, {&recorder});
-    if (out.verdict == Verdict::unsupported || recorder.trajectory.frames() == 0) progress.done();
-    if (out.verdict == Verdict::unsupported)
-      fmt::print(stderr, "crosscheck: {} cannot run {}: {}\n", method.name, scene.name, out.reason);
-    else if (recorder.trajectory.frames() == 0)
-      fmt::print(stderr, "crosscheck: {} on {}: {}\n", method.name, scene.name, out.reason);
-    else
-      answers.push_back({scene.name, method.name, std::move(out), std::move(recorder.trajectory)});
+    MethodResult result = recorded_result(with_progress(method, progress), scene, run);
+    const bool refused = result.outcome.verdict == Verdict::unsupported;
+    if (!refused && result.trajectory.frames() > 0) {
+      answers.push_back(std::move(result));
+      continue;
+    }
+    progress.done();
+    fmt::print(stderr, "crosscheck: {} {} {}: {}\n", method.name, refused ? "cannot run" : "on", scene.name,
+               result.outcome.reason);
   }
   return answers;
 }

@@ -128,9 +128,7 @@ constexpr EffectiveMeasure effective_measures[] = {
 
 /// "4 iterations of pbd": a name that begins with a method's is cut to that at a curve's end.
 std::string curve_title(const EffectiveStiffnessRow& row) {
-  const auto n = static_cast<size_t>(row.iterations);
-  return fmt::format("{} of {}", family_of(row.method).is_subject() ? counted(n, "sub-step") : counted(n, "iteration"),
-                     row.method.substr(row.method.find('/') + 1));
+  return fmt::format("{} of {}", passes_text(row.method, row.iterations), row.method.substr(row.method.find('/') + 1));
 }
 
 /// Methods that have no iterations to choose stand in the table alone.

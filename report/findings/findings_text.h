@@ -49,6 +49,10 @@ std::string count_text(long count);
 inline std::string counted(size_t count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
+/// "4 iterations"; of mysim's xpbd "4 sub-steps", of one pass each.
+inline std::string passes_text(const std::string& method, long n) {
+  return counted(static_cast<size_t>(n), family_of(method).is_subject() ? "sub-step" : "iteration");
+}
 /// How many times as much: two digits, written plainly ("160", "2.4").
 std::string times_text(double factor);
 /// "a, b and c"

@@ -9,15 +9,6 @@
 #include "report/findings/findings_text.h"
 
 namespace crosscheck {
-namespace {
-
-std::string passes_text(const EffectiveStiffnessRow& row) {
-  const auto count = static_cast<size_t>(row.iterations);
-  return family_of(row.method).is_subject() ? counted(count, "sub-step") : counted(count, "iteration");
-}
-
-}  // namespace
-
 std::vector<Finding> stiffness_findings(const TableSet& rows) {
   const std::vector<EffectiveStiffnessRow> table = rows_of<EffectiveStiffnessRow>(rows);
   std::map<std::string, std::vector<const EffectiveStiffnessRow*>> by_method;
@@ -34,12 +25,15 @@ std::vector<Finding> stiffness_findings(const TableSet& rows) {
   for (auto& [method, all] : by_method) {
     std::ranges::sort(all, {}, &EffectiveStiffnessRow::iterations);
     const EffectiveStiffnessRow &least = *all.front(), &most = *all.back();
-    const std::string more =
-        &least == &most ? "" : fmt::format(", {} with {}", times_text(1 / *most.by_sag), passes_text(most));
+    const std::string more = &least == &most ? ""
+                                             : fmt::format(", {} with {}", times_text(1 / *most.by_sag),
+                                                           passes_text(most.method, most.iterations));
     out.push_back({.rule = "effective-stiffness",
                    .method = method,
                    .value = 1 / *least.by_sag,
-                   .words = {{"step", step_text(least.step)}, {"passes", passes_text(least)}, {"more", more}}});
+                   .words = {{"step", step_text(least.step)},
+                             {"passes", passes_text(least.method, least.iterations)},
+                             {"more", more}}});
   }
   return out;
 }

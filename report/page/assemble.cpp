@@ -225,10 +225,7 @@ class Assembly {
     const Scene& scene = *part.scene;
     std::deque<MethodResult> results;
     for (const ShownRun& run : part.runs) {
-      if (!run.beside) continue;
-      Recorder recorder;
-      Outcome out = run_method(find_method(run.method), scene, run.run, {&recorder});
-      results.push_back({scene.name, run.method, std::move(out), std::move(recorder.trajectory)});
+      if (run.beside) results.push_back(recorded_result(find_method(run.method), scene, run.run));
     }
     if (const auto truth = truth_of(scene, default_run(scene)))
       results.push_back({scene.name, "truth", {}, truth->trajectory});
@@ -241,9 +238,7 @@ class Assembly {
     std::deque<MethodResult> results;
     std::vector<const MethodResult*> shown;
     for (const Snapshot::Panel& panel : s.panels) {
-      Recorder recorder;
-      Outcome out = run_method(find_method(panel.method), s.scene, panel.run, {&recorder});
-      results.push_back({s.scene.name, panel.method, std::move(out), std::move(recorder.trajectory)});
+      results.push_back(recorded_result(find_method(panel.method), s.scene, panel.run));
       shown.push_back(&results.back());
     }
     const std::vector<PageImage> images = images_of(s);

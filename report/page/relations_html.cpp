@@ -28,16 +28,14 @@ std::string_view css_class(RelationMark mark) {
 }
 
 std::string sentence_of_relation(const std::string& name) {
-  const auto all = relations();
-  const auto at = std::ranges::find(all, name, &Relation::name);
-  return at == all.end() ? name : std::string(at->sentence);  // of a report by another version
+  const Relation* relation = relation_named(name);
+  return relation ? std::string(relation->sentence) : name;  // of a report by another version
 }
 
-/// "30", "4.2", "480 000": two digits of a factor.
-std::string two_digits(double factor) {
-  if (factor < 100) return times_text(factor);
-  const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
-  return factor < 1e12 ? count_text(std::lround(std::round(factor / unit) * unit)) : nice(factor);
+/// "30", "4.2", "480 000".
+std::string grouped_times(double factor) {
+  const std::string plain = times_text(factor);
+  return factor >= 1e4 && factor < 1e12 ? count_text(std::stol(plain)) : plain;
 }
 
 /// "140 times what is allowed, 2e-5 J, since 0.4 s"; where the run failed, when it did.
@@ -45,7 +43,8 @@ std::string size_of_break(const RelationRow& row) {
   const std::string unit = row.unit == "1" ? "" : " " + row.unit;
   std::string text;
   if (row.ratio)
-    text = fmt::format("{} times what is allowed, {}{}", two_digits(*row.ratio), nice(row.tolerance.value_or(0)), unit);
+    text =
+        fmt::format("{} times what is allowed, {}{}", grouped_times(*row.ratio), nice(row.tolerance.value_or(0)), unit);
   else if (row.measured)
     text = fmt::format("{}{}, where nothing is allowed", nice(*row.measured), unit);
   if (row.since) text += fmt::format("{}{:.2g} s", text.empty() ? "fails at " : ", since ", *row.since);

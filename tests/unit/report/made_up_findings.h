@@ -1,4 +1,4 @@
-// Findings made up for tests, and looked up by their rule.
+// Findings made up for tests, and looked up by their rule; words and parts counted in texts.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,6 +12,13 @@ namespace crosscheck::testing_tools {
 inline size_t words_in(const std::string& sentence) {
   std::istringstream in(sentence);
   return static_cast<size_t>(std::distance(std::istream_iterator<std::string>(in), {}));
+}
+
+/// How often a part stands in a text.
+inline int count(const std::string& text, const std::string& part) {
+  int n = 0;
+  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
 }
 
 /// A finding of a rule, with this word wherever its template asks for one.

@@ -62,11 +62,6 @@ std::string between(const std::string& text, const std::string& from, const std:
   const size_t end = text.find(to, begin + from.size());
   return text.substr(begin, end == std::string::npos ? end : end - begin);
 }
-int count(const std::string& text, const std::string& what) {
-  int n = 0;
-  for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
-  return n;
-}
 std::string section(const std::string& html, const std::string& id) {
   return between(html, fmt::format("<section class=\"chapter\" id=\"{}\"", id), "</section>");
 }

@@ -24,20 +24,14 @@ std::vector<RelationRow> rows_of_two_engines() {
           row("exec:./mine", "mirror", RelationMark::holds)};
 }
 
-size_t count_of(const std::string& text, const std::string& part) {
-  size_t n = 0;
-  for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
-
 TEST(RelationsOnThePage, HaveARowOfMarksForEachEngineAndTheWorstMarkOfSeveralScenes) {
   const std::string html = relations_html(rows_of_two_engines());
   const std::string marks = html.substr(0, html.find("</table>"));
-  EXPECT_EQ(count_of(marks, "<tr>"), 3u);                      // the head and two engines
-  EXPECT_EQ(count_of(marks, "class=\"match\""), 2u) << marks;  // xpbd falls freely, mine is symmetric
-  EXPECT_EQ(count_of(marks, "class=\"law\""), 1u);             // xpbd's order of springs
-  EXPECT_EQ(count_of(marks, "class=\"mismatch\""), 1u);        // mine falls freely in one scene of two
-  EXPECT_EQ(count_of(marks, "class=\"none\""), 2u);            // what no scene could be asked, and what was not asked
+  EXPECT_EQ(count(marks, "<tr>"), 3);                      // the head and two engines
+  EXPECT_EQ(count(marks, "class=\"match\""), 2) << marks;  // xpbd falls freely, mine is symmetric
+  EXPECT_EQ(count(marks, "class=\"law\""), 1);             // xpbd's order of springs
+  EXPECT_EQ(count(marks, "class=\"mismatch\""), 1);        // mine falls freely in one scene of two
+  EXPECT_EQ(count(marks, "class=\"none\""), 2);            // what no scene could be asked, and what was not asked
   EXPECT_TRUE(contains(marks, std::string(find_relation("mirror").sentence))) << "the sentence is in the head";
   EXPECT_EQ(relations_html({}), "");
 }
