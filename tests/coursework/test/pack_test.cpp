@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <set>
 #include <sstream>
@@ -198,9 +199,14 @@ TEST(RunInContainer, StopsWhatTakesTooLongOrTooMuch) {
 TEST(RunInContainer, CountsTheWorkOfAllProcessesAtSoManyCpus) {
   // two shells that count, side by side, take as long as their work at a tenth of a CPU
   const std::string work = "i=0; while [ $i -lt 100000 ]; do i=$((i+1)); done";
-  const Usage used = shell("(" + work + ") & (" + work + "); wait", {.cpus = 1e-3}).used;
-  const Usage one = shell(work, {.cpus = 1e-3}).used;
-  EXPECT_GT(used.time, 1.3 * one.time);
+  const auto time_of = [](const std::string& script) { return shell(script, {.cpus = 1e-3}).used.time; };
+  // what else runs on the machine makes a run take longer, never shorter: the shortest of three, in turns
+  double both = INFINITY, one = INFINITY;
+  for (int round = 0; round < 3; ++round) {
+    both = std::min(both, time_of("(" + work + ") & (" + work + "); wait"));
+    one = std::min(one, time_of(work));
+  }
+  EXPECT_GT(both, 1.3 * one);
 }
 
 TEST(RunInContainer, RefusesNewNamespaces) {
