@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "experiments/check/compare.h"
 #include "reference/truth/exact/exact.h"
@@ -35,10 +36,11 @@ std::string other_law(const Outcome& out) {
   return "";
 }
 
-SpringLaw law_of(const Method& method, const Scene& scene) {
+/// Nothing where there are no springs.
+std::optional<SpringLaw> law_of(const Method& method, const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
-  if (!springs || method.spring_law != SpringLaw::hooke) return method.spring_law;
-  return springs->law;
+  if (!springs) return std::nullopt;
+  return method.spring_law != SpringLaw::hooke ? method.spring_law : springs->law;
 }
 
 LimitEstimate limit_of_truth(const Scene& scene) {

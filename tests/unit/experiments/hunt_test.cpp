@@ -129,6 +129,32 @@ TEST(Agreement, HoldsForRulesOfOneLimitAndNotForAnother) {
   EXPECT_EQ(agreement_of(heavy("leapfrog"), exact, spring).mark, RelationMark::broken);
 }
 
+/// One particle that flies, and nothing else.
+Scene flight(double step) {
+  return parse_scene(fmt::format("question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 4\nstep = {}\n"
+                                 "window = 1\ntolerance = 1e-3\nmethod = \"leapfrog\"\n[[particle]]\n"
+                                 "position = [0, 0, 0]\nmass = 1\nvelocity = [1, 0, 0]\n",
+                                 step),
+                     "flight");
+}
+
+TEST(Agreement, IsAskedWhereNoSpringHasALaw) {
+  const Answer answer = agreement_of(find_method("leapfrog"), find_method("bullet/pbd"), flight(1. / 128));
+  EXPECT_EQ(answer.mark, RelationMark::holds) << answer.sentence();
+}
+
+TEST(ShippedKnownBreaks, HaveTheStepThatBulletRoundsToSinglePrecision) {
+  const auto known = read_known_breaks(shipped_known_breaks());
+  Subject pbd(find_method("bullet/pbd"));
+  const Relation& momentum = find_relation("momentum");
+  EXPECT_EQ(ask(momentum, pbd, flight(1. / 128), 1, known).mark, RelationMark::holds) << "a step that it keeps";
+  const Answer rounded = ask(momentum, pbd, flight(0.01), 1, known);
+  EXPECT_EQ(rounded.mark, RelationMark::known) << rounded.sentence();
+  // of the metre that it flies; 1 %: the sentence of the row has two digits
+  const double expected = 1 - double(0.01F) / 0.01;
+  EXPECT_NEAR(rounded.finding.measured, expected, 0.01 * expected) << rounded.sentence();
+}
+
 TEST(Agreement, SaysWhyItCannotBeAsked) {
   const Method leapfrog = find_method("leapfrog");
   EXPECT_TRUE(
