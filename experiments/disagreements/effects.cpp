@@ -229,7 +229,7 @@ std::string over_relaxation_effect(const std::vector<Series>& all) {
   };
   return fmt::format(
       "The stretch of 0.1 mm is multiplied by {:.3f} in each step at kLST 1.5 (expected 1.366) and by {:.3f} at 1.25 "
-      "(expected 0.809); it reaches {:.2g} mm ({}).",
+      "(expected 0.809); it reaches {:.2g} mm: {}.",
       growth(all[3]), growth(all[2]), largest_size(all[3]), in_words(all[3].outcome.verdict));
 }
 

@@ -91,8 +91,9 @@ void add_tooltip(Json& json, const Tooltip& tip) {
 Json series_json(const Curve& curve, const std::set<std::pair<double, double>>& scaled, const Fineness& x,
                  const Fineness& y) {
   Json json{{"name", curve.title}};
-  const std::string method = method_in(curve.title);
+  const std::string named = method_in(curve.title), &method = named.empty() ? curve.method : named;
   if (!method.empty()) json["method"] = method;
+  if (!curve.method.empty()) json["hero"] = true;
   if (!curve.line) json["line"] = false;
   if (!curve.markers) json["marks"] = false;
   const bool law = method.empty() && curve.style.marker < 0;  // a line of theory

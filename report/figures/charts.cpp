@@ -100,7 +100,7 @@ std::vector<std::string> methods_in(const Chart& chart) {
   std::visit(
       [&]<class F>(const F& figure) {
         if constexpr (std::same_as<F, Figure>) {
-          for (const Curve& curve : figure.curves) titles.push_back(curve.title);
+          for (const Curve& curve : figure.curves) titles.push_back(curve.method.empty() ? curve.title : curve.method);
           for (const FailureMark& mark : figure.failures) titles.push_back(mark.title);
         } else if constexpr (std::same_as<F, HeatMap>) {
           for (const HeatMap::Panel& panel : figure.panels) titles.push_back(panel.title);

@@ -68,8 +68,8 @@ std::vector<Chart> disagreement_charts(const ChartInput& input) {
         f.failures.push_back({fmt::format("{}: {}", curve, failure_class(verdict)), f.curves.back().style,
                               f.curves.back().points.back().first, f.curves.back().points.back().second});
     }
-    std::erase_if(f.curves,
-                  [](const Curve& c) { return c.points.empty(); });  // the curve that the others are compared with
+    // the curve that the others are compared with, and a run that delivered nothing, which is a cross
+    std::erase_if(f.curves, [](const Curve& c) { return c.points.size() < 2; });
     charts.push_back({"", std::move(f), "disagreements",
                       fmt::format("{}: {} {}", text_at(*summary, row, "world"), text_at(*summary, row, "cause"),
                                   state_in_words(text_at(*summary, row, "state"), text_at(*summary, row, "threads")))});

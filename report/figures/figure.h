@@ -36,6 +36,7 @@ struct Curve {
   bool line = true;                    // joined by a line
   bool markers = false;                // a marker on every point; otherwise on a few
   std::vector<Tooltip> tooltips = {};  // of each marker, or empty
+  std::string method = {};             // whose colour it has on the page, where the title names none
 };
 
 /// A run that failed, drawn as a cross with its verdict.

@@ -155,7 +155,7 @@ Chart effective_stiffness(const std::vector<EffectiveStiffnessRow>& rows, const 
       const size_t place = std::min<size_t>(by_method[row.method]++, 3);
       const MethodStyle style{(ours ? greys : browns)[place], dashes[place],
                               style_of(row.method).marker + static_cast<int>(place)};
-      curve = f.curves.insert(f.curves.end(), {title, style, {}, true, true});
+      curve = f.curves.insert(f.curves.end(), {title, style, {}, true, true, {}, row.method});
     }
     curve->points.emplace_back(1e3 * row.step, 100 * *(row.*measure.value));
     if (!softest || *(row.*measure.value) < *(softest->*measure.value)) softest = &row;
