@@ -299,10 +299,15 @@ void add_bench(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<BenchOptions>();
   auto* bench = app.add_subcommand("bench", "measures speed as ratios to other implementations, in one run");
   bench->add_option("--out", options->out, "folder (out/bench)");
+  bench->add_option("--methods", options->methods,
+                    "A,B,...: methods to compare with as well, on cloths of 32, 64 and 128 particles a side");
   add_quick_and_full(*bench, options->full);
   bench->callback([options, &call] {
     options->command_line = call.line;
-    call.status = bench_command(*options, bench_suite(options->full));
+    std::vector<std::string> beside;
+    if (!options->methods.empty())
+      for (const Method& method : find_methods(options->methods)) beside.push_back(method.name);
+    call.status = bench_command(*options, bench_suite(options->full, beside));
   });
 }
 

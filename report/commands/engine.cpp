@@ -1,5 +1,5 @@
 // engine: programs for exec: that put another engine behind the protocol: Bullet's adapter built against another Bullet
-// tree, Jolt's with npm's build of Jolt inside.
+// tree, Jolt's against a tree of Jolt or with npm's build of Jolt inside.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -55,6 +55,35 @@ void install(const std::string& program, const fs::path& as) {
                           fs::perms::others_exec);
 }
 
+/// Builds the adapter in `folder` of the sources against the tree of --prefix, which its CMakeLists.txt calls
+/// `variable`, and installs its one program.
+int build_adapter(const EngineOptions& options, const std::string& folder, const std::string& variable,
+                  const std::string& program, double seconds) {
+  const fs::path prefix = fs::canonical(options.prefix);
+  const fs::path build =
+      source() / "build" / "engines" / fmt::format("{}-{:016x}", options.what, Fnv1a::of(prefix.string()));
+  fmt::print(stderr, "crosscheck: building the adapter against {} in {}\n", prefix.string(), build.string());
+  // a precision or a library found once may be another after the tree was built again
+  std::error_code none;
+  fs::remove(build / "CMakeCache.txt", none);
+  Progress progress(2);
+  progress.begin("configuring", 2);
+  const unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  const bool configured =
+      run_tool({"cmake", "-S", (source() / folder).string(), "-B", build.string(), "-G", "Ninja",
+                "-DCMAKE_BUILD_TYPE=Release", fmt::format("-D{}={}", variable, prefix.string()),
+                "-DCROSSCHECK_BUILD=" CROSSCHECK_BINARY_DIR, "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
+               fs::current_path(), options, "cmake");
+  if (!configured) fs::remove_all(build, none);
+  progress.begin("compiling the adapter", seconds);
+  if (!configured || !run_tool({"cmake", "--build", build.string(), "--parallel", std::to_string(jobs)},
+                               fs::current_path(), options, "the build"))
+    return 1;
+  progress.done();
+  install(read_file(build / program, "a program"), options.program);
+  return 0;
+}
+
 // Bullet
 
 /// Throws InputError unless the folder holds what the adapter's CMakeLists.txt looks for.
@@ -73,28 +102,7 @@ int build_bullet(const EngineOptions& options) {
     throw InputError("engine bullet: expected --prefix DIR, an installation or a source tree of Bullet");
   require_bullet(options.prefix);
   require_program(options.program);
-  const fs::path prefix = fs::canonical(options.prefix);
-  const fs::path build = source() / "build" / "engines" / fmt::format("{:016x}", Fnv1a::of(prefix.string()));
-  fmt::print(stderr, "crosscheck: building the adapter against {} in {}\n", prefix.string(), build.string());
-  // a precision or a library found once may be another after the tree was built again
-  std::error_code none;
-  fs::remove(build / "CMakeCache.txt", none);
-  Progress progress(2);
-  progress.begin("configuring", 2);
-  const unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
-  const bool configured =
-      run_tool({"cmake", "-S", (source() / "reference/bullet/adapter").string(), "-B", build.string(), "-G", "Ninja",
-                "-DCMAKE_BUILD_TYPE=Release", "-DBULLET_PREFIX=" + prefix.string(),
-                "-DCROSSCHECK_BUILD=" CROSSCHECK_BINARY_DIR, "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
-               fs::current_path(), options, "cmake");
-  if (!configured) fs::remove_all(build, none);
-  progress.begin("compiling the adapter", 30);  // s, on two cores
-  if (!configured || !run_tool({"cmake", "--build", build.string(), "--parallel", std::to_string(jobs)},
-                               fs::current_path(), options, "the build"))
-    return 1;
-  progress.done();
-  install(read_file(build / "bullet_engine", "a program"), options.program);
-  return 0;
+  return build_adapter(options, "reference/bullet/adapter", "BULLET_PREFIX", "bullet_engine", 30);  // s, on two cores
 }
 
 // Jolt
@@ -121,11 +129,18 @@ std::string jolt_program(const fs::path& package) {
                      read_file(package / "LICENSE", "the licence of jolt-physics"), text);
 }
 
+/// Jolt compiled for this machine.
+int build_native_jolt(const EngineOptions& options) {
+  for (const char* needed : {"Build/CMakeLists.txt", "Jolt/Physics/SoftBody/SoftBodyMotionProperties.h"})
+    if (!fs::exists(options.prefix / needed))
+      throw InputError(
+          fmt::format("--prefix {}: expected a source tree of Jolt with its {}", options.prefix.string(), needed));
+  return build_adapter(options, "reference/jolt/adapter", "JOLT_PREFIX", "jolt_engine", 240);  // s, on two cores
+}
+
 int build_jolt(const EngineOptions& options) {
-  if (!options.prefix.empty())
-    throw InputError(
-        "engine jolt: --prefix: a native Jolt is not supported, expected none: npm's jolt-physics is used");
   require_program(options.program);
+  if (!options.prefix.empty()) return build_native_jolt(options);
   for (const auto& [tool, package] : {std::pair{"node", "nodejs"}, {"npm", "npm"}})
     if (!on_path(tool)) {
       fmt::print(stderr,
@@ -179,7 +194,9 @@ void add_engine(CLI::App& app, Invocation& call) {
   auto* engine =
       app.add_subcommand("engine", "writes a program for exec: Bullet's adapter against another Bullet, or Jolt's");
   engine->add_option("NAME", options->what, "bullet or jolt")->required();
-  engine->add_option("--prefix", options->prefix, "bullet: an installation or a source tree of Bullet");
+  engine->add_option(
+      "--prefix", options->prefix,
+      "bullet: an installation or a source tree of Bullet; jolt: a source tree of Jolt, without it npm's build");
   engine->add_option("-o", options->program, "PROG: the program to write")->required();
   engine->callback([options, &call] { call.status = engine_command(*options); });
 }

@@ -1,6 +1,9 @@
-// Jolt as an engine: the program that `engine jolt` writes, where npm is there.
+// Jolt as an engine: the programs that `engine jolt` writes, npm's build where npm is there, and a native one where
+// CROSSCHECK_JOLT names a source tree of Jolt.
 
 #include <fmt/format.h>
+
+#include <cstdlib>
 
 #include "reference/protocol/trajectory_files.h"
 #include "tests/unit/helpers.h"
@@ -10,24 +13,36 @@
 namespace crosscheck::testing_tools {
 namespace {
 
-class Jolt : public Cli {
+class Jolt : public Cli, public ::testing::WithParamInterface<std::string> {
  protected:
   /// What is fetched needs a registry, which a machine with nothing but its packages has not.
   void SetUp() override {
     Cli::SetUp();
-    if (!on_path("npm") || run_program({"npm", "view", "jolt-physics", "version", "--fetch-retries=0"}, folder_).status)
+    const char* tree = std::getenv("CROSSCHECK_JOLT");
+    if (is_native() && !tree) GTEST_SKIP() << "this machine has no source tree of Jolt named by CROSSCHECK_JOLT";
+    if (is_native()) from_ = {"--prefix", tree};
+    if (!is_native() && (!on_path("npm") ||
+                         run_program({"npm", "view", "jolt-physics", "version", "--fetch-retries=0"}, folder_).status))
       GTEST_SKIP() << "this machine has no npm that reaches a registry: Jolt is not fetched and tried";
   }
+  static bool is_native() { return GetParam() == "native"; }
   /// Builds the program; it is moved, since it needs nothing that was beside it. Empty where it was not built.
   std::string built() const {
-    const ProgramResult made = call({"engine", "jolt", "-o", "made"});
+    std::vector<std::string> words{"engine", "jolt", "-o", "made"};
+    words.insert(words.end(), from_.begin(), from_.end());
+    const ProgramResult made = call(words);
     EXPECT_EQ(made.status, 0) << "npm has to reach its registry, or to have jolt-physics in its cache: " << made.err;
     if (made.status != 0) return "";
     fs::create_directories(folder_ / "moved");
     fs::rename(folder_ / "made", folder_ / "moved/jolt");
     return "exec:" + (folder_ / "moved/jolt").string();
   }
+
+ private:
+  std::vector<std::string> from_;
 };
+INSTANTIATE_TEST_SUITE_P(Both, Jolt, ::testing::Values("npm", "native"),
+                         [](const auto& of) { return std::string(of.param); });
 
 std::string scene_text(double duration, int samples, double step, const std::string& rest) {
   return fmt::format(
@@ -36,7 +51,7 @@ std::string scene_text(double duration, int samples, double step, const std::str
       duration, samples, step, rest);
 }
 
-TEST_F(Jolt, SpeaksTheProtocolAndIsWhatItsReadBackSays) {
+TEST_P(Jolt, SpeaksTheProtocolAndIsWhatItsReadBackSays) {
   const std::string jolt = built();
   ASSERT_FALSE(jolt.empty());
   const ProgramResult kit = call({"check", "--protocol", jolt});
@@ -56,7 +71,7 @@ TEST_F(Jolt, SpeaksTheProtocolAndIsWhatItsReadBackSays) {
   }
 }
 
-TEST_F(Jolt, AChainHangsWhereOnePassInSinglePrecisionLeavesIt) {
+TEST_P(Jolt, AChainHangsWhereOnePassInSinglePrecisionLeavesIt) {
   const std::string jolt = built();
   ASSERT_FALSE(jolt.empty());
   constexpr double g = 9.81, m = 0.1, k = 100, gamma = 5, h = 1. / 256;
@@ -81,7 +96,7 @@ TEST_F(Jolt, AChainHangsWhereOnePassInSinglePrecisionLeavesIt) {
   }
 }
 
-TEST_F(Jolt, FreezesWhereAStepOfTheFallIsLessThanHalfAUnitInTheLastPlace) {
+TEST_P(Jolt, FreezesWhereAStepOfTheFallIsLessThanHalfAUnitInTheLastPlace) {
   const std::string jolt = built();
   ASSERT_FALSE(jolt.empty());
   struct Row {
@@ -100,7 +115,7 @@ TEST_F(Jolt, FreezesWhereAStepOfTheFallIsLessThanHalfAUnitInTheLastPlace) {
   }
 }
 
-TEST_F(Jolt, BreaksNoRelationButForKnownCauses) {
+TEST_P(Jolt, BreaksNoRelationButForKnownCauses) {
   const std::string jolt = built();
   ASSERT_FALSE(jolt.empty());
   const ProgramResult checked = call({"check", jolt});
