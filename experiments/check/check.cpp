@@ -29,6 +29,15 @@ const KnownBreak* known_break(const Answer& answer, const std::vector<KnownBreak
   return nullptr;
 }
 
+/// A program that ended no run at all (it is not there, it cannot start) has shown nothing of its mechanics.
+void withdraw_where_nothing_ran(std::vector<Answer>& answers) {
+  const auto says_nothing = [](const Answer& a) {
+    return a.mark == RelationMark::not_asked || a.failure == Verdict::crash;
+  };
+  if (!std::ranges::all_of(answers, says_nothing)) return;
+  for (Answer& a : answers) a.mark = RelationMark::not_asked;
+}
+
 }  // namespace
 
 std::filesystem::path shipped_known_breaks() { return CROSSCHECK_KNOWN_BREAKS; }
@@ -108,6 +117,7 @@ std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& s
       if (scenes.empty() || relation.excluded(scene).empty())
         answers.push_back(ask(relation, subject, scene, seed, known));
   }
+  withdraw_where_nothing_ran(answers);
   return answers;
 }
 

@@ -46,7 +46,7 @@ Answer ask(const Relation& relation, Subject& subject, const Scene& scene, unsig
 using AboutToAsk = std::function<void(const std::string&)>;
 
 /// Every relation of a method: on its smallest scenes where no scene is given, else on each of these that it says
-/// something about.
+/// something about. A method that ended no run could not be asked.
 std::vector<Answer> answers_of(const Method& method, const std::vector<Scene>& scenes, unsigned seed,
                                const std::vector<KnownBreak>& known, const AboutToAsk& begin = {});
 

@@ -141,6 +141,29 @@ std::string junit_of(const std::vector<Answer>& answers) {
       answers.size(), failures, skipped, body);
 }
 
+/// A picture of each break that is not known, of the scene that shows it; those that cannot be drawn are left out.
+std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std::vector<Method>& methods,
+                                   const std::vector<Scene>& scenes, const std::filesystem::path& folder) {
+  std::vector<PageImage> pictures;
+  for (const Answer& a : answers) {
+    if (a.mark != RelationMark::broken) continue;
+    const std::vector<Scene> asked = scenes.empty() ? a.relation->smallest() : scenes;
+    const auto scene = std::ranges::find(asked, a.scene, &Scene::name);
+    std::vector<Method> drawn;  // of a pair "A & B" both
+    for (const Method& method : methods)
+      if (a.method == method.name || a.method.starts_with(method.name + " & ") ||
+          a.method.ends_with(" & " + method.name))
+        drawn.push_back(method);
+    const auto file = folder / (file_name_of(fmt::format("{}-{}-{}", a.relation->name, a.method, a.scene)) + ".png");
+    if (scene == asked.end() || !draw_break(drawn, *scene, a.finding.since, file).empty()) continue;
+    const std::string caption =
+        fmt::format("{} on {}{}. Broken: {}.", a.method, a.scene,
+                    a.finding.since ? fmt::format(" at {:.2g} s", *a.finding.since) : "", a.relation->sentence);
+    pictures.push_back({file, fmt::format("{} on {}", a.method, a.scene), caption});
+  }
+  return pictures;
+}
+
 int check_relations(const CheckOptions& options, const std::string& line) {
   std::vector<Method> methods;
   std::vector<Scene> scenes;
@@ -174,7 +197,9 @@ int check_relations(const CheckOptions& options, const std::string& line) {
     const Table table = table_of(answers);
     const Provenance lines = provenance(line);
     write_csv(table, lines, folder->path());
-    write_file(folder->path() / "index.html", relations_page_html(rows_of<RelationRow>(table), lines));
+    write_file(
+        folder->path() / "index.html",
+        relations_page_html(rows_of<RelationRow>(table), draw_breaks(answers, methods, scenes, folder->path()), lines));
     folder->finish();
   }
   if (!options.junit.empty()) write_file(options.junit, junit_of(answers));

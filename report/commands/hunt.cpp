@@ -15,6 +15,23 @@
 #include "report/pictures/scene_picture.h"
 
 namespace crosscheck {
+
+std::string draw_break(const std::vector<Method>& methods, const Scene& scene, std::optional<double> since,
+                       const std::filesystem::path& file) {
+  try {
+    std::vector<MethodResult> results;
+    for (const Method& method : methods) results.push_back(recorded_result(method, scene, run_for_relations(scene)));
+    std::vector<const MethodResult*> shown;
+    for (const MethodResult& result : results) shown.push_back(&result);
+    Shot shot = usual_shot(scene, false);
+    shot.at = since.value_or(-1);
+    render::write_png(picture_of(scene, shown, shot), file);
+    return "";
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -44,24 +61,6 @@ std::string command_of(const HuntFindingRow& row, const HuntOptions& options, co
   if (methods.size() == 1) line += fmt::format(" --seed {}", options.hunt.seed_of(row.index));
   if (!options.known_file.empty()) line += " --known " + options.known_file;
   return line;
-}
-
-/// The methods' runs of the smallest scene, when it breaks. Returns why there is none.
-std::string draw_finding(const HuntFindingRow& row, const Hunt& hunt, const std::filesystem::path& file) {
-  try {
-    const Scene scene = parse_scene(row.scene, row.kind);
-    std::vector<MethodResult> results;
-    for (const Method& method : methods_of(row, hunt))
-      results.push_back(recorded_result(method, scene, run_for_relations(scene)));
-    std::vector<const MethodResult*> shown;
-    for (const MethodResult& result : results) shown.push_back(&result);
-    Shot shot = usual_shot(scene, false);
-    shot.at = row.since.value_or(-1);
-    render::write_png(picture_of(scene, shown, shot), file);
-    return "";
-  } catch (const std::exception& error) {
-    return error.what();
-  }
 }
 
 /// The report text, as it may be sent to whoever makes the engine.
@@ -164,7 +163,9 @@ int hunt_command(const HuntOptions& options) {
     if (group.smallest.mark == RelationMark::broken) {
       folder.announce({name + ".toml", name + ".png", name + ".md"});
       write_file(file(".toml"), group.smallest.scene);
-      const std::string no_picture = draw_finding(group.smallest, options.hunt, file(".png"));
+      const std::string no_picture =
+          draw_break(methods_of(group.smallest, options.hunt), parse_scene(group.smallest.scene, group.smallest.kind),
+                     group.smallest.since, file(".png"));
       write_file(file(".md"), report_text(group, options, no_picture));
     }
     print_group(group, file(".md").string());

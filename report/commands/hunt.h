@@ -8,6 +8,11 @@
 
 namespace crosscheck {
 
+/// A picture (PNG) of the methods' runs of a scene on which they break a relation, at the time when they do (s; none:
+/// the end). Returns why there is none; empty where it was drawn.
+std::string draw_break(const std::vector<Method>& methods, const Scene& scene, std::optional<double> since,
+                       const std::filesystem::path& file);
+
 struct HuntOptions {
   Hunt hunt;
   double seconds = 0;  // no case is begun later

@@ -94,6 +94,7 @@ class LabGuide extends HTMLElement {
     writeExperiment(null);
     this.experiment = this.step = null;
     this.sandbox = true;
+    if (this.lab.view) this.lab.act_speed(1);  // an experiment may have gone faster
     this.render();
     this.focusFirst();
   }

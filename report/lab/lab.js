@@ -29,6 +29,10 @@ class LiveLab extends HTMLElement {
     this.dataset.state = 'closed';
     this.showDoor();
     document.addEventListener('lab-language', () => this.relabel());
+    const head = this.dataset.alone === undefined ? null : document.querySelector('nav .made');
+    const sayHead = () => head?.replaceChildren(say('madeOf'));
+    sayHead();
+    document.addEventListener('lab-language', sayHead);
     if (this.dataset.alone !== undefined && !/^#lab=/.test(location.hash)) this.open();
   }
 

@@ -23,7 +23,10 @@ const labActs = {
     this.wake();
   },
 
-  act_speed(speed) { this.speed = speed; },
+  act_speed(speed) {
+    this.speed = speed;
+    this.view.speed.value = String(speed);
+  },
 
   /** A method was changed: its run starts again at once, and in the same scene if the rule is the same. */
   act_method(i, spec, done) {

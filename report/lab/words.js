@@ -10,6 +10,7 @@ const labWords = {
   changed: ['changed', '已修改'],
   original: ['original values', '恢复原值'],
   language: ['Language', '语言'],
+  madeOf: ['the engine mysim, live in this page', '引擎 mysim，就在本页中运行'],
   close: ['Close', '关闭'],
   openInLab: ['Open in the lab', '在实验室中打开'],
   computingRuns: ['mysim is computing {methods} …', 'mysim 正在计算 {methods} ……'],

@@ -142,8 +142,9 @@ std::string certificate_html(const Certificate& certificate);
 std::string parity_html(const std::vector<ScenePart>& scenes);
 /// Relations that need no truth: a row of marks for each engine, and the breaks with their causes; empty without rows.
 std::string relations_html(const std::vector<RelationRow>& rows);
-/// A page of that alone.
-std::string relations_page_html(const std::vector<RelationRow>& rows, const Provenance& lines);
+/// A page of that alone, with pictures of what is broken.
+std::string relations_page_html(const std::vector<RelationRow>& rows, const std::vector<PageImage>& pictures,
+                                const Provenance& lines);
 /// One recommendation a scene: the method to take for 1 % of the motion, with step, error, cost and what binds the
 /// step.
 std::string recommendation_table_html(const std::vector<ScenePart>& scenes);

@@ -96,10 +96,13 @@ std::string relations_html(const std::vector<RelationRow>& rows) {
   return out + (breaks.rows.empty() ? "" : "<div class=\"breaks\">" + page_table_html(breaks) + "</div>\n");
 }
 
-std::string relations_page_html(const std::vector<RelationRow>& rows, const Provenance& lines) {
+std::string relations_page_html(const std::vector<RelationRow>& rows, const std::vector<PageImage>& pictures,
+                                const Provenance& lines) {
+  std::string drawn;
+  for (const PageImage& picture : pictures) drawn += image_html(picture, "render");
   return page_head("Crosscheck: what must hold without any truth") +
          "<main>\n<section class=\"chapter\"><h2>What must hold without any truth</h2>\n" + relations_html(rows) +
-         "</section>\n<section class=\"chapter\"><h3>How this was made</h3>\n" + provenance_html(lines) +
+         drawn + "</section>\n<section class=\"chapter\"><h3>How this was made</h3>\n" + provenance_html(lines) +
          "</section>\n</main></body></html>\n";
 }
 

@@ -67,6 +67,25 @@ TEST(Relations, TakeARunThatFailsForBroken) {
   EXPECT_EQ(answer.finding.since, 0.25);
 }
 
+TEST(Relations, CannotBeAskedOfAMethodThatEndsNoRun) {
+  Method dead = find_method("leapfrog"), weak = dead;
+  dead.engine = [](const Scene&, const crosscheck::Run&, Observer&) {
+    Outcome out;
+    out.verdict = Verdict::crash, out.reason = "it did not start";
+    return out;
+  };
+  const std::vector<Answer> answers = answers_of(dead, {}, 1, {});
+  for (const Answer& a : answers) EXPECT_EQ(a.mark, RelationMark::not_asked) << a.relation->name;
+  EXPECT_TRUE(contains(answers.front().sentence(), "it did not start"));
+  EXPECT_EQ(status_of(answers), 1);
+  // one that runs some scenes to their end breaks what it dies of
+  weak.engine = [&dead, alive = weak.engine](const Scene& scene, const crosscheck::Run& run, Observer& observer) {
+    return (scene.model.find<Springs>() ? dead.engine : alive)(scene, run, observer);
+  };
+  const std::vector<Answer> some = answers_of(weak, {shipped_scene("projectile"), shipped_scene("spring")}, 1, {});
+  EXPECT_TRUE(std::ranges::any_of(some, [](const Answer& a) { return a.mark == RelationMark::broken; }));
+}
+
 TEST(Relations, AreAPartOfEveryReportAndOfANamedScenesForProgramsAlone) {
   Request request;
   EXPECT_EQ(relations_points(request).size(), default_methods().size());

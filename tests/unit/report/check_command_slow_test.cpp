@@ -16,9 +16,11 @@ TEST_F(CliCheck, PassesWhereOnlyKnownRelationsAreBrokenAndFailsElsewhere) {
   EXPECT_TRUE(contains(known.out, "holds            turned"));
 
   const auto none = write("none.toml", "");
-  const ProgramResult broken = call({"check", "rk4", "--known", none.string()});
+  const ProgramResult broken = call({"check", "rk4", "--known", none.string(), "--out", "broken"});
   EXPECT_EQ(broken.status, 1);
   EXPECT_TRUE(contains(broken.out, "broken           energy"));
+  EXPECT_TRUE(fs::exists(folder_ / "broken/energy-mysim-rk4-dumbbell.png"));
+  EXPECT_TRUE(contains(read(folder_ / "broken/index.html"), "alt=\"mysim/rk4 on dumbbell\""));
 
   const ProgramResult nothing = call({"check", "leapfrog", "circle"});
   EXPECT_EQ(nothing.status, 1);
