@@ -51,7 +51,7 @@ int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
   if (const int status = run_in_terminal(command); status != 0 || !fs::exists(engines)) return status;
   ReportOptions options;
   options.scenes = {"spring", "pendulum"};
-  options.experiments = {"engines", "speed-accuracy", "stability"};
+  options.experiments = {"engines", "speed-accuracy", "stability", "relations"};
   options.methods = "explicit-euler,trapezoidal,rk4,symplectic-euler,bullet/deformable-explicit";
   std::vector<std::string> yours;
   for (const auto& entry : fs::directory_iterator(engines))
