@@ -91,7 +91,7 @@ int grade_all(const Assignment& assignment, const GradeCommand& command, const S
   crosscheck::write_file(fs::path(command.out) / "table.txt", class_text(assignment, all));
   fmt::print("{}", class_text(assignment, all));
   for (const GradedSubmission& one : all)
-    if (!one.failure.empty()) return 1;
+    if (!one.failure.empty() || one.result.ungraded() > 0) return 1;
   return 0;
 }
 

@@ -117,21 +117,55 @@ class Grading {
     const auto unusable = unusable_.find(one.part);
     if (unusable != unusable_.end())
       test_run.answers.assign(test_run.cases.size(), unusable->second);
-    else
-      test_run.answers = run_calls(sandbox_, programs_.at(one.part), test_run.cases);
+    else if (const std::string before = ungraded_before(test_run.cases); !before.empty()) {
+      one.ungraded = true;
+      one.said = options_.common.fill("how.as_ungraded", before);
+      return;
+    } else
+      test_run.answers = answers_to(one.part, test_run.cases);
     for (std::size_t k = 0; k < test_run.cases.size(); ++k)
       test_run.answers[k] = reduced(*test_run.test, test_run.cases[k], test_run.answers[k]);
+    for (Answer& answer : test_run.answers)
+      if (answer.how == How::threw) {
+        answer.detail = shown_exception(answer.detail, submission_.files);
+        if (answer.detail.empty()) answer.detail = options_.common.of("threw.unseen");
+      }
     judge_test(test_run, one);
     one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
+  /// The test that was not graded because of a call that this one makes as well, with other numbers: it would take as
+  /// long again, and the next one too. Empty: there is none.
+  std::string ungraded_before(const std::vector<Case>& cases) const {
+    for (const Case& each : cases)
+      if (const auto found = ungraded_calls_.find(each.call); found != ungraded_calls_.end()) return found->second;
+    return "";
+  }
+
+  /// Code may be twenty times as slow as the official solution, and as slow as the least limit allows in any case: the
+  /// official solution is asked only where that is not enough.
+  std::vector<Answer> answers_to(const std::string& part, const std::vector<Case>& cases) {
+    const auto too_slow = [](const Answer& answer) { return answer.how == How::out_of_time; };
+    std::vector<Answer> answers = run_calls(sandbox_, programs_.at(part), cases);
+    if (std::none_of(answers.begin(), answers.end(), too_slow)) return answers;
+    double reference = 0;
+    run_calls(*trusted_, builder_->ours(part, content_of_file(solution_of(assignment_, *builder_, part))), cases,
+              limits_for(0), &reference);
+    if (limits_for(reference).cpu > limits_for(0).cpu)
+      answers = run_calls(sandbox_, programs_.at(part), cases, limits_for(reference));
+    for (Answer& answer : answers) answer.reference = reference;
+    return answers;
+  }
+
   /// The feedback is on the first wrong call; where all are right, the plot shows the first one.
-  void judge_test(const TestRun& test_run, TestResult& one) const {
+  void judge_test(const TestRun& test_run, TestResult& one) {
     std::size_t shown = 0;
     one.said.clear();
     for (std::size_t k = 0; k < test_run.cases.size(); ++k) {
       const Judged judged = judge(test_run.cases[k], test_run.answers[k]);
       if (judged.right) continue;
+      one.ungraded = ungraded(judged.how);
+      if (one.ungraded) ungraded_calls_.emplace(test_run.cases[k].call, one.id);
       one.said = words(options_.common, options_.own, test_run.cases[k], test_run.answers[k], judged);
       const bool ran = unusable_.count(one.part) == 0;
       if (ran && test_run.cases.size() > 1)
@@ -165,7 +199,8 @@ class Grading {
       for (const TestResult& other : result_.tests)
         if (!shown.hidden && other.hidden && other.id == shown.id && passed(shown) && !passed(other)) {
           shown.earned = 0;
-          shown.said = options_.common.of("shown_only");
+          shown.ungraded = other.ungraded;
+          shown.said = options_.common.of(other.ungraded ? "how.shown_ungraded" : "shown_only");
         }
   }
 
@@ -175,8 +210,8 @@ class Grading {
     std::vector<TestResult*> wrong;
     for (std::size_t i = 0; i < test_runs_.size(); ++i) {
       if (result_.tests[i].part != part) continue;
-      of_part.push_back(test_runs_[i]);
-      bool answered = true;
+      bool answered = !result_.tests[i].ungraded;
+      if (answered) of_part.push_back(test_runs_[i]);
       for (const Answer& answer : test_runs_[i].answers) answered = answered && answer.how == How::answered;
       if (answered && !passed(result_.tests[i])) wrong.push_back(&result_.tests[i]);
     }
@@ -208,9 +243,10 @@ class Grading {
   std::unique_ptr<Sandbox> trusted_;
   std::unique_ptr<Builder> builder_;
   crosscheck::TemporaryFolder scratch_;
-  std::map<std::string, fs::path> programs_;  // by part
-  std::map<std::string, Answer> unusable_;    // by part: missing, or it does not compile
-  std::vector<TestRun> test_runs_;            // beside result_.tests
+  std::map<std::string, fs::path> programs_;           // by part
+  std::map<std::string, Answer> unusable_;             // by part: missing, or it does not compile
+  std::map<std::string, std::string> ungraded_calls_;  // the test that was not graded because of it
+  std::vector<TestRun> test_runs_;                     // beside result_.tests
   Result result_;
 };
 
@@ -285,16 +321,6 @@ void write_result(const fs::path& file, const Result& result, const std::string&
   crosscheck::write_file(file, to_json(result, fingerprint));
 }
 
-std::vector<std::pair<std::string, double>> by_part(const Assignment& assignment, const Result& result) {
-  std::vector<std::pair<std::string, double>> sums;
-  for (const Part& part : assignment.parts) {
-    sums.emplace_back(part.name, 0);
-    for (const TestResult& test : result.tests)
-      if (test.part == part.name) sums.back().second += test.earned;
-  }
-  return sums;
-}
-
 /// A field of CSV; spreadsheets take what begins like this for a formula.
 std::string quoted(const std::string& text) {
   const bool formula = !text.empty() && std::string("=+-@").find(text[0]) != std::string::npos;
@@ -303,7 +329,20 @@ std::string quoted(const std::string& text) {
 
 std::string remark_of(const GradedSubmission& one) {
   if (!one.failure.empty()) return "not graded: " + printable(one.failure);
+  for (const TestResult& test : one.result.tests)
+    if (test.ungraded) return printable(fmt::format("{}: {}", test.id, test.said));
   return one.result.preflight.empty() ? "" : printable(one.result.preflight.front());
+}
+
+/// Points of the tests of a part, of all parts where it is empty; nothing where any of them could not be graded.
+std::string points_in(const GradedSubmission& one, std::string_view part = "") {
+  double sum = 0;
+  for (const TestResult& test : one.result.tests) {
+    if (!part.empty() && test.part != part) continue;
+    if (test.ungraded) return "";
+    sum += test.earned;
+  }
+  return one.failure.empty() ? points_text(sum) : "";
 }
 
 }  // namespace
@@ -373,9 +412,8 @@ std::string class_csv(const Assignment& assignment, const std::vector<GradedSubm
   text += ",remark\n";
   for (const GradedSubmission& one : all) {
     // no result is no zero: the cells stay empty
-    const bool graded = one.failure.empty();
-    text += quoted(one.result.submission) + "," + (graded ? points_text(one.result.earned()) : "");
-    for (const auto& [part, sum] : by_part(assignment, one.result)) text += "," + (graded ? points_text(sum) : "");
+    text += quoted(one.result.submission) + "," + points_in(one);
+    for (const Part& part : assignment.parts) text += "," + points_in(one, part.name);
     text += "," + quoted(remark_of(one)) + "\n";
   }
   return text;
@@ -388,11 +426,12 @@ std::string class_text(const Assignment& assignment, const std::vector<GradedSub
   for (const Part& part : assignment.parts) text += fmt::format(" {:>12}", part.name);
   text += "  remark\n";
   for (const GradedSubmission& one : all) {
-    const bool graded = one.failure.empty();
-    text += fmt::format("{:<{}} {:>7}", printable(one.result.submission), width,
-                        graded ? points_text(one.result.earned()) : "-");
-    for (const auto& [part, sum] : by_part(assignment, one.result))
-      text += fmt::format(" {:>12}", graded ? points_text(sum) : "-");
+    const auto cell = [&](std::string_view part) {
+      const std::string points = points_in(one, part);
+      return points.empty() ? "-" : points;
+    };
+    text += fmt::format("{:<{}} {:>7}", printable(one.result.submission), width, cell(""));
+    for (const Part& part : assignment.parts) text += fmt::format(" {:>12}", cell(part.name));
     text += "  " + remark_of(one) + "\n";
   }
   return text;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdio>
+#include <thread>
 
 #include "mysim/base/files.h"
 #include "tests/coursework/grader/grade.h"
@@ -59,8 +61,13 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
        "double twice(double x) { return 2 * x; }",
        "twice.cpp defines sums("},
       {"crash", "double twice(double x) { volatile int* p = nullptr; return *p + x; }", "crashed (segmentation fault)"},
-      {"loop", "double twice(double x) { for (volatile int i = 0;;) i = 1; return x; }", "did not come to an end"},
+      {"loop", "double twice(double x) { for (volatile int i = 0;;) i = 1; return x; }", "too slow"},
       {"throws", "double twice(double) { throw std::runtime_error(\"not today\"); }", "exception: not today"},
+      {"recursion", "double twice(double x) { return twice(x) + 1; }", "a function called itself"},
+      {"compiler's memory", "__asm__(\".rept 400000000\\n.quad 0\\n.endr\"); double twice(double x) { return x; }",
+       "the compiler needed more than 1024 MB"},
+      {"our words", "double twice(double) { throw std::runtime_error(std::string(300, 'q')); }",
+       "its text is not shown"},
       {"nan", "double twice(double x) { return x / 0.0 * 0.0; }", "Not a finite number at double"},
       {"memory", "double twice(double x) { std::vector<double> v(20000000000ull, x); return v[1]; }", "more memory"},
       {"exit", "double twice(double) { std::exit(0); }", "ended the program before"},
@@ -74,6 +81,56 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
     EXPECT_EQ(earned_by(result, "sums"), 50) << one.what;
     EXPECT_NE(result.tests[0].said.find(one.says), std::string::npos) << one.what << ": " << result.tests[0].said;
   }
+}
+
+/// Slow enough to be near no limit and far from the official solution: eight hundred times as slow.
+const char* const slow_sums =
+    "#include \"tiny.h\"\n"
+    "std::vector<double> sums(const std::vector<double>& n) {\n"
+    "  std::vector<double> all;\n  double sum = 0;\n  volatile double burnt = 0;\n"
+    "  for (int i = 0; i < 100000000; ++i) burnt = burnt + i;\n"
+    "  for (double x : n) all.push_back(sum += x);\n  return all;\n}\n";
+
+TEST(Grade, SlowCodeHasTheSamePointsIdleAndUnderALoadOfEight) {
+  const Result idle = graded({{"sums.cpp", slow_sums}});
+  std::atomic<bool> stop = false;
+  std::vector<std::thread> busy;
+  for (int i = 0; i < 8; ++i)
+    busy.emplace_back([&] {
+      while (!stop) {
+      }
+    });
+  const Result loaded = graded({{"sums.cpp", slow_sums}});
+  stop = true;
+  for (std::thread& each : busy) each.join();
+  EXPECT_EQ(idle.earned(), 100) << text_of(idle, common_texts());
+  EXPECT_EQ(loaded.earned(), 100) << text_of(loaded, common_texts());
+}
+
+TEST(Grade, ALoopWithoutEndIsNotGradedAndNotRunAgain) {
+  const Result result =
+      graded({{"twice.cpp", "double twice(double x) { for (volatile int i = 0;;) i = 1; return x; }"}});
+  EXPECT_EQ(earned_by(result, "twice"), 0);
+  EXPECT_EQ(earned_by(result, "sums"), 50);
+  EXPECT_EQ(result.ungraded(), 50);
+  double seconds = 0;
+  for (const TestResult& test : result.tests) {
+    EXPECT_EQ(test.ungraded, test.part == "twice") << test.id;
+    EXPECT_EQ(test.cause, "");
+    seconds += test.seconds;
+  }
+  const std::string& said = result.tests[0].said;
+  EXPECT_NE(said.find("Not graded: your code was too slow. It was stopped after 30 s of processor time; the official "
+                      "solution needs 0."),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("The last function that was called is twice; that was call number 1."), std::string::npos)
+      << said;
+  EXPECT_EQ(result.tests.back().part == "twice" ? result.tests.back().said : result.tests[3].said,
+            "Not graded, as test " + result.tests[0].id + ": it makes the same calls.");
+  const std::string text = text_of(result, common_texts());
+  EXPECT_NE(text.find("Total: 50 of 50 points\n50 more points could not be given or refused"), std::string::npos)
+      << text;
 }
 
 TEST(Grade, KnownMistakesLoseTheirTestsAndAreNamed) {
