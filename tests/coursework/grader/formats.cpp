@@ -36,6 +36,7 @@ std::string feedback_on(const Result& result, const TestResult& test, const Text
 }
 
 std::string summary_of(const Result& result, const Texts& common) {
+  if (!result.not_graded.empty()) return clean(total_of(result, common));
   int tests = 0, good = 0, hidden = 0;
   double points = 0, earned = 0;
   for (const TestResult& test : result.tests) {

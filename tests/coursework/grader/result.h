@@ -31,7 +31,8 @@ struct Result {
   bool secret = false;                 // the seed was made from the lecturer's secret: it must not be shown
   std::vector<std::string> preflight;  // lines: files missing, first errors of the compiler in plain words
   std::vector<TestResult> tests;
-  bool complete = false;  // false while tests are still to run
+  std::string not_graded = {};  // why nothing of it could be graded; empty: it was
+  bool complete = false;        // false while tests are still to run
   double earned() const;
   double points() const;
   double ungraded() const;  // points of tests that could not be graded
