@@ -252,7 +252,7 @@ std::string row(const std::vector<std::string>& cells, const char* kind = "td") 
 /// Of words with commas between them.
 std::string head(const std::string& words) {
   std::vector<std::string> cells;
-  for (std::string& word : crosscheck::split(words, ',')) cells.push_back(escaped(word));
+  for (const std::string& word : crosscheck::split(words, ',')) cells.push_back(escaped(word.substr(word[0] == ' ')));
   return row(cells, "th");
 }
 
@@ -391,7 +391,7 @@ std::string class_page(const Assignment& assignment, const std::vector<GradedSub
   for (const TestCount& test : counts_of(all))
     page += row({escaped(test.id + " " + test.title), std::to_string(test.passed), std::to_string(test.failed),
                  std::to_string(test.ungraded), escaped(test.frequent())});
-  page += "</table>\n<h2></h2>\n<table>\n" + head(common.of("class.causes"));
+  page += "</table>\n<p></p>\n<table>\n" + head(common.of("class.causes"));
   for (const auto& [cause, names] : causes)
     page += row({escaped(cause), std::to_string(names.size()), fmt::format("{}", fmt::join(names, ", "))});
   page += "</table>\n";

@@ -77,13 +77,13 @@ void require_known(const Scene& scene) {
 }  // namespace
 
 int engine_command(const EngineCommand& command) {
-  const Scene scene = crosscheck_engine::read_scene(command.scene);
-  require_known(scene);
-  const auto sandbox = sandbox_named(command.sandbox);
   const Spent spent(command.program);
   if (spent.sum() > most_in_all)
     throw std::runtime_error(
         fmt::format("the student's code took more than {:g} s in the charts; no more of it is run", most_in_all));
+  const Scene scene = crosscheck_engine::read_scene(command.scene);
+  require_known(scene);
+  const auto sandbox = sandbox_named(command.sandbox);
   const auto begin = std::chrono::steady_clock::now();
   double cpu = 0;
   const Answer answer = run_calls(*sandbox, command.program, {call_of(command.part, scene)}, engine_limits, &cpu).at(0);

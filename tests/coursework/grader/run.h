@@ -12,7 +12,8 @@
 namespace coursework {
 
 /// s of processor time that any code may take for the calls of one test: hundreds of times what the slowest of the
-/// official solutions takes (0.06 s), and twice what it takes with evalF at 5 ms, the slowest right one that was met.
+/// classic solution's tests takes (0.06 s), and twice what it takes with evalF at 5 ms, the slowest right one that was
+/// met.
 constexpr double least_cpu = 30;
 /// Code may take so many times what the official solution takes for the same calls on the same machine.
 constexpr double times_reference = 20;

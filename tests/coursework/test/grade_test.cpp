@@ -322,6 +322,18 @@ TEST(Program, BadUseIsToldInOneLine) {
   }
 }
 
+TEST(Program, ChartsOfAPartEndWithItsTime) {
+  const TemporaryFolder here("test");
+  const std::string program = (here.path / "your-rk4.program").string(),
+                    rest = " rk4 no-scene.json " + here.path.string();
+  write_file(program + ".spent", "100.5\n150\n");
+  EXPECT_EQ(call("engine " + program + rest).said.find("no more of it is run"), std::string::npos);
+  write_file(program + ".spent", "100.5\n150\n50\n");
+  const Called over = call("engine " + program + rest);
+  EXPECT_NE(over.status, 0);
+  EXPECT_NE(over.said.find("took more than 300 s in the charts; no more of it is run"), std::string::npos) << over.said;
+}
+
 TEST(Program, SolutionOfTheFirstAssignmentEarnsAHundred) {
   const TemporaryFolder here("test");
   const std::string solution = (folder_of_coursework() / "a1-steppers/solution").string();
