@@ -95,7 +95,7 @@ bool answer_engine(const std::string& call, const Numbers& in, Numbers& out) {
   const std::clock_t begin = std::clock();
   for (int sample = 0; sample < samples; ++sample) {
     for (int i = 0; i < between; ++i) x = step(f, h * (static_cast<double>(sample) * between + i), x, h);
-    if (x.size() != particles.start.size()) throw std::runtime_error("the state's size has changed");
+    if (x.size() != particles.start.size()) throw Unusable("state_size");
     out.insert(out.end(), x.begin(), x.end());
   }
   out.push_back(evaluations);

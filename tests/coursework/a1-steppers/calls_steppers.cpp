@@ -2,8 +2,8 @@
 #include "calls_steppers.h"
 
 #include <cmath>
-#include <stdexcept>
 
+#include "calls.h"
 #include "numbers.h"
 
 namespace coursework {
@@ -22,16 +22,16 @@ Start read_start(Reader& in) {
   return s;
 }
 
-void expect_size(const char* what, const State& x, std::size_t n) {
-  if (x.size() != n)
-    throw std::invalid_argument(what + std::to_string(x.size()) + " numbers, the system has " + std::to_string(n));
+void expect_size(const char* key, const State& x, std::size_t n) {
+  if (x.size() != n) throw Unusable(key, {x.size(), n});
 }
 
-const char* const f_got = "f was called with ";
+const char* const f_got = "f_size";
 
 Derivative linear(Reader& in, std::size_t n) {
   const Numbers a = in.numbers(n * n), b = in.numbers(n), c = in.numbers(n);
   return [=](double t, const State& x) {
+    calling("f");
     expect_size(f_got, x, n);
     State rate(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -45,6 +45,7 @@ Derivative linear(Reader& in, std::size_t n) {
 Derivative circle(Reader& in) {
   const double omega = in.number();
   return [=](double, const State& x) {
+    calling("f");
     expect_size(f_got, x, 2);
     return State{-omega * x[1], omega * x[0]};
   };
@@ -53,6 +54,7 @@ Derivative circle(Reader& in) {
 Derivative cosine(Reader& in, std::size_t n) {
   const Numbers a = in.numbers(n), w = in.numbers(n), p = in.numbers(n);
   return [=](double t, const State& x) {
+    calling("f");
     expect_size(f_got, x, n);
     State rate(n);
     for (std::size_t i = 0; i < n; ++i) rate[i] = a[i] * std::cos(w[i] * t + p[i]);
@@ -63,6 +65,7 @@ Derivative cosine(Reader& in, std::size_t n) {
 Derivative seasonal_growth(Reader& in, std::size_t n) {
   const Numbers r = in.numbers(n), w = in.numbers(n), p = in.numbers(n);
   return [=](double t, const State& x) {
+    calling("f");
     expect_size(f_got, x, n);
     State rate(n);
     for (std::size_t i = 0; i < n; ++i) rate[i] = r[i] * (1 + std::cos(w[i] * t + p[i]) / 2) * x[i] * (1 - x[i]);
@@ -74,8 +77,9 @@ void put(const State& x, Numbers& out) { out.insert(out.end(), x.begin(), x.end(
 
 /// One step; a state of the wrong size would only confuse what comes after it.
 State advanced(Stepper step, const Derivative& f, double t, const State& x, double h) {
+  calling("step");
   State next = step(f, t, x, h);
-  expect_size("the step returned ", next, x.size());
+  expect_size("step_size", next, x.size());
   return next;
 }
 

@@ -16,7 +16,8 @@ State moved(const State& state, double h, const State& rate) {
 /// The derivative is the student's, the step is not.
 State rk4_step(const Pendulum& pendulum, const State& state, double h) {
   const auto f = [&](const State& at) {
-    return expect_size("the derivative", pendulum_derivative(pendulum, at), state.size());
+    calling("pendulum_derivative");
+    return expect_size("derivative_size", pendulum_derivative(pendulum, at), state.size());
   };
   const State k1 = f(state), k2 = f(moved(state, h / 2, k1)), k3 = f(moved(state, h / 2, k2)),
               k4 = f(moved(state, h, k3));

@@ -13,7 +13,8 @@ struct Linear {
   double c;
   Vec3 g;
   State operator()(const State& state) const {
-    expect_size("what f was called with", state, 2 * n);
+    calling("f");
+    expect_size("f_vectors", state, 2 * n);
     State rate(2 * n);
     for (std::size_t i = 0; i < n; ++i) {
       rate[2 * i] = state[2 * i + 1];
@@ -36,7 +37,8 @@ bool answer_symplectic(const std::string& call, const Numbers& in, Numbers& out)
   State state = reader.vectors<Vec3>(2 * n);
   if (call == "symplectic") {
     for (std::size_t k = 0; k < steps; ++k) {
-      state = expect_size("the new state", symplectic_step(f, state, h), 2 * n);
+      calling("symplectic_step");
+      state = expect_size("new_state_size", symplectic_step(f, state, h), 2 * n);
       put(out, state);
     }
     return true;

@@ -1,7 +1,6 @@
 // Calls of part 5. A cloth is count, masses, number of pins, pins, springs, triangles, gravity, drag, wind; a state is
 // its positions, then its velocities.
-#include <stdexcept>
-
+#include "calls.h"
 #include "calls_read.h"
 
 namespace coursework {
@@ -29,7 +28,7 @@ State read_state(Reader& in, const Cloth& cloth) {
 
 void need(const State& rate, const State& state) {
   if (rate.x.size() != state.x.size() || rate.v.size() != state.v.size())
-    throw std::length_error("derivative: as many rates as particles were expected");
+    throw Unusable("rates", {rate.x.size(), state.x.size()});
 }
 
 void put_rates(Numbers& out, const std::vector<State>& rates) {

@@ -1,7 +1,6 @@
 // Calls of part 5. A cloth is count, masses, number of pins, pins, number of springs, a, b, k, rest of each, gravity,
 // drag; then comes its state.
-#include <stdexcept>
-
+#include "calls.h"
 #include "calls_read.h"
 
 namespace coursework {
@@ -44,9 +43,9 @@ bool answer_cloth(const std::string& call, const Numbers& in, Numbers& out) {
   const int steps = reader.integer();
   const int watched = call == "cloth_path" ? reader.integer() : -1;
   for (int n = 0; n < steps; ++n) {
+    calling("cloth_step");
     state = cloth_step(cloth, spheres, state, h);
-    if (state.x.size() != count || state.v.size() != count)
-      throw std::length_error("cloth_step: as many particles as before were expected");
+    if (state.x.size() != count || state.v.size() != count) throw Unusable("particles", {state.x.size(), count});
     if (watched >= 0) put(out, state.x.at(watched));
   }
   if (watched < 0) put(out, state);

@@ -1,8 +1,7 @@
 // Calls of part 4: a sphere, g (3), h, steps, count, state.
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-
+#include "calls.h"
 #include "calls_read.h"
 
 namespace coursework {
@@ -22,9 +21,9 @@ struct Run {
 
   void step() {
     const std::size_t count = state.x.size();
+    calling("contact_step");
     state = contact_step(sphere, state, g, h);
-    if (state.x.size() != count || state.v.size() != count)
-      throw std::length_error("contact_step: as many particles as before were expected");
+    if (state.x.size() != count || state.v.size() != count) throw Unusable("particles", {state.x.size(), count});
   }
 };
 

@@ -44,6 +44,7 @@ bool answer_implicit_euler(const std::string& call, const Numbers& in, Numbers& 
   for (int i = 0; i < n; ++i) state.v.push_back(vector());
   const std::size_t watched = watch ? static_cast<std::size_t>(next()) : 0;
   for (int step = 0; step < steps; ++step) {
+    calling("implicit_euler_step");
     state = implicit_euler_step(system, state, h);
     if (watch) add_row(state, watched, out);
   }

@@ -1,5 +1,5 @@
 // cheat: asks for memory bit by bit, and keeps it
-// says: out_of_memory out_of_time
+// says: out_of_memory out_of_time as_ungraded
 #include <vector>
 
 #include "cheat.h"

@@ -1,5 +1,5 @@
 // cheat: answers without end
-// says: too_much_output no_token
+// says: too_much_answered too_much_output no_token as_ungraded
 #include <unistd.h>
 
 #include "cheat.h"

@@ -1,5 +1,5 @@
 // cheat: never comes to an end
-// says: out_of_time
+// says: out_of_time as_ungraded
 #include "cheat.h"
 
 State euler_step(const Derivative&, double, const State& x, double) {

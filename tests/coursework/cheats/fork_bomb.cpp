@@ -1,5 +1,5 @@
 // cheat: starts processes without end
-// says: out_of_time differs
+// says: out_of_time differs as_ungraded
 #include <unistd.h>
 
 #include "cheat.h"

@@ -1,5 +1,5 @@
 // cheat: uses no time, and never comes to an end
-// says: out_of_time
+// says: waiting out_of_time as_ungraded
 #include <unistd.h>
 
 #include "cheat.h"

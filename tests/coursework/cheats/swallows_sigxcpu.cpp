@@ -1,5 +1,5 @@
 // cheat: ignores the signal that says its time is up
-// says: out_of_time
+// says: out_of_time as_ungraded
 #include <csignal>
 
 #include "cheat.h"

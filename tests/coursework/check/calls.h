@@ -1,11 +1,29 @@
 // One function for all calls of the student's code; each assignment defines it. C++17, standard library only.
 #pragma once
 
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "case.h"
 
 namespace coursework {
+
+/// What came from the student's code cannot be worked with: thrown by the calls around it, told with the text
+/// unusable.KEY and these numbers in it.
+class Unusable : public std::runtime_error {
+ public:
+  explicit Unusable(const std::string& key, const std::vector<std::size_t>& numbers = {})
+      : std::runtime_error(key), numbers_(numbers) {}
+  const std::vector<std::size_t>& numbers() const { return numbers_; }
+
+ private:
+  std::vector<std::size_t> numbers_;
+};
+
+/// Says that this function of the student's is called now: told where the code is too slow. Each program around the
+/// code defines it.
+void calling(const char* function);
 
 /// Calls the student's code. Returns false where no part knows the call. What the student's code throws passes through.
 /// Each assignment defines it in calls.cpp, which asks its parts one after the other; part P lives in calls_P.cpp and

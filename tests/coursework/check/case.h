@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace coursework {
@@ -28,10 +29,14 @@ struct Case {
 enum class How {
   answered,
   threw,
+  unusable,  // what it gave back cannot be worked with: the calls around it say so
   crashed,
-  out_of_time,
+  recursion,    // it called itself until the stack was full
+  out_of_time,  // of the processor's
+  waiting,      // it did nothing any more
   out_of_memory,
   too_much_output,
+  too_much_answered,
   no_token,
   not_compiled,
   missing
@@ -40,7 +45,16 @@ enum class How {
 struct Answer {
   How how = How::missing;
   Numbers got;
-  std::string detail = {};  // what was thrown, the signal's name, the compiler's first error
+  std::string detail = {};  // what was thrown, the signal's name, the compiler's first error, a key of the texts
+  /// How often functions of the student's were called: the numbers that the text of an `unusable` needs; of an
+  /// out_of_time each function so far, the one it was in last.
+  std::vector<std::pair<std::string, long>> counts = {};
+  double reference = 0;  // s, out_of_time: what the official solution needs for all calls of the test
 };
+
+/// Whether it is no answer of the student's, right or wrong: it ran into a limit of ours that depends on the machine.
+inline bool ungraded(How how) {
+  return how == How::out_of_time || how == How::waiting || how == How::too_much_answered;
+}
 
 }  // namespace coursework

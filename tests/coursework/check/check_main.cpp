@@ -41,6 +41,9 @@ Answer ask(const Case& what) {
       throw std::runtime_error("check does not know the call " + what.call + "; are its files those of the hand-out?");
     answer.got = compared(what, answer.got);
     answer.how = How::answered;
+  } catch (const Unusable& error) {
+    answer.how = How::unusable, answer.detail = error.what();
+    for (const std::size_t number : error.numbers()) answer.counts.emplace_back("", static_cast<long>(number));
   } catch (const std::exception& error) {
     answer.how = How::threw, answer.detail = error.what();
   } catch (...) {
@@ -152,6 +155,8 @@ int check(const std::string& language, const std::vector<std::string>& which) {
 }
 
 }  // namespace
+
+void coursework::calling(const char*) {}  // who waits for check to end has a debugger
 
 int main(int count, char** values) {
   std::string language = "en";

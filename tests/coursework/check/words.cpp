@@ -46,14 +46,22 @@ std::string key_of(How how) {
       return "answered";
     case How::threw:
       return "threw";
+    case How::unusable:
+      return "unusable";
     case How::crashed:
       return "crashed";
+    case How::recursion:
+      return "recursion";
     case How::out_of_time:
       return "out_of_time";
+    case How::waiting:
+      return "waiting";
     case How::out_of_memory:
       return "out_of_memory";
     case How::too_much_output:
       return "too_much_output";
+    case How::too_much_answered:
+      return "too_much_answered";
     case How::no_token:
       return "no_token";
     case How::not_compiled:
@@ -62,6 +70,26 @@ std::string key_of(How how) {
       return "missing";
   }
   return "no_token";
+}
+
+std::string count_text(const Answer& answer, std::size_t i) {
+  return i < answer.counts.size() ? std::to_string(answer.counts[i].second) : "?";
+}
+
+std::string ending(const Texts& common, const Answer& answer) {
+  if (answer.how == How::unusable)
+    return common.fill("how.unusable", common.fill(common.has("unusable." + answer.detail) ? "unusable." + answer.detail
+                                                                                           : "unusable.other",
+                                                   count_text(answer, 0), count_text(answer, 1)));
+  if (answer.how != How::out_of_time) return common.fill("how." + key_of(answer.how), answer.detail);
+  std::string text = common.fill("how.out_of_time", answer.detail, with_digits(answer.reference, 2));
+  std::string others;
+  for (std::size_t i = 0; i + 1 < answer.counts.size(); ++i)
+    others += (others.empty() ? "" : ", ") + answer.counts[i].first + " " + count_text(answer, i);
+  if (!answer.counts.empty())
+    text += " " + common.fill("slow.where", answer.counts.back().first, count_text(answer, answer.counts.size() - 1));
+  if (!others.empty()) text += " " + common.fill("slow.others", others);
+  return text + " " + common.of("slow.then");
 }
 
 }  // namespace
@@ -94,7 +122,7 @@ std::string column_text(const Texts& own, const Case& what, int column) {
 
 std::string words(const Texts& common, const Texts& own, const Case& what, const Answer& answer, const Judged& judged) {
   if (judged.right) return "";
-  if (judged.how != How::answered) return common.fill("how." + key_of(judged.how), answer.detail);
+  if (judged.how != How::answered) return ending(common, answer);
   if (judged.wrong_size)
     return common.fill("size", number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
   return common.fill(judged.not_finite ? "not_finite" : "differs", place(common, own, what, judged),

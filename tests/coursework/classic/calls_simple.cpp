@@ -25,7 +25,7 @@ bool ANSWER(const std::string& call, const Numbers& in, Numbers& out) {
   stored[0] = vector(3);
   probe::store(system, stored);
   const probe::Vec f = probe::evaluate(system, given);
-  if (f.empty()) throw std::runtime_error("evalF returns nothing");
+  if (f.empty()) throw Unusable("evalf_empty");
   for (int k = 0; k < 3; ++k) out.push_back(f[0][k]);
   return true;
 }

@@ -67,6 +67,7 @@ class StepRunner {
         {.command = command, .readable = {tree_ / "in", tree_ / "out"}, .writable = work, .limits = limits});
     spent_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (end.how == End::How::cpu || end.how == End::How::wall) return std::string(too_long);
+    if (end.how == End::How::memory || end.how == End::How::output) return std::string(too_much);
     if (end.how != End::How::exited || end.code != 0 || !there(made))
       return end.captured_output.empty() ? "it ended and said nothing" : end.captured_output;
     fs::rename(made, step.makes);
@@ -180,6 +181,7 @@ std::string first_place(const std::string& said) {
 Remark remark_on(const Program& program, const std::string& part) {
   const std::string file = program.source.empty() ? file_of_part(part) : base_name(program.source);
   if (program.captured_output == too_long) return {"build.time", {file}};
+  if (program.captured_output == too_much) return too_large(file);
   if (!program.source.empty() || program.captured_output.find("undefined reference to") != std::string::npos ||
       program.captured_output.find("multiple definition of") != std::string::npos)
     return first_error(file, program.captured_output);

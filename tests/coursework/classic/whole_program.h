@@ -30,6 +30,9 @@ struct Programs {
 /// What stands in the place of the compiler's words where it had to be stopped, or was not begun any more.
 constexpr std::string_view too_long = "the compiler did not come to an end in time";
 
+/// Likewise where it needed too much memory, or wrote too large a file.
+constexpr std::string_view too_much = "the compiler needed more memory than there is";
+
 struct Toolchain {
   std::vector<std::string> compiler;  // g++ and options that every call begins with; absolute path
   std::filesystem::path ar;           // absolute

@@ -112,6 +112,10 @@ std::optional<std::string> quoted_after(const std::string& words, const std::str
 
 }  // namespace
 
+Remark too_large(const std::string& file) {
+  return {"build.memory", {file, std::to_string(compile_limits.memory), std::to_string(compile_limits.file)}};
+}
+
 Remark first_error(const std::string& file, const std::string& said) {
   std::istringstream lines(said);
   std::optional<std::string> number, what;
@@ -131,6 +135,7 @@ Remark first_error(const std::string& file, const std::string& said) {
   }
   if (const auto name = quoted_after("undefined reference to", said)) return {"build.undefined", {file, *name}};
   if (what) return {"build.no_line", {file, *what}};
+  if (said.find_first_not_of(" \n") == std::string::npos) return {"build.silent", {file}};
   return {"build.other", {file, said.substr(0, said.find('\n')).substr(0, 300)}};
 }
 
@@ -243,6 +248,7 @@ class PartBuilder : public Builder {
     const End end =
         sandbox_.run({.command = command, .readable = {in}, .writable = made.parent_path(), .limits = compile_limits});
     if (end.how == End::How::cpu || end.how == End::How::wall) return {{}, {"build.time", {file}}};
+    if (end.how == End::How::memory || end.how == End::How::output) return {{}, too_large(file)};
     const bool there = fs::symlink_status(made).type() == fs::file_type::regular;
     if (end.how != End::How::exited || end.code != 0 || !there) return {{}, first_error(file, end.captured_output)};
     return {made};

@@ -15,9 +15,10 @@
 
 namespace coursework {
 
-/// Compiling may start the compiler's own passes; half a minute of CPU is thirty times what a part takes. The wall is
+/// Compiling may start the compiler's own passes; half a minute of CPU is thirty times what a part takes, and 1 GB for
+/// each pass five times. The wall is
 /// far off: on a busy machine waiting is not the source's fault.
-constexpr Limits compile_limits{.cpu = 30, .wall = 300, .memory = 4096, .processes = 64, .output = 4096, .file = 64};
+constexpr Limits compile_limits{.cpu = 30, .wall = 1800, .memory = 1024, .processes = 64, .output = 4096, .file = 64};
 
 class Compiler {
  public:
@@ -48,6 +49,9 @@ void compile_ours(const Sandbox& trusted, const std::vector<std::string>& comman
 
 /// Fingerprint of a text, as a file name.
 std::string key_of(const std::string& content);
+
+/// That compiling the file takes more memory, or a larger file, than it may.
+Remark too_large(const std::string& file);
 
 /// The first error that concerns the student's `file` (its bare name): where and what. `said` is what g++ or clang++
 /// wrote, in English.

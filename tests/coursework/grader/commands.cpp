@@ -17,6 +17,7 @@
 #include "mysim/base/output_folder.h"
 #include "mysim/base/progress.h"
 #include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/class.h"
 #include "tests/coursework/grader/formats.h"
 #include "tests/coursework/grader/grade.h"
 #include "tests/coursework/grader/handout.h"
@@ -89,9 +90,11 @@ int grade_all(const Assignment& assignment, const GradeCommand& command, const S
   const std::vector<GradedSubmission> all = grade_class(assignment, command.submission, sandbox, options, command.out);
   crosscheck::write_file(fs::path(command.out) / "table.csv", class_csv(assignment, all));
   crosscheck::write_file(fs::path(command.out) / "table.txt", class_text(assignment, all));
+  crosscheck::write_file(fs::path(command.out) / "statistics.csv", statistics_csv(all));
+  crosscheck::write_file(fs::path(command.out) / "class.html", class_page(assignment, all, options.common));
   fmt::print("{}", class_text(assignment, all));
   for (const GradedSubmission& one : all)
-    if (!one.failure.empty()) return 1;
+    if (!one.failure.empty() || one.result.ungraded() > 0) return 1;
   return 0;
 }
 
@@ -115,6 +118,12 @@ int grade_command(const GradeCommand& given) {
   options.engines = command.engines;
   options.jobs = std::max(1u, std::thread::hardware_concurrency());
   const Format& format = find_format(command.format);
+  if (const std::string layout = class_layout(command.submission, wanted_files(assignment));
+      !command.all && !layout.empty())
+    throw InputError(
+        fmt::format("{}: this looks like a class of {} submissions ({}); add --all to grade each of them, or name the "
+                    "folder of one",
+                    command.submission, submissions_in(command.submission).size(), layout));
   const Submission submission =
       command.all ? Submission() : read_submission(command.submission, wanted_files(assignment));
   choose_seed(command, options);
@@ -138,7 +147,7 @@ int grade_command(const GradeCommand& given) {
     fmt::print("{}", format.write(result, options.common));
   else
     fmt::print("{}\n", total_of(result, options.common));
-  return 0;
+  return result.not_graded.empty() && result.ungraded() == 0 ? 0 : 1;
 }
 
 int list_command(bool json) {

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include "mysim/base/files.h"
@@ -25,7 +28,31 @@ using crosscheck_engine::Vec;
 
 /// The charts' scenes have one particle that moves and take a second at most; there are a thousand runs of them, so
 /// that a loop without end must not wait for long.
-constexpr Limits engine_limits{.cpu = 10, .wall = 60, .memory = 1024, .processes = 0, .output = 1 << 18, .file = 1};
+constexpr Limits engine_limits{
+    .cpu = 10, .wall = 300, .idle = 5, .memory = 1024, .processes = 0, .answers = 1 << 18, .file = 1};
+
+/// s of processor time that all runs of a part may take together: several times what the hand-out's rules take. After
+/// that its runs fail at once.
+constexpr double most_in_all = 300;
+
+/// Processor time of a part so far, in a file beside its program: its runs are processes of their own, several at a
+/// time.
+class Spent {
+ public:
+  explicit Spent(const std::string& program) : file_(program + ".spent") {}
+  double sum() const {
+    std::istringstream lines(crosscheck::try_read_file(file_).value_or(""));
+    double sum = 0;
+    for (double one; lines >> one;) sum += one;
+    return sum;
+  }
+  void add(double seconds) const {
+    std::ofstream(file_, std::ios::app) << fmt::format("{:.3f}\n", seconds) << std::flush;
+  }
+
+ private:
+  std::string file_;
+};
 
 Case call_of(const std::string& part, const Scene& scene) {
   Case what;
@@ -50,10 +77,19 @@ void require_known(const Scene& scene) {
 }  // namespace
 
 int engine_command(const EngineCommand& command) {
+  const Spent spent(command.program);
+  if (spent.sum() > most_in_all)
+    throw std::runtime_error(
+        fmt::format("the student's code took more than {:g} s in the charts; no more of it is run", most_in_all));
   const Scene scene = crosscheck_engine::read_scene(command.scene);
   require_known(scene);
   const auto sandbox = sandbox_named(command.sandbox);
-  const Answer answer = run_calls(*sandbox, command.program, {call_of(command.part, scene)}, engine_limits).at(0);
+  const auto begin = std::chrono::steady_clock::now();
+  double cpu = 0;
+  const Answer answer = run_calls(*sandbox, command.program, {call_of(command.part, scene)}, engine_limits, &cpu).at(0);
+  // who waits has stalled the charts as well
+  const double clock = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  spent.add(answer.how == How::waiting ? clock : cpu);
   const std::size_t n = scene.x.size(), frames = static_cast<std::size_t>(scene.samples) + 1;
   if (answer.how != How::answered)
     throw std::runtime_error("the student's code did not answer" + (answer.detail.empty() ? "" : ": " + answer.detail));

@@ -36,6 +36,7 @@ std::string feedback_on(const Result& result, const TestResult& test, const Text
 }
 
 std::string summary_of(const Result& result, const Texts& common) {
+  if (!result.not_graded.empty()) return clean(total_of(result, common));
   int tests = 0, good = 0, hidden = 0;
   double points = 0, earned = 0;
   for (const TestResult& test : result.tests) {
@@ -78,12 +79,13 @@ void put_output(Json& to, const TestResult& test, const std::string& text) {
 }
 
 Json gradescope_test(const Result& result, const TestResult& test, const Texts& common) {
-  Json out{{"score", test.earned},
-           {"max_score", test.points},
-           {"status", passed(test) ? "passed" : "failed"},
-           {"name", clean(test.title + (test.hidden ? " (" + common.of("hidden") + ")" : ""))},
-           {"name_format", "text"},
-           {"number", test.id}};
+  Json out;
+  if (!test.ungraded) out = {{"score", test.earned}};
+  out["max_score"] = test.points;
+  if (!test.ungraded) out["status"] = std::string(status_of(test));
+  out.update({{"name", clean(test.title + (test.hidden ? " (" + common.of("hidden") + ")" : ""))},
+              {"name_format", "text"},
+              {"number", test.id}});
   put_output(out, test, feedback_on(result, test, common));
   out["tags"] = test.concepts;
   out["visibility"] = test.hidden ? "after_published" : "visible";
@@ -150,6 +152,9 @@ void add_test(Suite& suite, const Result& result, const TestResult& test, const 
   if (test.hidden) {
     ++suite.skipped;
     inside = fmt::format("<skipped message=\"{}\"/>", xml(common.of("hidden_later")));
+  } else if (test.ungraded) {
+    ++suite.skipped;
+    inside = fmt::format("<skipped message=\"{}\"/>", xml(feedback_on(result, test, common)));
   } else if (!passed(test)) {
     ++suite.failures;
     inside = fmt::format("<failure type=\"wrong\" message=\"{}\">{}</failure>", xml(first_line(test.said)),
@@ -215,8 +220,7 @@ std::string autolab(const Result& result, const Texts& common) {
     auto problem = std::find_if(problems.begin(), problems.end(), [&](const auto& p) { return p.first == test.part; });
     if (problem == problems.end()) problem = problems.insert(problem, {test.part, 0});
     problem->second += test.earned;
-    text += fmt::format("\n{} {}: {}\n", test.id, clean(test.title),
-                        common.fill("points", points_text(test.earned), points_text(test.points)));
+    text += fmt::format("\n{} {}: {}\n", test.id, clean(test.title), points_of(test, common));
     if (!passed(test)) text += feedback_on(result, test, common) + "\n";
   }
   Json scores;

@@ -1,4 +1,4 @@
-// Builds the parts, runs the tests one process each, judges, looks for causes; and many submissions side by side.
+// Builds the parts, runs the tests one process each, judges, looks for causes.
 #include "tests/coursework/grader/grade.h"
 
 #include <fmt/format.h>
@@ -50,6 +50,12 @@ class Grading {
   }
 
   Result run() {
+    if (submission_.refused) {
+      result_.not_graded = said(options_.common, submission_.remarks.back());
+      result_.complete = true;
+      options_.on_progress(result_);
+      return result_;
+    }
     list_tests();
     options_.on_progress(result_);
     build();
@@ -117,21 +123,55 @@ class Grading {
     const auto unusable = unusable_.find(one.part);
     if (unusable != unusable_.end())
       test_run.answers.assign(test_run.cases.size(), unusable->second);
-    else
-      test_run.answers = run_calls(sandbox_, programs_.at(one.part), test_run.cases);
+    else if (const std::string before = ungraded_before(test_run.cases); !before.empty()) {
+      one.ungraded = true;
+      one.said = options_.common.fill("how.as_ungraded", before);
+      return;
+    } else
+      test_run.answers = answers_to(one.part, test_run.cases);
     for (std::size_t k = 0; k < test_run.cases.size(); ++k)
       test_run.answers[k] = reduced(*test_run.test, test_run.cases[k], test_run.answers[k]);
+    for (Answer& answer : test_run.answers)
+      if (answer.how == How::threw) {
+        answer.detail = shown_exception(answer.detail, submission_.files);
+        if (answer.detail.empty()) answer.detail = options_.common.of("threw.unseen");
+      }
     judge_test(test_run, one);
     one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
+  /// The test that was not graded because of a call that this one makes as well, with other numbers: it would take as
+  /// long again, and the next one too. Empty: there is none.
+  std::string ungraded_before(const std::vector<Case>& cases) const {
+    for (const Case& each : cases)
+      if (const auto found = ungraded_calls_.find(each.call); found != ungraded_calls_.end()) return found->second;
+    return "";
+  }
+
+  /// Code may be twenty times as slow as the official solution, and as slow as the least limit allows in any case: the
+  /// official solution is asked only where that is not enough.
+  std::vector<Answer> answers_to(const std::string& part, const std::vector<Case>& cases) {
+    const auto too_slow = [](const Answer& answer) { return answer.how == How::out_of_time; };
+    std::vector<Answer> answers = run_calls(sandbox_, programs_.at(part), cases);
+    if (std::none_of(answers.begin(), answers.end(), too_slow)) return answers;
+    double reference = 0;
+    run_calls(*trusted_, builder_->ours(part, content_of_file(solution_of(assignment_, *builder_, part))), cases,
+              limits_for(0), &reference);
+    if (limits_for(reference).cpu > limits_for(0).cpu)
+      answers = run_calls(sandbox_, programs_.at(part), cases, limits_for(reference));
+    for (Answer& answer : answers) answer.reference = reference;
+    return answers;
+  }
+
   /// The feedback is on the first wrong call; where all are right, the plot shows the first one.
-  void judge_test(const TestRun& test_run, TestResult& one) const {
+  void judge_test(const TestRun& test_run, TestResult& one) {
     std::size_t shown = 0;
     one.said.clear();
     for (std::size_t k = 0; k < test_run.cases.size(); ++k) {
       const Judged judged = judge(test_run.cases[k], test_run.answers[k]);
       if (judged.right) continue;
+      one.ungraded = ungraded(judged.how);
+      if (one.ungraded) ungraded_calls_.emplace(test_run.cases[k].call, one.id);
       one.said = words(options_.common, options_.own, test_run.cases[k], test_run.answers[k], judged);
       const bool ran = unusable_.count(one.part) == 0;
       if (ran && test_run.cases.size() > 1)
@@ -165,7 +205,8 @@ class Grading {
       for (const TestResult& other : result_.tests)
         if (!shown.hidden && other.hidden && other.id == shown.id && passed(shown) && !passed(other)) {
           shown.earned = 0;
-          shown.said = options_.common.of("shown_only");
+          shown.ungraded = other.ungraded;
+          shown.said = options_.common.of(other.ungraded ? "how.shown_ungraded" : "shown_only");
         }
   }
 
@@ -175,8 +216,8 @@ class Grading {
     std::vector<TestResult*> wrong;
     for (std::size_t i = 0; i < test_runs_.size(); ++i) {
       if (result_.tests[i].part != part) continue;
-      of_part.push_back(test_runs_[i]);
-      bool answered = true;
+      bool answered = !result_.tests[i].ungraded;
+      if (answered) of_part.push_back(test_runs_[i]);
       for (const Answer& answer : test_runs_[i].answers) answered = answered && answer.how == How::answered;
       if (answered && !passed(result_.tests[i])) wrong.push_back(&result_.tests[i]);
     }
@@ -208,9 +249,10 @@ class Grading {
   std::unique_ptr<Sandbox> trusted_;
   std::unique_ptr<Builder> builder_;
   crosscheck::TemporaryFolder scratch_;
-  std::map<std::string, fs::path> programs_;  // by part
-  std::map<std::string, Answer> unusable_;    // by part: missing, or it does not compile
-  std::vector<TestRun> test_runs_;            // beside result_.tests
+  std::map<std::string, fs::path> programs_;           // by part
+  std::map<std::string, Answer> unusable_;             // by part: missing, or it does not compile
+  std::map<std::string, std::string> ungraded_calls_;  // the test that was not graded because of it
+  std::vector<TestRun> test_runs_;                     // beside result_.tests
   Result result_;
 };
 
@@ -243,159 +285,6 @@ std::uint64_t hidden_seed(std::uint64_t seed, const Test& test) {
 Result grade(const Assignment& assignment, const Submission& submission, const Sandbox& sandbox,
              const GradeOptions& options) {
   return Grading(assignment, submission, sandbox, options).run();
-}
-
-namespace {
-
-/// What results depend on beside the submission: this program, the assignment, the sandbox, the seed and the language.
-std::string surroundings_of(const Assignment& assignment, const Sandbox& sandbox, const GradeOptions& options) {
-  std::vector<fs::path> files = {fs::read_symlink("/proc/self/exe")};
-  for (const fs::path& folder : {assignment.folder(), folder_of_coursework() / "check"})
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (entry.is_regular_file()) files.push_back(entry.path());
-  std::sort(files.begin() + 1, files.end());
-  std::string all =
-      fmt::format("{} {} {} {}\n", options.seed, options.secret, options.common.of("total"), sandbox.name());
-  for (const fs::path& file : files)
-    all += fmt::format("{} {:016x}\n", file.filename().string(), crosscheck::Fnv1a::of(content_of_file(file)));
-  return all;
-}
-
-std::string fingerprint_of(const Submission& submission, const std::string& surroundings) {
-  std::string all = surroundings;
-  for (const auto& [name, content] : submission.files) all += fmt::format("{} {}\n{}", name, content.size(), content);
-  for (const auto& [name, why] : submission.missing) all += fmt::format("{} {}\n", name, why.key);
-  for (const Remark& remark : submission.remarks) all += remark.key + "\n";
-  return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
-}
-
-/// True when the file holds the whole result of the same grading.
-bool finished(const fs::path& file, const std::string& assignment, const std::string& fingerprint, Result& result) {
-  if (!fs::exists(file)) return false;
-  try {
-    std::string of_then;
-    result = result_from_json(content_of_file(file), file.string(), &of_then);
-    return result.complete && result.assignment == assignment && of_then == fingerprint;
-  } catch (const std::exception&) {
-    return false;  // a file of something else: graded anew
-  }
-}
-
-void write_result(const fs::path& file, const Result& result, const std::string& fingerprint) {
-  crosscheck::write_file(file, to_json(result, fingerprint));
-}
-
-std::vector<std::pair<std::string, double>> by_part(const Assignment& assignment, const Result& result) {
-  std::vector<std::pair<std::string, double>> sums;
-  for (const Part& part : assignment.parts) {
-    sums.emplace_back(part.name, 0);
-    for (const TestResult& test : result.tests)
-      if (test.part == part.name) sums.back().second += test.earned;
-  }
-  return sums;
-}
-
-/// A field of CSV; spreadsheets take what begins like this for a formula.
-std::string quoted(const std::string& text) {
-  const bool formula = !text.empty() && std::string("=+-@").find(text[0]) != std::string::npos;
-  return formula ? crosscheck::csv_quoted("'" + text) : crosscheck::csv_field(text);
-}
-
-std::string remark_of(const GradedSubmission& one) {
-  if (!one.failure.empty()) return "not graded: " + printable(one.failure);
-  return one.result.preflight.empty() ? "" : printable(one.result.preflight.front());
-}
-
-}  // namespace
-
-std::string file_name_for(const std::string& submission) {
-  const std::string plain = crosscheck::file_name_of(submission);
-  // names in other scripts would all become the same dashes
-  if (plain == submission) return plain;
-  return fmt::format("{}-{:08x}", plain, crosscheck::Fnv1a::of(submission) & 0xffffffffu);
-}
-
-std::vector<GradedSubmission> grade_class(const Assignment& assignment, const fs::path& folder, const Sandbox& sandbox,
-                                          const GradeOptions& options, const fs::path& out) {
-  if (!fs::is_directory(folder))
-    throw crosscheck::InputError(fmt::format("{}: expected a folder of submissions", folder.string()));
-  std::vector<fs::path> entries;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().filename().string()[0] != '.') entries.push_back(entry.path());
-  std::sort(entries.begin(), entries.end());
-  crosscheck::require_writable(out);
-  std::vector<GradedSubmission> all(entries.size());
-  const std::string surroundings = surroundings_of(assignment, sandbox, options);
-  std::mutex speaking;
-  std::size_t done = 0;
-  int graded = 0;
-  const auto begun = std::chrono::steady_clock::now();
-  parallel_for(entries.size(), options.jobs, [&](std::size_t i) {
-    GradedSubmission& one = all[i];
-    one.result.submission = entries[i].filename().string();
-    const fs::path base = out / file_name_for(one.result.submission);
-    bool known = false;
-    try {
-      // in a folder that students share, a link would be graded as somebody's who did not write it
-      if (fs::is_symlink(entries[i])) throw std::runtime_error("it is a link to something else");
-      const Submission submission = read_submission(entries[i], wanted_files(assignment));
-      const std::string fingerprint = fingerprint_of(submission, surroundings);
-      known = finished(base.string() + ".json", std::string(assignment.name), fingerprint, one.result) &&
-              fs::exists(base.string() + ".html");
-      if (!known) {
-        GradeOptions mine = options;
-        mine.jobs = 1;
-        mine.on_progress = [&](const Result& result) { write_result(base.string() + ".json", result, fingerprint); };
-        one.result = grade(assignment, submission, sandbox, mine);
-        crosscheck::write_file(base.string() + ".html", page_of(one.result, options.common, options.own));
-      }
-    } catch (const std::exception& error) {
-      one.failure = error.what();
-    }
-    const std::lock_guard<std::mutex> lock(speaking);
-    ++done, graded += !known;
-    const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    // those that were graded before cost nothing; of the others that are to come nobody knows
-    const std::size_t left = entries.size() - done;
-    fmt::print(
-        stderr, "{} of {}: {}{}{}\n", done, entries.size(), printable(one.result.submission),
-        known ? " (graded before)" : "",
-        graded > 0 && left > 0
-            ? fmt::format(", about {} left", crosscheck::format_duration(elapsed / graded * static_cast<double>(left)))
-            : "");
-  });
-  return all;
-}
-
-std::string class_csv(const Assignment& assignment, const std::vector<GradedSubmission>& all) {
-  std::string text = "submission,points [1]";
-  for (const Part& part : assignment.parts) text += fmt::format(",{} [1]", part.name);
-  text += ",remark\n";
-  for (const GradedSubmission& one : all) {
-    // no result is no zero: the cells stay empty
-    const bool graded = one.failure.empty();
-    text += quoted(one.result.submission) + "," + (graded ? points_text(one.result.earned()) : "");
-    for (const auto& [part, sum] : by_part(assignment, one.result)) text += "," + (graded ? points_text(sum) : "");
-    text += "," + quoted(remark_of(one)) + "\n";
-  }
-  return text;
-}
-
-std::string class_text(const Assignment& assignment, const std::vector<GradedSubmission>& all) {
-  std::size_t width = 10;
-  for (const GradedSubmission& one : all) width = std::max(width, one.result.submission.size());
-  std::string text = fmt::format("{:<{}} {:>7}", "submission", width, "points");
-  for (const Part& part : assignment.parts) text += fmt::format(" {:>12}", part.name);
-  text += "  remark\n";
-  for (const GradedSubmission& one : all) {
-    const bool graded = one.failure.empty();
-    text += fmt::format("{:<{}} {:>7}", printable(one.result.submission), width,
-                        graded ? points_text(one.result.earned()) : "-");
-    for (const auto& [part, sum] : by_part(assignment, one.result))
-      text += fmt::format(" {:>12}", graded ? points_text(sum) : "-");
-    text += "  " + remark_of(one) + "\n";
-  }
-  return text;
 }
 
 }  // namespace coursework

@@ -1,4 +1,4 @@
-// Grades a submission, or a folder of them.
+// Grades a submission.
 #pragma once
 
 #include <cstdint>
@@ -40,26 +40,5 @@ std::uint64_t hidden_seed(std::uint64_t seed, const Test& test);
 
 /// A remark as a sentence.
 std::string said(const Texts& common, const Remark& remark);
-
-// A class: every entry of a folder is a submission.
-
-struct GradedSubmission {
-  Result result;
-  std::string failure;  // why it could not be graded
-};
-
-/// Grades all, options.jobs at a time. For each submission NAME.json and NAME.html are written to `out`; one that an
-/// earlier run of this program finished with the same seed, sandbox and assignment, and that was not changed since, is
-/// read instead. In the order of names.
-std::vector<GradedSubmission> grade_class(const Assignment& assignment, const std::filesystem::path& folder,
-                                          const Sandbox& sandbox, const GradeOptions& options,
-                                          const std::filesystem::path& out);
-
-/// One row per submission: points in all, per part (public and hidden together), and the first remark.
-std::string class_csv(const Assignment& assignment, const std::vector<GradedSubmission>& all);
-std::string class_text(const Assignment& assignment, const std::vector<GradedSubmission>& all);
-
-/// A name for its files that no other submission has.
-std::string file_name_for(const std::string& submission);
 
 }  // namespace coursework

@@ -44,8 +44,9 @@ endif()
 std::string readme(const Assignment& assignment, const PublicTests& tests) {
   std::string parts;
   for (const Part& part : assignment.parts) parts += fmt::format("- `{}.cpp`\n", part.name);
-  int points = 0, here = 0;
-  for (const PublicTest& test : tests.tests) points += test.points, here += !test.cases.empty();
+  int points = 0, here = 0;  // as `check` counts: some tests are the grader's alone
+  for (const PublicTest& test : tests.tests)
+    if (!test.cases.empty()) points += test.points, ++here;
   return fmt::format(R"(# {0}
 
 Read `handout.md` first. Then fill in these files, in this order, and hand them in:

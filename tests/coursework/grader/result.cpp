@@ -19,9 +19,9 @@ namespace {
 // in the order of the alphabet, as files of earlier gradings have it
 Json json_of(const TestResult& t) {
   return {
-      {"cause", t.cause}, {"concepts", t.concepts}, {"earned", t.earned}, {"heading", t.heading}, {"hidden", t.hidden},
-      {"id", t.id},       {"part", t.part},         {"plot", t.plot},     {"points", t.points},   {"read", t.read},
-      {"said", t.said},   {"seconds", t.seconds},   {"title", t.title}};
+      {"cause", t.cause}, {"concepts", t.concepts}, {"earned", t.earned}, {"heading", t.heading},  {"hidden", t.hidden},
+      {"id", t.id},       {"part", t.part},         {"plot", t.plot},     {"points", t.points},    {"read", t.read},
+      {"said", t.said},   {"seconds", t.seconds},   {"title", t.title},   {"ungraded", t.ungraded}};
 }
 
 TestResult test_of(const JsonField& f) {
@@ -30,6 +30,7 @@ TestResult test_of(const JsonField& f) {
           .title = f["title"].text(),
           .heading = f["heading"].text(),
           .hidden = f["hidden"].boolean(),
+          .ungraded = f["ungraded"].boolean(),
           .points = f["points"].number(),
           .earned = f["earned"].number(),
           .concepts = f["concepts"].texts(),
@@ -54,12 +55,23 @@ double Result::points() const {
   return sum;
 }
 
+double Result::ungraded() const {
+  double sum = 0;
+  for (const TestResult& test : tests) sum += test.ungraded ? test.points : 0;
+  return sum;
+}
+
+std::string_view status_of(const TestResult& test) {
+  return test.ungraded ? "ungraded" : passed(test) ? "passed" : "failed";
+}
+
 bool passed(const TestResult& test) { return test.said.empty() && test.earned == test.points; }
 
 std::string to_json(const Result& result, const std::string& fingerprint) {
   Json json{{"assignment", result.assignment}, {"complete", result.complete}};
   if (!fingerprint.empty()) json["fingerprint"] = fingerprint;
   json.update({{"lane", result.sandbox},
+               {"not graded", result.not_graded},
                {"preflight", result.preflight},
                {"secret", result.secret},
                {"seed", result.seed},
@@ -79,6 +91,7 @@ Result result_from_json(const std::string& text, const std::string& file, std::s
                   .secret = f["secret"].boolean(),
                   .preflight = f["preflight"].texts(),
                   .tests = {},
+                  .not_graded = f["not graded"].text(),
                   .complete = f["complete"].boolean()};
     for (const JsonField& test : f["tests"].elements()) result.tests.push_back(test_of(test));
     if (const auto found = f.find("fingerprint"); found && fingerprint) *fingerprint = found->text();
@@ -120,6 +133,7 @@ std::vector<std::string> lines_on(const Result& result, const TestResult& test, 
 }
 
 std::string total_of(const Result& result, const Texts& common) {
+  if (!result.not_graded.empty()) return common.fill("not_graded", result.not_graded);
   int seen = 0, right = 0, later = 0;
   const std::string waiting = common.of("not_run");
   for (const TestResult& test : result.tests) {
@@ -127,12 +141,19 @@ std::string total_of(const Result& result, const Texts& common) {
     seen += !test.hidden;
     right += !test.hidden && passed(test);
   }
-  const std::string total = common.fill("total", points_text(result.earned()), points_text(result.points()));
+  const double graded = result.points() - result.ungraded();
+  std::string total = common.fill("total", points_text(result.earned()), points_text(graded));
+  if (result.ungraded() > 0) total += "\n" + common.fill("total.ungraded", points_text(result.ungraded()));
   if (later == 0) return total;
   return total + "\n" +
          (right == seen
               ? common.fill("public_done", std::to_string(later))
               : common.fill("public_now", std::to_string(right), std::to_string(seen), std::to_string(later)));
+}
+
+std::string points_of(const TestResult& test, const Texts& common) {
+  return test.ungraded ? common.fill("points.ungraded", points_text(test.points))
+                       : common.fill("points", points_text(test.earned), points_text(test.points));
 }
 
 std::string text_of(const Result& result, const Texts& common) {
@@ -148,8 +169,8 @@ std::string text_of(const Result& result, const Texts& common) {
       part = test.part, hidden = test.hidden, shown.clear();
       text += fmt::format("\n{}{}\n", test.heading, hidden ? " (" + common.of("hidden") + ")" : "");
     }
-    text += fmt::format("  {:<5} {:<8} {}  ({})\n", test.id, common.of(passed(test) ? "passed" : "failed"), test.title,
-                        common.fill("points", points_text(test.earned), points_text(test.points)));
+    text += fmt::format("  {:<5} {:<8} {}  ({})\n", test.id, common.of(std::string(status_of(test))), test.title,
+                        points_of(test, common));
     const std::vector<std::string> lines = lines_on(result, test, common);
     for (const std::string& line : lines) {
       const bool again = line == shown;
@@ -166,16 +187,16 @@ constexpr const char* style = R"(<style>
 body{font:16px/1.5 system-ui,sans-serif;max-width:50rem;margin:2rem auto;padding:0 1rem;color:#222}
 h1{font-size:1.4rem}h2{font-size:1.15rem;margin-top:2rem}
 section{border-left:4px solid #d62728;padding:.2rem 1rem;margin:1rem 0;background:#fafafa}
-section.passed{border-color:#2ca02c}section h3{font-size:1rem;margin:.3rem 0}
+section.passed{border-color:#2ca02c}section.ungraded{border-color:#777}section h3{font-size:1rem;margin:.3rem 0}
 p{margin:.3rem 0}.points{float:right;font-weight:normal}.total{font-size:1.2rem;font-weight:bold;white-space:pre-line}
 .remark{background:#fff3cd;padding:.4rem .8rem;white-space:pre-wrap}svg{max-width:100%;height:auto;background:#fff}
 </style>)";
 
 std::string section_of(const Result& result, const TestResult& test, const Texts& common) {
-  std::string text = fmt::format("<section class=\"{}\">\n<h3>{} {} {}<span class=\"points\">{}</span></h3>\n",
-                                 passed(test) ? "passed" : "failed", escaped(test.id), escaped(test.title),
-                                 test.hidden ? "(" + escaped(common.of("hidden")) + ")" : "",
-                                 escaped(common.fill("points", points_text(test.earned), points_text(test.points))));
+  std::string text =
+      fmt::format("<section class=\"{}\">\n<h3>{} {} {}<span class=\"points\">{}</span></h3>\n", status_of(test),
+                  escaped(test.id), escaped(test.title), test.hidden ? "(" + escaped(common.of("hidden")) + ")" : "",
+                  escaped(points_of(test, common)));
   for (const std::string& line : lines_on(result, test, common)) text += "<p>" + escaped(line) + "</p>\n";
   return text + test.plot + "</section>\n";
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/coursework/check/judge.h"
@@ -14,6 +15,7 @@ struct TestResult {
   std::string id, part, title;
   std::string heading;  // above the tests of a part: the file's name, or the part's title
   bool hidden = false;
+  bool ungraded = false;  // a limit of ours kept it from being judged: no points, which are not zero points
   double points = 0, earned = 0;
   std::vector<std::string> concepts;
   std::string said;   // for the student: what was expected, what came, the first row that differs
@@ -29,13 +31,18 @@ struct Result {
   bool secret = false;                 // the seed was made from the lecturer's secret: it must not be shown
   std::vector<std::string> preflight;  // lines: files missing, first errors of the compiler in plain words
   std::vector<TestResult> tests;
-  bool complete = false;  // false while tests are still to run
+  std::string not_graded = {};  // why nothing of it could be graded; empty: it was
+  bool complete = false;        // false while tests are still to run
   double earned() const;
   double points() const;
+  double ungraded() const;  // points of tests that could not be graded
 };
 
 /// Whether all its points were earned, on a test that was run.
 bool passed(const TestResult& test);
+
+/// "passed", "failed" or "ungraded": a key of the common texts.
+std::string_view status_of(const TestResult& test);
 
 /// The result as JSON, and back: an interrupted class is continued from it. A fingerprint stands beside it where there
 /// is one: what was graded, and by what. Throws InputError that names the file.
@@ -59,6 +66,9 @@ std::vector<std::string> lines_on(const Result& result, const TestResult& test, 
 /// One line without control characters: students' programs and archives may have put anything into what is said of
 /// them.
 std::string printable(std::string text);
+
+/// "3 of 5 points", or that 5 are left open.
+std::string points_of(const TestResult& test, const Texts& common);
 
 /// Points without needless digits.
 std::string points_text(double points);

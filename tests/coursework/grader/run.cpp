@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <csignal>
 #include <cstdlib>
 #include <random>
@@ -44,9 +46,13 @@ Answer ending(const End& end, const Limits& limits) {
     case End::How::signal:
       return {How::crashed, {}, signal_name(end.code)};
     case End::How::cpu:
-      return {How::out_of_time, {}, fmt::format("{:g} s", limits.cpu)};
+      return {How::out_of_time, {}, fmt::format("{:.3g} s", limits.cpu)};
     case End::How::wall:
-      return {How::out_of_time, {}, fmt::format("{:g} s", limits.wall)};
+      return {How::waiting, {}, fmt::format("{:.3g} s", limits.wall)};
+    case End::How::idle:
+      return {How::waiting, {}, fmt::format("{:.3g} s", limits.idle)};
+    case End::How::answers:
+      return {How::too_much_answered, {}, fmt::format("{} MB", limits.answers >> 10)};
     case End::How::memory:
       return {How::out_of_memory, {}, fmt::format("{} MB", limits.memory)};
     case End::How::output:
@@ -58,7 +64,24 @@ Answer ending(const End& end, const Limits& limits) {
 }
 
 /// As tests/coursework/check/child_main.cpp cuts it; a line that somebody else wrote is cut here.
-constexpr std::size_t longest_said = 400;
+constexpr std::size_t longest_said = 200;
+constexpr std::size_t longest_name = 40;
+
+/// "KEY n1 n2", or where `names` "NAME n1 NAME n2 ...": names of letters, digits, _ and ., small counts. Empty where it
+/// is anything else: students may have written it.
+std::vector<std::pair<std::string, long>> counts_in(const std::string& text, bool names) {
+  std::vector<std::pair<std::string, long>> counts;
+  std::istringstream words(text);
+  for (std::string name, number; (!names || words >> name) && words >> number;) {
+    const bool good = name.size() <= longest_name &&
+                      std::all_of(name.begin(), name.end(),
+                                  [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '.'; }) &&
+                      number.size() <= 12 && number.find_first_not_of("0123456789") == std::string::npos;
+    if (!good || counts.size() == 8) return {};
+    counts.emplace_back(name, std::stol(number));
+  }
+  return counts;
+}
 
 /// "answer COUNT n1 n2 ..."; false where it is anything else.
 bool parse_answer(const std::string& line, Numbers& numbers) {
@@ -80,6 +103,7 @@ bool parse_answer(const std::string& line, Numbers& numbers) {
 std::vector<Answer> answers_of(const End& end, const std::string& token, std::size_t count, const Limits& limits) {
   std::vector<Answer> answers;
   bool finished = false, malformed = false;
+  Answer rest = ending(end, limits);
   std::size_t begin = 0;
   for (std::size_t stop; (stop = end.answers.find('\n', begin)) != std::string::npos; begin = stop + 1) {
     const std::string line = end.answers.substr(begin, stop - begin);
@@ -89,7 +113,21 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
       finished = true;
       continue;
     }
-    if (line.rfind("threw ", 0) == 0) {
+    // last words, told only beside the end that they explain
+    if (line.rfind("slow", 0) == 0 && rest.how == How::out_of_time) {
+      rest.counts = counts_in(line.substr(4), true);
+      begin = end.answers.size();
+      break;
+    }
+    if (line == "recursion" && end.how == End::How::signal && end.code == SIGSEGV) {
+      rest = {How::recursion, {}, {}};
+      begin = end.answers.size();
+      break;
+    }
+    if (line.rfind("unusable ", 0) == 0) {
+      const std::size_t key = std::min(line.find(' ', 9), line.size());
+      answer = {How::unusable, {}, line.substr(9, std::min(key - 9, longest_name)), counts_in(line.substr(key), false)};
+    } else if (line.rfind("threw ", 0) == 0) {
       answer = {How::threw, {}, line.substr(6, longest_said)};
       if (line.find("bad_alloc") != std::string::npos)
         answer = {How::out_of_memory, {}, fmt::format("{} MB", limits.memory)};
@@ -99,7 +137,6 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
     if (malformed) break;
     answers.push_back(std::move(answer));
   }
-  const Answer rest = ending(end, limits);
   // a process that a limit or a signal ended may have been cut in the middle of a line
   const bool cut = rest.how != How::no_token;
   if (!cut && begin != end.answers.size()) malformed = true;
@@ -114,8 +151,59 @@ std::vector<Answer> answers_of(const End& end, const std::string& token, std::si
   return answers;
 }
 
+std::string shown_exception(const std::string& text, const std::map<std::string, std::string>& files) {
+  // what() of libstdc++, and what child_main.cpp says itself
+  static constexpr const char* known[] = {"vector::_M_range_check: __n (which is ",
+                                          ") >= this->size() (which is ",
+                                          "vector::_M_default_append",
+                                          "vector::_M_realloc_insert",
+                                          "vector::_M_fill_insert",
+                                          "vector::reserve",
+                                          "cannot create std::vector larger than max_size()",
+                                          "array::at: __n (which is ",
+                                          ") >= _Nm (which is ",
+                                          "deque::_M_range_check: __n (which is ",
+                                          "map::at",
+                                          "_Map_base::at",
+                                          "basic_string::at: __n (which is ",
+                                          "basic_string::substr: __pos (which is ",
+                                          ") > this->size() (which is ",
+                                          "basic_string::append",
+                                          "stod",
+                                          "stoi",
+                                          "bad_function_call",
+                                          "std::bad_alloc",
+                                          "std::bad_array_new_length",
+                                          "std::bad_cast",
+                                          "bad optional access",
+                                          "std::exception",
+                                          "something that is no std::exception"};
+  constexpr std::size_t most_pieces = 4, most_digits = 6;
+  const auto stands = [&](const std::string& piece) {
+    for (const char* one : known)
+      if (std::string(one).find(piece) != std::string::npos) return true;
+    for (const auto& [name, content] : files)
+      if (content.find(piece) != std::string::npos) return true;
+    return false;
+  };
+  std::size_t pieces = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const bool number = std::isdigit(static_cast<unsigned char>(text[at]));
+    const std::size_t end =
+        std::min(number ? text.find_first_not_of("0123456789", at) : text.find_first_of("0123456789", at), text.size());
+    if (number ? end - at > most_digits : ++pieces > most_pieces || !stands(text.substr(at, end - at))) return "";
+    at = end;
+  }
+  return text;
+}
+
+Limits limits_for(double reference) {
+  const double cpu = std::max(least_cpu, times_reference * reference);
+  return {.cpu = cpu, .wall = 60 * cpu, .answers = 64 << 10};
+}
+
 std::vector<Answer> run_calls(const Sandbox& sandbox, const std::filesystem::path& program,
-                              const std::vector<Case>& cases, const Limits& limits) {
+                              const std::vector<Case>& cases, const Limits& limits, double* cpu) {
   const std::string token = fresh_token();
   Job job{.command = {program.string()}, .readable = {program.parent_path()}, .input = token + "\n", .limits = limits};
   for (const Case& one : cases) {
@@ -123,7 +211,9 @@ std::vector<Answer> run_calls(const Sandbox& sandbox, const std::filesystem::pat
     for (const double value : one.in) job.input += fmt::format(" {:a}", value);
     job.input += '\n';
   }
-  return answers_of(sandbox.run(job), token, cases.size(), limits);
+  const End end = sandbox.run(job);
+  if (cpu) *cpu = end.cpu;
+  return answers_of(end, token, cases.size(), limits);
 }
 
 }  // namespace coursework

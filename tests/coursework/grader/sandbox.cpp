@@ -130,7 +130,7 @@ class BwrapSandbox final : public Sandbox {
     // would count as well: then the clock and the end of the namespace are the limit.
     start.processes = user ? job.limits.processes + 3 : -1;
     ProcessResult ended = spawn(start);
-    const bool stopped = ended.wall || ended.output;
+    const bool stopped = ended.wall || ended.idle || ended.output || ended.full;
     if (!stopped && status.content().find("exit-code") == std::string::npos && WIFEXITED(ended.status))
       throw std::runtime_error(ended.captured_output.empty()
                                    ? "bwrap does not run"

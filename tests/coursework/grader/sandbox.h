@@ -11,9 +11,11 @@ namespace coursework {
 
 struct Limits {
   double cpu = 2, wall = 5;  // s; cpu is that of all its processes, and each alone is stopped at the next full second
+  double idle = 30;          // s without any of its processes running or waiting for a processor or a disk
   long memory = 1024;        // MB of address space, of each process
   long processes = 0;        // that it may start; 0: none, fork and clone are refused
-  long output = 4096;        // kB on the answers' pipe, and as much again of captured_output
+  long output = 4096;        // kB of captured_output
+  long answers = 4096;       // kB on the answers' pipe
   long file = 16;            // MB, of any file that it writes
 };
 
@@ -31,14 +33,15 @@ struct Job {
   Limits limits = {};
 };
 
-/// What decides, in this order: our own stop (wall, output); time used (cpu); memory: it ended badly and said so (a
-/// last line `memory` on descriptor 3, or "bad_alloc" or "out of memory" in the captured_output), or the kernel killed
-/// it while it held most of its limit; a signal; an exit code.
+/// What decides, in this order: our own stop (wall, idle, output, answers); time used (cpu); memory: it ended badly and
+/// said so (a last line `memory` on descriptor 3, or "bad_alloc" or "out of memory" in the captured_output), or the
+/// kernel killed it while it held most of its limit; a signal; an exit code.
 struct End {
-  enum class How { exited, signal, cpu, wall, memory, output } how = How::exited;
+  enum class How { exited, signal, cpu, wall, idle, memory, output, answers } how = How::exited;
   int code = 0;                 // exit status, or the signal
   std::string answers;          // what came on descriptor 3
   std::string captured_output;  // the first of stdout and stderr
+  double cpu = 0;               // s, used by all its processes
 };
 
 class Sandbox {

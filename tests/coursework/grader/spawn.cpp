@@ -177,7 +177,7 @@ bool says_memory(const ProcessResult& ended) {
 }  // namespace
 
 End classify(ProcessResult ended, const Limits& limits, bool shell) {
-  End end{End::How::exited, 0, std::move(ended.answers), std::move(ended.captured_output)};
+  End end{End::How::exited, 0, std::move(ended.answers), std::move(ended.captured_output), 0};
   ended.answers = end.answers;
   ended.captured_output = end.captured_output;
   int signal = WIFSIGNALED(ended.status) ? WTERMSIG(ended.status) : 0;
@@ -187,8 +187,13 @@ End classify(ProcessResult ended, const Limits& limits, bool shell) {
   const double cpu = crosscheck::cpu_seconds(ended.used);
   // ru_maxrss is in kB; what is mapped of the limit is more than what is resident, hence three quarters.
   const bool full = static_cast<double>(ended.used.ru_maxrss) > 0.75 * 1024 * static_cast<double>(limits.memory);
+  end.cpu = cpu;
   if (ended.wall)
     end.how = End::How::wall;
+  else if (ended.idle)
+    end.how = End::How::idle;
+  else if (ended.full)
+    end.how = End::How::answers;
   else if (ended.output || signal == SIGXFSZ)
     end.how = End::How::output;
   else if (signal == SIGXCPU || cpu > limits.cpu)
@@ -268,6 +273,50 @@ bool read_available(int fd, std::string& kept, std::size_t most, std::size_t& se
   return got != 0;
 }
 
+/// How long nothing of a program has run. Whoever waits for a processor counts as running: load makes nobody idle.
+class IdleWatch {
+ public:
+  explicit IdleWatch(pid_t supervisor) : supervisor_(supervisor) {}
+
+  /// Looks once in a second.
+  double seconds() {
+    const auto now = Clock::now();
+    if (now - looked_ >= std::chrono::seconds(1)) {
+      looked_ = now;
+      if (anything_runs(supervisor_)) ran_ = now;
+    }
+    return std::chrono::duration<double>(now - ran_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  static std::string content(const std::string& file) {
+    std::string text(4096, '\0');
+    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    const ssize_t size = descriptor < 0 ? 0 : read(descriptor, text.data(), text.size());
+    if (descriptor >= 0) close(descriptor);
+    text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+    return text;
+  }
+
+  /// Any process below this one that is in no interruptible sleep; true where it cannot be known.
+  static bool anything_runs(pid_t parent) {
+    const std::string children = content(fmt::format("/proc/{0}/task/{0}/children", parent));
+    const char* at = children.c_str();
+    char* end = nullptr;
+    for (long child; (child = std::strtol(at, &end, 10)) > 0 && end != at; at = end) {
+      const std::string stat = content(fmt::format("/proc/{}/stat", child));
+      const std::size_t name = stat.rfind(") ");
+      if (name == std::string::npos || stat[name + 2] != 'S' || anything_runs(static_cast<pid_t>(child))) return true;
+    }
+    return false;
+  }
+
+  pid_t supervisor_;
+  Clock::time_point looked_ = Clock::now(), ran_ = looked_;
+};
+
 /// Feeds, listens and watches the clock until the supervisor reports.
 ChildStatus communicate(const SpawnOptions& start, pid_t supervisor, Pipe& in, Pipe& answers, Pipe& captured_output,
                         Pipe& reports, ProcessResult& ended) {
@@ -279,7 +328,9 @@ ChildStatus communicate(const SpawnOptions& start, pid_t supervisor, Pipe& in, P
   fcntl(in.to.get(), F_SETFL, O_NONBLOCK);
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(start.limits.wall);
-  const auto most = static_cast<std::size_t>(start.limits.output) << 10;
+  const auto most = static_cast<std::size_t>(start.limits.output) << 10,
+             most_answers = static_cast<std::size_t>(start.limits.answers) << 10;
+  IdleWatch idle(supervisor);
   std::size_t fed = 0, answered = 0, captured = 0;
   bool stopped = false;
   ChildStatus report;
@@ -290,24 +341,27 @@ ChildStatus communicate(const SpawnOptions& start, pid_t supervisor, Pipe& in, P
                         {captured_output.from.get(), POLLIN, 0},
                         {in.to.get(), POLLOUT, 0}};
     const double left = std::chrono::duration<double>(deadline - Clock::now()).count();
-    poll(watched, std::size(watched), stopped ? -1 : std::max(0, static_cast<int>(std::ceil(left * 1e3))));
+    poll(watched, std::size(watched), stopped ? -1 : std::clamp(static_cast<int>(std::ceil(left * 1e3)), 0, 1000));
     if (watched[3].revents) {
       const ssize_t wrote = write(in.to.get(), start.input.data() + fed, start.input.size() - fed);
       fed = wrote > 0 ? fed + static_cast<std::size_t>(wrote) : errno == EAGAIN ? fed : start.input.size();
     }
     // The report comes when nothing of the program runs any more: what it wrote is in the pipes by then.
     const bool reported = watched[0].revents;
-    if (!read_available(answers.from.get(), ended.answers, most, answered)) answers.from.reset();
+    if (!read_available(answers.from.get(), ended.answers, most_answers, answered)) answers.from.reset();
     if (!read_available(captured_output.from.get(), ended.captured_output, most_captured, captured))
       captured_output.from.reset();
-    if (!ended.wall && (answered > most || captured > most)) ended.output = true;
+    if (!stopped) ended.full = answered > most_answers, ended.output = captured > most;
     if (reported) {
       if (read(reports.from.get(), &report, sizeof report) != sizeof report)
         report.failed = "watch over the program (its supervisor was killed)";
       return report;
     }
-    if (!stopped && !ended.output && Clock::now() >= deadline) ended.wall = true;
-    if (!stopped && (ended.output || ended.wall)) {
+    if (!stopped && !ended.output && !ended.full) {
+      ended.wall = Clock::now() >= deadline;
+      ended.idle = !ended.wall && idle.seconds() >= start.limits.idle;
+    }
+    if (!stopped && (ended.output || ended.full || ended.wall || ended.idle)) {
       kill(supervisor, SIGTERM);
       stopped = true;
     }

@@ -52,9 +52,9 @@ struct SpawnOptions {
 };
 
 struct ProcessResult {
-  int status = 0;                     // as wait gives it
-  rusage used{};                      // by all its processes
-  bool wall = false, output = false;  // stopped by us
+  int status = 0;                                                 // as wait gives it
+  rusage used{};                                                  // by all its processes
+  bool wall = false, idle = false, output = false, full = false;  // stopped by us; full: of answers
   std::string answers, captured_output;
 };
 

@@ -5,6 +5,7 @@
 #include <archive_entry.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -127,14 +128,18 @@ std::optional<std::string> content_of(const fs::path& file) {
   return content;
 }
 
-void read_folder(const fs::path& top, FileMatcher& matcher) {
+/// Archives that it met in the top folder or one below, where the files may be.
+std::vector<fs::path> read_folder(const fs::path& top, FileMatcher& matcher) {
   std::size_t entries = 0;
+  std::vector<fs::path> archives;
   const auto options = fs::directory_options::skip_permission_denied;  // links to folders are not followed
   for (auto at = fs::recursive_directory_iterator(top, options); at != fs::recursive_directory_iterator(); ++at) {
     if (++entries > most_entries) throw Refused{too_many()};
-    if (at.depth() >= matcher.deepest()) at.disable_recursion_pending();
-    const std::string path = at->path().lexically_relative(top).generic_string();
     const fs::file_type type = at->symlink_status().type();
+    // .git holds thousands of files
+    if (at.depth() >= matcher.deepest() || at->path().filename().string()[0] == '.') at.disable_recursion_pending();
+    if (type == fs::file_type::regular && at.depth() <= 1 && is_archive(at->path())) archives.push_back(at->path());
+    const std::string path = at->path().lexically_relative(top).generic_string();
     if (type == fs::file_type::directory || !matcher.wants(path)) continue;
     if (type != fs::file_type::regular) {
       matcher.refuse(path, "file.link");
@@ -145,6 +150,7 @@ void read_folder(const fs::path& top, FileMatcher& matcher) {
     }
     if (const auto why = matcher.too_large()) throw Refused{*why};
   }
+  return archives;
 }
 
 bool points_outside(const std::string& path) {
@@ -243,25 +249,65 @@ void read_archive(const fs::path& file, FileMatcher& matcher) {
 
 }  // namespace
 
-Submission read_submission(const fs::path& path, const std::vector<std::string>& wanted) {
+bool is_archive(const fs::path& file) {
+  static constexpr const char* endings[] = {".zip", ".tar", ".gz", ".tgz", ".7z", ".rar", ".bz2", ".xz"};
+  const std::string ending = lower(file.extension().string());
+  return std::find(std::begin(endings), std::end(endings), ending) != std::end(endings);
+}
+
+namespace {
+
+void read_one(const fs::path& path, const std::string& name, FileMatcher& matcher) {
+  // in a folder that students share, a link would be graded as somebody's who did not write it
+  if (fs::is_symlink(path)) throw Refused{{"submission.link", {}}};
+  if (fs::is_directory(path)) {
+    const std::vector<fs::path> archives = read_folder(path, matcher);
+    if (!matcher.empty() || archives.empty()) return;
+    if (archives.size() > 1) throw Refused{{"submission.archives", {std::to_string(archives.size())}}};
+    read_archive(archives.front(), matcher);
+  } else if (matcher.wants(name)) {
+    if (auto content = content_of(path))
+      matcher.take(name, std::move(*content));
+    else
+      matcher.refuse(name, "file.large");
+  } else {
+    read_archive(path, matcher);
+  }
+}
+
+Remark nothing_of(const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return {"submission.empty_program", {}};
+  return {"submission.empty", {fmt::format("{}", fmt::join(wanted, ", "))}};
+}
+
+}  // namespace
+
+Submission read_submission(const Handed& handed, const std::vector<std::string>& wanted) {
   Submission submission;
-  submission.name = path.filename().empty() ? path.parent_path().filename().string() : path.filename().string();
+  submission.name = handed.name;
   FileMatcher matcher(wanted);
   try {
-    if (fs::is_directory(path)) {
-      read_folder(path, matcher);
-    } else if (fs::is_regular_file(path)) {
-      read_archive(path, matcher);
-    } else {
-      throw crosscheck::InputError(fmt::format("{}: expected a folder, a zip or a tar archive", path.string()));
+    for (const auto& [path, name] : handed.files) {
+      // beside an archive, or several files that are wanted, anybody hands in a picture or a page as well
+      if (handed.files.size() > 1 && !fs::is_directory(path) && !is_archive(name) && !matcher.wants(name)) continue;
+      read_one(path, name, matcher);
     }
+    if (matcher.empty()) throw Refused{nothing_of(wanted)};
   } catch (const Refused& refused) {
+    submission.refused = true;
     submission.remarks.push_back(refused.why);
     for (const std::string& name : wanted) submission.missing[name] = {"file.missing", {name}};
     return submission;
   }
   matcher.into(submission);
   return submission;
+}
+
+Submission read_submission(const fs::path& path, const std::vector<std::string>& wanted) {
+  if (!fs::is_directory(path) && !fs::is_regular_file(path))
+    throw crosscheck::InputError(fmt::format("{}: expected a folder, a zip or a tar archive", path.string()));
+  const std::string name = (path.filename().empty() ? path.parent_path() : path).filename().string();
+  return read_submission({name, {{fs::canonical(path), name}}}, wanted);
 }
 
 }  // namespace coursework

@@ -19,7 +19,14 @@ struct Submission {
   std::string name;
   std::map<std::string, std::string> files;  // contents of the wanted files that were found, by name
   std::map<std::string, Remark> missing;     // why a wanted file cannot be used
-  std::vector<Remark> remarks;               // on the whole; where it is refused, nothing of it is in `files`
+  std::vector<Remark> remarks;               // on the whole
+  bool refused = false;                      // nothing of it can be graded; the last remark says why
+};
+
+/// What somebody handed in: folders, archives and files, each with the name that the student gave it.
+struct Handed {
+  std::string name;  // whose it is
+  std::vector<std::pair<std::filesystem::path, std::string>> files;
 };
 
 constexpr std::size_t largest_file = 1u << 20;    // byte, of a file that is graded
@@ -30,9 +37,14 @@ constexpr std::size_t most_program_files = 200;
 constexpr std::size_t largest_program = 4u << 20;  // byte, of its C++ files together
 
 /// Takes the wanted files, looked for in the top folder, in src/ and one folder below, the shallowest first; letters'
-/// case may differ. Where none is wanted by name, takes every C++ file, by its path. Links are never followed. Throws
-/// InputError when there is nothing at `path`; all that a student may have done wrong becomes a remark instead.
+/// case may differ. Where none is there, but one archive is, takes them out of that. Where none is wanted by name,
+/// takes every C++ file, by its path. Links are never followed. Throws InputError when there is nothing at `path`; all
+/// that a student may have done wrong becomes a remark instead.
 Submission read_submission(const std::filesystem::path& path, const std::vector<std::string>& wanted);
+Submission read_submission(const Handed& handed, const std::vector<std::string>& wanted);
+
+/// By its ending: zip, tar, gz, tgz, and kinds that cannot be read, to say so.
+bool is_archive(const std::filesystem::path& file);
 
 // Matches the names in a submission with the wanted files; without wanted files every C++ file matches.
 
@@ -43,6 +55,7 @@ class FileMatcher {
   bool wants(const std::string& path) const { return !match(path).empty(); }
   void take(const std::string& path, std::string content);
   void refuse(const std::string& path, const std::string& key) { found_[match(path)].push_back({path, key, {}}); }
+  bool empty() const { return found_.empty(); }
   /// Why a whole program is refused as soon as it is too large; never where files are wanted by name.
   std::optional<Remark> too_large() const;
   /// Folders below the top one that need not be looked into.

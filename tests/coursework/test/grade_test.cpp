@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdio>
+#include <thread>
 
 #include "mysim/base/files.h"
+#include "tests/coursework/grader/class.h"
 #include "tests/coursework/grader/grade.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/result.h"
@@ -59,8 +62,13 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
        "double twice(double x) { return 2 * x; }",
        "twice.cpp defines sums("},
       {"crash", "double twice(double x) { volatile int* p = nullptr; return *p + x; }", "crashed (segmentation fault)"},
-      {"loop", "double twice(double x) { for (volatile int i = 0;;) i = 1; return x; }", "did not come to an end"},
+      {"loop", "double twice(double x) { for (volatile int i = 0;;) i = 1; return x; }", "too slow"},
       {"throws", "double twice(double) { throw std::runtime_error(\"not today\"); }", "exception: not today"},
+      {"recursion", "double twice(double x) { return twice(x) + 1; }", "a function called itself"},
+      {"compiler's memory", "__asm__(\".rept 400000000\\n.quad 0\\n.endr\"); double twice(double x) { return x; }",
+       "the compiler needed more than 1024 MB"},
+      {"our words", "double twice(double) { throw std::runtime_error(std::string(300, 'q')); }",
+       "its text is not shown"},
       {"nan", "double twice(double x) { return x / 0.0 * 0.0; }", "Not a finite number at double"},
       {"memory", "double twice(double x) { std::vector<double> v(20000000000ull, x); return v[1]; }", "more memory"},
       {"exit", "double twice(double) { std::exit(0); }", "ended the program before"},
@@ -74,6 +82,56 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
     EXPECT_EQ(earned_by(result, "sums"), 50) << one.what;
     EXPECT_NE(result.tests[0].said.find(one.says), std::string::npos) << one.what << ": " << result.tests[0].said;
   }
+}
+
+/// Slow enough to be near no limit and far from the official solution: eight hundred times as slow.
+const char* const slow_sums =
+    "#include \"tiny.h\"\n"
+    "std::vector<double> sums(const std::vector<double>& n) {\n"
+    "  std::vector<double> all;\n  double sum = 0;\n  volatile double burnt = 0;\n"
+    "  for (int i = 0; i < 100000000; ++i) burnt = burnt + i;\n"
+    "  for (double x : n) all.push_back(sum += x);\n  return all;\n}\n";
+
+TEST(Grade, SlowCodeHasTheSamePointsIdleAndUnderALoadOfEight) {
+  const Result idle = graded({{"sums.cpp", slow_sums}});
+  std::atomic<bool> stop = false;
+  std::vector<std::thread> busy;
+  for (int i = 0; i < 8; ++i)
+    busy.emplace_back([&] {
+      while (!stop) {
+      }
+    });
+  const Result loaded = graded({{"sums.cpp", slow_sums}});
+  stop = true;
+  for (std::thread& each : busy) each.join();
+  EXPECT_EQ(idle.earned(), 100) << text_of(idle, common_texts());
+  EXPECT_EQ(loaded.earned(), 100) << text_of(loaded, common_texts());
+}
+
+TEST(Grade, ALoopWithoutEndIsNotGradedAndNotRunAgain) {
+  const Result result =
+      graded({{"twice.cpp", "double twice(double x) { for (volatile int i = 0;;) i = 1; return x; }"}});
+  EXPECT_EQ(earned_by(result, "twice"), 0);
+  EXPECT_EQ(earned_by(result, "sums"), 50);
+  EXPECT_EQ(result.ungraded(), 50);
+  double seconds = 0;
+  for (const TestResult& test : result.tests) {
+    EXPECT_EQ(test.ungraded, test.part == "twice") << test.id;
+    EXPECT_EQ(test.cause, "");
+    seconds += test.seconds;
+  }
+  const std::string& said = result.tests[0].said;
+  EXPECT_NE(said.find("Not graded: your code was too slow. It was stopped after 30 s of processor time; the official "
+                      "solution needs 0."),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("The last function that was called is twice; that was call number 1."), std::string::npos)
+      << said;
+  EXPECT_EQ(result.tests.back().part == "twice" ? result.tests.back().said : result.tests[3].said,
+            "Not graded, as test " + result.tests[0].id + ": it makes the same calls.");
+  const std::string text = text_of(result, common_texts());
+  EXPECT_NE(text.find("Total: 50 of 50 points\n50 more points could not be given or refused"), std::string::npos)
+      << text;
 }
 
 TEST(Grade, KnownMistakesLoseTheirTestsAndAreNamed) {
@@ -166,8 +224,15 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
             "submission,points [1],twice [1],sums [1],remark\n"
             "\"'-o\",50,50,0,\"sums.cpp is missing. Looked in the top folder, in src/ and one folder below.\"\n"
             "all right,100,50,50,\n"
-            "\"rubbish, \"\"really\"\".zip\",0,0,0,\"The archive cannot be read (neither zip nor tar). Hand in "
-            "a folder, a .zip or a .tar.gz.\"\n");
+            "\"rubbish, \"\"really\"\".zip\",,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand "
+            "in a folder, a .zip or a .tar.gz.\"\n");
+  EXPECT_EQ(statistics_csv(all),
+            "test,title,passed [1],failed [1],not graded [1],most frequent cause,times [1]\n"
+            "1.1,1.1,2,0,0,,0\n2.1,2.1,1,1,0,,0\n2.2,2.2,1,1,0,,0\n");
+  const std::string page = class_page(tiny(), all, options.common);
+  EXPECT_NE(page.find("3 submissions, 2 graded, 1 not graded"), std::string::npos) << page;
+  EXPECT_NE(page.find("The archive cannot be read"), std::string::npos) << page;
+  EXPECT_NE(page.find("<tr><td>2.1 2.1</td><td>1</td><td>1</td><td>0</td><td></td></tr>"), std::string::npos) << page;
   for (const GradedSubmission& one : all) {
     const std::string base = (out / file_name_for(one.result.submission)).string();
     EXPECT_TRUE(result_from_json(content_of_file(base + ".json"), base).complete);
@@ -201,10 +266,11 @@ TEST(Page, CarriesWordsAndPlotsAndNothingOfTheStudentsUnescaped) {
   const auto sandbox = choose_sandbox("bare", true);
   const std::string throws =
       "#include \"tiny.h\"\n#include <stdexcept>\n"
-      "double twice(double) { throw std::runtime_error(\"<script>alert(1)</script>\\x1b[2J\"); }\n";
+      "double twice(double) { throw std::runtime_error(\"<script>alert(1)</script>\"); }\n";
   GradeOptions options = options_for(tiny(), 7);
   options.secret = true;
-  const Result result = grade(tiny(), submission_of(tiny(), {{"twice.cpp", throws}}), *sandbox, options);
+  Result result = grade(tiny(), submission_of(tiny(), {{"twice.cpp", throws}}), *sandbox, options);
+  result.tests[0].said += "\x1b[2J";  // a forged answer may bring it
   const std::string page = page_of(result, options.common, options.own), text = text_of(result, options.common);
   EXPECT_EQ(page.find("<script>"), std::string::npos);
   EXPECT_NE(page.find("&lt;script&gt;"), std::string::npos);
@@ -236,9 +302,12 @@ TEST(Program, BadUseIsToldInOneLine) {
   const TemporaryFolder here("test");
   const std::string there = here.path.string();
   write_file(here.path / "empty-secret", "\n");
+  for (const char* who : {"ada", "bo", "chen"}) write_file(here.path / "class" / who / "rk4.cpp", "");
   const std::pair<std::string, const char*> table[] = {
       {"grade a9 " + there, "unknown assignment 'a9'; expected one of: a1-steppers"},
       {"grade a1-steppers " + there + "/nothing", "/nothing: expected a folder, a zip or a tar archive"},
+      {"grade a1-steppers " + there + "/class",
+       "/class: this looks like a class of 3 submissions (folders); add --all to grade each of them"},
       {"grade a1-steppers " + there + " --format pdf", "format 'pdf'"},
       {"grade a1-steppers " + there + " --lang fr", "--lang"},
       {"grade a1-steppers " + there + " --seed 1 --secret x", "--secret"},
@@ -253,6 +322,18 @@ TEST(Program, BadUseIsToldInOneLine) {
   }
 }
 
+TEST(Program, ChartsOfAPartEndWithItsTime) {
+  const TemporaryFolder here("test");
+  const std::string program = (here.path / "your-rk4.program").string(),
+                    rest = " rk4 no-scene.json " + here.path.string();
+  write_file(program + ".spent", "100.5\n150\n");
+  EXPECT_EQ(call("engine " + program + rest).said.find("no more of it is run"), std::string::npos);
+  write_file(program + ".spent", "100.5\n150\n50\n");
+  const Called over = call("engine " + program + rest);
+  EXPECT_NE(over.status, 0);
+  EXPECT_NE(over.said.find("took more than 300 s in the charts; no more of it is run"), std::string::npos) << over.said;
+}
+
 TEST(Program, SolutionOfTheFirstAssignmentEarnsAHundred) {
   const TemporaryFolder here("test");
   const std::string solution = (folder_of_coursework() / "a1-steppers/solution").string();
@@ -263,9 +344,9 @@ TEST(Program, SolutionOfTheFirstAssignmentEarnsAHundred) {
   EXPECT_NE(content_of_file(here.path / "result.txt").find("Seed 3;"), std::string::npos);
   EXPECT_NE(content_of_file(here.path / "page.html").find("<svg"), std::string::npos);
   const Called empty = call("grade a1-steppers " + here.path.string() + " --no-sandbox --lang zh");
-  EXPECT_EQ(empty.status, 0) << empty.said;
-  EXPECT_NE(empty.said.find("缺少 rk4.cpp"), std::string::npos) << empty.said;
-  EXPECT_NE(empty.said.find("总分：0 分（满分 100 分）"), std::string::npos) << empty.said;
+  EXPECT_EQ(empty.status, 1) << empty.said;
+  EXPECT_NE(empty.said.find("未评分：其中没有所要求的文件（euler.cpp, trapezoidal.cpp, rk4.cpp）"), std::string::npos)
+      << empty.said;
 }
 
 }  // namespace

@@ -245,6 +245,26 @@ class Given {
   fs::path folder = scratch.path / "given";
 };
 
+/// "63" of "..., 63 points in all".
+std::string promised(const fs::path& folder) {
+  const std::string text = content_of_file(folder / "README.md");
+  const size_t end = text.find(" points in all"), begin = text.rfind(' ', end - 1) + 1;
+  return text.substr(begin, end - begin);
+}
+
+TEST(Handout, PromisesThePointsThatCheckCounts) {
+  for (const Assignment& assignment : assignments()) {
+    const Handout handout(assignment);
+    std::ifstream in(handout.folder / "check/public_cases.txt");
+    int counted = 0;
+    for (const PublicTest& test : read_cases(in).tests) counted += test.cases.empty() ? 0 : test.points;
+    EXPECT_EQ(promised(handout.folder), std::to_string(counted)) << assignment.name;
+  }
+  const Given given(find_assignment("a1-steppers"));
+  const Ran starter = given.check();
+  EXPECT_NE(starter.said.find("Total: 0 of " + promised(given.folder) + " points"), std::string::npos) << starter.said;
+}
+
 /// Of each plot of the page: whether the student's curve leaves the right one by more than a pixel somewhere.
 std::vector<bool> curves_apart(const fs::path& page) {
   const std::string text = content_of_file(page);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <fstream>
 #include <limits>
 #include <set>
@@ -57,7 +58,9 @@ TEST(Answers, EndsAreClassifiedBeforeTheExitCode) {
   const std::string one = "answer 1 0x1p+0\n", cut = one + "answer 1 0x1", good = one + one + "token T\n";
   const std::pair<End::How, How> table[] = {{End::How::signal, How::crashed},
                                             {End::How::cpu, How::out_of_time},
-                                            {End::How::wall, How::out_of_time},
+                                            {End::How::wall, How::waiting},
+                                            {End::How::idle, How::waiting},
+                                            {End::How::answers, How::too_much_answered},
                                             {End::How::memory, How::out_of_memory},
                                             {End::How::output, How::too_much_output}};
   for (const auto& [end, how] : table) {
@@ -65,6 +68,42 @@ TEST(Answers, EndsAreClassifiedBeforeTheExitCode) {
     for (const std::string& lines : {one, cut, good})
       EXPECT_EQ(hows(lines, 2, end), (std::vector<How>{How::answered, how}));
   }
+}
+
+TEST(Answers, LastWordsExplainAnEndAndProveNothing) {
+  const auto last = [](const std::string& lines, End::How how, int code) {
+    return answers_of({how, code, lines, ""}, "T", 2, {}).back();
+  };
+  const Answer slow = last("answer 1 0x1p+0\nslow step 3 f 1200\n", End::How::cpu, SIGXCPU);
+  EXPECT_EQ(slow.how, How::out_of_time);
+  EXPECT_EQ(slow.counts, (std::vector<std::pair<std::string, long>>{{"step", 3}, {"f", 1200}}));
+  EXPECT_EQ(last("recursion\n", End::How::signal, SIGSEGV).how, How::recursion);
+  // not of the form, or beside another end
+  EXPECT_TRUE(last("slow <b>step</b> 3\n", End::How::cpu, SIGXCPU).counts.empty());
+  EXPECT_TRUE(last("slow step 123456789012345\n", End::How::cpu, SIGXCPU).counts.empty());
+  for (const char* word : {"slow step 3\n", "recursion\n"})
+    EXPECT_EQ(last(word, End::How::exited, 0).how, How::no_token);
+  EXPECT_EQ(last("recursion\n", End::How::signal, SIGABRT).how, How::no_token);
+  // what the calls around the code say
+  const Answer unusable = answers_of({End::How::exited, 0, "unusable f_size 3 2\ntoken T\n", ""}, "T", 1, {})[0];
+  const Case what;
+  EXPECT_EQ(words(common_texts(), common_texts(), what, unusable, judge(what, unusable)),
+            "What your code gave back cannot be used: f was called with 3 numbers, and the system has 2.");
+  const Answer unknown = answers_of({End::How::exited, 0, "unusable secret\ntoken T\n", ""}, "T", 1, {})[0];
+  EXPECT_EQ(words(common_texts(), common_texts(), what, unknown, judge(what, unknown)).find("secret"),
+            std::string::npos);
+}
+
+TEST(Answers, OfAnExceptionOnlyTheStudentsOwnWordsAreShown) {
+  const std::map<std::string, std::string> files{{"a.cpp", "throw std::runtime_error(\"no such row: \" + text);"}};
+  for (const char* shown : {"no such row: ", "no such row: 17",
+                            "vector::_M_range_check: __n (which is 9) >= this->size() "
+                            "(which is 8)",
+                            "std::exception"})
+    EXPECT_EQ(shown_exception(shown, files), shown);
+  for (const char* hidden : {"f3 0f 1e fa 48 83 ec 08", "no such row: 1234567", "double k = stiffness / mass",
+                             "\x48\x89\xe5", "no such row: 1no such row: 2no such row: 3no such row: 4no such row: 5"})
+    EXPECT_EQ(shown_exception(hidden, files), "") << hidden;
 }
 
 TEST(Diagnostics, FirstErrorOfTheCompilerInPlainWords) {
@@ -94,6 +133,7 @@ TEST(Diagnostics, FirstErrorOfTheCompilerInPlainWords) {
       {"/usr/bin/ld: ours0.o: undefined reference to `rk4_step(double)'\ncollect2: error: ld returned 1 exit status\n",
        "build.undefined",
        {"rk4.cpp", "rk4_step(double)"}},
+      {"\n", "build.silent", {"rk4.cpp"}},
       {"something else\n", "build.other", {"rk4.cpp", "something else"}},
   };
   for (const Row& row : table) {

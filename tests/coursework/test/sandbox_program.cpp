@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -91,7 +92,15 @@ void reach_out() {
 const std::map<std::string, std::function<int(const char*)>> things = {
     {"cpu", [](const char* amount) { return burn(std::atof(amount)), 0; }},
     {"swallow", [](const char* amount) { return std::signal(SIGXCPU, SIG_IGN), burn(std::atof(amount)), 0; }},
-    {"sleep", [](const char* amount) { return usleep(static_cast<useconds_t>(1e6 * std::atof(amount))); }},
+    {"sleep",
+     [](const char* amount) {
+       sigset_t none;  // no call that the filter lets return at once
+       sigemptyset(&none);
+       const timespec time{static_cast<time_t>(std::atof(amount)),
+                           static_cast<long>(1e9 * std::fmod(std::atof(amount), 1))};
+       return sigtimedwait(&none, nullptr, &time) == -1 && errno == EAGAIN ? 0 : 1;
+     }},
+    {"nap", [](const char* amount) { return usleep(static_cast<useconds_t>(1e6 * std::atof(amount))); }},
     {"memory",
      [](const char* amount) {
        std::set_new_handler([] { say("memory\n"), _exit(1); });

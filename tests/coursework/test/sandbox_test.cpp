@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -14,7 +15,7 @@ namespace coursework {
 namespace fs = std::filesystem;
 
 std::ostream& operator<<(std::ostream& out, End::How how) {
-  constexpr const char* names[] = {"exited", "signal", "cpu", "wall", "memory", "output"};
+  constexpr const char* names[] = {"exited", "signal", "cpu", "wall", "idle", "memory", "output", "answers"};
   return out << names[static_cast<int>(how)];
 }
 
@@ -39,10 +40,11 @@ const std::vector<Sides> sides = {
     {"cpu", "0.5", "9", How::cpu, {.cpu = 1, .wall = 20}},
     {"swallow", "0.5", "9", How::cpu, {.cpu = 1, .wall = 20}},
     {"sleep", "0.1", "9", How::wall, {.wall = 1}},
+    {"sleep", "0.1", "9", How::idle, {.wall = 60, .idle = 3}},
     {"memory", "100", "300", How::memory, {.memory = 256}},
     {"memory", "100", "100000", How::memory, {}},
     {"throw", "100", "100000", How::memory, {}},
-    {"answers", "90", "200", How::output, {.output = 100}},
+    {"answers", "90", "200", How::answers, {.answers = 100}},
     {"output", "100", "101", How::output, {.output = 100}},
     {"output", "1", "100000", How::output, {.output = 100}},
     {"file", "1000", "1100", How::output, {.file = 1}},
@@ -57,8 +59,29 @@ TEST_P(SandboxTest, BelowALimitItEndsAndAboveItIsStoppedAndNamed) {
     EXPECT_TRUE(done(held)) << each.what << ' ' << each.below << ": " << held.how << ' ' << show(held);
     EXPECT_EQ(stopped.how, each.how) << each.what << ' ' << each.above << ": " << show(stopped);
     EXPECT_FALSE(done(stopped));
-    EXPECT_LE(stopped.answers.size(), static_cast<std::size_t>(each.limits.output) << 10);
+    EXPECT_LE(stopped.answers.size(), static_cast<std::size_t>(each.limits.answers) << 10);
   }
+}
+
+TEST_P(SandboxTest, SleepingIsOverAtOnceAndWhoNeedsAProcessorIsNotIdle) {
+  Job napping = job("nap", "50");
+  napping.limits.wall = 40;
+  EXPECT_TRUE(done(sandbox().run(napping)));
+  // four that burn on each processor: the one that is watched waits three quarters of its time
+  std::vector<std::thread> busy;
+  std::atomic<bool> stop = false;
+  for (unsigned i = 0; i < 4 * std::thread::hardware_concurrency(); ++i)
+    busy.emplace_back([&] {
+      while (!stop) {
+      }
+    });
+  Job burning = job("cpu", "1.5");
+  burning.limits = {.cpu = 3, .wall = 120, .idle = 2};
+  const End end = sandbox().run(burning);
+  stop = true;
+  for (std::thread& each : busy) each.join();
+  EXPECT_TRUE(done(end)) << end.how << ' ' << show(end);
+  EXPECT_GE(end.cpu, 1.5);
 }
 
 TEST_P(SandboxTest, ItStartsNoMoreProcessesThanItMay) {

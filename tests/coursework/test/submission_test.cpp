@@ -12,6 +12,7 @@
 #include "tests/coursework/classic/build_plan.h"
 #include "tests/coursework/grader/assignment.h"
 #include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/class.h"
 #include "tests/coursework/grader/submission.h"
 
 namespace coursework {
@@ -70,6 +71,94 @@ TEST(Submission, FilesAreFoundWhereStudentsPutThem) {
       EXPECT_TRUE(one.missing.empty() && one.remarks.empty()) << folder;
     }
   }
+}
+
+TEST(Layouts, EveryPersonIsOneSubmissionWhateverWasExported) {
+  const TemporaryFolder here("test");
+  const std::string archive = (here.path / "all.zip").string();
+  pack(archive, {{"work/rk4.cpp", "rk4"}, {"work/euler.cpp", "euler"}}, true);
+  const auto put = [&](const std::string& name) {
+    fs::create_directories((here.path / name).parent_path());
+    fs::copy_file(archive, here.path / name);
+  };
+  // a folder each, with the archive in it; and without folders
+  put("moodle/Ada Lovelace_123_assignsubmission_file_/a1.zip");
+  write_file(here.path / "moodle/Ada Lovelace_123_assignsubmission_onlinetext_/onlinetext.html", "see file");
+  put("moodle/Bo_124_assignsubmission_file_a1.zip");
+  put("canvas/lovelaceada_12345_67890_a1.zip");
+  put("canvas/bo_LATE_12346_67891_a1-2.zip");
+  write_file(here.path / "canvas/chen_12347_67892_rk4.cpp", "rk4");
+  write_file(here.path / "canvas/chen_12347_67893_euler-1.cpp", "euler");
+  write_file(here.path / "canvas/chen_12347_67894_photo.png", "x");
+  write_file(here.path / "gradescope/submission_metadata.yml",
+             "---\nsubmission_71:\n  :submitters:\n  - :name: Ada Lovelace\n    :sid: '1'\n  - :name: 'Bo'\n"
+             "submission_72:\n  :submitters:\n  - :name: Chen\n  :created_at: 2026\n");
+  for (const char* number : {"71", "72"})
+    for (const char* file : {"rk4", "euler"})
+      write_file(here.path / "gradescope" / (std::string("submission_") + number) / (file + std::string(".cpp")), file);
+  for (const char* who : {"ada", "bo"}) {
+    write_file(here.path / "git" / who / ".git/HEAD", "ref");
+    write_file(here.path / "git" / who / ".git/rk4.cpp", "not this one");
+    for (const char* file : {"rk4", "euler"})
+      write_file(here.path / "git" / who / "a1/src" / (file + std::string(".cpp")), file);
+  }
+  const std::pair<const char*, std::vector<std::string>> table[] = {
+      {"Moodle", {"Ada Lovelace_123", "Bo_124"}},
+      {"Canvas", {"bo_12346", "chen_12347", "lovelaceada_12345"}},
+      {"Gradescope", {"Ada Lovelace + Bo (submission_71)", "Chen (submission_72)"}},
+      {"Git", {"ada", "bo"}},
+  };
+  for (const auto& [layout, people] : table) {
+    const fs::path folder = here.path / lower(layout);
+    EXPECT_EQ(class_layout(folder, wanted), layout);
+    std::vector<std::string> found;
+    for (const Handed& one : submissions_in(folder)) {
+      found.push_back(one.name);
+      const Submission read = read_submission(one, wanted);
+      EXPECT_FALSE(read.refused) << one.name;
+      EXPECT_EQ(read.files.count("rk4.cpp") + read.files.count("euler.cpp"), 2u) << one.name;
+      if (!read.files.empty()) {
+        EXPECT_EQ(read.files.begin()->second, "euler") << one.name;
+      }
+    }
+    EXPECT_EQ(found, people) << layout;
+  }
+}
+
+TEST(Layouts, WhatCannotBeGradedHasAReason) {
+  const TemporaryFolder here("test");
+  write_file(here.path / "text/notes.txt", "see my mail");
+  write_file(here.path / "two/a.zip", "x");
+  write_file(here.path / "two/b.zip", "x");
+  write_file(here.path / "damaged/a.zip", "PK\x03\x04 and no more");
+  fs::create_directory_symlink(here.path / "two", here.path / "linked");
+  write_file(here.path / "letter.txt", "see my mail");
+  const std::pair<const char*, const char*> table[] = {{"text", "submission.empty"},
+                                                       {"two", "submission.archives"},
+                                                       {"damaged", "archive.unreadable"},
+                                                       {"linked", "submission.link"},
+                                                       {"letter.txt", "archive.unreadable"}};
+  for (const Handed& one : submissions_in(here.path)) {
+    const Submission read = read_submission(one, wanted);
+    EXPECT_TRUE(read.refused) << one.name;
+    const auto row =
+        std::find_if(std::begin(table), std::end(table), [&](const auto& r) { return one.name == r.first; });
+    ASSERT_NE(row, std::end(table)) << one.name;
+    EXPECT_EQ(read.remarks.back().key, row->second) << one.name;
+  }
+  EXPECT_EQ(read_submission(here.path / "text", {}).remarks.back().key, "submission.empty_program");
+}
+
+TEST(Layouts, OneSubmissionIsNoClass) {
+  const TemporaryFolder here("test");
+  for (const char* file : {"one/src/rk4.cpp", "one/old/rk4.cpp", "many/a/rk4.cpp", "many/b/RK4.cpp", "many/c/rk4.cpp",
+                           "top/rk4.cpp", "top/a/rk4.cpp", "top/b/rk4.cpp", "top/c/rk4.cpp"})
+    write_file(here.path / file, "rk4");
+  for (const char* file : {"a.zip", "b.tar.gz", "c.rar"}) write_file(here.path / "packed" / file, "x");
+  EXPECT_EQ(class_layout(here.path / "one", wanted), "");
+  EXPECT_EQ(class_layout(here.path / "top", wanted), "");
+  EXPECT_EQ(class_layout(here.path / "many", wanted), "folders");
+  EXPECT_EQ(class_layout(here.path / "packed", wanted), "folders");
 }
 
 TEST(Submission, TheShallowestIsTakenAndTwoAlikeAreNot) {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "../../check/case.h"
+#include "../../check/calls.h"
 #include "asker.h"
 #include "draws.h"
 
@@ -18,7 +18,7 @@ class Forces {
   using Numbers = coursework::Numbers;
 
   Forces(Asker& asker, std::uint64_t seed) : asker_(asker), draws_(seed), start_(asker.start()), n_(start_.size() / 2) {
-    if (n_ == 0) throw std::runtime_error("the state holds no particle with a velocity");
+    if (n_ == 0) throw coursework::Unusable("no_velocity");
     find_layout();
     for (std::size_t i = 1; i < n_; ++i) {
       const float d = length(plus(start_[x(i)], -1, start_[x(i - 1)]));

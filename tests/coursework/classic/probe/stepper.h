@@ -18,6 +18,7 @@ typename StepperBase<S>::type& stepper_base(S& stepper) {
 template <class S>
 void take_step(S& stepper, Own& own, float h) {
   ParticleSystem& system = own;
+  coursework::calling("takeStep");
   if constexpr (requires { stepper.takeStep(&system, h); })
     stepper.takeStep(&system, h);
   else if constexpr (requires { stepper.takeStep(system, h); })

@@ -10,6 +10,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "../../check/calls.h"
+
 namespace probe {
 
 using Vec = std::vector<Vector3f>;
@@ -119,6 +121,7 @@ void store(T& system, Vec state) {
 template <class T>
 Vec evaluate(T& system, Vec state) {
   start_random_numbers();
+  coursework::calling("evalF");
   if constexpr (requires { Vec(system.evalF(state)); })
     return Vec(system.evalF(state));
   else if constexpr (requires { Vec(system.evalF(state, Zero{})); })
@@ -151,7 +154,7 @@ T& ready(int count, bool counted, std::size_t least = 1, int other_count = 0) {
     system = make<T>(other_count, counted);
     if (state_of(*system).empty()) fill_state(*system);
   }
-  if (state_of(*system).empty()) throw std::runtime_error("the state is empty after construction");
+  if (state_of(*system).empty()) throw coursework::Unusable("state_empty");
   return *system;
 }
 
