@@ -2,6 +2,7 @@
 #include "tests/coursework/grader/grade.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -232,6 +233,10 @@ std::vector<std::string> wanted_files(const Assignment& assignment) {
   return files;
 }
 
+Submission submission_at(const fs::path& path, const Assignment& assignment) {
+  return read_submission(path, wanted_files(assignment), {assignment.roles.begin(), assignment.roles.end()});
+}
+
 std::uint64_t public_seed(const Assignment& assignment, const Test& test) {
   return mixed(crosscheck::Fnv1a::of(assignment.name), crosscheck::Fnv1a::of(test.id));
 }
@@ -265,7 +270,8 @@ std::string fingerprint_of(const Submission& submission, const std::string& surr
   std::string all = surroundings;
   for (const auto& [name, content] : submission.files) all += fmt::format("{} {}\n{}", name, content.size(), content);
   for (const auto& [name, why] : submission.missing) all += fmt::format("{} {}\n", name, why.key);
-  for (const Remark& remark : submission.remarks) all += remark.key + "\n";
+  for (const Remark& remark : submission.remarks) all += fmt::format("{} {}\n", remark.key, fmt::join(remark.with, " "));
+  for (const auto& [role, name] : submission.choice.classes) all += fmt::format("{} {}\n", role, name);
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
 
@@ -338,7 +344,7 @@ std::vector<GradedSubmission> grade_class(const Assignment& assignment, const fs
     try {
       // in a folder that students share, a link would be graded as somebody's who did not write it
       if (fs::is_symlink(entries[i])) throw std::runtime_error("it is a link to something else");
-      const Submission submission = read_submission(entries[i], wanted_files(assignment));
+      const Submission submission = submission_at(entries[i], assignment);
       const std::string fingerprint = fingerprint_of(submission, surroundings);
       known = finished(base.string() + ".json", std::string(assignment.name), fingerprint, one.result) &&
               fs::exists(base.string() + ".html");

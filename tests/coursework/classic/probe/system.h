@@ -10,6 +10,10 @@
 #include <type_traits>
 #include <vector>
 
+#ifdef PARTICLE_SCOPE
+using namespace PARTICLE_SCOPE;
+#endif
+
 namespace probe {
 
 using Vec = std::vector<Vector3f>;
