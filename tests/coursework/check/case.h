@@ -32,6 +32,7 @@ enum class How {
   out_of_time,
   out_of_memory,
   too_much_output,
+  undecided,  // it answers, but not the same when asked the same: what follows from its answers cannot be found
   no_token,
   not_compiled,
   missing

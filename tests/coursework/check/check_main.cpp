@@ -40,7 +40,7 @@ Answer ask(const Case& what) {
     if (!coursework::answer(what.call, what.in, answer.got))
       throw std::runtime_error("check does not know the call " + what.call + "; are its files those of the hand-out?");
     answer.got = compared(what, answer.got);
-    answer.how = How::answered;
+    answer.how = answer.got.empty() && !what.expected.empty() ? How::undecided : How::answered;
   } catch (const std::exception& error) {
     answer.how = How::threw, answer.detail = error.what();
   } catch (...) {

@@ -54,6 +54,8 @@ std::string key_of(How how) {
       return "out_of_memory";
     case How::too_much_output:
       return "too_much_output";
+    case How::undecided:
+      return "undecided";
     case How::no_token:
       return "no_token";
     case How::not_compiled:

@@ -132,7 +132,7 @@ std::vector<Case> pendulum_springs(Random& r) {
   return {probe("pendulum.springs", "law", pendulum, r, {1, 1, 1, 1, 1})};
 }
 std::vector<Case> chain_shape(Random& r) {
-  return {probe("chain.purity", "purity", chain, r, {1, 1, 1, 1}),
+  return {probe("chain.kept", "purity", chain, r, {1, 1, 1, 1}),
           probe("chain.motion", "motion", chain, r, {1, 1, 1})};
 }
 std::vector<Case> chain_forces(Random& r) {
@@ -140,7 +140,7 @@ std::vector<Case> chain_forces(Random& r) {
 }
 std::vector<Case> chain_links(Random& r) { return {probe("chain.springs", "links", chain, r, {1, 0, 1})}; }
 std::vector<Case> chain_law(Random& r) { return {probe("chain.springs", "law", chain, r, {1, 1, 1, 1, 1})}; }
-std::vector<Case> cloth_purity(Random& r) { return {probe("cloth.purity", "purity", side, r, {1, 1, 1, 1})}; }
+std::vector<Case> cloth_purity(Random& r) { return {probe("cloth.kept", "purity", side, r, {1, 1, 1, 1})}; }
 std::vector<Case> cloth_motion(Random& r) { return {probe("cloth.motion", "cloth_motion", side, r, {1, 1})}; }
 std::vector<Case> cloth_forces(Random& r) {
   return {probe("cloth.gravity", "gravity", side, r, {1, 1}), probe("cloth.drag", "drag", side, r, {1, 1})};

@@ -309,30 +309,36 @@ class WholeBuilder : public Builder {
     return fits;
   }
 
-  /// A base class that does not keep the state shows where the systems are tested. The steppers get the starter's in its
-  /// place, where they can be built with it.
+  /// Whether the steppers can be asked with the student's own base class: our system derives from it.
+  bool base_holds(const Programs& programs, const std::vector<std::string>& steppers) const {
+    for (const std::string& part : steppers) {
+      const auto at = programs.of.find(part);
+      if (at == programs.of.end() || !at->second.missing.empty() || !at->second.source.empty()) continue;
+      if (at->second.file.empty()) return false;
+      const Answer answer = run_calls(sandbox_, at->second.file, {{"base", {}, {1}}}).front();
+      if (answer.how != How::answered || answer.got != Numbers{1}) return false;
+    }
+    return true;
+  }
+
+  /// A base class that cannot stand alone, or loses the state, is no fault of the steppers: they get the starter's in
+  /// its place, where they can be built with it.
   void mend_base(const Submission& submission, Programs& programs, const fs::path& folder, unsigned jobs) const {
     const std::vector<std::string> steppers = {"euler", "trapezoidal"};
-    const auto built = std::find_if(steppers.begin(), steppers.end(), [&](const std::string& part) {
-      return programs.of.count(part) && !programs.of.at(part).file.empty();
-    });
-    if (programs.base_file.empty() || built == steppers.end()) return;
-    const Answer answer = run_calls(sandbox_, programs.of.at(*built).file, {{"base", {}, {1}}}).front();
-    if (answer.how != How::answered || answer.got != Numbers{0}) return;
+    if (programs.base_file.empty() || base_holds(programs, steppers)) return;
     Files files = submission.files;
     for (auto it = files.begin(); it != files.end();) {
       const std::vector<std::string> words = tokens_of(it->second);
-      const bool is_base = defines_class(words, "ParticleSystem") || (is_source(it->first) && defines_member(words, "ParticleSystem", "ParticleSystem"));
+      const bool is_base = defines_class(words, "ParticleSystem") ||
+                           (is_source(it->first) && defines_member(words, "ParticleSystem", "ParticleSystem"));
       it = is_base ? files.erase(it) : std::next(it);
     }
-    Programs mended = build_programs(files, folder / "tree-base", coursework_, sandbox_, tools({}, jobs), steppers,
-                                     nullptr, submission.choice.classes);
+    const Programs mended = build_programs(files, folder / "tree-base", coursework_, sandbox_, tools({}, jobs), steppers,
+                                           nullptr, submission.choice.classes);
     bool all = true;
-    for (const std::string& part : steppers)
-      if (!mended.of.count(part) || mended.of.at(part).file.empty())
-        all = false;
-      else
-        programs.of[part] = mended.of.at(part);
+    for (const std::string& part : steppers) all = all && !mended.of.at(part).file.empty();
+    if (all)
+      for (const std::string& part : steppers) programs.of[part] = mended.of.at(part);
     programs.notes.insert(programs.notes.begin(), {all ? "whole.base" : "whole.base_kept", {programs.base_file}});
   }
 
