@@ -164,7 +164,8 @@ void BuildPlan::choose(const std::map<int, Fits>& fits) {
 void BuildPlan::tell_choice(const Chosen& chosen, bool tried) {
   for (const auto& [role, name] : wanted_) {
     const auto of = chosen.of.find(role);
-    const bool met = of != chosen.of.end() && (classes_.at(of->second).name == name || classes_.at(of->second).full() == name);
+    const bool met =
+        of != chosen.of.end() && (classes_.at(of->second).name == name || classes_.at(of->second).full() == name);
     if (!met) notes_.insert(notes_.begin(), {"choice.class", {role, name}});
   }
   std::string graded, others;
@@ -175,7 +176,8 @@ void BuildPlan::tell_choice(const Chosen& chosen, bool tried) {
       if (!one.ours) graded += " (" + one.file + ")";
     }
   for (const int i : chosen.others)
-    if (!classes_.at(i).ours && classes_.at(i).name != "RK4") others += (others.empty() ? "" : ", ") + classes_.at(i).full();
+    if (!classes_.at(i).ours && classes_.at(i).name != "RK4")
+      others += (others.empty() ? "" : ", ") + classes_.at(i).full();
   const bool all = others.empty() || !tried;
   notes_.insert(notes_.begin(), {all ? "whole.graded" : "whole.graded_of", {graded, others}});
 }
@@ -195,7 +197,8 @@ void BuildPlan::plan_parts(const Chosen& chosen) {
     const auto chain = chosen.of.find("chain");
     if (role.part == "pendulum" && chain != chosen.of.end() && chain->second != of->second) {
       const ClassInfo& other = classes_.at(chain->second);
-      more.insert(more.end(), {defined("STUDENT_CHAIN_HEADER", file_on_disk(other)), "-DSTUDENT_CHAIN=" + other.full()});
+      more.insert(more.end(),
+                  {defined("STUDENT_CHAIN_HEADER", file_on_disk(other)), "-DSTUDENT_CHAIN=" + other.full()});
       names.push_back(other.name);
     }
     plan.calls =

@@ -11,9 +11,7 @@ namespace {
 
 using Tokens = std::vector<std::string>;
 
-bool is_word(const std::string& token) {
-  return std::isalpha(static_cast<unsigned char>(token[0])) || token[0] == '_';
-}
+bool is_word(const std::string& token) { return std::isalpha(static_cast<unsigned char>(token[0])) || token[0] == '_'; }
 
 /// Behind the bracket that closes the one at `at`.
 std::size_t behind(const Tokens& tokens, std::size_t at, const char* open, const char* close) {
@@ -101,11 +99,19 @@ std::vector<ClassInfo> classes_in(const Tokens& tokens, const std::string& file)
 const std::vector<Role>& roles() {
   static const std::vector<Role> all = {
       {"euler", "euler", true, {"ForwardEuler", "Euler", "ExplicitEuler", "EulerStepper"}, {"euler"}},
-      {"trapezoidal", "trapezoidal", true, {"Trapzoidal", "Trapezoidal", "Trapezoid", "TrapezoidalRule"}, {"trap", "heun"}},
+      {"trapezoidal",
+       "trapezoidal",
+       true,
+       {"Trapzoidal", "Trapezoidal", "Trapezoid", "TrapezoidalRule"},
+       {"trap", "heun"}},
       {"simple", "simple", false, {"SimpleSystem"}, {"simple", "circle"}},
       {"cloth", "cloth", false, {"ClothSystem", "Cloth"}, {"cloth", "fabric"}},
       {"pendulum", "pendulum", false, {"PendulumSystem", "Pendulum", "SimplePendulum"}, {"pendulum"}},
-      {"chain", "pendulum", false, {"ChainSystem", "ParticleChain", "PendulumChain", "ChainPendulum"}, {"chain", "rope"}},
+      {"chain",
+       "pendulum",
+       false,
+       {"ChainSystem", "ParticleChain", "PendulumChain", "ChainPendulum"},
+       {"chain", "rope"}},
   };
   return all;
 }
@@ -187,7 +193,8 @@ bool ClassList::ambiguous(bool steppers) const {
   }
   bool open = false;  // a role without a class, or with several
   for (const Role& role : roles())
-    if (role.stepper == steppers) open = open || count[role.name] > 1 || (role.name != "chain" && count[role.name] == 0);
+    if (role.stepper == steppers)
+      open = open || count[role.name] > 1 || (role.name != "chain" && count[role.name] == 0);
   if (steppers) {
     // beside the two that are asked for there is always RK4
     for (const int i : extra)
@@ -248,7 +255,8 @@ Chosen ClassList::choose(const std::map<int, Fits>& fits, const std::map<std::st
   }
   for (const bool steppers : {true, false})
     for (const int i : candidates(steppers)) {
-      const bool taken = std::any_of(chosen.of.begin(), chosen.of.end(), [&](const auto& of) { return of.second == i; });
+      const bool taken =
+          std::any_of(chosen.of.begin(), chosen.of.end(), [&](const auto& of) { return of.second == i; });
       if (!taken) chosen.others.push_back(i);
     }
   return chosen;

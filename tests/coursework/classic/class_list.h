@@ -27,11 +27,11 @@ std::vector<ClassInfo> classes_in(const std::vector<std::string>& tokens, const 
 
 /// What a part's tests ask of one class. The chain is tested with the pendulum.
 struct Role {
-  std::string_view name;                     // in grade.toml
-  std::string_view part;                     // whose program calls it
-  bool stepper;                              // moves systems; else it is one
-  std::vector<std::string_view> names;       // under which it has been seen
-  std::vector<std::string_view> words;       // that its name holds, where it has another
+  std::string_view name;                // in grade.toml
+  std::string_view part;                // whose program calls it
+  bool stepper;                         // moves systems; else it is one
+  std::vector<std::string_view> names;  // under which it has been seen
+  std::vector<std::string_view> words;  // that its name holds, where it has another
 };
 const std::vector<Role>& roles();
 const Role& role_of(std::string_view name);
@@ -40,6 +40,7 @@ const Role& role_of(std::string_view name);
 struct Fit {
   bool alive = false;  // it answered, and not with nothing
   bool shape = false;  // what it does is what the role does: two particles on a spring, a chain, a grid, the rule
+  bool slow = false;   // it did not come to an end
   int right = 0;       // tests that it would pass
   int decided = 0;     // cases that said something of its shape
 };

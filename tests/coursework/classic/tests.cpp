@@ -132,8 +132,7 @@ std::vector<Case> pendulum_springs(Random& r) {
   return {probe("pendulum.springs", "law", pendulum, r, {1, 1, 1, 1, 1})};
 }
 std::vector<Case> chain_shape(Random& r) {
-  return {probe("chain.kept", "purity", chain, r, {1, 1, 1, 1}),
-          probe("chain.motion", "motion", chain, r, {1, 1, 1})};
+  return {probe("chain.kept", "purity", chain, r, {1, 1, 1, 1}), probe("chain.motion", "motion", chain, r, {1, 1, 1})};
 }
 std::vector<Case> chain_forces(Random& r) {
   return {probe("chain.gravity", "gravity", chain, r, {1, 1}), probe("chain.drag", "drag", chain, r, {1, 1})};
@@ -201,8 +200,9 @@ constexpr int total(const auto& all) {
 }  // namespace
 
 const Assignment& classic_particles() {
-  static const Assignment all{"classic", "Particle systems, in the interface of the classic course", parts, tests,
-                              classic::whole_builder, role_names};
+  static const Assignment all{
+      "classic", "Particle systems, in the interface of the classic course", parts, tests, classic::whole_builder,
+      role_names};
   static const int points = total(tests);
   if (points != 100) throw std::logic_error("classic: the points sum to " + std::to_string(points));
   return all;

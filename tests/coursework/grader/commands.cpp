@@ -115,8 +115,7 @@ int grade_command(const GradeCommand& given) {
   options.engines = command.engines;
   options.jobs = std::max(1u, std::thread::hardware_concurrency());
   const Format& format = find_format(command.format);
-  const Submission submission =
-      command.all ? Submission() : submission_at(command.submission, assignment);
+  const Submission submission = command.all ? Submission() : submission_at(command.submission, assignment);
   choose_seed(command, options);
   const std::unique_ptr<Sandbox> sandbox = choose_sandbox(command.sandbox, command.no_sandbox);
   fmt::print(stderr, "lane {}: {}\n", sandbox->name(), sandbox->says());

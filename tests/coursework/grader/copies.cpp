@@ -23,10 +23,11 @@ constexpr const char* trailing[] = {" - copy",   " - kopie", " - 副本", "- cop
 const std::set<std::string> backup_folders = {"old",      "backup", "backups", "bak",        "archive", "archived",
                                               "previous", "prev",   "trash",   "deprecated", "unused",  "copy"};
 /// Libraries that some bring along, by how the folder's name begins; vecmath is not among them, it is theirs to change.
-constexpr const char* library_folders[] = {"glfw", "glew",  "freeglut", "eigen", "glm",   "imgui", "nanogui",
-                                           "boost", "assimp", "sdl2",   "stb",   "cmakefiles", "cmake-build"};
-const std::set<std::string> whole_library_folders = {"gl",    "glu",  "glut",         "opengl",  "glad",
-                                                     "khr",   "build", "node_modules", "__macosx"};
+constexpr const char* library_folders[] = {"glfw",  "glew",       "freeglut",   "eigen",  "glm",
+                                           "imgui", "nanogui",    "boost",      "assimp", "sdl2",
+                                           "stb",   "cmakefiles", "cmake-build"};
+const std::set<std::string> whole_library_folders = {"gl",  "glu",   "glut",         "opengl",  "glad",
+                                                     "khr", "build", "node_modules", "__macosx"};
 
 bool starts(const std::string& text, const std::string& with) { return text.compare(0, with.size(), with) == 0; }
 bool ends(const std::string& text, const std::string& with) {
@@ -91,10 +92,9 @@ bool in_library(const std::string& path) {
   return std::any_of(above.begin(), above.end(), [](const std::string& name) {
     const std::string small = lower(name);
     return whole_library_folders.count(small) > 0 ||
-           std::any_of(std::begin(library_folders), std::end(library_folders),
-                       [&](const std::string& begin) {
-                         return starts(small, begin) && !std::isalpha(static_cast<unsigned char>(small[begin.size()]));
-                       });
+           std::any_of(std::begin(library_folders), std::end(library_folders), [&](const std::string& begin) {
+             return starts(small, begin) && !std::isalpha(static_cast<unsigned char>(small[begin.size()]));
+           });
   });
 }
 

@@ -270,7 +270,8 @@ std::string fingerprint_of(const Submission& submission, const std::string& surr
   std::string all = surroundings;
   for (const auto& [name, content] : submission.files) all += fmt::format("{} {}\n{}", name, content.size(), content);
   for (const auto& [name, why] : submission.missing) all += fmt::format("{} {}\n", name, why.key);
-  for (const Remark& remark : submission.remarks) all += fmt::format("{} {}\n", remark.key, fmt::join(remark.with, " "));
+  for (const Remark& remark : submission.remarks)
+    all += fmt::format("{} {}\n", remark.key, fmt::join(remark.with, " "));
   for (const auto& [role, name] : submission.choice.classes) all += fmt::format("{} {}\n", role, name);
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }

@@ -78,7 +78,8 @@ void FileMatcher::choose(Submission& submission) const {
   const Found& found = file->second.front();
   try {
     if (!found.refused.empty() || found.content.size() > largest_choice)
-      throw crosscheck::InputError(fmt::format("{}: expected a file of at most {} kB", choice_file, largest_choice >> 10));
+      throw crosscheck::InputError(
+          fmt::format("{}: expected a file of at most {} kB", choice_file, largest_choice >> 10));
     submission.choice = read_choice(found.content, paths, roles_);
   } catch (const crosscheck::InputError& error) {
     submission.remarks.push_back({"choice.bad", {std::string(error.what()).substr(0, 400)}});
@@ -112,7 +113,8 @@ void FileMatcher::into(Submission& submission) const {
     }
     // no backup before backups, the shallowest first, and the name as it was asked for before one that differs in case
     auto rank = [&](const Found& f) {
-      return 8 * is_backup(f.path) + 2 * depth_of(f.path) + (lower(base_name(f.path)) == lower(name) && base_name(f.path) != name);
+      return 8 * is_backup(f.path) + 2 * depth_of(f.path) +
+             (lower(base_name(f.path)) == lower(name) && base_name(f.path) != name);
     };
     std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) {
       return rank(a) != rank(b) ? rank(a) < rank(b) : fuller(a.path, b.path);

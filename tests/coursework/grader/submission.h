@@ -36,8 +36,8 @@ constexpr std::size_t largest_program = 4u << 20;  // byte, of its C++ files tog
 /// Takes the wanted files, looked for in the top folder, in src/ and one folder below, the shallowest first; letters'
 /// case may differ. Backups and older copies stand behind (copies.h), and a file grade.toml chooses; `roles` are what
 /// it may name classes for. Where none is wanted by name, takes every C++ file that is no library's, by its path. Links
-/// are never followed. Throws InputError when there is nothing at `path`; all that a student may have done wrong becomes
-/// a remark instead.
+/// are never followed. Throws InputError when there is nothing at `path`; all that a student may have done wrong
+/// becomes a remark instead.
 Submission read_submission(const std::filesystem::path& path, const std::vector<std::string>& wanted,
                            const std::vector<std::string>& roles = {});
 
