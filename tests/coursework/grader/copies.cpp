@@ -26,8 +26,8 @@ const std::set<std::string> backup_folders = {"old",      "backup", "backups", "
 constexpr const char* library_folders[] = {"glfw",  "glew",       "freeglut",   "eigen",  "glm",
                                            "imgui", "nanogui",    "boost",      "assimp", "sdl2",
                                            "stb",   "cmakefiles", "cmake-build"};
-const std::set<std::string> whole_library_folders = {"gl",  "glu",   "glut",         "opengl",  "glad",
-                                                     "khr", "build", "node_modules", "__macosx"};
+const std::set<std::string> whole_library_folders = {"fl",   "fltk", "gl",    "glu",          "glut",    "opengl",
+                                                     "glad", "khr",  "build", "node_modules", "__macosx"};
 
 bool starts(const std::string& text, const std::string& with) { return text.compare(0, with.size(), with) == 0; }
 bool ends(const std::string& text, const std::string& with) {

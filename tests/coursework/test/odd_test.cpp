@@ -16,12 +16,13 @@ namespace {
 
 using classic::Files;
 
-/// Replaces the word wherever it stands alone, in names of files too.
+/// Replaces the word wherever it stands alone; names of headers stay.
 std::string with_word(std::string text, const std::string& from, const std::string& to) {
   const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos;) {
-    const bool alone =
-        (at == 0 || !in_word(text[at - 1])) && (at + from.size() == text.size() || !in_word(text[at + from.size()]));
+    const std::size_t end = at + from.size();
+    const bool alone = (at == 0 || !in_word(text[at - 1])) && (end == text.size() || !in_word(text[end])) &&
+                       text.compare(end, 2, ".h") != 0;
     if (alone) text.replace(at, from.size(), to);
     at += alone ? to.size() : from.size();
   }
