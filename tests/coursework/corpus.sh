@@ -5,5 +5,5 @@ build=$(realpath "${1:?expected the folder of a build, as build/release}")
 export CROSSCHECK_CACHE=$build/cache
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cmake --build "$build" --target coursework_corpus
-CORPUS_SEEDS=20 CORPUS_MISTAKES=1000 "$here/on_all_cores.sh" "$build/tests/coursework/coursework_corpus"
+CORPUS_SEEDS=20 CORPUS_MISTAKES=1000 ODD_PROGRAMS=1000 "$here/on_all_cores.sh" "$build/tests/coursework/coursework_corpus"
 "$here/cheats/run.sh" "$build"

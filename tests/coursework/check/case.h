@@ -37,6 +37,7 @@ enum class How {
   out_of_memory,
   too_much_output,
   too_much_answered,
+  undecided,  // it answers, but not the same when asked the same: what follows from its answers cannot be found
   no_token,
   not_compiled,
   missing

@@ -40,7 +40,7 @@ Answer ask(const Case& what) {
     if (!coursework::answer(what.call, what.in, answer.got))
       throw std::runtime_error("check does not know the call " + what.call + "; are its files those of the hand-out?");
     answer.got = compared(what, answer.got);
-    answer.how = How::answered;
+    answer.how = answer.got.empty() && !what.expected.empty() ? How::undecided : How::answered;
   } catch (const Unusable& error) {
     answer.how = How::unusable, answer.detail = error.what();
     for (const std::size_t number : error.numbers()) answer.counts.emplace_back("", static_cast<long>(number));

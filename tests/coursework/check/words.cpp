@@ -62,6 +62,8 @@ std::string key_of(How how) {
       return "too_much_output";
     case How::too_much_answered:
       return "too_much_answered";
+    case How::undecided:
+      return "undecided";
     case How::no_token:
       return "no_token";
     case How::not_compiled:

@@ -12,16 +12,6 @@ namespace coursework::classic {
 namespace fs = std::filesystem;
 namespace {
 
-/// The names under which each part's class has been seen. The chain is the pendulum's class where it has none.
-const std::vector<std::pair<std::string_view, std::vector<std::string_view>>> classes = {
-    {"euler", {"ForwardEuler", "Euler", "ExplicitEuler", "EulerStepper"}},
-    {"trapezoidal", {"Trapzoidal", "Trapezoidal", "Trapezoid", "TrapezoidalRule"}},
-    {"simple", {"SimpleSystem"}},
-    {"pendulum", {"PendulumSystem", "Pendulum", "SimplePendulum"}},
-    {"cloth", {"ClothSystem", "Cloth"}},
-};
-const std::vector<std::string_view> chain_names = {"ChainSystem", "ParticleChain", "PendulumChain", "ChainPendulum"};
-
 /// Paths that lead out of the folder, or to another machine's disk, keep their last name, which is then looked for.
 std::string inside(const std::string& written) {
   std::string name = written;
@@ -35,8 +25,12 @@ std::string defined(const std::string& name, const std::string& path) { return "
 
 }  // namespace
 
-BuildPlan::BuildPlan(const Files& submitted, fs::path tree, fs::path coursework)
-    : tree_(fs::absolute(tree)), ours_(fs::absolute(coursework) / "classic"), coursework_(fs::absolute(coursework)) {
+BuildPlan::BuildPlan(const Files& submitted, fs::path tree, fs::path coursework,
+                     std::map<std::string, std::string> wanted)
+    : tree_(fs::absolute(tree)),
+      ours_(fs::absolute(coursework) / "classic"),
+      coursework_(fs::absolute(coursework)),
+      wanted_(std::move(wanted)) {
   files_ = choose_files(submitted, notes_);
   for (auto& [path, content] : files_) {
     content = with_includes(content, inside);
@@ -44,7 +38,8 @@ BuildPlan::BuildPlan(const Files& submitted, fs::path tree, fs::path coursework)
   }
   lay_out();
   plan_objects();
-  for (const auto& [part, names] : classes) plan_part(part, names);
+  list_classes();
+  plan_parts(classes_.choose({}, wanted_));
 }
 
 BuildStep BuildPlan::compile(const std::string& source, const std::string& object, const std::string& standard,
@@ -100,37 +95,125 @@ bool BuildPlan::find(const std::vector<std::string_view>& names, std::string& fi
   return false;
 }
 
-void BuildPlan::plan_part(std::string_view part, const std::vector<std::string_view>& names) {
-  PartBuild plan;
-  plan.part = part;
-  std::string file, name;
-  if (!find(names, file, name)) {
-    plan.missing = names.front();
-    parts_.push_back(plan);
-    return;
-  }
-  std::vector<std::string> more = {defined("STUDENT_HEADER", file),
-                                   "-DSTUDENT_CLASS=" + name,
+void BuildPlan::list_classes() {
+  std::vector<ClassInfo> all;
+  for (const int round : {0, 1, 2})  // the student's headers, his sources, ours
+    for (const auto& [path, words] : tokens_) {
+      const bool his = files_.count(path) > 0;
+      if (round != (his ? (is_header(path) ? 0 : 1) : 2)) continue;
+      for (ClassInfo& one : classes_in(words, path)) {
+        one.ours = !his;
+        all.push_back(std::move(one));
+      }
+    }
+  classes_ = ClassList(std::move(all));
+}
+
+std::string BuildPlan::file_on_disk(const ClassInfo& one) const {
+  return one.ours ? one.file : (tree_ / "in" / "his" / one.file).string();
+}
+
+std::string BuildPlan::base_file() const {
+  const auto base = classes_.named("ParticleSystem");
+  return base && !classes_.at(*base).ours ? classes_.at(*base).file : "";
+}
+
+std::vector<std::string> BuildPlan::names_of(int of) const {
+  const ClassInfo& one = classes_.at(of);
+  std::vector<std::string> more = {defined("STUDENT_HEADER", file_on_disk(one)),
+                                   "-DSTUDENT_CLASS=" + one.full(),
                                    "-DANSWER=answer",
                                    "-DOWN_PROCESS",
                                    "-I" + ours_.string(),
                                    "-I" + (coursework_ / "check").string()};
   // a class that stands in the file of a main of its own
-  if (!is_header(file)) more.push_back("-Dmain=main_of_the_student");
-  std::string other_file, other;
-  if (part == "pendulum" && find(chain_names, other_file, other))
-    more.insert(more.end(), {defined("STUDENT_CHAIN_HEADER", other_file), "-DSTUDENT_CHAIN=" + other});
-  if ((part == "euler" || part == "trapezoidal") && find({"ParticleSystem"}, other_file, other))
-    more.push_back(defined("PARTICLE_HEADER", other_file));
-  plan.calls =
-      compile((ours_ / ("calls_" + plan.part + ".cpp")).string(), "calls_" + plan.part + ".o", "gnu++20", more);
-  for (const auto& [path, content] : files_) {
-    const std::vector<std::string>& words = tokens_.at(path);
-    if (defines_class(words, name) || defines_member(words, name, "evalF") || defines_member(words, name, "takeStep") ||
-        defines_member(words, name, name))
-      plan.files.push_back(path);
+  if (!is_header(one.file)) more.push_back("-Dmain=main_of_the_student");
+  const auto base = classes_.named("ParticleSystem");
+  if (!base) return more;
+  more.push_back(defined("PARTICLE_HEADER", file_on_disk(classes_.at(*base))));
+  if (const std::string& scope = classes_.at(*base).scope; !scope.empty()) more.push_back("-DPARTICLE_SCOPE=" + scope);
+  return more;
+}
+
+std::vector<Scout> BuildPlan::scouts() const {
+  std::vector<Scout> all;
+  constexpr std::size_t most = 16;  // of each kind, a few seconds each; a course's program has four
+  for (const bool stepper : {false, true}) {
+    if (!classes_.ambiguous(stepper)) continue;
+    std::vector<int> candidates = classes_.candidates(stepper);
+    candidates.resize(std::min(candidates.size(), most));
+    for (const int of : candidates) {
+      Scout scout{of, stepper, {}};
+      scout.build.part = "scout" + std::to_string(of);
+      std::vector<std::string> more = names_of(of);
+      if (stepper) more.push_back("-DSTEPPER");
+      scout.build.calls = compile((ours_ / "base" / "scout.cpp").string(), scout.build.part + ".o", "gnu++20", more);
+      all.push_back(std::move(scout));
+    }
   }
-  parts_.push_back(plan);
+  return all;
+}
+
+void BuildPlan::choose(const std::map<int, Fits>& fits) {
+  parts_.clear();
+  const Chosen chosen = classes_.choose(fits, wanted_);
+  plan_parts(chosen);
+  if (!fits.empty() || !wanted_.empty()) tell_choice(chosen, !fits.empty());
+}
+
+void BuildPlan::tell_choice(const Chosen& chosen, bool tried) {
+  for (const auto& [role, name] : wanted_) {
+    const auto of = chosen.of.find(role);
+    const bool met =
+        of != chosen.of.end() && (classes_.at(of->second).name == name || classes_.at(of->second).full() == name);
+    if (!met) notes_.insert(notes_.begin(), {"choice.class", {role, name}});
+  }
+  std::string graded, others;
+  for (const Role& role : roles())
+    if (const auto of = chosen.of.find(role.name); of != chosen.of.end()) {
+      const ClassInfo& one = classes_.at(of->second);
+      graded += (graded.empty() ? "" : ", ") + std::string(role.name) + " = " + one.full();
+      if (!one.ours) graded += " (" + one.file + ")";
+    }
+  for (const int i : chosen.others)
+    if (!classes_.at(i).ours && classes_.at(i).name != "RK4")
+      others += (others.empty() ? "" : ", ") + classes_.at(i).full();
+  const bool all = others.empty() || !tried;
+  notes_.insert(notes_.begin(), {all ? "whole.graded" : "whole.graded_of", {graded, others}});
+}
+
+void BuildPlan::plan_parts(const Chosen& chosen) {
+  for (const Role& role : roles()) {
+    if (role.name != role.part) continue;  // the chain, which the pendulum's program calls
+    PartBuild plan;
+    plan.part = role.part;
+    const auto of = chosen.of.find(role.name);
+    if (of == chosen.of.end()) {
+      plan.missing = role.names.front();
+      parts_.push_back(plan);
+      continue;
+    }
+    std::vector<std::string> more = names_of(of->second), names = {classes_.at(of->second).name};
+    const auto chain = chosen.of.find("chain");
+    if (role.part == "pendulum" && chain != chosen.of.end() && chain->second != of->second) {
+      const ClassInfo& other = classes_.at(chain->second);
+      more.insert(more.end(),
+                  {defined("STUDENT_CHAIN_HEADER", file_on_disk(other)), "-DSTUDENT_CHAIN=" + other.full()});
+      names.push_back(other.name);
+    }
+    plan.calls =
+        compile((ours_ / ("calls_" + plan.part + ".cpp")).string(), "calls_" + plan.part + ".o", "gnu++20", more);
+    for (const auto& [path, content] : files_) {
+      const std::vector<std::string>& words = tokens_.at(path);
+      for (const std::string& name : names)
+        if (defines_class(words, name) || defines_member(words, name, "evalF") ||
+            defines_member(words, name, "takeStep") || defines_member(words, name, name)) {
+          plan.files.push_back(path);
+          break;
+        }
+    }
+    parts_.push_back(plan);
+  }
 }
 
 std::vector<BuildStep> BuildPlan::archives() const {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/coursework/classic/class_list.h"
 #include "tests/coursework/classic/source_scan.h"
 
 namespace coursework::classic {
@@ -28,11 +29,27 @@ struct PartBuild {
   std::vector<std::string> files;  // the student's files in which its class stands: whose errors are to be told
 };
 
+/// A class that is to be tried, where names leave a choice.
+struct Scout {
+  int of;  // its place in the list of classes
+  bool stepper;
+  PartBuild build;
+};
+
 class BuildPlan {
  public:
   /// Writes the student's files and what we add into `tree`/in; steps write into `tree`/out. `coursework` is
-  /// tests/coursework. Throws std::runtime_error where the tree cannot be written.
-  BuildPlan(const Files& submitted, std::filesystem::path tree, std::filesystem::path coursework);
+  /// tests/coursework. `wanted` is the class that the student's grade.toml says, by role. Throws std::runtime_error
+  /// where the tree cannot be written.
+  BuildPlan(const Files& submitted, std::filesystem::path tree, std::filesystem::path coursework,
+            std::map<std::string, std::string> wanted = {});
+
+  /// Classes to be tried before choose(); none where there is no choice.
+  std::vector<Scout> scouts() const;
+  /// Chooses each part's class by what those did. Until then names alone have chosen.
+  void choose(const std::map<int, Fits>& fits);
+  /// The student's file that defines what all systems derive from; empty where it is ours.
+  std::string base_file() const;
 
   const std::vector<PartBuild>& parts() const { return parts_; }
   /// The student's sources and ours that stand in for missing ones. Together with each part's `calls` they may run in
@@ -52,7 +69,12 @@ class BuildPlan {
   void add_forwarders(const std::vector<std::string>& folders);
   void add_drawing();
   void plan_objects();
-  void plan_part(std::string_view part, const std::vector<std::string_view>& names);
+  void list_classes();
+  void plan_parts(const Chosen& chosen);
+  void tell_choice(const Chosen& chosen, bool tried);
+  /// Options that name the class in our calls.
+  std::vector<std::string> names_of(int of) const;
+  std::string file_on_disk(const ClassInfo& one) const;
   /// The file, ours included, that defines such a class, and the name as spelt there.
   bool find(const std::vector<std::string_view>& names, std::string& file, std::string& name) const;
   BuildStep compile(const std::string& source, const std::string& object, const std::string& standard,
@@ -66,6 +88,8 @@ class BuildPlan {
   std::vector<BuildStep> objects_;
   std::vector<PartBuild> parts_;
   std::vector<Remark> notes_;
+  std::map<std::string, std::string> wanted_;
+  ClassList classes_{{}};
 };
 
 }  // namespace coursework::classic

@@ -12,20 +12,12 @@
 #endif
 
 #include "calls.h"
-#include "probe/ask.h"
+#include "probe/roles.h"
 
 namespace coursework {
 
-/// A call of probe/forces.h with "pendulum." or "chain." before it; in the count of particles and the seed; out is
-/// what evalF answered.
 bool ANSWER(const std::string& call, const Numbers& in, Numbers& out) {
-  const int count = static_cast<int>(in[0]);
-  const auto seed = static_cast<std::uint64_t>(in[1]);
-  if (call.rfind("pendulum.", 0) == 0)
-    return probe::answered(probe::ready<STUDENT_CLASS>(count, true), seed, call.substr(9), out);
-  if (call.rfind("chain.", 0) == 0)
-    return probe::answered(probe::ready<STUDENT_CHAIN>(count, true), seed, call.substr(6), out);
-  return false;
+  return probe::pendulum<STUDENT_CLASS, STUDENT_CHAIN>(call, in, out);
 }
 
 }  // namespace coursework

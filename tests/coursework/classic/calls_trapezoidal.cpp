@@ -15,6 +15,7 @@
 namespace coursework {
 
 bool ANSWER(const std::string& call, const Numbers& in, Numbers& out) {
+  if (call == "base") return probe::base_works(out);
   return call == "trapezoidal.path" && probe::path<STUDENT_CLASS>(in, out);
 }
 

@@ -5,9 +5,16 @@
 
 #include "tests/coursework/classic/oracles.h"
 #include "tests/coursework/classic/replay.h"
+#include "tests/coursework/classic/springs.h"
 
 namespace coursework::classic {
 namespace {
+
+bool is_of_springs(const std::string& column) {
+  for (const char* known : {"law", "links", "structural", "shear", "flexion", "others", "lengths", "pins"})
+    if (column == known) return true;
+  return false;
+}
 
 /// `size` is the count of particles that was asked for, of a cloth those along a side.
 Numbers look(const std::string& column, int size, const Numbers& raw) {
@@ -21,6 +28,8 @@ Numbers look(const std::string& column, int size, const Numbers& raw) {
   }
   if (column == "gravity") return gravity(raw);
   if (column == "drag") return drag(raw);
+  // an evalF that does not repeat itself says nothing of its springs
+  if (is_of_springs(column) && springs_of(raw).particles > 0 && !springs_of(raw).repeats) return {};
   if (column == "law") return spring_law(raw);
   if (column == "links") return chain_links(raw);
   if (column == "structural") return cloth_family(raw, {0, 1}, {1, 0});

@@ -135,10 +135,6 @@ namespace {
 
 const std::set<std::string> of_vecmath = {"vecmath",  "vector2f", "vector3f", "vector4f",
                                           "matrix2f", "matrix3f", "matrix4f", "quat4f"};
-/// Libraries for drawing that some submissions bring along: ours do nothing and need no display.
-const std::set<std::string> drawing_folders = {"gl",   "glu", "glut", "freeglut", "glfw",       "opengl",
-                                               "glad", "khr", "glew", "build",    "cmakefiles", "__macosx"};
-
 std::string stem(const std::string& path) {
   const std::string name = lower(base_name(path));
   return name.substr(0, name.rfind('.'));
@@ -161,8 +157,7 @@ bool counts(const std::string& path) {
   const std::vector<std::string> words = words_of(path);
   for (const std::string& word : words)
     if (word.empty() || word[0] == '.') return false;
-  return std::none_of(words.begin(), words.end() - 1,
-                      [](const std::string& word) { return drawing_folders.count(lower(word)) > 0; });
+  return !in_library(path);
 }
 
 /// Longer than file systems take, with room for the folders above.
@@ -214,6 +209,58 @@ bool ends(const std::string& path, const std::set<std::string>& endings) {
 bool is_header(const std::string& path) { return ends(path, {"h", "hpp", "hh", "hxx", "inl"}); }
 bool is_source(const std::string& path) { return ends(path, {"cpp", "cc", "cxx", "c++"}); }
 
+namespace {
+
+/// Whether the text is about particles: such files say which of two copies of a whole is the submission.
+bool about_particles(const std::vector<std::string>& tokens) {
+  return std::any_of(tokens.begin(), tokens.end(), [](const std::string& word) {
+    return word == "evalF" || word == "takeStep" || word == "ParticleSystem" || word == "TimeStepper";
+  });
+}
+
+/// Owners of what stands outside of its class: "A" of "A::evalF(" and "A::takeStep(".
+std::set<std::string> owners_in(const std::vector<std::string>& tokens) {
+  std::set<std::string> owners;
+  for (std::size_t i = 0; i + 4 < tokens.size(); ++i)
+    if (tokens[i + 1] == ":" && tokens[i + 2] == ":" && (tokens[i + 3] == "evalF" || tokens[i + 3] == "takeStep") &&
+        tokens[i + 4] == "(" && (i == 0 || (tokens[i - 1] != "." && tokens[i - 1] != ";" && tokens[i - 1] != "=")))
+      owners.insert(tokens[i]);
+  return owners;
+}
+
+/// Sources that define nothing but what others define too, whatever they are called: the linker would take one of them.
+void leave_out_doubles(Files& files, const FullerCopy& fuller, std::vector<Remark>& notes) {
+  std::map<std::string, std::set<std::string>> owners;  // by path
+  std::map<std::string, std::vector<std::string>> paths;
+  for (const auto& [path, content] : files)
+    if (is_source(path))
+      for (const std::string& owner : owners[path] = owners_in(tokens_of(content))) paths[owner].push_back(path);
+  const auto better = [&](const std::string& a, const std::string& b) {
+    // the one that is called as a class that it defines
+    const auto fits = [&](const std::string& path) {
+      return std::any_of(owners[path].begin(), owners[path].end(),
+                         [&](const std::string& owner) { return lower(owner) == stem(path); });
+    };
+    if (fits(a) != fits(b)) return fits(a);
+    if (owners[a].size() != owners[b].size()) return owners[a].size() > owners[b].size();
+    return fuller(a, b);
+  };
+  for (const auto& [path, mine] : owners) {
+    std::string kept;
+    const bool others = !mine.empty() && std::all_of(mine.begin(), mine.end(), [&](const std::string& owner) {
+      const auto& all = paths[owner];
+      const auto best = std::min_element(all.begin(), all.end(), better);
+      kept = *best;
+      return *best != path;
+    });
+    if (!others) continue;
+    notes.push_back({"whole.same_class", {path, kept, *mine.begin()}});
+    files.erase(path);
+  }
+}
+
+}  // namespace
+
 Files choose_files(const Files& all, std::vector<Remark>& notes) {
   Files files;
   const std::string check = folder_of_check(all);
@@ -228,25 +275,26 @@ Files choose_files(const Files& all, std::vector<Remark>& notes) {
     for (auto it = files.begin(); it != files.end();)
       it = of_vecmath.count(stem(it->first)) ? files.erase(it) : std::next(it);
 
-  std::map<std::string, int> crowd;
+  std::map<std::string, double> weights;
   for (const auto& [path, content] : files)
-    if (!of_vecmath.count(stem(path))) ++crowd[folder_name(path)];
-  std::map<std::string, std::string> taken;  // lower-case name -> path
-  const auto better = [&](const std::string& a, const std::string& b) {
-    const std::string in_a = folder_name(a), in_b = folder_name(b);
-    if (crowd[in_a] != crowd[in_b]) return crowd[in_a] > crowd[in_b];
-    const auto depth = [](const std::string& p) { return std::count(p.begin(), p.end(), '/'); };
-    return depth(a) != depth(b) ? depth(a) < depth(b) : a < b;
-  };
+    if (!of_vecmath.count(stem(path))) weights[path] = about_particles(tokens_of(content)) ? 1000 : 1;
+  const FullerCopy fuller(std::move(weights));
+  std::map<std::string, std::string> taken;  // lower-case name, without what backups add -> path
+  const auto key = [](const std::string& path) { return lower(base_name(without_copy_marks(path))); };
   for (const auto& [path, content] : files) {
-    std::string& chosen = taken[lower(base_name(path))];
-    if (chosen.empty() || better(path, chosen)) chosen = path;
+    std::string& chosen = taken[key(path)];
+    if (chosen.empty() || fuller(path, chosen)) chosen = path;
   }
-  for (auto it = files.begin(); it != files.end();) {
-    const std::string& chosen = taken[lower(base_name(it->first))];
-    if (chosen != it->first) notes.push_back({"whole.twice", {it->first, chosen}});
-    it = chosen != it->first ? files.erase(it) : std::next(it);
+  Files kept;
+  for (const auto& [path, content] : files) {
+    const std::string& chosen = taken[key(path)];
+    if (chosen != path)
+      notes.push_back({"whole.twice", {path, chosen}});
+    else
+      kept[without_copy_marks(path)] = content;  // where only the copy is there, includes mean it by its old name
   }
+  files = std::move(kept);
+  leave_out_doubles(files, fuller, notes);
   // an archive may hold a file and files below it; the shorter name comes first
   for (auto it = files.begin(); it != files.end();) {
     const std::string above = file_above(files, it->first);

@@ -132,15 +132,14 @@ std::vector<Case> pendulum_springs(Random& r) {
   return {probe("pendulum.springs", "law", pendulum, r, {1, 1, 1, 1, 1})};
 }
 std::vector<Case> chain_shape(Random& r) {
-  return {probe("chain.purity", "purity", chain, r, {1, 1, 1, 1}),
-          probe("chain.motion", "motion", chain, r, {1, 1, 1})};
+  return {probe("chain.kept", "purity", chain, r, {1, 1, 1, 1}), probe("chain.motion", "motion", chain, r, {1, 1, 1})};
 }
 std::vector<Case> chain_forces(Random& r) {
   return {probe("chain.gravity", "gravity", chain, r, {1, 1}), probe("chain.drag", "drag", chain, r, {1, 1})};
 }
 std::vector<Case> chain_links(Random& r) { return {probe("chain.springs", "links", chain, r, {1, 0, 1})}; }
 std::vector<Case> chain_law(Random& r) { return {probe("chain.springs", "law", chain, r, {1, 1, 1, 1, 1})}; }
-std::vector<Case> cloth_purity(Random& r) { return {probe("cloth.purity", "purity", side, r, {1, 1, 1, 1})}; }
+std::vector<Case> cloth_purity(Random& r) { return {probe("cloth.kept", "purity", side, r, {1, 1, 1, 1})}; }
 std::vector<Case> cloth_motion(Random& r) { return {probe("cloth.motion", "cloth_motion", side, r, {1, 1})}; }
 std::vector<Case> cloth_forces(Random& r) {
   return {probe("cloth.gravity", "gravity", side, r, {1, 1}), probe("cloth.drag", "drag", side, r, {1, 1})};
@@ -190,6 +189,8 @@ const Test tests[] = {
     {"5.10", "cloth", 1, 1, {"constraint"}, "Hanging it up", cloth_pins, features},
 };
 
+constexpr std::string_view role_names[] = {"euler", "trapezoidal", "simple", "pendulum", "chain", "cloth"};
+
 constexpr int total(const auto& all) {
   int sum = 0;
   for (const Test& test : all) sum += test.points + test.hidden;
@@ -199,8 +200,9 @@ constexpr int total(const auto& all) {
 }  // namespace
 
 const Assignment& classic_particles() {
-  static const Assignment all{"classic", "Particle systems, in the interface of the classic course", parts, tests,
-                              classic::whole_builder};
+  static const Assignment all{
+      "classic", "Particle systems, in the interface of the classic course", parts, tests, classic::whole_builder,
+      role_names};
   static const int points = total(tests);
   if (points != 100) throw std::logic_error("classic: the points sum to " + std::to_string(points));
   return all;

@@ -8,8 +8,12 @@
 
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
+#include "tests/coursework/check/judge.h"
 #include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/grade.h"
+#include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/parallel.h"
+#include "tests/coursework/grader/run.h"
 
 namespace coursework::classic {
 namespace fs = std::filesystem;
@@ -45,6 +49,9 @@ class StepRunner {
       if (is_header(path)) headers_ += path + "\n" + content;
   }
 
+  /// Lets calls run for so much longer, s, all together.
+  void allow(double seconds) { more_ += seconds; }
+
   /// What was said; empty where the file was made.
   std::string operator()(const BuildStep& step) {
     const fs::path kept = step.source.empty() || tools_.cache.empty() ? fs::path() : tools_.cache / (key(step) + ".o");
@@ -60,7 +67,7 @@ class StepRunner {
     show(work);
     std::replace(command.begin(), command.end(), step.makes.string(), made.string());
     Limits limits = compile_limits;
-    limits.wall = std::min(limits.wall, tools_.seconds - spent_);
+    limits.wall = std::min(limits.wall, tools_.seconds + more_ - spent_);
     if (!(limits.wall > 0)) return std::string(too_long);
     const auto begin = std::chrono::steady_clock::now();
     const End end = sandbox_.run(
@@ -100,6 +107,7 @@ class StepRunner {
   const Toolchain& tools_;
   fs::path tree_;
   std::string headers_;
+  double more_ = 0;                // s, for what is built beside the parts
   std::atomic<double> spent_ = 0;  // s, by all that ran, side by side or not
 };
 
@@ -120,41 +128,62 @@ Files files_below(const fs::path& folder) {
   return files;
 }
 
+namespace {
+
+/// Builds each class that may be meant by several parts and has it tried; none where names leave no choice.
+std::map<int, Fits> try_classes(const BuildPlan& plan, StepRunner& run, const Trial& trial, const fs::path& child,
+                                unsigned jobs) {
+  const std::vector<Scout> scouts = plan.scouts();
+  std::vector<Fits> fits(scouts.size());
+  // each is one call more than a program without a choice has; half a minute is ten times what it takes
+  run.allow(30.0 * static_cast<double>(scouts.size()));
+  parallel_for(scouts.size(), jobs, [&](std::size_t i) {
+    const BuildStep link = plan.link(scouts[i].build, child);
+    if (run(scouts[i].build.calls).empty() && run(link).empty()) fits[i] = trial(link.makes, scouts[i].stepper);
+  });
+  std::map<int, Fits> all;
+  for (std::size_t i = 0; i < scouts.size(); ++i) all[scouts[i].of] = fits[i];
+  return all;
+}
+
+}  // namespace
+
 Programs build_programs(const Files& files, const fs::path& tree, const fs::path& coursework, const Sandbox& sandbox,
-                        const Toolchain& tools, const std::vector<std::string>& wanted) {
+                        const Toolchain& tools, const std::vector<std::string>& wanted, const Trial& trial,
+                        const std::map<std::string, std::string>& classes) {
   const fs::path whole = fs::absolute(tree), ours = whole / "in" / "ours", child = whole / "in" / "child.o";
   copy_ours(fs::absolute(coursework), ours);
   fs::copy_file(tools.child, child);
-  const BuildPlan plan(files, whole, ours);
+  BuildPlan plan(files, whole, ours, classes);
   show(whole);
   StepRunner run(sandbox, tools, whole);
+  std::vector<std::string> said(plan.objects().size());
+  parallel_for(said.size(), tools.jobs, [&](std::size_t i) { said[i] = run(plan.objects()[i]); });
+  for (const BuildStep& archive : plan.archives()) run(archive);
+  plan.choose(trial ? try_classes(plan, run, trial, child, tools.jobs) : std::map<int, Fits>());
+
   std::vector<const PartBuild*> parts;
-  Programs made{{}, plan.notes()};
+  Programs made{{}, plan.notes(), plan.base_file()};
   std::map<std::string, Program>& programs = made.of;
   for (const PartBuild& part : plan.parts()) {
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), part.part) == wanted.end()) continue;
     programs[part.part].missing = part.missing;
     if (part.missing.empty()) parts.push_back(&part);
   }
-  std::vector<const BuildStep*> steps;
-  for (const PartBuild* part : parts) steps.push_back(&part->calls);
-  for (const BuildStep& step : plan.objects()) steps.push_back(&step);
-  std::vector<std::string> said(steps.size());
-  parallel_for(steps.size(), tools.jobs, [&](std::size_t i) { said[i] = run(*steps[i]); });
-  for (const BuildStep& archive : plan.archives()) run(archive);
-
   parallel_for(parts.size(), tools.jobs, [&](std::size_t i) {
     Program& program = programs.at(parts[i]->part);
     const BuildStep link = plan.link(*parts[i], child);
-    program.captured_output = said[i].empty() ? run(link) : said[i];
+    program.captured_output = run(parts[i]->calls);
+    if (program.captured_output.empty()) program.captured_output = run(link);
     if (program.captured_output.empty()) {
       program.file = link.makes;
       return;
     }
     // a file of the student's that does not compile explains more than what is missing because of it
-    for (std::size_t k = 0; k < steps.size(); ++k)
-      if (!said[k].empty() && std::count(parts[i]->files.begin(), parts[i]->files.end(), steps[k]->file)) {
-        program.source = steps[k]->file;
+    for (std::size_t k = 0; k < said.size(); ++k)
+      if (const std::string& file = plan.objects()[k].file;
+          !said[k].empty() && std::count(parts[i]->files.begin(), parts[i]->files.end(), file)) {
+        program.source = file;
         program.captured_output = said[k];
         return;
       }
@@ -165,6 +194,8 @@ Programs build_programs(const Files& files, const fs::path& tree, const fs::path
 namespace {
 
 constexpr std::size_t most_notes = 20;
+/// Of a class that is tried: the choice must not depend on how busy the machine is.
+constexpr Limits trial_limits{.cpu = 10, .wall = 60};
 
 /// The first file and line of the student's that a compiler's output names beside an error.
 std::string first_place(const std::string& said) {
@@ -191,7 +222,8 @@ Remark remark_on(const Program& program, const std::string& part) {
 class WholeBuilder : public Builder {
  public:
   WholeBuilder(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox)
-      : trusted_(trusted),
+      : assignment_(assignment),
+        trusted_(trusted),
         sandbox_(sandbox),
         solution_(files_below(assignment.folder() / "solution")),
         coursework_(folder_of_coursework()) {
@@ -223,8 +255,10 @@ class WholeBuilder : public Builder {
   std::map<std::string, Built> theirs(const Submission& submission, const fs::path& folder,
                                       unsigned jobs) const override {
     std::map<std::string, Built> all;
-    const Programs programs =
-        build_programs(submission.files, folder / "tree", coursework_, sandbox_, tools({}, jobs), parts_);
+    Programs programs = build_programs(
+        submission.files, folder / "tree", coursework_, sandbox_, tools({}, jobs), parts_,
+        [&](const fs::path& program, bool stepper) { return tried(program, stepper); }, submission.choice.classes);
+    mend_base(submission, programs, folder, jobs);
     for (const auto& [part, program] : programs.of) {
       Built& one = all[part];
       if (!program.missing.empty())
@@ -255,6 +289,74 @@ class WholeBuilder : public Builder {
     return {compiler_.command(), "/usr/bin/ar", child, cache, jobs};
   }
 
+  /// The public tests of each role of the class's kind, in the sandbox: which of them it would pass.
+  Fits tried(const fs::path& program, bool stepper) const {
+    Fits fits;
+    for (const Test& test : assignment_.tests) {
+      Random random(public_seed(assignment_, test));
+      bool all_right = true;
+      const Role* role = nullptr;
+      for (const Case& one : test.cases(random)) {
+        const std::string begin = one.call == "field" ? "simple" : one.call.substr(0, one.call.find('.'));
+        role = &role_of(begin);
+        if (role->stepper != stepper) break;
+        // one that is too slow is not tried again
+        if (fits[role->name].slow) break;
+        Answer answer = run_calls(sandbox_, program, {one}, trial_limits).front();
+        fits[role->name].slow = answer.how == How::out_of_time;
+        const double entries = answer.got.empty() ? 0 : answer.got.front();
+        answer = reduced(test, one, answer);
+        const bool right = judge(one, answer).right;
+        all_right = all_right && right;
+        Fit& fit = fits[role->name];
+        const bool decides =
+            stepper || begin == "simple" || one.column == "law" || one.column == "links" || one.column == "structural";
+        if (!decides || answer.how != How::answered) continue;
+        fit.alive = fit.alive || std::any_of(answer.got.begin(), answer.got.end(), [](double x) { return x != 0; });
+        // of several cases that decide the last one counts only where those before it were right
+        const bool first = fit.decided++ == 0;
+        fit.shape =
+            (first || fit.shape) && right && (begin != "pendulum" || entries == 4) && (begin != "chain" || entries > 4);
+      }
+      if (role && role->stepper == stepper && all_right) ++fits[role->name].right;
+    }
+    return fits;
+  }
+
+  /// Whether the steppers can be asked with the student's own base class: our system derives from it.
+  bool base_holds(const Programs& programs, const std::vector<std::string>& steppers) const {
+    for (const std::string& part : steppers) {
+      const auto at = programs.of.find(part);
+      if (at == programs.of.end() || !at->second.missing.empty() || !at->second.source.empty()) continue;
+      if (at->second.file.empty()) return false;
+      const Answer answer = run_calls(sandbox_, at->second.file, {{"base", {}, {1}}}).front();
+      if (answer.how != How::answered || answer.got != Numbers{1}) return false;
+    }
+    return true;
+  }
+
+  /// A base class that cannot stand alone, or loses the state, is no fault of the steppers: they get the starter's in
+  /// its place, where they can be built with it.
+  void mend_base(const Submission& submission, Programs& programs, const fs::path& folder, unsigned jobs) const {
+    const std::vector<std::string> steppers = {"euler", "trapezoidal"};
+    if (programs.base_file.empty() || base_holds(programs, steppers)) return;
+    Files files = submission.files;
+    for (auto it = files.begin(); it != files.end();) {
+      const std::vector<std::string> words = tokens_of(it->second);
+      const bool is_base = defines_class(words, "ParticleSystem") ||
+                           (is_source(it->first) && defines_member(words, "ParticleSystem", "ParticleSystem"));
+      it = is_base ? files.erase(it) : std::next(it);
+    }
+    const Programs mended = build_programs(files, folder / "tree-base", coursework_, sandbox_, tools({}, jobs),
+                                           steppers, nullptr, submission.choice.classes);
+    bool all = true;
+    for (const std::string& part : steppers) all = all && !mended.of.at(part).file.empty();
+    if (all)
+      for (const std::string& part : steppers) programs.of[part] = mended.of.at(part);
+    programs.notes.insert(programs.notes.begin(), {all ? "whole.base" : "whole.base_kept", {programs.base_file}});
+  }
+
+  const Assignment& assignment_;
   const Sandbox& trusted_;
   const Sandbox& sandbox_;
   const Compiler compiler_;

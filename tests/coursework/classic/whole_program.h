@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -25,6 +26,7 @@ struct Program {
 struct Programs {
   std::map<std::string, Program> of;  // by part
   std::vector<Remark> notes;          // what of the files was left out
+  std::string base_file;              // the student's, with what all systems derive from; empty: ours
 };
 
 /// What stands in the place of the compiler's words where it had to be stopped, or was not begun any more.
@@ -48,11 +50,15 @@ std::string file_of_part(const std::string& part);
 /// C++ files below a folder of ours.
 Files files_below(const std::filesystem::path& folder);
 
+/// Tries a class: what its program does in each role of its kind.
+using Trial = std::function<Fits(const std::filesystem::path& program, bool stepper)>;
+
 /// Compiles and links `parts` (all, where empty) of the files in `tree`, a folder that need not exist. The sandbox sees
 /// `tree` alone: what of ours it needs is copied there, and neither solution nor tests are. `coursework` is
-/// tests/coursework.
+/// tests/coursework. Where names leave a choice of classes, each is built and tried; `wanted` is what the student says.
 Programs build_programs(const Files& files, const std::filesystem::path& tree, const std::filesystem::path& coursework,
-                        const Sandbox& sandbox, const Toolchain& tools, const std::vector<std::string>& parts = {});
+                        const Sandbox& sandbox, const Toolchain& tools, const std::vector<std::string>& parts = {},
+                        const Trial& trial = nullptr, const std::map<std::string, std::string>& wanted = {});
 
 // The classic assignment's programs, as the grader asks for them.
 

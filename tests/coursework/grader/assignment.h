@@ -43,6 +43,7 @@ struct Assignment {
   /// parts in it.
   std::unique_ptr<Builder> (*builder)(const Assignment&, const Sandbox& trusted, const Sandbox& sandbox) = nullptr;
   bool takes_whole_program() const { return builder != nullptr; }
+  std::span<const std::string_view> roles = {};  // what a student's grade.toml may name a class for
   std::filesystem::path folder() const;
 };
 

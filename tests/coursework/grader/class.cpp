@@ -157,7 +157,9 @@ std::string fingerprint_of(const Submission& submission, const std::string& surr
   std::string all = surroundings;
   for (const auto& [name, content] : submission.files) all += fmt::format("{} {}\n{}", name, content.size(), content);
   for (const auto& [name, why] : submission.missing) all += fmt::format("{} {}\n", name, why.key);
-  for (const Remark& remark : submission.remarks) all += remark.key + "\n";
+  for (const Remark& remark : submission.remarks)
+    all += fmt::format("{} {}\n", remark.key, fmt::join(remark.with, " "));
+  for (const auto& [role, name] : submission.choice.classes) all += fmt::format("{} {}\n", role, name);
   return fmt::format("{:016x}", crosscheck::Fnv1a::of(all));
 }
 
@@ -288,7 +290,7 @@ std::vector<GradedSubmission> grade_class(const Assignment& assignment, const fs
     const fs::path base = out / file_name_for(one.result.submission);
     bool known = false;
     try {
-      const Submission submission = read_submission(entries[i], wanted_files(assignment));
+      const Submission submission = submission_of(entries[i], assignment);
       const std::string fingerprint = fingerprint_of(submission, surroundings);
       known = finished(base.string() + ".json", std::string(assignment.name), fingerprint, one.result) &&
               fs::exists(base.string() + ".html");

@@ -124,8 +124,7 @@ int grade_command(const GradeCommand& given) {
         fmt::format("{}: this looks like a class of {} submissions ({}); add --all to grade each of them, or name the "
                     "folder of one",
                     command.submission, submissions_in(command.submission).size(), layout));
-  const Submission submission =
-      command.all ? Submission() : read_submission(command.submission, wanted_files(assignment));
+  const Submission submission = command.all ? Submission() : submission_at(command.submission, assignment);
   choose_seed(command, options);
   const std::unique_ptr<Sandbox> sandbox = choose_sandbox(command.sandbox, command.no_sandbox);
   fmt::print(stderr, "lane {}: {}\n", sandbox->name(), sandbox->says());

@@ -2,6 +2,7 @@
 #include "tests/coursework/grader/grade.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -272,6 +273,14 @@ std::vector<std::string> wanted_files(const Assignment& assignment) {
   if (assignment.takes_whole_program()) return files;
   for (const Part& part : assignment.parts) files.push_back(std::string(part.name) + ".cpp");
   return files;
+}
+
+Submission submission_at(const fs::path& path, const Assignment& assignment) {
+  return read_submission(path, wanted_files(assignment), {assignment.roles.begin(), assignment.roles.end()});
+}
+
+Submission submission_of(const Handed& handed, const Assignment& assignment) {
+  return read_submission(handed, wanted_files(assignment), {assignment.roles.begin(), assignment.roles.end()});
 }
 
 std::uint64_t public_seed(const Assignment& assignment, const Test& test) {

@@ -33,6 +33,10 @@ Result grade(const Assignment& assignment, const Submission& submission, const S
 /// The files that the assignment asks for: one per part; none where it takes a whole program.
 std::vector<std::string> wanted_files(const Assignment& assignment);
 
+/// read_submission() with what the assignment asks for.
+Submission submission_at(const std::filesystem::path& path, const Assignment& assignment);
+Submission submission_of(const Handed& handed, const Assignment& assignment);
+
 /// The seed that the hand-out's tests are made with; it depends on the assignment and the test alone.
 std::uint64_t public_seed(const Assignment& assignment, const Test& test);
 /// The seed of a hidden test, from that of all hidden tests.

@@ -47,51 +47,87 @@ int depth_of(const std::string& path) {
 std::string FileMatcher::match(const std::string& path) const {
   // what macOS puts beside each file when it packs
   if (path.rfind("__MACOSX/", 0) == 0) return "";
-  if (wanted_.empty()) return is_cpp(path) ? path : "";
-  if (depth_of(path) > 1) return "";
   const std::string base = base_name(path);
+  if (depth_of(path) <= 1 && lower(base) == choice_file) return choice_file;
+  if (wanted_.empty()) return is_cpp(path) && !in_library(path) ? path : "";
+  if (depth_of(path) > 1) return "";
   for (const std::string& name : wanted_)
-    if (lower(name) == lower(base)) return name;
+    if (lower(name) == lower(base) || lower(name) == lower(without_copy_marks(base))) return name;
   return "";
 }
 
 void FileMatcher::take(const std::string& path, std::string content) {
   taken_ += content.size();
-  found_[match(path)].push_back({path, {}, std::move(content)});
+  found_[match(path)].push_back({path, {}, plain_utf8(std::move(content))});
 }
 
 std::optional<Remark> FileMatcher::too_large() const {
   if (!wanted_.empty()) return {};
-  if (found_.size() > most_program_files) return Remark{"program.entries", {std::to_string(most_program_files)}};
+  if (found_.size() - found_.count(choice_file) > most_program_files)
+    return Remark{"program.entries", {std::to_string(most_program_files)}};
   if (taken_ > largest_program) return Remark{"program.size", {std::to_string(largest_program >> 20)}};
   return {};
 }
 
+void FileMatcher::choose(Submission& submission) const {
+  const auto file = found_.find(choice_file);
+  if (file == found_.end()) return;
+  std::vector<std::string> paths;
+  for (const auto& [name, all] : found_)
+    for (const Found& one : all)
+      if (name != choice_file) paths.push_back(one.path);
+  const Found& found = file->second.front();
+  try {
+    if (!found.refused.empty() || found.content.size() > largest_choice)
+      throw crosscheck::InputError(
+          fmt::format("{}: expected a file of at most {} kB", choice_file, largest_choice >> 10));
+    submission.choice = read_choice(found.content, paths, roles_);
+  } catch (const crosscheck::InputError& error) {
+    submission.remarks.push_back({"choice.bad", {std::string(error.what()).substr(0, 400)}});
+  }
+}
+
 void FileMatcher::into(Submission& submission) const {
+  choose(submission);
+  const StudentChoice& choice = submission.choice;
   if (wanted_.empty())
     for (const auto& [path, found] : found_) {
+      if (path == choice_file || !choice.takes(path)) continue;
       if (found.front().refused.empty())
         submission.files[path] = found.front().content;
       else
         submission.remarks.push_back({found.front().refused, {path}});
     }
+  std::map<std::string, double> weights;
+  for (const auto& [name, all] : found_)
+    for (const Found& one : all)
+      if (name != choice_file) weights[one.path] = 1;
+  const FullerCopy fuller(std::move(weights));
   for (const std::string& name : wanted_) {
-    const auto all = found_.find(name);
-    if (all == found_.end()) {
+    std::vector<Found> found;
+    if (const auto all = found_.find(name); all != found_.end())
+      std::copy_if(all->second.begin(), all->second.end(), std::back_inserter(found),
+                   [&](const Found& one) { return choice.takes(one.path); });
+    if (found.empty()) {
       submission.missing[name] = {"file.missing", {name}};
       continue;
     }
-    // the shallowest first, and the name as it was asked for before one that differs in case
-    auto rank = [&](const Found& f) { return 2 * depth_of(f.path) + (base_name(f.path) != name); };
-    std::vector<Found> found = all->second;
-    std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) { return rank(a) < rank(b); });
+    // no backup before backups, the shallowest first, and the name as it was asked for before one that differs in case
+    auto rank = [&](const Found& f) {
+      return 8 * is_backup(f.path) + 2 * depth_of(f.path) +
+             (lower(base_name(f.path)) == lower(name) && base_name(f.path) != name);
+    };
+    std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) {
+      return rank(a) != rank(b) ? rank(a) < rank(b) : fuller(a.path, b.path);
+    });
     const Found& best = found.front();
-    if (found.size() > 1 && rank(found[1]) == rank(best))
-      submission.missing[name] = {"file.twice", {name, best.path, found[1].path}};
-    else if (!best.refused.empty())
+    if (!best.refused.empty())
       submission.missing[name] = {best.refused, {name}};
     else
       submission.files[name] = best.content;
+    for (const Found& other : found)
+      if (other.path != best.path && other.content != best.content)
+        submission.remarks.push_back({"file.left_out", {other.path, best.path}});
     if (submission.files.count(name) && base_name(best.path) != name)
       submission.remarks.push_back({"file.case", {name, base_name(best.path)}});
   }
@@ -282,10 +318,11 @@ Remark nothing_of(const std::vector<std::string>& wanted) {
 
 }  // namespace
 
-Submission read_submission(const Handed& handed, const std::vector<std::string>& wanted) {
+Submission read_submission(const Handed& handed, const std::vector<std::string>& wanted,
+                           const std::vector<std::string>& roles) {
   Submission submission;
   submission.name = handed.name;
-  FileMatcher matcher(wanted);
+  FileMatcher matcher(wanted, roles);
   try {
     for (const auto& [path, name] : handed.files) {
       // beside an archive, or several files that are wanted, anybody hands in a picture or a page as well
@@ -303,11 +340,12 @@ Submission read_submission(const Handed& handed, const std::vector<std::string>&
   return submission;
 }
 
-Submission read_submission(const fs::path& path, const std::vector<std::string>& wanted) {
+Submission read_submission(const fs::path& path, const std::vector<std::string>& wanted,
+                           const std::vector<std::string>& roles) {
   if (!fs::is_directory(path) && !fs::is_regular_file(path))
     throw crosscheck::InputError(fmt::format("{}: expected a folder, a zip or a tar archive", path.string()));
   const std::string name = (path.filename().empty() ? path.parent_path() : path).filename().string();
-  return read_submission({name, {{fs::canonical(path), name}}}, wanted);
+  return read_submission({name, {{fs::canonical(path), name}}}, wanted, roles);
 }
 
 }  // namespace coursework

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "tests/coursework/grader/copies.h"
 
 namespace coursework {
 
@@ -20,6 +23,7 @@ struct Submission {
   std::map<std::string, std::string> files;  // contents of the wanted files that were found, by name
   std::map<std::string, Remark> missing;     // why a wanted file cannot be used
   std::vector<Remark> remarks;               // on the whole
+  StudentChoice choice = {};                 // what the student's grade.toml says
   bool refused = false;                      // nothing of it can be graded; the last remark says why
 };
 
@@ -37,11 +41,14 @@ constexpr std::size_t most_program_files = 200;
 constexpr std::size_t largest_program = 4u << 20;  // byte, of its C++ files together
 
 /// Takes the wanted files, looked for in the top folder, in src/ and one folder below, the shallowest first; letters'
-/// case may differ. Where none is there, but one archive is, takes them out of that. Where none is wanted by name,
-/// takes every C++ file, by its path. Links are never followed. Throws InputError when there is nothing at `path`; all
-/// that a student may have done wrong becomes a remark instead.
-Submission read_submission(const std::filesystem::path& path, const std::vector<std::string>& wanted);
-Submission read_submission(const Handed& handed, const std::vector<std::string>& wanted);
+/// case may differ. Backups and older copies stand behind (copies.h), and a file grade.toml chooses; `roles` are what
+/// it may name classes for. Where none is there, but one archive is, takes them out of that. Where none is wanted by
+/// name, takes every C++ file that is no library's, by its path. Links are never followed. Throws InputError when there
+/// is nothing at `path`; all that a student may have done wrong becomes a remark instead.
+Submission read_submission(const std::filesystem::path& path, const std::vector<std::string>& wanted,
+                           const std::vector<std::string>& roles = {});
+Submission read_submission(const Handed& handed, const std::vector<std::string>& wanted,
+                           const std::vector<std::string>& roles = {});
 
 /// By its ending: zip, tar, gz, tgz, and kinds that cannot be read, to say so.
 bool is_archive(const std::filesystem::path& file);
@@ -50,7 +57,8 @@ bool is_archive(const std::filesystem::path& file);
 
 class FileMatcher {
  public:
-  explicit FileMatcher(std::vector<std::string> wanted) : wanted_(std::move(wanted)) {}
+  explicit FileMatcher(std::vector<std::string> wanted, std::vector<std::string> roles = {})
+      : wanted_(std::move(wanted)), roles_(std::move(roles)) {}
   /// Whether the file at this path ("src/rk4.cpp") is a wanted file in one of the folders that are searched.
   bool wants(const std::string& path) const { return !match(path).empty(); }
   void take(const std::string& path, std::string content);
@@ -68,7 +76,8 @@ class FileMatcher {
     std::string path, refused, content;
   };
   std::string match(const std::string& path) const;
-  std::vector<std::string> wanted_;
+  void choose(Submission& submission) const;
+  std::vector<std::string> wanted_, roles_;
   std::map<std::string, std::vector<Found>> found_;  // by wanted name, in the order met
   std::size_t taken_ = 0;                            // byte
 };

@@ -161,15 +161,99 @@ TEST(Layouts, OneSubmissionIsNoClass) {
   EXPECT_EQ(class_layout(here.path / "packed", wanted), "folders");
 }
 
-TEST(Submission, TheShallowestIsTakenAndTwoAlikeAreNot) {
+TEST(Submission, BackupsAndOlderCopiesStandBehindAndAreSaid) {
+  struct Two {
+    const char *graded, *left_out;
+  };
+  for (const Two& one :
+       {Two{"rk4.cpp", "old/rk4.cpp"}, Two{"src/rk4.cpp", "rk4 - Copy.cpp"}, Two{"x/rk4.cpp", "rk4 (1).cpp"},
+        Two{"x/rk4.cpp", "backup/rk4.cpp"}, Two{"x/rk4.cpp", "a (2)/rk4.cpp"}, Two{"b/rk4.cpp", "a/rk4.cpp"},
+        Two{"rk4.cpp", "Copy of rk4.cpp"}, Two{"rk4.cpp", "rk4_old.cpp"}}) {
+    const TemporaryFolder here("test");
+    write_file(here.path / one.graded, "now");
+    write_file(here.path / one.left_out, "then");
+    write_file(here.path / "b/euler.cpp", "the fuller copy is b");
+    const Submission read = read_submission(here.path, wanted);
+    EXPECT_EQ(read.files.at("rk4.cpp"), "now") << one.left_out;
+    ASSERT_FALSE(read.remarks.empty()) << one.left_out;
+    EXPECT_EQ(read.remarks[0].key, "file.left_out");
+    EXPECT_EQ(read.remarks[0].with, (std::vector<std::string>{one.left_out, one.graded}));
+  }
   const TemporaryFolder here("test");
-  write_file(here.path / "rk4.cpp", "top");
-  write_file(here.path / "old/rk4.cpp", "old");
-  write_file(here.path / "a/euler.cpp", "a");
-  write_file(here.path / "b/euler.cpp", "b");
-  const Submission one = read_submission(here.path, wanted);
-  EXPECT_EQ(one.files.at("rk4.cpp"), "top");
-  EXPECT_EQ(one.missing.at("euler.cpp").key, "file.twice");
+  write_file(here.path / "rk4 (1).cpp", "the only one");
+  write_file(here.path / "a/euler.cpp", "the same");
+  write_file(here.path / "c/euler.cpp", "the same");
+  const Submission only = read_submission(here.path, wanted);
+  EXPECT_EQ(only.files.at("rk4.cpp"), "the only one");
+  EXPECT_EQ(only.files.at("euler.cpp"), "the same");
+  EXPECT_EQ(only.remarks.size(), 1u) << "of two that are the same nothing need be said";
+}
+
+TEST(Submission, MarksOfCopiesAreCutOffAndNoOthers) {
+  const std::pair<const char*, const char*> table[] = {{"src/a - Copy.cpp", "src/a.cpp"},
+                                                       {"a - Copy (2).cpp", "a.cpp"},
+                                                       {"a (1).cpp", "a.cpp"},
+                                                       {"a(12).h", "a.h"},
+                                                       {"Copy of a.cpp", "a.cpp"},
+                                                       {"a copy 2.cpp", "a.cpp"},
+                                                       {"a.orig.cpp", "a.cpp"},
+                                                       {"a_old.cpp", "a.cpp"},
+                                                       {"a~.cpp", "a.cpp"},
+                                                       {"a - 副本.cpp", "a.cpp"},
+                                                       {"threshold.cpp", "threshold.cpp"},
+                                                       {"a2.cpp", "a2.cpp"},
+                                                       {"photocopy.cpp", "photocopy.cpp"},
+                                                       {"(1).cpp", "(1).cpp"},
+                                                       {"f(x).cpp", "f(x).cpp"},
+                                                       {"Makefile", "Makefile"}};
+  for (const auto& [name, plain] : table) EXPECT_EQ(without_copy_marks(name), plain);
+}
+
+TEST(Submission, TextsOfOtherEncodingsBecomePlain) {
+  const std::string utf16 = std::string("i\0n\0t\0\xe9\0", 8);
+  EXPECT_EQ(plain_utf8("\xef\xbb\xbfint"), "int");
+  EXPECT_EQ(plain_utf8("\xff\xfe" + utf16), "int\xc3\xa9");
+  EXPECT_EQ(plain_utf8("\xfe\xff" + std::string("\0i\0n\x20\xac", 6)), "in\xe2\x82\xac");
+  EXPECT_EQ(plain_utf8("int\xe9"), "int\xe9");
+}
+
+TEST(Submission, GradeTomlChoosesFoldersFilesAndClasses) {
+  const TemporaryFolder here("test");
+  for (const char* path : {"a/rk4.cpp", "a/euler.cpp", "b/rk4.cpp", "b/euler.cpp"}) write_file(here.path / path, path);
+  EXPECT_EQ(read_submission(here.path, wanted).files.at("rk4.cpp"), "a/rk4.cpp");
+  write_file(here.path / "grade.toml", "folder = \"b/\"\n");
+  Submission one = read_submission(here.path, wanted);
+  EXPECT_EQ(one.files.at("rk4.cpp"), "b/rk4.cpp");
+  EXPECT_TRUE(one.remarks.empty());
+  write_file(here.path / "grade.toml", "[[leave_out]]\npath = \"a/rk4.cpp\"\n[classes]\nchain = \"Rope\"\n");
+  one = read_submission(here.path, {}, {"chain", "cloth"});
+  EXPECT_EQ(one.files.size(), 3u);
+  EXPECT_EQ(one.choice.classes, (std::map<std::string, std::string>{{"chain", "Rope"}}));
+}
+
+TEST(Submission, GradeTomlThatIsWrongIsSaidAndNotUsed) {
+  const std::pair<const char*, const char*> table[] = {
+      {"folder = ", "grade.toml:1: "},
+      {"folder = 3", "grade.toml:1: folder: expected a folder of the submission, in quotes, got 3"},
+      {"folder = \"c\"", "grade.toml:1: folder: expected a folder of the submission that holds sources"},
+      {"[[leave_out]]\npath = \"c\"", "grade.toml:2: leave_out[0].path: expected a file or folder of the submission"},
+      {"[[leave_out]]\nfile = \"a\"", "path: is missing"},
+      {"colour = 1", "grade.toml:1: colour: unknown key"},
+      {"[classes]\nrope = \"A\"", "grade.toml:2: classes.rope: unknown key"},
+      {"[classes]\nchain = 1", "classes.chain: expected the name of a class, in quotes, got 1"}};
+  for (const auto& [text, says] : table) {
+    const TemporaryFolder here("test");
+    write_file(here.path / "a/rk4.cpp", "rk4");
+    write_file(here.path / "grade.toml", text);
+    const Submission one = read_submission(here.path, {}, {"chain"});
+    EXPECT_EQ(one.files.size(), 1u) << text;
+    ASSERT_EQ(one.remarks.size(), 1u) << text;
+    EXPECT_EQ(one.remarks[0].key, "choice.bad");
+    EXPECT_NE(one.remarks[0].with.at(0).find(says), std::string::npos) << one.remarks[0].with[0];
+  }
+  const TemporaryFolder here("test");
+  write_file(here.path / "grade.toml", std::string(largest_choice + 1, ' '));
+  EXPECT_EQ(read_submission(here.path, {}).remarks.at(0).with.at(0), "grade.toml: expected a file of at most 16 kB");
 }
 
 TEST(Submission, CaseOfLettersDiffersAndIsSaid) {
@@ -362,6 +446,39 @@ TEST(Whole, NamesThatCannotBeWrittenAreLeftOut) {
   std::string deep;
   for (int i = 0; i < 2000; ++i) deep += "d/";
   EXPECT_EQ(notes_on({{deep + "a.h", ""}}), Keys{"whole.name"});
+}
+
+TEST(Whole, ClassesAreFoundWithTheirBasesAndNamespaces) {
+  const std::string text =
+      "namespace a { namespace b { class S : public virtual x::ParticleSystem, private Q<int, P> {\n"
+      "  struct Inner { int evalF(int); };\n  virtual V evalF(V s) const = 0; }; }\n"
+      "struct T final : S { V evalF(V s) { return s; } }; }\n"
+      "template <class C> class U : public S {}; class Announced; enum class E { x }; class Step { void takeStep(); "
+      "};\n";
+  const std::vector<classic::ClassInfo> all = classic::classes_in(classic::tokens_of(text), "a.h");
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].full(), "a::b::S");
+  EXPECT_EQ(all[0].bases, (std::vector<std::string>{"ParticleSystem", "Q"}));
+  EXPECT_TRUE(all[0].abstract && all[0].declares_eval && !all[0].declares_step);
+  EXPECT_EQ(all[1].full(), "a::T");
+  EXPECT_TRUE(!all[1].abstract && all[1].declares_eval);
+  EXPECT_TRUE(all[2].declares_step);
+}
+
+TEST(Whole, ADoubleUnderAnotherNameAndAWishThatCannotBeMetAreSaid) {
+  using Keys = std::vector<std::string>;
+  const std::string defines = "vector<Vector3f> ClothSystem::evalF(vector<Vector3f> s) { return s; }";
+  EXPECT_EQ(notes_on({{"ClothSystem.cpp", defines}, {"attempt.cpp", defines}}), Keys{"whole.same_class"});
+  EXPECT_EQ(notes_on({{"ClothSystem.cpp", defines}, {"ClothSystem - Copy.cpp", defines}}), Keys{"whole.twice"});
+  const TemporaryFolder here("test");
+  classic::BuildPlan plan({{"a.h", "class Rope : public ParticleSystem { V evalF(V s); };"}}, here.path / "tree",
+                          folder_of_coursework(), {{"chain", "Rope"}, {"cloth", "Sail"}});
+  plan.choose({});
+  ASSERT_EQ(plan.notes().size(), 2u);
+  EXPECT_EQ(plan.notes()[0].key, "whole.graded");
+  EXPECT_NE(plan.notes()[0].with.at(0).find("chain = Rope (a.h)"), std::string::npos) << plan.notes()[0].with[0];
+  EXPECT_EQ(plan.notes()[1].key, "choice.class");
+  EXPECT_EQ(plan.notes()[1].with, (std::vector<std::string>{"cloth", "Sail"}));
 }
 
 TEST(Whole, IncludesThatCannotBeLedAnywhereAreSaid) {

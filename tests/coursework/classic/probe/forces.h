@@ -25,6 +25,7 @@ class Forces {
       if (std::isfinite(d) && d > 1e-6f && (spacing_ == 0 || d < spacing_)) spacing_ = d;
     }
     if (spacing_ == 0) spacing_ = 1;
+    leave_obstacles();
   }
 
   bool answer(const std::string& call, Numbers& out) {
@@ -35,7 +36,8 @@ class Forces {
 
  private:
   bool found(const std::string& call, Numbers& out) {
-    if (call == "purity") return purity(out);
+    if (call == "purity") return purity(out, false);
+    if (call == "kept") return purity(out, true);
     if (call == "motion") return motion(out);
     if (call == "gravity") return gravity(out);
     if (call == "drag") return drag(out);
@@ -44,11 +46,13 @@ class Forces {
   }
 
   /// Entries in the state, entries of evalF; then for every entry f with another state stored, the same again, f with
-  /// the same state stored, and what the stored one has changed by.
-  bool purity(Numbers& out) {
+  /// the same state stored, and what the stored one has changed by; where a base class that loses what is stored was
+  /// asked for already, `from_there`: since it was stored.
+  bool purity(Numbers& out, bool from_there) {
     const State stored = around(1), given = around(1);
     const Indices chosen = draws_.sample(start_.size());
     asker_.store(stored);
+    const Some before = asker_.stored(chosen);
     const Some f = asker_.some(given, chosen), again = asker_.some(given, chosen);
     const Some after = asker_.stored(chosen);
     asker_.store(given);
@@ -56,7 +60,8 @@ class Forces {
     out = {double(start_.size()), double(f.size)};
     for (std::size_t i = 0; i < chosen.size(); ++i)
       for (int k = 0; k < 3; ++k) {
-        const double change = double(after.entries[i][k]) - stored[chosen[i]][k];
+        const double since = from_there ? before.entries[i][k] : stored[chosen[i]][k];
+        const double change = double(after.entries[i][k]) - since;
         out.insert(out.end(), {f.entries[i][k], again.entries[i][k], same.entries[i][k], change});
       }
     return true;
@@ -72,13 +77,16 @@ class Forces {
     return true;
   }
 
-  /// Count; three states, for every particle v' at x and at -x, both at rest.
+  /// Count; three states, for every particle v' at x and at its mirror image, both at rest.
   bool gravity(Numbers& out) {
     out = {double(n_)};
     for (int draw = 0; draw < 3; ++draw) {
       const State given = around(0);
       State mirrored = given;
-      for (std::size_t i = 0; i < n_; ++i) mirrored[x(i)] = plus({}, -1, given[x(i)]);
+      for (std::size_t i = 0; i < n_; ++i) {
+        const Plain from = plus(given[x(i)], -1, far_);  // exact, and so is the next line (away())
+        mirrored[x(i)] = plus(far_, -1, from);
+      }
       const State f = pulls(given, velocities()), g = pulls(mirrored, velocities());
       for (std::size_t i = 0; i < n_; ++i) push(out, {f[i], g[i]});
     }
@@ -214,6 +222,45 @@ class Forces {
     apart_ = fits[1] > fits[0];
   }
 
+  /// A sphere or a floor of the student's own is in the way of where the system starts, and forces then depend on the
+  /// place. Where they are the same at two places far away, each as far as any obstacle that was seen, and apart from
+  /// each other, all is asked at the first of them. Where they differ there too (particles drawn to a place), nothing
+  /// is moved.
+  void leave_obstacles() {
+    Plain low = start_[x(0)], high = low;
+    for (std::size_t i = 0; i < n_; ++i)
+      for (int k = 0; k < 3; ++k) {
+        low[k] = std::fmin(low[k], start_[x(i)][k]);
+        high[k] = std::fmax(high[k], start_[x(i)][k]);
+      }
+    const Plain centre = plus(low, 0.5f, plus(high, -1, low));
+    // twenty times what the system spans, and twenty whatever it spans; obstacles are as large as the system
+    const float size = 20 * std::fmax(length(plus(high, -1, low)), 1.0f);
+    if (!(size < 1e6f)) return;
+    const State given = around(1);
+    const State first = pulls(away(given, centre, size, 0), velocities());
+    const State second = pulls(away(given, centre, size, 1), velocities());
+    int alike = 0;
+    float largest = 0;
+    for (const Plain& one : first) largest = std::fmax(largest, length(one));
+    // positions are rounded to 1e-5 of the span out there, springs are drawn by about a tenth of their length
+    for (std::size_t i = 0; i < n_; ++i) alike += length(plus(first[i], -1, second[i])) <= 1e-2f * largest;
+    if (!(largest > 0) || alike < static_cast<int>(n_)) return;
+    start_ = away(start_, centre, size, 0);
+    far_ = corner(size, 0);
+  }
+
+  /// 1.5 times a power of two each way: what is added to it, and taken from it, is rounded alike.
+  static Plain corner(float size, int which) {
+    const float one = 1.5f * std::exp2(std::ceil(std::log2(size)));
+    return which == 0 ? Plain{{one, one, one}} : Plain{{-one, one, one}};
+  }
+  State away(const State& state, const Plain& centre, float size, int which) const {
+    State moved = state;
+    for (std::size_t i = 0; i < n_; ++i) moved[x(i)] = plus(corner(size, which), 1, plus(state[x(i)], -1, centre));
+    return moved;
+  }
+
   /// Where in the state a particle's position and velocity are.
   std::size_t x(std::size_t i) const { return apart_ ? i : 2 * i; }
   std::size_t v(std::size_t i) const { return apart_ ? n_ + i : 2 * i + 1; }
@@ -241,6 +288,7 @@ class Forces {
   Draws draws_;
   State start_;
   std::size_t n_;
+  Plain far_;           // where all is asked; zero: where the system starts
   float spacing_ = 0;   // the least distance of two that follow each other
   bool apart_ = false;  // all positions, then all velocities
 };

@@ -27,6 +27,26 @@ void take_step(S& stepper, Own& own, float h) {
     stepper_base(stepper).takeStep(&system, h);
 }
 
+/// "base": out 1 where the student's base class gives back the state that it was given, else 0.
+template <class = void>
+bool base_works(coursework::Numbers& out) {
+  Vec state(7, Vector3f(1.0f, 2.0f, 3.0f)), other(7, Vector3f(4.0f, 5.0f, 6.0f));
+  state[6] = other[0], other[6] = state[0];
+  Own& own = *make<Own>(7, true);
+  const double none[9] = {};
+  own.become(none, 0, state);
+  bool works = true;
+  for (const Vec& given : {state, other, state}) {
+    store(base_of(own), given);
+    const Vec back = state_of(base_of(own));
+    works = works && back.size() == given.size();
+    for (std::size_t i = 0; works && i < given.size(); ++i)
+      for (int k = 0; k < 3; ++k) works = works && back[i][k] == given[i][k];
+  }
+  out.push_back(works);
+  return true;
+}
+
 /// "PART.path": in h, count of steps, nine numbers of A, q, and the state, three numbers each; out the state after each
 /// step, row after row.
 template <class S>

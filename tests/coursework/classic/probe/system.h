@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "../../check/calls.h"
+#ifdef PARTICLE_SCOPE
+using namespace PARTICLE_SCOPE;
+#endif
 
 namespace probe {
 

@@ -1,0 +1,188 @@
+// Tables of the marks that systems and people add to copies, and grade.toml.
+#include "tests/coursework/grader/copies.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "mysim/base/errors.h"
+#include "mysim/scene/toml.h"
+#include "tests/coursework/grader/submission.h"
+
+namespace coursework {
+namespace {
+
+constexpr const char* leading[] = {"copy of ", "backup of ", "old_", "old ", "bak_"};
+/// With the separator before them, so that "threshold" stays what it is.
+constexpr const char* trailing[] = {" - copy",   " - kopie", " - 副本", "- copy", "-copy", "_copy",     " copy",
+                                    "_old",      "-old",     ".old",    " old",   ".orig", "_orig",     "-orig",
+                                    "_original", "_bak",     ".bak",    "-bak",   "~",     "_backup",   "-backup",
+                                    ".backup",   " backup",  ".save",   "_prev",  "-prev", "_previous", "副本"};
+const std::set<std::string> backup_folders = {"old",      "backup", "backups", "bak",        "archive", "archived",
+                                              "previous", "prev",   "trash",   "deprecated", "unused",  "copy"};
+/// Libraries that some bring along, by how the folder's name begins; vecmath is not among them, it is theirs to change.
+constexpr const char* library_folders[] = {"glfw",  "glew",       "freeglut",   "eigen",  "glm",
+                                           "imgui", "nanogui",    "boost",      "assimp", "sdl2",
+                                           "stb",   "cmakefiles", "cmake-build"};
+const std::set<std::string> whole_library_folders = {"fl",   "fltk", "gl",    "glu",          "glut",    "opengl",
+                                                     "glad", "khr",  "build", "node_modules", "__macosx"};
+
+bool starts(const std::string& text, const std::string& with) { return text.compare(0, with.size(), with) == 0; }
+bool ends(const std::string& text, const std::string& with) {
+  return text.size() > with.size() && text.compare(text.size() - with.size(), with.size(), with) == 0;
+}
+
+/// Cuts " (2)" and "(2)" off, and a number behind " copy"; false where there is none.
+bool cut_number(std::string& stem) {
+  std::size_t at = stem.size();
+  const bool bracket = at > 0 && stem[at - 1] == ')';
+  if (bracket) --at;
+  const std::size_t behind = at;
+  while (at > 0 && std::isdigit(static_cast<unsigned char>(stem[at - 1]))) --at;
+  if (at == behind || at == 0) return false;
+  if (bracket ? stem[at - 1] != '(' : !ends(lower(stem.substr(0, at)), " copy ")) return false;
+  at -= 1;
+  while (at > 0 && stem[at - 1] == ' ') --at;
+  if (at == 0) return false;
+  stem.resize(at);
+  return true;
+}
+
+std::string unmarked(std::string stem) {
+  for (bool more = true; more;) {
+    more = cut_number(stem);
+    const std::string small = lower(stem);
+    for (const std::string mark : leading)
+      if (!more && starts(small, mark) && small.size() > mark.size()) stem = stem.substr(mark.size()), more = true;
+    for (const std::string mark : trailing)
+      if (!more && ends(small, mark)) stem.resize(stem.size() - mark.size()), more = true;
+  }
+  return stem;
+}
+
+/// The names of the folders above the file.
+std::vector<std::string> folders_above(const std::string& path) {
+  std::vector<std::string> names;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = path.find('/', begin)) != std::string::npos; begin = end + 1)
+    names.push_back(path.substr(begin, end - begin));
+  return names;
+}
+
+}  // namespace
+
+std::string without_copy_marks(const std::string& path) {
+  const std::size_t slash = path.rfind('/') + 1, dot = path.rfind('.');
+  if (dot == std::string::npos || dot <= slash) return path;
+  return path.substr(0, slash) + unmarked(path.substr(slash, dot - slash)) + path.substr(dot);
+}
+
+bool is_backup(const std::string& path) {
+  if (without_copy_marks(path) != path) return true;
+  const std::vector<std::string> above = folders_above(path);
+  return std::any_of(above.begin(), above.end(), [](const std::string& name) {
+    return backup_folders.count(lower(name)) > 0 || unmarked(name) != name || name[0] == '.';
+  });
+}
+
+bool in_library(const std::string& path) {
+  const std::vector<std::string> above = folders_above(path);
+  return std::any_of(above.begin(), above.end(), [](const std::string& name) {
+    const std::string small = lower(name);
+    return whole_library_folders.count(small) > 0 ||
+           std::any_of(std::begin(library_folders), std::end(library_folders), [&](const std::string& begin) {
+             return starts(small, begin) && !std::isalpha(static_cast<unsigned char>(small[begin.size()]));
+           });
+  });
+}
+
+std::string plain_utf8(std::string text) {
+  if (starts(text, "\xef\xbb\xbf")) return text.substr(3);
+  const bool little = starts(text, "\xff\xfe");
+  if (!little && !starts(text, "\xfe\xff")) return text;
+  std::string out;
+  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned>(static_cast<unsigned char>(text[k])); };
+    // characters beyond the first plane, two units each, stand in comments only: a mark takes their place
+    unsigned c = little ? byte(i) | byte(i + 1) << 8 : byte(i + 1) | byte(i) << 8;
+    if (c >= 0xd800 && c < 0xe000) c = '?';
+    if (c < 0x80) {
+      out += static_cast<char>(c);
+    } else if (c < 0x800) {
+      out += {static_cast<char>(0xc0 | c >> 6), static_cast<char>(0x80 | (c & 0x3f))};
+    } else {
+      out += {static_cast<char>(0xe0 | c >> 12), static_cast<char>(0x80 | (c >> 6 & 0x3f)),
+              static_cast<char>(0x80 | (c & 0x3f))};
+    }
+  }
+  return out;
+}
+
+double FullerCopy::weight_of(const std::string& folder, const std::string& apart_from) const {
+  double sum = 0;
+  for (const auto& [path, weight] : weights_)
+    if (starts(path, folder) && (apart_from.empty() || !starts(path, apart_from))) sum += weight;
+  return sum;
+}
+
+bool FullerCopy::operator()(const std::string& a, const std::string& b) const {
+  if (a == b) return false;
+  if (is_backup(a) != is_backup(b)) return is_backup(b);
+  const std::vector<std::string> in_a = folders_above(a), in_b = folders_above(b);
+  std::string root_a, root_b;  // of the two copies; what they have in common, and one folder more where there is one
+  std::size_t i = 0;
+  for (; i < in_a.size() && i < in_b.size() && in_a[i] == in_b[i]; ++i) root_a += in_a[i] + "/";
+  root_b = root_a;
+  if (i < in_a.size()) root_a += in_a[i] + "/";
+  if (i < in_b.size()) root_b += in_b[i] + "/";
+  if (root_a != root_b) {
+    const double of_a = weight_of(root_a, starts(root_b, root_a) ? root_b : "");
+    const double of_b = weight_of(root_b, starts(root_a, root_b) ? root_a : "");
+    if (of_a != of_b) return of_a > of_b;
+  }
+  if (in_a.size() != in_b.size()) return in_a.size() < in_b.size();
+  return a < b;
+}
+
+bool StudentChoice::takes(const std::string& path) const {
+  if (!starts(path, folder)) return false;
+  return std::none_of(left_out.begin(), left_out.end(),
+                      [&](const std::string& out) { return path == out || starts(path, out + "/"); });
+}
+
+StudentChoice read_choice(const std::string& text, const std::vector<std::string>& paths,
+                          const std::vector<std::string>& roles) {
+  const crosscheck::TomlTable table = crosscheck::TomlTable::parse_text(text, choice_file);
+  StudentChoice choice;
+  const auto clean = [](std::string path) {
+    std::replace(path.begin(), path.end(), '\\', '/');
+    while (starts(path, "./")) path.erase(0, 2);
+    while (!path.empty() && path.back() == '/') path.pop_back();
+    return path;
+  };
+  const auto holds = [&](const std::string& folder) {
+    return std::any_of(paths.begin(), paths.end(), [&](const std::string& path) { return starts(path, folder + "/"); });
+  };
+  if (table.has("folder")) {
+    choice.folder = clean(table.text("folder", "a folder of the submission, in quotes"));
+    if (!holds(choice.folder)) table.fail("folder", "a folder of the submission that holds sources");
+    choice.folder += "/";
+  }
+  for (const crosscheck::TomlTable& one : table.sections("leave_out")) {
+    choice.left_out.push_back(clean(one.text("path", "a file or folder of the submission, in quotes")));
+    const std::string& path = choice.left_out.back();
+    if (std::find(paths.begin(), paths.end(), path) == paths.end() && !holds(path))
+      one.fail("path", "a file or folder of the submission");
+  }
+  if (!roles.empty() && table.has("classes")) {
+    const crosscheck::TomlTable classes = table.section("classes");
+    for (const std::string& role : roles)
+      if (classes.has(role)) choice.classes[role] = classes.text(role, "the name of a class, in quotes");
+  }
+  table.finish();
+  return choice;
+}
+
+}  // namespace coursework
