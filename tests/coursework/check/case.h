@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace coursework {
@@ -41,6 +42,13 @@ struct Answer {
   How how = How::missing;
   Numbers got;
   std::string detail = {};  // what was thrown, the signal's name, the compiler's first error
+  Numbers of = {};          // beside `got` where some are shares: how many all of them are; 0: no share
+};
+
+/// What stands beside a case's `expected`: the numbers, and of shares how many all are, as in Answer.
+struct Found {
+  Numbers got, of;
+  Found(Numbers numbers, Numbers all = {}) : got(std::move(numbers)), of(std::move(all)) {}
 };
 
 }  // namespace coursework

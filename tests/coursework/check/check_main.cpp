@@ -39,7 +39,8 @@ Answer ask(const Case& what) {
   try {
     if (!coursework::answer(what.call, what.in, answer.got))
       throw std::runtime_error("check does not know the call " + what.call + "; are its files those of the hand-out?");
-    answer.got = compared(what, answer.got);
+    const Found found = compared(what, answer.got);
+    answer.got = found.got, answer.of = found.of;
     answer.how = How::answered;
   } catch (const std::exception& error) {
     answer.how = How::threw, answer.detail = error.what();

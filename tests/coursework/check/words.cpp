@@ -15,6 +15,8 @@ std::string with_digits(double value, int digits) {
   return text;
 }
 
+std::string count_text(double value) { return std::to_string(static_cast<long>(std::round(value))); }
+
 /// The parts of "x, y, z".
 std::vector<std::string> listed(const std::string& text) {
   std::vector<std::string> names(1);
@@ -97,6 +99,9 @@ std::string words(const Texts& common, const Texts& own, const Case& what, const
   if (judged.how != How::answered) return common.fill("how." + key_of(judged.how), answer.detail);
   if (judged.wrong_size)
     return common.fill("size", number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
+  if (judged.of > 0 && !judged.not_finite)
+    return common.fill("counted", place(common, own, what, judged), count_text(judged.expected * judged.of),
+                       count_text(judged.got * judged.of));
   return common.fill(judged.not_finite ? "not_finite" : "differs", place(common, own, what, judged),
                      number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
 }

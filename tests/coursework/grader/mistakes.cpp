@@ -153,10 +153,22 @@ bool answers_alike(const TestRun& one, const std::filesystem::path& program, con
   return true;
 }
 
+/// Shares of the same count are compared by what was counted; those of other counts, as of a cloth of another size, are
+/// the same where both are neither none nor all.
+bool same_number(const Answer& a, const Answer& b, std::size_t i, double tolerance) {
+  const double of = i < a.of.size() ? a.of[i] : 0, other = i < b.of.size() ? b.of[i] : 0;
+  const double apart = std::abs(a.got[i] - b.got[i]);
+  const auto some = [](double share) { return share > 0 && share < 1; };
+  if (of > 0 && of == other) return apart <= 0.5 / of;
+  return apart <= tolerance || (of > 0 && other > 0 && some(a.got[i]) && some(b.got[i]));
+}
+
 }  // namespace
 
 Answer reduced(const Test& test, const Case& what, Answer raw) {
-  if (test.reduce && raw.how == How::answered) raw.got = test.reduce(what, raw.got);
+  if (!test.reduce || raw.how != How::answered) return raw;
+  Found found = test.reduce(what, raw.got);
+  raw.got = std::move(found.got), raw.of = std::move(found.of);
   return raw;
 }
 
@@ -170,7 +182,7 @@ bool agree(const Case& what, const Answer& student, const Answer& mistake) {
   for (std::size_t i = 0; i < student.got.size(); ++i) {
     const bool finite = std::isfinite(student.got[i]);
     if (finite != std::isfinite(mistake.got[i])) return false;
-    if (finite && !(std::abs(student.got[i] - mistake.got[i]) <= tolerance)) return false;
+    if (finite && !same_number(student, mistake, i, tolerance)) return false;
   }
   return true;
 }
