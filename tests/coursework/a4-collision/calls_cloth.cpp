@@ -44,7 +44,10 @@ bool answer_cloth(const std::string& call, const Numbers& in, Numbers& out) {
   const int steps = reader.integer();
   const int watched = call == "cloth_path" ? reader.integer() : -1;
   for (int n = 0; n < steps; ++n) {
-    state = cloth_step(cloth, spheres, state, h);
+    const State given = state;
+    State next = cloth_step(cloth, spheres, state, h);
+    expect_kept("cloth_step", given, state);
+    state = std::move(next);
     if (state.x.size() != count || state.v.size() != count)
       throw std::length_error("cloth_step: as many particles as before were expected");
     if (watched >= 0) put(out, state.x.at(watched));

@@ -22,6 +22,17 @@ inline State read_state(Reader& in, int count) {
   return state;
 }
 
+/// A step may read the state that it is given, and no more.
+inline void expect_kept(const char* step, const State& given, const State& now) {
+  const auto same = [](const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    bool all = a.size() == b.size();
+    for (std::size_t i = 0; all && i < a.size(); ++i) all = a[i].x == b[i].x && a[i].y == b[i].y && a[i].z == b[i].z;
+    return all;
+  };
+  if (!same(given.x, now.x) || !same(given.v, now.v))
+    throw std::logic_error(std::string(step) + ": the state that it was given has changed");
+}
+
 /// Position and velocity of each particle.
 inline void put(Numbers& out, const State& state) {
   for (std::size_t i = 0; i < state.x.size(); ++i) {

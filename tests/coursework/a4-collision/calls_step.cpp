@@ -22,7 +22,10 @@ struct Run {
 
   void step() {
     const std::size_t count = state.x.size();
-    state = contact_step(sphere, state, g, h);
+    const State given = state;
+    State next = contact_step(sphere, state, g, h);
+    expect_kept("contact_step", given, state);
+    state = std::move(next);
     if (state.x.size() != count || state.v.size() != count)
       throw std::length_error("contact_step: as many particles as before were expected");
   }

@@ -88,6 +88,7 @@ ShownTest run(const PublicTest& test, const Words& words) {
     shown.said = coursework::words(words.common, words.own, what, answer, judged);
     const std::size_t which = static_cast<std::size_t>(&what - test.cases.data()) + 1, of = test.cases.size();
     if (of > 1) shown.said = words.common.fill("which", std::to_string(which), std::to_string(of)) + " " + shown.said;
+    if (const std::string given = given_text(words.common, words.own, what); !given.empty()) shown.said += "\n" + given;
     if (words.own.has(test.id + ".hint"))
       shown.said += "\n" + words.common.fill("hint", words.own.of(test.id + ".hint"));
     if (!test.read.empty()) shown.said += "\n" + words.common.fill("read", test.read);

@@ -187,9 +187,9 @@ bool agree(const Case& what, const Answer& student, const Answer& mistake) {
   return true;
 }
 
-std::string likely_cause(const Assignment& assignment, const std::string& part, const std::vector<TestRun>& runs,
-                         const std::vector<Mistake>& known, const Builder& builder, const Sandbox& trusted,
-                         unsigned jobs) {
+std::vector<std::string> likely_causes(const Assignment& assignment, const std::string& part,
+                                       const std::vector<TestRun>& runs, const std::vector<Mistake>& known,
+                                       const Builder& builder, const Sandbox& trusted, unsigned jobs) {
   // failed tests distinguish mistakes best: they run first
   std::vector<const TestRun*> order;
   for (const TestRun& one : runs) order.push_back(&one);
@@ -204,8 +204,11 @@ std::string likely_cause(const Assignment& assignment, const std::string& part, 
     fits[i] = std::all_of(order.begin(), order.end(),
                           [&](const TestRun* one) { return answers_alike(*one, program, trusted); });
   });
-  if (std::count(fits.begin(), fits.end(), 1) != 1) return "";
-  return candidates[static_cast<std::size_t>(std::find(fits.begin(), fits.end(), 1) - fits.begin())]->name;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (fits[i]) names.push_back(candidates[i]->name);
+  if (names.size() > 3) names.clear();
+  return names;
 }
 
 }  // namespace coursework

@@ -172,10 +172,11 @@ p{margin:.3rem 0}.points{float:right;font-weight:normal}.total{font-size:1.2rem;
 </style>)";
 
 std::string section_of(const Result& result, const TestResult& test, const Texts& common) {
-  std::string text = fmt::format("<section class=\"{}\">\n<h3>{} {} {}<span class=\"points\">{}</span></h3>\n",
-                                 passed(test) ? "passed" : "failed", escaped(test.id), escaped(test.title),
-                                 test.hidden ? "(" + escaped(common.of("hidden")) + ")" : "",
-                                 escaped(common.fill("points", points_text(test.earned), points_text(test.points))));
+  std::string text =
+      fmt::format("<section class=\"{}\">\n<h3>{} {} {} {}<span class=\"points\">{}</span></h3>\n",
+                  passed(test) ? "passed" : "failed", passed(test) ? "&#10003;" : "&#10007;", escaped(test.id),
+                  escaped(test.title), test.hidden ? "(" + escaped(common.of("hidden")) + ")" : "",
+                  escaped(common.fill("points", points_text(test.earned), points_text(test.points))));
   for (const std::string& line : lines_on(result, test, common)) text += "<p>" + escaped(line) + "</p>\n";
   return text + test.plot + "</section>\n";
 }
