@@ -48,7 +48,8 @@ inline Linear add_linear(Random& random, Depends depends, Numbers& in) {
   // rows that sum to about 1 keep the states of 8 numbers as small as those of 1
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      in.push_back(random.uniform(0.3, 1.5) * (random.integer(0, 1) ? 1 : -1) / std::sqrt(n));
+      const double scale = random.rounds() ? 1 : std::sqrt(n);
+      in.push_back(random.uniform(0.3, 1.5) * (random.integer(0, 1) ? 1 : -1) / scale);
       s.m(i, j) = in.back();
     }
   for (const int column : {n + 1, n})  // b belongs to the 1, c to t

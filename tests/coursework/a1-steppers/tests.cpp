@@ -127,7 +127,7 @@ double seasonal_growth(double x, double r, double w, double p, double from, doub
 }
 
 /// log2 of the largest error with h over the largest one with h/2, both over the whole march.
-Numbers observed_order(const Case& c, const Numbers& raw) {
+Found observed_order(const Case& c, const Numbers& raw) {
   const int n = static_cast<int>(c.in[0]), steps = static_cast<int>(c.in[1]);
   if (static_cast<int>(raw.size()) != 2 * n * steps) return raw;  // judged as of the wrong size
   const double *x = &c.in[4], *r = x + n, *w = r + n, *p = w + n;
@@ -138,7 +138,7 @@ Numbers observed_order(const Case& c, const Numbers& raw) {
       whole = std::max(whole, std::abs(raw[2 * n * k + i] - right));
       halves = std::max(halves, std::abs(raw[2 * n * k + n + i] - right));
     }
-  return {std::log2(whole / halves)};
+  return Numbers{std::log2(whole / halves)};
 }
 
 /// The error is C h^p (1 + O(h)): with the steps below the last factor moves the order by less than 0.1, and the

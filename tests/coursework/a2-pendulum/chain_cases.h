@@ -29,7 +29,7 @@ inline std::vector<Case> length_cases(Random& random) {
 }
 
 /// Sums of m a over the free particles, and of its moments about the fixed one.
-inline Numbers total_force_and_moment(const Case& c, const Numbers& raw) {
+inline Found total_force_and_moment(const Case& c, const Numbers& raw) {
   const std::size_t n = static_cast<std::size_t>(c.in[0]), state = 5 + n + 2 * (n - 1);
   if (raw.size() != 6 * n) return raw;
   const auto vector = [](const Numbers& from, std::size_t at) { return Vector(from[at], from[at + 1], from[at + 2]); };

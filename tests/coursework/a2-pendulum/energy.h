@@ -26,7 +26,12 @@ inline Vector random_vector(Random& random, double size) {
 }
 /// Of length 1; never along an axis.
 inline Vector random_direction(Random& random) {
-  Vector v;
+  Vector v(0.36, 0.48, 0.8);
+  if (random.rounds()) {
+    std::swap(v[random.integer(0, 2)], v[random.integer(0, 2)]);
+    for (double& component : v) component *= random.integer(0, 1) ? 1 : -1;
+    return v;
+  }
   for (double& component : v) component = random.uniform(0.3, 1) * (random.integer(0, 1) ? 1 : -1);
   return v.normalized();
 }

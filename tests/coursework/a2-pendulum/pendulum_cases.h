@@ -45,7 +45,7 @@ inline std::vector<Case> pendulum_twice_cases(Random& random) {
 inline std::vector<Case> pendulum_fixed_cases(Random& random) { return fixed_cases(random, 2); }
 
 /// x, y, z of particle 1 and the energy after each step.
-inline Numbers path_and_energy(const Case& c, const Numbers& raw) {
+inline Found path_and_energy(const Case& c, const Numbers& raw) {
   if (raw.size() != c.expected.size() / 4 * 6) return raw;
   Row row;
   row.gravity = Vector(c.in[0], c.in[1], c.in[2]);

@@ -1,6 +1,7 @@
 // Reads what the calls of the collision assignment have in common.
 #pragma once
 
+#include "calls.h"
 #include "contact.h"
 #include "numbers.h"
 
@@ -20,6 +21,16 @@ inline State read_state(Reader& in, int count) {
   state.x = in.vectors<Vec3>(count);
   state.v = in.vectors<Vec3>(count);
   return state;
+}
+
+/// A step may read the state that it is given, and no more.
+inline void expect_kept(const State& given, const State& now) {
+  const auto same = [](const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+    bool all = a.size() == b.size();
+    for (std::size_t i = 0; all && i < a.size(); ++i) all = a[i].x == b[i].x && a[i].y == b[i].y && a[i].z == b[i].z;
+    return all;
+  };
+  if (!same(given.x, now.x) || !same(given.v, now.v)) throw Unusable("state_kept");
 }
 
 /// Position and velocity of each particle.

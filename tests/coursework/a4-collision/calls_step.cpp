@@ -21,8 +21,11 @@ struct Run {
 
   void step() {
     const std::size_t count = state.x.size();
+    const State given = state;
     calling("contact_step");
-    state = contact_step(sphere, state, g, h);
+    State next = contact_step(sphere, state, g, h);
+    expect_kept(given, state);
+    state = std::move(next);
     if (state.x.size() != count || state.v.size() != count) throw Unusable("particles", {state.x.size(), count});
   }
 };

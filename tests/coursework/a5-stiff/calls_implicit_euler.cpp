@@ -2,6 +2,9 @@
 // b, stiffness, rest, then mass (n), fixed (n; 0 or 1), x (3 n), v (3 n).
 //   implicit_euler.all     after the last step, a row per particle: x (3), v (3)
 //   implicit_euler.watch   one more number, a particle: its row after each step
+#include <stdexcept>
+#include <utility>
+
 #include "calls.h"
 #include "stiff.h"
 
@@ -44,8 +47,11 @@ bool answer_implicit_euler(const std::string& call, const Numbers& in, Numbers& 
   for (int i = 0; i < n; ++i) state.v.push_back(vector());
   const std::size_t watched = watch ? static_cast<std::size_t>(next()) : 0;
   for (int step = 0; step < steps; ++step) {
+    const State given = state;
     calling("implicit_euler_step");
-    state = implicit_euler_step(system, state, h);
+    State after = implicit_euler_step(system, state, h);
+    if (given.x != state.x || given.v != state.v) throw Unusable("state_kept");
+    state = std::move(after);
     if (watch) add_row(state, watched, out);
   }
   for (std::size_t i = 0; !watch && i < static_cast<std::size_t>(n); ++i) add_row(state, i, out);

@@ -51,6 +51,13 @@ struct Answer {
   /// out_of_time each function so far, the one it was in last.
   std::vector<std::pair<std::string, long>> counts = {};
   double reference = 0;  // s, out_of_time: what the official solution needs for all calls of the test
+  Numbers of = {};       // beside `got` where some are shares: how many all of them are; 0: no share
+};
+
+/// What stands beside a case's `expected`: the numbers, and of shares how many all are, as in Answer.
+struct Found {
+  Numbers got, of;
+  Found(Numbers numbers, Numbers all = {}) : got(std::move(numbers)), of(std::move(all)) {}
 };
 
 /// Whether it is no answer of the student's, right or wrong: it ran into a limit of ours that depends on the machine.

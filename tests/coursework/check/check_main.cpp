@@ -39,7 +39,8 @@ Answer ask(const Case& what) {
   try {
     if (!coursework::answer(what.call, what.in, answer.got))
       throw std::runtime_error("check does not know the call " + what.call + "; are its files those of the hand-out?");
-    answer.got = compared(what, answer.got);
+    const Found found = compared(what, answer.got);
+    answer.got = found.got, answer.of = found.of;
     answer.how = answer.got.empty() && !what.expected.empty() ? How::undecided : How::answered;
   } catch (const Unusable& error) {
     answer.how = How::unusable, answer.detail = error.what();
@@ -90,6 +91,7 @@ ShownTest run(const PublicTest& test, const Words& words) {
     shown.said = coursework::words(words.common, words.own, what, answer, judged);
     const std::size_t which = static_cast<std::size_t>(&what - test.cases.data()) + 1, of = test.cases.size();
     if (of > 1) shown.said = words.common.fill("which", std::to_string(which), std::to_string(of)) + " " + shown.said;
+    if (const std::string given = given_text(words.common, words.own, what); !given.empty()) shown.said += "\n" + given;
     if (words.own.has(test.id + ".hint"))
       shown.said += "\n" + words.common.fill("hint", words.own.of(test.id + ".hint"));
     if (!test.read.empty()) shown.said += "\n" + words.common.fill("read", test.read);

@@ -12,9 +12,11 @@ struct Judged {
   bool not_finite = false;    // the first number that differs is nan or infinite
   int row = -1, column = -1;  // of the first number that differs; -1: none
   double expected = 0, got = 0;
+  double of = 0;  // where the number is a share: how many all are
 };
 
-/// Right when every number is finite and within the tolerance, and there are as many as expected.
+/// Right when every number is finite and within the tolerance, and there are as many as expected. A share is right when
+/// it is that of the same count: one less of a thousand is one less.
 Judged judge(const Case& what, const Answer& answer);
 
 }  // namespace coursework

@@ -38,6 +38,16 @@ double at_y(const Case& what, const Numbers& numbers, std::size_t row) {
   return numbers[row * static_cast<std::size_t>(what.columns) + static_cast<std::size_t>(what.plot_y)];
 }
 
+/// Places against places: as many pixels for a metre along x as along y, so that a circle is round.
+void equalise(Range& x, Range& y) {
+  const double scale_x = (x.high - x.low) / (width - left - right),
+               scale_y = (y.high - y.low) / (height - top - bottom);
+  Range& smaller = scale_x < scale_y ? x : y;
+  const double more = std::max(scale_x, scale_y) / std::min(scale_x, scale_y) - 1;
+  const double margin = more * (smaller.high - smaller.low) / 2;
+  smaller.low -= margin, smaller.high += margin;
+}
+
 /// One path; it ends where a number is not finite, and far outside the window.
 std::string curve(const Case& what, const Numbers& numbers, Range x, Range y, const std::string& style) {
   std::string path;
@@ -84,6 +94,7 @@ std::string plot(const Case& what, const Numbers& got, const PlotTexts& texts) {
     y.take(at_y(what, what.expected, row), row == 0);
   }
   x.widen(what.plot_x < 0 ? 0.0 : 0.3), y.widen(0.3);
+  if (what.plot_x >= 0) equalise(x, y);
   const double floor = height - bottom;
   const std::string box = "<rect x=\"52\" y=\"24\" width=\"298\" height=\"162\" fill=\"none\" stroke=\"#999\"/>\n";
   // an svg within an svg cuts off what leaves it
@@ -92,8 +103,9 @@ std::string plot(const Case& what, const Numbers& got, const PlotTexts& texts) {
          "font-family=\"sans-serif\" font-size=\"11\">\n" +
          box + inner +
          curve(what, what.expected, x, y, "stroke=\"#1f77b4\" stroke-width=\"4\" stroke-opacity=\"0.45\"") +
-         curve(what, got, x, y, "stroke=\"#d62728\" stroke-width=\"1.5\"") + "</svg>\n" +
-         word(left, 16, "start", "#1f77b4", texts.right) + word(left + 80, 16, "start", "#d62728", texts.yours) +
+         curve(what, got, x, y, "stroke=\"#d62728\" stroke-width=\"1.5\" stroke-dasharray=\"7 3\"") + "</svg>\n" +
+         word(left, 16, "start", "#1f77b4", "\u2501 " + texts.right) +
+         word(left + 80, 16, "start", "#d62728", "\u2504 " + texts.yours) +
          word(left, floor + 13, "start", "#555", text_of("%.3g", x.low)) +
          word(width - right, floor + 13, "end", "#555", text_of("%.3g", x.high)) +
          word((left + width - right) / 2, height - 6, "middle", "#000", texts.x) +

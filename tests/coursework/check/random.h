@@ -1,6 +1,7 @@
 // Seeded numbers that are the same on every machine. C++17, standard library only.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 namespace coursework {
@@ -8,7 +9,9 @@ namespace coursework {
 /// SplitMix64 (Steele, Lea, Flood 2014): one 64-bit state, equidistributed, no shared state.
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
+  /// With `round` uniform() gives numbers of few digits, never 0: for cases that are worked out on paper.
+  explicit Random(std::uint64_t seed, bool round = false) : state_(seed), round_(round) {}
+  bool rounds() const { return round_; }
   std::uint64_t next() {
     std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -16,12 +19,26 @@ class Random {
     return z ^ (z >> 31);
   }
   /// In [low, high).
-  double uniform(double low, double high) { return low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53; }
+  double uniform(double low, double high) {
+    const double value = low + (high - low) * static_cast<double>(next() >> 11) * 0x1p-53;
+    return round_ ? rounded(value, low, high) : value;
+  }
   /// In low..high, both included.
   int integer(int low, int high) { return low + static_cast<int>(next() % static_cast<std::uint64_t>(high - low + 1)); }
 
  private:
+  /// The nearest one on a decimal scale that has three steps at least between the two.
+  static double rounded(double value, double low, double high) {
+    double parts = 1;  // in one
+    while ((high - low) * parts < 3 && parts < 1e9) parts *= 10;
+    double near = std::round(value * parts) / parts;
+    if (near < low || near == 0) near = (std::floor(low * parts) + 1) / parts;
+    if (near == 0) near = 1 / parts;
+    return near > high ? near - 1 / parts : near;
+  }
+
   std::uint64_t state_;
+  bool round_;
 };
 
 }  // namespace coursework

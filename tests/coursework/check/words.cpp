@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
+#include <sstream>
+#include <vector>
 
 namespace coursework {
 namespace {
@@ -14,6 +17,8 @@ std::string with_digits(double value, int digits) {
   std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
+
+std::string count_text(double value) { return std::to_string(static_cast<long>(std::round(value))); }
 
 /// The parts of "x, y, z".
 std::vector<std::string> listed(const std::string& text) {
@@ -122,11 +127,100 @@ std::string column_text(const Texts& own, const Case& what, int column) {
   return count == all && text.size() == close - open + 1 ? names[at] : numbered;
 }
 
+namespace {
+
+std::string layout_key(const Texts& own, const Case& what) {
+  const std::string whole = "given." + what.call;
+  return own.has(whole) ? whole : "given." + what.call.substr(what.call.find('.') + 1);
+}
+
+/// Reads a layout beside the numbers of a call.
+class Given {
+ public:
+  Given(const std::string& layout, const Numbers& in) : in_(in) {
+    std::istringstream words(layout);
+    for (std::string word; words >> word;) words_.push_back(word);
+  }
+
+  /// "h = 0.3, x = (1, 2)"; empty where the layout does not fit.
+  std::string text() {
+    std::size_t at = 0;
+    part(at, "");
+    return fits_ && read_ == in_.size() ? text_ : "";
+  }
+
+ private:
+  /// Up to the end, or to the bracket that closes.
+  void part(std::size_t& at, const std::string& number) {
+    for (; at < words_.size() && words_[at] != ")"; ++at) {
+      const std::string& word = words_[at];
+      const std::size_t bracket = word.find('['), star = word.find("*(");
+      if (star != std::string::npos) {
+        const std::size_t count = count_of(word.substr(0, star)), begin = at + 1;
+        std::size_t end = begin;
+        while (end < words_.size() && words_[end] != ")") ++end;
+        for (std::size_t i = 0; i < count && fits_; ++i) part(at = begin, "[" + std::to_string(i) + "]");
+        at = end;
+      } else if (bracket == std::string::npos) {
+        values(word + number, 1, 1);
+        counts_[word] = fits_ ? in_[read_ - 1] : 0;
+      } else {
+        std::string of = word.substr(bracket + 1, word.size() - bracket - 2);
+        std::size_t rows = 1;
+        if (const std::size_t comma = of.find(','); comma != std::string::npos)
+          rows = count_of(of.substr(0, comma)), of = of.substr(comma + 1);
+        values(word.substr(0, bracket) + number, rows, count_of(of));
+      }
+    }
+  }
+  std::size_t count_of(const std::string& word) const {
+    const bool less = word.size() > 2 && word.compare(word.size() - 2, 2, "-1") == 0;
+    const auto known = counts_.find(less ? word.substr(0, word.size() - 2) : word);
+    const double count = known != counts_.end() ? known->second : std::atof(word.c_str());
+    return count >= less && count < 1e6 ? static_cast<std::size_t>(count) - less : 0;
+  }
+  void values(const std::string& name, std::size_t rows, std::size_t columns) {
+    const std::size_t count = rows * columns;
+    fits_ = fits_ && read_ + count <= in_.size();
+    if (!fits_) return;
+    std::string list;
+    for (std::size_t i = 0; i < count; ++i)
+      list += (i == 0 ? "" : i % columns == 0 ? "; " : ", ") + with_digits(in_[read_ + i], 6);
+    read_ += count;
+    text_ += (text_.empty() ? "" : ", ") + name + " = " + (count == 1 ? list : "(" + list + ")");
+  }
+
+  const Numbers& in_;
+  std::vector<std::string> words_;
+  std::map<std::string, double> counts_;
+  std::string text_;
+  std::size_t read_ = 0;
+  bool fits_ = true;
+};
+
+}  // namespace
+
+bool has_layout(const Texts& own, const Case& what) { return own.has(layout_key(own, what)); }
+
+std::string given_text(const Texts& common, const Texts& own, const Case& what) {
+  if (!has_layout(own, what)) return "";
+  const std::string& text = own.of(layout_key(own, what));
+  const std::size_t bar = text.find('|');
+  if (bar == std::string::npos) return "";
+  const std::string given = Given(text.substr(bar + 1), what.in).text();
+  if (given.empty()) return "";
+  const std::string sentence = bar == 0 ? "" : text.substr(0, text.find_last_not_of(' ', bar - 1) + 1);
+  return sentence + (sentence.empty() ? "" : " ") + common.fill("given", given);
+}
+
 std::string words(const Texts& common, const Texts& own, const Case& what, const Answer& answer, const Judged& judged) {
   if (judged.right) return "";
   if (judged.how != How::answered) return ending(common, answer);
   if (judged.wrong_size)
     return common.fill("size", number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
+  if (judged.of > 0 && !judged.not_finite)
+    return common.fill("counted", place(common, own, what, judged), count_text(judged.expected * judged.of),
+                       count_text(judged.got * judged.of));
   return common.fill(judged.not_finite ? "not_finite" : "differs", place(common, own, what, judged),
                      number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
 }

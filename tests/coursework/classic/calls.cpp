@@ -17,6 +17,6 @@ bool answer(const std::string& call, const Numbers& in, Numbers& out) {
          answer_motion(call, in, out) || answer_pendulum(call, in, out) || answer_cloth(call, in, out);
 }
 
-Numbers compared(const Case& what, const Numbers& answered) { return classic::features(what, answered); }
+Found compared(const Case& what, const Numbers& answered) { return classic::features(what, answered); }
 
 }  // namespace coursework

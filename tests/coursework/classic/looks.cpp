@@ -17,13 +17,13 @@ bool is_of_springs(const std::string& column) {
 }
 
 /// `size` is the count of particles that was asked for, of a cloth those along a side.
-Numbers look(const std::string& column, int size, const Numbers& raw) {
+Features look(const std::string& column, int size, const Numbers& raw) {
   if (column == "purity") return purity(raw);
   if (column == "motion") return motion(raw, size);
   if (column == "cloth_motion") {
     // whether and where a cloth hangs is the student's choice; only what moves is looked at
-    Numbers found = motion(raw, size * size);
-    found.pop_back();
+    Features found = motion(raw, size * size);
+    found.erase(found.begin() + 2, found.end());
     return found;
   }
   if (column == "gravity") return gravity(raw);
@@ -43,9 +43,12 @@ Numbers look(const std::string& column, int size, const Numbers& raw) {
 
 }  // namespace
 
-Numbers features(const Case& what, const Numbers& answers) {
+Found features(const Case& what, const Numbers& answers) {
   if (what.column == "vector") return answers;
-  return look(what.column, static_cast<int>(what.in.at(0)), replay(what, answers));
+  Found found({});
+  for (const Feature& one : look(what.column, static_cast<int>(what.in.at(0)), replay(what, answers)))
+    found.got.push_back(one.got), found.of.push_back(one.of);
+  return found;
 }
 
 }  // namespace coursework::classic

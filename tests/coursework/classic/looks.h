@@ -9,6 +9,6 @@ namespace coursework::classic {
 /// The features that stand beside the case's `expected`. `answers` is what the student's evalF said (probe/ask.h),
 /// whoever wrote it down; none where they cannot be measured, because it does not answer the same twice. Answers of
 /// calls that are no probes come back as they are. Throws std::logic_error where no oracle finds the case's column.
-Numbers features(const Case& what, const Numbers& answers);
+Found features(const Case& what, const Numbers& answers);
 
 }  // namespace coursework::classic

@@ -31,9 +31,9 @@ size_t count_of(const Numbers& raw, size_t each) {
 
 }  // namespace
 
-double share(int good, int all) { return all == 0 || good == 0 ? 0 : good == all ? 1 : 0.5; }
+Feature share(int good, int all) { return all == 0 ? Feature(0) : Feature(double(good) / all, all); }
 
-Numbers purity(const Numbers& raw) {
+Features purity(const Numbers& raw) {
   if (raw.size() < 6) return {0, 0, 0, 0};
   int all = 0, again = 0, kept = 0, given = 0;
   bool something = false;
@@ -48,26 +48,28 @@ Numbers purity(const Numbers& raw) {
           something ? share(given, all) : 0};
 }
 
-Numbers motion(const Numbers& raw, int wanted) {
-  const size_t n = count_of(raw, 27);
-  if (n == 0) return {0, 0, 0};
-  int fixed = 0, moves = 0, right = 0;
+Features motion(const Numbers& raw, int wanted) {
+  const size_t n = count_of(raw, 30);
+  if (n == 0) return {0, 0, 0, 0};
+  int fixed = 0, still = 0, right = 0;
   for (size_t i = 0; i < n; ++i) {
+    const bool at_rest = zero(&raw[1 + 3 * i]);
     bool stays = true, rests = true, follows = true;
     for (size_t draw = 0; draw < 3; ++draw) {
-      const double* v = &raw[1 + (draw * n + i) * 9];
+      const double* v = &raw[1 + 3 * n + (draw * n + i) * 9];
       stays = stays && zero(v + 3);
       rests = rests && zero(v + 6);
       for (int k = 0; k < 3; ++k) follows = follows && close(v[k], v[3 + k]);
     }
     fixed += stays || rests;
-    moves += !(stays || rests);
-    right += !(stays || rests) && follows;
+    still += stays || (rests && at_rest);
+    right += stays || follows;
   }
-  return {n >= static_cast<size_t>(wanted) ? 1.0 : 0.5, share(right, moves), fixed == 0 ? 0.0 : moves == 0 ? 2.0 : 1.0};
+  const int particles = static_cast<int>(n);
+  return {share(std::min(particles, wanted), wanted), share(right, particles), double(fixed), share(still, fixed)};
 }
 
-Numbers gravity(const Numbers& raw) {
+Features gravity(const Numbers& raw) {
   const size_t n = count_of(raw, 18);
   if (n == 0) return {0, 0};
   std::vector<double> down;
@@ -99,7 +101,7 @@ Numbers gravity(const Numbers& raw) {
   return {sign(plus, minus, static_cast<int>(down.size())), alike ? 1.0 : 0.0};
 }
 
-Numbers drag(const Numbers& raw) {
+Features drag(const Numbers& raw) {
   const size_t n = count_of(raw, 12);
   int all = 0, plus = 0, minus = 0, straight = 0;
   for (size_t i = 0; i < n; ++i) {

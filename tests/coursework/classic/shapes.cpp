@@ -34,13 +34,6 @@ double rest_of(const Springs& s, const Grid& grid, int down, int side) {
   return rests[rests.size() / 2];
 }
 
-double nearest(double ratio) {
-  double best = 0;
-  for (const double known : {0.0, 1.0, std::sqrt(2.0), 2.0})
-    if (std::abs(ratio - known) < std::abs(ratio - best)) best = known;
-  return best;
-}
-
 /// Whether the springs make one line through all particles, in whatever order.
 bool one_line(const Springs& s) {
   std::map<int, std::set<int>> next;
@@ -61,7 +54,7 @@ bool one_line(const Springs& s) {
 
 }  // namespace
 
-Numbers spring_law(const Numbers& raw) {
+Features spring_law(const Numbers& raw) {
   const Springs s = springs_of(raw);
   int movable = 0, joined = 0, all = 0, plus = 0, minus = 0, linear = 0, rest = 0, both = 0, equal = 0;
   std::set<int> hangs;
@@ -85,21 +78,22 @@ Numbers spring_law(const Numbers& raw) {
              std::abs(back->second->rest - one.rest) < 0.01 * std::abs(one.rest) + 1e-4;
   }
   // where all others are fixed no pair can be seen from both ends
-  const double mutual = all == 0 ? 0 : both == 0 ? 1 : share(equal, both);
+  const Feature mutual = all == 0 ? 0 : both == 0 ? 1 : share(equal, both);
   const double sign = plus + minus == 0 ? 0 : plus == all ? 1 : minus == all ? -1 : 0.5;
   // with a few large samples of a big cloth not every particle is seen
   const bool seen = std::count(s.moved.begin(), s.moved.end(), true) == s.particles;
   return {seen ? share(joined, movable) : share(all > 0, 1), sign, share(linear, all), share(rest, all), mutual};
 }
 
-Numbers chain_links(const Numbers& raw) {
+Features chain_links(const Numbers& raw) {
   const Springs s = springs_of(raw);
   const int n = s.particles;
   const auto pairs = pairs_of(s);
-  int there = 0, expected = 0, others = 0, ends = 0, inner = 0;
+  int there = 0, expected = 0, ends = 0, inner = 0;
+  double others = 0;
   std::map<int, std::set<int>> next;
   for (const auto& [a, b] : pairs) {
-    others += std::abs(a - b) != 1;
+    others += std::abs(a - b) != 1 && (a < b || !pairs.count({b, a}));
     next[a].insert(b), next[b].insert(a);
   }
   for (int i = 0; i + 1 < n; ++i) {
@@ -112,77 +106,97 @@ Numbers chain_links(const Numbers& raw) {
     if (held(s, i)) ((line ? next[i].size() == 1 : i == 0 || i == n - 1) ? ends : inner) += 1;
   const double fixed = inner ? 2 : ends ? 1 : 0;
   if (line) return {1, 0, fixed};
-  return {share(there, expected), others ? 1.0 : 0.0, fixed};
+  return {share(there, expected), others, fixed};
 }
 
-Numbers cloth_family(const Numbers& raw, Family first, Family second) {
+Features cloth_family(const Numbers& raw, Family first, Family second) {
   const Springs s = springs_of(raw);
   const auto grid = grid_of(s);
-  if (!grid) return {0, 0};
+  if (!grid) return {0, 0, 0, 0};
   const auto pairs = pairs_of(s);
-  Numbers found;
+  Features found, where;
   for (const Family family : {first, second}) {
     int there = 0, expected = 0;
-    for (int i = 0; i < s.particles; ++i)
-      for (const int way : {1, -1}) {
-        const int row = grid->row(i) + way * family.down, column = grid->column(i) + way * family.side;
-        if (row < 0 || row >= grid->rows || column < 0 || column >= grid->columns) continue;
-        const int other = row * grid->columns + column;
-        if (!shows(s, i, other)) continue;
-        ++expected;
-        there += pairs.count({i, other}) > 0;
+    bool all_touch[4] = {true, true, true, true};
+    for (int i = 0; i < s.particles; ++i) {
+      const int row = grid->row(i) + family.down, column = grid->column(i) + family.side;
+      if (row >= grid->rows || column < 0 || column >= grid->columns) continue;
+      const int other = row * grid->columns + column;
+      // seen from both its ends; from one where the other is fixed
+      const bool here = shows(s, i, other), beyond = shows(s, other, i);
+      if (!here && !beyond) continue;
+      ++expected;
+      if ((!here || pairs.count({i, other})) && (!beyond || pairs.count({other, i}))) {
+        ++there;
+        continue;
       }
+      const int left = std::min(column, grid->column(i)), right = std::max(column, grid->column(i));
+      const bool touch[4] = {row == grid->rows - 1, right == grid->columns - 1, grid->row(i) == 0, left == 0};
+      for (int border = 0; border < 4; ++border) all_touch[border] = all_touch[border] && touch[border];
+    }
     found.push_back(share(there, expected));
+    int borders = 1;
+    for (int border = 0; border < 4; ++border) borders += all_touch[border] << border;
+    where.push_back(there == 0 || there == expected ? 0 : borders);
   }
+  found.insert(found.end(), where.begin(), where.end());
   return found;
 }
 
-Numbers cloth_others(const Numbers& raw) {
+Features cloth_others(const Numbers& raw) {
   const Springs s = springs_of(raw);
   const auto grid = grid_of(s);
-  if (!grid || s.all.empty()) return {0, 0};
+  if (!grid || s.all.empty()) return {0, 0, 0};
   double others = 0;
-  for (const auto& [a, b] : pairs_of(s)) {
+  int all = 0, within = 0;
+  const auto pairs = pairs_of(s);
+  for (const auto& [a, b] : pairs) {
+    if (a > b && pairs.count({b, a})) continue;
+    ++all;
     const int down = std::abs(grid->row(a) - grid->row(b)), side = std::abs(grid->column(a) - grid->column(b));
-    if ((down <= 1 && side <= 1) || (down + side == 2 && down * side == 0)) continue;
+    if ((down <= 1 && side <= 1) || (down + side == 2 && down * side == 0)) {
+      ++within;
+      continue;
+    }
     const bool across = side >= grid->columns - 2 || down >= grid->rows - 2;
     others = std::max(others, across ? 1.0 : 2.0);
   }
-  return {others, 1};
+  return {share(within, all), others, 1};
 }
 
-Numbers cloth_lengths(const Numbers& raw) {
+Features cloth_lengths(const Numbers& raw) {
   const Springs s = springs_of(raw);
   const auto grid = grid_of(s);
   if (!grid) return {0, 0, 0};
   const double row = rest_of(s, *grid, 0, 1), column = rest_of(s, *grid, 1, 0);
-  const double mean = (row + column) / 2;
   // rows and columns may be spaced differently: each family is set against its own
   // one diagonal that is missing has a test of its own
-  const double one = rest_of(s, *grid, 1, 1), other = rest_of(s, *grid, 1, -1);
-  const double shear = one > 0 && other > 0 ? (one + other) / 2 : one + other;
-  const auto ratio = [](double a, double b) { return b > 0 ? nearest(a / b) : 0; };
+  const auto ratio = [](double a, double b) { return b > 0 ? a / b : 0; };
   const double diagonal = std::hypot(row, column) / std::sqrt(2.0);
-  return {mean > 0 ? ratio(shear, diagonal) : 0, ratio(rest_of(s, *grid, 0, 2), row),
-          ratio(rest_of(s, *grid, 2, 0), column)};
+  const double one = ratio(rest_of(s, *grid, 1, 1), diagonal), other = ratio(rest_of(s, *grid, 1, -1), diagonal);
+  const auto off = [](double shear) { return std::abs(shear - std::sqrt(2.0)); };
+  const double shear = one == 0 || (other != 0 && off(other) > off(one)) ? other : one;
+  return {shear, ratio(rest_of(s, *grid, 0, 2), row), ratio(rest_of(s, *grid, 2, 0), column)};
 }
 
-Numbers cloth_pins(const Numbers& raw) {
+Features cloth_pins(const Numbers& raw) {
   const Springs s = springs_of(raw);
   const auto grid = grid_of(s);
-  if (!grid || s.all.empty()) return {0};
+  if (!grid || s.all.empty()) return {0, 0, 0};
   const int rows = grid->rows, columns = grid->columns;
   std::set<std::pair<int, int>> pins;
+  int still = 0;
   for (int i = 0; i < s.particles; ++i)
-    if (held(s, i)) pins.insert({grid->row(i), grid->column(i)});
+    if (held(s, i)) pins.insert({grid->row(i), grid->column(i)}), still += s.still[static_cast<std::size_t>(i)];
+  const int count = static_cast<int>(pins.size());
   const auto all = [&](auto&& good) { return std::all_of(pins.begin(), pins.end(), good); };
-  const auto edge = [](int at, int count) { return at == 0 || at == count - 1; };
-  if (all([&](auto p) { return edge(p.first, rows) && edge(p.second, columns); })) return {1};
+  const auto edge = [](int at, int all_of) { return at == 0 || at == all_of - 1; };
+  bool even = all([&](auto p) { return edge(p.first, rows) && edge(p.second, columns); });
   for (const int border : {0, rows - 1})
-    if (all([&](auto p) { return p.first == border && pins.count({border, columns - 1 - p.second}); })) return {1};
+    even = even || all([&](auto p) { return p.first == border && pins.count({border, columns - 1 - p.second}); });
   for (const int border : {0, columns - 1})
-    if (all([&](auto p) { return p.second == border && pins.count({rows - 1 - p.first, border}); })) return {1};
-  return {0};
+    even = even || all([&](auto p) { return p.second == border && pins.count({rows - 1 - p.first, border}); });
+  return {share(std::min(count, 2), 2), count > 0 && even ? 1.0 : 0.0, share(still, count)};
 }
 
 }  // namespace coursework::classic

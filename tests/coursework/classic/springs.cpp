@@ -12,7 +12,7 @@ Springs springs_of(const Numbers& raw) {
   if (raw.empty() || !(raw[0] >= 1) || raw[0] > 1e5) return springs;
   const auto n = static_cast<std::size_t>(raw[0]);
   const auto whole = static_cast<double>(n);  // an index just below a fraction would be one too many
-  if (raw.size() < 1 + 5 * n + 2) return springs;
+  if (raw.size() < 1 + 6 * n + 2) return springs;
   std::size_t at = 1;
   for (std::size_t i = 0; i < n; ++i, at += 3) {
     springs.x.push_back(raw[at]);
@@ -21,7 +21,8 @@ Springs springs_of(const Numbers& raw) {
   }
   // one that never moves, or never gathers speed, is fixed
   for (std::size_t i = 0; i < n; ++i) springs.fixed.push_back(raw[at + i] == 0 || raw[at + n + i] == 0);
-  at += 2 * n;
+  for (std::size_t i = 0; i < n; ++i) springs.still.push_back(raw[at + i] == 0 || raw[at + 2 * n + i] == 0);
+  at += 3 * n;
   springs.repeats = raw[at++] == 1;
   const double count = raw[at++];
   springs.moved.assign(n, false);

@@ -18,6 +18,7 @@ struct Springs {
   int particles = 0;
   std::vector<double> x, y, z;     // where they start
   std::vector<bool> fixed, moved;  // cannot move; was moved to see whom it pulls
+  std::vector<bool> still;         // at rest when it starts, or never moves
   bool repeats = false;
   std::vector<Spring> all;
 };

@@ -110,14 +110,15 @@ std::vector<Case> field(Random& random, bool same) {
 std::vector<Case> field_same(Random& random) { return field(random, true); }
 std::vector<Case> field_other(Random& random) { return field(random, false); }
 
-/// One probe, whose features are compared: shares and signs are exact, 0.01 is for none but rounding.
-Case probe(const std::string& call, const std::string& column, int count, Random& random, Numbers expected) {
+/// One probe, whose features are compared: shares are counted and signs are exact, 0.01 is for none but rounding.
+Case probe(const std::string& call, const std::string& column, int count, Random& random, Numbers expected,
+           double tolerance = 0.01) {
   const int columns = static_cast<int>(expected.size());
   return {call,
           {static_cast<double>(count), static_cast<double>(random.integer(1, 1000000))},
           std::move(expected),
           columns,
-          0.01,
+          tolerance,
           "",
           column};
 }
@@ -125,14 +126,15 @@ Case probe(const std::string& call, const std::string& column, int count, Random
 constexpr int pendulum = 2, chain = 4, side = 8;
 
 std::vector<Case> pendulum_purity(Random& r) { return {probe("pendulum.purity", "purity", pendulum, r, {1, 1, 1, 1})}; }
-std::vector<Case> pendulum_motion(Random& r) { return {probe("pendulum.motion", "motion", pendulum, r, {1, 1, 1})}; }
+std::vector<Case> pendulum_motion(Random& r) { return {probe("pendulum.motion", "motion", pendulum, r, {1, 1, 1, 1})}; }
 std::vector<Case> pendulum_gravity(Random& r) { return {probe("pendulum.gravity", "gravity", pendulum, r, {1, 1})}; }
 std::vector<Case> pendulum_drag(Random& r) { return {probe("pendulum.drag", "drag", pendulum, r, {1, 1})}; }
 std::vector<Case> pendulum_springs(Random& r) {
   return {probe("pendulum.springs", "law", pendulum, r, {1, 1, 1, 1, 1})};
 }
 std::vector<Case> chain_shape(Random& r) {
-  return {probe("chain.kept", "purity", chain, r, {1, 1, 1, 1}), probe("chain.motion", "motion", chain, r, {1, 1, 1})};
+  return {probe("chain.kept", "purity", chain, r, {1, 1, 1, 1}),
+          probe("chain.motion", "motion", chain, r, {1, 1, 1, 1})};
 }
 std::vector<Case> chain_forces(Random& r) {
   return {probe("chain.gravity", "gravity", chain, r, {1, 1}), probe("chain.drag", "drag", chain, r, {1, 1})};
@@ -144,15 +146,16 @@ std::vector<Case> cloth_motion(Random& r) { return {probe("cloth.motion", "cloth
 std::vector<Case> cloth_forces(Random& r) {
   return {probe("cloth.gravity", "gravity", side, r, {1, 1}), probe("cloth.drag", "drag", side, r, {1, 1})};
 }
-std::vector<Case> cloth_structural(Random& r) { return {probe("cloth.springs", "structural", side, r, {1, 1})}; }
-std::vector<Case> cloth_shear(Random& r) { return {probe("cloth.springs", "shear", side, r, {1, 1})}; }
-std::vector<Case> cloth_flexion(Random& r) { return {probe("cloth.springs", "flexion", side, r, {1, 1})}; }
-std::vector<Case> cloth_others(Random& r) { return {probe("cloth.springs", "others", side, r, {0, 1})}; }
+std::vector<Case> cloth_structural(Random& r) { return {probe("cloth.springs", "structural", side, r, {1, 1, 0, 0})}; }
+std::vector<Case> cloth_shear(Random& r) { return {probe("cloth.springs", "shear", side, r, {1, 1, 0, 0})}; }
+std::vector<Case> cloth_flexion(Random& r) { return {probe("cloth.springs", "flexion", side, r, {1, 1, 0, 0})}; }
+std::vector<Case> cloth_others(Random& r) { return {probe("cloth.springs", "others", side, r, {1, 0, 1})}; }
 std::vector<Case> cloth_law(Random& r) { return {probe("cloth.springs", "law", side, r, {1, 1, 1, 1, 1})}; }
 std::vector<Case> cloth_lengths(Random& r) {
-  return {probe("cloth.springs", "lengths", side, r, {std::sqrt(2.0), 2, 2})};
+  // 1.41 for sqrt 2 is 0.004 away, 1 % of a shear spring 0.014; what rounding leaves of stiff springs is below 0.001
+  return {probe("cloth.springs", "lengths", side, r, {std::sqrt(2.0), 2, 2}, 0.007)};
 }
-std::vector<Case> cloth_pins(Random& r) { return {probe("cloth.springs", "pins", side, r, {1})}; }
+std::vector<Case> cloth_pins(Random& r) { return {probe("cloth.springs", "pins", side, r, {1, 1, 1})}; }
 
 const Test tests[] = {
     {"1.1", "euler", 3, 2, {"explicit Euler"}, "Forward Euler", step<false>},

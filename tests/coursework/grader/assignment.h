@@ -29,7 +29,7 @@ struct Test {
   std::vector<Case> (*cases)(Random&);  // inputs and right answers; with the same seed the same
   /// Turns the raw numbers of a call into those that are compared; null: the raw ones are. For oracles that hold
   /// whatever constants a student chose.
-  Numbers (*reduce)(const Case&, const Numbers& raw) = nullptr;
+  Found (*reduce)(const Case&, const Numbers& raw) = nullptr;
 };
 
 class Builder;

@@ -161,7 +161,9 @@ class PartBuilder : public Builder {
         check_(folder_of_coursework() / "check"),
         command_(compiler_.command()) {
     command_.insert(command_.end(), {"-std=c++17", "-O1"});
-    surroundings_ = compiler_.fingerprint();
+    // an index outside a vector or an array ends the program; where charts time it, it costs what it costs at home
+    if (!fs::exists(folder_ / "calls_engine.cpp")) command_.push_back("-D_GLIBCXX_ASSERTIONS");
+    surroundings_ = compiler_.fingerprint() + fmt::format("{}", fmt::join(command_, " "));
     for (const fs::path& folder : {check_, folder_, folder_ / "starter"})
       for (const fs::path& header : files_in(folder, "", ".h")) surroundings_ += content_of_file(header);
     surroundings_ = key_of(surroundings_);

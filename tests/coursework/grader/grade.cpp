@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <mutex>
 
@@ -119,8 +120,8 @@ class Grading {
     const auto begin = std::chrono::steady_clock::now();
     TestResult& one = result_.tests[i];
     TestRun& test_run = test_runs_[i];
-    Random random(one.hidden ? hidden_seed(options_.seed, *test_run.test) : public_seed(assignment_, *test_run.test));
-    test_run.cases = test_run.test->cases(random);
+    Random random(hidden_seed(options_.seed, *test_run.test));
+    test_run.cases = one.hidden ? test_run.test->cases(random) : public_cases(assignment_, *test_run.test);
     const auto unusable = unusable_.find(one.part);
     if (unusable != unusable_.end())
       test_run.answers.assign(test_run.cases.size(), unusable->second);
@@ -178,6 +179,10 @@ class Grading {
       if (ran && test_run.cases.size() > 1)
         one.said = options_.common.fill("which", std::to_string(k + 1), std::to_string(test_run.cases.size())) + " " +
                    one.said;
+      // of hidden tests the numbers stay with the grader
+      if (const std::string given = one.hidden ? "" : given_text(options_.common, options_.own, test_run.cases[k]);
+          !given.empty())
+        one.said += "\n" + given;
       // after a crash or a loop the test's own hint would lead astray
       if (judged.how == How::answered && options_.own.has(one.id + ".hint"))
         one.said += "\n" + options_.common.fill("hint", options_.own.of(one.id + ".hint"));
@@ -223,12 +228,49 @@ class Grading {
       if (answered && !passed(result_.tests[i])) wrong.push_back(&result_.tests[i]);
     }
     if (wrong.empty() || unusable_.count(part)) return;
-    const std::string name =
-        likely_cause(assignment_, part, of_part, mistakes_of(assignment_), *builder_, *trusted_, options_.jobs);
-    const std::string cause = name.empty()
-                                  ? options_.common.of("no_cause")
-                                  : options_.common.fill("cause", text_or(options_.own, "mistake." + name, name));
+    const std::string suspect = suspected(of_part);
+    const std::vector<std::string> names =
+        likely_causes(assignment_, part, of_part, mistakes_of(assignment_), *builder_, *trusted_, options_.jobs);
+    std::string cause;
+    for (const std::string& name : names) {
+      const std::string& behaves = text_or(options_.own, "mistake." + name, name);
+      cause += cause.empty() ? options_.common.fill(names.size() == 1 ? "cause" : "either", behaves)
+                             : " " + options_.common.fill("or", behaves);
+    }
+    // what an experiment shows is more than a likeness
+    if (!suspect.empty()) cause = options_.common.of(suspect);
+    if (cause.empty()) cause = options_.common.of("no_cause");
     for (TestResult* test : wrong) test->cause = cause;
+  }
+
+  /// What experiments on a part's wrong answers show, as a key of the texts; empty: nothing.
+  std::string suspected(const std::vector<TestRun>& of_part) const {
+    bool rounded = true;
+    for (const TestRun& one : of_part)
+      for (std::size_t i = 0; i < one.cases.size() && !one.test->reduce; ++i)
+        rounded = rounded && near_in_float(one.cases[i], one.answers[i]);
+    if (rounded) return "suspect.float";
+    for (const TestRun& one : of_part)
+      for (std::size_t i = 1; i < one.cases.size(); ++i) {
+        if (one.answers[i].how != How::answered || judge(one.cases[i], one.answers[i]).right) continue;
+        // alone, as the first that its process is asked
+        const Answer alone = run_calls(sandbox_, programs_.at(std::string(one.test->part)), {one.cases[i]}).at(0);
+        const Answer first = reduced(*one.test, one.cases[i], alone);
+        return judge(one.cases[i], first).right ? "suspect.state" : "";
+      }
+    return "";
+  }
+
+  /// Right, or off by what a number loses that is once kept in single precision: some roundings of 6e-8 of the largest.
+  static bool near_in_float(const Case& what, const Answer& answer) {
+    if (answer.how != How::answered || answer.got.size() != what.expected.size()) return false;
+    double size = 0;
+    for (const double value : what.expected) size = std::max(size, std::abs(value));
+    // where as much is forgiven anyway, nothing can be seen
+    const bool exact = what.tolerance < 1e-7 * size;
+    for (std::size_t i = 0; i < answer.got.size(); ++i)
+      if (!(std::abs(answer.got[i] - what.expected[i]) <= (exact ? 1e-5 * size : what.tolerance))) return false;
+    return true;
   }
 
   /// Keeps the parts that answered every call: others would crash or hang in every run of the charts.
@@ -285,6 +327,21 @@ Submission submission_of(const Handed& handed, const Assignment& assignment) {
 
 std::uint64_t public_seed(const Assignment& assignment, const Test& test) {
   return mixed(crosscheck::Fnv1a::of(assignment.name), crosscheck::Fnv1a::of(test.id));
+}
+
+std::vector<Case> public_cases(const Assignment& assignment, const Test& test) {
+  constexpr std::size_t small = 40;  // numbers of a case that fits on a sheet of paper
+  Random random(public_seed(assignment, test));
+  std::vector<Case> usual = test.cases(random), all;
+  const Texts own = Texts::read((assignment.folder() / "texts.en.txt").string());
+  // where an answer is reduced first, or nobody is told what was given, there is nothing to work out
+  if (!test.reduce && !usual.empty() && has_layout(own, usual.front())) {
+    Random round(public_seed(assignment, test), true);
+    all = test.cases(round);
+    if (all.front().in.size() > small) all.clear();
+  }
+  all.insert(all.end(), usual.begin(), usual.end());
+  return all;
 }
 
 std::uint64_t hidden_seed(std::uint64_t seed, const Test& test) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/coursework/check/case.h"
 #include "tests/coursework/check/texts.h"
 #include "tests/coursework/grader/assignment.h"
 #include "tests/coursework/grader/result.h"
@@ -37,7 +38,10 @@ std::vector<std::string> wanted_files(const Assignment& assignment);
 Submission submission_at(const std::filesystem::path& path, const Assignment& assignment);
 Submission submission_of(const Handed& handed, const Assignment& assignment);
 
-/// The seed that the hand-out's tests are made with; it depends on the assignment and the test alone.
+/// The cases of a test as the hand-out has them: those of its seed, which depends on the assignment and the test alone;
+/// before them, where the texts lay out what is given, the same in round numbers, so that the first that fails can be
+/// worked out on paper.
+std::vector<Case> public_cases(const Assignment& assignment, const Test& test);
 std::uint64_t public_seed(const Assignment& assignment, const Test& test);
 /// The seed of a hidden test, from that of all hidden tests.
 std::uint64_t hidden_seed(std::uint64_t seed, const Test& test);

@@ -201,10 +201,9 @@ PublicTests public_tests(const Assignment& assignment) {
   for (const Test& test : assignment.tests) {
     all.hidden += test.hidden > 0;
     if (test.points == 0) continue;
-    Random random(public_seed(assignment, test));
     all.tests.push_back({std::string(test.id), std::string(test.part), std::string(test.read), test.points, {}});
     // of files per part `check` has the calls alone; of a whole program also what finds features in its answers
-    if (!test.reduce || assignment.takes_whole_program()) all.tests.back().cases = test.cases(random);
+    if (!test.reduce || assignment.takes_whole_program()) all.tests.back().cases = public_cases(assignment, test);
   }
   return all;
 }

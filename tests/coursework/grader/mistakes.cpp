@@ -153,11 +153,23 @@ bool answers_alike(const TestRun& one, const std::filesystem::path& program, con
   return true;
 }
 
+/// Shares of the same count are compared by what was counted; those of other counts, as of a cloth of another size, are
+/// the same where both are neither none nor all.
+bool same_number(const Answer& a, const Answer& b, std::size_t i, double tolerance) {
+  const double of = i < a.of.size() ? a.of[i] : 0, other = i < b.of.size() ? b.of[i] : 0;
+  const double apart = std::abs(a.got[i] - b.got[i]);
+  const auto some = [](double share) { return share > 0 && share < 1; };
+  if (of > 0 && of == other) return apart <= 0.5 / of;
+  return apart <= tolerance || (of > 0 && other > 0 && some(a.got[i]) && some(b.got[i]));
+}
+
 }  // namespace
 
 Answer reduced(const Test& test, const Case& what, Answer raw) {
-  if (test.reduce && raw.how == How::answered) raw.got = test.reduce(what, raw.got);
-  if (test.reduce && raw.how == How::answered && raw.got.empty() && !what.expected.empty()) raw.how = How::undecided;
+  if (!test.reduce || raw.how != How::answered) return raw;
+  Found found = test.reduce(what, raw.got);
+  raw.got = std::move(found.got), raw.of = std::move(found.of);
+  if (raw.got.empty() && !what.expected.empty()) raw.how = How::undecided;
   return raw;
 }
 
@@ -171,14 +183,14 @@ bool agree(const Case& what, const Answer& student, const Answer& mistake) {
   for (std::size_t i = 0; i < student.got.size(); ++i) {
     const bool finite = std::isfinite(student.got[i]);
     if (finite != std::isfinite(mistake.got[i])) return false;
-    if (finite && !(std::abs(student.got[i] - mistake.got[i]) <= tolerance)) return false;
+    if (finite && !same_number(student, mistake, i, tolerance)) return false;
   }
   return true;
 }
 
-std::string likely_cause(const Assignment& assignment, const std::string& part, const std::vector<TestRun>& runs,
-                         const std::vector<Mistake>& known, const Builder& builder, const Sandbox& trusted,
-                         unsigned jobs) {
+std::vector<std::string> likely_causes(const Assignment& assignment, const std::string& part,
+                                       const std::vector<TestRun>& runs, const std::vector<Mistake>& known,
+                                       const Builder& builder, const Sandbox& trusted, unsigned jobs) {
   // failed tests distinguish mistakes best: they run first
   std::vector<const TestRun*> order;
   for (const TestRun& one : runs) order.push_back(&one);
@@ -193,8 +205,11 @@ std::string likely_cause(const Assignment& assignment, const std::string& part, 
     fits[i] = std::all_of(order.begin(), order.end(),
                           [&](const TestRun* one) { return answers_alike(*one, program, trusted); });
   });
-  if (std::count(fits.begin(), fits.end(), 1) != 1) return "";
-  return candidates[static_cast<std::size_t>(std::find(fits.begin(), fits.end(), 1) - fits.begin())]->name;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (fits[i]) names.push_back(candidates[i]->name);
+  if (names.size() > 3) names.clear();
+  return names;
 }
 
 }  // namespace coursework

@@ -40,10 +40,10 @@ Answer reduced(const Test& test, const Case& what, Answer raw);
 /// right ones, so that two ways to write one mistake agree on a motion that blows up.
 bool agree(const Case& what, const Answer& student, const Answer& mistake);
 
-/// The name of the one mistake of `known` whose program answers all that was asked as the student's did; empty where
-/// none does, or several. `runs` are all the tests of one part.
-std::string likely_cause(const Assignment& assignment, const std::string& part, const std::vector<TestRun>& runs,
-                         const std::vector<Mistake>& known, const Builder& builder, const Sandbox& trusted,
-                         unsigned jobs);
+/// The mistakes of `known` whose programs answer all that was asked as the student's did: one is the cause, several are
+/// told as either; none where more than three do, as they say nothing then. `runs` are all the tests of one part.
+std::vector<std::string> likely_causes(const Assignment& assignment, const std::string& part,
+                                       const std::vector<TestRun>& runs, const std::vector<Mistake>& known,
+                                       const Builder& builder, const Sandbox& trusted, unsigned jobs);
 
 }  // namespace coursework

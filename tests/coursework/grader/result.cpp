@@ -194,7 +194,10 @@ p{margin:.3rem 0}.points{float:right;font-weight:normal}.total{font-size:1.2rem;
 
 std::string section_of(const Result& result, const TestResult& test, const Texts& common) {
   std::string text =
-      fmt::format("<section class=\"{}\">\n<h3>{} {} {}<span class=\"points\">{}</span></h3>\n", status_of(test),
+      fmt::format("<section class=\"{}\">\n<h3>{} {} {} {}<span class=\"points\">{}</span></h3>\n", status_of(test),
+                  passed(test)    ? "&#10003;"
+                  : test.ungraded ? "&#8211;"
+                                  : "&#10007;",
                   escaped(test.id), escaped(test.title), test.hidden ? "(" + escaped(common.of("hidden")) + ")" : "",
                   escaped(points_of(test, common)));
   for (const std::string& line : lines_on(result, test, common)) text += "<p>" + escaped(line) + "</p>\n";

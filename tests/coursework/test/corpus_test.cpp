@@ -44,8 +44,8 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
     std::vector<TestRun> asked;
     for (const coursework::Test& test : assignment_.tests) {
       if (test.part != part) continue;
-      Random random(seed == 0 ? public_seed(assignment_, test) : hidden_seed(static_cast<std::uint64_t>(seed), test));
-      TestRun one{&test, test.cases(random), {}};
+      Random random(hidden_seed(static_cast<std::uint64_t>(seed), test));
+      TestRun one{&test, seed == 0 ? public_cases(assignment_, test) : test.cases(random), {}};
       const std::vector<Answer> answers = run_calls(*sandbox_, program, one.cases);
       for (std::size_t i = 0; i < answers.size(); ++i) one.answers.push_back(reduced(test, one.cases[i], answers[i]));
       asked.push_back(std::move(one));
@@ -63,7 +63,10 @@ class Corpus : public testing::TestWithParam<const Assignment*> {
   }
 
   std::string cause(const std::string& part, const std::vector<TestRun>& asked) const {
-    return likely_cause(assignment_, part, asked, known_, *builder_, *sandbox_, 2);
+    std::string names;  // where the evidence singles none out there are several
+    for (const std::string& name : likely_causes(assignment_, part, asked, known_, *builder_, *sandbox_, 2))
+      names += (names.empty() ? "" : " or ") + name;
+    return names;
   }
 
   std::string solution(const std::string& part) const {

@@ -292,8 +292,7 @@ std::vector<bool> curves_apart(const fs::path& page) {
 std::string said_by_grader(const Assignment& assignment, const coursework::Test& test, const fs::path& program,
                            const Sandbox& sandbox) {
   const GradeOptions options = options_for(assignment, 1);
-  Random random(public_seed(assignment, test));
-  const std::vector<Case> cases = test.cases(random);
+  const std::vector<Case> cases = public_cases(assignment, test);
   const std::vector<Answer> answers = run_calls(sandbox, program, cases);
   for (size_t i = 0; i < cases.size(); ++i) {
     const Answer answer = reduced(test, cases[i], answers[i]);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <limits>
@@ -15,6 +16,7 @@
 #include "tests/coursework/check/cases_file.h"
 #include "tests/coursework/check/judge.h"
 #include "tests/coursework/check/plot.h"
+#include "tests/coursework/check/random.h"
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/mistakes.h"
@@ -243,6 +245,42 @@ TEST(Words, SayWhatWasExpectedWhatCameAndWhere) {
   EXPECT_EQ(say({How::answered, {1, 2, 3, 4}}, "en"), "");
 }
 
+TEST(Words, CountSharesAndJudgeThemExactly) {
+  const Texts common = common_texts(), own = Texts::parse("[column.springs]\nsprings\n", "texts");
+  Case what{"call", {}, {1}, 1, 0.01, "", "springs"};
+  Answer answer{.how = How::answered, .got = {1739.0 / 1740}, .of = {1740}};
+  EXPECT_EQ(words(common, own, what, answer, judge(what, answer)),
+            "First difference at springs: expected 1740 (all of them), got 1739.");
+  answer.got = {1};
+  EXPECT_TRUE(judge(what, answer).right);
+}
+
+TEST(Words, SayWhatWasGiven) {
+  const Texts common = common_texts();
+  const Texts own = Texts::parse("[given.chain]\nf is linear. | n h A[n,n] k[n-1] n*( x[2] m )\n", "texts");
+  const auto say = [&](const char* call, const Numbers& in) {
+    return given_text(common, own, Case{call, in, {1}, 1, 0, "", ""});
+  };
+  EXPECT_EQ(
+      say("part.chain", {2, 0.5, 1, 2, 3, 4, 7, 5, 6, 8, 9, 10, 11}),
+      "f is linear. Given: n = 2, h = 0.5, A = (1, 2; 3, 4), k = 7, x[0] = (5, 6), m[0] = 8, x[1] = (9, 10), m[1] = "
+      "11.");
+  EXPECT_EQ(say("part.chain", {2, 0.5, 1}), "");
+  EXPECT_EQ(say("other", {1}), "");
+}
+
+TEST(Random, RoundNumbersHaveFewDigitsAndAreNeverZero) {
+  Random random(1, true);
+  for (const auto& [low, high] : {std::pair{0.2, 0.7}, std::pair{-1.0, 1.0}, std::pair{5.0, 60.0}, std::pair{0.1, 0.3}})
+    for (int i = 0; i < 100; ++i) {
+      const double value = random.uniform(low, high);
+      EXPECT_GE(value, low);
+      EXPECT_LE(value, high);
+      EXPECT_NE(value, 0);
+      EXPECT_EQ(std::round(value * 100) / 100, value);
+    }
+}
+
 TEST(Words, NameTheColumn) {
   const Texts own = Texts::parse(
       "[column.state]\nstate\n[column.point]\n(x, y)\n[column.all]\n(x, v) of particle #\n[column.kind]\n"
@@ -273,6 +311,8 @@ TEST(Plot, DrawsBothCurvesAndSurvivesAnything) {
     EXPECT_NE(svg.find("&lt;yours&gt;"), std::string::npos);
     EXPECT_EQ(svg.find("nan"), std::string::npos);
   }
+  // 298 x 162 pixels: along x 298/162 of what y shows, about the same middle
+  EXPECT_NE(plot(what, what.expected, texts).find(">8.89<"), std::string::npos);
   Case nothing = what;
   nothing.plot_y = -1;
   EXPECT_EQ(plot(nothing, what.expected, texts), "");

@@ -67,9 +67,11 @@ class Forces {
     return true;
   }
 
-  /// Count of particles; then three states after each other, for every particle v, x' and v'.
+  /// Count of particles, the velocity of each at the start; then three states after each other, for every particle v,
+  /// x' and v'.
   bool motion(Numbers& out) {
     out = {double(n_)};
+    for (std::size_t i = 0; i < n_; ++i) push(out, {start_[v(i)]});
     for (int draw = 0; draw < 3; ++draw) {
       const State given = around(1), f = derivative(given);
       for (std::size_t i = 0; i < n_; ++i) push(out, {given[v(i)], entry(f, x(i)), entry(f, v(i))});
@@ -114,9 +116,10 @@ class Forces {
     return true;
   }
 
-  /// Count, where the particles start (three each), the largest entry of x' and of v' of each on three states; then 1
-  /// where evalF repeats itself; the count of those that were moved and which; then for each pair where moving b
-  /// changes the v' of a: b, a, three distances, and at each the pull of a towards b and what of it is across.
+  /// Count, where the particles start (three each), the largest entry of x' and of v' of each on three states, its
+  /// speed at the start; then 1 where evalF repeats itself; the count of those that were moved and which; then for each
+  /// pair where moving b changes the v' of a: b, a, three distances, and at each the pull of a towards b and what of it
+  /// is across.
   bool springs(Numbers& out) {
     out = {double(n_)};
     for (std::size_t i = 0; i < n_; ++i) push(out, {start_[x(i)]});
@@ -131,6 +134,7 @@ class Forces {
     }
     out.insert(out.end(), speed.begin(), speed.end());
     out.insert(out.end(), pull.begin(), pull.end());
+    for (std::size_t i = 0; i < n_; ++i) out.push_back(length(start_[v(i)]));
     State state = around(0);
     const State f = derivative(state);
     const Indices chosen = draws_.sample(n_, n_ <= 144 ? n_ : std::max<std::size_t>(24, 20000 / n_));

@@ -1,6 +1,8 @@
 // What is asked of a student's system in each of its roles. Whatever the class is called: the parts' calls name it.
 #pragma once
 
+#include <type_traits>
+
 #include "ask.h"
 
 namespace probe {
@@ -32,8 +34,13 @@ bool pendulum(const std::string& call, const coursework::Numbers& in, coursework
   const int count = static_cast<int>(in[0]);
   const auto seed = static_cast<std::uint64_t>(in[1]);
   if (call.rfind("pendulum.", 0) == 0) return answered(ready<Pendulum>(count, true), seed, call.substr(9), out);
-  if (call.rfind("chain.", 0) == 0) return answered(ready<Chain>(count, true), seed, call.substr(6), out);
-  return false;
+  if (call.rfind("chain.", 0) != 0) return false;
+  if constexpr (std::is_same_v<Pendulum, Chain>) {
+    // one of another size was asked before: nothing of it may be kept
+    auto& other = ready<Pendulum>(2, true);
+    evaluate(other, state_of(other));
+  }
+  return answered(ready<Chain>(count, true), seed, call.substr(6), out);
 }
 
 /// A call of forces.h with "cloth." before it; in the particles along a side and the seed; out is what evalF answered.

@@ -21,7 +21,7 @@ std::vector<Case> sums_cases(Random& random) {
   return {one};
 }
 
-Numbers differences(const Case&, const Numbers& raw) {
+Found differences(const Case&, const Numbers& raw) {
   Numbers steps;
   for (std::size_t i = 1; i < raw.size(); ++i) steps.push_back(raw[i] - raw[i - 1]);
   return steps;
