@@ -1,4 +1,4 @@
-// A class: who handed in what in a folder that was exported from somewhere, all of it graded, a table and statistics.
+// A class: all of it graded, a table and statistics.
 #pragma once
 
 #include <filesystem>
@@ -6,17 +6,9 @@
 #include <vector>
 
 #include "tests/coursework/grader/grade.h"
+#include "tests/coursework/grader/layouts.h"
 
 namespace coursework {
-
-/// Who handed in what, in the order of names. What Moodle, Canvas and Gradescope put into names of files is taken off;
-/// several files of one person are one submission. Otherwise every entry is a submission. Entries that begin with a dot
-/// are none.
-std::vector<Handed> submissions_in(const std::filesystem::path& folder);
-
-/// Why a folder that should be one submission looks like a class ("Moodle", "Canvas", "Gradescope", "Git",
-/// "folders"); empty: it does not.
-std::string class_layout(const std::filesystem::path& folder, const std::vector<std::string>& wanted);
 
 struct GradedSubmission {
   Result result;

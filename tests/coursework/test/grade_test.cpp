@@ -226,13 +226,16 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
             "all right,100,50,50,\n"
             "\"rubbish, \"\"really\"\".zip\",,,,\"not graded: The archive cannot be read (neither zip nor tar). Hand "
             "in a folder, a .zip or a .tar.gz.\"\n");
-  EXPECT_EQ(statistics_csv(all),
-            "test,title,passed [1],failed [1],not graded [1],most frequent cause,times [1]\n"
-            "1.1,1.1,2,0,0,,0\n2.1,2.1,1,1,0,,0\n2.2,2.2,1,1,0,,0\n");
+  EXPECT_EQ(
+      statistics_csv(all),
+      "test,title,passed [1],failed [1],not graded [1],most frequent cause,times [1]\n"
+      "1.1,Twice a number,2,0,0,,0\n2.1,Sums of the first numbers,1,1,0,,0\n2.2,What each number adds,1,1,0,,0\n");
   const std::string page = class_page(tiny(), all, options.common);
   EXPECT_NE(page.find("3 submissions, 2 graded, 1 not graded"), std::string::npos) << page;
   EXPECT_NE(page.find("The archive cannot be read"), std::string::npos) << page;
-  EXPECT_NE(page.find("<tr><td>2.1 2.1</td><td>1</td><td>1</td><td>0</td><td></td></tr>"), std::string::npos) << page;
+  EXPECT_NE(page.find("<tr><td>2.1 Sums of the first numbers</td><td>1</td><td>1</td><td>0</td><td></td></tr>"),
+            std::string::npos)
+      << page;
   for (const GradedSubmission& one : all) {
     const std::string base = (out / file_name_for(one.result.submission)).string();
     EXPECT_TRUE(result_from_json(content_of_file(base + ".json"), base).complete);
