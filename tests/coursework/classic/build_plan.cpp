@@ -130,7 +130,8 @@ std::vector<std::string> BuildPlan::names_of(int of) const {
   if (!is_header(one.file)) more.push_back("-Dmain=main_of_the_student");
   const auto base = classes_.named("ParticleSystem");
   if (!base) return more;
-  more.push_back(defined("PARTICLE_HEADER", file_on_disk(classes_.at(*base))));
+  // a source that holds both has no guard against being included twice
+  if (classes_.at(*base).file != one.file) more.push_back(defined("PARTICLE_HEADER", file_on_disk(classes_.at(*base))));
   if (const std::string& scope = classes_.at(*base).scope; !scope.empty()) more.push_back("-DPARTICLE_SCOPE=" + scope);
   return more;
 }

@@ -253,6 +253,8 @@ Chosen ClassList::choose(const std::map<int, Fits>& fits, const std::map<std::st
     if (!best && role.name == "chain" && chosen.of.count("pendulum")) best = chosen.of.at("pendulum");
     if (best) chosen.of[role.name] = *best;
   }
+  // a chain of a fixed size, where nothing else could be the pendulum
+  if (!chosen.of.count("pendulum") && chosen.of.count("chain")) chosen.of["pendulum"] = chosen.of.at("chain");
   for (const bool steppers : {true, false})
     for (const int i : candidates(steppers)) {
       const bool taken =

@@ -26,9 +26,10 @@ Features look(const std::string& column, int size, const Numbers& raw) {
     found.erase(found.begin() + 2, found.end());
     return found;
   }
+  // an evalF that does not repeat itself says nothing of its forces
+  if ((column == "gravity" || column == "drag") && raw.size() > 1 && raw.back() == 0) return {};
   if (column == "gravity") return gravity(raw);
   if (column == "drag") return drag(raw);
-  // an evalF that does not repeat itself says nothing of its springs
   if (is_of_springs(column) && springs_of(raw).particles > 0 && !springs_of(raw).repeats) return {};
   if (column == "law") return spring_law(raw);
   if (column == "links") return chain_links(raw);

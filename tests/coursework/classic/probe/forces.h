@@ -17,7 +17,8 @@ class Forces {
  public:
   using Numbers = coursework::Numbers;
 
-  Forces(Asker& asker, std::uint64_t seed) : asker_(asker), draws_(seed), start_(asker.start()), n_(start_.size() / 2) {
+  Forces(Asker& asker, std::uint64_t seed)
+      : asker_(asker), draws_(seed), start_(asker.start()), home_(start_), n_(start_.size() / 2) {
     if (n_ == 0) throw coursework::Unusable("no_velocity");
     find_layout();
     for (std::size_t i = 1; i < n_; ++i) {
@@ -79,7 +80,8 @@ class Forces {
     return true;
   }
 
-  /// Count; three states, for every particle v' at x and at its mirror image, both at rest.
+  /// Count; three states, for every particle v' at x and at its mirror image, both at rest; then 1 where evalF repeats
+  /// itself.
   bool gravity(Numbers& out) {
     out = {double(n_)};
     for (int draw = 0; draw < 3; ++draw) {
@@ -92,10 +94,12 @@ class Forces {
       const State f = pulls(given, velocities()), g = pulls(mirrored, velocities());
       for (std::size_t i = 0; i < n_; ++i) push(out, {f[i], g[i]});
     }
+    out.push_back(repeats(around(0)));
     return true;
   }
 
-  /// Count of those looked at; for each the velocity w that it alone gets, and its v' at 0, w and 2 w.
+  /// Count of those looked at; for each the velocity w that it alone gets, and its v' at 0, w and 2 w; then 1 where
+  /// evalF repeats itself.
   bool drag(Numbers& out) {
     State state = around(0);
     Indices chosen = draws_.sample(n_);
@@ -113,7 +117,13 @@ class Forces {
       push(out, {w, f0[i], f1, pull(state, chosen[i])});
       moved = rest;
     }
+    out.push_back(repeats(state));
     return true;
+  }
+
+  bool repeats(const State& state) {
+    const State f = derivative(state);
+    return alike(f, again(state, f));
   }
 
   /// Count, where the particles start (three each), the largest entry of x' and of v' of each on three states, its
@@ -122,7 +132,7 @@ class Forces {
   /// is across.
   bool springs(Numbers& out) {
     out = {double(n_)};
-    for (std::size_t i = 0; i < n_; ++i) push(out, {start_[x(i)]});
+    for (std::size_t i = 0; i < n_; ++i) push(out, {home_[x(i)]});
     Numbers speed(n_), pull(n_);
     for (int draw = 0; draw < 3; ++draw) {
       const State f = derivative(around(1));
@@ -290,9 +300,10 @@ class Forces {
 
   Asker& asker_;
   Draws draws_;
-  State start_;
+  State start_;  // around which all is asked
+  State home_;   // which the system starts with
   std::size_t n_;
-  Plain far_;           // where all is asked; zero: where the system starts
+  Plain far_;           // from there to start_, where that is elsewhere
   float spacing_ = 0;   // the least distance of two that follow each other
   bool apart_ = false;  // all positions, then all velocities
 };
