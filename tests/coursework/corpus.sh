@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# The whole corpus of all assignments on 20 seeds, then all cheats: corpus.sh BUILD. Minutes, not seconds.
+# The corpus of all assignments, then all cheats: corpus.sh BUILD. All mistakes on 20 seeds and all odd programs take an
+# hour; CORPUS_SEEDS and ODD_PROGRAMS say how many.
 set -euo pipefail
 build=$(realpath "${1:?expected the folder of a build, as build/release}")
 export CROSSCHECK_CACHE=$build/cache
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cmake --build "$build" --target coursework_corpus
-CORPUS_SEEDS=20 CORPUS_MISTAKES=1000 ODD_PROGRAMS=1000 "$here/on_all_cores.sh" "$build/tests/coursework/coursework_corpus"
+CORPUS_SEEDS=${CORPUS_SEEDS:-20} CORPUS_MISTAKES=1000 ODD_PROGRAMS=${ODD_PROGRAMS:-1000} "$here/on_all_cores.sh" "$build/tests/coursework/coursework_corpus"
 "$here/cheats/run.sh" "$build"

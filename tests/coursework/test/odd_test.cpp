@@ -242,7 +242,8 @@ const Odd programs[] = {
      [](Files& f) {
        // what two sources call alike, each for itself
        for (const char* word : {"mass", "gravity", "drag", "stiffness", "length", "Spring"})
-         f[clothcpp] = with_word(f[clothcpp], word, std::string("cloth_") + word);
+         for (const char* one : {"ClothSystem.h", clothcpp})
+           f[one] = with_word(f[one], word, "own_" + std::string(word));
        std::string all;
        for (const char* one : {"particleSystem.h", "particleSystem.cpp", "simpleSystem.h", "simpleSystem.cpp", pendh,
                                pendcpp, "ClothSystem.h", clothcpp, "TimeStepper.hpp", "TimeStepper.cpp"})
