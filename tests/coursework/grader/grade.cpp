@@ -154,13 +154,14 @@ class Grading {
   /// official solution is asked only where that is not enough.
   std::vector<Answer> answers_to(const std::string& part, const std::vector<Case>& cases) {
     const auto too_slow = [](const Answer& answer) { return answer.how == How::out_of_time; };
-    std::vector<Answer> answers = run_calls(sandbox_, programs_.at(part), cases);
+    const Limits least = limits_for(0, options_.least_cpu);
+    std::vector<Answer> answers = run_calls(sandbox_, programs_.at(part), cases, least);
     if (std::none_of(answers.begin(), answers.end(), too_slow)) return answers;
     double reference = 0;
     run_calls(*trusted_, builder_->ours(part, content_of_file(solution_of(assignment_, *builder_, part))), cases,
               limits_for(0), &reference);
-    if (limits_for(reference).cpu > limits_for(0).cpu)
-      answers = run_calls(sandbox_, programs_.at(part), cases, limits_for(reference));
+    if (const Limits longer = limits_for(reference, options_.least_cpu); longer.cpu > least.cpu)
+      answers = run_calls(sandbox_, programs_.at(part), cases, longer);
     for (Answer& answer : answers) answer.reference = reference;
     return answers;
   }

@@ -11,17 +11,19 @@
 #include "tests/coursework/check/texts.h"
 #include "tests/coursework/grader/assignment.h"
 #include "tests/coursework/grader/result.h"
+#include "tests/coursework/grader/run.h"
 #include "tests/coursework/grader/sandbox.h"
 #include "tests/coursework/grader/submission.h"
 
 namespace coursework {
 
 struct GradeOptions {
-  std::uint64_t seed = 0;  // of the hidden tests
-  bool secret = false;     // it was made from the lecturer's secret
-  Texts common, own;       // check/common.LANGUAGE.txt; the assignment's texts
-  unsigned jobs = 1;       // compilers at a time
-  std::string engines;     // folder in which parts are left as engines, where the assignment has such; empty: nowhere
+  std::uint64_t seed = 0;                    // of the hidden tests
+  bool secret = false;                       // it was made from the lecturer's secret
+  Texts common, own;                         // check/common.LANGUAGE.txt; the assignment's texts
+  unsigned jobs = 1;                         // compilers at a time
+  double least_cpu = coursework::least_cpu;  // s, that the calls of a test may take in any case (run.h)
+  std::string engines;  // folder in which parts are left as engines, where the assignment has such; empty: nowhere
   /// Called with what there is so far: before the first test, after every test, and at the end.
   std::function<void(const Result&)> on_progress = [](const Result&) {};
 };

@@ -197,8 +197,8 @@ std::string shown_exception(const std::string& text, const std::map<std::string,
   return text;
 }
 
-Limits limits_for(double reference) {
-  const double cpu = std::max(least_cpu, times_reference * reference);
+Limits limits_for(double reference, double least) {
+  const double cpu = std::max(least, times_reference * reference);
   return {.cpu = cpu, .wall = 60 * cpu, .answers = 64 << 10};
 }
 

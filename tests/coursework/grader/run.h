@@ -20,7 +20,7 @@ constexpr double times_reference = 20;
 
 /// The limits of a test whose calls cost the official solution `reference` s. Only processor time decides: the clock is
 /// sixty times further, for a machine with sixty busy programs on a processor, and whoever waits is found by that.
-Limits limits_for(double reference);
+Limits limits_for(double reference, double least = least_cpu);
 
 /// An answer per case, whatever the program does. `token` is what it must say at the end.
 std::vector<Answer> run_calls(const Sandbox& sandbox, const std::filesystem::path& program,

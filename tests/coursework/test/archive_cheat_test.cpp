@@ -187,7 +187,7 @@ TEST(ArchiveCheats, EarnNothingAndHarmNothing) {
     const Result result = graded(few, submission, options);
     for (const TestResult& test : result.tests)
       EXPECT_EQ(test.earned, trick.all_lost || test.part == "euler" ? 0 : test.points) << trick.name << ' ' << test.id;
-    std::string remarks;
+    std::string remarks = result.not_graded + "\n";
     for (const std::string& line : result.preflight) remarks += line + "\n";
     const std::string& text = options.common.of(trick.says);
     const std::string fixed = text.substr(text.find('}') + 1, text.find('.') - text.find('}'));
