@@ -70,7 +70,8 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
   if (beside.empty()) return suite;
   std::vector<Peer> peers;
   for (const std::string& name : beside) peers.push_back(chosen(name));
-  for (const int side : {32, 64, 128}) suite.cloths.push_back({side, peers});
+  for (const int side : {32, 64}) suite.cloths.push_back({side, peers});
+  if (full) suite.cloths.push_back({128, peers});
   return suite;
 }
 

@@ -28,8 +28,8 @@ struct BenchSuite {
 };
 
 /// quick: within 90 s on a quiet machine of two cores; full: the largest cloth and every peer on each. Methods in
-/// `beside` are peers too, of the user's choice, on cloths of 32, 64 and 128 particles a side. Throws InputError where
-/// one is not known.
+/// `beside` are peers too, of the user's choice, on cloths of 32 and 64 particles a side, and of 128 where full. Throws
+/// InputError where one is not known.
 BenchSuite bench_suite(bool full, const std::vector<std::string>& beside = {});
 
 /// The tables bench-*-cost: threads first, and then kernels, scenes, peers at the same error and at the same step, and

@@ -113,23 +113,29 @@ Points spring_forces(const Model& model, const Points& x) {
   Points forces = Points::Zero(3, x.cols());
   const auto* springs = model.find<Springs>();
   if (!springs) return forces;
-  constexpr double d = 1. / 1024;  // s
-  std::vector<jolt::Vertex> vertices;
-  std::vector<jolt::Edge> edges;
-  for (const Spring& s : springs->list) {
-    const int first = static_cast<int>(vertices.size());
-    vertices.push_back({{}, {}, 1e-6 / (s.k * d * d)});
-    vertices.push_back({triple(x.col(s.b) - x.col(s.a)), {}, 0});
-    edges.push_back({first, first + 1, s.rest, 1 / s.k});
-  }
-  jolt::SoftBody body(vertices, edges, {}, {});
-  body.set_gravity({});
-  body.step(d);
-  for (size_t s = 0; s < springs->list.size(); ++s) {
-    const int vertex = 2 * static_cast<int>(s);
-    const Vec3 force = vec3(body.moved(vertex)) / (body.inverse_mass(vertex) * d * d);
-    forces.col(springs->list[s].a) += force;
-    forces.col(springs->list[s].b) -= force;
+  constexpr double d = 1. / 1024;       // s
+  constexpr std::size_t at_once = 500;  // Jolt sorts a body's edges, which takes the square of their count
+  const std::vector<Spring>& all = springs->list;
+  for (std::size_t first = 0; first < all.size(); first += at_once) {
+    const std::size_t count = std::min(at_once, all.size() - first);
+    std::vector<jolt::Vertex> vertices;
+    std::vector<jolt::Edge> edges;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Spring& s = all[first + i];
+      const int vertex = static_cast<int>(2 * i);
+      vertices.push_back({{}, {}, 1e-6 / (s.k * d * d)});
+      vertices.push_back({triple(x.col(s.b) - x.col(s.a)), {}, 0});
+      edges.push_back({vertex, vertex + 1, s.rest, 1 / s.k});
+    }
+    jolt::SoftBody body(vertices, edges, {}, {});
+    body.set_gravity({});
+    body.step(d);
+    for (std::size_t i = 0; i < count; ++i) {
+      const int vertex = static_cast<int>(2 * i);
+      const Vec3 force = vec3(body.moved(vertex)) / (body.inverse_mass(vertex) * d * d);
+      forces.col(all[first + i].a) += force;
+      forces.col(all[first + i].b) -= force;
+    }
   }
   return forces;
 }

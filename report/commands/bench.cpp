@@ -299,8 +299,9 @@ void add_bench(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<BenchOptions>();
   auto* bench = app.add_subcommand("bench", "measures speed as ratios to other implementations, in one run");
   bench->add_option("--out", options->out, "folder (out/bench)");
-  bench->add_option("--methods", options->methods,
-                    "A,B,...: methods to compare with as well, on cloths of 32, 64 and 128 particles a side");
+  bench->add_option(
+      "--methods", options->methods,
+      "A,B,...: methods to compare with as well, on cloths of 32 and 64 particles a side, with --full 128");
   add_quick_and_full(*bench, options->full);
   bench->callback([options, &call] {
     options->command_line = call.line;
