@@ -1,6 +1,7 @@
 // Whole programs that fail in one class: each way has its message, and the other parts still earn.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "tests/coursework/grader/mistakes.h"
@@ -80,6 +81,32 @@ TEST(Classic, OutputAndAMissingFileCostNothingElse) {
       EXPECT_EQ(test.said, "ClothSystem is missing, so its tests cannot run.");
     }
   }
+}
+
+// Whatever a fault is like, it is told as what it is: features of answers say nothing of precision.
+TEST(Classic, AKnownMistakeIsNamedAsTheCause) {
+  const Assignment& whole = find_assignment("classic");
+  std::vector<coursework::Test> tests;
+  for (const coursework::Test& test : whole.tests)
+    if (test.part == "pendulum") tests.push_back(test);
+  Assignment pendulum = whole;
+  pendulum.tests = tests;
+  const std::vector<Mistake> known = mistakes_of(whole);
+  const auto mistake = std::find_if(known.begin(), known.end(), [](const Mistake& m) { return m.part == "pendulum"; });
+  ASSERT_NE(mistake, known.end());
+  Submission submission = read_submission(whole.folder() / "solution", {});
+  std::string& source = submission.files.at("pendulumSystem.cpp");
+  source = with_mistake(source, *mistake);
+  const GradeOptions options = options_for(whole, 7);
+  const Result result = grade(pendulum, submission, *choose_sandbox("bare", true), options);
+  int named = 0;
+  for (const TestResult& test : result.tests)
+    if (!test.cause.empty()) {
+      ++named;
+      EXPECT_NE(test.cause.find(options.own.of("mistake." + mistake->name)), std::string::npos)
+          << test.id << test.cause;
+    }
+  EXPECT_GT(named, 0);
 }
 
 }  // namespace

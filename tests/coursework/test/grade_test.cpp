@@ -161,6 +161,27 @@ TEST(Grade, OtherMistakesAndTwoAtOnceAreGivenNoName) {
   }
 }
 
+// A cause is told where an experiment shows it, and not where something is only like it.
+TEST(Grade, SinglePrecisionAndKeptStateAreFoundByExperiment) {
+  const std::pair<const char*, const char*> table[] = {
+      {"const float single = static_cast<float>(x); return 2 * single;", "suspect.float"},
+      {"static const double kept = x; return 2 * kept;", "suspect.state"},
+      {"return 2 * x * 1.000001;", "no_cause"},
+      {"return 2 * x + 100;", "no_cause"},
+  };
+  for (const auto& [body, key] : table) {
+    const Result result =
+        graded({{"twice.cpp", std::string("#include \"tiny.h\"\ndouble twice(double x) { ") + body + " }"}});
+    int wrong = 0;
+    for (const TestResult& test : result.tests)
+      if (test.part == "twice" && !passed(test) && !test.cause.empty()) {
+        ++wrong;
+        EXPECT_EQ(test.cause, common_texts().of(key)) << body << " " << test.id;
+      }
+    EXPECT_GT(wrong, 0) << body;
+  }
+}
+
 TEST(Grade, ResultIsThereAfterEveryTest) {
   const auto sandbox = choose_sandbox("bare", true);
   GradeOptions options = options_for(tiny(), 7);
