@@ -43,12 +43,7 @@ bool answer_cloth(const std::string& call, const Numbers& in, Numbers& out) {
   const int steps = reader.integer();
   const int watched = call == "cloth_path" ? reader.integer() : -1;
   for (int n = 0; n < steps; ++n) {
-    const State given = state;
-    calling("cloth_step");
-    State next = cloth_step(cloth, spheres, state, h);
-    expect_kept(given, state);
-    state = std::move(next);
-    if (state.x.size() != count || state.v.size() != count) throw Unusable("particles", {state.x.size(), count});
+    advance(state, "cloth_step", [&](const State& now) { return cloth_step(cloth, spheres, now, h); });
     if (watched >= 0) put(out, state.x.at(watched));
   }
   if (watched < 0) put(out, state);

@@ -20,13 +20,7 @@ struct Run {
   State state;
 
   void step() {
-    const std::size_t count = state.x.size();
-    const State given = state;
-    calling("contact_step");
-    State next = contact_step(sphere, state, g, h);
-    expect_kept(given, state);
-    state = std::move(next);
-    if (state.x.size() != count || state.v.size() != count) throw Unusable("particles", {state.x.size(), count});
+    advance(state, "contact_step", [&](const State& now) { return contact_step(sphere, now, g, h); });
   }
 };
 

@@ -1,3 +1,4 @@
+// Classes as far as their heads and two functions say what they are, and the ranks by which roles are given to them.
 #include "tests/coursework/classic/class_list.h"
 
 #include <algorithm>
@@ -114,6 +115,15 @@ const std::vector<Role>& roles() {
        {"chain", "rope"}},
   };
   return all;
+}
+
+std::span<const std::string_view> role_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const Role& role : roles()) all.push_back(role.name);
+    return all;
+  }();
+  return names;
 }
 
 const Role& role_of(std::string_view name) {

@@ -2,9 +2,9 @@
 // from, and, where that leaves a choice, by what each does when it is tried.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +35,7 @@ struct Role {
 };
 const std::vector<Role>& roles();
 const Role& role_of(std::string_view name);
+std::span<const std::string_view> role_names();
 
 /// What a class did when it was tried in a role.
 struct Fit {

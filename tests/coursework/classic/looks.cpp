@@ -30,7 +30,8 @@ Features look(const std::string& column, int size, const Numbers& raw) {
   if ((column == "gravity" || column == "drag") && raw.size() > 1 && raw.back() == 0) return {};
   if (column == "gravity") return gravity(raw);
   if (column == "drag") return drag(raw);
-  if (is_of_springs(column) && springs_of(raw).particles > 0 && !springs_of(raw).repeats) return {};
+  if (is_of_springs(column))
+    if (const Springs springs = springs_of(raw); springs.particles > 0 && !springs.repeats) return {};
   if (column == "law") return spring_law(raw);
   if (column == "links") return chain_links(raw);
   if (column == "structural") return cloth_family(raw, {0, 1}, {1, 0});

@@ -192,8 +192,6 @@ const Test tests[] = {
     {"5.10", "cloth", 1, 1, {"constraint"}, "Hanging it up", cloth_pins, features},
 };
 
-constexpr std::string_view role_names[] = {"euler", "trapezoidal", "simple", "pendulum", "chain", "cloth"};
-
 constexpr int total(const auto& all) {
   int sum = 0;
   for (const Test& test : all) sum += test.points + test.hidden;
@@ -203,9 +201,12 @@ constexpr int total(const auto& all) {
 }  // namespace
 
 const Assignment& classic_particles() {
-  static const Assignment all{
-      "classic", "Particle systems, in the interface of the classic course", parts, tests, classic::whole_builder,
-      role_names};
+  static const Assignment all{"classic",
+                              "Particle systems, in the interface of the classic course",
+                              parts,
+                              tests,
+                              classic::whole_builder,
+                              classic::role_names()};
   static const int points = total(tests);
   if (points != 100) throw std::logic_error("classic: the points sum to " + std::to_string(points));
   return all;

@@ -16,8 +16,7 @@
 namespace coursework {
 
 /// Compiling may start the compiler's own passes; half a minute of CPU is thirty times what a part takes, and 1 GB for
-/// each pass five times. The wall is
-/// far off: on a busy machine waiting is not the source's fault.
+/// each pass five times. The wall is far off: on a busy machine waiting is not the source's fault.
 constexpr Limits compile_limits{.cpu = 30, .wall = 1800, .memory = 1024, .processes = 64, .output = 4096, .file = 64};
 
 class Compiler {

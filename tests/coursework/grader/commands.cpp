@@ -118,8 +118,8 @@ int grade_command(const GradeCommand& given) {
   options.engines = command.engines;
   options.jobs = std::max(1u, std::thread::hardware_concurrency());
   const Format& format = find_format(command.format);
-  if (const std::string layout = class_layout(command.submission, wanted_files(assignment));
-      !command.all && !layout.empty())
+  if (const std::string layout = command.all ? "" : class_layout(command.submission, wanted_files(assignment));
+      !layout.empty())
     throw InputError(
         fmt::format("{}: this looks like a class of {} submissions ({}); add --all to grade each of them, or name the "
                     "folder of one",

@@ -29,9 +29,8 @@ constexpr const char* library_folders[] = {"glfw",  "glew",       "freeglut",   
 const std::set<std::string> whole_library_folders = {"fl",   "fltk", "gl",    "glu",          "glut",    "opengl",
                                                      "glad", "khr",  "build", "node_modules", "__macosx"};
 
-bool starts(const std::string& text, const std::string& with) { return text.compare(0, with.size(), with) == 0; }
 bool ends(const std::string& text, const std::string& with) {
-  return text.size() > with.size() && text.compare(text.size() - with.size(), with.size(), with) == 0;
+  return text.size() > with.size() && text.ends_with(with);
 }
 
 /// Cuts " (2)" and "(2)" off, and a number behind " copy"; false where there is none.
@@ -55,7 +54,7 @@ std::string unmarked(std::string stem) {
     more = cut_number(stem);
     const std::string small = lower(stem);
     for (const std::string mark : leading)
-      if (!more && starts(small, mark) && small.size() > mark.size()) stem = stem.substr(mark.size()), more = true;
+      if (!more && small.starts_with(mark) && small.size() > mark.size()) stem = stem.substr(mark.size()), more = true;
     for (const std::string mark : trailing)
       if (!more && ends(small, mark)) stem.resize(stem.size() - mark.size()), more = true;
   }
@@ -93,15 +92,15 @@ bool in_library(const std::string& path) {
     const std::string small = lower(name);
     return whole_library_folders.count(small) > 0 ||
            std::any_of(std::begin(library_folders), std::end(library_folders), [&](const std::string& begin) {
-             return starts(small, begin) && !std::isalpha(static_cast<unsigned char>(small[begin.size()]));
+             return small.starts_with(begin) && !std::isalpha(static_cast<unsigned char>(small[begin.size()]));
            });
   });
 }
 
 std::string plain_utf8(std::string text) {
-  if (starts(text, "\xef\xbb\xbf")) return text.substr(3);
-  const bool little = starts(text, "\xff\xfe");
-  if (!little && !starts(text, "\xfe\xff")) return text;
+  if (text.starts_with("\xef\xbb\xbf")) return text.substr(3);
+  const bool little = text.starts_with("\xff\xfe");
+  if (!little && !text.starts_with("\xfe\xff")) return text;
   std::string out;
   for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
     const auto byte = [&](std::size_t k) { return static_cast<unsigned>(static_cast<unsigned char>(text[k])); };
@@ -123,7 +122,7 @@ std::string plain_utf8(std::string text) {
 double FullerCopy::weight_of(const std::string& folder, const std::string& apart_from) const {
   double sum = 0;
   for (const auto& [path, weight] : weights_)
-    if (starts(path, folder) && (apart_from.empty() || !starts(path, apart_from))) sum += weight;
+    if (path.starts_with(folder) && (apart_from.empty() || !path.starts_with(apart_from))) sum += weight;
   return sum;
 }
 
@@ -138,8 +137,8 @@ bool FullerCopy::operator()(const std::string& a, const std::string& b) const {
   if (i < in_a.size()) root_a += in_a[i] + "/";
   if (i < in_b.size()) root_b += in_b[i] + "/";
   if (root_a != root_b) {
-    const double of_a = weight_of(root_a, starts(root_b, root_a) ? root_b : "");
-    const double of_b = weight_of(root_b, starts(root_a, root_b) ? root_a : "");
+    const double of_a = weight_of(root_a, root_b.starts_with(root_a) ? root_b : "");
+    const double of_b = weight_of(root_b, root_a.starts_with(root_b) ? root_a : "");
     if (of_a != of_b) return of_a > of_b;
   }
   if (in_a.size() != in_b.size()) return in_a.size() < in_b.size();
@@ -147,9 +146,9 @@ bool FullerCopy::operator()(const std::string& a, const std::string& b) const {
 }
 
 bool StudentChoice::takes(const std::string& path) const {
-  if (!starts(path, folder)) return false;
+  if (!path.starts_with(folder)) return false;
   return std::none_of(left_out.begin(), left_out.end(),
-                      [&](const std::string& out) { return path == out || starts(path, out + "/"); });
+                      [&](const std::string& out) { return path == out || path.starts_with(out + "/"); });
 }
 
 StudentChoice read_choice(const std::string& text, const std::vector<std::string>& paths,
@@ -158,12 +157,13 @@ StudentChoice read_choice(const std::string& text, const std::vector<std::string
   StudentChoice choice;
   const auto clean = [](std::string path) {
     std::replace(path.begin(), path.end(), '\\', '/');
-    while (starts(path, "./")) path.erase(0, 2);
+    while (path.starts_with("./")) path.erase(0, 2);
     while (!path.empty() && path.back() == '/') path.pop_back();
     return path;
   };
   const auto holds = [&](const std::string& folder) {
-    return std::any_of(paths.begin(), paths.end(), [&](const std::string& path) { return starts(path, folder + "/"); });
+    return std::any_of(paths.begin(), paths.end(),
+                       [&](const std::string& path) { return path.starts_with(folder + "/"); });
   };
   if (table.has("folder")) {
     choice.folder = clean(table.text("folder", "a folder of the submission, in quotes"));

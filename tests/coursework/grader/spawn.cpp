@@ -23,6 +23,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "mysim/base/files.h"
 #include "mysim/base/process.h"
 
 namespace coursework {
@@ -291,22 +292,14 @@ class IdleWatch {
  private:
   using Clock = std::chrono::steady_clock;
 
-  static std::string content(const std::string& file) {
-    std::string text(4096, '\0');
-    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    const ssize_t size = descriptor < 0 ? 0 : read(descriptor, text.data(), text.size());
-    if (descriptor >= 0) close(descriptor);
-    text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-    return text;
-  }
-
   /// Any process below this one that is in no interruptible sleep; true where it cannot be known.
   static bool anything_runs(pid_t parent) {
-    const std::string children = content(fmt::format("/proc/{0}/task/{0}/children", parent));
+    const std::string children =
+        crosscheck::try_read_file(fmt::format("/proc/{0}/task/{0}/children", parent)).value_or("");
     const char* at = children.c_str();
     char* end = nullptr;
     for (long child; (child = std::strtol(at, &end, 10)) > 0 && end != at; at = end) {
-      const std::string stat = content(fmt::format("/proc/{}/stat", child));
+      const std::string stat = crosscheck::try_read_file(fmt::format("/proc/{}/stat", child)).value_or("");
       const std::size_t name = stat.rfind(") ");
       if (name == std::string::npos || stat[name + 2] != 'S' || anything_runs(static_cast<pid_t>(child))) return true;
     }

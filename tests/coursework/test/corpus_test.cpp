@@ -164,12 +164,8 @@ std::vector<const Assignment*> all_assignments() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Corpus, testing::ValuesIn(all_assignments()), [](const auto& of) {
-  std::string name(of.param->name);
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, Corpus, testing::ValuesIn(all_assignments()),
+                         [](const auto& of) { return name_of_test(of.param->name); });
 
 }  // namespace
 }  // namespace coursework

@@ -1,9 +1,12 @@
 // What the grader's own tests share.
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/grade.h"
@@ -12,6 +15,14 @@ namespace coursework {
 
 inline Texts common_texts(const std::string& language = "en") {
   return Texts::read((folder_of_coursework() / "check" / ("common." + language + ".txt")).string());
+}
+
+/// A name as tests may have it: letters, digits, and _ for what is neither.
+inline std::string name_of_test(std::string_view text) {
+  std::string name(text);
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return name;
 }
 
 inline GradeOptions options_for(const Assignment& assignment, std::uint64_t seed) {

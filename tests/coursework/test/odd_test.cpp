@@ -435,12 +435,8 @@ std::vector<const Odd*> chosen_programs() {
   return chosen;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, OddPrograms, testing::ValuesIn(chosen_programs()), [](const auto& of) {
-  std::string name(of.param->name);
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, OddPrograms, testing::ValuesIn(chosen_programs()),
+                         [](const auto& of) { return name_of_test(of.param->name); });
 
 }  // namespace
 }  // namespace coursework
