@@ -67,11 +67,9 @@ BenchSuite bench_suite(bool full, const std::vector<std::string>& beside) {
     suite.threads.turns = {21, 0.2};
   }
   suite.same_step.turns = suite.turns;
-  if (beside.empty()) return suite;
-  std::vector<Peer> peers;
-  for (const std::string& name : beside) peers.push_back(chosen(name));
-  for (const int side : {32, 64}) suite.cloths.push_back({side, peers});
-  if (full) suite.cloths.push_back({128, peers});
+  for (BenchSuite::PeerCloth& cloth : suite.cloths)
+    for (const std::string& name : beside)
+      if (cloth.of == BenchSuite::PeerCloth::hooke) cloth.peers.push_back(chosen(name));
   return suite;
 }
 

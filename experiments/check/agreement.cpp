@@ -63,6 +63,14 @@ const Relation& agreement() { return of_pairs; }
 
 std::string pair_name(const Method& a, const Method& b) { return a.name + " & " + b.name; }
 
+std::vector<Method> methods_named(const std::string& name, const std::vector<Method>& methods) {
+  std::vector<Method> found;
+  for (const Method& method : methods)
+    if (name == method.name || name.starts_with(method.name + " & ") || name.ends_with(" & " + method.name))
+      found.push_back(method);
+  return found;
+}
+
 LimitEstimate limit_of(Subject& subject, const Scene& scene) {
   const Method& method = subject.method();
   if (method.family().role == Role::truth) return limit_of_truth(scene);

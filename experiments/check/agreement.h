@@ -10,6 +10,8 @@ const Relation& agreement();
 
 /// "A & B": how a pair stands in tables and in lists of known breaks.
 std::string pair_name(const Method& a, const Method& b);
+/// Those of the methods that the name is of: one, or both of a pair.
+std::vector<Method> methods_named(const std::string& name, const std::vector<Method>& methods);
 
 /// The best that a method says of a scene, and how far its limit may be from that.
 struct LimitEstimate {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "experiments/check/agreement.h"
 #include "experiments/check/check.h"
 #include "experiments/check/protocol_kit.h"
 #include "experiments/scenes/scenes.h"
@@ -149,13 +150,9 @@ std::vector<PageImage> draw_breaks(const std::vector<Answer>& answers, const std
     if (a.mark != RelationMark::broken) continue;
     const std::vector<Scene> asked = scenes.empty() ? a.relation->smallest() : scenes;
     const auto scene = std::ranges::find(asked, a.scene, &Scene::name);
-    std::vector<Method> drawn;  // of a pair "A & B" both
-    for (const Method& method : methods)
-      if (a.method == method.name || a.method.starts_with(method.name + " & ") ||
-          a.method.ends_with(" & " + method.name))
-        drawn.push_back(method);
     const auto file = folder / (file_name_of(fmt::format("{}-{}-{}", a.relation->name, a.method, a.scene)) + ".png");
-    if (scene == asked.end() || !draw_break(drawn, *scene, a.finding.since, file).empty()) continue;
+    if (scene == asked.end() || !draw_break(methods_named(a.method, methods), *scene, a.finding.since, file).empty())
+      continue;
     const std::string caption =
         fmt::format("{} on {}{}. Broken: {}.", a.method, a.scene,
                     a.finding.since ? fmt::format(" at {:.2g} s", *a.finding.since) : "", a.relation->sentence);

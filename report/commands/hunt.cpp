@@ -7,6 +7,7 @@
 #include <chrono>
 #include <set>
 
+#include "experiments/check/agreement.h"
 #include "experiments/sweep/sweep.h"
 #include "experiments/timing/machine.h"
 #include "mysim/base/files.h"
@@ -41,19 +42,9 @@ std::string name_of_files(const HuntFindingRow& row) {
   return file_name_of(fmt::format("{}-{}-{}", row.relation, row.methods, row.kind));
 }
 
-/// The methods of a row: of a pair, both.
-std::vector<Method> methods_of(const HuntFindingRow& row, const Hunt& hunt) {
-  std::vector<Method> methods;
-  for (const Method& method : hunt.methods)
-    if (row.methods == method.name || row.methods.starts_with(method.name + " & ") ||
-        row.methods.ends_with(" & " + method.name))
-      methods.push_back(method);
-  return methods;
-}
-
 /// The command that asks the scene's file for the same again.
 std::string command_of(const HuntFindingRow& row, const HuntOptions& options, const std::string& file) {
-  const std::vector<Method> methods = methods_of(row, options.hunt);
+  const std::vector<Method> methods = methods_named(row.methods, options.hunt.methods);
   std::string line = "crosscheck check";
   for (const Method& method : methods) line += " " + method.name;
   line += " " + file;
@@ -164,8 +155,8 @@ int hunt_command(const HuntOptions& options) {
       folder.announce({name + ".toml", name + ".png", name + ".md"});
       write_file(file(".toml"), group.smallest.scene);
       const std::string no_picture =
-          draw_break(methods_of(group.smallest, options.hunt), parse_scene(group.smallest.scene, group.smallest.kind),
-                     group.smallest.since, file(".png"));
+          draw_break(methods_named(group.smallest.methods, options.hunt.methods),
+                     parse_scene(group.smallest.scene, group.smallest.kind), group.smallest.since, file(".png"));
       write_file(file(".md"), report_text(group, options, no_picture));
     }
     print_group(group, file(".md").string());
