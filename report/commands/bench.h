@@ -59,8 +59,8 @@ DotPlot bench_figure(const std::vector<BenchLine>& lines, const std::string& ins
 struct BenchOptions {
   bool full = false;
   std::filesystem::path out = "out/bench";
-  std::string methods;  // to compare with as well, separated by commas; may be empty
   std::string command_line;
+  std::string methods = {};  // to compare with as well, separated by commas; may be empty
 };
 /// The short suite, the long one, or the caller's.
 int bench_command(const BenchOptions& options, const BenchSuite& plan);
