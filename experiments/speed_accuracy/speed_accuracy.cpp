@@ -64,13 +64,15 @@ std::vector<Setting> settings_of(const Method& method, const Scene& scene, const
   return settings;
 }
 
-TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting) {
+TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting, bool full) {
   Run run = setting.applied_to(base);
   if (!method.fingerprint.empty()) return {run};     // a program of its own: what its start costs is not known
   const bool touches = scene.model.find<Spheres>();  // that may cost more than falling
   if (method.adaptive && touches) return {run};
   const double enough = 0.02;  // s: a hundred thousand ticks of the clock
-  const double cheap = 0.2;    // s: shorter runs are timed whole; all of them together take a few seconds more for it
+  // s: shorter runs are timed whole. Nine tenths of a quick report's runs are; to time the others whole takes half a
+  // minute on one core
+  const double cheap = full ? 0.2 : 0.05;
   const double all_of_it =
       method.adaptive ? estimated_as_it_begins(method, scene, run) : estimated_seconds(method, scene, run);
   const double share = std::min(1., enough / all_of_it);
@@ -245,7 +247,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, TableSet& t
   const std::vector<Method> methods = methods_for(request, scene);
   for (const Method& method : methods)
     for (const Setting& setting : settings_of(method, scene, base, request.full)) {
-      const TimedPart part = part_of(method, scene, base, setting);
+      const TimedPart part = part_of(method, scene, base, setting, request.full);
       // run until it accepts the scene once: it may refuse the longest steps alone
       if (timed.empty() || timed.back().method != method.name)
         if (run_method(method, scene, part.run, {}).verdict == Verdict::unsupported) continue;

@@ -34,8 +34,9 @@ struct TimedPart {
   double share = 1;  // of the run's steps or samples
 };
 /// As much as takes about 20 ms by the estimate, or, of adaptive methods, by how the run begins. The whole run where
-/// something may be touched (that may cost more than falling), and of outside programs.
-TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting);
+/// that takes less than 0.05 s (`full`: 0.2 s) or something may be touched (that may cost more than falling), and of
+/// outside programs.
+TimedPart part_of(const Method& method, const Scene& scene, const Run& base, const Setting& setting, bool full);
 
 /// Distance of two runs over the samples that both have, up to a time: RMS over the particles, m.
 struct TrajectoryDistance {

@@ -13,13 +13,11 @@
 
 #include "reference/method.h"
 #include "report/base/gnuplot.h"
-#include "report/figures/charts.h"
-#include "report/figures/plot_layout.h"
+#include "report/figures/curve_plot.h"
 
 namespace crosscheck {
 namespace {
 
-constexpr auto pareto_title = "Pareto front", grey = "#9AA3AC", grey_ink = "#66707A";
 constexpr size_t most_in_colour = 6;
 
 /// The name of a curve in the data file: gnuplot splits even quoted fields at commas.
@@ -45,19 +43,6 @@ Table data_of(const Figure& f) {
   return table;
 }
 
-/// What shares a name and a colour: a method's curve and its failures, a theory and its measurement.
-struct Named {
-  std::string title, name;
-  MethodStyle style;
-  std::vector<const Curve*> curves;
-  std::vector<const FailureMark*> failures;
-  bool coloured = false;
-
-  bool has_line() const {
-    return std::ranges::any_of(curves, [](const Curve* c) { return c->line && c->points.size() > 1; });
-  }
-};
-
 std::string common_words(const std::string& a, const std::string& b) {
   size_t same = 0, last = 0;
   while (same < a.size() && same < b.size() && a[same] == b[same]) {
@@ -69,15 +54,9 @@ std::string common_words(const std::string& a, const std::string& b) {
   return a.substr(0, last);
 }
 
-/// The kind of a failure in a word.
-std::string kind_of(const FailureMark& mark) {
-  const size_t colon = mark.title.rfind(": ");
-  return mark.kind == "failed" && colon != std::string::npos ? mark.title.substr(colon + 2) : mark.kind;
-}
-
 /// Who is drawn in colour first: what is no method, those that stand for an engine and those that move positions, its
 /// other methods, integrators and all others.
-int place_in_line(const Named& named) {
+int place_in_line(const NamedCurves& named) {
   const std::string method = method_named(named.title);
   if (method.empty()) return 0;
   const MethodFamily& family = family_of(method);
@@ -92,12 +71,14 @@ int place_in_line(const Named& named) {
   return rule && rule->symplectic ? 3 : 4;
 }
 
-std::vector<Named> named_parts(const Figure& f) {
-  std::vector<Named> all;
+}  // namespace
+
+std::vector<NamedCurves> named_parts(const Figure& f) {
+  std::vector<NamedCurves> all;
   for (const Curve& curve : f.curves) {
     if (curve.points.empty() || curve.title == scaled_times) continue;
     const std::string method = method_named(curve.title);
-    auto it = std::ranges::find_if(all, [&](const Named& n) {
+    auto it = std::ranges::find_if(all, [&](const NamedCurves& n) {
       return n.style.colour == curve.style.colour &&
              (method.empty() ? common_words(n.title, curve.title).size() > 3 : method == method_named(n.title));
     });
@@ -110,7 +91,7 @@ std::vector<Named> named_parts(const Figure& f) {
   }
   for (const FailureMark& mark : f.failures) {
     const std::string method = method_named(mark.title);
-    auto it = std::ranges::find_if(all, [&](const Named& n) {
+    auto it = std::ranges::find_if(all, [&](const NamedCurves& n) {
       return n.style.colour == mark.style.colour &&
              (method.empty() ? mark.title.starts_with(n.title) : method == method_named(n.title));
     });
@@ -122,100 +103,13 @@ std::vector<Named> named_parts(const Figure& f) {
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, {}, [&](size_t i) { return place_in_line(all[i]); });
   for (size_t i = 0; i < std::min(order.size(), most_in_colour); ++i) all[order[i]].coloured = true;
-  const auto left = std::ranges::count_if(all, [](const Named& n) { return !n.coloured; });
-  for (Named& n : all) n.name = n.coloured || left == 1 ? reader_name(n.title) : fmt::format("{} others", left);
+  const auto left = std::ranges::count_if(all, [](const NamedCurves& n) { return !n.coloured; });
+  for (NamedCurves& n : all) n.name = n.coloured || left == 1 ? reader_name(n.title) : fmt::format("{} others", left);
   return all;
 }
-
-class CurvePlot {
- public:
-  explicit CurvePlot(const Figure& f) : f_(f), parts_(named_parts(f)), wide_(f.size.units()) {
-    set_ranges();
-    frame(0);
-    fill_board();
-    if (!place_names()) {
-      // names that find no place beside their curves stand in a column right of the plot
-      double widest = 0;
-      for (const size_t i : ending_right_) widest = std::max(widest, width_of(parts_[i].name));
-      frame(widest + 24);
-      fill_board();
-      column_of_names();
-      place_names();
-    }
-    place_lines();
-    place_kinds();
-  }
-
-  std::string script() const;
-
- private:
-  struct Label {
-    Place at;
-    std::string words, align, colour;
-  };
-
-  double scaled(const Axis& axis, double value) const { return axis.logarithmic ? std::log10(value) : value; }
-  Place place(double x, double y) const {
-    const double left = scaled(f_.x, x_low_), right = scaled(f_.x, x_high_), bottom = scaled(f_.y, y_low_),
-                 top = scaled(f_.y, y_high_);
-    return {box_.left + (scaled(f_.x, x) - left) / (right - left) * (box_.right - box_.left),
-            box_.bottom + (scaled(f_.y, std::max(y, y_floor_)) - bottom) / (top - bottom) * (box_.top - box_.bottom)};
-  }
-  /// The y of a row of the strip of failures.
-  double y_of_row(size_t row) const { return box_.top - 8 - 11 * static_cast<double>(row); }
-  double value_at(double place_y) const {
-    const double part = (place_y - box_.bottom) / (box_.top - box_.bottom),
-                 at = scaled(f_.y, y_low_) + part * (scaled(f_.y, y_high_) - scaled(f_.y, y_low_));
-    return f_.y.logarithmic ? std::pow(10, at) : at;
-  }
-  /// A longer name stands in the key.
-  bool is_short(const Named& part) const { return width_of(part.name) < 0.45 * wide_; }
-
-  void set_ranges();
-  void assign_rows();
-  void frame(double right_column);
-  void frame_numbers();
-  void frame_categories();
-  void fill_board();
-  bool place_names();
-  bool place_beside(const std::string& words, const std::string& colour, const std::vector<std::vector<Place>>& paths,
-                    const std::vector<Place>& marks, const std::vector<std::vector<Place>>& others);
-  void column_of_names();
-  void place_lines();
-  void place_kinds();
-  std::vector<std::vector<Place>> paths_of(const Named& part) const;
-  std::vector<Place> crosses_of(const Named& part) const;
-  std::string elements() const;
-
-  const Figure& f_;
-  std::vector<Named> parts_;
-  double wide_, x_low_ = 0, x_high_ = 1, y_low_ = 0, y_high_ = 1;
-  double y_floor_ = -INFINITY;  // lower values lie on the axis
-  double y_data_ = 1;           // the highest value below the strip of failures
-  std::map<const FailureMark*, size_t> rows_;
-  size_t strip_ = 0;  // rows of the strip of failures
-  std::vector<Tick> x_ticks_, y_ticks_;
-  int turned_ = 0;
-  double room_below_ = 0;  // of the ticks' texts
-  double column_ = 0;      // the width of the column of names, or 0
-  bool y_title_on_top_ = false;
-  Rect box_{};  // of the plot, before a key is put below it
-  std::optional<Board> board_;
-  std::vector<Label> labels_;
-  std::vector<KeyEntry> key_;
-  std::vector<KeyEntry> remarks_;  // on a line above the frame
-  std::set<size_t> done_;          // parts that have their name
-  std::vector<size_t> ending_right_;
-  struct Leader {
-    Place from, to;
-    MethodStyle style;
-  };
-  std::vector<Leader> leaders_;  // from ends of curves to the column of names
-};
-
 void CurvePlot::set_ranges() {
   double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
-  for (const Named& part : parts_)
+  for (const NamedCurves& part : parts_)
     for (const Curve* curve : part.curves)
       for (const auto& [x, y] : curve->points)
         left = std::min(left, x), right = std::max(right, x), low = std::min(low, y), high = std::max(high, y);
@@ -223,7 +117,7 @@ void CurvePlot::set_ranges() {
   // where curves rise from rounding in a moment, the axis begins where they stay
   if (f_.y.logarithmic && any) {
     double stay = 1e300;
-    for (const Named& part : parts_)
+    for (const NamedCurves& part : parts_)
       for (const Curve* curve : part.curves) {
         std::vector<double> values;
         for (const auto& point : curve->points) values.push_back(point.second);
@@ -272,7 +166,7 @@ void CurvePlot::assign_rows() {
   rows_.clear();
   strip_ = 0;
   std::vector<std::vector<double>> taken;
-  for (const Named& part : parts_) {
+  for (const NamedCurves& part : parts_) {
     const auto free = [&](size_t row) {
       return row >= taken.size() || std::ranges::all_of(part.failures, [&](const FailureMark* m) {
                const double x = place(m->x, y_low_).x;
@@ -339,294 +233,6 @@ void CurvePlot::frame_categories() {
     for (const Tick& t : x_ticks_)
       box_.left += std::max(0., 4 + std::cos(angle) * width_of(t.text) - place(t.at, y_low_).x);
 }
-
-std::vector<std::vector<Place>> CurvePlot::paths_of(const Named& part) const {
-  std::vector<std::vector<Place>> paths;
-  for (const Curve* curve : part.curves) {
-    paths.emplace_back();
-    for (const auto& [x, y] : curve->points) {
-      const Place p = place(x, y);
-      const bool inside =
-          p.x >= box_.left - 1 && p.x <= box_.right + 1 && p.y >= box_.bottom - 1 && p.y <= box_.top + 1;
-      if (inside) paths.back().push_back(p);
-    }
-  }
-  std::erase_if(paths, [](const auto& path) { return path.empty(); });
-  return paths;
-}
-
-std::vector<Place> CurvePlot::crosses_of(const Named& part) const {
-  std::vector<Place> all;
-  for (const FailureMark* m : part.failures) all.push_back({place(m->x, y_low_).x, y_of_row(rows_.at(m))});
-  return all;
-}
-
-void CurvePlot::fill_board() {
-  board_.emplace(Rect{box_.left + 2, box_.right - 1, box_.bottom + 2, box_.top - 1});
-  labels_.clear(), key_.clear(), done_.clear(), leaders_.clear();
-  for (const Named& part : parts_) {
-    for (const Curve* curve : part.curves) {
-      std::vector<Place> path;
-      for (const auto& [x, y] : curve->points) path.push_back(place(x, y));
-      for (size_t i = 1; i < path.size() && curve->line; ++i) board_->add_line(path[i - 1], path[i], !part.coloured);
-      if (curve->markers || !curve->line)
-        for (const Place p : path) board_->add_mark(p);
-    }
-    for (const Place cross : crosses_of(part)) board_->add_mark(cross);
-  }
-  for (size_t i = 1; i < f_.pareto.size(); ++i) {
-    const Place a = place(f_.pareto[i - 1].first, f_.pareto[i - 1].second),
-                b = place(f_.pareto[i].first, f_.pareto[i].second);
-    board_->add_line(a, {b.x, a.y}, true), board_->add_line({b.x, a.y}, b, true);
-  }
-  for (const Guide& g : f_.guides)
-    if (g.of_x && g.at > x_low_ && g.at < x_high_)
-      board_->add_line(place(g.at, y_low_), {place(g.at, y_low_).x, box_.top});
-}
-
-double distance(const Rect& r, Place p) {
-  return std::hypot(std::max({0., r.left - p.x, p.x - r.right}), std::max({0., r.bottom - p.y, p.y - r.top}));
-}
-
-double nearest(const Rect& r, const std::vector<std::vector<Place>>& paths) {
-  double least = 1e300;
-  for (const auto& path : paths) {
-    const size_t stride = 1 + path.size() / 200;
-    for (size_t i = 0; i < path.size(); i += stride) least = std::min(least, distance(r, path[i]));
-  }
-  return least;
-}
-
-/// A name at the end of its curve, or along it, or beside a cross of it: where it covers nothing and is nearer to its
-/// own curve than to another's.
-bool CurvePlot::place_beside(const std::string& words, const std::string& colour,
-                             const std::vector<std::vector<Place>>& paths, const std::vector<Place>& marks,
-                             const std::vector<std::vector<Place>>& others) {
-  const double width = width_of(words), half = 6.2;
-  double best = 60;  // worse than this reads worse than a key
-  std::optional<Rect> found;
-  const auto attempt = [&](double left, double middle, double penalty) {
-    const Rect r{left, left + width, middle - half, middle + half};
-    const auto covered = board_->cost({r.left - 2, r.right + 2, r.bottom - 1, r.top + 1});
-    if (!covered) return;
-    double cost = penalty + *covered;
-    if (cost >= best) return;
-    const double own = std::min(nearest(r, paths), nearest(r, {marks})), other = nearest(r, others);
-    if (other < own + 2) cost += 30;
-    if (other < 12) cost += 12 - other;
-    if (cost < best) best = cost, found = r;
-  };
-  const auto around = [&](Place p, double penalty, bool right, bool left) {
-    for (const double away : {0., 4., 9.}) {
-      if (right) attempt(p.x + 7 + away, p.y, penalty + away);
-      if (left) attempt(p.x - 7 - away - width, p.y, penalty + 6 + away);
-      for (const double side : {1., -1.})
-        for (const double shift : {0.5, 0., 1., 0.25, 0.75})
-          attempt(p.x - shift * width, p.y + side * (11 + away), penalty + 5 + away + 2 * std::abs(shift - 0.5));
-    }
-  };
-  for (const auto& path : paths) {
-    around(path.back(), 0, true, false);
-    around(path.front(), 14, false, true);
-    const size_t count = std::min<size_t>(path.size(), 24);
-    for (size_t k = 1; k < count; ++k)
-      around(path[path.size() - 1 - k * path.size() / count], 6 + 0.6 * double(k), false, false);
-  }
-  for (const Place p : marks) around(p, paths.empty() ? 0 : 30, true, true);
-  if (!found) return false;
-  labels_.push_back({{found->left, (found->bottom + found->top) / 2}, words, "left", colour});
-  board_->add(*found);
-  return true;
-}
-
-/// Places the names that are not placed yet; false where one that ends at the right found no place, and there is no
-/// column of names yet.
-bool CurvePlot::place_names() {
-  const bool column = column_ > 0;
-  std::vector<size_t> missing, order;
-  ending_right_.clear();
-  long lines = 0;
-  for (const bool coloured : {true, false})
-    for (size_t i = 0; i < parts_.size(); ++i) {
-      if (parts_[i].coloured != coloured) continue;
-      order.push_back(i);
-      if (!parts_[i].has_line()) continue;
-      lines += coloured;
-      const auto paths = paths_of(parts_[i]);
-      const double edge = box_.right - 0.06 * (box_.right - box_.left);
-      if (is_short(parts_[i]) && std::ranges::any_of(paths, [&](const auto& p) { return p.back().x > edge; }))
-        ending_right_.push_back(i);
-    }
-  const bool by_key = lines == 0 && (parts_.size() > 1 || !f_.categories.empty());
-  bool others_named = std::ranges::any_of(done_, [&](size_t i) { return !parts_[i].coloured; });
-  for (const size_t i : order) {
-    const Named& part = parts_[i];
-    if (done_.contains(i) || (!part.coloured && others_named)) continue;
-    if (!by_key && is_short(part)) {
-      std::vector<std::vector<Place>> others;
-      for (size_t j = 0; j < parts_.size(); ++j)
-        if (j != i && (part.coloured || parts_[j].coloured))
-          for (auto& path : paths_of(parts_[j])) others.push_back(std::move(path));
-      if (place_beside(part.name, part.coloured ? ink_of(part.style.colour) : grey_ink, paths_of(part),
-                       crosses_of(part), others)) {
-        done_.insert(i), others_named |= !part.coloured;
-        continue;
-      }
-    }
-    if (part.coloured) missing.push_back(i);
-  }
-  const auto is_coloured = [&](size_t i) { return parts_[i].coloured; };
-  const long ends = std::ranges::count_if(ending_right_, is_coloured);
-  if (!column && ends > 1 && 2 * ends >= lines &&
-      std::ranges::any_of(missing, [&](size_t i) { return std::ranges::count(ending_right_, i) > 0; }))
-    return false;
-  for (const size_t i : missing) {
-    MethodStyle style = parts_[i].style;
-    const bool line = parts_[i].has_line();
-    if (parts_[i].curves.empty()) style.marker = parts_[i].failures[0]->cross;
-    key_.push_back({parts_[i].name, line ? KeyEntry::Kind::line : KeyEntry::Kind::mark, style});
-  }
-  for (size_t i = 0; i < parts_.size() && !others_named; ++i)
-    if (!parts_[i].coloured) {
-      others_named = true;
-      const bool line = parts_[i].has_line();
-      key_.push_back({parts_[i].name,
-                      line ? KeyEntry::Kind::line : KeyEntry::Kind::mark,
-                      {grey, "1",
-                       line                       ? -1
-                       : parts_[i].curves.empty() ? 2
-                                                  : 6}});
-    }
-  return true;
-}
-
-/// Names right of the plot at the height where their curves end, pushed apart where these lie close.
-void CurvePlot::column_of_names() {
-  struct Entry {
-    size_t part;
-    double end, y;
-  };
-  std::vector<Entry> entries;
-  bool others = false;
-  for (const size_t i : ending_right_) {
-    if (!parts_[i].coloured && std::exchange(others, true)) continue;
-    Place end{-1, 0};
-    for (const auto& path : paths_of(parts_[i]))
-      if (path.back().x > end.x) end = path.back();
-    entries.push_back({i, end.y, end.y});
-  }
-  std::ranges::sort(entries, {}, &Entry::y);
-  const double apart = 14, low = box_.bottom + 5, high = box_.top - 5;
-  for (int pass = 0; pass < 200; ++pass)
-    for (size_t k = 0; k < entries.size(); ++k) {
-      if (k > 0 && entries[k].y < entries[k - 1].y + apart) {
-        const double push = (entries[k - 1].y + apart - entries[k].y) / 2;
-        entries[k].y += push, entries[k - 1].y -= push;
-      }
-      entries[k].y = std::clamp(entries[k].y, low + apart * static_cast<double>(k),
-                                high - apart * static_cast<double>(entries.size() - 1 - k));
-    }
-  for (const Entry& e : entries) {
-    const Named& part = parts_[e.part];
-    MethodStyle style = part.coloured ? part.style : MethodStyle{grey, "1", -1};
-    leaders_.push_back({{box_.right + 1, e.end}, {box_.right + 9, e.y}, style});
-    labels_.push_back({{box_.right + (style.marker > 0 ? 20. : 12.), e.y},
-                       part.name,
-                       "left",
-                       part.coloured ? ink_of(part.style.colour) : grey_ink});
-    done_.insert(e.part);
-  }
-}
-
-/// Names of the lines that are no curves, where they cover nothing.
-void CurvePlot::place_lines() {
-  const auto beside = [&](double y, const std::string& words, const MethodStyle& style, bool in_key) {
-    if (y < box_.bottom || y > box_.top) return;
-    const double width = width_of(words), middle = (box_.left + box_.right - width) / 2;
-    for (const double side : {1., -1.})
-      for (const double left : {box_.right - width - 4, box_.left + 6, middle, (middle + box_.right - width) / 2,
-                                (middle + box_.left) / 2}) {
-        const Rect r{left, left + width, y + side * 9 - 6.2, y + side * 9 + 6.2};
-        if (const auto cost = board_->cost(r); cost && *cost < 3) {
-          labels_.push_back({{left, y + side * 9}, words, "left", grey_ink});
-          return board_->add(r);
-        }
-      }
-    if (in_key) key_.push_back({words, KeyEntry::Kind::line, style});
-  };
-  if (f_.floor && f_.floor->second > y_low_ && f_.floor->second < y_data_)
-    beside(place(x_low_, f_.floor->second).y, f_.floor->first, {"#777777", "(2,3)", -1}, true);
-  bool first = true;
-  for (const Guide& g : f_.guides) {
-    if (!g.of_x && g.at > y_low_ && g.at < y_data_) {
-      const size_t unit = g.text.find(" %");
-      beside(place(x_low_, g.at).y, first || unit == std::string::npos ? g.text : g.text.substr(0, unit + 2),
-             {"#AAAAAA", "1", -1}, false);
-      first = false;
-    }
-    if (g.of_x && g.at > x_low_ && g.at < x_high_) {
-      const double x = place(g.at, y_low_).x, width = width_of(g.text);
-      for (const double side : {-1., 1.})
-        if (const Rect r{x + side * 9 - 6.2, x + side * 9 + 6.2, box_.bottom + 6, box_.bottom + 6 + width};
-            board_->cost(r)) {
-          labels_.push_back({{x + side * 9, box_.bottom + 6}, g.text, "left rotate by 90", grey_ink});
-          board_->add(r);
-          break;
-        }
-    }
-  }
-  if (f_.window) {
-    const double x = std::max(box_.left, place(f_.window->first, y_low_).x) + 5, width = width_of(f_.window->second);
-    bool placed = false;
-    for (const double y : {box_.bottom + 10, box_.top - 10})
-      if (const Rect r{x, x + width, y - 6.2, y + 6.2}; !placed && board_->cost(r).value_or(99) < 3) {
-        labels_.push_back({{x, y}, f_.window->second, "left", grey_ink});
-        board_->add(r), placed = true;
-      }
-    if (!placed) key_.push_back({"from the " + f_.window->second + " on", KeyEntry::Kind::box, {"#E4E4E0", "1", -1}});
-  }
-  if (!f_.pareto.empty()) {
-    std::vector<std::vector<Place>> stairs(1);
-    for (const auto& [x, y] : f_.pareto) stairs[0].push_back(place(x, y));
-    std::vector<std::vector<Place>> others;
-    for (const Named& part : parts_)
-      if (part.coloured)
-        for (auto& path : paths_of(part)) others.push_back(std::move(path));
-    if (!place_beside(pareto_title, grey_ink, stairs, {}, others))
-      key_.push_back({pareto_title, KeyEntry::Kind::line, {"#CCCCCC", "1", -1}});
-  }
-}
-
-/// What crosses mean: beside the last of the first row where there is room, else above the frame.
-void CurvePlot::place_kinds() {
-  std::map<std::string, std::pair<int, Place>> kinds;  // the cross, and the rightmost of the highest row
-  for (const auto& [mark, row] : rows_) {
-    const Place at{place(mark->x, y_low_).x, y_of_row(row)};
-    const auto [it, is_new] = kinds.try_emplace(kind_of(*mark), mark->cross, at);
-    Place& last = it->second.second;
-    if (!is_new && (at.y > last.y + 1 || (std::abs(at.y - last.y) < 1 && at.x > last.x))) last = at;
-  }
-  for (const auto& [kind, cross] : kinds) {
-    const double width = width_of(kind);
-    const Place at{cross.second.x + 8, cross.second.y};
-    const Rect r{at.x, at.x + width, at.y - 5, at.y + 5};
-    if (kinds.size() == 1 && board_->cost(r)) {
-      labels_.push_back({at, kind, "left", "#444444"});
-      board_->add(r);
-    } else {
-      remarks_.push_back({kind, KeyEntry::Kind::mark, {"#444444", "1", cross.first}});
-    }
-  }
-  for (const Curve& curve : f_.curves)
-    if (curve.title == scaled_times && !curve.points.empty())
-      remarks_.push_back({"time scaled from a part", KeyEntry::Kind::mark, {"#444444", "1", 6}});
-  const auto lower = [&](const Curve* c) {
-    return std::ranges::any_of(c->points, [&](const auto& p) { return p.second < y_floor_; });
-  };
-  if (std::ranges::any_of(parts_, [&](const Named& n) { return std::ranges::any_of(n.curves, lower); }))
-    remarks_.push_back({"lower than the axis", KeyEntry::Kind::mark, {"#444444", "1", 11}});
-}
-
 /// The plot command: the rows of each curve from the file.
 std::string CurvePlot::elements() const {
   std::vector<std::string> parts;
@@ -636,7 +242,7 @@ std::string CurvePlot::elements() const {
   };
   const std::string y = std::isfinite(y_floor_) ? fmt::format("($3 < {0:.6g} ? {0:.6g} : $3)", y_floor_) : "3";
   if (!f_.pareto.empty()) parts.push_back(rows(pareto_title, y) + "steps lw 6 lc rgb \"#DDDDDD\"");
-  const auto draw = [&](const Named& part, const Curve& c) {
+  const auto draw = [&](const NamedCurves& part, const Curve& c) {
     const std::string colour = part.coloured ? c.style.colour : grey;
     const double size = part.coloured ? 0.75 : 0.5;
     const int gap = c.markers ? 1 : std::max<int>(1, static_cast<int>(c.points.size()) / 8);
@@ -663,7 +269,7 @@ std::string CurvePlot::elements() const {
     if (c.title == scaled_times && !c.points.empty())
       parts.push_back(rows(c.title, y) + "points pt 7 ps 0.4 lc rgb \"#FFFFFF\"");
   std::set<std::string> marked;
-  for (const Named& part : parts_)
+  for (const NamedCurves& part : parts_)
     for (const FailureMark* m : part.failures)
       if (marked.insert(m->title).second)
         parts.push_back(
@@ -734,8 +340,6 @@ std::string CurvePlot::script() const {
   for (const Label& label : labels_) out += sheet.text(label.at, label.words, label.align, label.colour);
   return out + terminals(f_, tall, elements());
 }
-
-}  // namespace
 
 Drawing drawing_of(const Figure& figure) {
   Table data = data_of(figure);

@@ -170,22 +170,22 @@ TEST(SpeedAccuracy, OfLongRunsTheFirstPartIsTimed) {
   const Scene cloth = load_scene("cloth-hang"), ball = load_scene("slide");
   const Setting step{false, cloth.step}, tolerance{true, 1e-4};
   const Method leapfrog = find_method("leapfrog");
-  EXPECT_EQ(part_of(leapfrog, cloth, default_run(cloth), step).share, 1) << "takes less than a fifth of a second";
+  EXPECT_EQ(part_of(leapfrog, cloth, default_run(cloth), step, true).share, 1) << "takes less than a fifth of a second";
   crosscheck::Run run = default_run(cloth);
   run.duration *= 10, run.samples *= 10;
-  const TimedPart part = part_of(leapfrog, cloth, run, step);
+  const TimedPart part = part_of(leapfrog, cloth, run, step, true);
   EXPECT_LT(part.share, 0.7);
   EXPECT_NEAR(estimated_seconds(leapfrog, cloth, part.run), 0.02, 0.002);
   EXPECT_DOUBLE_EQ(part.run.step, time_grid(step.applied_to(run)).h);
   EXPECT_NEAR(part.run.duration, part.share * run.duration, 1e-9);
-  const TimedPart adaptive = part_of(find_method("dopri5"), cloth, run, tolerance);
+  const TimedPart adaptive = part_of(find_method("dopri5"), cloth, run, tolerance, true);
   EXPECT_LT(adaptive.share, 0.7);
   EXPECT_NEAR(adaptive.run.duration / adaptive.run.samples, run.duration / run.samples, 1e-12);  // whole samples
   // what may touch, and what runs elsewhere, is timed whole
-  EXPECT_EQ(part_of(leapfrog, ball, {1e-7, 1, 10}, {false, 1e-7}).share, 1);
+  EXPECT_EQ(part_of(leapfrog, ball, {1e-7, 1, 10}, {false, 1e-7}, true).share, 1);
   Method outside = leapfrog;
   outside.fingerprint = "a program";
-  EXPECT_EQ(part_of(outside, cloth, run, step).share, 1);
+  EXPECT_EQ(part_of(outside, cloth, run, step, true).share, 1);
 }
 
 TEST(SpeedAccuracy, AMethodThatRefusesTheLongestStepIsTimedAtTheOthers) {

@@ -1,0 +1,120 @@
+// The plot behind a figure of curves: what shares a name, where the plot's parts stand, and names placed beside curves.
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "report/figures/charts.h"
+#include "report/figures/plot_layout.h"
+
+namespace crosscheck {
+
+constexpr auto pareto_title = "Pareto front", grey = "#9AA3AC", grey_ink = "#66707A";
+
+/// What shares a name and a colour: a method's curve and its failures, a theory and its measurement.
+struct NamedCurves {
+  std::string title, name;
+  MethodStyle style;
+  std::vector<const Curve*> curves;
+  std::vector<const FailureMark*> failures;
+  bool coloured = false;
+
+  bool has_line() const {
+    return std::ranges::any_of(curves, [](const Curve* c) { return c->line && c->points.size() > 1; });
+  }
+};
+
+std::vector<NamedCurves> named_parts(const Figure& f);
+
+/// A figure of curves laid out on paper; its script draws it with gnuplot. Keeps a reference to the figure.
+class CurvePlot {
+ public:
+  explicit CurvePlot(const Figure& f) : f_(f), parts_(named_parts(f)), wide_(f.size.units()) {
+    set_ranges();
+    frame(0);
+    fill_board();
+    if (!place_names()) {
+      // names that find no place beside their curves stand in a column right of the plot
+      double widest = 0;
+      for (const size_t i : ending_right_) widest = std::max(widest, width_of(parts_[i].name));
+      frame(widest + 24);
+      fill_board();
+      column_of_names();
+      place_names();
+    }
+    place_lines();
+    place_kinds();
+  }
+
+  std::string script() const;
+
+ private:
+  struct Label {
+    Place at;
+    std::string words, align, colour;
+  };
+
+  double scaled(const Axis& axis, double value) const { return axis.logarithmic ? std::log10(value) : value; }
+  Place place(double x, double y) const {
+    const double left = scaled(f_.x, x_low_), right = scaled(f_.x, x_high_), bottom = scaled(f_.y, y_low_),
+                 top = scaled(f_.y, y_high_);
+    return {box_.left + (scaled(f_.x, x) - left) / (right - left) * (box_.right - box_.left),
+            box_.bottom + (scaled(f_.y, std::max(y, y_floor_)) - bottom) / (top - bottom) * (box_.top - box_.bottom)};
+  }
+  /// The y of a row of the strip of failures.
+  double y_of_row(size_t row) const { return box_.top - 8 - 11 * static_cast<double>(row); }
+  double value_at(double place_y) const {
+    const double part = (place_y - box_.bottom) / (box_.top - box_.bottom),
+                 at = scaled(f_.y, y_low_) + part * (scaled(f_.y, y_high_) - scaled(f_.y, y_low_));
+    return f_.y.logarithmic ? std::pow(10, at) : at;
+  }
+  /// A longer name stands in the key.
+  bool is_short(const NamedCurves& part) const { return width_of(part.name) < 0.45 * wide_; }
+
+  void set_ranges();
+  void assign_rows();
+  void frame(double right_column);
+  void frame_numbers();
+  void frame_categories();
+  void fill_board();
+  bool place_names();
+  bool place_beside(const std::string& words, const std::string& colour, const std::vector<std::vector<Place>>& paths,
+                    const std::vector<Place>& marks, const std::vector<std::vector<Place>>& others);
+  void column_of_names();
+  void place_lines();
+  void place_kinds();
+  std::vector<std::vector<Place>> paths_of(const NamedCurves& part) const;
+  std::vector<Place> crosses_of(const NamedCurves& part) const;
+  std::string elements() const;
+
+  const Figure& f_;
+  std::vector<NamedCurves> parts_;
+  double wide_, x_low_ = 0, x_high_ = 1, y_low_ = 0, y_high_ = 1;
+  double y_floor_ = -INFINITY;  // lower values lie on the axis
+  double y_data_ = 1;           // the highest value below the strip of failures
+  std::map<const FailureMark*, size_t> rows_;
+  size_t strip_ = 0;  // rows of the strip of failures
+  std::vector<Tick> x_ticks_, y_ticks_;
+  int turned_ = 0;
+  double room_below_ = 0;  // of the ticks' texts
+  double column_ = 0;      // the width of the column of names, or 0
+  bool y_title_on_top_ = false;
+  Rect box_{};  // of the plot, before a key is put below it
+  std::optional<Board> board_;
+  std::vector<Label> labels_;
+  std::vector<KeyEntry> key_;
+  std::vector<KeyEntry> remarks_;  // on a line above the frame
+  std::set<size_t> done_;          // parts that have their name
+  std::vector<size_t> ending_right_;
+  struct Leader {
+    Place from, to;
+    MethodStyle style;
+  };
+  std::vector<Leader> leaders_;  // from ends of curves to the column of names
+};
+
+}  // namespace crosscheck
