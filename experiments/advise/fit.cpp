@@ -12,6 +12,7 @@
 #include "experiments/advise/advice.h"
 #include "experiments/measures.h"
 #include "mysim/base/errors.h"
+#include "mysim/model/moduli.h"
 #include "mysim/model/system.h"
 #include "mysim/scene/toml.h"
 
@@ -56,6 +57,17 @@ std::vector<Objective> objectives_of(const Wish& wish) {
     objectives.push_back({{"settle time", "s", *wish.settle_time, 0},
                           [w = *wish.settle_time](const Scene& s) { return settle_time_of(s, w); }});
   if (wish.max_stretch) objectives.push_back({{"max stretch", "1", *wish.max_stretch, 0}, max_stretch_of});
+  const auto of_moduli = [](auto number) {
+    return [number](const Scene& s) -> std::optional<double> {
+      const NetModuli net = moduli_of(s.model, s.start);
+      if (!net.moduli) throw CannotGuarantee("moduli are not known of this scene: " + net.why_not);
+      return number(*net.moduli);
+    };
+  };
+  if (wish.c11) objectives.push_back({{"C11", "N/m", *wish.c11, 0}, of_moduli([](const Moduli& m) { return m.c11; })});
+  if (wish.anisotropy)
+    objectives.push_back(
+        {{"anisotropy", "1", *wish.anisotropy, 0}, of_moduli([](const Moduli& m) { return m.anisotropy(); })});
   return objectives;
 }
 
@@ -67,10 +79,14 @@ class Fit {
       if (!kind)
         throw InputError(
             fmt::format("{}: {}: expected a value; only stiffness, mass, drag and dashpot can be fitted", name, path));
-      auto known =
-          std::find_if(unknowns_.begin(), unknowns_.end(), [&](const Unknown& u) { return u.name == kind->name; });
+      // isotropy lies between the families of springs: there each has a value of its own
+      const std::string family = path.substr(path.rfind('.') + 1),
+                        name_of_value = file_.has("wish.anisotropy") && kind->ending.starts_with("stiffness.")
+                                            ? fmt::format("{} stiffness", family)
+                                            : std::string(kind->name);
+      auto known = std::ranges::find(unknowns_, name_of_value, &Unknown::name);
       if (known == unknowns_.end()) {
-        known = unknowns_.insert(known, Unknown{std::string(kind->name), std::string(kind->unit), {}, 0});
+        known = unknowns_.insert(known, Unknown{name_of_value, std::string(kind->unit), {}, 0});
         kinds_.push_back(kind);
       }
       known->paths.push_back(path);
@@ -82,10 +98,10 @@ class Fit {
     if (std::ssize(objectives_) != size()) {
       std::vector<std::string> names;
       for (const Unknown& u : unknowns_) names.push_back(u.name);
-      throw InputError(
-          fmt::format("{}: wish: expected as many wishes (sag, period, settle_time, max_stretch) as there "
-                      "are values to fit ({}: {}), got {}",
-                      name, size(), fmt::join(names, ", "), objectives_.size()));
+      throw InputError(fmt::format(
+          "{}: wish: expected as many wishes (sag, period, settle_time, max_stretch, c11, anisotropy) as there "
+          "are values to fit ({}: {}), got {}",
+          name, size(), fmt::join(names, ", "), objectives_.size()));
     }
   }
 

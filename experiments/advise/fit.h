@@ -9,7 +9,8 @@
 
 namespace crosscheck {
 
-/// A parameter written as "fit" in the file; all that are of one kind are one value: every stiffness, every mass.
+/// A parameter written as "fit" in the file; all that are of one kind are one value: every stiffness (each family of its
+/// own where isotropy is wished), every mass.
 struct Unknown {
   std::string name, unit;          // "stiffness", "N/m"
   std::vector<std::string> paths;  // where it stands in the file

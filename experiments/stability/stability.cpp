@@ -204,8 +204,10 @@ void add_limit(const Scene& scene, const Method& method, const Effort& effort, T
 
 std::vector<Point> stability_points(const Request& request) {
   std::vector<Point> points;
+  // in a quick run the maps of the cloth stand for those of scenes with one or two vibrations
+  const bool all_maps = request.full || request.scenes_only || !request.methods.empty();
   for (const Scene& scene : request.scenes) {
-    const auto small = map_scene(scene, request.full);
+    const auto small = all_maps || !scene.triangles.empty() ? map_scene(scene, request.full) : std::nullopt;
     for (const Method& method : methods_of(request, scene)) {
       const std::string name = fmt::format("{} on {}", method.name, scene.name);
       if (const std::string why = why_not(method); !why.empty()) {
@@ -244,7 +246,7 @@ std::vector<Point> stability_points(const Request& request) {
                             add_map(kind, *small, method, *size, tables, on_runs);
                           }});
     }
-    if (!small && scene.model.find<Springs>())
+    if (!small && !scene.triangles.empty())
       points.push_back({"stability: maps of " + scene.name, "", [name = scene.name](TableSet& tables) {
                           tables.notes.push_back(fmt::format(
                               "stability draws no map of {}: its hundreds of runs cost much; --full has them", name));

@@ -7,6 +7,7 @@
 
 #include "experiments/experiment.h"
 #include "experiments/stiffness/effective.h"
+#include "experiments/stiffness/pulled_sheet.h"
 #include "experiments/tables/stiffness.h"
 #include "reference/bullet/parameters.h"
 
@@ -84,6 +85,7 @@ std::vector<Point> stiffness_points(const Request& request) {
     points.push_back({fmt::format("stiffness: chain, {} iterations", n), content,
                       [=](TableSet& tables) { tables.add(networks(full, n)); }});
   for (Point& point : effective_stiffness_points(full)) points.push_back(std::move(point));
+  for (Point& point : pulled_sheet_points()) points.push_back(std::move(point));
   return points;
 }
 

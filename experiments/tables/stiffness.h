@@ -72,4 +72,24 @@ struct EffectiveStiffnessRow {
   };
 };
 
+/// A sheet of springs pulled at an angle from its rows.
+struct PulledSheetRow {
+  std::string net;
+  double structural = 0, shear = 0, bend = 0, angle = 0, predicted = 0, measured = 0, deviation = 0;
+
+  static constexpr std::string_view table = "stiffness-sheets";
+  static constexpr auto columns = [](auto&& column) {
+    column("net", "1", &PulledSheetRow::net, "what springs the sheet has"),
+        column("structural", "N/m", &PulledSheetRow::structural, "stiffness of springs along rows and columns"),
+        column("shear", "N/m", &PulledSheetRow::shear, "stiffness of springs along diagonals"),
+        column("bend", "N/m", &PulledSheetRow::bend, "stiffness of springs that skip one particle"),
+        column("angle", "degrees", &PulledSheetRow::angle, "direction of the pull from a row"),
+        column("young predicted", "N/m", &PulledSheetRow::predicted,
+               "Young's modulus of the sheet by the formula of its springs"),
+        column("young measured", "N/m", &PulledSheetRow::measured,
+               "the same from energies of strained nets, free to contract and to shear"),
+        column("deviation", "1", &PulledSheetRow::deviation, "measured over predicted, less 1");
+  };
+};
+
 }  // namespace crosscheck

@@ -112,6 +112,8 @@ constexpr Key wish_keys[] = {
     {"period", "a number above zero (s)"},
     {"settle_time", "a number above zero (s)"},
     {"max_stretch", "a number above zero"},
+    {"c11", "a number above zero (N/m of a sheet, Pa of a block)"},
+    {"anisotropy", "a number above zero; 1 is isotropic"},
 };
 constexpr Key file_keys[] = {
     {"question", "a text in quotes: what the scene asks", required},

@@ -337,8 +337,10 @@ void read_wish(const TomlTable& file, Scene& scene) {
   if (!file.has("wish")) return;
   const TomlTable s = file.section("wish");
   const auto wished = [&](std::string_view key) { return s.has(key) ? std::optional(s.positive(key)) : std::nullopt; };
-  scene.wish = {wished("sag"), wished("period"), wished("settle_time"), wished("max_stretch")};
-  if (scene.wish.count() == 0) file.fail("wish", "at least one of sag, period, settle_time and max_stretch");
+  scene.wish = {wished("sag"),         wished("period"), wished("settle_time"),
+                wished("max_stretch"), wished("c11"),    wished("anisotropy")};
+  if (scene.wish.count() == 0)
+    file.fail("wish", "at least one of sag, period, settle_time, max_stretch, c11 and anisotropy");
 }
 
 Scene expand(const TomlTable& file, const std::string& name) {

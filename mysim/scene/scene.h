@@ -24,8 +24,13 @@ struct Wish {
   std::optional<double> period;       // s
   std::optional<double> settle_time;  // s
   std::optional<double> max_stretch;  // 1
+  std::optional<double> c11;          // N/m of a sheet, Pa of a block (mysim/model/moduli.h)
+  std::optional<double> anisotropy;   // 1; 1 is isotropic
 
-  int count() const { return sag.has_value() + period.has_value() + settle_time.has_value() + max_stretch.has_value(); }
+  int count() const {
+    return sag.has_value() + period.has_value() + settle_time.has_value() + max_stretch.has_value() + c11.has_value() +
+           anisotropy.has_value();
+  }
 };
 
 struct Scene {

@@ -15,6 +15,7 @@
 #include "mysim/base/progress.h"
 #include "mysim/base/text.h"
 #include "mysim/base/this_process.h"
+#include "mysim/model/moduli.h"
 #include "mysim/model/system.h"
 #include "report/commands/commands.h"
 
@@ -29,13 +30,14 @@ struct SceneSummary {
   std::optional<double> gamma;                           // 1/s, of all particles alike
   std::vector<std::pair<std::string, double>> critical;  // of each explicit rule: s; 0 stable at no step
   ResourceEstimate demand{};
+  NetModuli net;
   int evaluations = 0;  // per step of the default method; 0: as its equations take
   bool adaptive = false;
-  std::string warning;
+  std::vector<std::string> warnings;
 };
 
 SceneSummary summary_of(Scene scene) {
-  SceneSummary summary{std::move(scene), {}, 0, {}, {}, {}, 0, false, ""};
+  SceneSummary summary{std::move(scene), {}, 0, {}, {}, {}, {}, 0, false, {}};
   const Model& model = summary.scene.model;
   if (const auto* springs = model.find<Springs>())
     for (const Spring& spring : springs->list) ++summary.springs[spring.family];
@@ -55,12 +57,16 @@ SceneSummary summary_of(Scene scene) {
     summary.evaluations = rule->evaluations;
     for (const auto& [name, limit] : summary.critical)
       if (name == rule->name && summary.scene.step > limit)
-        summary.warning = limit > 0 ? fmt::format(
-                                          "the step of {:.3g} s is above {}'s critical step of {:.3g} s: the run "
-                                          "will blow up",
-                                          summary.scene.step, name, limit)
-                                    : fmt::format("{} is stable at no step without drag: its energy grows", name);
+        summary.warnings.push_back(
+            limit > 0
+                ? fmt::format("the step of {:.3g} s is above {}'s critical step of {:.3g} s: the run will blow up",
+                              summary.scene.step, name, limit)
+                : fmt::format("{} is stable at no step without drag: its energy grows", name));
   }
+  summary.net = moduli_of(model, summary.scene.start);
+  if (summary.net.moduli)
+    if (std::string warning = skip_one_warning(*summary.net.moduli); !warning.empty())
+      summary.warnings.push_back(std::move(warning));
   return summary;
 }
 
@@ -72,6 +78,17 @@ std::string listed_springs(const SceneSummary& summary) {
     families.push_back(fmt::format("{} {}", count, name_of(family)));
   }
   return families.empty() ? "0" : fmt::format("{} ({})", all, fmt::join(families, ", "));
+}
+
+Json json_of(const NetModuli& net) {
+  if (!net.moduli) return {{"why_not", net.why_not}};
+  const Moduli& m = *net.moduli;
+  Json json = {{"dimension", m.dimension}, {"unit", std::string(unit_of_moduli(m.dimension))}, {"c11", m.c11}};
+  if (m.dimension == 1) return json;
+  json["c22"] = m.c22, json["c12"] = m.c12, json["c66"] = m.c66;
+  json["young"] = m.young(), json["poisson"] = m.poisson(), json["anisotropy"] = m.anisotropy();
+  json["c11_of_skip_one_springs"] = m.c11_of_bend;
+  return json;
 }
 
 template <class T>
@@ -113,6 +130,10 @@ void print_summary(const SceneSummary& s, const std::string& given) {
     line("", fmt::format("from omega{}; {}longer springs than at the start change omega",
                          *s.gamma > 0 ? fmt::format(" and the drag rate of {:.3g} 1/s", *s.gamma) : "",
                          length_of_term<Dashpots>(model) > 0 ? "dashpots are left out, and make them shorter; " : ""));
+  if (s.net.moduli)
+    line("moduli", fmt::format("{}", fmt::join(sentences_of(*s.net.moduli), fmt::format("\n{:19}", ""))));
+  else if (!s.springs.empty())
+    line("moduli", "not told: " + s.net.why_not);
   line("default run",
        fmt::format("{}, {:.6g} s in {}, {} samples", s.scene.method, s.scene.duration,
                    s.adaptive ? "steps of its own choice"
@@ -127,7 +148,7 @@ void print_summary(const SceneSummary& s, const std::string& given) {
                    s.demand.seconds,
                    s.evaluations > 0 ? fmt::format("{} force evaluation{}", s.evaluations, s.evaluations > 1 ? "s" : "")
                                      : "the evaluations that its equations take"));
-  if (!s.warning.empty()) line("warning", s.warning);
+  for (const std::string& warning : s.warnings) line("warning", warning);
 }
 
 Json json_of(const SceneSummary& s, const std::string& given) {
@@ -151,7 +172,8 @@ Json json_of(const SceneSummary& s, const std::string& given) {
           {"memory_bytes", std::llround(s.demand.memory)},
           {"disk_bytes", std::llround(s.demand.frames)},
           {"cpu_seconds", s.demand.seconds},
-          {"warning", s.warning.empty() ? Json() : Json(s.warning)}};
+          {"moduli", json_of(s.net)},
+          {"warning", s.warnings.empty() ? Json() : Json(fmt::format("{}", fmt::join(s.warnings, "; ")))}};
 }
 
 /// One step by the scene's own method, unless that is a program from outside. Throws InputError where it refuses.

@@ -224,64 +224,6 @@ Figure figure_of(const SceneRows& s, const CostAxis& kind, const ChartInput& inp
   return f;
 }
 
-/// Of the first peer's cheapest run, which has columns in the table: name, setting, cost, times mysim's.
-std::vector<std::string> cells_of_first_peer(const Table& t, size_t i, const CostAxis& kind) {
-  const auto asked = number_at(t, i, "asked of Bullet"), factor = number_at(t, i, "Bullet / mysim");
-  return {asked ? text_or_none(t, i, "best of Bullet") : "",
-          asked ? setting_text(text_or_none(t, i, "setting of Bullet"), *asked) : "",
-          asked ? kind.text_of(*number_at(t, i, (kind.column() + " of Bullet").c_str())) : "",
-          factor ? fmt::format("{:.3g}", *factor) : ""};
-}
-
-/// The same of another peer's, by its row in the table of engines.
-std::vector<std::string> cells_of_engine(const Table& engines, const std::optional<size_t>& i, const CostAxis& kind) {
-  if (!i) return std::vector<std::string>(4);
-  const auto factor = number_at(engines, *i, "times mysim");
-  return {text_at(engines, *i, "method"),
-          setting_text(text_at(engines, *i, "setting"), *number_at(engines, *i, "asked")),
-          kind.text_of(*number_at(engines, *i, "cpu")), factor ? fmt::format("{:.3g}", *factor) : ""};
-}
-
-/// The table "cheapest that meets 10 %, 1 %, 0.1 % of the motion".
-std::optional<PageTable> cheapest_of(const SceneRows& s, const CostAxis& kind, const ChartInput& input) {
-  const Table* t = input.result.table("speed-accuracy-cheapest" + kind.suffix());
-  if (!t || !s.error_bar) return std::nullopt;
-  PageTable page;
-  page.caption = fmt::format("The cheapest run of those tried with {} of at most a part of the motion ({}), in {}",
-                             s.difference() ? "a difference" : "an error", nice_length(s.motion),
-                             kind.time ? "CPU time" : "force evaluations");
-  // by evaluations only the first peer's runs are known
-  const Table* engines = kind.time ? input.result.table("speed-accuracy-engines-cost") : nullptr;
-  std::vector<const MethodFamily*> peers = default_peers();
-  if (!engines) peers.resize(1);
-  page.header = {"error at most", "cheapest method", "time step or tolerance", "cost"};
-  for (const MethodFamily* peer : peers)
-    for (const std::string& head : {fmt::format("cheapest of {}", peer->title), std::string("its time step"),
-                                    std::string("its cost"), std::string("cost / cost of mysim")})
-      page.header.push_back(head);
-  if (kind.time) page.header.emplace_back("equal within noise");
-  const std::string column = kind.column();
-  for (size_t i = 0; i < t->rows.size(); ++i) {
-    if (text_or_none(*t, i, "scene") != s.scene) continue;
-    std::vector<std::string> row{
-        fmt::format("{:g} % ({})", 100 * *number_at(*t, i, "part of motion"), nice_length(*number_at(*t, i, "bound")))};
-    const std::string remark = text_or_none(*t, i, "remark");
-    row.push_back(remark.empty() ? text_or_none(*t, i, "method") : remark);
-    const auto asked = number_at(*t, i, "asked");
-    row.push_back(asked ? setting_text(text_or_none(*t, i, "setting"), *asked) : "");
-    row.push_back(asked ? kind.text_of(*number_at(*t, i, column.c_str())) : "");
-    for (const MethodFamily* peer : peers)
-      for (std::string& cell : is_first_peer(*peer)
-                                   ? cells_of_first_peer(*t, i, kind)
-                                   : cells_of_engine(*engines, row_of_peer(*peer, *engines, *t, i), kind))
-        row.push_back(std::move(cell));
-    if (kind.time) row.push_back(text_or_none(*t, i, "as cheap within noise"));
-    page.rows.push_back(std::move(row));
-  }
-  if (page.rows.empty()) return std::nullopt;
-  return page;
-}
-
 }  // namespace
 
 std::vector<Chart> speed_accuracy_charts(const ChartInput& input) {
@@ -296,7 +238,6 @@ std::vector<Chart> speed_accuracy_charts(const ChartInput& input) {
       if (f.curves.empty() && f.failures.empty()) continue;
       Chart chart{"", std::move(f), "speed-accuracy"};
       if (kind.time) chart.text = input.scenes[i].question;
-      if (auto table = cheapest_of(s, kind, input)) chart.tables.push_back(std::move(*table));
       charts.push_back(std::move(chart));
     }
   }

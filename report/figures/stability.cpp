@@ -30,6 +30,21 @@ double half_bracket(const Table& table, size_t row) {
   return held && failed ? (*failed / *held - 1) / 2 : 0;
 }
 
+/// Rows that say the same of several methods as one.
+void join_equal_rows(PageTable& page) {
+  std::vector<std::vector<std::string>> joined_rows;
+  for (std::vector<std::string>& row : page.rows) {
+    const auto same = std::ranges::find_if(joined_rows, [&](const std::vector<std::string>& other) {
+      return std::equal(row.begin() + 1, row.end(), other.begin() + 1);
+    });
+    if (same == joined_rows.end())
+      joined_rows.push_back(std::move(row));
+    else
+      (*same)[0] += ", " + row[0];
+  }
+  page.rows = std::move(joined_rows);
+}
+
 /// The critical time steps on one scene as a table for readers.
 PageTable limits_table(const Table& table, const std::string& scene) {
   PageTable page{fmt::format("Critical time step on {}.", scene),
@@ -54,6 +69,7 @@ PageTable limits_table(const Table& table, const std::string& scene) {
                          off ? deviation_text(*off, half_bracket(table, i)) : "",
                          outcome_text(text_or_none(table, i, "verdict above")), text_or_none(table, i, "reason")});
   }
+  join_equal_rows(page);
   return page;
 }
 

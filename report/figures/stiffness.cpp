@@ -175,6 +175,36 @@ Chart effective_stiffness(const std::vector<EffectiveStiffnessRow>& rows, const 
           "Iterations that share a link's stiffness among them do not help; sub-steps in their place do."};
 }
 
+/// Young's modulus over the angle of the pull: lines by the formula, marks by energies of strained nets.
+Chart pulled_sheets(const std::vector<PulledSheetRow>& rows, const std::string& commit) {
+  Figure f;
+  f.name = "stiffness-sheets";
+  f.title = "Young's modulus of a sheet of springs, by the direction of the pull";
+  f.x = {"angle between pull and rows / °", false, std::nullopt, std::nullopt};
+  f.y = {"Young's modulus / (N/m)", false, 0, std::nullopt};
+  size_t style = 0;
+  double worst = 0;
+  for (const PulledSheetRow& row : rows) {
+    if (f.curves.empty() || f.curves.back().title != row.net + ", measured") {
+      MethodStyle plain = by_iterations[style];
+      plain.marker = -1;  // marks are measurements
+      f.curves.push_back({row.net, plain, {}});
+      f.curves.push_back({row.net + ", measured", by_iterations[style], {}, false, true});
+      style = std::min(style + 1, std::size(by_iterations) - 1);
+    }
+    f.curves[f.curves.size() - 2].points.emplace_back(row.angle, row.predicted);
+    f.curves.back().points.emplace_back(row.angle, row.measured);
+    worst = std::max(worst, std::abs(row.deviation));
+  }
+  f.finding = fmt::format("Measured and predicted differ by at most {:.2g} %.", 100 * worst);
+  f.caption = fmt::format("Square nets of springs at rest, strains of 1e-4; commit {}.", commit);
+  f.tier = "exact (central forces, uniform strain)";
+  return {
+      "", std::move(f), "stiffness",
+      "Outside its scene a net of springs is known by its moduli: C11 = k(structural) + k(shear) + 4 k(bend), C12 = "
+      "C66 = k(shear). Skip-one springs stiffen rows and columns fourfold, diagonals not at all."};
+}
+
 }  // namespace
 
 std::vector<Chart> stiffness_charts(const ChartInput& input) {
@@ -187,6 +217,8 @@ std::vector<Chart> stiffness_charts(const ChartInput& input) {
             return row.net.starts_with(measure.net) && (row.*measure.value).has_value();
           }))
         charts.push_back(effective_stiffness(rows, measure, input.commit));
+  if (const auto rows = rows_of<PulledSheetRow>(input.result); !rows.empty())
+    charts.push_back(pulled_sheets(rows, input.commit));
   return charts;
 }
 

@@ -10,6 +10,7 @@
 #include "experiments/speed_accuracy/work_precision.h"
 #include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
+#include "mysim/model/moduli.h"
 #include "report/base/assets.h"
 #include "report/base/provenance.h"
 #include "report/figures/chart_json.h"
@@ -88,18 +89,24 @@ std::string scene_html(const ScenePart& part, const PageContent& c) {
   if (part.statistics) out += statistics_html(*part.statistics);
   for (const Certificate* certificate : part.certificates) out += certificate_html(*certificate);
   const SceneData& facts = *part.facts;
+  std::string moduli;
+  if (const auto net = moduli_of(scene.model, scene.start).moduli) {
+    moduli = fmt::format(" As a continuum: {}.", prose(fmt::format("{}", fmt::join(sentences_of(*net), ". "))));
+    if (const std::string warning = skip_one_warning(*net); !warning.empty())
+      moduli += fmt::format(" Note: {}.", prose(warning));
+  }
   const std::string predictable =
       facts.measured_window < scene.duration * (1 - 1e-9)
           ? fmt::format("it passes a thousandfold after {:.3g} s: single positions are not predictable from there on",
                         facts.measured_window)
           : "it stays below a thousandfold over the whole run";
-  return out +
-         fmt::format(
-             "<p class=\"note\">{} Step {}, {:.3g} s of motion; pointwise comparison up to {:.3g} s, where a "
-             "perturbation of 1e-10 m has grown {}-fold; {}. Scene hash {}.</p>\n<p class=\"call\"><code>./crosscheck "
-             "compare {}</code></p>\n",
-             prose(scene.parameters), own_step_text(scene), scene.duration, scene.window, nice(facts.growth),
-             predictable, scene.hash, escaped(scene.name));
+  return out + fmt::format(
+                   "<p class=\"note\">{} Step {}, {:.3g} s of motion; pointwise comparison up to {:.3g} s, where a "
+                   "perturbation of 1e-10 m has grown {}-fold; {}. Scene hash {}.{}</p>\n<p "
+                   "class=\"call\"><code>./crosscheck "
+                   "compare {}</code></p>\n",
+                   prose(scene.parameters), own_step_text(scene), scene.duration, scene.window, nice(facts.growth),
+                   predictable, scene.hash, moduli, escaped(scene.name));
 }
 
 std::string scenes_html(const PageContent& c) {
@@ -148,7 +155,10 @@ std::string made_html(const PageContent& c) {
       "them.</p>\n";
   for (const std::string& note : with_joined_reasons(c.notes))
     out += fmt::format("<p class=\"note\">{}.</p>\n", prose(note));
-  return out + provenance_html(c.provenance);
+  // the hash of each scene stands on its card
+  Provenance lines = c.provenance;
+  std::erase_if(lines, [](const auto& line) { return line.first == "scene"; });
+  return out + provenance_html(lines);
 }
 
 }  // namespace
@@ -211,7 +221,7 @@ std::string page_html(const PageContent& c) {
   out += recommendation_table_html(c.scenes) + scenes_html(c) +
          "<section class=\"chapter\" id=\"words\"><h2>Words</h2>\n" +
          fold_html("The words that this page uses", "explained", glossary_html()) +
-         fold_html("All methods", "table", methods_html(), "methods") +
+         fold_html("All methods", "table", methods_html(c.methods), "methods") +
          fold_html("How this was made", "provenance", made_html(c), "made") + "</section>\n</main>\n";
   out += chart_numbers_html(c);
   out += script_json("id=\"methods-data\"", method_looks_json(c.methods).dump());

@@ -153,8 +153,8 @@ std::string recommendation_table_html(const std::vector<ScenePart>& scenes);
 std::string contents_html(const PageContent& content);
 /// The words that the page uses.
 std::string glossary_html();
-/// All methods, a line each.
-std::string methods_html();
+/// Built-in methods of these names, a line each.
+std::string methods_html(const std::vector<std::string>& shown);
 
 // report.json: what a report says, as data, and what each sentence rests on.
 

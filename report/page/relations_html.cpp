@@ -51,6 +51,40 @@ std::string size_of_break(const RelationRow& row) {
   return readable(text);
 }
 
+/// A row for each method and cause of its breaks, with the largest of them.
+PageTable table_of_breaks(const std::vector<RelationRow>& rows) {
+  PageTable breaks{
+      "What is broken, by how much at most, and why", {"method", "what must hold", "scene", "by how much", "why"}, {}};
+  std::vector<const RelationRow*> largest;
+  for (const RelationRow& row : rows) {
+    if (row.mark != RelationMark::broken && row.mark != RelationMark::known) continue;
+    size_t at = 0;
+    while (at < largest.size() && (row.reason.empty() || largest[at]->method != row.method ||
+                                   largest[at]->reason != row.reason || largest[at]->mark != row.mark))
+      ++at;
+    if (at == largest.size()) {
+      largest.push_back(&row);
+      breaks.rows.push_back({row.method, row.relation, row.scene, size_of_break(row),
+                             row.reason.empty() ? "not known" : readable(row.reason)});
+      continue;
+    }
+    std::vector<std::string>& said = breaks.rows[at];
+    const auto add_name = [](std::string& names, const std::string& name) {
+      if ((", " + names + ", ").find(", " + name + ", ") == std::string::npos) names += ", " + name;
+    };
+    add_name(said[1], row.relation), add_name(said[2], row.scene);
+    if (row.ratio.value_or(0) > largest[at]->ratio.value_or(0)) largest[at] = &row, said[3] = size_of_break(row);
+  }
+  // what each name of a relation means, once
+  std::vector<std::string> told;
+  for (std::vector<std::string>& said : breaks.rows)
+    if (said[1].find(',') == std::string::npos && std::ranges::find(told, said[1]) == told.end()) {
+      told.push_back(said[1]);
+      said[1] = fmt::format("{}: {}", said[1], sentence_of_relation(said[1]));
+    }
+  return breaks;
+}
+
 }  // namespace
 
 std::string relations_html(const std::vector<RelationRow>& rows) {
@@ -87,12 +121,7 @@ std::string relations_html(const std::vector<RelationRow>& rows) {
       "</tbody></table></div><p class=\"note\">What any engine must keep, asked on the smallest scenes that can show "
       "it. Full: it holds, to within rounding or the rule's order; ring: broken for a known cause; red square: broken; "
       "–: it cannot be asked.</p>\n";
-  PageTable breaks{
-      "What is broken, by how much, and why", {"method", "what must hold", "scene", "by how much", "why"}, {}};
-  for (const RelationRow& row : rows)
-    if (row.mark == RelationMark::broken || row.mark == RelationMark::known)
-      breaks.rows.push_back({row.method, sentence_of_relation(row.relation), row.scene, size_of_break(row),
-                             row.reason.empty() ? "not known" : readable(row.reason)});
+  const PageTable breaks = table_of_breaks(rows);
   return out + (breaks.rows.empty() ? "" : "<div class=\"breaks\">" + page_table_html(breaks) + "</div>\n");
 }
 

@@ -273,14 +273,14 @@ std::string row_of(const Method& method) {
 
 }  // namespace
 
-std::string methods_html() {
+std::string methods_html(const std::vector<std::string>& shown) {
   std::string out =
       "<div class=\"scroll\"><table "
       "class=\"methods\"><thead><tr><th>method</th><th>what it is</th><th>order</th><th>force evaluations per time "
       "step</th>"
       "<th>stable for (ω: largest angular frequency, γ: drag rate, h: time step)</th></tr></thead><tbody>\n";
   for (const Method& method : all_methods())
-    if (method.family().role != Role::truth && !method.family().single_precision) out += row_of(method);
+    if (std::ranges::find(shown, method.name) != shown.end()) out += row_of(method);
   return out +
          "</tbody></table></div>\n<p class=\"note\">Bullet's worlds in single precision are called bullet32.</p>\n";
 }

@@ -1,0 +1,44 @@
+// Virtual stretching: the moduli of a net measured from the energy of its springs under small uniform strains, apart
+// from the formula of mysim/model/moduli.h.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "experiments/experiment.h"
+
+namespace crosscheck {
+
+/// A square net, or a cube, of spacing d (m) with so many particles a side.
+struct NetSprings {
+  double structural, shear, bend;  // N/m
+  double spacing;                  // m
+  int dimension = 2;
+};
+
+/// Nets of n, n + 1, ... particles a side, whose energies under a uniform strain are a polynomial in n. Its first
+/// coefficient is the energy of a cell: differences over n take it out, so that edges do not enter.
+class StrainedNets {
+ public:
+  explicit StrainedNets(const NetSprings& net);
+  const Scene& largest() const { return scenes_.back(); }
+
+  /// Per area (J/m^2) or volume (J/m^3), with positions times 1 + strain.
+  double energy_density(const Eigen::Matrix3d& strain) const;
+  /// The stiffness (N/m) of a sheet in axes turned by an angle (rad) around its normal, for strains along 1, along 2
+  /// and twice the shear, by central differences of the energy over strains of 1e-4: springs are not linear, which errs
+  /// by the square of that.
+  Eigen::Matrix3d stiffness(double angle) const;
+  /// Young's modulus (N/m) of a sheet pulled at an angle from a row, free to contract and to shear.
+  double young(double angle) const;
+
+ private:
+  double cell_;  // m^2 or m^3
+  int dimension_;
+  std::vector<Scene> scenes_;
+};
+
+/// Of experiment `stiffness`: sheets of three kinds, pulled at 0 to 45 degrees from a row.
+std::vector<Point> pulled_sheet_points();
+
+}  // namespace crosscheck

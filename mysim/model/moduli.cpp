@@ -1,0 +1,161 @@
+// The star of springs of one particle inside a net, and the tensor of stiffness that it is.
+#include "mysim/model/moduli.h"
+
+#include <fmt/format.h>
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace crosscheck {
+namespace {
+
+constexpr double round_off = 1e-9;  // of lengths: positions of a scene file are rounded to 1e-16 of the scene's size
+
+struct Arm {
+  Vec3 to;        // m, the other end
+  double k;       // N/m, at its length
+  Family family;  // whose it is
+};
+using Star = std::vector<Arm>;
+
+bool are_equal(const Arm& a, const Arm& b, double sign) {
+  return (a.to - sign * b.to).norm() <= round_off * a.to.norm() && std::abs(a.k - b.k) <= round_off * a.k;
+}
+
+bool holds(const Star& star, const Arm& arm, double sign) {
+  return std::any_of(star.begin(), star.end(), [&](const Arm& own) { return are_equal(own, arm, sign); });
+}
+
+/// The shortest displacements from a particle to others that are no combinations of one another: as many as the
+/// particles have dimensions.
+std::vector<Vec3> lattice_vectors(const Points& x, int from) {
+  std::vector<Vec3> all, basis;
+  for (int i = 0; i < x.cols(); ++i)
+    if (i != from) all.push_back(x.col(i) - x.col(from));
+  if (all.empty()) return basis;
+  double shortest = INFINITY;
+  for (const Vec3& d : all) shortest = std::min(shortest, d.norm());
+  // equally long ones stay in the order of the particles
+  const auto length = [&](const Vec3& d) { return std::round(d.norm() / (round_off * shortest)); };
+  std::stable_sort(all.begin(), all.end(), [&](const Vec3& a, const Vec3& b) { return length(a) < length(b); });
+  for (const Vec3& d : all) {
+    Vec3 rest = d;
+    std::vector<Vec3> orthogonal;
+    for (Vec3 b : basis) {
+      for (const Vec3& o : orthogonal) b -= b.dot(o) * o;
+      orthogonal.push_back(b.normalized());
+    }
+    for (const Vec3& o : orthogonal) rest -= rest.dot(o) * o;
+    if (rest.norm() > 1e-6 * d.norm()) basis.push_back(d);
+    if (basis.size() == 3) break;
+  }
+  return basis;
+}
+
+double measure_of_cell(const std::vector<Vec3>& basis) {
+  if (basis.size() == 1) return basis[0].norm();
+  const Vec3 normal = basis[0].cross(basis[1]);
+  return basis.size() == 2 ? normal.norm() : std::abs(normal.dot(basis[2]));
+}
+
+}  // namespace
+
+double Moduli::poisson() const {
+  if (dimension == 1) return 0;
+  return dimension == 2 ? c12 / c22 : c12 / (c11 + c12);
+}
+
+double Moduli::young() const {
+  if (dimension == 1) return c11;
+  return dimension == 2 ? c11 - c12 * c12 / c22 : (c11 - c12) * (c11 + 2 * c12) / (c11 + c12);
+}
+
+double Moduli::young_at(double angle) const {
+  // the compliance along the pull, turned (J. F. Nye, Physical Properties of Crystals, table 9)
+  const double det = c11 * c22 - c12 * c12, s11 = c22 / det, s22 = c11 / det, s12 = -c12 / det,
+               c2 = std::cos(angle) * std::cos(angle), s2 = std::sin(angle) * std::sin(angle);
+  // a net without shear stiffness gives way to every pull that is not along its axes
+  if (c66 == 0 && c2 * s2 > round_off) return 0;
+  return 1 / (s11 * c2 * c2 + s22 * s2 * s2 + (2 * s12 + (c66 > 0 ? 1 / c66 : 0)) * c2 * s2);
+}
+
+std::string_view unit_of_moduli(int dimension) { return dimension == 1 ? "N" : dimension == 2 ? "N/m" : "Pa"; }
+
+std::vector<std::string> sentences_of(const Moduli& m) {
+  const std::string_view unit = unit_of_moduli(m.dimension);
+  if (m.dimension == 1) return {fmt::format("EA = {:.4g} N: force over strain of the line", m.c11)};
+  const bool is_square = m.dimension == 3 || std::abs(m.c22 - m.c11) <= 1e-6 * m.c11;
+  return {fmt::format("C11 = {:.4g} {}{}, C12 = C66 = {:.4g} {}", m.c11, unit,
+                      is_square ? "" : fmt::format(", C22 = {:.4g} {}", m.c22, unit), m.c12, unit),
+          fmt::format("Young's modulus {:.4g} {} along an axis, Poisson's ratio {:.3g}; anisotropy 2 C66 / (C11 - C12) "
+                      "= {:.3g}{}",
+                      m.young(), unit, m.poisson(), m.anisotropy(),
+                      std::abs(m.anisotropy() - 1) < 5e-4 ? ": isotropic" : ", 1 is isotropic")};
+}
+
+std::string skip_one_warning(const Moduli& m) {
+  if (!(m.c11_of_bend > 0.5 * m.c11) || m.dimension != 2) return "";
+  return fmt::format(
+      "skip-one springs (bend) make {:.0f} % of the stiffness in the plane, and give a flat sheet no bending rigidity",
+      100 * m.c11_of_bend / m.c11);
+}
+
+NetModuli moduli_of(const Model& model, const State& start) {
+  const auto* springs = model.find<Springs>();
+  if (!springs || springs->list.empty()) return {{}, "no springs"};
+  if (model.find<Constraints>()) return {{}, "hard distances"};
+  const Points& x = start.x;
+  std::vector<Star> stars(static_cast<size_t>(x.cols()));
+  for (const Spring& s : springs->list) {
+    const Vec3 d = x.col(s.b) - x.col(s.a);
+    if (std::abs(d.norm() - s.rest) > round_off * s.rest) return {{}, "its springs are not at rest at the start"};
+    const double k = tension_of(s, springs->law, d.norm()).slope;
+    stars[static_cast<size_t>(s.a)].push_back({d, k, s.family});
+    stars[static_cast<size_t>(s.b)].push_back({-d, k, s.family});
+  }
+
+  // the particle nearest to the middle among those with the most springs, each of which has one opposite to it
+  const Vec3 middle = x.rowwise().mean();
+  int inside = -1;
+  for (int i = 0; i < x.cols(); ++i) {
+    const Star& star = stars[static_cast<size_t>(i)];
+    if (star.empty() || !std::all_of(star.begin(), star.end(), [&](const Arm& arm) { return holds(star, arm, -1); }))
+      continue;
+    const auto better = [&](int a, int b) {
+      const size_t size_a = stars[static_cast<size_t>(a)].size(), size_b = stars[static_cast<size_t>(b)].size();
+      return size_a != size_b ? size_a > size_b : (x.col(a) - middle).norm() < (x.col(b) - middle).norm();
+    };
+    if (inside < 0 || better(i, inside)) inside = i;
+  }
+  if (inside < 0) return {{}, "no particle has springs on all sides"};
+  const Star& star = stars[static_cast<size_t>(inside)];
+  for (const Star& other : stars)
+    for (const Arm& arm : other)
+      if (!holds(star, arm, 1)) return {{}, "its springs differ from place to place"};
+
+  const std::vector<Vec3> basis = lattice_vectors(x, inside);
+  Eigen::Matrix3Xd arms(3, star.size());
+  for (size_t i = 0; i < star.size(); ++i) arms.col(static_cast<long>(i)) = star[i].to;
+  if (Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(arms).setThreshold(1e-6).rank() != std::ssize(basis))
+    return {{}, "its springs do not span it"};
+  const Vec3 e1 = basis[0].normalized();
+  const Vec3 e2 = basis.size() > 1 ? (basis[1] - basis[1].dot(e1) * e1).normalized() : Vec3::Zero();
+  Moduli m;
+  m.dimension = static_cast<int>(basis.size());
+  const double cell = measure_of_cell(basis);
+  for (const Arm& arm : star) {
+    const double n1 = arm.to.normalized().dot(e1), n2 = arm.to.normalized().dot(e2),
+                 weight = arm.k * arm.to.squaredNorm() / (2 * cell);
+    m.c11 += weight * n1 * n1 * n1 * n1;
+    m.c22 += weight * n2 * n2 * n2 * n2;
+    m.c12 += weight * n1 * n1 * n2 * n2;
+    if (arm.family == Family::bend) m.c11_of_bend += weight * n1 * n1 * n1 * n1;
+  }
+  m.c66 =
+      m.c12;  // Cauchy's relation: so it is with central forces in a net where each particle is a centre of symmetry
+  return {m, ""};
+}
+
+}  // namespace crosscheck

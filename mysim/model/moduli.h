@@ -1,0 +1,49 @@
+// What continuum a regular net of springs is: its moduli, which mean the same outside the scene.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mysim/model/model.h"
+
+namespace crosscheck {
+
+/// Moduli of a line (dimension 1, unit N), a sheet (2, N/m) or a block (3, Pa). Axis 1 lies along the net's shortest
+/// spacing, axis 2 across it in the net. Of a block c66 is the shear modulus in that plane.
+struct Moduli {
+  int dimension = 0;
+  double c11 = 0, c22 = 0, c12 = 0, c66 = 0;
+  double c11_of_bend = 0;  // what skip-one springs give of c11
+
+  /// 2 c66 / (c11 - c12), Zener's ratio: 1 where all directions are alike; 0 of a line.
+  double anisotropy() const { return dimension > 1 ? 2 * c66 / (c11 - c12) : 0; }
+  /// Contraction across over extension along axis 1, pulled along axis 1; 0 of a line.
+  double poisson() const;
+  /// Young's modulus along axis 1.
+  double young() const;
+  /// Young's modulus of a sheet pulled at an angle from axis 1, rad.
+  double young_at(double angle) const;
+};
+
+struct NetModuli {
+  std::optional<Moduli> moduli;
+  std::string why_not;  // where there are none
+};
+
+/// The moduli of a net whose springs are at rest and the same everywhere, each with one opposite to it: then a uniform
+/// strain moves every particle with it, and the energy per area or volume V of a particle gives
+///   C_ijkl = sum over the springs of one particle of k L^2 n_i n_j n_k n_l / (2 V)
+/// (M. Born and K. Huang, Dynamical Theory of Crystal Lattices, chapter 5, for central forces). Springs at the edge
+/// are not halved in a net, so that a net of n particles a side differs by O(1/n).
+NetModuli moduli_of(const Model& model, const State& start);
+
+/// "N", "N/m" or "Pa".
+std::string_view unit_of_moduli(int dimension);
+/// "C11 = 1200 N/m, C12 = C66 = 200 N/m", and "Young's modulus 1167 N/m along an axis, ..."; of a line one sentence.
+std::vector<std::string> sentences_of(const Moduli& moduli);
+/// What skip-one springs do, where they make more than half of c11; else empty.
+std::string skip_one_warning(const Moduli& moduli);
+
+}  // namespace crosscheck

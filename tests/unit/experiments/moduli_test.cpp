@@ -1,0 +1,118 @@
+// Moduli of nets: the formula of their springs against the energy of strained nets.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "experiments/advise/advice.h"
+#include "experiments/advise/fit.h"
+#include "experiments/scenes/scenes.h"
+#include "experiments/stiffness/pulled_sheet.h"
+#include "mysim/base/errors.h"
+#include "mysim/model/moduli.h"
+#include "tests/unit/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+// springs are not linear: strains of 1e-4 err by their square in energies that are symmetric in the strain's sign, and
+// differences of energies of 1e-8 of k d^2 are rounded to 1e-16 of the energy of all the springs, 1e3 times as much
+constexpr double enough = 1e-5;
+
+std::string cloth(const std::string& size, const std::string& u, const std::string& v, const std::string& stiffness,
+                  const std::string& more = "") {
+  return "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 1\nstep = 1e-3\nwindow = 1\n"
+         "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = " +
+         size + "\norigin = [0, 0, 0]\nu = " + u + "\nv = " + v + "\nmass = 0.1\n[grid.stiffness]\n" + stiffness + more;
+}
+
+Moduli moduli_of_text(const std::string& text) {
+  const Scene scene = parse_scene(text, "net");
+  const NetModuli net = moduli_of(scene.model, scene.start);
+  if (!net.moduli) throw std::runtime_error(net.why_not);
+  return *net.moduli;
+}
+
+TEST(Moduli, OfTwentyRandomNetsTheyAreThoseOfStrainedEnergies) {
+  Random random(7);
+  for (int i = 0; i < 20; ++i) {
+    const NetSprings net{random.between(20, 2000), random.between(20, 2000), i % 4 == 3 ? 0 : random.between(20, 2000),
+                         random.between(0.01, 0.2)};
+    const double d = 5 * net.spacing;
+    const Moduli m = moduli_of_text(cloth("[6, 6]", fmt::format("[{}, 0, 0]", d), fmt::format("[0, 0, {}]", d),
+                                          fmt::format("structural = {}\nshear = {}\n{}", net.structural, net.shear,
+                                                      net.bend > 0 ? fmt::format("bend = {}\n", net.bend) : "")));
+    EXPECT_EQ(m.dimension, 2);
+    const StrainedNets strained(net);
+    const Eigen::Matrix3d c = strained.stiffness(0);
+    EXPECT_NEAR(m.c11, c(0, 0), enough * m.c11);
+    EXPECT_NEAR(m.c22, c(1, 1), enough * m.c11);
+    EXPECT_NEAR(m.c12, c(0, 1), enough * m.c11);
+    EXPECT_NEAR(m.c66, c(2, 2), enough * m.c11);
+    // the closed forms of a square net
+    EXPECT_NEAR(m.c11, net.structural + net.shear + 4 * net.bend, 1e-9 * m.c11);
+    EXPECT_NEAR(m.c12, net.shear, 1e-9 * m.c11);
+    for (const double angle : {0., 0.3, 0.7})
+      EXPECT_NEAR(m.young_at(angle), strained.young(angle), enough * m.c11) << angle;
+    EXPECT_NEAR(m.young_at(0), m.young(), 1e-12 * m.c11);
+  }
+}
+
+TEST(Moduli, OfACubeTheyAreThoseOfStrainedEnergies) {
+  const NetSprings net{300, 70, 40, 0.1, 3};
+  const Moduli m = moduli_of_text(
+      cloth("[6, 6, 6]", "[0.5, 0, 0]", "[0, 0.5, 0]\nw = [0, 0, 0.5]", "structural = 300\nshear = 70\nbend = 40\n"));
+  EXPECT_EQ(m.dimension, 3);
+  const Eigen::Matrix3d c = StrainedNets(net).stiffness(0);
+  EXPECT_NEAR(m.c11, c(0, 0), enough * m.c11);
+  EXPECT_NEAR(m.c12, c(0, 1), enough * m.c11);
+  EXPECT_NEAR(m.c66, c(2, 2), enough * m.c11);
+}
+
+TEST(Moduli, AreKnownOfShippedScenesOrWhyNot) {
+  for (const auto& [name, said] : std::map<std::string, std::string>{
+           {"cloth-inextensible", "hard distances"}, {"projectile", "no springs"}, {"spring", "not at rest"}}) {
+    const Scene scene = load_scene(name);
+    const NetModuli net = moduli_of(scene.model, scene.start);
+    EXPECT_FALSE(net.moduli) << name;
+    EXPECT_NE(net.why_not.find(said), std::string::npos) << name << ": " << net.why_not;
+  }
+  Scene stretched = load_scene("cloth-hang");
+  stretched.start.x *= 1.1;
+  EXPECT_EQ(moduli_of(stretched.model, stretched.start).why_not, "its springs are not at rest at the start");
+  Scene uneven = load_scene("cloth-hang");
+  uneven.model.find<Springs>()->list[0].k *= 2;
+  EXPECT_EQ(moduli_of(uneven.model, uneven.start).why_not, "its springs differ from place to place");
+  EXPECT_FALSE(
+      skip_one_warning(*moduli_of(load_scene("cloth-hang").model, load_scene("cloth-hang").start).moduli).empty());
+}
+
+TEST(Moduli, OfALineIsForceOverStrain) {
+  const Scene chain = load_scene("chain");
+  const Moduli m = *moduli_of(chain.model, chain.start).moduli;
+  const Spring link = chain.model.find<Springs>()->list[0];
+  EXPECT_EQ(m.dimension, 1);
+  EXPECT_NEAR(m.c11, link.k * link.rest, 1e-9 * m.c11);
+}
+
+TEST(Moduli, WishedOnesBecomeStiffnesses) {
+  const FitResult fitted =
+      fit_to_wishes(cloth("[6, 6]", "[0.5, 0, 0]", "[0, 0, 0.5]", "structural = \"fit\"\nshear = \"fit\"\nbend = 20\n",
+                          "[wish]\nc11 = 1000\nanisotropy = 1\n"),
+                    "wished");
+  const Moduli m = *moduli_of(fitted.scene.model, fitted.scene.start).moduli;
+  EXPECT_NEAR(m.c11, 1000, 2);  // wishes are met within 0.2 %
+  EXPECT_NEAR(m.anisotropy(), 1, 0.002);
+  EXPECT_NEAR(m.poisson(), 1. / 3, 0.001);
+  ASSERT_EQ(fitted.unknowns.size(), 2u);
+  EXPECT_EQ(fitted.unknowns[0].name, "shear stiffness");
+  EXPECT_EQ(fitted.unknowns[1].name, "structural stiffness");
+  EXPECT_THROW(fit_to_wishes(cloth("[2, 2]", "[0.1, 0, 0]", "[0, 0, 0.1]", "structural = \"fit\"\nshear = 10\n",
+                                   "[wish]\nc11 = 1000\n"),
+                             "too small"),
+               CannotGuarantee);
+}
+
+}  // namespace
+}  // namespace crosscheck
