@@ -109,38 +109,6 @@ std::optional<size_t> row_of(const Table& t, const std::string& scene, const std
   return std::nullopt;
 }
 
-/// A row for each scene: the cheapest run of each engine within 1 % of the motion, and its CPU time over mysim's.
-PageTable table_of(const Table& t, const std::vector<std::string>& engines) {
-  PageTable page{
-      "The cheapest run of each engine with an error of at most 1 % of the motion, with its time step or "
-      "tolerance; ×: its CPU time over that of mysim's",
-      {"scene", "mysim", "CPU time"},
-      {}};
-  for (const std::string& engine : engines) {
-    page.header.push_back(style_of_engine(engine).name);
-    page.header.emplace_back("×");
-  }
-  const auto run = [&](const std::optional<size_t>& row) {
-    if (!row) return std::string();
-    const std::string& method = text_at(t, *row, "method");  // the column names the engine
-    return fmt::format("{}, {}", name_beside_engine(method),
-                       setting_text(text_at(t, *row, "setting"), *number_at(t, *row, "asked")));
-  };
-  for (const std::string& scene : distinct(t, "scene")) {
-    const auto ours = row_of(t, scene, std::string(subject().name));
-    std::vector<std::string> cells{scene, ours ? run(ours) : "none tried",
-                                   ours ? step_text(*number_at(t, *ours, "cpu")) : ""};
-    for (const std::string& engine : engines) {
-      const auto row = row_of(t, scene, engine);
-      const auto times = row ? number_at(t, *row, "times mysim") : std::nullopt;
-      cells.push_back(run(row));
-      cells.push_back(times ? times_text(*times) : "");
-    }
-    page.rows.push_back(std::move(cells));
-  }
-  return page;
-}
-
 /// "Within 1 % of the motion mysim is the fastest on 10 of 11 scenes; Bullet takes 6.5 (rod) to 78 (spring) times its
 /// CPU time, Boost odeint 0.78 (rod) to 20 (cloth-hang)."
 std::string summary_of(const DotPlot& f) {
@@ -209,7 +177,7 @@ std::vector<Chart> cheapest_charts(const ChartInput& input) {
       "intervals allow; {}a scene without a marker has no such run of that engine; {}; commit {}.",
       scaled_text(*t), builds_text(drawn_engines(engines)), input.commit);
   f.tier = "each scene's truth, its error bar taken off the 1 %";
-  return {{"", f, "speed-accuracy", "", "CPU time for 1 % error", {table_of(*t, engines)}}};
+  return {{"", f, "speed-accuracy", "", "CPU time for 1 % error"}};
 }
 
 }  // namespace crosscheck

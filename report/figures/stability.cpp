@@ -150,6 +150,7 @@ PageTable growth_table(const Table& table) {
                            nice(*number_at(table, i, "h omega")), signed_text(*number_at(table, i, "predicted growth")),
                            signed_text(*number_at(table, i, "measured growth"))});
   }
+  join_equal_rows(page);
   return page;
 }
 

@@ -153,8 +153,17 @@ std::string made_html(const PageContent& c) {
       "right-hand side written apart from mysim's. Data, figures and scripts lie beside this page in "
       "<code>data/</code> and <code>figures/</code>; <code>report --verify</code> recomputes every sentence from "
       "them.</p>\n";
+  size_t left_to_full = 0;
   for (const std::string& note : with_joined_reasons(c.notes))
-    out += fmt::format("<p class=\"note\">{}.</p>\n", prose(note));
+    if (!note.starts_with("this is ") && note.find("--full has ") != std::string::npos)
+      ++left_to_full;
+    else
+      out += fmt::format("<p class=\"note\">{}.</p>\n", prose(note));
+  if (left_to_full > 0)
+    out += fmt::format(
+        "<p class=\"note\">Runs that a report with <code>--full</code> has beside these are named in {} notes of "
+        "<code>report.json</code>.</p>\n",
+        left_to_full);
   // the hash of each scene stands on its card
   Provenance lines = c.provenance;
   std::erase_if(lines, [](const auto& line) { return line.first == "scene"; });
