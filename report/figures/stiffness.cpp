@@ -196,7 +196,7 @@ Chart pulled_sheets(const std::vector<PulledSheetRow>& rows, const std::string& 
     f.curves.back().points.emplace_back(row.angle, row.measured);
     worst = std::max(worst, std::abs(row.deviation));
   }
-  f.finding = fmt::format("Measured and predicted differ by at most {:.2g} %.", 100 * worst);
+  f.finding = fmt::format("Measured and predicted differ by at most {} %.", nice(100 * worst));
   f.caption = fmt::format("Square nets of springs at rest, strains of 1e-4; commit {}.", commit);
   f.tier = "exact (central forces, uniform strain)";
   return {

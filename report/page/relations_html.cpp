@@ -118,7 +118,7 @@ std::string relations_html(const std::vector<RelationRow>& rows) {
     out += "</tr>\n";
   }
   out +=
-      "</tbody></table></div><p class=\"note\">What any engine must keep, asked on the smallest scenes that can show "
+      "</tbody></table></div><p class=\"note\">Asked on the smallest scenes that can show "
       "it. Full: it holds, to within rounding or the rule's order; ring: broken for a known cause; red square: broken; "
       "–: it cannot be asked.</p>\n";
   const PageTable breaks = table_of_breaks(rows);
