@@ -179,6 +179,8 @@ std::optional<Chart> growth_chart(const Table& all) {
               "gain so little in each that a run may look fine: the growth of one vibration is measured instead.",
               "Slowly growing instabilities"};
   if (off >= 0) chart.text += fmt::format(" It differs from theory by at most {} ({}).", percent(off, 1), which);
+  if (const size_t others = all.rows.size() - growth.rows.size(); others > 0)
+    chart.text += fmt::format(" {} rows of other rules stand in the table {} alone.", others, all.name);
   if (PageTable page = growth_table(growth); !page.rows.empty()) chart.tables.push_back(std::move(page));
   return chart;
 }

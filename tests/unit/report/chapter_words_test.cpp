@@ -463,8 +463,7 @@ TEST(ChapterWords, GrowthThatIsNotShownIsCounted) {
   for (const Chart& chart :
        charts_of(stability_charts, rows_of({stability({limit_row("mysim/rk4", 1e-3, 0.999e-3, 1.001e-3)}), growth})))
     if (chart.heading == "Slowly growing instabilities") text = chart.text;
-  EXPECT_TRUE(
-      contains(text, " 2 rows of other rules, beside their limits, stand in the table stability-growth alone."));
+  EXPECT_TRUE(contains(text, " 2 rows of other rules stand in the table stability-growth alone."));
 }
 
 Table resolution(std::vector<Row> rows) {
