@@ -199,4 +199,7 @@ function nameOfMethod(method) {
 }
 
 /** A stepper in the list to choose from: in words, and, where these are not English, with the name for the command line. */
-const chosenAs = name => say('methodWithName', {words: nameOfMethod(name), name});
+const chosenAs = name => {
+  const words = nameOfMethod(name);
+  return labLanguage === 'en' || words === name ? words : [words, name].join(say('comma'));
+};

@@ -359,7 +359,7 @@ const labActs = {
     const places = stage.draw({
       time: this.clock, orbit: this.orbit, background, over, springs: this.look.springs || !a.sim.scene.triangles.length,
       colour: {name: colour === 'error' && !from ? 'plain' : colour, top: this.colourTop, from},
-      title: over ? 20 : 46, centres: a.refusal ? new Float64Array(0) : a.sim.centres(a.sim.t), growth: this.growth,
+      title: over ? 20 + titleHeight * (this.drawn.length - 1) : 46, centres: a.refusal ? new Float64Array(0) : a.sim.centres(a.sim.t), growth: this.growth,
       marked: this.hand.chosen === null ? null : {particle: this.hand.chosen, held: Boolean(this.hand.held)}
     });
     view.setTitles(this.drawn.map(each => this.titleOf(each)), places, over);
@@ -380,7 +380,7 @@ const labActs = {
     const {step, tolerance, method} = run.spec, last = run.samples[run.samples.length - 1];
     const setting = tolerance && run.stepper?.adaptive ? `${say('tolerance')} ${tolerance}` : timeText(run.refusal ? step : run.sim.h || step);
     const error = last?.error === null || last?.error === undefined || last.t === 0 ? '' : `${say(run.errorWord)} ${length(last.error)}${last.bar ? ` ${say('errorBar', {bar: length(last.bar)})}` : ''}`;
-    return {name: letter, words: `${nameOfMethod(method)}, ${setting}`, state: run.failed ? say('failed') : error, look, failed: run.failed};
+    return {name: letter, words: [nameOfMethod(method), setting].join(say('comma')), state: run.failed ? say('failed') : error, look, failed: run.failed};
   },
 
   // Words.
