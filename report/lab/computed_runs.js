@@ -70,11 +70,21 @@ function computedDepartures(scene, set, run, wide) {
 
 // Cells of maps (computed_cells.h).
 
+/** Whole numbers of so many words of 16 bits: the lowest words of all, then the next, the last with the sign. */
+async function multiplesOf(packed, words) {
+  const all = await unpack(packed), signed = new Int16Array(all.buffer), count = all.length / words, last = words - 1;
+  return Float64Array.from({length: count}, (_, i) => {
+    let number = signed[last * count + i];
+    for (let word = last - 1; word >= 0; --word) number = 65536 * number + all[word * count + i];
+    return number;
+  });
+}
+
 /** What the cells of a file start from: places of the rests, and of each row the text of its scene, with step and duration still its own. */
 async function startsOf(stage, set) {
   const {kind, rest, rows, ...packed} = set.starts, wide = 3 * stage.particles;
-  const [words, moves] = await Promise.all([unpack(packed.rests), unpack(packed.moves).then(numbers => new Int16Array(numbers.buffer))]);
-  const count = words.length / 2, places = Float64Array.from({length: count}, (_, i) => ((words[count + i] << 16) | words[i]) * rest);
+  const [places, moves] = await Promise.all([multiplesOf(packed.rests, 3), multiplesOf(packed.moves, 2)]);
+  places.forEach((number, i) => (places[i] = number * rest));
   const each = moves.length / rows.length;
   return rows.map(({value, at, move, speed}, i) => {
     const base = places.subarray(at * wide, (at + 1) * wide), own = moves.subarray(i * each, (i + 1) * each);

@@ -28,17 +28,6 @@ int reading_order(const Term& term) {
   return std::holds_alternative<Drag>(term) ? 1 : 0;
 }
 
-/// Values as whole multiples of a step, appended as 16 bits each; what they are then.
-Points on_lattice(const Points& values, double step, std::vector<std::uint16_t>& numbers) {
-  Points out = values;
-  for (double& v : out.reshaped()) {
-    const auto number = static_cast<std::int16_t>(std::lround(v / step));
-    numbers.push_back(static_cast<std::uint16_t>(number));
-    v = number * step;
-  }
-  return out;
-}
-
 double largest_of(const Points& points) { return points.size() > 0 ? points.cwiseAbs().maxCoeff() : 0; }
 
 }  // namespace
@@ -53,31 +42,35 @@ CellStarts::CellStarts(const RecordedRuns& recorded, const std::vector<Points>& 
     if (recorded.of == fmt::format("{}-map", kind.name)) kind_ = &kind;
   double largest = 0;
   for (const Points& rest : rests) largest = std::max(largest, largest_of(rest));
-  rest_ = lattice_step(largest, 1 << 30);
-  std::vector<std::uint16_t> upper;
-  for (const Points& rest : rests) {
-    Points& placed = placed_.emplace_back(rest);
-    for (double& v : placed.reshaped()) {
-      const auto number = static_cast<std::int32_t>(std::lround(v / rest_));
-      rest_numbers_.push_back(static_cast<std::uint16_t>(number & 0xffff));
-      upper.push_back(static_cast<std::uint16_t>(static_cast<std::uint32_t>(number) >> 16));
-      v = number * rest_;
-    }
+  rest_ = lattice_step(largest, rest_numbers_.most());
+  for (const Points& rest : rests) rest_numbers_.take(placed_.emplace_back(rest), rest_);
+}
+
+void WordLattice::take(Points& values, double step) {
+  for (double& v : values.reshaped()) {
+    const std::int64_t number = std::llround(v / step);
+    for (int word = 0; word < words_; ++word) numbers_[word].push_back(static_cast<std::uint16_t>(number >> 16 * word));
+    v = static_cast<double>(number) * step;
   }
-  rest_numbers_.insert(rest_numbers_.end(), upper.begin(), upper.end());
+}
+
+Json WordLattice::json() const {
+  std::vector<std::uint16_t> all;
+  for (const auto& word : numbers_) all.insert(all.end(), word.begin(), word.end());
+  return packed_json(pack_small(all));
 }
 
 CellStarts::Row& CellStarts::row_of(const MapCell& cell) {
   for (Row& row : rows_)
     if (row.value == cell.value) return row;
   const size_t at = static_cast<size_t>(std::ranges::find(rests_, cell.rest) - rests_.begin());
-  const Points off = cell.start.x - placed_[at];
-  Row row{cell.value, lattice_step(largest_of(off), std::numeric_limits<std::int16_t>::max()),
-          lattice_step(largest_of(cell.start.v), std::numeric_limits<std::int16_t>::max()), at,
-          kind_->with(scene_, cell.value)};
+  Points off = cell.start.x - placed_[at];
+  Row row{cell.value, lattice_step(largest_of(off), moves_.most()),
+          lattice_step(largest_of(cell.start.v), moves_.most()), at, kind_->with(scene_, cell.value)};
   Scene& scene = row.scene;
-  scene.start.x = placed_[at] + on_lattice(off, row.move, moves_);
-  scene.start.v = on_lattice(cell.start.v, row.speed, moves_);
+  scene.start.v = cell.start.v;
+  moves_.take(off, row.move), moves_.take(scene.start.v, row.speed);
+  scene.start.x = placed_[at] + off;
   std::vector<Term> terms;
   for (int order = 0; order < 4; ++order)
     for (const Term& term : scene.model.terms)
@@ -104,6 +97,9 @@ std::optional<Json> CellStarts::reproduced(const RecordedRun& run, const std::ve
   const MapCell& cell = *run.cell;
   const long first = std::lround(run.path.t[0] / cell.step),
              apart = std::lround((run.path.t[1] - run.path.t[0]) / cell.step);
+  // each step rounds places by half of the last digit; what rests to within that shows its rounding alone
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  within = std::max(within, 0.5 * epsilon * static_cast<double>(cell.steps) * scene_.size());
   const ScopedInstructionSet page(simd::InstructionSet::sse2);
   LiveRun live(scene_of(cell));
   live.start({rule_, cell.step, 1e-6, live.scene().duration, false});
@@ -124,13 +120,8 @@ Json CellStarts::json() const {
   Json rows = Json::list();
   for (const Row& row : rows_)
     rows.push({{"value", row.value}, {"at", row.at}, {"move", row.move}, {"speed", row.speed}});
-  return {{"kind", kind_->name},
-          {"samples", samples_},
-          {"steps", steps_},
-          {"rest", rest_},
-          {"rests", packed_json(pack_small(rest_numbers_))},
-          {"moves", packed_json(pack_small(moves_))},
-          {"rows", std::move(rows)}};
+  return {{"kind", kind_->name},           {"samples", samples_},    {"steps", steps_},        {"rest", rest_},
+          {"rests", rest_numbers_.json()}, {"moves", moves_.json()}, {"rows", std::move(rows)}};
 }
 
 }  // namespace crosscheck

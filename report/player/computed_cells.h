@@ -1,11 +1,13 @@
 // Cells of maps that the page computes itself: where the engine stands in the page, their pictures need not.
 //
 // All cells of a map's row start from one state, a rest that was perturbed. The page has it on lattices whose steps are
-// powers of two: rests in 32 bits, what the perturbation moved and its velocities in 16. Their sums are exact, so that
-// the page begins with the same bits as the check here. What the rounding of the start, or other instructions, change
-// by more than a picture tells stays stored: that is told by a run of the engine with the lanes of the page.
+// powers of two: rests in 48 bits, what the perturbation moved and its velocities in 32, so that the page begins with
+// the same bits as the check here. What the rounding of the start, or other instructions, change by more than a picture
+// tells stays stored: that is told by a run of the engine with the lanes of the page.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -16,6 +18,22 @@
 #include "mysim/base/json.h"
 
 namespace crosscheck {
+
+/// Numbers as whole multiples of a step, in words of 16 bits.
+class WordLattice {
+ public:
+  explicit WordLattice(int words) : words_(words) {}
+  /// The largest number that it has: a bit is the sign's, one is for rounding.
+  double most() const { return std::exp2(16 * words_ - 2); }
+  /// Appends values and makes them what they are on the lattice.
+  void take(Points& values, double step);
+  /// The lowest words of all numbers, then the next.
+  Json json() const;
+
+ private:
+  int words_;
+  std::array<std::vector<std::uint16_t>, 3> numbers_;
+};
 
 class CellStarts {
  public:
@@ -53,7 +71,7 @@ class CellStarts {
   double rest_ = 1;             // m, of one
   std::vector<Points> rests_;   // m, given
   std::vector<Points> placed_;  // m, on the lattice
-  std::vector<std::uint16_t> rest_numbers_, moves_;
+  WordLattice rest_numbers_{3}, moves_{2};
   std::vector<Row> rows_;
 };
 

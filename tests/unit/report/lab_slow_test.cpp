@@ -261,8 +261,8 @@ TEST_F(LabModule, CellsOfMapsHaveTheNativeBits) {
       ++computed;
     }
   }
-  EXPECT_GT(computed, 1200u);
-  EXPECT_LT(stored, computed / 10) << "what rounding of the start changes visibly";
+  EXPECT_GT(computed, 1500u);
+  EXPECT_LT(stored, computed / 50) << "what rounding of the start changes visibly";
 }
 
 TEST_F(LabModule, GivesTheNativeBitsInABrowser) {
