@@ -321,16 +321,16 @@ void expect_departures(const Scene& scene) {
     EXPECT_TRUE(read.all_read());
     const JsonField cells = runs_of(data);
     const JsonField without = JsonField::parse(cells_for_page(data.dump(), false), "no lab"),
-                    with = JsonField::parse(cells_for_page(data.dump(), true), "a lab"), left = runs_of(with);
+                    with = JsonField::parse(cells_for_page(data.dump(), true), "a lab"), shown = runs_of(with);
     EXPECT_EQ(runs_of(without).dump(), cells.dump());
     EXPECT_FALSE(without.find("starts"));
     EXPECT_TRUE(ReadMotions(with, scene.model.particles.size()).all_read());
     for (size_t c = 0; c < 18; ++c) {
-      ASSERT_EQ(left[c].is_null(), cells[c].is_null());
+      ASSERT_EQ(shown[c].is_null(), cells[c].is_null());
       if (cells[c].is_null()) continue;
-      for (const char* key : {"frames", "at", "times"}) EXPECT_EQ(left[c][key].dump(), cells[c][key].dump());
-      if (left[c].find("computed")) {
-        EXPECT_EQ(left[c]["modes"].natural(), 0u);
+      for (const char* key : {"frames", "at", "times"}) EXPECT_EQ(shown[c][key].dump(), cells[c][key].dump());
+      if (shown[c].find("computed")) {
+        EXPECT_EQ(shown[c]["modes"].natural(), 0u);
       }
     }
     int failed = 0;
