@@ -68,21 +68,72 @@ function computedDepartures(scene, set, run, wide) {
   });
 }
 
+// Cells of maps (computed_cells.h).
+
+/** Whole numbers of so many words of 16 bits: the lowest words of all, then the next, the last with the sign. */
+async function multiplesOf(packed, words) {
+  const all = await unpack(packed), signed = new Int16Array(all.buffer), count = all.length / words, last = words - 1;
+  return Float64Array.from({length: count}, (_, i) => {
+    let number = signed[last * count + i];
+    for (let word = last - 1; word >= 0; --word) number = 65536 * number + all[word * count + i];
+    return number;
+  });
+}
+
+/** What the cells of a file start from: places of the rests, and of each row the text of its scene, with step and duration still its own. */
+async function startsOf(stage, set) {
+  const {kind, rest, rows, ...packed} = set.starts, wide = 3 * stage.particles;
+  const [places, moves] = await Promise.all([multiplesOf(packed.rests, 3), multiplesOf(packed.moves, 2)]);
+  places.forEach((number, i) => (places[i] = number * rest));
+  const each = moves.length / rows.length;
+  return rows.map(({value, at, move, speed}, i) => {
+    const base = places.subarray(at * wide, (at + 1) * wide), own = moves.subarray(i * each, (i + 1) * each);
+    const x = base.map((place, c) => place + own[c] * move), v = Array.from(own.subarray(wide), number => number * speed);
+    return {base, text: `${withoutSection(textOfRow(stage.toml, kind, value), 'camera').trimEnd()}\n\n${startSection(x, v)}`};
+  });
+}
+
+/** The run of a map's cell, not begun yet, and the rest of its row. */
+async function openCell(lab, stage, set, run) {
+  const {text, base} = (await (set.rows ??= startsOf(stage, set)))[run.row], {steps, samples} = set.starts, duration = run.h * steps;
+  const sim = lab.open(withNumbers(text, {'time.duration': duration, 'time.window': duration, 'time.samples': samples, 'time.step': run.h}));
+  sim.start(startOf({method: set.name.replace(/^mysim\//, ''), step: run.h}, duration, false));
+  return {sim, base};
+}
+
+/** Departures of a map's cell from the rest of its row: pictures x coordinates, m. Throws LabError where it cannot be computed. */
+async function cellDepartures(stage, set, run) {
+  const lab = await labModule();
+  if (!lab) throw new LabError('unsupported', say('noWasmForRun'));
+  const {sim, base} = await openCell(lab, stage, set, run), wide = base.length, out = new Float32Array(run.frames * wide);
+  try {
+    for (let frame = 0; frame < run.frames; ++frame) {
+      sim.advance(run.h * (run.first + frame * run.apart));
+      sim.positions.forEach((place, i) => (out[frame * wide + i] = place - base[i]));
+    }
+  } finally {
+    sim.close();
+  }
+  return out;
+}
+
 // Doors.
 
 /** Whether the lab runs a method, options and all. */
 const isOfLab = method => Boolean(document.getElementById('lab-module')) && /^mysim\/[a-z0-9-]+(\+(sticky|linear))*$/.test(method);
 
-/** The small scene of a map's cell: its text with the cell's stiffness (over its own) or drag rate, and its step. */
+/** The small scene of a map with a row's stiffness (over its own) or drag rate. `taken`: what stands for a stiffness. */
+function textOfRow(toml, kind, value, taken = stiffness => stiffness) {
+  if (kind === 'drag') return `${withoutSection(toml, 'drag').trimEnd()}\n\n[drag]\ngamma = ${tomlNumber(value)}  # 1/s\n`;
+  const lines = toml.split('\n');
+  for (const {path, value: own, line, begin, end} of numbersOf(toml))
+    if (/(^|\.)stiffness(\.|$)/.test(path)) lines[line] = lines[line].slice(0, begin) + tomlNumber(taken(own * value)) + lines[line].slice(end);
+  return lines.join('\n');
+}
+
+/** The scene of a map's cell for the lab: from the scene's own start, with numbers that are easily read. */
 function textOfCell(toml, kind, value, step) {
-  let text = toml;
-  if (kind === 'drag') text = `${withoutSection(text, 'drag').trimEnd()}\n\n[drag]\ngamma = ${tomlNumber(value)}  # 1/s\n`;
-  else {
-    const lines = text.split('\n');
-    for (const {path, value: own, line, begin, end} of numbersOf(text))
-      if (/(^|\.)stiffness(\.|$)/.test(path)) lines[line] = lines[line].slice(0, begin) + tomlNumber(Number((own * value).toPrecision(6))) + lines[line].slice(end);
-    text = lines.join('\n');
-  }
+  const text = textOfRow(toml, kind, value, stiffness => Number(stiffness.toPrecision(6)));
   // whole steps from one sample to the next, so that it is not shortened
   const samples = numberAt(text, 'time.samples'), interval = numberAt(text, 'time.duration') / samples;
   return withNumbers(text, {'time.duration': samples * Math.max(1, Math.ceil(interval / step)) * step, 'time.step': step});

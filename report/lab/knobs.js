@@ -169,7 +169,7 @@ class MethodKnobs {
     const bound = known && limit <= interval;  // no step is longer than the time between two samples
     Object.assign(this, {spec, steppers, own: scene.step, balls: scene.spheres.length});
     const usable = steppers.filter(s => !scene.firstOrder || s.firstOrder);
-    if (this.select.childElementCount !== usable.length) this.select.replaceChildren(...usable.map(s => make('option', {value: s.name}, nameOfMethod(s.name))));
+    if (this.select.childElementCount !== usable.length) this.select.replaceChildren(...usable.map(s => make('option', {value: s.name}, chosenAs(s.name))));
     this.select.value = name;
     this.sticky.checked = options.includes('sticky'), this.linear.checked = options.includes('linear');
     this.stickyLabel.hidden = !this.balls, this.linearLabel.hidden = !stepper?.linear;
@@ -192,5 +192,14 @@ class MethodKnobs {
   }
 }
 
-/** A method's name in words: "symplectic Euler, sticky". */
-const nameOfMethod = method => method.replace(/-/g, ' ').replace('euler', 'Euler').replace(/\+/g, ', ');
+/** A method's name in words: "symplectic Euler, sticky". A stepper without words goes by its name. */
+function nameOfMethod(method) {
+  const [name, ...options] = method.split('+'), known = (key, otherwise) => (key in labWords ? say(key) : otherwise);
+  return [known(`method.${name}`, name.replace(/-/g, ' ').replace('euler', 'Euler')), ...options.map(option => known(`option.${option}`, option))].join(say('comma'));
+}
+
+/** A stepper in the list to choose from: in words, and, where these are not English, with the name for the command line. */
+const chosenAs = name => {
+  const words = nameOfMethod(name);
+  return labLanguage === 'en' || words === name ? words : [words, name].join(say('comma'));
+};

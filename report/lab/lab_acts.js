@@ -181,6 +181,7 @@ const labActs = {
       }
     }
     this.byHand = true;
+    this.stage?.setCourse([]);
     this.end = Math.max(...this.runs.map(run => (run.refusal ? 0 : run.end)));
   },
 
@@ -233,7 +234,10 @@ const labActs = {
   setStage(fresh) {
     const {sim} = this.runs[0], {scene} = sim, made = [scene.particles, scene.springs.length, scene.triangles.length].join();
     if (fresh || !this.pictures.length) this.pictures = this.preview();
-    if (this.stage && made === this.stage.made && !fresh) return void this.stage.setPins([...scene.pins]);
+    if (this.stage && made === this.stage.made && !fresh) {
+      this.stage.setPins([...scene.pins]);
+      return this.stage.setCourse(this.course());
+    }
     const {camera} = scene, deep = this.pictures.some(p => p.some((v, i) => i % 3 === 2 && Math.abs(v - this.pictures[0][2]) > 1e-9));
     const flat = !scene.triangles.length && !deep;
     const from = camera ? minus(camera.eye, camera.target) : flat ? [0, 0, 1] : [0.55, 0.35, 1];
@@ -247,10 +251,31 @@ const labActs = {
     this.stage = new LiveStage(canvas, shown, this.drawsSlowly);
     this.stage.made = made;
     this.stage.hold(this.pictures);
+    this.stage.setCourse(this.course());
     if (fresh || !this.orbit) this.orbit = new Orbit(from);
     this.hand.act.orbit = this.orbit;
     this.view.layer.replaceChildren(canvas);
     alive.push(this);
+  },
+
+  /**
+   * The true course of the last particle of a first-order scene, which has no energy to be judged by: points, m; none where
+   * a hand has changed it. RK4 in as many steps is off by less than a thousandth of a pixel.
+   */
+  course() {
+    const [{sim: {scene}}] = this.runs;
+    if (!scene.firstOrder || this.byHand) return [];
+    const sim = this.lab.open(this.toml), points = [], last = trailPoints - 1;
+    try {
+      sim.start(startOf({method: 'rk4', step: scene.duration / (8 * last)}, scene.duration, false));
+      for (let i = 0; i <= last; ++i) {
+        sim.advance(scene.duration * i / last);
+        points.push([...sim.positions.slice(-3)]);
+      }
+    } finally {
+      sim.close();
+    }
+    return points;
   },
 
   /** Gives the stage's context back. */
@@ -334,7 +359,7 @@ const labActs = {
     const places = stage.draw({
       time: this.clock, orbit: this.orbit, background, over, springs: this.look.springs || !a.sim.scene.triangles.length,
       colour: {name: colour === 'error' && !from ? 'plain' : colour, top: this.colourTop, from},
-      title: over ? 20 : 46, centres: a.refusal ? new Float64Array(0) : a.sim.centres(a.sim.t), growth: this.growth,
+      title: over ? 20 + titleHeight * (this.drawn.length - 1) : 46, centres: a.refusal ? new Float64Array(0) : a.sim.centres(a.sim.t), growth: this.growth,
       marked: this.hand.chosen === null ? null : {particle: this.hand.chosen, held: Boolean(this.hand.held)}
     });
     view.setTitles(this.drawn.map(each => this.titleOf(each)), places, over);
@@ -355,7 +380,7 @@ const labActs = {
     const {step, tolerance, method} = run.spec, last = run.samples[run.samples.length - 1];
     const setting = tolerance && run.stepper?.adaptive ? `${say('tolerance')} ${tolerance}` : timeText(run.refusal ? step : run.sim.h || step);
     const error = last?.error === null || last?.error === undefined || last.t === 0 ? '' : `${say(run.errorWord)} ${length(last.error)}${last.bar ? ` ${say('errorBar', {bar: length(last.bar)})}` : ''}`;
-    return {name: letter, words: `${nameOfMethod(method)}, ${setting}`, state: run.failed ? say('failed') : error, look, failed: run.failed};
+    return {name: letter, words: [nameOfMethod(method), setting].join(say('comma')), state: run.failed ? say('failed') : error, look, failed: run.failed};
   },
 
   // Words.

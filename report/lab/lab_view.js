@@ -1,5 +1,7 @@
 // What a reader sees of a lab: picture, controls and words; lab.js is what they do.
 
+const titleHeight = 26;  // CSS pixels, of methods over one another
+
 /** The colours of a run: A and B apart in light and dark, B dashed; the truth grey. */
 function lookOfRun(letter) {
   const names = {A: ['mysim2', ''], B: ['second', '5 3'], T: ['truth', '']}, [name, dash] = names[letter];
@@ -144,7 +146,7 @@ class LabView {
       name.style.setProperty('--own', view.look.css);
       state.classList.toggle('failed', view.failed);
       const place = over ? {left: 0, top: 0, wide: 1} : places[i];
-      if (place) Object.assign(box.style, {left: `${100 * place.left}%`, top: over ? `${26 * i}px` : `${100 * place.top}%`, width: `${100 * place.wide}%`});
+      if (place) Object.assign(box.style, {left: `${100 * place.left}%`, top: over ? `${titleHeight * i}px` : `${100 * place.top}%`, width: `${100 * place.wide}%`});
     });
     this.stage.classList.toggle('over', over);
   }

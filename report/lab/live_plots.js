@@ -9,7 +9,11 @@ class LivePlot extends Plot {
   }
 
   show(shown) {
-    super.show(shown);
+    this.take(shown);
+    // what has no curve yet stays as it is
+    const words = this.known ? null : [shown.title, shown.none, this.wide].join();
+    if (words !== null && words === this.words) return;
+    this.words = words;
     const well = shown.series.filter(s => s.well), values = (well.length ? well : shown.series).flatMap(s => s.points.map(p => p[1] ?? 0));
     const least = Math.min(0, ...values);
     // powers of ten have no place for what lies below zero, and of a burst the last eight tell enough

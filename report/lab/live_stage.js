@@ -36,6 +36,17 @@ class LiveStage extends Stage {
     for (let i = 0; i < scene.particles; ++i) rows.set([i, scene.particles + i, 0], 3 * i);
     this.shapes.arrows = this.rods(rows);
     this.arrows = this.tools.table(2 * scene.particles);
+    this.course = {table: null, count: 0};
+  }
+
+  /** The true course, drawn from the start on, whatever the runs do; none for no points. */
+  setCourse(points) {
+    const {course} = this;
+    course.count = Math.max(0, points.length - 1);
+    if (!points.length) return;
+    course.table ??= this.tools.table(trailPoints);
+    points.forEach((point, i) => course.table.data.set([...point, -1], 4 * i));
+    this.tools.fill(course.table);
   }
 
   rods(rows) {
@@ -206,6 +217,10 @@ class LiveStage extends Stage {
       const at = 3 * marked.particle, ball = [places[at], places[at + 1], places[at + 2], 6 * pixel];
       tools.use(this.programs.ball, {...all, ball, plain: rgb(marked.held ? 'E0357B' : 'F2B01E')});
       tools.draw(shapes.obstacle, gl.TRIANGLES);
+    }
+    if (this.course.count && !look.ghost) {
+      tools.use(this.programs.rod, {...all, points: this.course.table.texture, radius: 0.7 * pixel, plain: rgb('8A9099'), ball: [0, 0, 0, 0]});
+      tools.draw(shapes.path, gl.TRIANGLES, this.course.count);
     }
     if (panel.way) {
       tools.use(this.programs.rod, {...all, points: panel.way.texture, radius: 0.9 * pixel, plain: panel.look.plain, ball: [0, 0, 0, 0]});

@@ -95,14 +95,19 @@ function stepOf(interval, count) {
   return exact;
 }
 
-/** The text with the state that a run starts from, its pins, and its spheres where they start. */
-function withStart(toml, simulation) {
-  const {pins} = simulation.scene, {positions: x, velocities: v, centres} = simulation.begun;
+/** The section [start] of places and velocities. */
+function startSection(x, v) {
   const list = values => {
     const lines = [];
     for (let i = 0; i < values.length; i += 3) lines.push(`  ${[...values.slice(i, i + 3)].map(tomlNumber).join(', ')},`);
     return `[\n${lines.join('\n')}\n]`;
   };
+  return `[start]\npositions = ${list(x)}\n${v.length ? `velocities = ${list(v)}\n` : ''}`;
+}
+
+/** The text with the state that a run starts from, its pins, and its spheres where they start. */
+function withStart(toml, simulation) {
+  const {pins} = simulation.scene, {positions: x, velocities: v, centres} = simulation.begun;
   const pinned = `particles = [${[...pins].join(', ')}]`;
   let text = /^\[pins\]/m.test(toml) ? toml.replace(/(^\[pins\][^[]*?)particles\s*=\s*\[[^\]]*\]/m, (_, before) => before + pinned) :
       pins.length                    ? `${toml.trimEnd()}\n\n[pins]\n${pinned}\n` :
@@ -113,7 +118,7 @@ function withStart(toml, simulation) {
     const at = 3 * sphere++;
     return at < centres.length ? `${before}[${[...centres.slice(at, at + 3)].map(tomlNumber).join(', ')}]` : whole;
   });
-  return `${text.trimEnd()}\n\n[start]\npositions = ${list(x)}\n${v.length ? `velocities = ${list(v)}\n` : ''}`;
+  return `${text.trimEnd()}\n\n${startSection(x, v)}`;
 }
 
 /** The text without a section, from its head to the next. */

@@ -80,6 +80,9 @@ std::string all_runs_html(const std::vector<PlayableRuns>& runs, bool lab,
     const auto stay = shown.find(scene);
     leave_out_computed(own, stay == shown.end() ? std::set<std::string>() : stay->second);
   }
+  for (size_t i = 0; i < runs.size(); ++i)
+    if (!runs[i].stage.empty())
+      for (std::string& file : files[i]) file = cells_for_page(file, lab);
   std::string out;
   for (size_t i = 0; i < runs.size(); ++i) out += runs_html(runs[i], files[i]);
   return out;

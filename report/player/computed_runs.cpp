@@ -165,6 +165,16 @@ bool is_computed_in_page(const std::string& method) {
                      [&](const std::string& word) { return word == "sticky" || (word == "linear" && rule->linear); });
 }
 
+std::string cells_for_page(const std::string& json, bool lab) {
+  const JsonField field = JsonField::parse(json, "a file of cells");
+  const auto computed = field.find("lab");
+  if (!computed) return json;
+  Json file = built(field);
+  file.erase("lab");
+  if (lab) file.update(built(*computed));
+  return file.dump();
+}
+
 void leave_out_computed(std::span<const FileOfRuns> files, const std::set<std::string>& stay) {
   std::vector<Motions> all;
   all.reserve(files.size());

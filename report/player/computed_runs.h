@@ -21,6 +21,9 @@ struct FileOfRuns {
   std::string* json;
 };
 
+/// A file of a map's cells (motions_json) as the page has it: with the engine there, what it computes has no pictures.
+std::string cells_for_page(const std::string& json, bool lab);
+
 /// Leaves the motions of what the page computes out of all files of one scene, and marks the reference. Those whose
 /// keys (ShownRun) are given stay, and those that failed or chose their own steps loosely, or that lie nearer to the
 /// base than the reference; all do where no run is fit to be the reference.

@@ -60,9 +60,9 @@ async function motionOf(scene, key) {
   return new Motion(scene, {key, method: set.name, note: set.note, ...run}, {base, apart, ...values});
 }
 
-/** The same of a map's cell, on the map's own stage. */
+/** The same of a map's cell, on the map's own stage. Throws LabError where it cannot be computed. */
 async function cellOf(stage, set, run) {
-  const wide = 3 * stage.particles, [base, apart] = await Promise.all([baseOf(set, wide), departuresOf(set, run, wide)]);
+  const wide = 3 * stage.particles, [base, apart] = await Promise.all([baseOf(set, wide), run.computed ? cellDepartures(stage, set, run) : departuresOf(set, run, wide)]);
   return new Motion(stage, {key: '', method: set.name, ...run}, {base, apart, error: [], energy: []});
 }
 

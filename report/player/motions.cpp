@@ -12,6 +12,7 @@
 #include "mysim/model/energy.h"
 #include "report/findings/report_data.h"
 #include "report/pictures/scene_picture.h"
+#include "report/player/computed_cells.h"
 #include "report/player/packed_numbers.h"
 #include "report/player/static_geometry.h"
 
@@ -197,23 +198,29 @@ double shortest_spring(const Points& rest, const Scene& scene) {
   return shortest;
 }
 
-/// A cell of a map: its pictures up to where the run leaves the frame, as one that blows up may go on for long.
-Json cell_json(const Scene& scene, const RecordedRun& run, size_t row, MotionNumbers& numbers) {
+/// The pictures of a map's cell up to where the run leaves the frame, as one that blows up may go on for long.
+struct CellPictures {
+  std::vector<Points> x;        // m
+  Eigen::MatrixXd off;          // from rest, m, a column for each picture
+  Json words = Json::object();  // what the player says of them
+};
+
+/// Nothing where nothing moves in two pictures.
+std::optional<CellPictures> cell_pictures(const Scene& scene, const RecordedRun& run, size_t row) {
   Frames frames = every(run.path, 1);
-  const MotionBase rest{{0}, {run.rest}, {}, false};
+  const Points& rest = run.cell->rest;
   size_t keep = 0;
-  while (keep < frames.x.size() && (frames.x[keep] - run.rest).cwiseAbs().maxCoeff() <= 2 * scene.size()) ++keep;
+  while (keep < frames.x.size() && (frames.x[keep] - rest).cwiseAbs().maxCoeff() <= 2 * scene.size()) ++keep;
   frames.x.resize(keep);
-  if (keep < 2) return nullptr;
-  const Eigen::MatrixXd off = departures_of(frames.x, rest.x, 0);
-  const double largest = off.cwiseAbs().maxCoeff(), seen = shortest_spring(run.rest, scene) / 3;
-  if (!(largest > 0)) return nullptr;
-  Json json = numbers.add(off, of_cell, 0);
-  json["at"] = row;
-  json["times"] = Json::list(five_digits(frames.t[0]), five_digits(frames.t[keep - 1]));
-  if (largest < seen) json["larger"] = two_digits(seen / largest);
-  if (keep < run.path.x.size()) json["left"] = five_digits(run.outcome.end);  // the frame, and ended then
-  return json;
+  if (keep < 2) return std::nullopt;
+  CellPictures out{frames.x, departures_of(frames.x, {rest}, 0)};
+  const double largest = out.off.cwiseAbs().maxCoeff(), seen = shortest_spring(rest, scene) / 3;
+  if (!(largest > 0)) return std::nullopt;
+  out.words["at"] = row;
+  out.words["times"] = Json::list(five_digits(frames.t[0]), five_digits(frames.t[keep - 1]));
+  if (largest < seen) out.words["larger"] = two_digits(seen / largest);
+  if (keep < run.path.x.size()) out.words["left"] = five_digits(run.outcome.end);  // the frame, and ended then
+  return out;
 }
 
 /// A file's motion that all others are told against, itself told against a point.
@@ -225,21 +232,42 @@ Json base_run(const std::vector<Points>& x, double size, MotionNumbers& numbers)
   return json;
 }
 
-std::string cells_json(const RecordedRuns& recorded) {
-  std::vector<Points> rests;
+/// The runs of a map: cells with their pictures, or, where `starts` are given and reproduce them, with what they start
+/// from.
+Json cells_with(const RecordedRuns& recorded, const std::vector<Points>& rests, CellStarts* starts) {
   MotionNumbers numbers;
-  for (const RecordedRun& run : recorded.runs)
-    if (rests.empty() || rests.back() != run.rest) rests.push_back(run.rest);
-  Json file{{"name", recorded.method}};
+  Json file = Json::object(), runs = Json::list();
   file["base"] = base_run(rests, recorded.scene.size(), numbers);
-  Json runs = Json::list();
   size_t row = 0;
   for (const RecordedRun& run : recorded.runs) {
-    while (rests[row] != run.rest) ++row;
-    runs.push(cell_json(recorded.scene, run, row, numbers));
+    while (rests[row] != run.cell->rest) ++row;
+    const auto cell = cell_pictures(recorded.scene, run, row);
+    if (!cell) {
+      runs.push(nullptr);
+      continue;
+    }
+    std::optional<Json> json;
+    if (starts) json = starts->reproduced(run, cell->x, cell->off.cwiseAbs().maxCoeff() / of_cell.of_departure);
+    if (!json) json = numbers.add(cell->off, of_cell, 0);
+    json->update(cell->words);
+    runs.push(std::move(*json));
   }
   file["packed"] = base64(gzipped(runs.dump()));
   numbers.write(file);
+  if (starts) file["starts"] = starts->json();
+  return file;
+}
+
+std::string cells_json(const RecordedRuns& recorded) {
+  std::vector<Points> rests;
+  for (const RecordedRun& run : recorded.runs)
+    if (rests.empty() || rests.back() != run.cell->rest) rests.push_back(run.cell->rest);
+  Json file = cells_with(recorded, rests, nullptr);
+  file["name"] = recorded.method;
+  if (CellStarts::are_taken(recorded.method)) {
+    CellStarts starts(recorded, rests);
+    file["lab"] = cells_with(recorded, rests, &starts);
+  }
   return file.dump();
 }
 

@@ -12,10 +12,12 @@
 //     are evenly apart, of pictures that are not the scene's; then the base is that of frame "at";
 //   "step" (s) or "tolerance": what was asked for; "larger": departures are to be drawn so many times as large;
 //   "computed": of a run that the page computes itself: it has no shapes and paths; "reference": see computed_runs.h;
+//     The same of a cell, with "row", "h", "first" and "apart": see computed_cells.h;
 //   "stops" (s), "end", and of a run that failed "failed" (s), "failure" and "reason".
 // `values` holds for each frame the RMS distance from the truth (m), then for each frame the kinetic energy (J): 2000
 // times their exponents of ten, plus 40000; 0 is none. Cells have no values, and are many: their list of runs is
-// "packed", base64 of gzip.
+// "packed", base64 of gzip. What the page takes instead of cells and their numbers where it has the lab stands in
+// "lab".
 #pragma once
 
 #include <optional>

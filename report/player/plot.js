@@ -48,14 +48,21 @@ class Plot {
     const at = event => seek(this.begin + (event.clientX - this.area.getBoundingClientRect().left - this.left) / this.span * (this.end - this.begin));
     this.area.addEventListener('pointerdown', event => (this.area.setPointerCapture(event.pointerId), at(event)));
     this.area.addEventListener('pointermove', event => event.buttons && at(event));
-    new ResizeObserver(() => this.draw()).observe(this.area);
+    // kept, as asking for it while another plot has just changed makes the browser lay the page out at once
+    new ResizeObserver(() => (this.wide = this.area.clientWidth, this.draw())).observe(this.area);
   }
 
   /**
    * `series`: {name, css, dash, points: [s, value or null], well} of each run. Lengths are told in the unit that suits
    * the largest. Where a run grows a hundredfold the axis counts powers of ten. `none` is said where nothing is known.
    */
-  show({title, unit, series, begin, end, none}) {
+  show(shown) {
+    this.take(shown);
+    this.draw();
+  }
+
+  /** What is shown, with the range of its axis. */
+  take({title, unit, series, begin, end, none}) {
     const all = of => of.flatMap(s => s.points.map(p => p[1])).filter(v => v !== null);
     const well = series.filter(s => s.well), values = all(well.length ? well : series), most = Math.max(...values, 0);
     const third = values.slice(0, Math.ceil(values.length / 3));
@@ -66,13 +73,12 @@ class Plot {
     if (this.powers) Object.assign(this, {low: Math.floor(Math.log10(Math.min(...positive))), most: Math.ceil(Math.log10(most))});
     else this.low = 0;
     this.known = values.length > 0;
-    this.draw();
   }
 
   at(value) { return this.powers ? Math.log10(Math.max(1e-300, value)) : value / this.size; }
 
   draw() {
-    const wide = this.area.clientWidth, {high, left, begin, end, low, most, series} = this;
+    const wide = this.wide ||= this.area.clientWidth, {high, left, begin, end, low, most, series} = this;
     if (!wide || !this.title) return;
     const names = series.length ? 14 + 8 * series.map(s => s.name).join(', ').length : 0;
     this.span = wide - left - Math.max(12, names);

@@ -20,7 +20,11 @@ async function playRun(key, marker) {
   const file = runsOf(key), [head, ...lines] = tipOf(marker).split('\n'), {method, place} = parts(marker.dataset.run);
   const set = file.sets.get(method), scene = file.scene ?? file.stage.scene;
   if (set && file.stage) await opened(set, 3 * file.stage.particles);
-  const run = set?.runs[Number(place)];
+  let run = set?.runs[Number(place)], motion = null, problem = null;
+  if (run && file.stage) {
+    motion = await cellOf(file.stage, set, run).catch(({message}) => void (problem = message));
+    if (problem) run = null;
+  }
   const close = make('button', {type: 'button', class: 'close', 'aria-label': 'Close'}, '✕');
   const box = make('div', {class: 'player'});
   const dialog = make(
@@ -29,11 +33,11 @@ async function playRun(key, marker) {
   document.body.append(dialog);
   const player = make('motion-player', run && file.scene ? {'data-scene': scene, 'data-a': marker.dataset.run, 'data-b': 'truth'} : {});
   if (run) {
-    if (file.stage) player.given = {scene: file.stage, motion: await cellOf(file.stage, set, run), caption: captionOf(run)};
+    if (file.stage) player.given = {scene: file.stage, motion, caption: captionOf(run)};
     box.append(make('figure', {class: 'render'}, make('div', {class: 'stage'})), player);
   } else {
-    box.append(make('p', {}, set ? 'It ended before there was a second picture of it to show.' :
-                                   'The runs of this method are too large for the page; the command run plays them.'));
+    box.append(make('p', {class: 'none'}, problem ?? (set ? 'It ended before there was a second picture of it to show.' :
+                                                            'The runs of this method are too large for the page; the command run plays them.')));
   }
   const state = labStateOf(key, marker);
   if (state) {

@@ -2,8 +2,12 @@
 // the lab as its readers use it, in a browser.
 
 #include <cstdlib>
+#include <deque>
+#include <memory>
 
 #include "experiments/scenes/scenes.h"
+#include "experiments/stability/map.h"
+#include "experiments/stability/stability.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/text.h"
@@ -11,6 +15,9 @@
 #include "report/lab/live_run.h"
 #include "report/page/lab_html.h"
 #include "report/page/page.h"
+#include "report/player/computed_cells.h"
+#include "report/player/computed_runs.h"
+#include "report/player/motions.h"
 #include "report/player/packed_numbers.h"
 #include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/in_browser.h"
@@ -202,6 +209,62 @@ TEST_F(LabModule, GivesTheNativeBitsInNode) {
   compare(native, JsonField::parse(result.out, "what Node saw"));
 }
 
+TEST_F(LabModule, CellsOfMapsHaveTheNativeBits) {
+  NEEDS_PROGRAM("node", "nodejs", "mysim is not run as WebAssembly outside a browser");
+  NEEDS_LAB;
+  Json files = Json::list();
+  std::deque<Scene> scenes;
+  std::vector<std::pair<std::unique_ptr<CellStarts>, RecordedRuns>> maps;
+  TableSet rows;
+  for (const char* name : {"spring", "normal-modes", "cloth-hang"}) {
+    const Scene& scene = scenes.emplace_back(*map_scene(load_scene(name), false));
+    for (const Stepper& rule : steppers()) {
+      const Method& method = find_method(fmt::format("mysim/{}", rule.name));
+      if (!is_mapped(method)) continue;
+      for (const MapKind& kind : map_kinds())
+        // as many cells as on the page, of shorter runs
+        add_map(kind, scene, method, {9, 12, 200, false}, rows, [&](const RecordedRuns& map) {
+          const JsonField file = JsonField::parse(cells_for_page(motions_json(map, {}), true), "cells");
+          files.push({{"stage", stage_json(scene, true)}, {"set", file.dump()}});
+          std::vector<Points> rests;
+          for (const RecordedRun& run : map.runs)
+            if (rests.empty() || rests.back() != run.cell->rest) rests.push_back(run.cell->rest);
+          maps.emplace_back(std::make_unique<CellStarts>(map, rests),
+                            RecordedRuns{map.of, scene, map.method, map.runs});
+        });
+    }
+  }
+  ASSERT_EQ(maps.size(), 18u) << "two of each scene and kind of rule";
+  const std::string module = base64(gzipped(content_of_file(lab_module_file())));
+  write_file(
+      folder_ / "lab.js",
+      "globalThis.window = globalThis;\nconst document = {getElementById: () => ({textContent: JSON.stringify('" +
+          module + "')})};\n" + asset("player/unpack.js") + asset("lab/scene_text.js") + asset("lab/engine.js") +
+          asset("lab/live_run.js") + asset("lab/computed_runs.js") + self_test("lab_selftest.js") + "\nrunCells(" +
+          files.dump() + ").then(seen => process.stdout.write(JSON.stringify(seen)));\n");
+  const ProgramResult result = run_program({"node", (folder_ / "lab.js").string()}, folder_);
+  ASSERT_EQ(result.status, 0) << last_lines(result.err, 20);
+  const JsonField seen = JsonField::parse(result.out, "what Node saw");
+  size_t computed = 0, stored = 0;
+  for (size_t m = 0; m < maps.size(); ++m) {
+    auto& [starts, map] = maps[m];
+    for (size_t i = 0; i < map.runs.size(); ++i) {
+      const JsonField cell = seen[m][i];
+      if (cell.is_null()) continue;
+      stored += cell.is_boolean();
+      if (cell.is_boolean()) continue;
+      SCOPED_TRACE(fmt::format("{} by {}, {}, cell {}", map.scene.name, map.method, map.of, i));
+      LiveRun live(starts->scene_of(*map.runs[i].cell));
+      live.start({map.method.substr(6), map.runs[i].cell->step, 1e-6, live.scene().duration, false});
+      live.advance(map.runs[i].cell->step * cell["until"].number(), 1 << 30);
+      EXPECT_EQ(cell["fingerprint"].text(), live.fingerprint());
+      ++computed;
+    }
+  }
+  EXPECT_GT(computed, 1500u);
+  EXPECT_LT(stored, computed / 50) << "what rounding of the start changes visibly";
+}
+
 TEST_F(LabModule, GivesTheNativeBitsInABrowser) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
@@ -311,6 +374,24 @@ TEST_F(LabModule, AHandHoldsPinsAndLetsGo) {
   NEEDS_LAB;
   NEEDS_CHROMIUM;
   use(scenes_of({"cloth-hang"}), "labUse.handByPointer('cloth-hang', 399)");
+}
+
+TEST_F(LabModule, AHandHoldsAndLetsGoWhereTheLabDrawsCoarsely) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  EXPECT_EQ(use(scenes_of({"cloth-hang"}), "labUse.dragsCoarsely('cloth-hang', 399)")["checked"].number(), 9);
+}
+
+TEST_F(LabModule, TheCircleStandsBeforeAPointLeavesIt) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  EXPECT_EQ(use(scenes_of({"circle", "cloth-hang"}), "labUse.courseFromTheStart()")["checked"].number(), 9);
+}
+
+TEST_F(LabModule, SteppersHaveChineseNamesBesideTheirOwn) {
+  NEEDS_LAB;
+  NEEDS_CHROMIUM;
+  EXPECT_EQ(use(scenes_of({"cloth-hang"}), "labUse.chineseNames()")["names"].items().size(), steppers().size());
 }
 
 TEST_F(LabModule, KeysOfThePictureDoWhatAPointerDoes) {

@@ -664,6 +664,78 @@ const labUse = (() => {
     return all;
   }
 
+  /** The circle stands in the picture before anything runs, with the particle on it; another rate makes it another course. */
+  async function courseFromTheStart() {
+    const all = new Complaints(), lab = await opened({scene: 'circle'}), {stage} = lab, course = () => lab.stage.course;
+    const points = () => Array.from({length: course().count + 1}, (_, i) => [...course().table.data.subarray(4 * i, 4 * i + 3)]);
+    all.check(lab.reading.t === 0 && course().count > 500, 'has a course of', course().count);
+    // single precision
+    all.check(points().every(point => Math.abs(Math.hypot(...point) - 1) < 1e-6), 'leaves the circle');
+    all.check(points()[0].every((v, k) => v === Math.fround(lab.runs[0].places[k])), 'does not begin at the particle');
+    lab.draw();
+    const paper = make('canvas', {width: stage.canvas.width, height: stage.canvas.height}).getContext('2d');
+    paper.drawImage(stage.canvas, 0, 0);
+    const ratio = stage.canvas.width / stage.canvas.clientWidth;
+    const darkness = place => {
+      const [x, y] = stage.project(place, stage.boxes[0]), {data} = paper.getImageData(Math.round(ratio * x) - 2, Math.round(ratio * y) - 2, 5, 5);
+      let least = 765;
+      for (let i = 0; i < data.length; i += 4) least = Math.min(least, data[i] + data[i + 1] + data[i + 2]);
+      return least;
+    };
+    const ground = darkness([0, 0, 0]);
+    for (const angle of [1, 2, 3, 4, 5]) all.check(darkness([Math.cos(angle), Math.sin(angle), 0]) < ground - 100, 'no circle is drawn at', angle);
+    slide(knobOf('rotation.rate'), 0);
+    await until(() => course().count > 0 && points().every(([x]) => x > 0.9), 'the course of a point that stands');
+    await lab.setState({scene: 'cloth-hang'});
+    await until(() => lab.reading.scene === 'cloth-hang', 'the cloth');
+    all.check(course().count === 0, 'a cloth has a course');
+    return all;
+  }
+
+  /** Dragging while the lab runs and draws coarsely, as it does where drawing is slow. */
+  async function dragsCoarsely(scene, particle) {
+    const all = new Complaints(), check = all.check.bind(all), lab = await opened({scene}), fine = lab.stage;
+    // frames far apart that no script has taken
+    lab.play();
+    await until(() => lab.playing && lab.reading.t > 0, 'the run');
+    for (let i = 0; i < 40 && lab.stage === fine; ++i) lab.watchDrawing(100, 1);
+    check(lab.stage !== fine && lab.stage?.coarse && lab.drawsSlowly, 'is not coarse');
+    await until(() => lab.stage.boxes?.length && lab.stage.canvas.width < 0.8 * lab.stage.canvas.clientWidth, 'fewer pixels');
+    check(lab.playing, 'does not run any more');
+    for (const type of ['mouse', 'touch']) {
+      const to = await drag(particle, type === 'mouse' ? 40 : -40, -30, false, type), [run] = lab.runs;
+      check(lab.hand.held?.particle === particle && lab.reading.byHand, type, 'does not hold the particle');
+      // a camera that moves takes the particle along a frame later
+      await until(() => apart(placeOf(particle), to) < 3, `${type}: the particle under the pointer`);
+      const {t} = lab.reading;
+      await until(() => lab.reading.t > t + 0.02, `${type}: time passes while the hand holds`);
+      await until(() => apart(placeOf(particle), to) < 3, `${type}: the particle under the pointer again`);
+      check(!run.failed, type, 'fails');
+      pointer('pointerup', to, type);
+      check(!lab.hand.held && lab.stage.coarse && lab.playing, type, 'after it let go');
+      const free = lab.runs[0], held = [...free.places.subarray(3 * particle, 3 * particle + 3)];
+      await until(() => held.some((v, k) => v !== free.places[3 * particle + k]), `${type}: the particle falls`);
+    }
+    lab.pause();
+    await frame();
+    check(lab.stage.canvas.width >= 0.99 * lab.stage.canvas.clientWidth, 'stands with fewer pixels', lab.stage.canvas.width, lab.stage.canvas.clientWidth);
+    return all;
+  }
+
+  /** Names of steppers in Chinese, with their names for the command line beside. */
+  async function chineseNames() {
+    const all = new Complaints(), lab = await opened({scene: 'cloth-hang'});
+    setLabLanguage('zh');
+    const shown = Object.fromEntries([...lab.querySelectorAll('[data-stepper=A] option')].map(each => [each.value, each.textContent]));
+    for (const [name, words] of Object.entries(shown)) all.check(words.includes(name), words, 'does not say', name);
+    for (const [name, words] of Object.entries({'explicit-euler': '显式欧拉', 'leapfrog': '蛙跳', 'implicit-midpoint': '隐式中点', 'rk4': '四阶龙格-库塔'}))
+      all.check(shown[name].startsWith(words), name, 'is called', shown[name]);
+    all.check(nameOfMethod('leapfrog+sticky') === '蛙跳，粘性球' && nameOfMethod('newcomer-euler') === 'newcomer Euler', nameOfMethod('leapfrog+sticky'), nameOfMethod('newcomer-euler'));
+    setLabLanguage('en');
+    all.check(nameOfMethod('symplectic-euler+sticky') === 'symplectic Euler, sticky', nameOfMethod('symplectic-euler+sticky'));
+    return {...all, names: shown};
+  }
+
   /**
    * The controls in the order of the Tab key: a page cannot press it, so that the browser's rule is followed: what takes
    * focus, is shown and has no negative tabindex, in the order of the document, as no tabindex is above zero.
@@ -694,6 +766,6 @@ const labUse = (() => {
   return {
     theLab, button, knobOf, pause, until, frame, Complaints, opened, slide, type, choose, steps, timeIn, say3,
     firstSteps, sliders, marks, bursts, burstsInFrames, handByPointer, keysOfPicture,
-    changedScenes, changedByHand, byAddress, drops, unavailable, reducedMotion, tabOrder
+    changedScenes, changedByHand, byAddress, drops, unavailable, reducedMotion, tabOrder, courseFromTheStart, dragsCoarsely, chineseNames
   };
 })();

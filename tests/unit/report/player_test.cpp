@@ -320,6 +320,19 @@ void expect_departures(const Scene& scene) {
     const ReadMotions read(data, scene.model.particles.size());
     EXPECT_TRUE(read.all_read());
     const JsonField cells = runs_of(data);
+    const JsonField without = JsonField::parse(cells_for_page(data.dump(), false), "no lab"),
+                    with = JsonField::parse(cells_for_page(data.dump(), true), "a lab"), shown = runs_of(with);
+    EXPECT_EQ(runs_of(without).dump(), cells.dump());
+    EXPECT_FALSE(without.find("starts"));
+    EXPECT_TRUE(ReadMotions(with, scene.model.particles.size()).all_read());
+    for (size_t c = 0; c < 18; ++c) {
+      ASSERT_EQ(shown[c].is_null(), cells[c].is_null());
+      if (cells[c].is_null()) continue;
+      for (const char* key : {"frames", "at", "times"}) EXPECT_EQ(shown[c][key].dump(), cells[c][key].dump());
+      if (shown[c].find("computed")) {
+        EXPECT_EQ(shown[c]["modes"].natural(), 0u);
+      }
+    }
     int failed = 0;
     for (size_t c = 0; c < 18; ++c) {
       const JsonField cell = cells[c];
@@ -334,12 +347,13 @@ void expect_departures(const Scene& scene) {
       if (left) {
         EXPECT_NEAR(cell["left"].number(), run.outcome.end, 1e-3 * run.outcome.end);
       }
-      EXPECT_LT(
-          (read.base(static_cast<Eigen::Index>(cell["at"].natural())) - run.rest.reshaped()).cwiseAbs().maxCoeff(),
-          scene.size() / 2000);
+      EXPECT_LT((read.base(static_cast<Eigen::Index>(cell["at"].natural())) - run.cell->rest.reshaped())
+                    .cwiseAbs()
+                    .maxCoeff(),
+                scene.size() / 2000);
       double largest = 0, worst = 0;
       for (size_t f = 0; f < frames; ++f) {
-        const Eigen::VectorXd off = (run.path.x[f] - run.rest).reshaped();
+        const Eigen::VectorXd off = (run.path.x[f] - run.cell->rest).reshaped();
         largest = std::max(largest, off.cwiseAbs().maxCoeff());
         worst = std::max(worst, (read.run(c).apart.col(static_cast<Eigen::Index>(f)) - off).cwiseAbs().maxCoeff());
       }

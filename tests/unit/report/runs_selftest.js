@@ -3,8 +3,13 @@ const hints = [];  // below the players
 
 /** What the open window shows, and that it closes. */
 async function look() {
-  await until(() => document.querySelector('dialog.run motion-player'));
+  await until(() => document.querySelector('dialog.run :is(motion-player, .player > .none)'));
   const dialog = document.querySelector('dialog.run'), player = dialog.querySelector('motion-player');
+  if (!player) {
+    hints.push(dialog.querySelector('.player').textContent);
+    dialog.querySelector('.close').click();
+    return {drawn: 0, closed: await until(() => !document.querySelector('dialog.run'))};
+  }
   await player.wake();
   player.pause();
   const {begin, end} = player;
