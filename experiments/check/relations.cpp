@@ -62,7 +62,8 @@ std::string undamped(const Scene& s) {
 }
 
 constexpr auto rounding =
-    "three times what a perturbation of 10 u L sqrt(n) (unit round-off, lengths, steps) is measured to grow to";
+    "three times what a perturbation of 10 u L sqrt(n) (unit round-off, lengths, steps; of implicit rules also what "
+    "they leave unsolved) is measured to grow to";
 constexpr auto rounding_and_iterations = "the same, and with sequential projection what n and 2n iterations differ by";
 constexpr auto settling = "what the runs still move by in their last quarter, and 10 u L sqrt(n)";
 

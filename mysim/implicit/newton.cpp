@@ -176,7 +176,6 @@ void IncrementalPotential::precondition(const Points& r, Points& out) const {
 namespace {
 
 constexpr int most_newton_steps = 200, most_repetitions = 100;
-constexpr double force_tolerance = 1e-12;  // of the largest force; round-off often comes first
 
 }  // namespace
 
@@ -269,7 +268,7 @@ const State& ImplicitStep::solve_linear(const State& s, double h) {
   u_.setZero(3, s.x.cols());
   potential_.freeze(u_);
   potential_.gradient(u_, g_);
-  if (!newton_direction(Curvature::clamped, 1e-12).converged && largest_column(g_) > potential_.force_rounding())
+  if (!newton_direction(Curvature::clamped, force_tolerance).converged && largest_column(g_) > potential_.force_rounding())
     throw SolverFailure("the linear system of the step was not solved");
   u_ = p_;
   return potential_.end(u_);
