@@ -268,7 +268,8 @@ const State& ImplicitStep::solve_linear(const State& s, double h) {
   u_.setZero(3, s.x.cols());
   potential_.freeze(u_);
   potential_.gradient(u_, g_);
-  if (!newton_direction(Curvature::clamped, force_tolerance).converged && largest_column(g_) > potential_.force_rounding())
+  if (!newton_direction(Curvature::clamped, force_tolerance).converged &&
+      largest_column(g_) > potential_.force_rounding())
     throw SolverFailure("the linear system of the step was not solved");
   u_ = p_;
   return potential_.end(u_);
