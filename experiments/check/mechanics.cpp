@@ -61,7 +61,7 @@ double extension_of(const Spring& spring, const Points& x) {
 RelationResult free_fall(Subject& subject, const Scene& scene, unsigned) {
   const SubjectRun& run = subject.run(scene);
   const Trajectory& path = run.path;
-  const std::vector<double> noise = subject.noise(scene).x;
+  const std::vector<double> noise = subject.noise_with_unsolved(scene).x;
   const Points& start = scene.start.x;
   const Vec3 from = centre_of_mass(scene, start), v = start_velocity_of_the_centre(scene),
              g = scene.model.find<Gravity>()->acceleration;
@@ -96,7 +96,7 @@ RelationResult momentum_kept(Subject& subject, const Scene& scene, unsigned) {
   const Trajectory& path = subject.run(scene).path;
   const Vec3 from = centre_of_mass(scene, scene.start.x), v = start_velocity_of_the_centre(scene);
   // momentum over mass, seen in places: engines that report no velocities are asked too
-  return over_time("the centre of mass against uniform motion", "m", path, subject.noise(scene).x,
+  return over_time("the centre of mass against uniform motion", "m", path, subject.noise_with_unsolved(scene).x,
                    [&](int i) { return (centre_of_mass(scene, path.x[i]) - from - v * path.t[i]).norm(); });
 }
 
@@ -124,7 +124,7 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   const auto rounding = [&](int times) {
     Scene finer = scene;
     finer.step = std::ldexp(scene.step, -times);
-    const Subject::Noise noise = subject.noise(finer);
+    const Subject::Noise noise = subject.noise_with_unsolved(finer);
     std::vector<double> bound(noise.x.size());
     for (size_t i = 0; i < bound.size(); ++i) bound[i] = mass.sum() * (noise.x[i] * fast + noise.v[i] * far);
     return bound;

@@ -44,7 +44,7 @@ const Trajectory& halved(Subject& subject, const Scene& scene, int times) {
 
 std::vector<double> noise_at(Subject& subject, Scene scene, int times) {
   scene.step = std::ldexp(scene.step, -times);
-  return subject.noise(scene).x;
+  return subject.noise_with_unsolved(scene).x;
 }
 
 RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {

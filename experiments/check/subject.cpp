@@ -59,16 +59,6 @@ double Subject::rounding(double lengths, long steps, bool projected) const {
   return (10 * std::sqrt(n) + (projected ? n * std::sqrt(n) : 0)) * u * lengths;
 }
 
-double Subject::unsolved_speed(const Scene& scene, double speed, long steps) const {
-  const Stepper* rule = stepper_of(method_);
-  if (!rule || rule->solved_to == 0) return 0;
-  const Particles& p = scene.model.particles;
-  double heaviest = 0, lightest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < p.size(); ++i)
-    if (!p.pinned[i]) heaviest = std::max(heaviest, p.mass[i]), lightest = std::min(lightest, p.mass[i]);
-  return heaviest > 0 ? rule->solved_to * speed * heaviest / lightest * static_cast<double>(std::max(1L, steps)) : 0;
-}
-
 Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   const Run settings = run_for_relations(scene);
   const SubjectRun& plain = run(scene, settings);
@@ -78,12 +68,10 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   if (method_.adaptive) noise.start = std::max(noise.start, settings.tolerance * scale * plain.outcome.steps);
   double speed = 0;
   for (const Points& v : plain.path.v) speed = std::max(speed, largest_column(v));
-  const double unsolved = unsolved_speed(scene, speed, plain.outcome.steps);
-  noise.start += unsolved * scene.duration;
   // velocities are rounded in the same proportion
   const bool velocities = plain.path.v.back().cols() == plain.path.x.back().cols();
   noise.x.assign(plain.path.frames(), 3 * noise.start);
-  if (velocities) noise.v.assign(plain.path.frames(), 3 * (noise.start / scale * speed + unsolved));
+  if (velocities) noise.v.assign(plain.path.frames(), 3 * noise.start / scale * speed);
   for (const auto& [seed, way] : {std::pair{1U, 1}, {1U, -1}, {2U, 1}, {2U, -1}}) {
     const SubjectRun& moved = run(perturbed(scene, way * noise.start, seed), settings);
     double x = 0, v = 0;
@@ -98,6 +86,28 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   if (scene.model.find<Spheres>())
     for (size_t i = 0; i < noise.x.size(); ++i)
       if (noise.x[i] > 3 * most_growth * noise.start) noise.x[i] = std::numeric_limits<double>::infinity();
+  return noise;
+}
+
+Subject::Noise Subject::noise_with_unsolved(const Scene& scene) {
+  Noise noise = this->noise(scene);
+  const Stepper* rule = stepper_of(method_);
+  if (!rule || rule->solved_to == 0) return noise;
+  const Particles& p = scene.model.particles;
+  double heaviest = 0, lightest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < p.size(); ++i)
+    if (!p.pinned[i]) heaviest = std::max(heaviest, p.mass[i]), lightest = std::min(lightest, p.mass[i]);
+  if (heaviest == 0) return noise;
+  const SubjectRun& plain = run(scene);
+  double speed = 0;
+  for (const Points& v : plain.path.v) speed = std::max(speed, largest_column(v));
+  const double unsolved =
+      rule->solved_to * speed * heaviest / lightest * static_cast<double>(std::max(1L, plain.outcome.steps));
+  // it grows as the perturbation did
+  const double factor = 1 + unsolved * scene.duration / noise.start;
+  for (double& x : noise.x) x *= factor;
+  for (double& v : noise.v) v = v * factor + 3 * unsolved;
+  noise.start *= factor;
   return noise;
 }
 

@@ -51,8 +51,7 @@ class Subject {
 
   /// How far two runs may be apart by rounding, m (and m/s), up to each sample. Every step rounds places to a unit
   /// round-off of the lengths that occur, in about ten operations, and the roundings of n steps add up like a random
-  /// walk: 10 u L sqrt(n). (An adaptive rule leaves its tolerance in each of its steps instead; an implicit one what it
-  /// does not solve, below, on top: that speed over the duration.) The free particles
+  /// walk: 10 u L sqrt(n). (An adaptive rule leaves its tolerance in each of its steps instead.) The free particles
   /// start that far off in three seeded directions, and the farthest that a particle comes to be from its unperturbed
   /// self is measured, on this scene and by this engine: growth and solvers that stop early are in it. Three times
   /// that, since one more draw is to stay below: among the largest of hundreds of coordinates draws differ by less.
@@ -64,15 +63,16 @@ class Subject {
   /// predicted (experiments/metrics.h, round_off_bound), and a perturbation may or may not meet what parts two runs.
   /// `lengths` (m): the lengths that occur, where they are larger than in this run.
   Noise noise(const Scene& scene, double lengths = 0);
+  /// The same, with what a rule of mysim's leaves of the equation in its step: for relations that hold a run against
+  /// something that leaves it not, or otherwise. It stops at a part e of the largest force, of which inertia m v / h is
+  /// one, so that the lightest particle's velocity is off by up to e v m_max / m_min in each step, however short, and
+  /// always to the same side: n of that after n steps, and places by that speed over the duration.
+  Noise noise_with_unsolved(const Scene& scene);
   /// The part of it that is no growth, m. `projected`: places are put where they must be, and what was there before
   /// does not come back: the velocity that is left is off by u L / h in each step, which adds up to u L n sqrt(n). So
   /// do position-based rules, and so do contacts: on which side of a surface a particle lies that rests there is a
   /// matter of rounding, and no perturbation of the start shows it.
   double rounding(double lengths, long steps, bool projected) const;
-  /// m/s, what a rule that solves an equation in each step may leave of a speed after so many steps. It stops at a part
-  /// e of the largest force, of which inertia m v / h is one, so that the lightest particle's velocity is off by up to
-  /// e v m_max / m_min in each step, whatever its length, and always to the same side. (0 of other rules.)
-  double unsolved_speed(const Scene& scene, double speed, long steps) const;
 
   /// Position-based solvers go through particles and links one after the other: another order is another unconverged
   /// answer. The error of n of them falls as 1 / n, so that it is twice the distance of n and 2n iterations: that for
