@@ -144,7 +144,8 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   };
   RelationResult found = shrinks("half", half, "the whole", whole, rounding(1));
   if (found.holds()) return found;
-  // at one step terms of higher order may cancel the change; they do not at the next one too
+  // a damping rule at a coarse step has taken most of a vibration, so that its change is near its end: six particles
+  // kept 0.68, 0.59, 0.55 and 0.52 of it from one halving to the next
   RelationResult finer = shrinks("a quarter of", changes_in(halved(subject, scene, 2)), "half", half, rounding(2));
   return finer.ratio() < found.ratio() ? finer : found;
 }

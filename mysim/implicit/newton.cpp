@@ -115,9 +115,10 @@ double IncrementalPotential::value(const Points& u) {
   a_.setZero();
   frozen_damping_.add_product(0, 1, moved_, a_);
   const double dashpots = dot(moved_, a_) / (2 * h_);
-  // a sum of n parts is rounded by at most n eps of their sizes; a spring's energy by k |e| eps |x|, since its ends
+  // a sum of n parts is rounded by at most n eps of their sizes, and each part, of products of three coordinates, by at
+  // most 8; a spring's energy by k |e| eps |x|, since its ends
   // are, and sum k |e| <= sqrt(sum k e^2) sqrt(sum k)
-  rounding_ = particles.size() * eps * (inertia + drag + dashpots + springs + given_size) +
+  rounding_ = (particles.size() + 8) * eps * (inertia + drag + dashpots + springs + given_size) +
               8 * eps * std::sqrt(2 * springs * stiffness_) * at.x.cwiseAbs().maxCoeff();
   return inertia + drag + dashpots + springs + given;
 }
