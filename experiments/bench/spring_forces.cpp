@@ -70,7 +70,7 @@ std::optional<BenchmarkFunction> fused_step(const Scene& scene, simd::Instructio
     simd::AlignedBuffer<T> damping, inverse_mass_dt, dt;
   };
   const auto topology = simd::find_grid_topology(*scene.model.find<Springs>(), scene.model.particles.size());
-  if (!topology || !simd::fits<T>(*topology)) return std::nullopt;
+  if (!topology || !simd::fits(*topology)) return std::nullopt;
   auto work = std::make_shared<Work>(Work{simd::ClothGridMemory<T>(*topology), {}, {}, {}});
   const double h = scene.step, m = scene.model.particles.mass[0];
   const auto all = [&](double value) { return work->body.spread(Eigen::ArrayXd::Constant(1, value)); };

@@ -61,7 +61,7 @@ double extension_of(const Spring& spring, const Points& x) {
 RelationResult free_fall(Subject& subject, const Scene& scene, unsigned) {
   const SubjectRun& run = subject.run(scene);
   const Trajectory& path = run.path;
-  const std::vector<double> noise = subject.noise(scene).x;
+  const std::vector<double> noise = subject.noise_with_unsolved(scene).x;
   const Points& start = scene.start.x;
   const Vec3 from = centre_of_mass(scene, start), v = start_velocity_of_the_centre(scene),
              g = scene.model.find<Gravity>()->acceleration;
@@ -96,7 +96,7 @@ RelationResult momentum_kept(Subject& subject, const Scene& scene, unsigned) {
   const Trajectory& path = subject.run(scene).path;
   const Vec3 from = centre_of_mass(scene, scene.start.x), v = start_velocity_of_the_centre(scene);
   // momentum over mass, seen in places: engines that report no velocities are asked too
-  return over_time("the centre of mass against uniform motion", "m", path, subject.noise(scene).x,
+  return over_time("the centre of mass against uniform motion", "m", path, subject.noise_with_unsolved(scene).x,
                    [&](int i) { return (centre_of_mass(scene, path.x[i]) - from - v * path.t[i]).norm(); });
 }
 
@@ -117,26 +117,37 @@ RelationResult angular_momentum_kept(Subject& subject, const Scene& scene, unsig
   };
   const Trajectory& path = subject.run(scene).path;
   const std::vector<double> whole = changes_in(path);
-  const Subject::Noise noise = subject.noise(scene);
   double far = 0, fast = 0;
   for (int i = 0; i < path.frames(); ++i)
     far = std::max(far, largest_column(path.x[i])), fast = std::max(fast, largest_column(path.v[i]));
-  // m x' x v + m x x v', at the largest distance and speed
-  std::vector<double> bound(noise.x.size());
-  for (size_t i = 0; i < bound.size(); ++i) bound[i] = mass.sum() * (noise.x[i] * fast + noise.v[i] * far);
+  // m x' x v + m x x v', at the largest distance and speed, and with the step halved so many times
+  const auto rounding = [&](int times) {
+    Scene finer = scene;
+    finer.step = std::ldexp(scene.step, -times);
+    const Subject::Noise noise = subject.noise_with_unsolved(finer);
+    std::vector<double> bound(noise.x.size());
+    for (size_t i = 0; i < bound.size(); ++i) bound[i] = mass.sum() * (noise.x[i] * fast + noise.v[i] * far);
+    return bound;
+  };
   const Stepper* rule = stepper_of(subject.method());
   // half drifts and kicks along central forces keep it; other rules change it by an error of their order
   if (subject.method().adaptive || (rule && rule->symplectic))
-    return over_time("change of angular momentum", "kg m^2/s", path, bound, [&](int i) { return whole[i]; });
-  Run finer = run_for_relations(scene);
-  finer.step /= 2;
-  const std::vector<double> half = changes_in(subject.run(scene, finer).path);
+    return over_time("change of angular momentum", "kg m^2/s", path, rounding(0), [&](int i) { return whole[i]; });
+  const std::vector<double> half = changes_in(halved(subject, scene, 1));
   const int order = order_of(subject.method());
-  for (size_t i = 0; i < bound.size(); ++i) bound[i] += std::exp2(0.5 - order) * whole[i];
-  return over_time(
-      fmt::format("change of angular momentum at half the step, where order {} allows 2^-{} of that at the whole",
-                  order, order - 0.5),
-      "kg m^2/s", path, bound, [&](int i) { return half[i]; });
+  const auto shrinks = [&](const char* at, const std::vector<double>& fine, const char* than,
+                           const std::vector<double>& coarse, std::vector<double> most) {
+    for (size_t i = 0; i < most.size(); ++i) most[i] += std::exp2(0.5 - order) * coarse[i];
+    return over_time(fmt::format("change of angular momentum at {} the step, where order {} allows 2^-{} of that at {}",
+                                 at, order, order - 0.5, than),
+                     "kg m^2/s", path, most, [&](int i) { return fine[i]; });
+  };
+  RelationResult found = shrinks("half", half, "the whole", whole, rounding(1));
+  if (found.holds()) return found;
+  // a damping rule at a coarse step has taken most of a vibration, so that its change is near its end: six particles
+  // kept 0.68, 0.59, 0.55 and 0.52 of it from one halving to the next
+  RelationResult finer = shrinks("a quarter of", changes_in(halved(subject, scene, 2)), "half", half, rounding(2));
+  return finer.ratio() < found.ratio() ? finer : found;
 }
 
 RelationResult energy_without_drift(Subject& subject, const Scene& scene, unsigned) {

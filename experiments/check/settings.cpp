@@ -44,7 +44,7 @@ const Trajectory& halved(Subject& subject, const Scene& scene, int times) {
 
 std::vector<double> noise_at(Subject& subject, Scene scene, int times) {
   scene.step = std::ldexp(scene.step, -times);
-  return subject.noise(scene).x;
+  return subject.noise_with_unsolved(scene).x;
 }
 
 RelationResult half_the_step(Subject& subject, const Scene& scene, unsigned) {
@@ -76,6 +76,12 @@ RelationResult one_answer(Subject& subject, const Scene& scene, unsigned) {
   RelationResult found =
       shrinking("a quarter against an eighth of the step, which is to be half of the whole against a half", scene, one,
                 distances(one, two), distances(four, eight), 0.5, noise);
+  if (!found.holds()) {  // as in half_the_step()
+    RelationResult finer = shrinking(
+        "an eighth against a sixteenth of the step, which is to be half of a half against a quarter", scene, one,
+        distances(two, four), distances(eight, halved(subject, scene, 4)), 0.5, noise_at(subject, scene, 4));
+    if (finer.ratio() < found.ratio()) found = std::move(finer);
+  }
   const auto more = subject.with_iterations(2);
   if (!more) return found;
   // n and 2n iterations of ever finer steps come to one answer where their difference shrinks with the step

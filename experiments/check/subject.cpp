@@ -66,9 +66,9 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   Noise noise;
   noise.start = rounding(scale, plain.outcome.steps, method_.position_based || scene.model.find<Spheres>());
   if (method_.adaptive) noise.start = std::max(noise.start, settings.tolerance * scale * plain.outcome.steps);
-  // velocities are rounded in the same proportion
   double speed = 0;
   for (const Points& v : plain.path.v) speed = std::max(speed, largest_column(v));
+  // velocities are rounded in the same proportion
   const bool velocities = plain.path.v.back().cols() == plain.path.x.back().cols();
   noise.x.assign(plain.path.frames(), 3 * noise.start);
   if (velocities) noise.v.assign(plain.path.frames(), 3 * noise.start / scale * speed);
@@ -86,6 +86,28 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   if (scene.model.find<Spheres>())
     for (size_t i = 0; i < noise.x.size(); ++i)
       if (noise.x[i] > 3 * most_growth * noise.start) noise.x[i] = std::numeric_limits<double>::infinity();
+  return noise;
+}
+
+Subject::Noise Subject::noise_with_unsolved(const Scene& scene) {
+  Noise noise = this->noise(scene);
+  const Stepper* rule = stepper_of(method_);
+  if (!rule || rule->solved_to == 0) return noise;
+  const Particles& p = scene.model.particles;
+  double heaviest = 0, lightest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < p.size(); ++i)
+    if (!p.pinned[i]) heaviest = std::max(heaviest, p.mass[i]), lightest = std::min(lightest, p.mass[i]);
+  if (heaviest == 0) return noise;
+  const SubjectRun& plain = run(scene);
+  double speed = 0;
+  for (const Points& v : plain.path.v) speed = std::max(speed, largest_column(v));
+  const double unsolved =
+      rule->solved_to * speed * heaviest / lightest * static_cast<double>(std::max(1L, plain.outcome.steps));
+  // it grows as the perturbation did
+  const double factor = 1 + unsolved * scene.duration / noise.start;
+  for (double& x : noise.x) x *= factor;
+  for (double& v : noise.v) v = v * factor + 3 * unsolved;
+  noise.start *= factor;
   return noise;
 }
 

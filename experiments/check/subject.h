@@ -63,6 +63,11 @@ class Subject {
   /// predicted (experiments/metrics.h, round_off_bound), and a perturbation may or may not meet what parts two runs.
   /// `lengths` (m): the lengths that occur, where they are larger than in this run.
   Noise noise(const Scene& scene, double lengths = 0);
+  /// The same, with what a rule of mysim's leaves of the equation in its step: for relations that hold a run against
+  /// something that leaves it not, or otherwise. It stops at a part e of the largest force, of which inertia m v / h is
+  /// one, so that the lightest particle's velocity is off by up to e v m_max / m_min in each step, however short, and
+  /// always to the same side: n of that after n steps, and places by that speed over the duration.
+  Noise noise_with_unsolved(const Scene& scene);
   /// The part of it that is no growth, m. `projected`: places are put where they must be, and what was there before
   /// does not come back: the velocity that is left is off by u L / h in each step, which adds up to u L n sqrt(n). So
   /// do position-based rules, and so do contacts: on which side of a surface a particle lies that rests there is a

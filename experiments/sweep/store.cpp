@@ -27,7 +27,8 @@ void write_point_list(const PointList& list, const std::filesystem::path& folder
 PointList read_point_list(const std::filesystem::path& folder) {
   const auto file = folder / "plan.json";
   if (!std::filesystem::exists(file))
-    throw InputError(fmt::format("{}: expected the plan of a sweep, written by `experiment --shard`", file.string()));
+    throw InputError(fmt::format("{}: expected the plan of a sweep, written by `experiment --shard` or `check --hunt`",
+                                 file.string()));
   try {
     const JsonField json = JsonField::parse_file(file.string());
     PointList list{json["experiments"].texts(), {}, {}};

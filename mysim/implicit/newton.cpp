@@ -115,9 +115,10 @@ double IncrementalPotential::value(const Points& u) {
   a_.setZero();
   frozen_damping_.add_product(0, 1, moved_, a_);
   const double dashpots = dot(moved_, a_) / (2 * h_);
-  // a sum of n parts is rounded by at most n eps of their sizes; a spring's energy by k |e| eps |x|, since its ends
+  // a sum of n parts is rounded by at most n eps of their sizes, and each part, of products of three coordinates, by at
+  // most 8; a spring's energy by k |e| eps |x|, since its ends
   // are, and sum k |e| <= sqrt(sum k e^2) sqrt(sum k)
-  rounding_ = particles.size() * eps * (inertia + drag + dashpots + springs + given_size) +
+  rounding_ = (particles.size() + 8) * eps * (inertia + drag + dashpots + springs + given_size) +
               8 * eps * std::sqrt(2 * springs * stiffness_) * at.x.cwiseAbs().maxCoeff();
   return inertia + drag + dashpots + springs + given;
 }
@@ -176,7 +177,6 @@ void IncrementalPotential::precondition(const Points& r, Points& out) const {
 namespace {
 
 constexpr int most_newton_steps = 200, most_repetitions = 100;
-constexpr double force_tolerance = 1e-12;  // of the largest force; round-off often comes first
 
 }  // namespace
 
@@ -269,7 +269,8 @@ const State& ImplicitStep::solve_linear(const State& s, double h) {
   u_.setZero(3, s.x.cols());
   potential_.freeze(u_);
   potential_.gradient(u_, g_);
-  if (!newton_direction(Curvature::clamped, 1e-12).converged && largest_column(g_) > potential_.force_rounding())
+  if (!newton_direction(Curvature::clamped, force_tolerance).converged &&
+      largest_column(g_) > potential_.force_rounding())
     throw SolverFailure("the linear system of the step was not solved");
   u_ = p_;
   return potential_.end(u_);

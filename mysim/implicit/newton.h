@@ -69,16 +69,20 @@ class IncrementalPotential {
 
 // Implicit steps: Newton's method with line search on the incremental potential, and its first step alone.
 
+/// Of the largest force, which inertia m v / h is one of: what a step's equations are solved to. Round-off often comes
+/// first.
+inline constexpr double force_tolerance = 1e-12;
+
 class ImplicitStep {
  public:
   /// Systems of large regular cloths are solved with a V-cycle as preconditioner; `plain`: those too by the list of
   /// pairs, which defines what they are.
   explicit ImplicitStep(System& f, bool plain = false);
 
-  /// Solves the implicit Euler equations of a step of h from s, to round-off or 1e-12 of the forces, whichever is
+  /// Solves the implicit Euler equations of a step of h from s, to round-off or force_tolerance, whichever is
   /// larger; returns the end state. Throws SolverFailure when Newton's method does not get there.
   const State& solve(const State& s, double h);
-  /// One Newton step from y = x_n + h v_n with the clamped matrix; the linear system is solved to 1e-12.
+  /// One Newton step from y = x_n + h v_n with the clamped matrix; the linear system is solved to force_tolerance.
   const State& solve_linear(const State& s, double h);
 
   /// Values of the incremental potential in the last solve(), J: at the start position, then after each Newton step

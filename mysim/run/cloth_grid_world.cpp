@@ -229,7 +229,7 @@ constexpr int particles_per_thread = 4096;
 template <class T>
 std::unique_ptr<World> make_world(const GridTopology& topology, const KickDriftComposition& composition,
                                   const Scene& scene, double h, bool fast, int threads, const Observer& observer) {
-  if (!fits<T>(topology)) return nullptr;
+  if (!fits(topology)) return nullptr;
   const int useful_threads = std::clamp(scene.model.particles.size() / particles_per_thread, 1, threads);
   return std::make_unique<ClothGridWorld<T>>(composition, topology, scene, h, kernel<T>(active_instruction_set(), fast),
                                              useful_threads, observer.every_step());

@@ -11,6 +11,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/run/cloth_grid_world.h"
 #include "mysim/run/run.h"
+#include "mysim/simd/cloth_grid/cloth_grid.h"
 
 namespace crosscheck {
 
@@ -273,7 +274,8 @@ Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene
   const auto world = make_world(stepper, contact, scene, run, observer, execution);
   Outcome out = run_loop(*world, run, observer);
   if (execution.path == ExecutionPath::single_precision && !world->work().single_precision)
-    out.remark = "computed in double precision: single is for regular cloths of 33 columns or more";
+    out.remark = fmt::format("computed in double precision: single is for regular cloths of {} columns or more",
+                             simd::fewest_columns);
   return out;
 }
 

@@ -9,6 +9,8 @@
 #include <limits>
 #include <span>
 
+#include "mysim/implicit/newton.h"
+
 namespace crosscheck::limits {
 namespace {
 
@@ -212,6 +214,7 @@ std::span<const Stepper> steppers() {
        .limit_formula = "stable at every step",
        .what = "Newton's method on the whole nonlinear step; stiff springs at long steps, at the price of damping; "
                "+linear: one Newton step, the rule of Bullet's implicit world",
+       .solved_to = force_tolerance,
        .linear = implicit_euler_linear,
        .style = {"#882255", "(18,3)", 11}},
       {.name = "implicit-midpoint",
@@ -223,6 +226,7 @@ std::span<const Stepper> steppers() {
        .limit = limits::none,
        .limit_formula = "stable at every step on linear springs",
        .what = "symplectic and implicit: keeps the energy of linear springs at any step",
+       .solved_to = force_tolerance,
        .style = {"#CC6677", "(8,2,2,2)", 9}},
       {.name = "xpbd",
        .step = xpbd,

@@ -72,6 +72,7 @@ struct Stepper {
   std::string_view what;           // what it is meant for
   bool adaptive = false;           // chooses its own steps to meet a tolerance; `step` is then its rule at a fixed step
   bool hard_constraints = false;   // keeps fixed distances
+  double solved_to = 0;            // of the largest force, inertia m v / h among them, where the step is an equation
   StepFunction linear = nullptr;   // the rule behind the option +linear
   KickDriftComposition (*composition)() = nullptr;  // where it is one
   CurveStyle style = {};

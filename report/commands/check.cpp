@@ -232,7 +232,10 @@ void add_check(CLI::App& app, Invocation& call) {
                                 "draws scenes for so many seconds, and makes each that breaks a relation, or on which "
                                 "two methods disagree, as small as it goes; goes on where the folder's last one ended")
                    ->check(above_zero());
-  check->add_option("--shard", options->shard, "I/N: of the hunt's cases every Nth from the Ith on")->needs(hunt);
+  check
+      ->add_option("--shard", options->shard,
+                   "I/N: of the hunt's cases every Nth from the Ith on; `merge` joins the parts")
+      ->needs(hunt);
   check->add_option("--jobs", options->jobs, "number of processes of the hunt (default: one per core)")
       ->check(CLI::Range(1, 256))
       ->needs(hunt);

@@ -18,6 +18,7 @@
 #include "report/base/provenance.h"
 #include "report/commands/command_line.h"
 #include "report/commands/commands.h"
+#include "report/commands/hunt.h"
 #include "report/commands/json_files.h"
 
 namespace crosscheck {
@@ -36,6 +37,7 @@ struct ExperimentOptions {
 struct MergeOptions {
   std::vector<std::filesystem::path> folders;
   std::filesystem::path out;
+  std::string command_line;
 };
 
 std::string file_of(const Certificate& c) {
@@ -138,6 +140,7 @@ int experiment_command(const ExperimentOptions& options) {
 
 int merge_command(const MergeOptions& options) {
   const PointList plan = read_point_list(options.folders.at(0));
+  if (is_hunt(plan)) return merge_hunts(options.folders, options.out, options.command_line);
   std::vector<Store> stores;
   for (const auto& folder : options.folders) {
     if (read_point_list(folder).points != plan.points)
@@ -185,10 +188,14 @@ void add_experiment(CLI::App& app, Invocation& call) {
 
 void add_merge(CLI::App& app, Invocation& call) {
   const auto options = std::make_shared<MergeOptions>();
-  auto* merge = app.add_subcommand("merge", "joins the parts of an experiment into its tables");
-  merge->add_option("DIR", options->folders, "output folders of `experiment --shard`")->required();
+  auto* merge = app.add_subcommand("merge", "joins the parts of an experiment, or of a hunt, into its tables");
+  merge->add_option("DIR", options->folders, "output folders of `experiment --shard`, or of `check --hunt --shard`")
+      ->required();
   merge->add_option("--out", options->out, "folder")->required();
-  merge->callback([options, &call] { call.status = merge_command(*options); });
+  merge->callback([options, &call] {
+    options->command_line = call.line;
+    call.status = merge_command(*options);
+  });
 }
 
 }  // namespace crosscheck

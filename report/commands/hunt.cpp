@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <set>
+#include <functional>
+#include <map>
 
 #include "experiments/check/agreement.h"
 #include "experiments/sweep/sweep.h"
 #include "experiments/timing/machine.h"
+#include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/output_folder.h"
 #include "report/base/provenance.h"
@@ -79,24 +81,37 @@ std::string report_text(const FindingGroup& group, const HuntOptions& options, c
   return text;
 }
 
-struct Swept {
-  std::vector<long> cases;  // that are finished, in this run or an earlier one
-  std::vector<FailedPoint> failed;
-};
+// The plan of a hunt: its cases as a sweep's points, and what they have in common in its provenance.
+constexpr auto plan_id = "hunt", plan_methods = "hunt methods", plan_seed = "hunt seed", plan_known = "hunt known";
 
-/// Cases of the shard from the first that is not finished, until the time is over.
-Swept sweep(const HuntOptions& options, const Shard& shard, const Store& store, ResumableOutput& folder) {
+PointList plan_of(const HuntOptions& options) {
+  Provenance lines = provenance(options.command_line);
+  std::string methods;
+  for (const Method& method : options.hunt.methods) methods += (methods.empty() ? "" : ",") + method.name;
+  // the first case's hash stands for the program, the methods, the list of known breaks and the seed
+  lines.emplace_back(plan_id, point_of(options.hunt, 0).hash());
+  lines.emplace_back(plan_methods, methods);
+  lines.emplace_back(plan_seed, std::to_string(options.hunt.seed));
+  lines.emplace_back(plan_known, options.known_file);
+  return {{}, {}, lines};
+}
+
+/// Cases of the shard from the first that is not finished, until the time is over; those that are finished, in this run
+/// or an earlier one, become points of the plan, which is kept beside them.
+std::vector<FailedPoint> sweep(const HuntOptions& options, const Shard& shard, const Store& store,
+                               ResumableOutput& folder, PointList& plan) {
   const int jobs = options.jobs > 0 ? options.jobs : cores_allowed();
   const auto end = Clock::now() + std::chrono::duration<double>(options.seconds);
-  Swept swept;
+  std::vector<FailedPoint> all_failed;
   Progress progress(0);
+  folder.announce({"plan.json"});
   for (long index = shard.index - 1; Clock::now() < end;) {
     std::vector<Point> batch;
-    std::vector<long> cases;
+    std::vector<PointList::Entry> cases;
     std::vector<std::string> files;
     for (; static_cast<int>(batch.size()) < jobs; index += shard.count) {
       Point point = point_of(options.hunt, index);
-      cases.push_back(index);
+      cases.push_back({point.name, point.hash()});
       if (store.has(point.hash())) continue;
       for (const char* ending : {".json", ".failed"})
         files.push_back(fmt::format("{}/{}{}", store.folder().filename().string(), point.hash(), ending));
@@ -105,11 +120,12 @@ Swept sweep(const HuntOptions& options, const Shard& shard, const Store& store, 
     folder.announce(files);
     progress.expect(static_cast<int>(batch.size()));
     const std::vector<FailedPoint> failed = run_points(batch, {options.jobs, {}}, store, progress);
-    swept.cases.insert(swept.cases.end(), cases.begin(), cases.end());
-    swept.failed.insert(swept.failed.end(), failed.begin(), failed.end());
+    all_failed.insert(all_failed.end(), failed.begin(), failed.end());
+    std::ranges::copy_if(cases, std::back_inserter(plan.points), [&](const auto& c) { return store.has(c.hash); });
+    write_point_list(plan, options.out);
   }
   progress.done();
-  return swept;
+  return all_failed;
 }
 
 void print_group(const FindingGroup& group, const std::string& file) {
@@ -121,18 +137,10 @@ void print_group(const FindingGroup& group, const std::string& file) {
   if (!known) fmt::print("         {}\n         {}\n", row.sentence, file);
 }
 
-}  // namespace
-
-int hunt_command(const HuntOptions& options) {
-  const Shard shard = options.shard.empty() ? Shard{} : shard_from(options.shard);
-  ResumableOutput folder(options.out, "hunt");
-  const Store store(store_in(options.out));
-  folder.keep(store.folder().filename().string());
-  const Swept swept = sweep(options, shard, store, folder);
-
-  TableSet tables;
-  for (const long index : swept.cases)
-    if (const auto found = store.find(point_of(options.hunt, index).hash())) tables.append(*found);
+/// Writes the tables and the files of each finding into a folder, whose files `announce` is told before, and prints
+/// what was found. 0 where something was asked and nothing is broken.
+int write_findings(const TableSet& tables, const HuntOptions& options, const std::filesystem::path& out,
+                   const std::function<void(const std::vector<std::string>&)>& announce) {
   std::vector<HuntFindingRow> findings;
   HuntCaseRow sum;
   size_t cases = 0;
@@ -145,27 +153,76 @@ int hunt_command(const HuntOptions& options) {
   }
   const Provenance lines = provenance(options.command_line);
   for (const Table& table : tables.tables) {
-    folder.announce({table.name + ".csv"});
-    write_csv(table, lines, options.out);
+    announce({table.name + ".csv"});
+    write_csv(table, lines, out);
   }
   for (const FindingGroup& group : grouped(findings)) {
     const std::string name = name_of_files(group.smallest);
-    const auto file = [&](const char* ending) { return options.out / (name + ending); };
     if (group.smallest.mark == RelationMark::broken) {
-      folder.announce({name + ".toml", name + ".png", name + ".md"});
-      write_file(file(".toml"), group.smallest.scene);
-      const std::string no_picture =
-          draw_break(methods_named(group.smallest.methods, options.hunt.methods),
-                     parse_scene(group.smallest.scene, group.smallest.kind), group.smallest.since, file(".png"));
-      write_file(file(".md"), report_text(group, options, no_picture));
+      announce({name + ".toml", name + ".png", name + ".md"});
+      write_file(out / (name + ".toml"), group.smallest.scene);
+      const std::string no_picture = draw_break(methods_named(group.smallest.methods, options.hunt.methods),
+                                                parse_scene(group.smallest.scene, group.smallest.kind),
+                                                group.smallest.since, out / (name + ".png"));
+      write_file(out / (name + ".md"), report_text(group, options, no_picture));
     }
-    print_group(group, file(".md").string());
+    print_group(group, (options.out / (name + ".md")).string());
   }
-  folder.finish();
-  for (const FailedPoint& f : swept.failed) fmt::print(stderr, "crosscheck: {}: {}\n", f.name, f.why);
   fmt::print("\n{} cases of seed {}: {} answers hold, {} are broken, {} are known, {} cannot be asked\n{}\n", cases,
              options.hunt.seed, sum.holds, sum.broken, sum.known, sum.not_asked, options.out.string());
-  return sum.broken == 0 && swept.failed.empty() && sum.holds + sum.known > 0 ? 0 : 1;
+  return sum.broken == 0 && sum.holds + sum.known > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int hunt_command(const HuntOptions& options) {
+  const Shard shard = options.shard.empty() ? Shard{} : shard_from(options.shard);
+  ResumableOutput folder(options.out, "hunt");
+  const Store store(store_in(options.out));
+  folder.keep(store.folder().filename().string());
+  PointList plan = plan_of(options);
+  const std::vector<FailedPoint> failed = sweep(options, shard, store, folder, plan);
+  std::vector<std::string> missing;
+  const int status = write_findings(joined(plan, {&store, 1}, missing), options, options.out,
+                                    [&](const auto& files) { folder.announce(files); });
+  folder.finish();
+  for (const FailedPoint& f : failed) fmt::print(stderr, "crosscheck: {}: {}\n", f.name, f.why);
+  return failed.empty() ? status : 1;
+}
+
+bool is_hunt(const PointList& plan) { return !value_of(plan.provenance, plan_id).empty(); }
+
+int merge_hunts(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& out,
+                const std::string& command_line) {
+  PointList plan = read_point_list(folders.at(0));
+  const std::string id = value_of(plan.provenance, plan_id);
+  std::vector<Store> stores;
+  std::map<long, PointList::Entry> cases;  // each once, in the order of their numbers
+  for (const auto& folder : folders) {
+    const PointList part = read_point_list(folder);
+    if (value_of(part.provenance, plan_id) != id)
+      throw InputError(
+          fmt::format("{}: expected cases of the hunt in {}: the same methods, known breaks, seed and program",
+                      (folder / "plan.json").string(), folders[0].string()));
+    for (const PointList::Entry& c : part.points) cases.emplace(std::stol(c.name.substr(c.name.find(' ') + 1)), c);
+    stores.emplace_back(store_in(folder));
+  }
+  plan.points.clear();
+  for (const auto& [index, entry] : cases) plan.points.push_back(entry);
+  std::vector<std::string> missing;
+  const TableSet tables = joined(plan, stores, missing);
+  if (!missing.empty())
+    throw InputError(fmt::format("{}: expected what its plan.json names, {} of {} cases are missing, the first is {}",
+                                 folders[0].string(), missing.size(), plan.points.size(), missing[0]));
+  HuntOptions options;
+  options.hunt.methods = find_methods(value_of(plan.provenance, plan_methods));
+  options.hunt.seed = static_cast<unsigned>(std::stoul(value_of(plan.provenance, plan_seed)));
+  options.known_file = value_of(plan.provenance, plan_known);
+  options.out = out, options.command_line = command_line;
+  OutputFolder folder(out, "merge");
+  const int status = write_findings(tables, options, folder.path(), [](const auto&) {});
+  folder.finish();
+  return status;
 }
 
 }  // namespace crosscheck

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "experiments/check/hunt.h"
+#include "experiments/sweep/store.h"
 
 namespace crosscheck {
 
@@ -26,5 +27,14 @@ struct HuntOptions {
 /// Goes on after the last case that the folder holds. 1 where something is broken that is not known, where a case could
 /// not be finished, and where nothing could be asked; else 0.
 int hunt_command(const HuntOptions& options);
+
+// Shards of a hunt, joined.
+
+/// Whether a folder's plan is a hunt's.
+bool is_hunt(const PointList& plan);
+/// The findings of all cases in the folders, each case once, as one hunt of them all would have written them. Throws
+/// InputError where the folders are of different hunts.
+int merge_hunts(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& out,
+                const std::string& command_line);
 
 }  // namespace crosscheck

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "experiments/estimate.h"
@@ -103,6 +104,14 @@ std::string not_measured(const TranslationTarget& target) {
                      target.numbers->title);
 }
 
+/// Where the step that was asked does not divide the time between samples: asked and taken. Empty where it does.
+std::string step_taken(const Run& asked) {
+  const TimeGrid taken = time_grid(asked);
+  if (std::abs(taken.h - asked.step) <= 1e-9 * asked.step) return "";
+  return fmt::format("the step asked is {:.6g} s, the step taken {:.6g} s: it must divide the {:.6g} s between samples",
+                     asked.step, taken.h, asked.duration / asked.samples);
+}
+
 int to_engine(const TranslateOptions& options) {
   const Scene scene = load_scene(options.scene);
   const TranslationTarget target = find_target(options.to, options.iterations);
@@ -136,6 +145,7 @@ int to_engine(const TranslateOptions& options) {
               {"engine", target.numbers->title},
               {"source", target.numbers->source},
               {"step", t.h},
+              {"step_asked", run.step},
               {"iterations", target.numbers->iterations.empty() ? Json() : Json(target.iterations)},
               {"numbers", Json::list()},
               {"lost", t.lost},
@@ -149,6 +159,7 @@ int to_engine(const TranslateOptions& options) {
                target.numbers->iterations.empty()
                    ? ""
                    : fmt::format(", n = {} ({})", target.iterations, target.numbers->iterations));
+    if (const std::string told = step_taken(run); !told.empty()) fmt::print("  {}\n", told);
     for (const TranslatedNumber& number : t.numbers) print(number);
     for (const std::string& lost : t.lost) fmt::print("  lost: {}\n", lost);
     if (!target.numbers->source.empty()) fmt::print("  formulas read in {}\n", target.numbers->source);

@@ -49,7 +49,7 @@ std::optional<Chart> budget_chart(const Table& table, const std::string& scene, 
     if (text_at(table, i, "verdict") == "ok")
       shown.push_back(i);
     else
-      failed += fmt::format(" {} is not shown: {} at {:.3g} s.", text_at(table, i, "method"),
+      failed += fmt::format(" {} is not shown: {} at {:.3g} s.", name_in_sentence(text_at(table, i, "method")),
                             failure_class(text_at(table, i, "verdict")), number_at(table, i, "end", 0));
   }
   if (shown.empty()) return std::nullopt;
@@ -117,22 +117,22 @@ Chart drift_chart(const Table& table, const Table& rows, const std::string& scen
     if (text_at(table, i, "scene") != scene) continue;
     const std::string& method = text_at(table, i, "method");
     if (text_at(table, i, "verdict") == "unsupported") {
-      absent.push_back(fmt::format("{} (cannot: {})", method, text_at(table, i, "reason")));
+      absent.push_back(fmt::format("{} (cannot: {})", name_in_sentence(method), text_at(table, i, "reason")));
       continue;
     }
     if (!flag_at(table, i, "closure claimed") || !number_at(table, i, "energy turned over")) {
-      absent.push_back(method + " (no closure claimed)");
+      absent.push_back(name_in_sentence(method) + " (no closure claimed)");
       continue;
     }
     if (!(number_at(table, i, "energy turned over", 0) > 0)) {
-      absent.push_back(method + " (nothing moves)");
+      absent.push_back(name_in_sentence(method) + " (nothing moves)");
       continue;
     }
     const double turned = number_at(table, i, "energy turned over", 0), end = number_at(table, i, "end", 0);
     const std::string what = residual_class(runs[i]);
     auto entry = std::find_if(classes.begin(), classes.end(), [&](const auto& each) { return each.first == what; });
     if (entry == classes.end()) entry = classes.insert(classes.end(), {what, {}});
-    entry->second.push_back(method);
+    entry->second.push_back(name_in_sentence(method));
     const bool ok = text_at(table, i, "verdict") == "ok";
     Curve curve{method, style_of(method), {}};
     for (const auto& [t, worst] : points_of(rows, method, "largest residual", true))

@@ -92,9 +92,9 @@ struct Gathered {
     if (scene == scenes.end()) return;
     StepLimits::Mark mark{static_cast<size_t>(scene - scenes.begin()), found, {}, ""};
     if (limit.predicted) mark.predicted = *limit.predicted * omega;
-    mark.words =
-        fmt::format("{} on {}\nmeasured {}, h ω = {}\n{}", limit.method, limit.scene, step_text(*limit.measured),
-                    nice(found), limit.predicted ? "theory " + step_text(*limit.predicted) : "no theory");
+    mark.words = fmt::format("{} on {}\nmeasured {}, h ω = {}\n{}", name_in_sentence(limit.method), limit.scene,
+                             step_text(*limit.measured), nice(found),
+                             limit.predicted ? "theory " + step_text(*limit.predicted) : "no theory");
     row.marks.push_back(std::move(mark));
   }
 

@@ -18,9 +18,10 @@ std::vector<Chapter> chapters() {
        "<p>A comparison of two engines says something only if both solve <b>the same problem</b>. So each mass, "
        "spring, "
        "rest length, pin and ball is read back from the other engine's memory and held against the scene: a dot for "
-       "each.</p><p>Then <b>the same rule at the same step</b> must give the same motion, but for round-off: "
-       "symplectic "
-       "Euler is in both, and what it differs by is the floor below which nothing else may be claimed.</p><p>A ring is "
+       "each.</p><p>Where both have <b>the same rule</b>, as mysim and Bullet's explicit world have symplectic Euler, "
+       "the "
+       "same step must give the same motion, but for round-off: what they differ by there is the floor below which "
+       "nothing else may be claimed.</p><p>A ring is "
        "a law that the other engine writes otherwise, or what it does not tell; a law's cause and size are below, in "
        "the smallest scene that shows it.</p>"},
       {"speed-accuracy",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "experiments/metrics.h"
 #include "mysim/base/eigenvalues.h"
@@ -24,9 +25,9 @@ constexpr int fewest_frames = 25;
 constexpr int numbers_of_16_bits = 1 << 16;
 constexpr double largest_number = 32767;
 
-/// As many digits as a reader of a plot needs.
-double five_digits(double value) { return std::stod(fmt::format("{:.5g}", value)); }
-double two_digits(double value) { return std::stod(fmt::format("{:.2g}", value)); }
+/// As many digits as a reader of a plot needs. A motion that drag has taken may be denormal, which stod throws at.
+double five_digits(double value) { return std::strtod(fmt::format("{:.5g}", value).c_str(), nullptr); }
+double two_digits(double value) { return std::strtod(fmt::format("{:.2g}", value).c_str(), nullptr); }
 
 /// How finely a motion is told: parts of its largest departure, and of the scene's size.
 struct Fineness {

@@ -38,11 +38,10 @@ std::optional<GridTopology> find_grid_topology(const Springs& springs, int parti
 
 // The memory of a cloth: particles of a scene laid out in lanes, and back.
 
-/// Whether a grid is wide enough for its springs to cross lanes in one direction only.
-template <class T>
-bool fits(const GridTopology& topology) {
-  return (topology.columns + lanes<T> - 1) / lanes<T> >= 3;
-}
+/// Of fewer columns a row is one tile of floats, whose springs to the next column but one would cross two lanes. Both
+/// precisions take the same cloths.
+inline constexpr int fewest_columns = lanes<float> + 1;
+inline bool fits(const GridTopology& topology) { return topology.columns >= fewest_columns; }
 
 template <class T>
 class ClothGridMemory {

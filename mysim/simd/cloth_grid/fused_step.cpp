@@ -228,7 +228,7 @@ template <class T>
 /// Returns how many springs that begin in the rows of its own had ends that met.
 template <class T, bool fast>
 long fused_step(const ClothGrid<T>& s, const KickDrift<T>& step) {
-  assert(s.tiles >= 3);  // fits()
+  assert(s.tiles >= 2);  // fits(): a spring crosses one lane at most
   assert(s.leading_halo >= 0 && s.trailing_halo >= 0 && s.rows > s.leading_halo + s.trailing_halo);
   assert(s.damping && s.inverse_mass_dt && s.dt && (s.stride == 0 || s.stride == lanes<T>));
   assert(step.bounding_sphere_count == 0 || (step.bounding_spheres && step.on_contact));

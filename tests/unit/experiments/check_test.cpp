@@ -53,6 +53,23 @@ TEST(Relations, SayWhySomethingCannotBeAsked) {
   }
 }
 
+TEST(Relations, CountWhatAnImplicitStepLeavesUnsolved) {
+  const Relation& free_fall = find_relation("free-fall");
+  for (const char* name : {"implicit-euler", "implicit-midpoint"}) {
+    bool more_than_rounding = false;
+    for (const Scene& net : falling_nets()) {
+      Subject implicit(find_method(name));
+      const Answer answer = ask(free_fall, implicit, net, 1, {});
+      EXPECT_EQ(answer.mark, RelationMark::holds) << name << ": " << answer.sentence();
+      more_than_rounding |= answer.finding.measured > implicit.noise(net).x.back();
+    }
+    EXPECT_TRUE(more_than_rounding) << name;
+  }
+  const Scene net = falling_nets()[0];
+  Subject explicit_rule(find_method("leapfrog"));
+  EXPECT_EQ(explicit_rule.noise_with_unsolved(net).x, explicit_rule.noise(net).x);
+}
+
 TEST(Relations, TakeARunThatFailsForBroken) {
   Method dead = find_method("leapfrog");
   dead.engine = [](const Scene&, const crosscheck::Run&, Observer&) {

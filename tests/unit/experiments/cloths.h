@@ -65,16 +65,17 @@ inline Scene scene_of(const Cloth& cloth, const std::string& stiffness = "struct
 
 inline const std::string hang = "[pins]\nparticles = [0, 1]\n" + std::string(gravity_text);
 
-/// Sizes around the lanes (three tiles of 8 or 16), one-row grids, and other terms.
+/// Sizes around the lanes (tiles of 8 or 16), one-row grids, and other terms.
 inline std::vector<Cloth> cloths() {
   return {
-      {"17 columns: the fewest for double", 5, 17, hang},
+      {"17 columns: the fewest", 5, 17, hang},
       {"24: whole lanes", 4, 24, hang},
       {"25: one more", 6, 25, hang},
       {"one row", 1, 40, hang},
       {"two rows", 2, 33, hang},
       {"a tall one", 41, 19, hang},
-      {"33: the fewest for single", 9, 33, hang + "[drag]\ngamma = 2\n"},
+      {"32: two whole tiles of floats", 6, 32, hang},
+      {"33: one more", 9, 33, hang + "[drag]\ngamma = 2\n"},
       {"51", 7, 51, hang + "[drag]\ncoefficient = 1e-3\n"},
       {"no pins, no gravity", 8, 24, ""},
       {"pins in the middle and at the ends", 6, 26,

@@ -190,6 +190,25 @@ TEST(ImplicitEuler, FallsThroughTheHeightZero) {
   }
 }
 
+/// One particle that falls in drag: the potential is a sum of few parts, each of which is rounded more than once.
+TEST(Implicit, OneParticleFallsInDrag) {
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Model model;
+    model.particles.mass = Eigen::VectorXd::Constant(1, 0.0647);
+    model.particles.pinned = {0};
+    model.terms = {Gravity{{0, -9.81, 0}}, Drag{Eigen::VectorXd::Constant(1, 17.8 * 0.0647)}};
+    State s{0, Vec3(-0.4986, 0.3474, -0.05423) + 0.3 * random.vector(), Vec3(-3.211, -1.63, -3.496)};
+    System f(model);
+    Workspace memory(s);
+    for (int n = 1; n <= 4096; ++n) {
+      ASSERT_NO_THROW(implicit_midpoint(f, s, 0x1p-12, memory)) << "step " << n;
+      s.t += 0x1p-12;
+    }
+  }
+}
+
 TEST(ImplicitEuler, LinearOptionIsOneStepOfTheClampedFormula) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);

@@ -86,6 +86,49 @@ TEST_F(CliCheck, HuntsGoesOnAndTellsWhatItFound) {
   EXPECT_TRUE(begins(rows(folder_ / "hunt/hunt-cases.csv"), before));
 }
 
+TEST_F(CliCheck, ShardsOfAHuntAreJoined) {
+  write("none.toml", "");
+  const auto hunt = [&](const char* shard, const char* out, const char* seed) {
+    return call({"check", "explicit-euler", "--known", "none.toml", "--hunt", "0.3", "--jobs", "1", "--seed", seed,
+                 "--shard", shard, "--out", out});
+  };
+  // both parts hold cases of the kind that vibrates for long
+  EXPECT_EQ(hunt("7/24", "one", "3").status, 1);
+  EXPECT_EQ(hunt("19/24", "two", "3").status, 1);
+  const ProgramResult joined = call({"merge", "two", "one", "two", "--out", "all"});
+  EXPECT_EQ(joined.status, 1) << joined.err;
+  // the rows of both, each case once, in the order of their numbers
+  const auto cases_in = [&](const char* folder) {
+    std::vector<long> cases;
+    std::istringstream lines(rows(folder_ / folder / "hunt-cases.csv"));
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) cases.push_back(std::stol(line));
+    return cases;
+  };
+  std::vector<long> both = cases_in("one");
+  for (const long other : cases_in("two")) both.push_back(other);
+  std::ranges::sort(both);
+  EXPECT_GE(both.size(), 2U);
+  EXPECT_EQ(cases_in("all"), both);
+  const std::string told = read(folder_ / "all/energy-mysim-explicit-euler-springs.md");
+  EXPECT_TRUE(contains(told, fmt::format("{} cases of this hunt show", both.size()))) << told;
+  EXPECT_TRUE(contains(told, "--known none.toml`")) << told;
+  EXPECT_TRUE(fs::exists(folder_ / "all/energy-mysim-explicit-euler-springs.png"));
+
+  hunt("7/24", "other", "4");
+  const ProgramResult mixed = call({"merge", "one", "other", "--out", "mixed"});
+  EXPECT_EQ(mixed.status, 2);
+  EXPECT_TRUE(contains(mixed.err,
+                       "other/plan.json: expected cases of the hunt in one: the same methods, known breaks, "
+                       "seed and program"))
+      << mixed.err;
+  fs::remove_all(folder_ / "one/points");
+  const ProgramResult gone = call({"merge", "one", "--out", "gone"});
+  EXPECT_EQ(gone.status, 2);
+  EXPECT_TRUE(contains(gone.err, "the first is case 6")) << gone.err;
+}
+
 TEST_F(CliCheck, BadInputIsExitTwoWithAMessage) {
   for (const auto& [words, said] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"check", "leapfog"}, "leapfrog"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mysim/base/json.h"
+#include "tests/unit/helpers.h"
 #include "tests/unit/report/cli.h"
 
 namespace crosscheck {
@@ -50,6 +51,18 @@ TEST_F(CliTranslate, AnEnginesNumbersBecomeStiffness) {
   EXPECT_NEAR(told["numbers"][0]["scene"][0].number(), 5000, 1e-9 * 5000);
   const std::string back = read(folder_ / "back.toml");
   EXPECT_NE(back.find("5000"), std::string::npos) << back;
+}
+
+TEST_F(CliTranslate, AStepThatDoesNotFitTheSamplesIsNamedBesideTheOneTaken) {
+  write("own.toml", own_scene);
+  expect({"translate", "own.toml", "--to", "jolt", "--step", "0.0167"}, 0,
+         {"step h = 0.01 s",
+          "the step asked is 0.0167 s, the step taken 0.01 s: it must divide the 0.02 s between samples"});
+  const JsonField json =
+      JsonField::parse(call({"translate", "own.toml", "--to", "jolt", "--step", "0.0167", "--json"}).out, "translate");
+  EXPECT_EQ(json["step"].number(), 0.01);
+  EXPECT_EQ(json["step_asked"].number(), 0.0167);
+  EXPECT_FALSE(contains(call({"translate", "own.toml", "--to", "jolt", "--step", "0.005"}).out, "the step asked"));
 }
 
 TEST_F(CliTranslate, WhatIsNotRunHereSaysSo) {
