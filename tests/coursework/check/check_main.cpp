@@ -78,6 +78,16 @@ std::string motion(const std::string& test, const Words& words) {
   }
 }
 
+/// Of what stands beside a test for the case that it fails: asked up to the first that fails too.
+std::string smallest(const PublicTest& test, const Words& words) {
+  std::vector<Answer> answers;
+  for (const Case& what : test.small) {
+    answers.push_back(ask(what));
+    if (!judge(what, answers.back()).right) break;
+  }
+  return smaller_text(words.common, words.own, test.small, answers);
+}
+
 /// Runs its cases up to the first that is wrong; keeps a few plots, the wrong one among them.
 ShownTest run(const PublicTest& test, const Words& words) {
   ShownTest shown{words.title_of(test.part), test.id + " " + words.title_of(test.id), true, "", {}};
@@ -91,7 +101,10 @@ ShownTest run(const PublicTest& test, const Words& words) {
     shown.said = coursework::words(words.common, words.own, what, answer, judged);
     const std::size_t which = static_cast<std::size_t>(&what - test.cases.data()) + 1, of = test.cases.size();
     if (of > 1) shown.said = words.common.fill("which", std::to_string(which), std::to_string(of)) + " " + shown.said;
-    if (const std::string given = given_text(words.common, words.own, what); !given.empty()) shown.said += "\n" + given;
+    if (const std::string given = given_text(words.common, words.own, what, judged); !given.empty())
+      shown.said += "\n" + given;
+    if (answer.how == How::answered && !test.small.empty())
+      if (const std::string smaller = smallest(test, words); !smaller.empty()) shown.said += "\n" + smaller;
     if (words.own.has(test.id + ".hint"))
       shown.said += "\n" + words.common.fill("hint", words.own.of(test.id + ".hint"));
     if (!test.read.empty()) shown.said += "\n" + words.common.fill("read", test.read);

@@ -176,9 +176,12 @@ class Grading {
         one.said = options_.common.fill("which", std::to_string(k + 1), std::to_string(test_run.cases.size())) + " " +
                    one.said;
       // of hidden tests the numbers stay with the grader
-      if (const std::string given = one.hidden ? "" : given_text(options_.common, options_.own, test_run.cases[k]);
+      if (const std::string given = one.hidden ? "" : given_text(options_.common, options_.own, test_run.cases[k], judged);
           !given.empty())
         one.said += "\n" + given;
+      if (const std::string smaller = one.hidden || judged.how != How::answered ? "" : smallest(*test_run.test);
+          !smaller.empty())
+        one.said += "\n" + smaller;
       // after a crash or a loop the test's own hint would lead astray
       if (judged.how == How::answered && options_.own.has(one.id + ".hint"))
         one.said += "\n" + options_.common.fill("hint", options_.own.of(one.id + ".hint"));
@@ -195,6 +198,16 @@ class Grading {
     one.plot = plot(what, test_run.answers[shown].got,
                     {options_.common.of("legend.right"), options_.common.of("legend.yours"), x,
                      column_text(options_.own, what, what.plot_y)});
+  }
+
+  /// Asks a test that failed for its small cases; in a process of their own, so that they can cost nothing.
+  std::string smallest(const Test& test) const {
+    const std::vector<Case> small = small_cases(assignment_, test);
+    if (small.empty()) return "";
+    Limits limits = limits_for(0);
+    limits.cpu = 1, limits.wall = 10;
+    const std::vector<Answer> answers = run_calls(sandbox_, programs_.at(std::string(test.part)), small, limits);
+    return smaller_text(options_.common, options_.own, small, answers);
   }
 
   static std::string axis_unit(const Case& what) {
@@ -350,6 +363,11 @@ std::vector<Case> public_cases(const Assignment& assignment, const Test& test) {
   }
   all.insert(all.end(), usual.begin(), usual.end());
   return all;
+}
+
+std::vector<Case> small_cases(const Assignment& assignment, const Test& test) {
+  Random round(public_seed(assignment, test), true);
+  return test.small ? test.small(round) : std::vector<Case>();
 }
 
 std::uint64_t hidden_seed(std::uint64_t seed, const Test& test) {

@@ -259,7 +259,7 @@ TEST(Words, SayWhatWasGiven) {
   const Texts common = common_texts();
   const Texts own = Texts::parse("[given.chain]\nf is linear. | n h A[n,n] k[n-1] n*( x[2] m )\n", "texts");
   const auto say = [&](const char* call, const Numbers& in) {
-    return given_text(common, own, Case{call, in, {1}, 1, 0, "", ""});
+    return given_text(common, own, Case{call, in, {1}, 1, 0, "", ""}, {});
   };
   EXPECT_EQ(
       say("part.chain", {2, 0.5, 1, 2, 3, 4, 7, 5, 6, 8, 9, 10, 11}),
