@@ -88,8 +88,8 @@ std::string smallest(const PublicTest& test, const Words& words) {
   return smaller_text(words.common, words.own, test.small, answers);
 }
 
-/// Runs its cases up to the first that is wrong; keeps a few plots, the wrong one among them.
-ShownTest run(const PublicTest& test, const Words& words) {
+/// Runs its cases up to the first that is wrong; `failed_before` is the first test of its part that failed, if any; keeps a few plots, the wrong one among them.
+ShownTest run(const PublicTest& test, const Words& words, const std::string& failed_before) {
   ShownTest shown{words.title_of(test.part), test.id + " " + words.title_of(test.id), true, "", {}};
   for (const Case& what : test.cases) {
     const Answer answer = ask(what);
@@ -105,7 +105,10 @@ ShownTest run(const PublicTest& test, const Words& words) {
       shown.said += "\n" + given;
     if (answer.how == How::answered && !test.small.empty())
       if (const std::string smaller = smallest(test, words); !smaller.empty()) shown.said += "\n" + smaller;
-    if (words.own.has(test.id + ".hint"))
+    // hints of tests that fail for the same reason need not agree: the first one's counts
+    if (!failed_before.empty())
+      shown.said += "\n" + words.common.fill("first", failed_before);
+    else if (words.own.has(test.id + ".hint"))
       shown.said += "\n" + words.common.fill("hint", words.own.of(test.id + ".hint"));
     if (!test.read.empty()) shown.said += "\n" + words.common.fill("read", test.read);
     break;
@@ -139,14 +142,15 @@ int check(const std::string& language, const std::vector<std::string>& which) {
   for (const int signal : {SIGSEGV, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, crashed);
 
   std::vector<ShownTest> shown;
-  std::string part, total;
+  std::string part, total, failed;
   int earned = 0, points = 0, passed = 0;
   for (const PublicTest& test : all.tests) {
     if (!asked_for(test, which) || test.cases.empty()) continue;
-    if (test.part != part) std::cout << "\n" << words.title_of(part = test.part) << "\n";
+    if (test.part != part) std::cout << "\n" << words.title_of(part = test.part) << "\n", failed.clear();
     // before it runs: when it never comes back, this is the last line
     std::cout << "  " << test.id << " " << words.title_of(test.id) << ": " << std::flush;
-    shown.push_back(run(test, words));
+    shown.push_back(run(test, words, failed));
+    if (!shown.back().passed && failed.empty()) failed = test.id;
     const bool good = shown.back().passed;
     points += test.points, earned += good ? test.points : 0, passed += good;
     std::cout << words.common.of(good ? "passed" : "failed") << ", "

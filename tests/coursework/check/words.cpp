@@ -148,8 +148,12 @@ class Given {
   std::string text() {
     std::size_t at = 0;
     part(at, "");
-    return fits_ && read_ == in_.size() && shown_ <= 80 ? text_ : "";
+    return fits() && shown_ <= 80 ? text_ : "";
   }
+
+  /// Where the angles are; after text().
+  const std::vector<std::size_t>& angles() const { return angles_; }
+  bool fits() const { return fits_ && read_ == in_.size(); }
 
  private:
   /// Up to the end, or to the bracket that closes.
@@ -172,7 +176,9 @@ class Given {
         mute_ = false;
         at = end;
       } else if (bracket == std::string::npos) {
-        values(word + number, 1, 1);
+        const bool angle = word.back() == '!';
+        if (angle) angles_.push_back(read_);
+        values((angle ? word.substr(0, word.size() - 1) : word) + number, 1, 1);
         counts_[word] = fits_ ? in_[read_ - 1] : 0;
       } else {
         std::string of = word.substr(bracket + 1, word.size() - bracket - 2);
@@ -213,6 +219,7 @@ class Given {
 
   const Numbers& in_;
   std::vector<std::string> words_;
+  std::vector<std::size_t> angles_;
   std::map<std::string, double> counts_;
   std::string text_;
   int row_;
@@ -234,6 +241,14 @@ std::string given_text(const Texts& common, const Texts& own, const Case& what, 
   if (given.empty()) return "";
   const std::string sentence = bar == 0 ? "" : text.substr(0, text.find_last_not_of(' ', bar - 1) + 1);
   return sentence + (sentence.empty() ? "" : " ") + common.fill("given", given);
+}
+
+std::vector<std::size_t> angles_in(const Texts& own, const Case& what) {
+  if (!has_layout(own, what)) return {};
+  const std::string& text = own.of(layout_key(own, what));
+  Given given(text.substr(text.find('|') + 1), what.in, -1, 0);
+  given.text();
+  return given.fits() ? given.angles() : std::vector<std::size_t>();
 }
 
 namespace {

@@ -24,9 +24,12 @@ std::string column_text(const Texts& own, const Case& what, int column);
 /// numbers of the call are laid out, or where they are more than anybody would read. "given.CALL" (or of what stands
 /// behind the call's point) is a sentence of its own, `|` and the layout: NAME, NAME[COUNTS] or COUNT*( ... ), where
 /// counts are numbers, names, or names less one (n-1); ~ is as many as there are. Of COUNT@( ... ) only the one is told
-/// whose row differs.
+/// whose row differs. NAME! is an angle in radians.
 bool has_layout(const Texts& own, const Case& what);
 std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged);
+
+/// Which of a call's numbers are angles; none where the texts do not say.
+std::vector<std::size_t> angles_in(const Texts& own, const Case& what);
 
 /// Of a test that fails, the first of its small cases that fails too, with what was given; empty where all are right.
 std::string smaller_text(const Texts& common, const Texts& own, const std::vector<Case>& small,

@@ -18,6 +18,7 @@
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/result.h"
 #include "tests/coursework/grader/run.h"
+#include "tests/coursework/grader/suspects.h"
 
 namespace coursework {
 namespace fs = std::filesystem;
@@ -182,9 +183,6 @@ class Grading {
       if (const std::string smaller = one.hidden || judged.how != How::answered ? "" : smallest(*test_run.test);
           !smaller.empty())
         one.said += "\n" + smaller;
-      // after a crash or a loop the test's own hint would lead astray
-      if (judged.how == How::answered && options_.own.has(one.id + ".hint"))
-        one.said += "\n" + options_.common.fill("hint", options_.own.of(one.id + ".hint"));
       shown = k;
       break;
     }
@@ -237,7 +235,9 @@ class Grading {
       if (answered && !passed(result_.tests[i])) wrong.push_back(&result_.tests[i]);
     }
     if (wrong.empty() || unusable_.count(part)) return;
-    const std::string suspect = suspected(of_part);
+    const Remark suspect = suspected({sandbox_, *builder_, submission_, options_.own, programs_.at(part),
+                                      scratch_.path / ("suspects-" + part)},
+                                     of_part);
     const std::vector<std::string> names =
         likely_causes(assignment_, part, of_part, mistakes_of(assignment_), *builder_, *trusted_, options_.jobs);
     std::string cause;
@@ -247,51 +247,19 @@ class Grading {
                              : " " + options_.common.fill("or", behaves);
     }
     // what an experiment shows is more than a likeness
-    if (!suspect.empty()) cause = options_.common.of(suspect);
+    if (!suspect.key.empty()) cause = said(options_.common, suspect);
     if (cause.empty()) cause = options_.common.of("no_cause");
-    for (TestResult* test : wrong) test->cause = cause;
-  }
-
-  /// What experiments on a part's wrong answers show, as a key of the texts; empty: nothing.
-  std::string suspected(const std::vector<TestRun>& of_part) const {
-    if (all_single(of_part)) return "suspect.float";
-    for (const TestRun& one : of_part)
-      for (std::size_t i = 1; i < one.cases.size(); ++i) {
-        if (one.answers[i].how != How::answered || judge(one.cases[i], one.answers[i]).right) continue;
-        // alone, as the first that its process is asked
-        const Answer alone = run_calls(sandbox_, programs_.at(std::string(one.test->part)), {one.cases[i]}).at(0);
-        const Answer first = reduced(*one.test, one.cases[i], alone);
-        return judge(one.cases[i], first).right ? "suspect.state" : "";
-      }
-    return "";
-  }
-
-  /// Whether something is wrong, and all that is wrong are numbers of single precision beside the right ones. Features
-  /// that are found in answers are no numbers of the student's.
-  static bool all_single(const std::vector<TestRun>& of_part) {
-    bool any = false;
-    for (const TestRun& one : of_part)
-      for (std::size_t i = 0; i < one.cases.size(); ++i) {
-        if (judge(one.cases[i], one.answers[i]).right) continue;
-        if (one.test->reduce || !single_beside(one.cases[i], one.answers[i])) return false;
-        any = true;
-      }
-    return any;
-  }
-
-  /// Off by what a number loses that is once kept in single precision, some roundings of 6e-8 of the largest; and kept
-  /// in it at the end, which a constant of six digits is not.
-  static bool single_beside(const Case& what, const Answer& answer) {
-    if (answer.how != How::answered || answer.got.size() != what.expected.size()) return false;
-    double size = 0;
-    for (const double value : what.expected) size = std::max(size, std::abs(value));
-    for (std::size_t i = 0; i < answer.got.size(); ++i) {
-      const double off = std::abs(answer.got[i] - what.expected[i]);
-      if (off <= what.tolerance) continue;
-      if (!(off <= 1e-5 * size) || static_cast<double>(static_cast<float>(answer.got[i])) != answer.got[i])
-        return false;
+    // a test's own hint knows nothing of the others: where a cause is known it may contradict it, and where none is
+    // the first test that fails has most to say
+    const bool known = cause != options_.common.of("no_cause");
+    for (TestResult* test : wrong) {
+      test->cause = cause;
+      if (known) continue;
+      if (test->id != wrong.front()->id)
+        test->said += "\n" + options_.common.fill("first", wrong.front()->id);
+      else if (options_.own.has(test->id + ".hint"))
+        test->said += "\n" + options_.common.fill("hint", options_.own.of(test->id + ".hint"));
     }
-    return true;
   }
 
   /// Keeps the parts that answered every call: others would crash or hang in every run of the charts.
