@@ -63,7 +63,8 @@ Scene scene_of(Random& random, const Sheet& sheet) {
   scene.v.resize(3, count);
   for (int i = 0; i < count; ++i) {
     scene.v.col(i) = random_vector(random, 1);
-    scene.mass.push_back(random.uniform(0.02, 0.04));
+    // in round numbers two could be the same by chance
+    scene.mass.push_back(random.rounds() ? 0.02 + 0.01 * i : random.uniform(0.02, 0.04));
   }
   if (scene.sheet.mesh.rows > 1) scene.faces = grid_triangles(grid_of(scene.sheet.mesh, 1, 0, 0));
   scene.gravity = Vec3(0, -9.81, 0) + random_vector(random, 1);

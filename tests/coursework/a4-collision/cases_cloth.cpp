@@ -32,7 +32,7 @@ void complete(Random& random, Scene& scene, const std::vector<int>& pins) {
   scene.drag = random.uniform(0.03, 0.05);
   crosscheck::Particles& p = scene.model.particles;
   p.mass.resize(count);
-  for (int i = 0; i < count; ++i) p.mass[i] = random.uniform(0.01, 0.015);
+  for (int i = 0; i < count; ++i) p.mass[i] = random.rounds() ? 0.01 * (i + 1) : random.uniform(0.01, 0.015);
   p.pins = pins;
   p.pinned.assign(count, 0);
   for (int pin : pins) p.pinned[pin] = 1;

@@ -100,8 +100,8 @@ void write_cases(std::ostream& out, const PublicTests& all) {
     for (std::size_t i = 0; i < test.cases.size() + test.small.size(); ++i) {
       const bool small = i >= test.cases.size();
       const Case& c = small ? test.small[i - test.cases.size()] : test.cases[i];
-      out << (small ? "small " : "case ") << c.call << "\nrow " << c.row << "\ncolumn " << c.column << "\ncolumns " << c.columns
-          << "\ntolerance " << text_of(c.tolerance) << "\nplot " << c.plot_x << ' ' << c.plot_y << ' '
+      out << (small ? "small " : "case ") << c.call << "\nrow " << c.row << "\ncolumn " << c.column << "\ncolumns "
+          << c.columns << "\ntolerance " << text_of(c.tolerance) << "\nplot " << c.plot_x << ' ' << c.plot_y << ' '
           << text_of(c.row_size) << '\n';
       write_numbers(out, "in", c.in);
       write_numbers(out, "expected", c.expected);

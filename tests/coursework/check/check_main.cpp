@@ -9,6 +9,7 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <set>
 
 #include "calls.h"
 #include "cases_file.h"
@@ -88,8 +89,10 @@ std::string smallest(const PublicTest& test, const Words& words) {
   return smaller_text(words.common, words.own, test.small, answers);
 }
 
-/// Runs its cases up to the first that is wrong; `failed_before` is the first test of its part that failed, if any; keeps a few plots, the wrong one among them.
-ShownTest run(const PublicTest& test, const Words& words, const std::string& failed_before) {
+/// Runs its cases up to the first that is wrong; `failed_before` is the first test of its part that failed, if any,
+/// and `told` what small cases were told of; keeps a few plots, the wrong one among them.
+ShownTest run(const PublicTest& test, const Words& words, const std::string& failed_before,
+              std::set<std::string>& told) {
   ShownTest shown{words.title_of(test.part), test.id + " " + words.title_of(test.id), true, "", {}};
   for (const Case& what : test.cases) {
     const Answer answer = ask(what);
@@ -103,7 +106,7 @@ ShownTest run(const PublicTest& test, const Words& words, const std::string& fai
     if (of > 1) shown.said = words.common.fill("which", std::to_string(which), std::to_string(of)) + " " + shown.said;
     if (const std::string given = given_text(words.common, words.own, what, judged); !given.empty())
       shown.said += "\n" + given;
-    if (answer.how == How::answered && !test.small.empty())
+    if (answer.how == How::answered && !test.small.empty() && told.insert(test.part + " " + test.small[0].call).second)
       if (const std::string smaller = smallest(test, words); !smaller.empty()) shown.said += "\n" + smaller;
     // hints of tests that fail for the same reason need not agree: the first one's counts
     if (!failed_before.empty())
@@ -143,13 +146,14 @@ int check(const std::string& language, const std::vector<std::string>& which) {
 
   std::vector<ShownTest> shown;
   std::string part, total, failed;
+  std::set<std::string> told;
   int earned = 0, points = 0, passed = 0;
   for (const PublicTest& test : all.tests) {
     if (!asked_for(test, which) || test.cases.empty()) continue;
     if (test.part != part) std::cout << "\n" << words.title_of(part = test.part) << "\n", failed.clear();
     // before it runs: when it never comes back, this is the last line
     std::cout << "  " << test.id << " " << words.title_of(test.id) << ": " << std::flush;
-    shown.push_back(run(test, words, failed));
+    shown.push_back(run(test, words, failed, told));
     if (!shown.back().passed && failed.empty()) failed = test.id;
     const bool good = shown.back().passed;
     points += test.points, earned += good ? test.points : 0, passed += good;

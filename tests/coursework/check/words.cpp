@@ -145,10 +145,10 @@ class Given {
   }
 
   /// "h = 0.3, x = (1, 2)"; empty where the layout does not fit, and where nobody would read so much.
-  std::string text() {
+  std::string text(std::size_t most) {
     std::size_t at = 0;
     part(at, "");
-    return fits() && shown_ <= 80 ? text_ : "";
+    return fits() && shown_ <= most ? text_ : "";
   }
 
   /// Where the angles are; after text().
@@ -194,7 +194,8 @@ class Given {
     std::size_t size = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t bracket = words_[i].find('[');
-      size += bracket == std::string::npos ? 1 : count_of(words_[i].substr(bracket + 1, words_[i].size() - bracket - 2));
+      size +=
+          bracket == std::string::npos ? 1 : count_of(words_[i].substr(bracket + 1, words_[i].size() - bracket - 2));
     }
     return size > 0 && read_ < in_.size() ? (in_.size() - read_) / size : 0;
   }
@@ -231,13 +232,14 @@ class Given {
 
 bool has_layout(const Texts& own, const Case& what) { return own.has(layout_key(own, what)); }
 
-std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged) {
+std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged,
+                       std::size_t most) {
   if (!has_layout(own, what)) return "";
   const std::string& text = own.of(layout_key(own, what));
   const std::size_t bar = text.find('|');
   if (bar == std::string::npos) return "";
   const std::size_t rows = what.expected.size() / static_cast<std::size_t>(what.columns > 0 ? what.columns : 1);
-  const std::string given = Given(text.substr(bar + 1), what.in, judged.row, rows).text();
+  const std::string given = Given(text.substr(bar + 1), what.in, judged.row, rows).text(most);
   if (given.empty()) return "";
   const std::string sentence = bar == 0 ? "" : text.substr(0, text.find_last_not_of(' ', bar - 1) + 1);
   return sentence + (sentence.empty() ? "" : " ") + common.fill("given", given);
@@ -247,7 +249,7 @@ std::vector<std::size_t> angles_in(const Texts& own, const Case& what) {
   if (!has_layout(own, what)) return {};
   const std::string& text = own.of(layout_key(own, what));
   Given given(text.substr(text.find('|') + 1), what.in, -1, 0);
-  given.text();
+  given.text(0);
   return given.fits() ? given.angles() : std::vector<std::size_t>();
 }
 
@@ -314,7 +316,7 @@ std::string smaller_text(const Texts& common, const Texts& own, const std::vecto
     if (judged.right) continue;
     if (ungraded(answers[i].how)) return "";
     return common.fill("smaller", words(common, own, small[i], answers[i], judged),
-                       given_text(common, own, small[i], judged));
+                       given_text(common, own, small[i], judged, 80));
   }
   return "";
 }

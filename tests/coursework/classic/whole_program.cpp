@@ -233,6 +233,8 @@ Remark remark_on(const Program& program, const std::string& part) {
 Remark untried(const BuildPlan& plan, const Scout& scout, const std::string& captured_output) {
   if (captured_output == too_long) return {"build.time", {plan.name_of(scout.of)}};
   if (captured_output == too_much) return too_large(plan.name_of(scout.of));
+  if (captured_output.find("undefined reference to") != std::string::npos)
+    return first_error(plan.name_of(scout.of), captured_output);
   return {"whole.untried", {plan.name_of(scout.of), first_place(captured_output)}};
 }
 

@@ -288,7 +288,8 @@ std::string class_page(const Assignment& assignment, const std::vector<GradedSub
                  std::to_string(test.ungraded), escaped(test.frequent(&common))});
   page += "</table>\n<p></p>\n<table>\n" + head(common.of("class.causes"));
   for (const auto& [cause, names] : causes)
-    page += row({escaped(bare(cause, common)), std::to_string(names.size()), fmt::format("{}", fmt::join(names, ", "))});
+    page +=
+        row({escaped(bare(cause, common)), std::to_string(names.size()), fmt::format("{}", fmt::join(names, ", "))});
   page += "</table>\n";
   if (!open.empty()) page += "<h2>" + escaped(common.of("class.ungraded")) + "</h2>\n<table>\n" + open + "</table>\n";
   return page + "</body></html>\n";

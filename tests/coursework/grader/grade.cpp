@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -177,11 +178,12 @@ class Grading {
         one.said = options_.common.fill("which", std::to_string(k + 1), std::to_string(test_run.cases.size())) + " " +
                    one.said;
       // of hidden tests the numbers stay with the grader
-      if (const std::string given = one.hidden ? "" : given_text(options_.common, options_.own, test_run.cases[k], judged);
+      if (const std::string given =
+              one.hidden ? "" : given_text(options_.common, options_.own, test_run.cases[k], judged);
           !given.empty())
         one.said += "\n" + given;
       if (const std::string smaller = one.hidden || judged.how != How::answered ? "" : smallest(*test_run.test);
-          !smaller.empty())
+          !smaller.empty() && small_told_.emplace(one.part, test_run.test->small).second)
         one.said += "\n" + smaller;
       shown = k;
       break;
@@ -200,6 +202,7 @@ class Grading {
 
   /// Asks a test that failed for its small cases; in a process of their own, so that they can cost nothing.
   std::string smallest(const Test& test) const {
+    if (small_told_.count({std::string(test.part), test.small})) return "";
     const std::vector<Case> small = small_cases(assignment_, test);
     if (small.empty()) return "";
     Limits limits = limits_for(0);
@@ -235,9 +238,9 @@ class Grading {
       if (answered && !passed(result_.tests[i])) wrong.push_back(&result_.tests[i]);
     }
     if (wrong.empty() || unusable_.count(part)) return;
-    const Remark suspect = suspected({sandbox_, *builder_, submission_, options_.own, programs_.at(part),
-                                      scratch_.path / ("suspects-" + part)},
-                                     of_part);
+    const Remark suspect = suspected(
+        {sandbox_, *builder_, submission_, options_.own, programs_.at(part), scratch_.path / ("suspects-" + part)},
+        of_part);
     const std::vector<std::string> names =
         likely_causes(assignment_, part, of_part, mistakes_of(assignment_), *builder_, *trusted_, options_.jobs);
     std::string cause;
@@ -285,6 +288,7 @@ class Grading {
   std::map<std::string, Answer> unusable_;             // by part: missing, or it does not compile
   std::map<std::string, std::string> ungraded_calls_;  // the test that was not graded because of it
   std::vector<TestRun> test_runs_;                     // beside result_.tests
+  std::set<std::pair<std::string, std::vector<Case> (*)(Random&)>> small_told_;  // with other numbers they say no more
   Result result_;
 };
 

@@ -105,11 +105,13 @@ std::string trigonometry(double factor) {
   std::string source = "#define _GNU_SOURCE\nextern \"C\" {\n";
   for (const auto& [type, ending] : {std::pair{"double", ""}, std::pair{"float", "f"}}) {
     for (const char* name : {"sin", "cos", "tan"})
-      source += fmt::format("{0} __real_{1}{2}({0});\n{0} __wrap_{1}{2}({0} x) {{ return __real_{1}{2}({0}({3:a} * x)); }}\n",
-                            type, name, ending, factor);
-    source += fmt::format("void __real_sincos{1}({0}, {0}*, {0}*);\nvoid __wrap_sincos{1}({0} x, {0}* s, {0}* c) "
-                          "{{ __real_sincos{1}({0}({2:a} * x), s, c); }}\n",
-                          type, ending, factor);
+      source +=
+          fmt::format("{0} __real_{1}{2}({0});\n{0} __wrap_{1}{2}({0} x) {{ return __real_{1}{2}({0}({3:a} * x)); }}\n",
+                      type, name, ending, factor);
+    source += fmt::format(
+        "void __real_sincos{1}({0}, {0}*, {0}*);\nvoid __wrap_sincos{1}({0} x, {0}* s, {0}* c) "
+        "{{ __real_sincos{1}({0}({2:a} * x), s, c); }}\n",
+        type, ending, factor);
   }
   return source + "}\n";
 }
@@ -128,8 +130,7 @@ bool takes_degrees(const Subject& subject, const std::vector<TestRun>& of_part, 
   int number = 0;
   for (const double factor : {degree, 1 / degree}) {
     const Built built = subject.builder.varied(
-        subject.submission, std::string(of_part.front().test->part),
-        subject.scratch / fmt::format("angle{}", number++),
+        subject.submission, std::string(of_part.front().test->part), subject.scratch / fmt::format("angle{}", number++),
         {"sin", "cos", "tan", "sincos", "sinf", "cosf", "tanf", "sincosf"}, trigonometry(factor));
     if (!built.program.empty() && mends(subject, built.program, of_part)) return true;
   }
@@ -169,9 +170,7 @@ std::vector<std::size_t> whole_divisions(const std::string& source) {
   static const std::regex division(
       R"(([A-Za-z_]\w*(?:\s*\.\s*size\s*\(\s*\))?|[0-9][\w.]*|\))\s*/(?![/*=])\s*([A-Za-z_]\w*(?:\.size\(\))?|[0-9][\w.]*|\())");
   const std::string code = code_of(source);
-  const auto literal = [](const std::string& word) {
-    return std::regex_match(word, std::regex("[0-9]+[uUlL]*"));
-  };
+  const auto literal = [](const std::string& word) { return std::regex_match(word, std::regex("[0-9]+[uUlL]*")); };
   const auto whole = [&](const std::string& word) {
     if (literal(word) || word.ends_with(")")) return true;  // of names only size() has brackets
     if (std::isdigit(static_cast<unsigned char>(word[0]))) return false;
