@@ -174,36 +174,47 @@ TemporaryFolder::~TemporaryFolder() {
 
 namespace {
 
-/// Removes this user's temporary folders whose owner (its number, when it was started, its namespace) is gone.
-void remove_temporary_folders(
-    const std::function<bool(const std::string&, const std::string&, const std::string&)>& is_gone) {
-  static const Pattern ours(R"(crosscheck-[a-z]+-([0-9]+)\.([0-9]*)\.([0-9]+)-[A-Za-z0-9]{6})");
+using IsGone = std::function<bool(const std::string&, const std::string&, const std::string&)>;
+
+/// Removes what lies in that place under the name of a temporary folder, with `files` plain files and not folders, and
+/// is this user's, where its owner (its number, when it was started, its namespace) is gone.
+void remove_temporary(const fs::path& place, bool files, const IsGone& is_gone) {
+  static const Pattern ours(R"(crosscheck-[a-z]+-([0-9]+)\.([0-9]*)\.([0-9]+)-[A-Za-z0-9]{6}(\.[a-z]+)?)");
   std::error_code error;
-  const fs::path place = fs::temp_directory_path(error);
   for (fs::directory_iterator at(place, error), end; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
     if (!name.starts_with("crosscheck-")) continue;
     const auto parts = ours.match(name);
     if (!parts || !is_gone((*parts)[1], (*parts)[2], (*parts)[3])) continue;
     struct stat about {};
-    if (lstat(at->path().c_str(), &about) != 0 || !S_ISDIR(about.st_mode)) continue;
+    if (lstat(at->path().c_str(), &about) != 0 || !(files ? S_ISREG(about.st_mode) : S_ISDIR(about.st_mode))) continue;
     std::error_code ignored;
     if (about.st_uid == geteuid() || geteuid() == 0) fs::remove_all(at->path(), ignored);
   }
 }
 
-}  // namespace
-
-void remove_stale_temporary_folders() {
-  const std::string here = pid_namespace_of();
-  remove_temporary_folders([&](const std::string& owner, const std::string& start, const std::string& space) {
+IsGone of_ended_processes() {
+  return [here = pid_namespace_of()](const std::string& owner, const std::string& start, const std::string& space) {
     return space == here && (start.empty() || start_of(owner) != start);
-  });
+  };
 }
 
+/// Where temporary files go; a folder that is not there has nothing in it.
+fs::path temporary_place() {
+  std::error_code ignored;
+  return fs::temp_directory_path(ignored);
+}
+
+}  // namespace
+
+void remove_stale_temporary_folders() { remove_temporary(temporary_place(), false, of_ended_processes()); }
+
+void remove_stale_files(const fs::path& folder) { remove_temporary(folder, true, of_ended_processes()); }
+
 void remove_temporary_folders_of(const std::string& pid_namespace) {
-  remove_temporary_folders(
-      [&](const std::string&, const std::string&, const std::string& space) { return space == pid_namespace; });
+  remove_temporary(temporary_place(), false, [&](const std::string&, const std::string&, const std::string& space) {
+    return space == pid_namespace;
+  });
 }
 
 }  // namespace crosscheck

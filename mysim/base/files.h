@@ -84,6 +84,10 @@ std::string temporary_name(std::string_view purpose);
 /// other users too.
 void remove_stale_temporary_folders();
 
+/// Removes plain files in a folder that bear the name of a temporary folder, whatever their ending, of processes that
+/// are gone: what a killed one left half written.
+void remove_stale_files(const std::filesystem::path& folder);
+
 /// The pid namespace of a process, as names of temporary folders hold it: a number.
 std::string pid_namespace_of(std::string_view process = "self");
 

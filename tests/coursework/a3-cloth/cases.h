@@ -34,6 +34,8 @@ struct Sheet {
   Points x;
 };
 Sheet random_sheet(Random& random, int smallest, int largest, double bent);
+/// One to three particles in a row with springs between neighbours, or four in a cell.
+Sheet small_sheet(Random& random, int size, double bent);
 
 void put(Numbers& out, const Vec3& v);
 void put(Numbers& out, const Points& points);
@@ -69,7 +71,9 @@ Cases spring_counts(Random& random);
 // part 3
 Cases one_spring(Random& random);
 Cases sheet_springs(Random& random);
+Cases small_sheet_springs(Random& random);
 Cases spring_laws(Random& random);
+Cases small_spring_laws(Random& random);
 Cases ends_that_meet(Random& random);
 Cases gravity(Random& random);
 Cases drag(Random& random);
@@ -78,10 +82,14 @@ Cases triangles(Random& random);
 Cases air(Random& random);
 Cases one_triangle(Random& random);
 Cases wind_on_cloth(Random& random);
+Cases small_wind_on_cloth(Random& random);
 // part 5
 Cases rates(Random& random);
+Cases small_rates(Random& random);
 Cases pinned_rates(Random& random);
+Cases small_pinned_rates(Random& random);
 Cases rates_again(Random& random);
+Cases small_rates_again(Random& random);
 Cases hanging_strip(Random& random);
 Cases swinging_cloth(Random& random);
 

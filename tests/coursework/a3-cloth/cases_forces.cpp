@@ -59,16 +59,27 @@ Cases one_spring(Random& random) {
   return cases;
 }
 
-Cases sheet_springs(Random& random) {
-  const Sheet sheet = random_sheet(random, 3, 5, 0.04);
+namespace {
+
+Case springs_of(const Sheet& sheet) {
   Case c = force_case("spring_forces");
   c.in = spring_input(sheet.springs, sheet.x);
   c.expected = numbers_of(spring_force(sheet.springs, sheet.x));
-  return {c};
+  return c;
 }
 
-Cases spring_laws(Random& random) {
-  const Sheet sheet = random_sheet(random, 3, 4, 0.04);
+}  // namespace
+
+Cases sheet_springs(Random& random) { return {springs_of(random_sheet(random, 3, 5, 0.04))}; }
+Cases small_sheet_springs(Random& random) {
+  Cases cases;
+  for (const int size : {2, 3, 4}) cases.push_back(springs_of(small_sheet(random, size, 0.04)));
+  return cases;
+}
+
+namespace {
+
+Case laws_of(Random& random, const Sheet& sheet) {
   Case c = force_case("spring_laws");
   c.columns = 9;
   c.row = "whole";
@@ -86,7 +97,16 @@ Cases spring_laws(Random& random) {
   // some 5 J differenced over 1e-3 m: round-off of 1e-12 N. What is left of the truncation goes with the fourth power
   // of step over length, (0.001 / 0.05)^4 = 2e-7, of some 10 N (measured on 20 seeds: 6e-7 N)
   c.tolerance = 1e-5;
-  return {c};
+  return c;
+}
+
+}  // namespace
+
+Cases spring_laws(Random& random) { return {laws_of(random, random_sheet(random, 3, 4, 0.04))}; }
+Cases small_spring_laws(Random& random) {
+  Cases cases;
+  for (const int size : {2, 3}) cases.push_back(laws_of(random, small_sheet(random, size, 0.04)));
+  return cases;
 }
 
 Cases ends_that_meet(Random& random) {

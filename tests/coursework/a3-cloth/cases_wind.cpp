@@ -79,9 +79,10 @@ Cases one_triangle(Random& random) {
   return cases;
 }
 
-Cases wind_on_cloth(Random& random) {
-  const Sheet sheet = random_sheet(random, 3, 4, 0.04);
-  const auto faces = grid_triangles(grid_of(sheet.mesh, 1, 0, 0));
+namespace {
+
+/// From one side, from the other, and switched off.
+Cases wind_on(Random& random, const Sheet& sheet, const std::vector<std::array<int, 3>>& faces) {
   Breeze breeze = random_breeze(random);
   Points v(3, sheet.mesh.size());
   for (int i = 0; i < v.cols(); ++i) v.col(i) = random_vector(random, 1.5);
@@ -93,12 +94,29 @@ Cases wind_on_cloth(Random& random) {
                            : Numbers(static_cast<std::size_t>(v.size()), 0.0);
     cases.push_back(c);
   };
-  // from one side, from the other, and switched off
   add();
   breeze.direction = -breeze.direction;
   add();
   breeze.on = false;
   add();
+  return cases;
+}
+
+}  // namespace
+
+Cases wind_on_cloth(Random& random) {
+  const Sheet sheet = random_sheet(random, 3, 4, 0.04);
+  return wind_on(random, sheet, grid_triangles(grid_of(sheet.mesh, 1, 0, 0)));
+}
+
+Cases small_wind_on_cloth(Random& random) {
+  // one triangle, then the two of a cell
+  Sheet one{Mesh{1, 3, 0.4, 0.3, Vec3::Zero()}, {}, Points(3, 3)};
+  one.x << 0, 0.4, 0, 0, 0, 0, 0, 0, 0.3;
+  Cases cases = wind_on(random, one, {{0, 1, 2}});
+  const Sheet cell = small_sheet(random, 4, 0.04);
+  const Cases two = wind_on(random, cell, grid_triangles(grid_of(cell.mesh, 1, 0, 0)));
+  cases.insert(cases.end(), two.begin(), two.end());
   return cases;
 }
 

@@ -13,6 +13,12 @@ Vec3 random_vector(Random& random, double size) {
 }
 
 Vec3 random_direction(Random& random) {
+  if (random.rounds()) {
+    Vec3 v(0.36, 0.48, 0.8);
+    std::swap(v[random.integer(0, 2)], v[random.integer(0, 2)]);
+    for (double& part : v) part *= random.integer(0, 1) ? 1 : -1;
+    return v;
+  }
   const double height = random.uniform(-0.9, 0.9), angle = random.uniform(0, 2 * std::numbers::pi);
   const double flat = std::sqrt(1 - height * height);
   return {flat * std::cos(angle), height, flat * std::sin(angle)};

@@ -53,12 +53,15 @@ Cases stopped(Random& random);
 // part 4
 Cases free_flight(Random& random);
 Cases one_step(Random& random);
+Cases small_step(Random& random);
 Cases leaving_angle(Random& random);
 Cases rebound_height(Random& random);
 Cases coulomb_cone(Random& random);
 // part 5
 Cases accelerations(Random& random);
+Cases small_accelerations(Random& random);
 Cases pins_and_spheres(Random& random);
+Cases small_cloth_step(Random& random);
 Cases patch_on_a_slope(Random& random);
 Cases drape(Random& random);
 

@@ -25,6 +25,35 @@ struct Scene {
   Case run(const char* call, double h, int steps, int watched) const;
 };
 
+/// Masses, pins and terms, where particles and springs are there.
+void complete(Random& random, Scene& scene, const std::vector<int>& pins) {
+  const int count = static_cast<int>(scene.start.x.cols());
+  scene.gravity = {0, -random.uniform(8, 12), 0};
+  scene.drag = random.uniform(0.03, 0.05);
+  crosscheck::Particles& p = scene.model.particles;
+  p.mass.resize(count);
+  for (int i = 0; i < count; ++i) p.mass[i] = random.rounds() ? 0.01 * (i + 1) : random.uniform(0.01, 0.015);
+  p.pins = pins;
+  p.pinned.assign(count, 0);
+  for (int pin : pins) p.pinned[pin] = 1;
+  p.pin_home = scene.start.x(Eigen::all, pins);
+  scene.model.terms = {crosscheck::Gravity{scene.gravity}, crosscheck::Springs{scene.springs},
+                       crosscheck::Drag{Eigen::VectorXd::Constant(count, scene.drag)}};
+}
+
+/// A row of a few particles that fall, with springs between neighbours.
+Scene few(Random& random, int count, const std::vector<int>& pins) {
+  Scene scene;
+  scene.start = {0, Points::Zero(3, count), Points::Zero(3, count)};
+  for (int i = 0; i < count; ++i) {
+    scene.start.x.col(i) = Vec3(0.25 * i, 0, 0);
+    if (i == 0 || pins.empty()) scene.start.v.col(i) = Vec3(0.5, -2, 0);
+    if (i > 0) scene.springs.push_back({i - 1, i, 100, 0.2});
+  }
+  complete(random, scene, pins);
+  return scene;
+}
+
 /// A square cloth of n x n particles with its middle at `middle` and its sides along u and v (length 1).
 Scene square(Random& random, int n, double side, const Vec3& middle, const Vec3& u, const Vec3& v,
              const std::vector<int>& pins) {
@@ -39,17 +68,7 @@ Scene square(Random& random, int n, double side, const Vec3& middle, const Vec3&
   grid.stiffness = {k, 0.8 * k, 0.7 * k};
   scene.start = {0, grid_points(grid), Points::Zero(3, grid.size())};
   scene.springs = grid_springs(grid);
-  scene.gravity = {0, -random.uniform(8, 12), 0};
-  scene.drag = random.uniform(0.03, 0.05);
-  crosscheck::Particles& p = scene.model.particles;
-  p.mass.resize(grid.size());
-  for (int i = 0; i < grid.size(); ++i) p.mass[i] = random.uniform(0.01, 0.015);
-  p.pins = pins;
-  p.pinned.assign(grid.size(), 0);
-  for (int pin : pins) p.pinned[pin] = 1;
-  p.pin_home = scene.start.x(Eigen::all, pins);
-  scene.model.terms = {crosscheck::Gravity{scene.gravity}, crosscheck::Springs{scene.springs},
-                       crosscheck::Drag{Eigen::VectorXd::Constant(grid.size(), scene.drag)}};
+  complete(random, scene, pins);
   return scene;
 }
 
@@ -113,18 +132,44 @@ void shake(Random& random, Scene& scene, double position, double velocity) {
 
 }  // namespace
 
-Cases accelerations(Random& random) {
-  const int n = random.integer(3, 5);
-  Scene scene = square(random, n, 0.1 * n, random_vector(random, 1), Vec3::UnitX(), Vec3::UnitZ(), {0, n - 1});
-  shake(random, scene, 0.02, 1);
+namespace {
+
+Case accelerations_of(const Scene& scene) {
   Case c{.call = "accelerations", .in = scene.cloth(), .columns = 3, .row = "particle", .column = "acceleration"};
   crosscheck::System system(scene.model);
-  Points a(3, n * n);
+  Points a(3, scene.start.x.cols());
   State state = scene.start;
   system.acceleration(state, a);
   put(c.expected, a);
   c.tolerance = 1e-8;  // sums of a dozen terms of at most 1000 m/s^2: 1e-11
-  return {c};
+  return c;
+}
+
+}  // namespace
+
+Cases accelerations(Random& random) {
+  const int n = random.integer(3, 5);
+  Scene scene = square(random, n, 0.1 * n, random_vector(random, 1), Vec3::UnitX(), Vec3::UnitZ(), {0, n - 1});
+  shake(random, scene, 0.02, 1);
+  return {accelerations_of(scene)};
+}
+
+Cases small_accelerations(Random& random) {
+  return {accelerations_of(few(random, 1, {})), accelerations_of(few(random, 2, {})),
+          accelerations_of(few(random, 2, {1})), accelerations_of(few(random, 3, {}))};
+}
+
+Cases small_cloth_step(Random& random) {
+  // far from the sphere, inside it, inside it with a spring, the same with a pin inside, inside two spheres
+  Cases cases;
+  for (int kind = 0; kind < 5; ++kind) {
+    Scene scene = few(random, kind == 2 || kind == 3 ? 2 : 1, kind == 3 ? std::vector<int>{1} : std::vector<int>{});
+    scene.spheres.push_back({{0.1, kind == 0 ? -2 : -0.5, 0}, 0.5, 0.03, 0.5, 0.5, std::nullopt});
+    if (kind == 4) scene.spheres.push_back({{-0.1, -0.5, 0}, 0.5, 0.03, 0.5, 0.5, std::nullopt});
+    cases.push_back(scene.run("cloth_step", 0.01, 1, -1));
+    cases.back().tolerance = 1e-9;  // as one step of a cloth
+  }
+  return cases;
 }
 
 /// n x n particles.

@@ -63,8 +63,8 @@ Cases free_flight(Random& random) {
   return {c};
 }
 
-/// `count` particles around one sphere.
-Case one_step_of(Random& random, int count) {
+/// `count` particles around one sphere; the first is of this kind.
+Case one_step_of(Random& random, int count, int kind = 0) {
   Start s{random_sphere(random, random.uniform(0.3, 0.8), random.uniform(0.3, 0.7)),
           random_gravity(random),
           random.uniform(0.01, 0.02),
@@ -79,8 +79,8 @@ Case one_step_of(Random& random, int count) {
     const double height[] = {random.uniform(0.5, 1), random.uniform(0.001, 0.005), random.uniform(0.001, 0.005),
                              -random.uniform(0.05, 0.1) * r};
     const double speed[] = {1, random.uniform(0.05, 0.1), random.uniform(6, 9), 1};
-    s.x.push_back(s.sphere.centre + (r + height[i % 4]) * n);
-    s.v.push_back(-random.uniform(2, 4) * n + speed[i % 4] * along);
+    s.x.push_back(s.sphere.centre + (r + height[(i + kind) % 4]) * n);
+    s.v.push_back(-random.uniform(2, 4) * n + speed[(i + kind) % 4] * along);
     const Resolved after = next(s, s.x.back(), s.v.back());
     put(expected, after.x);
     put(expected, after.v);
@@ -92,6 +92,12 @@ Case one_step_of(Random& random, int count) {
 
 // the second time fewer: nothing may be kept from one call to the next
 Cases one_step(Random& random) { return {one_step_of(random, 8), one_step_of(random, 4)}; }
+// one particle of each kind
+Cases small_step(Random& random) {
+  Cases cases;
+  for (int kind = 0; kind < 4; ++kind) cases.push_back(one_step_of(random, 1, kind));
+  return cases;
+}
 
 Cases leaving_angle(Random& random) {
   const double start = random.uniform(10, 20) * std::numbers::pi / 180;

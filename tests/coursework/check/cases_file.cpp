@@ -1,7 +1,7 @@
 // A line is a word and its values:
 //   assignment NAME, title TEXT, hidden COUNT     once
 //   test ID PART POINTS, read HEADING             begins a test
-//   case CALL                                     begins one of its cases; in, expected: COUNT numbers
+//   case CALL, small CALL                         begins one of its cases; in, expected: COUNT numbers
 #include "cases_file.h"
 
 #include <cstdio>
@@ -97,9 +97,11 @@ void write_cases(std::ostream& out, const PublicTests& all) {
   out << "assignment " << all.assignment << "\ntitle " << all.title << "\nhidden " << all.hidden << '\n';
   for (const PublicTest& test : all.tests) {
     out << "\ntest " << test.id << ' ' << test.part << ' ' << test.points << "\nread " << test.read << '\n';
-    for (const Case& c : test.cases) {
-      out << "case " << c.call << "\nrow " << c.row << "\ncolumn " << c.column << "\ncolumns " << c.columns
-          << "\ntolerance " << text_of(c.tolerance) << "\nplot " << c.plot_x << ' ' << c.plot_y << ' '
+    for (std::size_t i = 0; i < test.cases.size() + test.small.size(); ++i) {
+      const bool small = i >= test.cases.size();
+      const Case& c = small ? test.small[i - test.cases.size()] : test.cases[i];
+      out << (small ? "small " : "case ") << c.call << "\nrow " << c.row << "\ncolumn " << c.column << "\ncolumns "
+          << c.columns << "\ntolerance " << text_of(c.tolerance) << "\nplot " << c.plot_x << ' ' << c.plot_y << ' '
           << text_of(c.row_size) << '\n';
       write_numbers(out, "in", c.in);
       write_numbers(out, "expected", c.expected);
@@ -127,10 +129,12 @@ PublicTests read_cases(std::istream& in) {
       all.tests.push_back(begun);
     } else if (word == "read" && test) {
       test->read = line.rest();
-    } else if (word == "case" && test) {
-      test->cases.emplace_back();
-      test->cases.back().call = line.next();
-    } else if (!test || test->cases.empty() || !read_into(test->cases.back(), line)) {
+    } else if ((word == "case" || word == "small") && test) {
+      std::vector<Case>& to = word == "case" ? test->cases : test->small;
+      to.emplace_back();
+      to.back().call = line.next();
+    } else if (!test || test->cases.empty() ||
+               !read_into(test->small.empty() ? test->cases.back() : test->small.back(), line)) {
       line.fail("'" + word + "' is not known here");
     }
   }

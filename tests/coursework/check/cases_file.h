@@ -13,6 +13,7 @@ struct PublicTest {
   std::string id, part, read;  // as the grader's; `read` is a heading of the handout
   int points = 0;
   std::vector<Case> cases;  // none: only the grader runs it
+  std::vector<Case> small;  // that are tried where it fails, and decide nothing
 };
 
 struct PublicTests {

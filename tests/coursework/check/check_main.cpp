@@ -9,6 +9,7 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <set>
 
 #include "calls.h"
 #include "cases_file.h"
@@ -78,8 +79,20 @@ std::string motion(const std::string& test, const Words& words) {
   }
 }
 
-/// Runs its cases up to the first that is wrong; keeps a few plots, the wrong one among them.
-ShownTest run(const PublicTest& test, const Words& words) {
+/// Of what stands beside a test for the case that it fails: asked up to the first that fails too.
+std::string smallest(const PublicTest& test, const Words& words) {
+  std::vector<Answer> answers;
+  for (const Case& what : test.small) {
+    answers.push_back(ask(what));
+    if (!judge(what, answers.back()).right) break;
+  }
+  return smaller_text(words.common, words.own, test.small, answers);
+}
+
+/// Runs its cases up to the first that is wrong; `failed_before` is the first test of its part that failed, if any,
+/// and `told` what small cases were told of; keeps a few plots, the wrong one among them.
+ShownTest run(const PublicTest& test, const Words& words, const std::string& failed_before,
+              std::set<std::string>& told) {
   ShownTest shown{words.title_of(test.part), test.id + " " + words.title_of(test.id), true, "", {}};
   for (const Case& what : test.cases) {
     const Answer answer = ask(what);
@@ -91,8 +104,14 @@ ShownTest run(const PublicTest& test, const Words& words) {
     shown.said = coursework::words(words.common, words.own, what, answer, judged);
     const std::size_t which = static_cast<std::size_t>(&what - test.cases.data()) + 1, of = test.cases.size();
     if (of > 1) shown.said = words.common.fill("which", std::to_string(which), std::to_string(of)) + " " + shown.said;
-    if (const std::string given = given_text(words.common, words.own, what); !given.empty()) shown.said += "\n" + given;
-    if (words.own.has(test.id + ".hint"))
+    if (const std::string given = given_text(words.common, words.own, what, judged); !given.empty())
+      shown.said += "\n" + given;
+    if (answer.how == How::answered && !test.small.empty() && told.insert(test.part + " " + test.small[0].call).second)
+      if (const std::string smaller = smallest(test, words); !smaller.empty()) shown.said += "\n" + smaller;
+    // hints of tests that fail for the same reason need not agree: the first one's counts
+    if (!failed_before.empty())
+      shown.said += "\n" + words.common.fill("first", failed_before);
+    else if (words.own.has(test.id + ".hint"))
       shown.said += "\n" + words.common.fill("hint", words.own.of(test.id + ".hint"));
     if (!test.read.empty()) shown.said += "\n" + words.common.fill("read", test.read);
     break;
@@ -126,14 +145,16 @@ int check(const std::string& language, const std::vector<std::string>& which) {
   for (const int signal : {SIGSEGV, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, crashed);
 
   std::vector<ShownTest> shown;
-  std::string part, total;
+  std::string part, total, failed;
+  std::set<std::string> told;
   int earned = 0, points = 0, passed = 0;
   for (const PublicTest& test : all.tests) {
     if (!asked_for(test, which) || test.cases.empty()) continue;
-    if (test.part != part) std::cout << "\n" << words.title_of(part = test.part) << "\n";
+    if (test.part != part) std::cout << "\n" << words.title_of(part = test.part) << "\n", failed.clear();
     // before it runs: when it never comes back, this is the last line
     std::cout << "  " << test.id << " " << words.title_of(test.id) << ": " << std::flush;
-    shown.push_back(run(test, words));
+    shown.push_back(run(test, words, failed, told));
+    if (!shown.back().passed && failed.empty()) failed = test.id;
     const bool good = shown.back().passed;
     points += test.points, earned += good ? test.points : 0, passed += good;
     std::cout << words.common.of(good ? "passed" : "failed") << ", "

@@ -14,7 +14,8 @@ std::string page(const std::string& title, const std::string& total, const std::
   std::string part;
   for (const ShownTest& test : tests) {
     if (test.part != part) out += "<h2>" + escaped(part = test.part) + "</h2>\n";
-    out += std::string("<section") + (test.passed ? " class=\"passed\"" : "") + "><h3>" + escaped(test.heading) + ": " +
+    out += std::string("<section") + (test.passed ? " class=\"passed\"" : "") + "><h3>" +
+           (test.passed ? "&#10003; " : "&#10007; ") + escaped(test.heading) + ": " +
            escaped(test.passed ? passed : failed) + "</h3>\n";
     if (!test.said.empty()) out += "<p>" + escaped(test.said) + "</p>\n";
     for (const std::string& plot : test.plots) out += plot;

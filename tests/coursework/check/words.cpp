@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -137,32 +138,47 @@ std::string layout_key(const Texts& own, const Case& what) {
 /// Reads a layout beside the numbers of a call.
 class Given {
  public:
-  Given(const std::string& layout, const Numbers& in) : in_(in) {
+  /// `row` of `rows` is the one that differs; -1: none is.
+  Given(const std::string& layout, const Numbers& in, int row, std::size_t rows) : in_(in), row_(row), rows_(rows) {
     std::istringstream words(layout);
     for (std::string word; words >> word;) words_.push_back(word);
   }
 
-  /// "h = 0.3, x = (1, 2)"; empty where the layout does not fit.
-  std::string text() {
+  /// "h = 0.3, x = (1, 2)"; empty where the layout does not fit, and where nobody would read so much.
+  std::string text(std::size_t most) {
     std::size_t at = 0;
     part(at, "");
-    return fits_ && read_ == in_.size() ? text_ : "";
+    return fits() && shown_ <= most ? text_ : "";
   }
+
+  /// Where the angles are; after text().
+  const std::vector<std::size_t>& angles() const { return angles_; }
+  bool fits() const { return fits_ && read_ == in_.size(); }
 
  private:
   /// Up to the end, or to the bracket that closes.
   void part(std::size_t& at, const std::string& number) {
     for (; at < words_.size() && words_[at] != ")"; ++at) {
       const std::string& word = words_[at];
-      const std::size_t bracket = word.find('['), star = word.find("*(");
-      if (star != std::string::npos) {
-        const std::size_t count = count_of(word.substr(0, star)), begin = at + 1;
+      const std::size_t bracket = word.find('['), open = word.find('(');
+      if (open != std::string::npos && open > 0) {
+        const std::size_t begin = at + 1;
         std::size_t end = begin;
         while (end < words_.size() && words_[end] != ")") ++end;
-        for (std::size_t i = 0; i < count && fits_; ++i) part(at = begin, "[" + std::to_string(i) + "]");
+        const std::size_t count = word[0] == '~' ? repeats(begin, end) : count_of(word.substr(0, open - 1));
+        const int chosen = word[open - 1] == '@' && count > 0 && row_ >= 0 && rows_ >= count
+                               ? row_ / static_cast<int>(rows_ / count)
+                               : -1;
+        for (std::size_t i = 0; i < count && fits_; ++i) {
+          mute_ = chosen >= 0 && static_cast<int>(i) != chosen;
+          part(at = begin, "[" + std::to_string(i) + "]");
+        }
+        mute_ = false;
         at = end;
       } else if (bracket == std::string::npos) {
-        values(word + number, 1, 1);
+        const bool angle = word.back() == '!';
+        if (angle) angles_.push_back(read_);
+        values((angle ? word.substr(0, word.size() - 1) : word) + number, 1, 1);
         counts_[word] = fits_ ? in_[read_ - 1] : 0;
       } else {
         std::string of = word.substr(bracket + 1, word.size() - bracket - 2);
@@ -172,6 +188,16 @@ class Given {
         values(word.substr(0, bracket) + number, rows, count_of(of));
       }
     }
+  }
+  /// How often a group of single numbers and of vectors with counts fits into what is left.
+  std::size_t repeats(std::size_t begin, std::size_t end) const {
+    std::size_t size = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t bracket = words_[i].find('[');
+      size +=
+          bracket == std::string::npos ? 1 : count_of(words_[i].substr(bracket + 1, words_[i].size() - bracket - 2));
+    }
+    return size > 0 && read_ < in_.size() ? (in_.size() - read_) / size : 0;
   }
   std::size_t count_of(const std::string& word) const {
     const bool less = word.size() > 2 && word.compare(word.size() - 2, 2, "-1") == 0;
@@ -187,42 +213,112 @@ class Given {
     for (std::size_t i = 0; i < count; ++i)
       list += (i == 0 ? "" : i % columns == 0 ? "; " : ", ") + with_digits(in_[read_ + i], 6);
     read_ += count;
+    if (mute_) return;
+    shown_ += count;
     text_ += (text_.empty() ? "" : ", ") + name + " = " + (count == 1 ? list : "(" + list + ")");
   }
 
   const Numbers& in_;
   std::vector<std::string> words_;
+  std::vector<std::size_t> angles_;
   std::map<std::string, double> counts_;
   std::string text_;
-  std::size_t read_ = 0;
-  bool fits_ = true;
+  int row_;
+  std::size_t rows_, read_ = 0, shown_ = 0;
+  bool fits_ = true, mute_ = false;
 };
 
 }  // namespace
 
 bool has_layout(const Texts& own, const Case& what) { return own.has(layout_key(own, what)); }
 
-std::string given_text(const Texts& common, const Texts& own, const Case& what) {
+std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged,
+                       std::size_t most) {
   if (!has_layout(own, what)) return "";
   const std::string& text = own.of(layout_key(own, what));
   const std::size_t bar = text.find('|');
   if (bar == std::string::npos) return "";
-  const std::string given = Given(text.substr(bar + 1), what.in).text();
+  const std::size_t rows = what.expected.size() / static_cast<std::size_t>(what.columns > 0 ? what.columns : 1);
+  const std::string given = Given(text.substr(bar + 1), what.in, judged.row, rows).text(most);
   if (given.empty()) return "";
   const std::string sentence = bar == 0 ? "" : text.substr(0, text.find_last_not_of(' ', bar - 1) + 1);
   return sentence + (sentence.empty() ? "" : " ") + common.fill("given", given);
 }
 
+std::vector<std::size_t> angles_in(const Texts& own, const Case& what) {
+  if (!has_layout(own, what)) return {};
+  const std::string& text = own.of(layout_key(own, what));
+  Given given(text.substr(text.find('|') + 1), what.in, -1, 0);
+  given.text(0);
+  return given.fits() ? given.angles() : std::vector<std::size_t>();
+}
+
+namespace {
+
+/// The first rows of `some` that are not in `others`, as "(0, 3), (2, 5)".
+std::string rows_without(const Numbers& some, const Numbers& others, std::size_t columns) {
+  std::multiset<Numbers> rest;
+  const auto row = [&](const Numbers& all, std::size_t at) {
+    return Numbers(all.begin() + static_cast<std::ptrdiff_t>(at),
+                   all.begin() + static_cast<std::ptrdiff_t>(at + columns));
+  };
+  for (std::size_t at = 0; at + columns <= others.size(); at += columns) rest.insert(row(others, at));
+  std::string text;
+  int more = 0;
+  for (std::size_t at = 0; at + columns <= some.size(); at += columns) {
+    const Numbers one = row(some, at);
+    if (const auto same = rest.find(one); same != rest.end()) {
+      rest.erase(same);
+      continue;
+    }
+    if (++more > 3) continue;
+    text += text.empty() ? "(" : ", (";
+    for (std::size_t k = 0; k < columns; ++k) text += (k ? ", " : "") + with_digits(one[k], 6);
+    text += ")";
+  }
+  return more > 3 ? text + ", ..." : text;
+}
+
+/// Where the order of rows is free, a row that is missing or one too many says more than the first number that differs.
+std::string as_set(const Texts& common, const Texts& own, const Case& what, const Answer& answer) {
+  const std::string key = "set." + what.row;
+  if (!own.has(key) || what.columns < 1) return "";
+  const std::size_t columns = static_cast<std::size_t>(what.columns);
+  const std::string missing = rows_without(what.expected, answer.got, columns),
+                    extra = rows_without(answer.got, what.expected, columns);
+  std::string text;
+  if (!missing.empty()) text += " " + common.fill("set.missing", own.of(key), missing);
+  if (!extra.empty()) text += " " + common.fill("set.extra", own.of(key), extra);
+  return text;
+}
+
+}  // namespace
+
 std::string words(const Texts& common, const Texts& own, const Case& what, const Answer& answer, const Judged& judged) {
   if (judged.right) return "";
   if (judged.how != How::answered) return ending(common, answer);
   if (judged.wrong_size)
-    return common.fill("size", number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
+    return common.fill("size", number_text(judged.expected, judged.got), number_text(judged.got, judged.expected)) +
+           as_set(common, own, what, answer);
   if (judged.of > 0 && !judged.not_finite)
     return common.fill("counted", place(common, own, what, judged), count_text(judged.expected * judged.of),
                        count_text(judged.got * judged.of));
+  if (!judged.not_finite)
+    if (const std::string set = as_set(common, own, what, answer); !set.empty()) return set.substr(1);
   return common.fill(judged.not_finite ? "not_finite" : "differs", place(common, own, what, judged),
                      number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
+}
+
+std::string smaller_text(const Texts& common, const Texts& own, const std::vector<Case>& small,
+                         const std::vector<Answer>& answers) {
+  for (std::size_t i = 0; i < small.size() && i < answers.size(); ++i) {
+    const Judged judged = judge(small[i], answers[i]);
+    if (judged.right) continue;
+    if (ungraded(answers[i].how)) return "";
+    return common.fill("smaller", words(common, own, small[i], answers[i], judged),
+                       given_text(common, own, small[i], judged, 80));
+  }
+  return "";
 }
 
 }  // namespace coursework

@@ -21,13 +21,25 @@ std::string name_text(const Texts& own, const std::string& kind, const std::stri
 std::string column_text(const Texts& own, const Case& what, int column);
 
 /// What the student's code was given, as in "With h = 0.3, x = (1, 2)."; empty where the texts do not say how the
-/// numbers of the call are laid out. "given.CALL" (or of what stands behind the call's point) is a sentence of its own,
-/// `|` and the layout: NAME, NAME[COUNTS] or COUNT*( ... ), where counts are numbers, names, or names less one (n-1).
+/// numbers of the call are laid out, or where they are more than `most`, which nobody would
+/// read. "given.CALL" (or of what stands
+/// behind the call's point) is a sentence of its own, `|` and the layout: NAME, NAME[COUNTS] or COUNT*( ... ), where
+/// counts are numbers, names, or names less one (n-1); ~ is as many as there are. Of COUNT@( ... ) only the one is told
+/// whose row differs. NAME! is an angle in radians.
 bool has_layout(const Texts& own, const Case& what);
-std::string given_text(const Texts& common, const Texts& own, const Case& what);
+std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged,
+                       std::size_t most = 60);
 
-/// One sentence or two: what was expected, what came, and where they first differ. `common` is
-/// check/common.LANGUAGE.txt, `own` the assignment's texts. Empty where the answer is right.
+/// Which of a call's numbers are angles; none where the texts do not say.
+std::vector<std::size_t> angles_in(const Texts& own, const Case& what);
+
+/// Of a test that fails, the first of its small cases that fails too, with what was given; empty where all are right.
+std::string smaller_text(const Texts& common, const Texts& own, const std::vector<Case>& small,
+                         const std::vector<Answer>& answers);
+
+/// One sentence or two: what was expected, what came, and where they first differ; of rows that are a set (text
+/// "set.ROW") which are missing. `common` is check/common.LANGUAGE.txt, `own` the assignment's texts. Empty where the
+/// answer is right.
 std::string words(const Texts& common, const Texts& own, const Case& what, const Answer& answer, const Judged& judged);
 
 }  // namespace coursework

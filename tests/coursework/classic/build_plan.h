@@ -50,6 +50,8 @@ class BuildPlan {
   void choose(const std::map<int, Fits>& fits);
   /// The student's file that defines what all systems derive from; empty where it is ours.
   std::string base_file() const;
+  /// The class in that place of the list.
+  std::string name_of(int of) const { return classes_.at(of).full(); }
 
   const std::vector<PartBuild>& parts() const { return parts_; }
   /// The student's sources and ours that stand in for missing ones. Together with each part's `calls` they may run in

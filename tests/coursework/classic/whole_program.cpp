@@ -130,17 +130,25 @@ Files files_below(const fs::path& folder) {
 
 namespace {
 
-/// Builds each class that may be meant by several parts and has it tried; none where names leave no choice.
+Remark untried(const BuildPlan& plan, const Scout& scout, const std::string& captured_output);
+
+/// Builds each class that may be meant by several parts and has it tried; none where names leave no choice. `notes`:
+/// those that cannot be.
 std::map<int, Fits> try_classes(const BuildPlan& plan, StepRunner& run, const Trial& trial, const fs::path& child,
-                                unsigned jobs) {
+                                unsigned jobs, std::vector<Remark>& notes) {
   const std::vector<Scout> scouts = plan.scouts();
   std::vector<Fits> fits(scouts.size());
+  std::vector<std::string> captured(scouts.size());
   // each is one call more than a program without a choice has; half a minute is ten times what it takes
   run.allow(30.0 * static_cast<double>(scouts.size()));
   parallel_for(scouts.size(), jobs, [&](std::size_t i) {
     const BuildStep link = plan.link(scouts[i].build, child);
-    if (run(scouts[i].build.calls).empty() && run(link).empty()) fits[i] = trial(link.makes, scouts[i].stepper);
+    captured[i] = run(scouts[i].build.calls);
+    if (captured[i].empty()) captured[i] = run(link);
+    if (captured[i].empty()) fits[i] = trial(link.makes, scouts[i].stepper);
   });
+  for (std::size_t i = 0; i < scouts.size(); ++i)
+    if (!captured[i].empty()) notes.push_back(untried(plan, scouts[i], captured[i]));
   std::map<int, Fits> all;
   for (std::size_t i = 0; i < scouts.size(); ++i) all[scouts[i].of] = fits[i];
   return all;
@@ -160,10 +168,12 @@ Programs build_programs(const Files& files, const fs::path& tree, const fs::path
   std::vector<std::string> said(plan.objects().size());
   parallel_for(said.size(), tools.jobs, [&](std::size_t i) { said[i] = run(plan.objects()[i]); });
   for (const BuildStep& archive : plan.archives()) run(archive);
-  plan.choose(trial ? try_classes(plan, run, trial, child, tools.jobs) : std::map<int, Fits>());
+  std::vector<Remark> tried;
+  plan.choose(trial ? try_classes(plan, run, trial, child, tools.jobs, tried) : std::map<int, Fits>());
 
   std::vector<const PartBuild*> parts;
   Programs made{{}, plan.notes(), plan.base_file()};
+  made.notes.insert(made.notes.end(), tried.begin(), tried.end());
   std::map<std::string, Program>& programs = made.of;
   for (const PartBuild& part : plan.parts()) {
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), part.part) == wanted.end()) continue;
@@ -217,6 +227,15 @@ Remark remark_on(const Program& program, const std::string& part) {
       program.captured_output.find("multiple definition of") != std::string::npos)
     return first_error(file, program.captured_output);
   return {"whole.interface", {file, first_place(program.captured_output)}};
+}
+
+/// Why a class could not even be tried: the compiler's first error.
+Remark untried(const BuildPlan& plan, const Scout& scout, const std::string& captured_output) {
+  if (captured_output == too_long) return {"build.time", {plan.name_of(scout.of)}};
+  if (captured_output == too_much) return too_large(plan.name_of(scout.of));
+  if (captured_output.find("undefined reference to") != std::string::npos)
+    return first_error(plan.name_of(scout.of), captured_output);
+  return {"whole.untried", {plan.name_of(scout.of), first_place(captured_output)}};
 }
 
 class WholeBuilder : public Builder {

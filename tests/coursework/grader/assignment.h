@@ -30,6 +30,9 @@ struct Test {
   /// Turns the raw numbers of a call into those that are compared; null: the raw ones are. For oracles that hold
   /// whatever constants a student chose.
   Found (*reduce)(const Case&, const Numbers& raw) = nullptr;
+  /// Of a test whose cases are large: small ones, in the order of their size, which tell a student where to begin. They
+  /// are asked only where the test failed already, and decide nothing.
+  std::vector<Case> (*small)(Random&) = nullptr;
 };
 
 class Builder;

@@ -62,6 +62,7 @@ Compiler::Compiler() : cache_(cache_folder()) {
     throw InputError(
         fmt::format("{}: belongs to another user; name another folder in CROSSCHECK_CACHE", cache_.string()));
   fs::permissions(cache_, fs::perms(0700));
+  crosscheck::remove_stale_files(cache_);  // what a killed run was copying (cached())
 }
 
 fs::path Compiler::cached(const std::string& key, const std::string& ending,
@@ -186,13 +187,32 @@ class PartBuilder : public Builder {
     const std::size_t count = assignment_.parts.size();
     std::vector<Built> objects(count), built(count);
     parallel_for(count, jobs, [&](std::size_t i) { objects[i] = compiled(part(i), submission, folder / part(i)); });
-    parallel_for(count, jobs, [&](std::size_t i) { built[i] = linked(i, objects, folder / part(i)); });
+    parallel_for(count, jobs, [&](std::size_t i) { built[i] = linked(i, objects, folder / part(i), {}); });
     std::map<std::string, Built> all;
     for (std::size_t i = 0; i < count; ++i) all[part(i)] = built[i];
     return all;
   }
 
+  Built varied(const Submission& submission, const std::string& part, const fs::path& folder,
+               const std::vector<std::string>& wrapped, const std::string& around) const override {
+    const auto at = std::find_if(assignment_.parts.begin(), assignment_.parts.end(),
+                                 [&](const Part& one) { return one.name == part; });
+    const auto i = static_cast<std::size_t>(at - assignment_.parts.begin());
+    std::vector<Built> objects(assignment_.parts.size());
+    objects.at(i) = compiled(part, submission, folder);
+    Around beside;
+    if (!around.empty()) beside.object = object("around.cpp", around);
+    for (const std::string& name : wrapped) beside.words.push_back("-Wl,--wrap=" + name);
+    return linked(i, objects, folder, beside);
+  }
+
  private:
+  /// What an experiment links beside a part.
+  struct Around {
+    fs::path object;
+    std::vector<std::string> words;
+  };
+
   void compile(const std::vector<std::string>& more, const fs::path& made, const std::string& what) const {
     std::vector<std::string> command = command_;
     command.insert(command.end(), more.begin(), more.end());
@@ -273,17 +293,18 @@ class PartBuilder : public Builder {
   /// Earlier parts are ours, so that a mistake in one costs nothing here. Later ones are never ours, since a solution
   /// that is linked in can be called: the student's, which an earlier part may build on; where that cannot be linked,
   /// those of the hand-out.
-  Built linked(std::size_t i, const std::vector<Built>& objects, const fs::path& folder) const {
+  Built linked(std::size_t i, const std::vector<Built>& objects, const fs::path& folder, const Around& around) const {
     if (objects[i].program.empty()) return objects[i];
     for (bool their_later = true;; their_later = false) {
       const fs::path in = folder / (their_later ? "in-theirs" : "in-starter");
       fs::create_directories(in);
-      std::vector<std::string> words;
+      std::vector<std::string> words = around.words;
       const auto add = [&](const fs::path& object, const std::string& name) {
         fs::copy_file(object, in / name);
         words.push_back((in / name).string());
       };
       add(objects[i].program, part(i) + ".o");
+      if (!around.object.empty()) add(around.object, "around.o");
       int number = 0;
       for (const fs::path& object : shared()) add(object, "ours" + std::to_string(number++) + ".o");
       for (std::size_t k = 0; k < i; ++k) add(solution(part(k)), "ours-" + part(k) + ".o");

@@ -78,6 +78,13 @@ class Builder {
   virtual std::map<std::string, Built> theirs(const Submission& submission, const std::filesystem::path& folder,
                                               unsigned jobs) const = 0;
 
+  /// The part's program once more, for an experiment: the submission may have been changed, and each call of a function
+  /// in `wrapped` goes to __wrap_NAME in `around`, a source of ours (ld's --wrap). Nothing where programs are whole.
+  virtual Built varied(const Submission&, const std::string&, const std::filesystem::path&,
+                       const std::vector<std::string>& = {}, const std::string& = "") const {
+    return {};
+  }
+
   /// A part's file within the folder of a solution.
   virtual std::string file_of(const std::string& part) const { return part + ".cpp"; }
 };

@@ -88,6 +88,13 @@ std::string points_in(const GradedSubmission& one, std::string_view part = "") {
   return one.failure.empty() ? points_text(sum) : "";
 }
 
+/// A cause without "Likely cause:", below a heading that says so.
+std::string bare(const std::string& cause, const Texts& common) {
+  const std::string& text = common.of("cause");
+  const std::string begin = text.substr(0, text.find('{'));
+  return cause.starts_with(begin) ? cause.substr(begin.size()) : cause;
+}
+
 /// How all did in one test: public and hidden together, a test is passed by who passed both.
 struct TestCount {
   std::string id, title;
@@ -99,9 +106,10 @@ struct TestCount {
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
     return most == causes.end() ? "" : most->first;
   }
-  std::string frequent() const {
+  std::string frequent(const Texts* common = nullptr) const {
     const std::string cause = most_frequent();
-    return cause.empty() ? "" : fmt::format("{} x {}", causes.at(cause), cause);
+    if (cause.empty()) return "";
+    return fmt::format("{} x {}", causes.at(cause), common ? bare(cause, *common) : cause);
   }
 };
 
@@ -277,10 +285,11 @@ std::string class_page(const Assignment& assignment, const std::vector<GradedSub
   page += "<table>\n" + head(common.of("class.tests"));
   for (const TestCount& test : counts_of(all))
     page += row({escaped(test.id + " " + test.title), std::to_string(test.passed), std::to_string(test.failed),
-                 std::to_string(test.ungraded), escaped(test.frequent())});
+                 std::to_string(test.ungraded), escaped(test.frequent(&common))});
   page += "</table>\n<p></p>\n<table>\n" + head(common.of("class.causes"));
   for (const auto& [cause, names] : causes)
-    page += row({escaped(cause), std::to_string(names.size()), fmt::format("{}", fmt::join(names, ", "))});
+    page +=
+        row({escaped(bare(cause, common)), std::to_string(names.size()), fmt::format("{}", fmt::join(names, ", "))});
   page += "</table>\n";
   if (!open.empty()) page += "<h2>" + escaped(common.of("class.ungraded")) + "</h2>\n<table>\n" + open + "</table>\n";
   return page + "</body></html>\n";

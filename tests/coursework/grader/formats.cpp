@@ -29,9 +29,9 @@ std::string clean(const std::string& text) {
   return out;
 }
 
-std::string feedback_on(const Result& result, const TestResult& test, const Texts& common) {
+std::string feedback_on(const Result& result, const TestResult& test, const Texts& common, bool alone) {
   std::string out;
-  for (const std::string& line : lines_on(result, test, common)) out += (out.empty() ? "" : "\n") + line;
+  for (const std::string& line : lines_on(result, test, common, alone)) out += (out.empty() ? "" : "\n") + line;
   return clean(out);
 }
 
@@ -53,6 +53,7 @@ std::string summary_of(const Result& result, const Texts& common) {
   const std::string later = std::to_string(hidden);
   out += good == tests ? common.fill("public_done", later)
                        : common.fill("public_now", std::to_string(good), std::to_string(tests), later);
+  for (const std::string& line : causes_of(result, common)) out += "\n" + line;
   if (!result.complete) out += "\n" + common.of("page.not_done");
   return clean(out);
 }
@@ -158,7 +159,7 @@ void add_test(Suite& suite, const Result& result, const TestResult& test, const 
   } else if (!passed(test)) {
     ++suite.failures;
     inside = fmt::format("<failure type=\"wrong\" message=\"{}\">{}</failure>", xml(first_line(test.said)),
-                         xml(feedback_on(result, test, common)));
+                         xml(feedback_on(result, test, common, true)));
   }
   // the time of a hidden test may tell how it went
   const double seconds = test.hidden ? 0 : test.seconds;

@@ -36,8 +36,9 @@ std::string autolab(const Result& result, const Texts& common);
 /// tab and line feed, become U+FFFD. What a student's program threw or printed may hold anything.
 std::string clean(const std::string& text);
 
-/// What was said, the likely cause, and what to read, as on the terminal; empty where it was passed.
-std::string feedback_on(const Result& result, const TestResult& test, const Texts& common);
+/// What was said, the likely cause, and what to read, as on the terminal; empty where it was passed. `alone` as
+/// in lines_on().
+std::string feedback_on(const Result& result, const TestResult& test, const Texts& common, bool alone = false);
 
 /// Preflight, what the public tests earned, and how many more run. Nothing in it depends on how the hidden tests went.
 std::string summary_of(const Result& result, const Texts& common);

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -18,6 +19,7 @@
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/result.h"
 #include "tests/coursework/grader/run.h"
+#include "tests/coursework/grader/suspects.h"
 
 namespace coursework {
 namespace fs = std::filesystem;
@@ -176,12 +178,13 @@ class Grading {
         one.said = options_.common.fill("which", std::to_string(k + 1), std::to_string(test_run.cases.size())) + " " +
                    one.said;
       // of hidden tests the numbers stay with the grader
-      if (const std::string given = one.hidden ? "" : given_text(options_.common, options_.own, test_run.cases[k]);
+      if (const std::string given =
+              one.hidden ? "" : given_text(options_.common, options_.own, test_run.cases[k], judged);
           !given.empty())
         one.said += "\n" + given;
-      // after a crash or a loop the test's own hint would lead astray
-      if (judged.how == How::answered && options_.own.has(one.id + ".hint"))
-        one.said += "\n" + options_.common.fill("hint", options_.own.of(one.id + ".hint"));
+      if (const std::string smaller = one.hidden || judged.how != How::answered ? "" : smallest(*test_run.test);
+          !smaller.empty() && small_told_.emplace(one.part, test_run.test->small).second)
+        one.said += "\n" + smaller;
       shown = k;
       break;
     }
@@ -195,6 +198,17 @@ class Grading {
     one.plot = plot(what, test_run.answers[shown].got,
                     {options_.common.of("legend.right"), options_.common.of("legend.yours"), x,
                      column_text(options_.own, what, what.plot_y)});
+  }
+
+  /// Asks a test that failed for its small cases; in a process of their own, so that they can cost nothing.
+  std::string smallest(const Test& test) const {
+    if (small_told_.count({std::string(test.part), test.small})) return "";
+    const std::vector<Case> small = small_cases(assignment_, test);
+    if (small.empty()) return "";
+    Limits limits = limits_for(0);
+    limits.cpu = 1, limits.wall = 10;
+    const std::vector<Answer> answers = run_calls(sandbox_, programs_.at(std::string(test.part)), small, limits);
+    return smaller_text(options_.common, options_.own, small, answers);
   }
 
   static std::string axis_unit(const Case& what) {
@@ -224,7 +238,9 @@ class Grading {
       if (answered && !passed(result_.tests[i])) wrong.push_back(&result_.tests[i]);
     }
     if (wrong.empty() || unusable_.count(part)) return;
-    const std::string suspect = suspected(of_part);
+    const Remark suspect = suspected(
+        {sandbox_, *builder_, submission_, options_.own, programs_.at(part), scratch_.path / ("suspects-" + part)},
+        of_part);
     const std::vector<std::string> names =
         likely_causes(assignment_, part, of_part, mistakes_of(assignment_), *builder_, *trusted_, options_.jobs);
     std::string cause;
@@ -234,51 +250,19 @@ class Grading {
                              : " " + options_.common.fill("or", behaves);
     }
     // what an experiment shows is more than a likeness
-    if (!suspect.empty()) cause = options_.common.of(suspect);
+    if (!suspect.key.empty()) cause = said(options_.common, suspect);
     if (cause.empty()) cause = options_.common.of("no_cause");
-    for (TestResult* test : wrong) test->cause = cause;
-  }
-
-  /// What experiments on a part's wrong answers show, as a key of the texts; empty: nothing.
-  std::string suspected(const std::vector<TestRun>& of_part) const {
-    if (all_single(of_part)) return "suspect.float";
-    for (const TestRun& one : of_part)
-      for (std::size_t i = 1; i < one.cases.size(); ++i) {
-        if (one.answers[i].how != How::answered || judge(one.cases[i], one.answers[i]).right) continue;
-        // alone, as the first that its process is asked
-        const Answer alone = run_calls(sandbox_, programs_.at(std::string(one.test->part)), {one.cases[i]}).at(0);
-        const Answer first = reduced(*one.test, one.cases[i], alone);
-        return judge(one.cases[i], first).right ? "suspect.state" : "";
-      }
-    return "";
-  }
-
-  /// Whether something is wrong, and all that is wrong are numbers of single precision beside the right ones. Features
-  /// that are found in answers are no numbers of the student's.
-  static bool all_single(const std::vector<TestRun>& of_part) {
-    bool any = false;
-    for (const TestRun& one : of_part)
-      for (std::size_t i = 0; i < one.cases.size(); ++i) {
-        if (judge(one.cases[i], one.answers[i]).right) continue;
-        if (one.test->reduce || !single_beside(one.cases[i], one.answers[i])) return false;
-        any = true;
-      }
-    return any;
-  }
-
-  /// Off by what a number loses that is once kept in single precision, some roundings of 6e-8 of the largest; and kept
-  /// in it at the end, which a constant of six digits is not.
-  static bool single_beside(const Case& what, const Answer& answer) {
-    if (answer.how != How::answered || answer.got.size() != what.expected.size()) return false;
-    double size = 0;
-    for (const double value : what.expected) size = std::max(size, std::abs(value));
-    for (std::size_t i = 0; i < answer.got.size(); ++i) {
-      const double off = std::abs(answer.got[i] - what.expected[i]);
-      if (off <= what.tolerance) continue;
-      if (!(off <= 1e-5 * size) || static_cast<double>(static_cast<float>(answer.got[i])) != answer.got[i])
-        return false;
+    // a test's own hint knows nothing of the others: where a cause is known it may contradict it, and where none is
+    // the first test that fails has most to say
+    const bool known = cause != options_.common.of("no_cause");
+    for (TestResult* test : wrong) {
+      test->cause = cause;
+      if (known) continue;
+      if (test->id != wrong.front()->id)
+        test->said += "\n" + options_.common.fill("first", wrong.front()->id);
+      else if (options_.own.has(test->id + ".hint"))
+        test->said += "\n" + options_.common.fill("hint", options_.own.of(test->id + ".hint"));
     }
-    return true;
   }
 
   /// Keeps the parts that answered every call: others would crash or hang in every run of the charts.
@@ -304,6 +288,7 @@ class Grading {
   std::map<std::string, Answer> unusable_;             // by part: missing, or it does not compile
   std::map<std::string, std::string> ungraded_calls_;  // the test that was not graded because of it
   std::vector<TestRun> test_runs_;                     // beside result_.tests
+  std::set<std::pair<std::string, std::vector<Case> (*)(Random&)>> small_told_;  // with other numbers they say no more
   Result result_;
 };
 
@@ -350,6 +335,11 @@ std::vector<Case> public_cases(const Assignment& assignment, const Test& test) {
   }
   all.insert(all.end(), usual.begin(), usual.end());
   return all;
+}
+
+std::vector<Case> small_cases(const Assignment& assignment, const Test& test) {
+  Random round(public_seed(assignment, test), true);
+  return test.small ? test.small(round) : std::vector<Case>();
 }
 
 std::uint64_t hidden_seed(std::uint64_t seed, const Test& test) {

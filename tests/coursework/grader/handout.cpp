@@ -201,9 +201,12 @@ PublicTests public_tests(const Assignment& assignment) {
   for (const Test& test : assignment.tests) {
     all.hidden += test.hidden > 0;
     if (test.points == 0) continue;
-    all.tests.push_back({std::string(test.id), std::string(test.part), std::string(test.read), test.points, {}});
+    all.tests.push_back({std::string(test.id), std::string(test.part), std::string(test.read), test.points, {}, {}});
     // of files per part `check` has the calls alone; of a whole program also what finds features in its answers
-    if (!test.reduce || assignment.takes_whole_program()) all.tests.back().cases = public_cases(assignment, test);
+    if (!test.reduce || assignment.takes_whole_program()) {
+      all.tests.back().cases = public_cases(assignment, test);
+      all.tests.back().small = small_cases(assignment, test);
+    }
   }
   return all;
 }

@@ -2,6 +2,7 @@
 #include "tests/coursework/grader/result.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <sstream>
 
@@ -109,7 +110,31 @@ const TestResult* public_twin(const Result& result, const TestResult& test) {
   return nullptr;
 }
 
+/// Public tests of the part that have this cause; hidden ones tell nothing before their time.
+std::vector<std::string> with_cause(const Result& result, const std::string& part, const std::string& cause) {
+  std::vector<std::string> ids;
+  for (const TestResult& test : result.tests)
+    if (!test.hidden && test.part == part && test.cause == cause && !passed(test)) ids.push_back(test.id);
+  return ids;
+}
+
+bool told_at_the_top(const Result& result, const TestResult& test, const Texts& common) {
+  return !test.cause.empty() && test.cause != common.of("no_cause") &&
+         with_cause(result, test.part, test.cause).size() > 1;
+}
+
 }  // namespace
+
+std::vector<std::string> causes_of(const Result& result, const Texts& common) {
+  std::vector<std::string> lines;
+  for (const TestResult& test : result.tests) {
+    if (test.hidden || passed(test) || !told_at_the_top(result, test, common)) continue;
+    const std::vector<std::string> ids = with_cause(result, test.part, test.cause);
+    if (ids.front() == test.id)
+      lines.push_back(common.fill("cause.top", test.heading, fmt::format("{}", fmt::join(ids, ", ")), test.cause));
+  }
+  return lines;
+}
 
 std::string printable(std::string text) {
   for (char& c : text)
@@ -119,7 +144,7 @@ std::string printable(std::string text) {
 
 std::string points_text(double points) { return fmt::format("{:g}", points); }
 
-std::vector<std::string> lines_on(const Result& result, const TestResult& test, const Texts& common) {
+std::vector<std::string> lines_on(const Result& result, const TestResult& test, const Texts& common, bool alone) {
   std::vector<std::string> lines;
   if (passed(test)) return lines;
   const TestResult* twin = public_twin(result, test);
@@ -127,7 +152,8 @@ std::vector<std::string> lines_on(const Result& result, const TestResult& test, 
   if (same) return {common.of("as_public")};
   std::istringstream said(test.said);
   for (std::string line; std::getline(said, line);) lines.push_back(printable(line));
-  if (!test.cause.empty()) lines.push_back(test.cause);
+  if (!test.cause.empty())
+    lines.push_back(!alone && told_at_the_top(result, test, common) ? common.of("cause.above") : test.cause);
   if (!test.read.empty()) lines.push_back(common.fill("read", test.read));
   return lines;
 }
@@ -162,6 +188,7 @@ std::string text_of(const Result& result, const Texts& common) {
                                  result.sandbox) +
                      "\n";
   for (const std::string& line : result.preflight) text += "! " + printable(line) + "\n";
+  for (const std::string& line : causes_of(result, common)) text += printable(line) + "\n";
   std::string part, shown;  // what was said last on the part is not said again test by test
   bool hidden = false;
   for (const TestResult& test : result.tests) {
@@ -174,7 +201,7 @@ std::string text_of(const Result& result, const Texts& common) {
     const std::vector<std::string> lines = lines_on(result, test, common);
     for (const std::string& line : lines) {
       const bool again = line == shown;
-      if (line == test.cause || lines.size() == 1) shown = line;
+      if (line == test.cause || line == common.of("cause.above") || lines.size() == 1) shown = line;
       if (!again) text += "        " + line + "\n";
     }
   }
@@ -189,7 +216,7 @@ h1{font-size:1.4rem}h2{font-size:1.15rem;margin-top:2rem}
 section{border-left:4px solid #d62728;padding:.2rem 1rem;margin:1rem 0;background:#fafafa}
 section.passed{border-color:#2ca02c}section.ungraded{border-color:#777}section h3{font-size:1rem;margin:.3rem 0}
 p{margin:.3rem 0}.points{float:right;font-weight:normal}.total{font-size:1.2rem;font-weight:bold;white-space:pre-line}
-.remark{background:#fff3cd;padding:.4rem .8rem;white-space:pre-wrap}svg{max-width:100%;height:auto;background:#fff}
+.cause{background:#e8f0fe;padding:.4rem .8rem}.remark{background:#fff3cd;padding:.4rem .8rem;white-space:pre-wrap}svg{max-width:100%;height:auto;background:#fff}
 </style>)";
 
 std::string section_of(const Result& result, const TestResult& test, const Texts& common) {
@@ -217,6 +244,7 @@ std::string page_of(const Result& result, const Texts& common, const Texts& own,
                           result.sandbox)));
   if (!result.complete) page += "<p class=\"remark\">" + escaped(common.of("page.not_done")) + "</p>\n";
   for (const std::string& line : result.preflight) page += "<p class=\"remark\">" + escaped(line) + "</p>\n";
+  for (const std::string& line : causes_of(result, common)) page += "<p class=\"cause\">" + escaped(line) + "</p>\n";
   if (!charts.empty())
     page += fmt::format("<p><a href=\"{}\">{}</a></p>\n", escaped(charts), escaped(common.of("page.charts")));
   std::string part;

@@ -60,8 +60,12 @@ std::string page_of(const Result& result, const Texts& common, const Texts& own,
 /// "Total: 85 of 100 points", and where all public tests passed and hidden ones have still to run, how many.
 std::string total_of(const Result& result, const Texts& common);
 
-/// What is said of a test that was not passed, line by line; empty where it was.
-std::vector<std::string> lines_on(const Result& result, const TestResult& test, const Texts& common);
+/// Causes of which several public tests of a part fail, each told once: their lines_on() refer to it.
+std::vector<std::string> causes_of(const Result& result, const Texts& common);
+
+/// What is said of a test that was not passed, line by line; empty where it was. `alone`: there is no top to refer to.
+std::vector<std::string> lines_on(const Result& result, const TestResult& test, const Texts& common,
+                                  bool alone = false);
 
 /// One line without control characters: students' programs and archives may have put anything into what is said of
 /// them.

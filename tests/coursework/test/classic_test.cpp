@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include "mysim/base/files.h"
+#include "tests/coursework/classic/whole_program.h"
+#include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/test/helpers.h"
 
@@ -81,6 +84,31 @@ TEST(Classic, OutputAndAMissingFileCostNothingElse) {
       EXPECT_EQ(test.said, "ClothSystem is missing, so its tests cannot run.");
     }
   }
+}
+
+// Names leave a choice, and one class does not even compile where it is used: the compiler says why.
+TEST(Classic, AClassThatCannotBeTriedIsToldTheCompilersFirstError) {
+  const Assignment& whole = find_assignment("classic");
+  const auto sandbox = choose_sandbox("bare", true);
+  classic::Files files;
+  for (const char* name : {"particleSystem.h", "particleSystem.cpp", "simpleSystem.h", "simpleSystem.cpp"})
+    files[name] = content_of_file(whole.folder() / "solution" / name);
+  files["Spare.h"] =
+      "#include \"particleSystem.h\"\nclass Spare : public ParticleSystem {\n  Spare() {}\n public:\n"
+      "  vector<Vector3f> evalF(vector<Vector3f> state) { return state; }\n  void draw() {}\n};\n";
+  const crosscheck::TemporaryFolder scratch("test");
+  crosscheck::write_file(scratch.path / "child.o", "");  // nothing is run
+  const Compiler compiler;
+  const classic::Programs programs =
+      classic::build_programs(files, scratch.path / "tree", folder_of_coursework(), *sandbox,
+                              {compiler.command(), "/usr/bin/ar", scratch.path / "child.o"}, {"simple"},
+                              [](const auto&, bool) { return classic::Fits(); });
+  std::string notes;
+  for (const Remark& note : programs.notes) notes += said(common_texts(), note) + "\n";
+  EXPECT_NE(notes.find("Spare was tried, since names leave a choice, and cannot be used: static assertion failed: no "
+                       "constructor that can be called with a count, or without arguments"),
+            std::string::npos)
+      << notes;
 }
 
 // Whatever a fault is like, it is told as what it is: features of answers say nothing of precision.

@@ -8,6 +8,7 @@
 
 #include "mysim/base/files.h"
 #include "tests/coursework/check/judge.h"
+#include "tests/coursework/check/words.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/run.h"
 #include "tests/coursework/test/helpers.h"
@@ -121,6 +122,23 @@ TEST_P(Corpus, SolutionAndOtherStylesLoseNothing) {
     }
   }
   EXPECT_GE(styles, 3);
+}
+
+// What tells a student where to begin is right, and says with which numbers.
+TEST_P(Corpus, SmallCasesAreRightAndSayWhatWasGiven) {
+  const Texts own = Texts::read((assignment_.folder() / "texts.en.txt").string());
+  for (const coursework::Test& test : assignment_.tests) {
+    const std::vector<Case> small = small_cases(assignment_, test);
+    if (small.empty()) continue;
+    const fs::path program = builder_->ours(std::string(test.part), solution(std::string(test.part)));
+    const std::vector<Answer> answers = run_calls(*sandbox_, program, small);
+    for (std::size_t i = 0; i < small.size(); ++i) {
+      const Judged judged = judge(small[i], answers[i]);
+      EXPECT_TRUE(judged.right) << test.id << ", small case " << i << ": "
+                                << words(common_texts(), own, small[i], answers[i], judged);
+      EXPECT_NE(given_text(common_texts(), own, small[i], judged, 80), "") << test.id << ", small case " << i;
+    }
+  }
 }
 
 TEST_P(Corpus, KnownMistakesLoseExactlyTheirTestsAndAreNamed) {

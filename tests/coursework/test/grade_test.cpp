@@ -14,6 +14,8 @@
 #include "tests/coursework/grader/grade.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/result.h"
+#include "tests/coursework/grader/run.h"
+#include "tests/coursework/grader/suspects.h"
 #include "tests/coursework/test/helpers.h"
 #include "tests/coursework/test/tiny/tiny_assignment.h"
 
@@ -162,24 +164,73 @@ TEST(Grade, OtherMistakesAndTwoAtOnceAreGivenNoName) {
 }
 
 // A cause is told where an experiment shows it, and not where something is only like it.
-TEST(Grade, SinglePrecisionAndKeptStateAreFoundByExperiment) {
-  const std::pair<const char*, const char*> table[] = {
-      {"const float single = static_cast<float>(x); return 2 * single;", "suspect.float"},
-      {"static const double kept = x; return 2 * kept;", "suspect.state"},
-      {"return 2 * x * 1.000001;", "no_cause"},
-      {"return 2 * x + 100;", "no_cause"},
+TEST(Grade, CausesAreFoundByExperiment) {
+  const std::pair<const char*, Remark> table[] = {
+      {"const float single = static_cast<float>(x); return 2 * single;", {"suspect.float", {}}},
+      {"static const double kept = x; return 2 * kept;", {"suspect.state", {}}},
+      {"return 2 * x * 1.000001;", {"no_cause", {}}},
+      {"return 2 * x + 100;", {"no_cause", {}}},
+      {"return 4 * x *\n(1 / 2);", {"suspect.integer", {"twice.cpp", "4"}}},
+      {"return 5 * x * (1 / 2);", {"no_cause", {}}},
+      {"volatile double right = 90; return 2 * x * std::sin(right);", {"suspect.degrees", {}}},
+      {"volatile double right = 80; return 2 * x * std::sin(right);", {"no_cause", {}}},
   };
   for (const auto& [body, key] : table) {
-    const Result result =
-        graded({{"twice.cpp", std::string("#include \"tiny.h\"\ndouble twice(double x) { ") + body + " }"}});
+    const Result result = graded(
+        {{"twice.cpp", std::string("#include \"tiny.h\"\n#include <cmath>\ndouble twice(double x) { ") + body + " }"}});
     int wrong = 0;
     for (const TestResult& test : result.tests)
       if (test.part == "twice" && !passed(test) && !test.cause.empty()) {
         ++wrong;
-        EXPECT_EQ(test.cause, common_texts().of(key)) << body << " " << test.id;
+        EXPECT_EQ(test.cause, said(common_texts(), key)) << body << " " << test.id;
       }
     EXPECT_GT(wrong, 0) << body;
   }
+}
+
+// An angle is given in radians: with 180 / pi times as much, code that turns degrees into radians is right.
+TEST(Grade, AnAngleTakenInDegreesIsFoundByGivingItOtherwise) {
+  const Assignment& cloth = find_assignment("a3-cloth");
+  const auto sandbox = choose_sandbox("bare", true);
+  const auto builder = builder_for(cloth, *sandbox, *sandbox);
+  const auto air = std::find_if(cloth.tests.begin(), cloth.tests.end(), [](const auto& t) { return t.id == "4.2"; });
+  const GradeOptions options = options_for(cloth, 7);
+  const Submission nothing;
+  const crosscheck::TemporaryFolder scratch("test");
+  const std::string solution = content_of_file(cloth.folder() / "solution/wind.cpp");
+  const std::pair<const char*, const char*> table[] = {{"+ wind.offset * pi / 180", "suspect.degrees"},
+                                                       {"+ wind.offset * pi / 100", ""}};
+  for (const auto& [to, key] : table) {
+    const auto program = builder->ours("wind", with_mistake(solution, {"", "wind", "+ wind.offset", to, {}}));
+    const std::vector<TestRun> asked = {
+        {&*air, public_cases(cloth, *air), run_calls(*sandbox, program, public_cases(cloth, *air))}};
+    EXPECT_EQ(suspected({*sandbox, *builder, nothing, options.own, program, scratch.path}, asked).key, key) << to;
+  }
+}
+
+// One cause is told once, and hints that know nothing of each other are not left to contradict it.
+TEST(Grade, TestsOfOnePartAgree) {
+  const Texts common = common_texts();
+  const std::string solution = content_of_file(tiny().folder() / "solution/sums.cpp");
+  const Mistake known = mistakes_of(tiny()).at(3);
+  ASSERT_GT(known.loses.size(), 1u);
+  const Result named = graded({{"sums.cpp", with_mistake(solution, known)}});
+  ASSERT_EQ(causes_of(named, common).size(), 1u);
+  const std::string cause = named.tests[1].cause;
+  EXPECT_EQ(causes_of(named, common)[0], "sums.cpp, tests 2.1, 2.2: " + cause);
+  const std::string text = text_of(named, common), page = page_of(named, common, options_for(tiny(), 7).own);
+  for (const std::string& all : {text, page}) {
+    EXPECT_EQ(all.find("it " + cause), std::string::npos);
+    const std::size_t first = all.find("tests 2.1, 2.2: Likely cause");
+    EXPECT_NE(first, std::string::npos) << all;
+    EXPECT_EQ(all.find("Likely cause", first + 30), std::string::npos) << all;
+    EXPECT_NE(all.find("The cause is told at the top."), std::string::npos) << all;
+  }
+  const Result other =
+      graded({{"sums.cpp", with_mistake(solution, {"other", "sums", "double sum = 0;", "double sum = 3;", {}})},
+              {"twice.cpp", "double twice(double x) { return 2 * x + 100; }"}});
+  EXPECT_NE(other.tests[0].said.find("Hint: Add it to itself."), std::string::npos) << other.tests[0].said;
+  EXPECT_TRUE(causes_of(other, common).empty());
 }
 
 TEST(Grade, ResultIsThereAfterEveryTest) {
@@ -252,6 +303,10 @@ TEST(Class, IsGradedResumedAndPutIntoATable) {
       "test,title,passed [1],failed [1],not graded [1],most frequent cause,times [1]\n"
       "1.1,Twice a number,2,0,0,,0\n2.1,Sums of the first numbers,1,1,0,,0\n2.2,What each number adds,1,1,0,,0\n");
   const std::string page = class_page(tiny(), all, options.common);
+  std::vector<GradedSubmission> with_cause = all;
+  with_cause[0].result.tests[0].cause = "Likely cause: behaves like another";
+  EXPECT_EQ(class_page(tiny(), with_cause, options.common).find("Likely cause"), std::string::npos);
+  EXPECT_NE(class_page(tiny(), with_cause, options.common).find("<td>behaves like another</td>"), std::string::npos);
   EXPECT_NE(page.find("3 submissions, 2 graded, 1 not graded"), std::string::npos) << page;
   EXPECT_NE(page.find("The archive cannot be read"), std::string::npos) << page;
   EXPECT_NE(page.find("<tr><td>2.1 Sums of the first numbers</td><td>1</td><td>1</td><td>0</td><td></td></tr>"),

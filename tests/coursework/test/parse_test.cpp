@@ -15,12 +15,14 @@
 #include "mysim/base/files.h"
 #include "tests/coursework/check/cases_file.h"
 #include "tests/coursework/check/judge.h"
+#include "tests/coursework/check/page.h"
 #include "tests/coursework/check/plot.h"
 #include "tests/coursework/check/random.h"
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/run.h"
+#include "tests/coursework/grader/suspects.h"
 #include "tests/coursework/test/helpers.h"
 
 namespace coursework {
@@ -259,7 +261,7 @@ TEST(Words, SayWhatWasGiven) {
   const Texts common = common_texts();
   const Texts own = Texts::parse("[given.chain]\nf is linear. | n h A[n,n] k[n-1] n*( x[2] m )\n", "texts");
   const auto say = [&](const char* call, const Numbers& in) {
-    return given_text(common, own, Case{call, in, {1}, 1, 0, "", ""});
+    return given_text(common, own, Case{call, in, {1}, 1, 0, "", ""}, {});
   };
   EXPECT_EQ(
       say("part.chain", {2, 0.5, 1, 2, 3, 4, 7, 5, 6, 8, 9, 10, 11}),
@@ -267,6 +269,62 @@ TEST(Words, SayWhatWasGiven) {
       "11.");
   EXPECT_EQ(say("part.chain", {2, 0.5, 1}), "");
   EXPECT_EQ(say("other", {1}), "");
+}
+
+// Of a list the one that differs is told; of what nobody would read nothing is.
+TEST(Words, OfAListTellTheOneThatDiffers) {
+  const Texts common = common_texts();
+  const Texts own = Texts::parse(
+      "[given.list]\n| r n n@( x[2] m )\n[given.rest]\n| rule ~@( w angle! )\n[given.all]\n| n x[n]\n", "texts");
+  Case list{"list", {9, 2, 1, 2, 3, 4, 5, 6}, {1, 1, 1, 1}, 2, 0, "", ""};
+  Judged second;
+  second.row = 1;
+  EXPECT_EQ(given_text(common, own, list, second), "Given: r = 9, n = 2, x[1] = (4, 5), m[1] = 6.");
+  // two rows each: the second row is still of the first
+  list.columns = 1;
+  EXPECT_EQ(given_text(common, own, list, second), "Given: r = 9, n = 2, x[0] = (1, 2), m[0] = 3.");
+  const Case rest{"rest", {3, 1, 2, 4, 5}, {1, 1}, 1, 0, "", ""};
+  EXPECT_EQ(given_text(common, own, rest, second), "Given: rule = 3, w[1] = 4, angle[1] = 5.");
+  EXPECT_EQ(angles_in(own, rest), (std::vector<std::size_t>{2, 4}));
+  EXPECT_TRUE(angles_in(own, list).empty());
+  Case all{"all", Numbers(81, 1), {1}, 1, 0, "", ""};
+  all.in[0] = 80;
+  EXPECT_EQ(given_text(common, own, all, {}), "");
+}
+
+TEST(Words, OfASetTellWhatIsMissing) {
+  const Texts common = common_texts(), own = Texts::parse("[set.spring]\nsprings\n", "texts");
+  const Case what{"call", {}, {0, 1, 1, 2, 2, 3}, 2, 0, "spring", "pair"};
+  const auto say = [&](const Numbers& got) {
+    const Answer answer{.how = How::answered, .got = got};
+    return words(common, own, what, answer, judge(what, answer));
+  };
+  EXPECT_EQ(say({0, 1, 1, 3, 2, 3}), "Missing springs: (1, 2). Too many springs: (1, 3).");
+  EXPECT_NE(say({0, 1, 2, 3})
+                .find("there is too much of it (numbers of a state, calls of f, particles, springs, "
+                      "triangles). Missing springs: (1, 2)."),
+            std::string::npos)
+      << say({0, 1, 2, 3});
+}
+
+TEST(Words, OfSmallCasesTellTheFirstThatFails) {
+  const Texts common = common_texts(), own = Texts::parse("[given.call]\n| x\n", "texts");
+  const std::vector<Case> small = {{"call", {1}, {1}, 1, 0, "", "y"}, {"call", {2}, {2}, 1, 0, "", "y"}};
+  const Answer right{.how = How::answered, .got = {1}}, wrong{.how = How::answered, .got = {7}};
+  EXPECT_EQ(smaller_text(common, own, small, {right, wrong}),
+            "The smallest case that fails too: First difference at y: expected 2, got 7. Given: x = 2.");
+  EXPECT_EQ(smaller_text(common, own, small, {right, {.how = How::answered, .got = {2}}}), "");
+  EXPECT_EQ(smaller_text(common, own, small, {{.how = How::out_of_time}}), "");
+}
+
+TEST(Suspects, WholeNumbersAreDividedWhereTheyLookIt) {
+  const auto lines = [](const std::string& source) { return whole_divisions(source).size(); };
+  EXPECT_EQ(whole_divisions("x * (1 / 2)"), (std::vector<std::size_t>{7}));
+  EXPECT_EQ(lines("int n = 3; y = x * (1 / n);"), 1u);
+  EXPECT_EQ(lines("y = v.size() / 2;"), 1u);
+  EXPECT_EQ(lines("y = (a + b) / 2;"), 1u);
+  EXPECT_EQ(lines("double n = 3; y = 1 / n; y = h / 2; y = 1.0 / 2; y = 1 / 2.; y = a / b; y /= 2;"), 0u);
+  EXPECT_EQ(lines("// 1 / 2\n/* 1 / 2 */ const char* s = \"1 / 2\"; char c = '/';"), 0u);
 }
 
 TEST(Random, RoundNumbersHaveFewDigitsAndAreNeverZero) {
@@ -318,11 +376,20 @@ TEST(Plot, DrawsBothCurvesAndSurvivesAnything) {
   EXPECT_EQ(plot(nothing, what.expected, texts), "");
 }
 
+TEST(CheckPage, MarksStandBesideColours) {
+  const std::string text = page("t", "", {{"p", "1.1", true, "", {}}, {"p", "1.2", false, "wrong", {}}}, "yes", "no");
+  EXPECT_NE(text.find("<h3>&#10003; 1.1: yes"), std::string::npos) << text;
+  EXPECT_NE(text.find("<h3>&#10007; 1.2: no"), std::string::npos) << text;
+}
+
 TEST(CasesFile, ReadsBackWhatWasWritten) {
   const double inf = std::numeric_limits<double>::infinity();
   Case c{"part.call", {0.1, -1e-310, 1e300, inf}, {1.0 / 3, 2, 3, 4}, 2, 1e-9, "step", "state", 0, 1, 0.25};
-  PublicTests all{
-      "a0", "A title of words", 7, {{"1.1", "part", "A heading, too", 3, {c, c}}, {"1.2", "part", "h", 2, {}}}};
+  PublicTests all{"a0",
+                  "A title of words",
+                  7,
+                  {{"1.1", "part", "A heading, too", 3, {c, c}, {c}}, {"1.2", "part", "h", 2, {}, {}}}};
+  all.tests[0].small[0].in = {5};
   all.tests[0].cases[1].in.clear();
   std::stringstream file;
   write_cases(file, all);
@@ -340,6 +407,9 @@ TEST(CasesFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(std::tie(d.call, d.columns, d.tolerance, d.row, d.column, d.plot_x, d.plot_y, d.row_size),
             std::tie(c.call, c.columns, c.tolerance, c.row, c.column, c.plot_x, c.plot_y, c.row_size));
   EXPECT_TRUE(back.tests[0].cases[1].in.empty());
+  ASSERT_EQ(back.tests[0].small.size(), 1u);
+  EXPECT_EQ(back.tests[0].small[0].in, Numbers{5});
+  EXPECT_EQ(back.tests[0].small[0].expected, c.expected);
 }
 
 TEST(CasesFile, SaysWhichLineIsWrong) {

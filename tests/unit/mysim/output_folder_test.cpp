@@ -359,6 +359,25 @@ TEST_F(TemporaryFolders, ThoseOfKilledProcessesAreSweptAndNoOthers) {
   EXPECT_TRUE(fs::exists(living.path));
 }
 
+// Half a copy of a killed run, as in a compiler's cache; what it finished has another name.
+TEST_F(TemporaryFolders, FilesOfKilledProcessesAreSweptFromAFolder) {
+  const pid_t child = in_child([&] {
+    const TemporaryFolder folder("build");
+    std::ofstream(folder_ / (folder.path.filename().string() + ".o")) << "half";
+    for (;;) pause();
+    return 0;
+  });
+  wait_for(2);
+  std::ofstream(folder_ / "0123456789abcdef.o") << "whole";
+  remove_stale_files(folder_);
+  EXPECT_EQ(count(), 3) << "it lives";
+  kill(child, SIGKILL);
+  end_of(child);
+  remove_stale_files(folder_);
+  EXPECT_EQ(count(), 2) << "its folder, and the whole file";
+  EXPECT_TRUE(fs::exists(folder_ / "0123456789abcdef.o"));
+}
+
 TEST_F(TemporaryFolders, NothingIsLeftWhenASignalEndsTheProgram) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const pid_t child = in_child([] { return run_supervised(work_with_children); });

@@ -1,0 +1,202 @@
+// Experiments on a student's code. Each costs nothing where all is right; those that compile look at the source first.
+#include "tests/coursework/grader/suspects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <regex>
+
+#include "tests/coursework/check/judge.h"
+#include "tests/coursework/check/words.h"
+#include "tests/coursework/grader/run.h"
+
+namespace coursework {
+namespace fs = std::filesystem;
+namespace {
+
+bool right_in(const TestRun& one, std::size_t i) { return judge(one.cases[i], one.answers[i]).right; }
+
+/// Off by what a number loses that is once kept in single precision, some roundings of 6e-8 of the largest; and kept
+/// in it at the end, which a constant of six digits is not.
+bool single_beside(const Case& what, const Answer& answer) {
+  if (answer.how != How::answered || answer.got.size() != what.expected.size()) return false;
+  double size = 0;
+  for (const double value : what.expected) size = std::max(size, std::abs(value));
+  for (std::size_t i = 0; i < answer.got.size(); ++i) {
+    const double off = std::abs(answer.got[i] - what.expected[i]);
+    if (off <= what.tolerance) continue;
+    if (!(off <= 1e-5 * size) || static_cast<double>(static_cast<float>(answer.got[i])) != answer.got[i]) return false;
+  }
+  return true;
+}
+
+/// Whether something is wrong, and all that is wrong are numbers of single precision beside the right ones. Features
+/// that are found in answers are no numbers of the student's.
+bool all_single(const std::vector<TestRun>& of_part) {
+  bool any = false;
+  for (const TestRun& one : of_part)
+    for (std::size_t i = 0; i < one.cases.size(); ++i) {
+      if (right_in(one, i)) continue;
+      if (one.test->reduce || !single_beside(one.cases[i], one.answers[i])) return false;
+      any = true;
+    }
+  return any;
+}
+
+/// Whether a call that was wrong after others is right when it is the first of its program.
+bool keeps_something(const Subject& subject, const std::vector<TestRun>& of_part) {
+  for (const TestRun& one : of_part)
+    for (std::size_t i = 1; i < one.cases.size(); ++i) {
+      if (one.answers[i].how != How::answered || right_in(one, i)) continue;
+      const Answer alone = run_calls(subject.sandbox, subject.program, {one.cases[i]}).at(0);
+      return judge(one.cases[i], reduced(*one.test, one.cases[i], alone)).right;
+    }
+  return false;
+}
+
+/// Whether all that was wrong is right in another program, or with other inputs beside the same right answers.
+template <class Changed>
+bool mends(const Subject& subject, const fs::path& program, const std::vector<TestRun>& of_part, Changed changed) {
+  for (const TestRun& one : of_part) {
+    bool wrong = false;
+    std::vector<Case> cases = one.cases;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (right_in(one, i)) continue;
+      wrong = true;
+      if (!changed(cases[i])) return false;
+    }
+    if (!wrong) continue;
+    const std::vector<Answer> answers = run_calls(subject.sandbox, program, cases);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      if (!right_in(one, i) && !judge(one.cases[i], reduced(*one.test, one.cases[i], answers[i])).right) return false;
+  }
+  return true;
+}
+
+bool mends(const Subject& subject, const fs::path& program, const std::vector<TestRun>& of_part) {
+  return mends(subject, program, of_part, [](Case&) { return true; });
+}
+
+/// Comments, strings and characters as blanks.
+std::string code_of(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    std::size_t end = i;
+    if (text.compare(i, 2, "//") == 0)
+      end = text.find('\n', i);
+    else if (text.compare(i, 2, "/*") == 0)
+      end = std::min(text.find("*/", i + 2), text.size() - 2) + 2;
+    else if (text[i] == '"' || (text[i] == '\'' && (i == 0 || !std::isalnum(static_cast<unsigned char>(text[i - 1])))))
+      for (end += 2; end < text.size() && text[end - 1] != text[i]; ++end) end += text[end - 1] == '\\';
+    end = std::min(end, text.size());
+    for (std::size_t k = i; k < end; ++k)
+      if (text[k] != '\n') text[k] = ' ';
+    if (end > i) i = end - 1;
+  }
+  return text;
+}
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Trigonometry that takes its angles times `factor`.
+std::string trigonometry(double factor) {
+  std::string source = "#define _GNU_SOURCE\nextern \"C\" {\n";
+  for (const auto& [type, ending] : {std::pair{"double", ""}, std::pair{"float", "f"}}) {
+    for (const char* name : {"sin", "cos", "tan"})
+      source +=
+          fmt::format("{0} __real_{1}{2}({0});\n{0} __wrap_{1}{2}({0} x) {{ return __real_{1}{2}({0}({3:a} * x)); }}\n",
+                      type, name, ending, factor);
+    source += fmt::format(
+        "void __real_sincos{1}({0}, {0}*, {0}*);\nvoid __wrap_sincos{1}({0} x, {0}* s, {0}* c) "
+        "{{ __real_sincos{1}({0}({2:a} * x), s, c); }}\n",
+        type, ending, factor);
+  }
+  return source + "}\n";
+}
+
+bool takes_degrees(const Subject& subject, const std::vector<TestRun>& of_part, const std::string& file) {
+  for (const double factor : {degree, 1 / degree})
+    if (mends(subject, subject.program, of_part, [&](Case& what) {
+          const std::vector<std::size_t> angles = angles_in(subject.own, what);
+          for (const std::size_t i : angles) what.in[i] *= factor;
+          return !angles.empty();
+        }))
+      return true;
+  const auto source = subject.submission.files.find(file);
+  static const std::regex asks("\\b(sin|cos|tan)f?\\s*\\(");
+  if (source == subject.submission.files.end() || !std::regex_search(code_of(source->second), asks)) return false;
+  int number = 0;
+  for (const double factor : {degree, 1 / degree}) {
+    const Built built = subject.builder.varied(
+        subject.submission, std::string(of_part.front().test->part), subject.scratch / fmt::format("angle{}", number++),
+        {"sin", "cos", "tan", "sincos", "sinf", "cosf", "tanf", "sincosf"}, trigonometry(factor));
+    if (!built.program.empty() && mends(subject, built.program, of_part)) return true;
+  }
+  return false;
+}
+
+/// Where all is right once the fraction is kept in some divisions of whole numbers: the line of the first that matters.
+int line_of_integer_division(const Subject& subject, const std::vector<TestRun>& of_part, const std::string& file) {
+  constexpr std::size_t most = 4;  // a compiler each
+  const auto found = subject.submission.files.find(file);
+  if (found == subject.submission.files.end()) return 0;
+  const std::string& source = found->second;
+  std::vector<std::size_t> all = whole_divisions(source);
+  if (all.empty()) return 0;
+  if (all.size() > most) all.resize(most);
+  int number = 0;
+  const auto mended_by = [&](std::vector<std::size_t> places) {
+    Submission changed = subject.submission;
+    std::sort(places.rbegin(), places.rend());
+    for (const std::size_t at : places) changed.files[file].insert(at, "/ 1.0 ");
+    const Built built = subject.builder.varied(changed, std::string(of_part.front().test->part),
+                                               subject.scratch / fmt::format("division{}", number++));
+    return !built.program.empty() && mends(subject, built.program, of_part);
+  };
+  const auto line = [&](std::size_t at) {
+    return 1 + static_cast<int>(std::count(source.begin(), source.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+  };
+  // one alone first: where one of several is an index, all at once would not compile
+  for (const std::size_t at : all)
+    if (mended_by({at})) return line(at);
+  return all.size() > 1 && mended_by(all) ? line(all.front()) : 0;
+}
+
+}  // namespace
+
+std::vector<std::size_t> whole_divisions(const std::string& source) {
+  static const std::regex division(
+      R"(([A-Za-z_]\w*(?:\s*\.\s*size\s*\(\s*\))?|[0-9][\w.]*|\))\s*/(?![/*=])\s*([A-Za-z_]\w*(?:\.size\(\))?|[0-9][\w.]*|\())");
+  const std::string code = code_of(source);
+  const auto literal = [](const std::string& word) { return std::regex_match(word, std::regex("[0-9]+[uUlL]*")); };
+  const auto whole = [&](const std::string& word) {
+    if (literal(word) || word.ends_with(")")) return true;  // of names only size() has brackets
+    if (std::isdigit(static_cast<unsigned char>(word[0]))) return false;
+    return std::regex_search(code, std::regex("\\b(int|unsigned|long|short|size_t|ptrdiff_t)\\s+" + word + "\\b"));
+  };
+  std::vector<std::size_t> places;
+  for (std::sregex_iterator at(code.begin(), code.end(), division), end; at != end; ++at) {
+    const std::string left = (*at)[1], right = (*at)[2];
+    const bool bracket = left == ")" || right == "(";
+    if (bracket ? literal(left) || literal(right) : whole(left) && whole(right))
+      places.push_back(static_cast<std::size_t>(at->position()) + (*at)[0].str().find('/', left.size()));
+  }
+  return places;
+}
+
+Remark suspected(const Subject& subject, const std::vector<TestRun>& of_part) {
+  if (all_single(of_part)) return {"suspect.float", {}};
+  if (keeps_something(subject, of_part)) return {"suspect.state", {}};
+  for (const TestRun& one : of_part)  // a crash says enough, and is nothing to be repeated
+    for (const Answer& answer : one.answers)
+      if (answer.how != How::answered) return {};
+  const std::string file = subject.builder.file_of(std::string(of_part.front().test->part));
+  if (takes_degrees(subject, of_part, file)) return {"suspect.degrees", {}};
+  if (const int line = line_of_integer_division(subject, of_part, file); line > 0)
+    return {"suspect.integer", {file, std::to_string(line)}};
+  return {};
+}
+
+}  // namespace coursework
