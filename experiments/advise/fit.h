@@ -9,8 +9,8 @@
 
 namespace crosscheck {
 
-/// A parameter written as "fit" in the file; all that are of one kind are one value: every stiffness (each family of its
-/// own where isotropy is wished), every mass.
+/// A parameter written as "fit" in the file. All that are of one kind are one value: every mass, every stiffness; where
+/// anisotropy is wished, the stiffness of each family.
 struct Unknown {
   std::string name, unit;          // "stiffness", "N/m"
   std::vector<std::string> paths;  // where it stands in the file
