@@ -380,7 +380,7 @@ TEST(Cells, AMotionThatDragHasTakenIsTold) {
   add_map(map_kinds()[0], *map_scene(load_scene("spring"), false), find_method("mysim/leapfrog"), {3, 6, 300, false},
           rows, keeping(kept));
   for (RecordedRun& run : kept.at(0).runs) {
-    run.rest.setZero();
+    run.cell->rest.setZero();
     for (Points& x : run.path.x) x.setZero(), x(0, 0) = 1e-310;
   }
   EXPECT_NO_THROW(motions_json(kept[0].watched(), {}));
