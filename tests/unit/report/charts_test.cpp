@@ -164,7 +164,6 @@ TEST(CheapestChart, SaysWhoIsFastestWhereTheClockCanTell) {
   EXPECT_EQ(f.finding,
             "Within 1 % of the motion mysim is the fastest, beyond the intervals, on 1 of 2 scenes; Bullet takes 30 "
             "(cloth) times its CPU time, Boost odeint takes 1.1 (rod) to 2 (cloth).");
-  EXPECT_EQ(charts[0].tables.at(0).rows.size(), 3u);
   EXPECT_NO_THROW(drawing_of(f));
 }
 
