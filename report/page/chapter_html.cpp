@@ -110,7 +110,10 @@ std::string shown_html(const Chapter::Entry& entry, const PageContent& c) {
 }
 
 std::string kind_of(const Chapter::Entry& entry) {
-  return !entry.figures.empty() ? "chart" : !entry.images.empty() ? "picture" : "table";
+  return !entry.figures.empty()  ? "chart"
+         : !entry.images.empty() ? "picture"
+         : !entry.tables.empty() ? "table"
+                                 : "text";
 }
 
 /// The drawing of a lead figure for readers without JavaScript, unchanged.

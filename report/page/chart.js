@@ -4,7 +4,7 @@
 const charts = (() => {
   'use strict';
 
-  const {svg, letters, widthOf, nice, linear, logarithmic, scale, rangeOf, marks, looksOf, Places, label, wrapped, around, besideEnd, fitting, titleOf, tickText, axes, mark, pathOf} = chartParts;
+  const {svg, letters, lineHeight, widthOf, nice, linear, logarithmic, scale, rangeOf, marks, sceneMarks, looksOf, Places, label, wrapped, around, besideEnd, fitting, titleOf, tickText, axes, mark, pathOf} = chartParts;
 
   // Curves.
 

@@ -236,5 +236,5 @@ const chartParts = (() => {
     return text;
   };
 
-  return {svg, letters, widthOf, nice, linear, logarithmic, scale, rangeOf, marks, looksOf, Places, label, wrapped, around, besideEnd, fitting, titleOf, tickText, axes, mark, pathOf};
+  return {svg, letters, lineHeight, widthOf, nice, linear, logarithmic, scale, rangeOf, marks, sceneMarks, looksOf, Places, label, wrapped, around, besideEnd, fitting, titleOf, tickText, axes, mark, pathOf};
 })();

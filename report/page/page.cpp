@@ -112,10 +112,10 @@ std::string scene_html(const ScenePart& part, const PageContent& c) {
 std::string scenes_html(const PageContent& c) {
   if (c.scenes.empty()) return "";
   std::string out = fmt::format(
-      "<section class=\"chapter\" id=\"scenes\"><h2>Scenes</h2>\n<p class=\"answer\">{} scene{}, each with one "
+      "<section class=\"chapter\" id=\"scenes\"><h2>Scenes</h2>\n<p class=\"answer\">{} with one "
       "question. A card opens its motion, its charts, all its runs and its certificates.</p>\n<div "
       "class=\"cards\">\n",
-      c.scenes.size(), c.scenes.size() == 1 ? "" : "s");
+      c.scenes.size() == 1 ? "One scene," : fmt::format("{} scenes, each", c.scenes.size()));
   for (const ScenePart& part : c.scenes) out += card_html(part);
   out += "</div>\n";
   for (const ScenePart& part : c.scenes)

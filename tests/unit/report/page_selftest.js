@@ -37,6 +37,7 @@
     return {
       says: chart.getAttribute('aria-label'),
       height: box.height,
+      unseen: [...chart.querySelectorAll('rect, path, circle, line')].filter(shape => getComputedStyle(shape).display === 'none').length,
       shapes: chart.querySelectorAll('path, rect, line').length,
       marks: chart.querySelectorAll('.mark').length,
       cells: chart.querySelectorAll('.cell[data-words]').length,

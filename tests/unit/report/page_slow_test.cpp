@@ -168,6 +168,7 @@ TEST_F(Page, ChartsAreDrawnAndSpeak) {
     EXPECT_TRUE(contains(chart["says"].text(), std::string("A chart of ") + name));
     EXPECT_GT(chart["height"].number(), 100);
     EXPECT_GT(chart["shapes"].number(), 3);
+    EXPECT_EQ(chart["unseen"].number(), 0) << "a style of another part of the page hides its shapes";
     EXPECT_GE(chart["letters"].number(), 12) << "pixels";
     EXPECT_EQ(chart["outside"].number(), 0) << "letters beyond the chart's edge: " << chart.dump();
   }
