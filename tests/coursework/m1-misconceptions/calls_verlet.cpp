@@ -1,8 +1,8 @@
 // Calls of verlet_next, observed_order and predicted_error.
 //   verlet.next        h, acceleration, before, now       x
-//   verlet.orders      omega, h, steps, amplitude, phase  the motion amplitude cos(omega t + phase), computed with h,
-//   h/2
-//                      and h/4: the order of the error of a single step, and of that after the time steps h
+//   verlet.orders      omega, h, steps, amplitude, phase, halvings
+//                      the motion amplitude cos(omega t + phase), computed with h, h/2 and so on: the order of the
+//                      error of a single step, and of that after the time steps h
 //   verlet.predicted   omega, h, steps, error, times, then what a belief says, which is told and not used
 //                      the error predicted for a step so many times smaller
 #include <cmath>
@@ -49,9 +49,10 @@ bool answer_verlet(const std::string& call, const Numbers& in, Numbers& out) {
     const double omega = reader.number(), h = reader.number();
     const int steps = reader.integer();
     const double amplitude = reader.number(), phase = reader.number();
+    const int finest = 1 << reader.integer();
     const Motion motion{omega, amplitude, phase};
     std::vector<double> of_one, of_all;
-    for (const int parts : {1, 2, 4}) {
+    for (int parts = 1; parts <= finest; parts *= 2) {
       of_one.push_back(error_of(motion, h / parts, 2));
       of_all.push_back(error_of(motion, h / parts, steps * parts));
     }

@@ -114,11 +114,14 @@ std::vector<Case> next_position(Random& random) {
 /// is C a^2 (1 + O(a / 4)), which moves the order by less than 0.05 for a below 0.12; of one step C a^4 (1 + O(a^2)).
 std::vector<Case> both_orders(Random& random) {
   std::vector<Case> cases;
-  for (int i = 0; i < 2; ++i) {
+  for (const double halvings : {2, 1, 3}) {
     const double omega = random.uniform(2, 9), a = random.uniform(0.08, 0.12);
     const double steps = std::round(random.uniform(4, 5) / a);
-    Case c{
-        "verlet.orders", {omega, a / omega, steps, random.uniform(1, 3), random.uniform(0.05, 0.2)}, {4, 2}, 2, 0.05};
+    Case c{"verlet.orders",
+           {omega, a / omega, steps, random.uniform(1, 3), random.uniform(0.05, 0.2), halvings},
+           {4, 2},
+           2,
+           0.05};
     c.row = "run", c.column = "orders";
     cases.push_back(c);
   }

@@ -1,4 +1,6 @@
 // A frame by a plan, and the plan by measuring.
+#include <cmath>
+
 #include "beliefs.h"
 
 Line advance(const Chain& chain, Line line, double frame, Plan plan) {
@@ -14,9 +16,9 @@ Line advance(const Chain& chain, Line line, double frame, Plan plan) {
 }
 
 Plan choose(const std::function<double(Plan)>& error, int budget) {
-  Plan best{1, budget};
-  double smallest = error(best);
-  for (int steps = 2; steps <= budget; ++steps) {
+  Plan best{};
+  double smallest = HUGE_VAL;
+  for (int steps = 1; steps <= budget; ++steps) {
     if (budget % steps != 0) continue;
     const Plan plan{steps, budget / steps};
     const double found = error(plan);

@@ -2,10 +2,7 @@
 #include "beliefs.h"
 
 Swing explicit_step(double omega, Swing now, double h) {
-  Swing next = now;
-  next.v -= h * omega * omega * now.x;
-  next.x += h * now.v;
-  return next;
+  return {now.x + h * now.v, now.v - h * omega * omega * now.x};
 }
 
 Swing semi_implicit_step(double omega, Swing now, double h) {

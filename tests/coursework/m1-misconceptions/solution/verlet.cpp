@@ -8,8 +8,7 @@ double verlet_next(double before, double now, double acceleration, double h) {
 }
 
 double observed_order(const std::vector<double>& errors) {
-  const double halvings = static_cast<double>(errors.size()) - 1;
-  return std::log2(errors.front() / errors.back()) / halvings;
+  return std::log2(errors.front() / errors.back()) / static_cast<double>(errors.size() - 1);
 }
 
 double predicted_error(double error, double times_smaller) { return error / (times_smaller * times_smaller); }
