@@ -43,7 +43,7 @@ HalfChain along_span(int links, double length, double across) {
 /// The depth where the half chain is as wide as half the span: it is the wider the harder it is pulled.
 double depth_at(double span, double hardest, const std::function<HalfChain(double)>& pulled) {
   double low = 0, high = hardest;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 60; ++i) {  // to 1e-16 of the weight
     const double middle = (low + high) / 2;
     (pulled(middle).width > span / 2 ? high : low) = middle;
   }

@@ -15,13 +15,13 @@ Line advance(const Chain& chain, Line line, double frame, Plan plan) {
   return line;
 }
 
-Plan choose(const std::function<double(Plan)>& error, int budget) {
+Plan choose(const Film& film, int budget) {
   Plan best{};
   double smallest = HUGE_VAL;
   for (int steps = 1; steps <= budget; ++steps) {
     if (budget % steps != 0) continue;
     const Plan plan{steps, budget / steps};
-    const double found = error(plan);
+    const double found = film.error(plan);
     if (found < smallest) best = plan, smallest = found;
   }
   return best;

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 // ---- kick_drift.cpp: a particle on a spring, x'' = -omega^2 x
@@ -45,7 +44,8 @@ double parabola_sag(double length, double span);
 double elastic_sag(double length, double span, double weight, double stiffness);
 
 /// The number at which f is 0, between a millionth and a million. f must have different signs at the two.
-inline double root_of(const std::function<double(double)>& f) {
+template <class Function>
+double root_of(const Function& f) {
   double low = 1e-6, high = 1e6;
   const bool rises = f(high) > 0;
   for (int i = 0; i < 100; ++i) {
@@ -87,6 +87,14 @@ inline void iterate(const Chain& chain, double h, std::vector<double>& x, std::v
 /// The chain one frame later, computed by the plan.
 Line advance(const Chain& chain, Line line, double frame, Plan plan);
 
-/// error(plan) is measured for you. Returns the plan with the smallest error among those that cost the whole budget:
-/// steps times iterations is the budget. Asks for no others.
-Plan choose(const std::function<double(Plan)>& error, int budget);
+/// A film of a chain whose true motion is known.
+class Film {
+ public:
+  virtual ~Film() = default;
+  /// The largest error in m where every frame is computed by this plan; it is measured for you.
+  virtual double error(Plan plan) const = 0;
+};
+
+/// The plan with the smallest error among those that cost the whole budget: steps times iterations is the budget. Asks
+/// for no others.
+Plan choose(const Film& film, int budget);

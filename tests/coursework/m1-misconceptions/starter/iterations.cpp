@@ -6,7 +6,7 @@ Line advance(const Chain& chain, Line line, double frame, Plan plan) {
   return line;                           // yours
 }
 
-Plan choose(const std::function<double(Plan)>& error, int budget) {
-  (void)error, (void)budget;  // delete this line when you use them
-  return {0, 0};              // yours
+Plan choose(const Film& film, int budget) {
+  (void)film, (void)budget;  // delete this line when you use them
+  return {0, 0};             // yours
 }

@@ -19,9 +19,9 @@ Line advance(const Chain& chain, Line line, double frame, Plan plan) {
   return line;
 }
 
-Plan choose(const std::function<double(Plan)>& error, int budget) {
+Plan choose(const Film& film, int budget) {
   std::map<double, Plan> by_error;
   for (int steps = 1; steps <= budget; ++steps)
-    if (budget % steps == 0) by_error.insert({error({steps, budget / steps}), {steps, budget / steps}});
+    if (budget % steps == 0) by_error.insert({film.error({steps, budget / steps}), {steps, budget / steps}});
   return by_error.begin()->second;
 }

@@ -16,9 +16,9 @@ Line advance(const Chain& chain, Line line, double frame, Plan plan) {
   return line;
 }
 
-Plan choose(const std::function<double(Plan)>& error, int budget) {
+Plan choose(const Film& film, int budget) {
   Plan best{budget, 1};
   for (int steps = budget - 1; steps >= 1; steps--)
-    if (budget % steps == 0 && error({steps, budget / steps}) < error(best)) best = {steps, budget / steps};
+    if (budget % steps == 0 && film.error({steps, budget / steps}) < film.error(best)) best = {steps, budget / steps};
   return best;
 }
