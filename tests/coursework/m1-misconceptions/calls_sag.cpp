@@ -1,0 +1,26 @@
+// Calls of the three sags. What a belief says is told at the end, and not used.
+//   sag.catenary   length, span, as a parabola, as two straight lines    the sag
+//   sag.parabola   length, span, as a catenary                           the sag
+//   sag.elastic    length, span, weight, stiffness, if it could not stretch    the sag
+#include "beliefs.h"
+#include "calls.h"
+
+namespace coursework {
+
+bool answer_sag(const std::string& call, const Numbers& in, Numbers& out) {
+  if (call == "sag.catenary") {
+    calling("catenary_sag");
+    out = {catenary_sag(in.at(0), in.at(1))};
+  } else if (call == "sag.parabola") {
+    calling("parabola_sag");
+    out = {parabola_sag(in.at(0), in.at(1))};
+  } else if (call == "sag.elastic") {
+    calling("elastic_sag");
+    out = {elastic_sag(in.at(0), in.at(1), in.at(2), in.at(3))};
+  } else {
+    return false;
+  }
+  return true;
+}
+
+}  // namespace coursework

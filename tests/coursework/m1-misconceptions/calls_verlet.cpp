@@ -1,0 +1,68 @@
+// Calls of verlet_next, observed_order and predicted_error.
+//   verlet.next        h, acceleration, before, now       x
+//   verlet.orders      omega, h, steps, amplitude, phase, halvings
+//                      the motion amplitude cos(omega t + phase), computed with h, h/2 and so on: the order of the
+//                      error of a single step, and of that after the time steps h
+//   verlet.predicted   omega, h, steps, error, times, then what a belief says, which is told and not used
+//                      the error predicted for a step so many times smaller
+#include <cmath>
+
+#include "beliefs.h"
+#include "calls.h"
+#include "numbers.h"
+
+namespace coursework {
+namespace {
+
+struct Motion {
+  double omega, amplitude, phase;
+  double at(double t) const { return amplitude * std::cos(omega * t + phase); }
+};
+
+/// After so many steps from two exact positions, the first of which counts as step 0.
+double error_of(const Motion& motion, double h, int steps) {
+  double before = motion.at(0), now = motion.at(h);
+  for (int i = 1; i < steps; ++i) {
+    calling("verlet_next");
+    const double next = verlet_next(before, now, -motion.omega * motion.omega * now, h);
+    before = now, now = next;
+  }
+  return std::abs(now - motion.at(steps * h));
+}
+
+double order_of(const std::vector<double>& errors) {
+  calling("observed_order");
+  return observed_order(errors);
+}
+
+}  // namespace
+
+bool answer_verlet(const std::string& call, const Numbers& in, Numbers& out) {
+  Reader reader(in);
+  if (call == "verlet.next") {
+    const double h = reader.number(), acceleration = reader.number(), before = reader.number(), now = reader.number();
+    calling("verlet_next");
+    out = {verlet_next(before, now, acceleration, h)};
+    return true;
+  }
+  if (call == "verlet.orders") {
+    const double omega = reader.number(), h = reader.number();
+    const int steps = reader.integer();
+    const double amplitude = reader.number(), phase = reader.number();
+    const int finest = 1 << reader.integer();
+    const Motion motion{omega, amplitude, phase};
+    std::vector<double> of_one, of_all;
+    for (int parts = 1; parts <= finest; parts *= 2) {
+      of_one.push_back(error_of(motion, h / parts, 2));
+      of_all.push_back(error_of(motion, h / parts, steps * parts));
+    }
+    out = {order_of(of_one), order_of(of_all)};
+    return true;
+  }
+  if (call != "verlet.predicted") return false;
+  calling("predicted_error");
+  out = {predicted_error(in.at(3), in.at(4))};
+  return true;
+}
+
+}  // namespace coursework

@@ -1,0 +1,109 @@
+// Right answers from polygons in equilibrium: half a chain of straight links with weights at its joints, from the
+// lowest joint to an end. No formula of a curve is in here.
+#include <cmath>
+#include <functional>
+
+#include "tests/coursework/m1-misconceptions/cases.h"
+
+namespace coursework::m1 {
+namespace {
+
+struct HalfChain {
+  double width = 0, depth = 0;
+};
+
+/// The same pull H along the span in every link; upwards a link pulls with half the weight of its own and all below.
+HalfChain own_weight(int links, double length, double weight, double stiffness, double across) {
+  HalfChain half;
+  const double link = length / 2 / links;
+  for (int i = 0; i < links; ++i) {
+    const double up = weight * link * (i + 0.5), pull = std::hypot(across, up);
+    const double stretched = link * (1 + pull / stiffness);
+    half.width += stretched * across / pull, half.depth += stretched * up / pull;
+  }
+  return half;
+}
+
+/// The load of a link is as its width, which follows from its slope: a few rounds settle it.
+HalfChain along_span(int links, double length, double across) {
+  HalfChain half;
+  const double link = length / 2 / links;
+  double width = link;
+  for (int i = 0; i < links; ++i) {
+    double up = 0;
+    for (int round = 0; round < 8; ++round) {
+      up = half.width + width / 2;
+      width = link * across / std::hypot(across, up);
+    }
+    half.width += width, half.depth += width * up / across;
+  }
+  return half;
+}
+
+/// The depth where the half chain is as wide as half the span: it is the wider the harder it is pulled.
+double depth_at(double span, double hardest, const std::function<HalfChain(double)>& pulled) {
+  double low = 0, high = hardest;
+  for (int i = 0; i < 60; ++i) {  // to 1e-16 of the weight
+    const double middle = (low + high) / 2;
+    (pulled(middle).width > span / 2 ? high : low) = middle;
+  }
+  return pulled(low).depth;
+}
+
+/// A polygon is off by the square of its links: two of them tell the curve, to 1e-10 of the length (beside the closed
+/// forms, 7e-11 at worst on 300 seeds).
+double extrapolated(const std::function<double(int)>& depth) { return (4 * depth(400) - depth(200)) / 3; }
+
+double own_weight_depth(double length, double span, double weight, double stiffness) {
+  return extrapolated([&](int links) {
+    return depth_at(span, 100 * weight * length,
+                    [&](double across) { return own_weight(links, length, weight, stiffness, across); });
+  });
+}
+double rigid_depth(double length, double span) { return own_weight_depth(length, span, 1, HUGE_VAL); }
+double bridge_depth(double length, double span) {
+  return extrapolated([&](int links) {
+    return depth_at(span, 100 * length, [&](double across) { return along_span(links, length, across); });
+  });
+}
+
+Case sag(const char* call, double right, Numbers in) {
+  Case c{call, std::move(in), {right}, 1, 0, "chain", "sag"};
+  // the handout asks for a billionth of the length; the polygons are ten times nearer
+  c.tolerance = 2e-9 * c.in[0];
+  return c;
+}
+
+}  // namespace
+
+std::vector<Case> catenaries(Random& random) {
+  std::vector<Case> cases;
+  for (const auto& [low, high] : {std::pair{1.1, 1.4}, std::pair{1.5, 2.5}}) {
+    const double span = random.uniform(1, 9), length = span * random.uniform(low, high);
+    cases.push_back(sag("sag.catenary", rigid_depth(length, span),
+                        {length, span, bridge_depth(length, span), std::sqrt(length * length - span * span) / 2}));
+  }
+  return cases;
+}
+
+std::vector<Case> parabolas(Random& random) {
+  std::vector<Case> cases;
+  for (const auto& [low, high] : {std::pair{1.1, 1.4}, std::pair{1.5, 2.5}}) {
+    const double span = random.uniform(1, 9), length = span * random.uniform(low, high);
+    cases.push_back(sag("sag.parabola", bridge_depth(length, span), {length, span, rigid_depth(length, span)}));
+  }
+  return cases;
+}
+
+std::vector<Case> elastic_chains(Random& random) {
+  std::vector<Case> cases;
+  for (int i = 0; i < 2; ++i) {
+    const double span = random.uniform(1, 9), length = span * random.uniform(1.1, 1.6), weight = random.uniform(2, 9);
+    const double stiffness = weight * length * random.uniform(3, 9);
+    cases.push_back(sag("sag.elastic", own_weight_depth(length, span, weight, stiffness),
+                        {length, span, weight, stiffness, rigid_depth(length, span)}));
+  }
+  return cases;
+}
+
+}  // namespace coursework::m1

@@ -1,0 +1,100 @@
+// Four common beliefs, tried in numbers: what the parts share. Do not change this file: the grader uses its own copy.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+// ---- kick_drift.cpp: a particle on a spring, x'' = -omega^2 x
+
+struct Swing {
+  double x, v;  // m, m/s
+};
+
+/// Explicit Euler: both the kick (v) and the drift (x) use the numbers at the start of the step.
+Swing explicit_step(double omega, Swing now, double h);
+
+/// Semi-implicit Euler: the kick first, then the drift with the velocity that the kick has just made.
+Swing semi_implicit_step(double omega, Swing now, double h);
+
+/// What semi-implicit Euler keeps the same for ever with this step, in m^2/s^2; the energy over the mass where h is 0.
+double kept(double omega, Swing now, double h);
+
+// ---- verlet.cpp
+
+/// Position Verlet: the position h later, from the last two positions and the acceleration (m/s^2) at `now`.
+double verlet_next(double before, double now, double acceleration, double h);
+
+/// The order that errors show: the first belongs to some step, each of the others to half the step before it.
+double observed_order(const std::vector<double>& errors);
+
+/// Over a fixed time position Verlet has made this error. What error will it make with a step so many times smaller?
+double predicted_error(double error, double times_smaller);
+
+// ---- sag.cpp: how far the middle hangs below two ends of one height, m, to a billionth of the length
+
+/// A chain of this length that cannot stretch, in its own weight.
+double catenary_sag(double length, double span);
+
+/// A cable of this length that cannot stretch, under a load that is even along the span: a bridge hangs on it.
+double parabola_sag(double length, double span);
+
+/// A chain that stretches. Its length is that without any pull; weight in N per metre of that length; a pull of T (N)
+/// makes each metre of it 1 + T / stiffness long.
+double elastic_sag(double length, double span, double weight, double stiffness);
+
+/// The number at which f is 0, between a millionth and a million. f must have different signs at the two.
+template <class Function>
+double root_of(const Function& f) {
+  double low = 1e-6, high = 1e6;
+  const bool rises = f(high) > 0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = std::sqrt(low * high);  // halves the number of digits that are open
+    ((f(middle) > 0) == rises ? high : low) = middle;
+  }
+  return high;
+}
+
+// ---- iterations.cpp: particles on a vertical line, each on a spring below the one above; the first on the ceiling
+
+struct Chain {
+  double mass, stiffness, rest, gravity;  // kg, N/m, m, m/s^2
+};
+
+struct Line {
+  std::vector<double> x, v;  // depth below the ceiling in m, downward speed in m/s
+};
+
+/// How a frame of the film is computed: so many steps, and in each so many iterations.
+struct Plan {
+  int steps, iterations;
+};
+
+/// One iteration of extended position-based dynamics: goes over the springs once, from the top, and moves the two
+/// particles of each. `pulls` has a number for each spring, all of them 0 before the first iteration of a step of h.
+inline void iterate(const Chain& chain, double h, std::vector<double>& x, std::vector<double>& pulls) {
+  const double softness = 1 / (chain.stiffness * h * h);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double above = i > 0 ? x[i - 1] : 0, mobility = (i > 0 ? 2 : 1) / chain.mass;
+    const double stretch = x[i] - above - chain.rest;
+    const double change = (-stretch - softness * pulls[i]) / (mobility + softness);
+    pulls[i] += change;
+    x[i] += change / chain.mass;
+    if (i > 0) x[i - 1] -= change / chain.mass;
+  }
+}
+
+/// The chain one frame later, computed by the plan.
+Line advance(const Chain& chain, Line line, double frame, Plan plan);
+
+/// A film of a chain whose true motion is known.
+class Film {
+ public:
+  virtual ~Film() = default;
+  /// The largest error in m where every frame is computed by this plan; it is measured for you.
+  virtual double error(Plan plan) const = 0;
+};
+
+/// The plan with the smallest error among those that cost the whole budget: steps times iterations is the budget. Asks
+/// for no others.
+Plan choose(const Film& film, int budget);

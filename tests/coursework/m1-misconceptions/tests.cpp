@@ -1,0 +1,182 @@
+// The tests of m1-misconceptions: parts, points, and the cases of the first two parts. Where there is one, the number
+// that the belief predicts stands at the end of a call, to be told beside what is right.
+#include <cmath>
+
+#include "tests/coursework/grader/assignment.h"
+#include "tests/coursework/m1-misconceptions/cases.h"
+
+namespace coursework {
+namespace {
+
+// ---- kick_drift: closed forms of both maps
+
+struct Oscillator {
+  double omega, h, x, v;
+  double angle() const { return h * omega; }
+  Numbers numbers() const { return {omega, h, x, v}; }
+  double energy() const { return v * v + omega * omega * x * x; }
+};
+
+Oscillator oscillator(Random& random, double low, double high) {
+  const double omega = random.uniform(2, 9), angle = random.uniform(low, high);
+  return {omega, angle / omega, random.uniform(0.2, 0.9), random.uniform(1, 5) * (random.integer(0, 1) ? 1 : -1)};
+}
+
+/// x, v after so many steps of the map with the new velocity. Its matrix has determinant 1 and trace 2 - a^2, so it
+/// turns by theta with cos(theta) = 1 - a^2/2, and M^n = (sin(n theta) M - sin((n - 1) theta)) / sin(theta).
+std::pair<double, double> after(const Oscillator& o, int steps) {
+  const double a = o.angle(), theta = std::acos(1 - a * a / 2);
+  const double of_m = std::sin(steps * theta) / std::sin(theta),
+               of_1 = -std::sin((steps - 1) * theta) / std::sin(theta);
+  const double ww = o.omega * o.omega;
+  return {of_m * ((1 - a * a) * o.x + o.h * o.v) + of_1 * o.x, of_m * (o.v - o.h * ww * o.x) + of_1 * o.v};
+}
+
+std::vector<Case> one_step(Random& random) {
+  std::vector<Case> cases;
+  for (int i = 0; i < 3; ++i) {
+    const Oscillator o = oscillator(random, 0.1, 0.9);
+    Case c{"kick_drift.step", o.numbers(), {}, 2, 0, "order", "swing"};
+    const double kicked = o.v - o.angle() * o.omega * o.x;
+    const auto [x, v] = after(o, 1);
+    c.expected = {o.x + o.h * o.v, kicked, x, v};
+    c.tolerance = 1e-13 * std::sqrt(o.energy()) * 10;  // the closed form divides by sin(theta) > 0.1: ten times eps
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+/// What a belief predicts: the energy over that at the start where the drift takes the mean of both velocities.
+double with_mean_velocity(const Oscillator& o, int steps) {
+  Oscillator now = o;
+  for (int i = 0; i < steps; ++i) {
+    const double kick = -o.h * o.omega * o.omega * now.x;
+    now.x += o.h * (now.v + kick / 2), now.v += kick;
+  }
+  return now.energy() / o.energy();
+}
+
+/// With the old velocity a step multiplies the energy by 1 + a^2 exactly. With the new one it stays near the start's.
+std::vector<Case> energy_of_both(Random& random) {
+  std::vector<Case> cases;
+  for (int i = 0; i < 2; ++i) {
+    const Oscillator o = oscillator(random, 0.03, 0.06);
+    Case c{"kick_drift.energy", o.numbers(), {}, 2, 0, "hundred", "energy"};
+    const double growth = 1 + o.angle() * o.angle();
+    for (int steps = 100; steps <= 1000; steps += 100) {
+      const auto [x, v] = after(o, steps);
+      c.expected.push_back(std::pow(growth, steps));
+      c.expected.push_back((v * v + o.omega * o.omega * x * x) / o.energy());
+    }
+    const double of_old = std::pow(growth, 1000);
+    c.in.insert(c.in.end(), {of_old, with_mean_velocity(o, 1000)});
+    // a thousand steps of ten roundings each, of numbers up to the largest energy; theta is known to eps / a
+    c.tolerance = (1e4 + 1000 / o.angle()) * 1.2e-16 * of_old;
+    c.plot_y = 1, c.row_size = 100 * o.h;
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+/// The same for all states of a run, written with the next velocity: (v v' + (omega x)^2) / 2.
+std::vector<Case> kept_energy(Random& random) {
+  std::vector<Case> cases;
+  for (int i = 0; i < 2; ++i) {
+    const Oscillator o = oscillator(random, 0.3, 1.5);
+    Case c{"kick_drift.kept", {o.omega, o.h}, {}, 1, 0, "state", "kept"};
+    for (const int steps : {0, 1, 2, 7, 50}) {
+      const auto [x, v] = after(o, steps);
+      c.in.insert(c.in.end(), {x, v});
+      c.expected.push_back((o.v * after(o, 1).second + o.omega * o.omega * o.x * o.x) / 2);
+    }
+    c.tolerance = 1e-12 * o.energy();  // fifty angles of eps / sin(theta), and a dozen roundings
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+// ---- verlet: parabolas, and the closed form of the rule on a spring
+
+/// On x(t) = now + u t + a t^2 / 2 the rule is exact.
+std::vector<Case> next_position(Random& random) {
+  std::vector<Case> cases;
+  for (int i = 0; i < 3; ++i) {
+    const double h = random.uniform(0.1, 0.9), a = -random.uniform(2, 9), u = random.uniform(1, 5),
+                 now = random.uniform(1, 5);
+    Case c{"verlet.next", {h, a, now - u * h + a * h * h / 2, now}, {now + u * h + a * h * h / 2}, 1, 1e-13};
+    c.row = "step", c.column = "position";  // a dozen roundings of numbers below 20
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+/// After the time 4 to 5 over omega, where a cosine of a small phase is far from its zeros: with a = h omega the error
+/// is C a^2 (1 + O(a / 4)), which moves the order by less than 0.05 for a below 0.12; of one step C a^4 (1 + O(a^2)).
+std::vector<Case> both_orders(Random& random) {
+  std::vector<Case> cases;
+  for (const double halvings : {2, 1, 3}) {
+    const double omega = random.uniform(2, 9), a = random.uniform(0.08, 0.12);
+    const double steps = std::round(random.uniform(4, 5) / a);
+    Case c{"verlet.orders",
+           {omega, a / omega, steps, random.uniform(1, 3), random.uniform(0.05, 0.2), halvings},
+           {4, 2},
+           2,
+           0.05};
+    c.row = "run", c.column = "orders";
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+/// The error of the rule after the time T from x = 1 and the exact next position: it turns by theta a step with
+/// cos(theta) = 1 - a^2/2, too.
+double verlet_error(double a, double steps) {
+  const double theta = std::acos(1 - a * a / 2);
+  const double sine = (std::cos(a) - std::cos(theta)) / std::sin(theta);
+  return std::abs(std::cos(steps * theta) + sine * std::sin(steps * theta) - std::cos(steps * a));
+}
+
+/// What really happens, by the closed form. It is the error over times^2 but for the next power of a: within 3 per cent
+/// for a below 0.06.
+std::vector<Case> smaller_steps(Random& random) {
+  std::vector<Case> cases;
+  for (const int times : {2, 4, 10}) {
+    const double omega = random.uniform(2, 9), a = random.uniform(0.03, 0.06);
+    const double steps = std::round(random.uniform(4, 5) / a), error = verlet_error(a, steps);
+    Case c{"verlet.predicted", {omega, a / omega, steps, error, double(times), error / std::pow(times, 4)}, {}, 1};
+    c.expected = {verlet_error(a / times, steps * times)};
+    c.tolerance = 0.03 * c.expected[0], c.row = "run", c.column = "error";
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+constexpr Part parts[] = {{"kick_drift", "kick_drift.title"},
+                          {"verlet", "verlet.title"},
+                          {"sag", "sag.title"},
+                          {"iterations", "iterations.title"}};
+
+const Test tests[] = {
+    {"1.1", "kick_drift", 4, 3, {"semi-implicit Euler"}, "Kick and drift", one_step},
+    {"1.2", "kick_drift", 6, 5, {"semi-implicit Euler", "energy"}, "A thousand steps", energy_of_both},
+    {"1.3", "kick_drift", 4, 3, {"semi-implicit Euler", "conservation"}, "What is kept", kept_energy},
+    {"2.1", "verlet", 4, 3, {"Verlet"}, "Position Verlet", next_position},
+    {"2.2", "verlet", 5, 4, {"Verlet", "order"}, "Order of a step, order of a run", both_orders},
+    {"2.3", "verlet", 5, 4, {"Verlet", "order"}, "A smaller step", smaller_steps},
+    {"3.1", "sag", 5, 4, {"catenary"}, "A chain in its own weight", m1::catenaries},
+    {"3.2", "sag", 4, 4, {"parabola"}, "A bridge on a cable", m1::parabolas},
+    {"3.3", "sag", 4, 4, {"catenary", "elasticity"}, "A chain that stretches", m1::elastic_chains},
+    {"4.1", "iterations", 4, 3, {"position-based dynamics"}, "A frame by a plan", m1::frames},
+    {"4.2", "iterations", 3, 3, {"position-based dynamics", "iterations"}, "Where iterations lead", m1::many},
+    {"4.3", "iterations", 3, 3, {"measuring"}, "Measure, then choose", m1::tables},
+    {"4.4", "iterations", 3, 3, {"measuring", "iterations"}, "Measure, then choose", m1::measured},
+};
+
+}  // namespace
+
+const Assignment& m1_misconceptions() {
+  static const Assignment assignment{"m1-misconceptions", "Four beliefs", parts, tests};
+  return assignment;
+}
+
+}  // namespace coursework
