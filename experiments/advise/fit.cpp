@@ -47,7 +47,8 @@ struct Objective {
   Measure measure;
 };
 
-std::vector<Objective> objectives_of(const Wish& wish) {
+std::vector<Objective> objectives_of(const Scene& scene) {
+  const Wish& wish = scene.wish;
   std::vector<Objective> objectives;
   if (wish.sag) objectives.push_back({{"sag", "m", *wish.sag, 0}, sag_of});
   if (wish.period)
@@ -64,7 +65,11 @@ std::vector<Objective> objectives_of(const Wish& wish) {
       return number(*net.moduli);
     };
   };
-  if (wish.c11) objectives.push_back({{"C11", "N/m", *wish.c11, 0}, of_moduli([](const Moduli& m) { return m.c11; })});
+  if (wish.c11) {
+    const NetModuli net = moduli_of(scene.model, scene.start);
+    const std::string unit(unit_of_moduli(net.moduli ? net.moduli->dimension : 2));
+    objectives.push_back({{"C11", unit, *wish.c11, 0}, of_moduli([](const Moduli& m) { return m.c11; })});
+  }
   if (wish.anisotropy)
     objectives.push_back(
         {{"anisotropy", "1", *wish.anisotropy, 0}, of_moduli([](const Moduli& m) { return m.anisotropy(); })});
@@ -94,7 +99,7 @@ class Fit {
     // the wishes, read with values put in where there are none yet
     Eigen::VectorXd middle(size());
     for (int i = 0; i < size(); ++i) middle[i] = 0.5 * std::log(kinds_[i]->low * kinds_[i]->high);
-    objectives_ = objectives_of(scene_at(middle).wish);
+    objectives_ = objectives_of(scene_at(middle));
     if (std::ssize(objectives_) != size()) {
       std::vector<std::string> names;
       for (const Unknown& u : unknowns_) names.push_back(u.name);

@@ -65,12 +65,10 @@ constexpr auto rounding =
     "three times what a perturbation of 10 u L sqrt(n) (unit round-off, lengths, steps) is measured to grow to";
 constexpr auto rounding_and_unsolved =
     "three times what a perturbation of 10 u L sqrt(n) is measured to grow to, and of implicit rules what they leave "
-    "of "
-    "the equation in each step";
+    "of the equation in each step";
 constexpr auto rounding_and_iterations =
     "three times what a perturbation of 10 u L sqrt(n) is measured to grow to, and with sequential projection what n "
-    "and "
-    "2n iterations differ by";
+    "and 2n iterations differ by";
 constexpr auto settling = "what the runs still move by in their last quarter, and 10 u L sqrt(n)";
 
 constexpr Relation table[] = {

@@ -59,6 +59,16 @@ double Subject::rounding(double lengths, long steps, bool projected) const {
   return (10 * std::sqrt(n) + (projected ? n * std::sqrt(n) : 0)) * u * lengths;
 }
 
+namespace {
+
+double largest_speed(const Trajectory& path) {
+  double speed = 0;
+  for (const Points& v : path.v) speed = std::max(speed, largest_column(v));
+  return speed;
+}
+
+}  // namespace
+
 Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   const Run settings = run_for_relations(scene);
   const SubjectRun& plain = run(scene, settings);
@@ -66,12 +76,10 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   Noise noise;
   noise.start = rounding(scale, plain.outcome.steps, method_.position_based || scene.model.find<Spheres>());
   if (method_.adaptive) noise.start = std::max(noise.start, settings.tolerance * scale * plain.outcome.steps);
-  double speed = 0;
-  for (const Points& v : plain.path.v) speed = std::max(speed, largest_column(v));
   // velocities are rounded in the same proportion
   const bool velocities = plain.path.v.back().cols() == plain.path.x.back().cols();
   noise.x.assign(plain.path.frames(), 3 * noise.start);
-  if (velocities) noise.v.assign(plain.path.frames(), 3 * noise.start / scale * speed);
+  if (velocities) noise.v.assign(plain.path.frames(), 3 * noise.start / scale * largest_speed(plain.path));
   for (const auto& [seed, way] : {std::pair{1U, 1}, {1U, -1}, {2U, 1}, {2U, -1}}) {
     const SubjectRun& moved = run(perturbed(scene, way * noise.start, seed), settings);
     double x = 0, v = 0;
@@ -99,10 +107,8 @@ Subject::Noise Subject::noise_with_unsolved(const Scene& scene) {
     if (!p.pinned[i]) heaviest = std::max(heaviest, p.mass[i]), lightest = std::min(lightest, p.mass[i]);
   if (heaviest == 0) return noise;
   const SubjectRun& plain = run(scene);
-  double speed = 0;
-  for (const Points& v : plain.path.v) speed = std::max(speed, largest_column(v));
-  const double unsolved =
-      rule->solved_to * speed * heaviest / lightest * static_cast<double>(std::max(1L, plain.outcome.steps));
+  const double unsolved = rule->solved_to * largest_speed(plain.path) * heaviest / lightest *
+                          static_cast<double>(std::max(1L, plain.outcome.steps));
   // it grows as the perturbation did
   const double factor = 1 + unsolved * scene.duration / noise.start;
   for (double& x : noise.x) x *= factor;

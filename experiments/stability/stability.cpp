@@ -246,10 +246,12 @@ std::vector<Point> stability_points(const Request& request) {
                             add_map(kind, *small, method, *size, tables, on_runs);
                           }});
     }
-    if (!small && !scene.triangles.empty())
-      points.push_back({"stability: maps of " + scene.name, "", [name = scene.name](TableSet& tables) {
-                          tables.notes.push_back(fmt::format(
-                              "stability draws no map of {}: its hundreds of runs cost much; --full has them", name));
+    if (!small && scene.model.find<Springs>())
+      points.push_back({"stability: maps of " + scene.name, "",
+                        [name = scene.name, dear = all_maps || !scene.triangles.empty()](TableSet& tables) {
+                          tables.notes.push_back(
+                              fmt::format("stability draws no map of {}: {}; --full has them", name,
+                                          dear ? "its hundreds of runs cost much" : "the cloth's stand for it"));
                         }});
   }
   return points;

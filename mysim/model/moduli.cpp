@@ -33,7 +33,7 @@ bool holds(const Star& star, const Arm& arm, double sign) {
 std::vector<Vec3> lattice_vectors(const Points& x, int from) {
   std::vector<Vec3> all, basis;
   for (int i = 0; i < x.cols(); ++i)
-    if (i != from) all.push_back(x.col(i) - x.col(from));
+    if (const Vec3 d = x.col(i) - x.col(from); d.norm() > 0) all.push_back(d);  // others at the same place say nothing
   if (all.empty()) return basis;
   double shortest = INFINITY;
   for (const Vec3& d : all) shortest = std::min(shortest, d.norm());
@@ -153,8 +153,8 @@ NetModuli moduli_of(const Model& model, const State& start) {
     m.c12 += weight * n1 * n1 * n2 * n2;
     if (arm.family == Family::bend) m.c11_of_bend += weight * n1 * n1 * n1 * n1;
   }
-  m.c66 =
-      m.c12;  // Cauchy's relation: so it is with central forces in a net where each particle is a centre of symmetry
+  // Cauchy's relation: so it is with central forces where each particle is a centre of symmetry
+  m.c66 = m.c12;
   return {m, ""};
 }
 

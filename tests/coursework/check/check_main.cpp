@@ -108,11 +108,8 @@ ShownTest run(const PublicTest& test, const Words& words, const std::string& fai
       shown.said += "\n" + given;
     if (answer.how == How::answered && !test.small.empty() && told.insert(test.part + " " + test.small[0].call).second)
       if (const std::string smaller = smallest(test, words); !smaller.empty()) shown.said += "\n" + smaller;
-    // hints of tests that fail for the same reason need not agree: the first one's counts
-    if (!failed_before.empty())
-      shown.said += "\n" + words.common.fill("first", failed_before);
-    else if (words.own.has(test.id + ".hint"))
-      shown.said += "\n" + words.common.fill("hint", words.own.of(test.id + ".hint"));
+    if (const std::string hint = hint_text(words.common, words.own, test.id, failed_before); !hint.empty())
+      shown.said += "\n" + hint;
     if (!test.read.empty()) shown.said += "\n" + words.common.fill("read", test.read);
     break;
   }

@@ -245,6 +245,12 @@ std::string given_text(const Texts& common, const Texts& own, const Case& what, 
   return sentence + (sentence.empty() ? "" : " ") + common.fill("given", given);
 }
 
+std::string hint_text(const Texts& common, const Texts& own, const std::string& test,
+                      const std::string& failed_before) {
+  if (!failed_before.empty()) return common.fill("first", failed_before);
+  return own.has(test + ".hint") ? common.fill("hint", own.of(test + ".hint")) : "";
+}
+
 std::vector<std::size_t> angles_in(const Texts& own, const Case& what) {
   if (!has_layout(own, what)) return {};
   const std::string& text = own.of(layout_key(own, what));

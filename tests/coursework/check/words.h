@@ -30,6 +30,10 @@ bool has_layout(const Texts& own, const Case& what);
 std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged,
                        std::size_t most = 60);
 
+/// The hint of a test that failed, or, as hints of tests that fail for the same reason need not agree, which test of
+/// its part is to be got right first; empty where it is the first and has no hint.
+std::string hint_text(const Texts& common, const Texts& own, const std::string& test, const std::string& failed_before);
+
 /// Which of a call's numbers are angles; none where the texts do not say.
 std::vector<std::size_t> angles_in(const Texts& own, const Case& what);
 

@@ -258,10 +258,9 @@ class Grading {
     for (TestResult* test : wrong) {
       test->cause = cause;
       if (known) continue;
-      if (test->id != wrong.front()->id)
-        test->said += "\n" + options_.common.fill("first", wrong.front()->id);
-      else if (options_.own.has(test->id + ".hint"))
-        test->said += "\n" + options_.common.fill("hint", options_.own.of(test->id + ".hint"));
+      const std::string before = test == wrong.front() ? "" : wrong.front()->id;
+      if (const std::string hint = hint_text(options_.common, options_.own, test->id, before); !hint.empty())
+        test->said += "\n" + hint;
     }
   }
 
