@@ -84,6 +84,11 @@ TEST(Moduli, AreKnownOfShippedScenesOrWhyNot) {
   Scene uneven = load_scene("cloth-hang");
   uneven.model.find<Springs>()->list[0].k *= 2;
   EXPECT_EQ(moduli_of(uneven.model, uneven.start).why_not, "its springs differ from place to place");
+  Scene twice = load_scene("cloth-hang");  // a particle that no spring holds, at the place of another
+  const long n = twice.start.x.cols();
+  twice.start.x.conservativeResize(3, n + 1);
+  twice.start.x.col(n) = twice.start.x.col(210);
+  EXPECT_NEAR(moduli_of(twice.model, twice.start).moduli->c11, 1200, 1e-6);
   EXPECT_FALSE(
       skip_one_warning(*moduli_of(load_scene("cloth-hang").model, load_scene("cloth-hang").start).moduli).empty());
 }
@@ -108,6 +113,11 @@ TEST(Moduli, WishedOnesBecomeStiffnesses) {
   ASSERT_EQ(fitted.unknowns.size(), 2u);
   EXPECT_EQ(fitted.unknowns[0].name, "shear stiffness");
   EXPECT_EQ(fitted.unknowns[1].name, "structural stiffness");
+  // a block's are pressures
+  const FitResult block = fit_to_wishes(cloth("[4, 4, 4]", "[0.3, 0, 0]", "[0, 0.3, 0]\nw = [0, 0, 0.3]",
+                                              "structural = \"fit\"\nshear = \"fit\"\n", "[wish]\nc11 = 9000\n"),
+                                        "block");
+  EXPECT_EQ(block.wishes.at(0).unit, "Pa");
   EXPECT_THROW(fit_to_wishes(cloth("[2, 2]", "[0.1, 0, 0]", "[0, 0, 0.1]", "structural = \"fit\"\nshear = 10\n",
                                    "[wish]\nc11 = 1000\n"),
                              "too small"),
