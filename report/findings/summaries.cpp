@@ -76,14 +76,6 @@ std::vector<ConeCount> cone_counts(const TableSet& rows) {
   return counts;
 }
 
-std::optional<size_t> row_of_peer(const MethodFamily& peer, const Table& engines, const Table& cheapest, size_t row) {
-  for (size_t i = 0; i < engines.rows.size(); ++i)
-    if (text_at(engines, i, "engine") == peer.name && engines.at(i, "scene") == cheapest.at(row, "scene") &&
-        engines.at(i, "part of motion") == cheapest.at(row, "part of motion"))
-      return i;
-  return std::nullopt;
-}
-
 std::string deviation_text(double off, double finest) {
   if (std::abs(off) < finest) return fmt::format("within ±{:.2g} %", 100 * finest);
   return off >= 1 ? fmt::format("{} times as long", nice(1 + off)) : fmt::format("{:+.2g} %", 100 * off);

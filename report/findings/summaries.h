@@ -58,10 +58,6 @@ struct ConeCount {
 };
 std::vector<ConeCount> cone_counts(const TableSet& rows);
 
-/// The row of a peer in table `speed-accuracy-engines-cost` for the scene and the accuracy of a row of
-/// `speed-accuracy-cheapest-cost`.
-std::optional<size_t> row_of_peer(const MethodFamily& peer, const Table& engines, const Table& cheapest, size_t row);
-
 // Measured stability limits against theory, from table `stability`.
 
 /// The rows of one state that theory speaks of, unless it has its limit beyond what was tried.

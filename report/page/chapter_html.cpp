@@ -1,13 +1,11 @@
 // A chapter: the answer, the figures that open it, what teaches why, and the rest in folds.
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
 #include "report/base/assets.h"
-#include "report/figures/plot_layout.h"
 #include "report/findings/findings_text.h"
 #include "report/page/page_parts.h"
-#include "report/page/shown_runs.h"
 #include "report/page/smaller.h"
 
 namespace crosscheck {

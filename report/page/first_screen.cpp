@@ -1,9 +1,10 @@
 // The first screen: what moves, and an answer to each question.
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
 #include "experiments/speed_accuracy/work_precision.h"
+#include "report/figures/plot_layout.h"
 #include "report/findings/findings_text.h"
 #include "report/page/lab_html.h"
 #include "report/page/page_parts.h"

@@ -7,14 +7,12 @@
 #include <map>
 #include <set>
 
-#include "experiments/speed_accuracy/work_precision.h"
 #include "mysim/base/pattern.h"
 #include "mysim/base/text.h"
 #include "mysim/model/moduli.h"
 #include "report/base/assets.h"
 #include "report/base/provenance.h"
 #include "report/figures/chart_json.h"
-#include "report/figures/plot_layout.h"
 #include "report/findings/findings_text.h"
 #include "report/page/lab_html.h"
 #include "report/page/player_html.h"
