@@ -56,8 +56,8 @@ std::vector<Chart> scoreboard_charts(const ChartInput& input) {
               input.commit + ".";
   if (!cut.empty()) f.caption += fmt::format(" Drawn at {} times the motion, though larger: {}.", top, joined(cut));
   f.tier = "the truth of each scene, exact or converged, as its part says";
-  f.finding = fmt::format("Error of {} methods on {} scenes in parts of the motion; runs that failed: {}.",
-                          methods.size(), f.categories.size(), f.failures.size());
+  f.finding = fmt::format("Error of {} on {} in parts of the motion; runs that failed: {}.",
+                          counted(methods.size(), "method"), counted(f.categories.size(), "scene"), f.failures.size());
   return {{"", std::move(f)}};
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "experiments/scenes/scenes.h"
 #include "experiments/tables/table.h"
@@ -209,13 +210,16 @@ std::string last_of(const std::string& list) {
 
 std::string error_text(const std::optional<double>& error) { return error ? nice_length(*error) : "fails"; }
 
-PageTable least_of(const Table& least, const std::string& scene) {
-  PageTable page{
-      "The least model against the full one, also from three initial states that were not used to find it.",
-      {"tolerance", "least model", "error", "error from unseen initial states", "cost / full model", "meets tolerance"},
-      {}};
+/// The least models of `scenes`, each named in its first row.
+PageTable least_of(const Table& least, const std::set<std::string>& scenes) {
+  PageTable page{"The least model against the full one, also from three initial states that were not used to find it.",
+                 {"scene", "tolerance", "least model", "error", "error from unseen initial states", "cost / full model",
+                  "meets tolerance"},
+                 {}};
+  std::string named;
   for (size_t i = 0; i < least.rows.size(); ++i) {
-    if (text_at(least, i, "scene") != scene) continue;
+    const std::string scene = text_at(least, i, "scene");
+    if (!scenes.contains(scene)) continue;
     std::vector<std::string> unseen;
     for (const char* column : {"unseen error 1", "unseen error 2", "unseen error 3"})
       unseen.push_back(error_text(number_at(least, i, column)) +
@@ -225,16 +229,17 @@ PageTable least_of(const Table& least, const std::string& scene) {
                             : ""));
     const bool all = text_at(least, i, "left out").empty();
     page.rows.push_back(
-        {fmt::format("{} ({})", nice_length(*number_at(least, i, "tolerance")), text_at(least, i, "tolerance is")),
-         text_at(least, i, "least model"), error_text(number_at(least, i, "error")),
-         (all ? "least error of any removal: " : "") + fmt::format("{}", fmt::join(unseen, ", ")),
+        {scene == std::exchange(named, scene) ? "" : scene,
+         fmt::format("{} ({})", nice_length(*number_at(least, i, "tolerance")), text_at(least, i, "tolerance is")),
+         all ? "full" : text_at(least, i, "least model"), error_text(number_at(least, i, "error")),
+         (all ? "any removal: " : "") + fmt::format("{}", fmt::join(unseen, ", ")),
          fmt::format("{:.0f} %", 100 * *number_at(least, i, "cost of full")),
          *number_at(least, i, "holds") > 0 ? "yes" : "no"});
   }
   return page;
 }
 
-Chart removal_chart(const Table& t, const Table* least, const std::string& scene, const std::string& commit) {
+Chart removal_chart(const Table& t, const std::string& scene, const std::string& commit) {
   Figure f;
   f.name = scene + "-adequacy";
   f.title = scene + ": error of each smaller model";
@@ -295,7 +300,6 @@ Chart removal_chart(const Table& t, const Table* least, const std::string& scene
     chart.text =
         fmt::format("No answer without {}; no other removal changes the motion.", fmt::join(without_result, ", "));
   chart.heading = scene;
-  if (least) chart.tables.push_back(least_of(*least, scene));
   return chart;
 }
 
@@ -332,13 +336,18 @@ PageTable least_removals_of(const Table& t, const std::vector<std::string>& scen
 std::vector<Chart> adequacy_charts(const ChartInput& input) {
   std::vector<Chart> charts;
   std::vector<std::string> others;
+  std::set<std::string> shown;
   if (const Table* t = input.result.table("adequacy")) {
     for (const std::string& scene : distinct(*t, "scene"))
-      if (has_own_charts("adequacy", scene, input.all))
-        charts.push_back(removal_chart(*t, input.result.table("adequacy-least"), scene, input.commit)),
-            add_question(charts.back(), input.scenes, scene);
-      else
+      if (has_own_charts("adequacy", scene, input.all)) {
+        charts.push_back(removal_chart(*t, scene, input.commit));
+        add_question(charts.back(), input.scenes, scene);
+        shown.insert(scene);
+      } else
         others.push_back(scene);
+    if (const Table* least = input.result.table("adequacy-least"))
+      if (PageTable page = least_of(*least, shown); !page.rows.empty())
+        charts.push_back({"", std::monostate{}, "adequacy", "", "Least models", {std::move(page)}});
     if (!others.empty())
       charts.push_back({"",
                         std::monostate{},

@@ -109,8 +109,8 @@ StepLimits limits_figure(const Table& table, const std::string& scene, const std
   return f;
 }
 
-/// The limits of all scenes as a figure, where theory knows one in h omega, and a table for each scene. Empty where the
-/// table has no rows.
+/// The limits of all scenes as a figure, or as a table for each scene where theory knows none in h omega. Empty where
+/// the table has no rows.
 std::vector<Chart> limit_charts(const Table& stability, const std::string& scene, const std::string& commit) {
   if (stability.rows.empty()) return {};
   StepLimits f = limits_figure(stability, scene, commit);
@@ -124,9 +124,10 @@ std::vector<Chart> limit_charts(const Table& stability, const std::string& scene
       "step its growth is judged, beside that of all motion. Where growth begins by theory it is not told." +
           effort_text(stability),
       f.title};
-  for (const std::string& each : distinct(stability, "scene")) chart.tables.push_back(limits_table(stability, each));
-  // a method without theory has a limit all the same: it stands in the tables
-  if (!f.rows.empty()) chart.figure = std::move(f);
+  if (!f.rows.empty())
+    chart.figure = std::move(f);
+  else  // a method without theory has a limit all the same
+    for (const std::string& each : distinct(stability, "scene")) chart.tables.push_back(limits_table(stability, each));
   return {std::move(chart)};
 }
 

@@ -126,7 +126,7 @@ const std::vector<FindingRule>& finding_rules() {
        "at part of motion = 0.01 and measure = error: min and max of times mysim over scenes",
        {"speed-accuracy-engines-cost"}, "cheapest-1-percent-cost"},
       {"engine-evaluations", "cost", speed, "force evaluations over those of mysim", "1", measured,
-       "Where runs are chosen by force evaluations instead, {method} takes {range} times as many as mysim.",
+       "For 1 % of the motion {method} needs {range} times mysim's force evaluations, where runs are chosen by them.",
        "at part of motion = 0.01 and measure = error: min and max of Bullet / mysim", {"speed-accuracy-cheapest"}},
       {"engine-without-run", "cost", speed, "scenes", "1", measured,
        "No run of {method} that was tried is within 1 % of the motion on {where}.",

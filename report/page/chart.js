@@ -292,7 +292,9 @@ const charts = (() => {
         if (run) Object.assign(box.dataset, {run, step: cx, value: cy});
         group.append(box);
       });
-      if (panel.predicted.length > 1) group.append(svg('path', {class: 'predicted', d: pathOf(panel.predicted.map(([px, py]) => [x.at(px), y.at(py)]))}));
+      const frame = {x: left, y: top, width: right - left, height: bottom - top};
+      if (panel.predicted.length > 1)  // what lies beyond the panel is cut off by a picture of its own
+        group.append(svg('svg', {...frame, viewBox: Object.values(frame).join(' ')}, svg('path', {class: 'predicted', d: pathOf(panel.predicted.map(([px, py]) => [x.at(px), y.at(py)]))})));
       for (const [px, py] of panel.measured) group.append(svg('circle', {class: 'measured', cx: x.at(px), cy: y.at(py), r: 3}));
       for (const tick of y.ticks) group.append(svg('text', {x: left - 6, y: y.at(tick) + 4, 'text-anchor': 'end'}, tickText(chart.y, tick)));
       let end = -Infinity;
@@ -308,7 +310,8 @@ const charts = (() => {
     title.setAttribute('x', width / 2), title.setAttribute('y', rows * (high + 64) - 2), title.setAttribute('text-anchor', 'middle');
     root.append(title);
     let px = 4;
-    for (const kind of chart.kinds) {
+    const occurring = new Set(cells.map(([, , kind]) => kind));
+    for (const kind of chart.kinds.filter((_, k) => occurring.has(k))) {
       root.append(
           svg('rect', {x: px, y: height - 15, width: 12, height: 12, class: 'cell', style: `--own: ${kind.colour}`}),
           svg('text', {x: px + 18, y: height - 4}, kind.title));

@@ -71,7 +71,7 @@ function listRuns(figure) {
       const {method} = parts(marker.dataset.run), words = tipOf(marker).split('\n');
       if (!groups.has(method)) groups.set(method, make('optgroup', {label: method}));
       groups.get(method).append(
-          make('option', {value: i}, `${words[0].replace(`${method}, `, '')}: ${words.slice(1).join('; ')}`));
+          make('option', {value: i}, `${words[0].replace(`${method}, `, '')}: ${words[1] ?? ''}`));
     });
     const select = make('select', {'aria-label': 'run'}, ...groups.values());
     const play = make('button', {type: 'button'}, '▶ Play');
