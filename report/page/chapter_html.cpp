@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "report/base/assets.h"
 #include "report/findings/findings_text.h"
@@ -48,6 +49,11 @@ bool matches(const std::string& name, const std::string& pattern) {
          name.ends_with(pattern.substr(star + 1));
 }
 
+/// What a name that matches has in place of the pattern's star.
+std::string starred_part(const std::string& name, const std::string& pattern) {
+  return name.substr(0, name.size() + 1 - std::min(name.size() + 1, pattern.size()));
+}
+
 /// A figure that opens a chapter.
 struct Lead {
   const Chapter::Entry* entry;
@@ -62,23 +68,27 @@ std::vector<Lead> leads_of(const Chapter& chapter, const PageContent& c) {
     for (const Chapter::Entry& entry : chapter.entries)
       for (size_t i = 0; i < entry.figures.size(); ++i)
         if (const std::string& name = entry.figures[i].name; matches(name, pattern))
-          leads.push_back({&entry, i, name.substr(0, name.size() + 1 - std::min(name.size() + 1, pattern.size()))});
+          leads.push_back({&entry, i, starred_part(name, pattern)});
     std::ranges::stable_partition(leads, [&](const Lead& lead) { return lead.choice == c.main_scene; });
     if (!leads.empty()) return leads;
   }
   return {};
 }
 
+/// Buttons that choose which of several elements is in sight, the first at first: ids, and what stands on the buttons.
+std::string choices_html(const std::vector<std::pair<std::string, std::string>>& choices) {
+  std::string out;
+  for (const auto& [id, label] : choices)
+    out += fmt::format("<button type=\"button\" data-figure=\"{}\" aria-pressed=\"{}\">{}</button>", escaped(id),
+                       out.empty(), prose(label));
+  return "<div class=\"choices\">" + out + "</div>\n";
+}
+
 /// One of them at a time, with buttons to choose.
 std::string leads_html(const std::vector<Lead>& leads, const PageContent& c) {
-  std::string out;
-  if (leads.size() > 1) {
-    out += "<div class=\"choices\">";
-    for (const Lead& lead : leads)
-      out += fmt::format("<button type=\"button\" data-figure=\"figure-{}\" aria-pressed=\"{}\">{}</button>",
-                         escaped(lead.entry->figures[lead.figure].name), &lead == &leads.front(), escaped(lead.choice));
-    out += "</div>\n";
-  }
+  std::vector<std::pair<std::string, std::string>> choices;
+  for (const Lead& lead : leads) choices.emplace_back("figure-" + lead.entry->figures[lead.figure].name, lead.choice);
+  std::string out = leads.size() > 1 ? choices_html(choices) : "";
   for (const Lead& lead : leads) {
     std::string figure = figure_html(lead.entry->figures[lead.figure], c);
     if (&lead != &leads.front()) figure.insert(std::string_view("<figure").size(), " hidden");
@@ -145,6 +155,28 @@ std::string experiments_html(const Chapter& chapter) {
   return links.empty() ? "" : fmt::format("<p class=\"try\">Try it in the lab: {}.</p>", links);
 }
 
+const Chapter::Group* group_of(const Chapter::Entry& entry, const Chapter& chapter) {
+  for (const Chapter::Group& group : chapter.groups)
+    if (!entry.shown && !entry.figures.empty() && matches(entry.figures[0].name, group.figures)) return &group;
+  return nullptr;
+}
+
+/// The entries of a group in one fold.
+std::string group_html(const Chapter::Group& group, const Chapter& chapter, const PageContent& c) {
+  std::vector<std::pair<std::string, std::string>> choices;
+  std::string contents;
+  for (const Chapter::Entry& entry : chapter.entries) {
+    if (group_of(entry, chapter) != &group) continue;
+    const std::string& name = entry.figures[0].name;
+    const std::string id = "one-" + name;
+    contents +=
+        fmt::format("<div id=\"{}\"{}>{}</div>\n", escaped(id), choices.empty() ? "" : " hidden", entry_html(entry, c));
+    choices.emplace_back(id, group.titled ? entry.heading : starred_part(name, group.figures));
+  }
+  return fold_html(group.heading, fmt::format("{} chart{}", choices.size(), choices.size() == 1 ? "" : "s"),
+                   (choices.size() > 1 ? choices_html(choices) : "") + contents);
+}
+
 }  // namespace
 
 std::string chapter_html(const Chapter& chapter, size_t number, const PageContent& c) {
@@ -181,8 +213,13 @@ std::string chapter_html(const Chapter& chapter, size_t number, const PageConten
                        findings_html(said));
   if (chapter.id == "same-answer" && !c.relations.empty())
     folds += fold_html("What must hold without any truth", "table", relations_html(c.relations), "relations");
+  std::set<const Chapter::Group*> grouped;  // whose fold is there, with all its members
   for (const Chapter::Entry& entry : chapter.entries) {
     if (entry.shown) continue;
+    if (const Chapter::Group* group = group_of(entry, chapter)) {
+      if (grouped.insert(group).second) folds += group_html(*group, chapter, c);
+      continue;
+    }
     Chapter::Entry rest = entry;
     if (const auto lead = std::ranges::find(leads, &entry, &Lead::entry); lead != leads.end()) {
       rest.figures.erase(rest.figures.begin() + static_cast<long>(lead->figure)), rest.text.clear();

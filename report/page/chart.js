@@ -270,11 +270,12 @@ const charts = (() => {
     };
     root.setAttribute('viewBox', `0 0 ${width} ${height}`);
     root.setAttribute('height', height);
-    const [x0, x1, xHalf] = apart(cells.map(c => c[0])), [y0, y1, yHalf] = apart(cells.map(c => c[1]));
+    // the panels share their axes, and each has cells of its own size
+    const sides = chart.panels.map(panel => [0, 1].map(i => apart(panel.cells.map(c => c[i]))));
+    const ends = i => [Math.min(...sides.map(side => side[i][0] / side[i][2])), Math.max(...sides.map(side => side[i][1] * side[i][2]))];
     chart.panels.forEach((panel, k) => {
       const left = (k % columns) * wide + 62, right = (k % columns + 1) * wide - 12, top = Math.floor(k / columns) * (high + 64) + 44, bottom = top + high - 20;
-      const x = logarithmic(x0 / xHalf, x1 * xHalf, left, right), y = logarithmic(y0 / yHalf, y1 * yHalf, bottom, top);
-      const [, , ownX] = apart(panel.cells.map(c => c[0])), [, , ownY] = apart(panel.cells.map(c => c[1]));
+      const x = logarithmic(...ends(0), left, right), y = logarithmic(...ends(1), bottom, top), [[, , ownX], [, , ownY]] = sides[k];
       const group = svg('g', {class: 'series hero'});
       if (methods[panel.title]) group.dataset.method = panel.title;
       group.append(svg('text', {x: left, y: top - 8, class: 'quantity'}, methods[panel.title]?.title ?? panel.title));

@@ -22,7 +22,11 @@ std::vector<Chapter> chapters() {
        "the same step must give the same motion, but for round-off: what they differ by there is the floor below which "
        "nothing else may be claimed.</p><p>A ring is "
        "a law that the other engine writes otherwise, or what it does not tell; a law's cause and size are below, in "
-       "the smallest scene that shows it.</p>"},
+       "the smallest scene that shows it.</p>",
+       {},
+       {},
+       {},
+       {{"*-disagreement", "Where Bullet solves another problem", true}}},
       {"speed-accuracy",
        "Speed against accuracy",
        "Speed",
@@ -39,7 +43,10 @@ std::vector<Chapter> chapters() {
        "quarter.</p><p>Implicit and position-based rules take longer steps and pay for them in each step, and in "
        "damping.</p><p>Open marks are times of a part of the run, scaled. Crosses at the top are runs that failed, at "
        "what they had cost by then.</p>",
-       {{"euler-circle", "Euler's circle"}}},
+       {{"euler-circle", "Euler's circle"}},
+       {},
+       {},
+       {{"*-speed-accuracy", "Error against force evaluations"}}},
       {"stability",
        "Where methods fail",
        "Failure",

@@ -70,6 +70,12 @@ struct Chapter {
     std::vector<PageTable> tables;
     bool shown = false;  // not folded away
   };
+  /// Figures of one kind that share a fold, one at a time in sight.
+  struct Group {
+    std::string figures;  // "*" for any
+    std::string heading;
+    bool titled = false;  // chosen by their titles, else by what stands for the star
+  };
   std::string id, title, label;    // label: in the line of contents
   std::vector<std::string> joins;  // ids that charts name as their chapter
   std::vector<std::string> leads;  // figures that open it, "*" for any: the first that there is
@@ -77,6 +83,7 @@ struct Chapter {
   // guided experiments of the lab: their names (report/lab/experiments.js), and what a reader is shown
   std::vector<std::pair<std::string, std::string>> experiments = {};
   std::string contact_formula = {}, contact_teaching = {};  // besides, where a scene has a ball
+  std::vector<Group> groups = {};
   std::vector<Entry> entries = {};
 };
 

@@ -239,7 +239,8 @@
         target = document.getElementById(id);
         break;
       }
-    if (target?.hidden) choose(document.querySelector(`[data-figure="${CSS.escape(id)}"]`));
+    const hidden = target?.closest('[hidden]'), chooses = hidden && document.querySelector(`[data-figure="${CSS.escape(hidden.id)}"]`);
+    if (chooses) choose(chooses);
     if (target?.matches('.fold')) target.open = true, await unfold(target);
     target?.scrollIntoView();
   };

@@ -61,22 +61,29 @@ async function playRun(key, marker) {
   if (run) await player.wake();  // also where nothing moves by itself: who clicks wants to see it
 }
 
-/** The list of runs below a figure, made when it is opened first. */
+/** Below a figure the choice of one of its runs: by method, on a map by row, by what the run was asked; made when it is opened first. */
 function listRuns(figure) {
-  const list = make('details', {class: 'run-list'}, make('summary', {}, 'Play a run: click on it in the figure, or choose'));
+  const list = make('details', {class: 'run-list'}, make('summary', {}, 'Play a run'));
   list.addEventListener('toggle', () => {
-    if (list.querySelector('select')) return;
-    const markers = [...figure.querySelectorAll('[data-run]')], groups = new Map();
-    markers.forEach((marker, i) => {
-      const {method} = parts(marker.dataset.run), words = tipOf(marker).split('\n');
-      if (!groups.has(method)) groups.set(method, make('optgroup', {label: method}));
-      groups.get(method).append(
-          make('option', {value: i}, `${words[0].replace(`${method}, `, '')}: ${words[1] ?? ''}`));
+    const markers = [...figure.querySelectorAll('[data-run]')];
+    if (list.querySelector('select') || markers.length === 0) return;  // a figure is drawn when it comes into sight
+    const ways = markers.map(marker => {
+      const [head, outcome = ''] = tipOf(marker).split('\n'), [method, asked, ...row] = head.split(', ');
+      return [method, ...row, `${asked}: ${outcome}`];
     });
-    const select = make('select', {'aria-label': 'run'}, ...groups.values());
+    const chosen = ways[0].map((_, level) => dropdown(['method', ...ways[0].length > 2 ? ['row'] : [], 'run'][level], []));
+    const fits = (way, levels) => way.every((part, level) => level >= levels || part === chosen[level][1].value);
+    const fill = level => {
+      if (level === chosen.length) return;
+      const texts = new Set(ways.filter(way => fits(way, level)).map(way => way[level]));
+      chosen[level][1].replaceChildren(...[...texts].map(text => make('option', {}, text)));
+      fill(level + 1);
+    };
+    chosen.forEach(([, select], level) => select.addEventListener('change', () => fill(level + 1)));
+    fill(0);
     const play = make('button', {type: 'button'}, '▶ Play');
-    play.addEventListener('click', () => playRun(figure.dataset.runs, markers[select.value]));
-    list.append(select, ' ', play);
+    play.addEventListener('click', () => playRun(figure.dataset.runs, markers[ways.findIndex(way => fits(way, way.length))]));
+    list.append(...chosen.flatMap(([label]) => [label, ' ']), play);
   });
   figure.append(list);
 }

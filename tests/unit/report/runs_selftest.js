@@ -46,7 +46,10 @@ addEventListener('load', async () => {
       const list = chart.querySelector('.run-list');
       list.open = true;
       await until(() => list.querySelector('select'));
-      list.querySelector('select').value = '1';
+      const [method, run] = list.querySelectorAll('select'), second = chart.querySelectorAll('[data-run]')[1];
+      method.value = second.dataset.run.split(' ')[0];
+      method.dispatchEvent(new Event('change'));
+      run.value = [...run.options].find(({value}) => second.dataset.words.includes(value.split(':')[0])).value;
       click(list.querySelector('button'));
       seen.windows.push(await look());
     } else {
