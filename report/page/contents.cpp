@@ -51,7 +51,7 @@ std::vector<Chapter> chapters() {
        "Where methods fail",
        "Failure",
        {},
-       {"stability-limits", "*-error"},
+       {"stability-limits", "*-error", "*-stiffness-map", "*-drag-map"},
        "<i><em>x</em>″ = −<em>ω</em>²<em>x</em> → <em>h ω</em> &lt; 2</i><span>leapfrog on one wave{critical}</span>",
        "<p>A cloth is a sum of waves, and each is a spring of its own. Where a step covers more than 1/π of a swing, "
        "about a third, "
