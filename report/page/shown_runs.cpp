@@ -37,9 +37,9 @@ class Chooser {
     if (take && family_of(take->method).is_subject()) taken = add_recommended(true);
     if (!taken) add_own(ours, true);
     if (take) add_recommended(false);
-    for (const MethodFamily* peer : default_peers()) add_own(std::string(peer->representative), true);
+    for (const MethodFamily* peer : default_peers()) add_beside(std::string(peer->representative), taken);
     for (const MethodData& m : part_.facts->methods)
-      if (family_of(m.method).role == Role::outside) add_own(m.method, true);
+      if (family_of(m.method).role == Role::outside) add_beside(m.method, taken);
     if (none_of(true)) add_first(true);
     if (none_of(false)) add_first(false);
     add_own(ours, false);
@@ -80,15 +80,23 @@ class Chooser {
         return charted_[i].cpu;
     return std::nullopt;
   }
-  bool add_recommended(bool beside) {
+  /// A run of the chart; false where there is none.
+  bool add_charted(const std::string& method, SettingKind setting, double requested, bool beside) {
     for (size_t i = 0; i < charted_.size(); ++i)
-      if (charted_[i].method == part_.take->method && requested_[i].first == part_.take->setting &&
-          requested_[i].second == part_.take->requested) {
+      if (charted_[i].method == method && requested_[i] == std::pair{setting, requested}) {
         charted_[i].beside = beside;
         add(charted_[i]);
         return true;
       }
     return false;
+  }
+  bool add_recommended(bool beside) {
+    return add_charted(part_.take->method, part_.take->setting, part_.take->requested, beside);
+  }
+  /// Beside a recommended run the one at the same step, where the chart has it: otherwise steps would be compared.
+  void add_beside(const std::string& method, bool taken) {
+    const bool fixed = taken && part_.take->setting == SettingKind::step;
+    if (!fixed || !add_charted(method, SettingKind::step, part_.take->requested, true)) add_own(method, true);
   }
   /// The subject's, or another's, where the representative did not run.
   void add_first(bool of_subject) {
