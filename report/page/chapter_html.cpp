@@ -141,8 +141,8 @@ std::string with_critical_step(std::string formula, const PageContent& c) {
   for (const ScenePart& part : c.scenes) {
     const MethodData* m = part.facts->find(subject_method(is_symplectic_of_second_order));
     if (part.scene->name == c.main_scene && m && m->limit && *m->limit > 0)
-      text = fmt::format(". On {}, as it starts: <em>ω</em> = {:.3g} /s, so <em>h</em> &lt; {:.3g} ms",
-                         escaped(c.main_scene), 2 / *m->limit, 1e3 * *m->limit);
+      text = fmt::format(". On {}, as it starts: <em>ω</em> = {} /s, so <em>h</em> &lt; {:.3g} ms",
+                         escaped(c.main_scene), nice(2 / *m->limit), 1e3 * *m->limit);
   }
   return formula.replace(at, mark.size(), text);
 }

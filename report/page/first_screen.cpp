@@ -103,7 +103,7 @@ std::string beside_mysim(const PageContent& c) {
 
 std::string first_screen_html(const PageContent& c) {
   std::string out = "<section class=\"first\" id=\"top\">\n" + hero_html(c) +
-                    "<div class=\"questions\"><h1>Two engines, the same scene: which answer can you trust?</h1>\n"
+                    "<div class=\"questions\"><h1>One scene, several engines: which answer can you trust?</h1>\n"
                     "<p>Crosscheck runs its engine mysim" +
                     escaped(beside_mysim(c)) +
                     ", from the same particles and springs, against a "
