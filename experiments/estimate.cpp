@@ -21,8 +21,10 @@ namespace {
 /// One evaluation, s.
 double seconds_of_evaluation(const Method& method, const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
-  const double elements =
-      static_cast<double>(scene.start.x.cols()) + (springs ? static_cast<double>(springs->list.size()) : 0);
+  const auto* bending = scene.model.find<Bending>();
+  const double elements = static_cast<double>(scene.start.x.cols()) +
+                          (springs ? static_cast<double>(springs->list.size()) : 0) +
+                          (bending ? static_cast<double>(bending->list.size()) : 0);
   return method.family().call + method.family().element * elements;
 }
 

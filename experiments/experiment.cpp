@@ -102,6 +102,8 @@ std::span<const Experiment> experiments() {
       {"disagreements", "Where does Bullet solve another problem than the scene states, and by how much?",
        disagreements_points},
       {"relations", "What must hold in any engine, without any truth: does it?", relations_points},
+      {"fabric", "Does a cloth of given bending rigidity hang and vibrate as the elastica and a beam do, on any grid?",
+       fabric_points},
   };
   return table;
 }

@@ -141,7 +141,7 @@ void bending_on(const Request& request, TableSet& tables) {
   Table table = table_of<BendingRow>();
   std::vector<int> sizes{8, 10, 12, 16};
   if (request.full) sizes.insert(sizes.end(), {20, 24});
-  for (const Bending& b : bending_stiffness(sizes)) add(table, BendingRow{b.n, b.cells, b.stiffness, b.droop});
+  for (const BendSprings& b : bending_stiffness(sizes)) add(table, BendingRow{b.n, b.cells, b.stiffness, b.droop});
   tables.add(table);
 }
 

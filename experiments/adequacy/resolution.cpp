@@ -100,7 +100,7 @@ std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& 
   return PowerLaw{slope, std::sqrt(std::max(0., yy - slope * xy) / (n - 2) / xx)};
 }
 
-std::vector<Bending> bending_stiffness(const std::vector<int>& sizes) {
+std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes) {
   // a line of a cloth of 1 m x 1 m and 0.1 kg
   const auto line = [](int n, double bend) {
     const double d = 1 / (n - 1.5);
@@ -125,7 +125,7 @@ std::vector<Bending> bending_stiffness(const std::vector<int>& sizes) {
     const auto rest = rest_of(line(n, bend));
     return rest ? std::optional(-rest->x(1, n - 1)) : std::nullopt;
   };
-  std::vector<Bending> list;
+  std::vector<BendSprings> list;
   for (const int n : sizes) {
     if (list.empty()) {
       constexpr double first = 40;  // N/m: droops by some tenths of its length
@@ -134,7 +134,7 @@ std::vector<Bending> bending_stiffness(const std::vector<int>& sizes) {
       continue;
     }
     // bisection in the logarithm: a stiffer line droops less
-    const Bending& last = list.back();
+    const BendSprings& last = list.back();
     double low = last.stiffness, high = last.stiffness * std::pow(double(n - 1) / (last.n - 1), 7);
     std::optional<double> d;
     for (int i = 0; i < 18 && high / low > 1.002; ++i) {

@@ -36,12 +36,12 @@ std::optional<PowerLaw> power_law(const std::vector<std::pair<double, double>>& 
 /// kappa turns neighbouring cells of size d by d kappa, which shortens a bend spring over them by d^3 kappa^2 / 4; the
 /// energy of one line is k d^6 kappa^4 / 32 per particle, of the cloth k d^4 kappa^4 / 32 per area: for the same cloth
 /// k must grow as d^-4, as the fourth power of the number of cells.
-struct Bending {
+struct BendSprings {
   int n;
   double cells;      // 1, in the free length: n - 3/2
   double stiffness;  // N/m, of the bend springs, so that the free end droops as at the first n
   double droop;      // m
 };
-std::vector<Bending> bending_stiffness(const std::vector<int>& sizes);
+std::vector<BendSprings> bending_stiffness(const std::vector<int>& sizes);
 
 }  // namespace crosscheck

@@ -52,7 +52,8 @@ Outside outside_of(const Scene& scene) {
   o.changing = p.move.has_value();
   for (const Term& term : scene.model.terms)
     std::visit(Overloaded{[&](const Rotation&) { o.field = true; }, [&](const Gravity&) { o.gravity = true; },
-                          [](const Springs&) {}, [&](const Dashpots&) { o.dashpots = true; },
+                          [](const Springs&) {}, [&](const Bending&) { o.bending = true; },
+                          [&](const Dashpots&) { o.dashpots = true; },
                           [&](const Constraints&) { o.constraints = true; }, [&](const Drag&) { o.drag = true; },
                           [&](const Wind& w) { o.wind = true, o.changing |= w.acceleration.gusts.has_value(); },
                           [&](const Aerodynamics& a) { o.air = true, o.changing |= a.velocity.gusts.has_value(); },
@@ -62,6 +63,9 @@ Outside outside_of(const Scene& scene) {
 }
 
 bool springs_at_rest(const Scene& scene) {
+  if (const auto* bending = scene.model.find<Bending>())
+    for (const Bending::Stencil& s : bending->list)
+      if (bent(s, scene.start.x).norm() > 1e-12 * scene.size()) return false;
   const auto* springs = scene.model.find<Springs>();
   if (!springs) return true;
   for (const Spring& s : springs->list)
@@ -75,7 +79,7 @@ std::vector<Spring> hanging_chain_of(const Scene& scene) {
   const auto* springs = scene.model.find<Springs>();
   const int n = scene.model.particles.size();
   if (!springs || !o.gravity || !(o.drag || o.dashpots) || o.wind || o.air || o.spheres || o.constraints || o.field ||
-      o.changing || scene.model.particles.pins != std::vector<int>{0} ||
+      o.bending || o.changing || scene.model.particles.pins != std::vector<int>{0} ||
       static_cast<int>(springs->list.size()) != n - 1)
     return {};
   std::vector<Spring> chain(n - 1, Spring{-1, -1, 0, 0, Family::single});

@@ -33,8 +33,9 @@ int order_of(const Method& method);
 
 /// Whether anything outside a free net acts on it: pins, wind, air, drag, spheres, hard distances, a field.
 struct Outside {
-  bool pins = false, gravity = false, wind = false, air = false, drag = false, dashpots = false, spheres = false,
-       constraints = false, field = false, changing = false;  // with time: moved pins or spheres, gusts
+  bool pins = false, bending = false, gravity = false, wind = false, air = false, drag = false, dashpots = false,
+       spheres = false, constraints = false, field = false,
+       changing = false;  // with time: moved pins or spheres, gusts
 };
 Outside outside_of(const Scene& scene);
 

@@ -435,6 +435,7 @@ class Kit {
     static constexpr std::pair<std::string_view, std::string_view> keys[] = {
         {"start", "start"},
         {"spring law", "probe.springs"},
+        {"bending", "probe.bending"},
         {"dashpots", "probe.dashpots"},
         {"wind", "probe.wind"},
         {"motion", "later"},

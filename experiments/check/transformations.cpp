@@ -56,7 +56,7 @@ Scene placed(Scene scene, const Placement& placement) {
                        turn_motion(s.motion);
                      }
                    },
-                   [](OneOf<Rotation, Springs, Dashpots, Constraints, Drag> auto&) {}},
+                   [](OneOf<Rotation, Springs, Bending, Dashpots, Constraints, Drag> auto&) {}},
         term);
   scene.hash = hash_of(scene);
   return scene;
@@ -91,6 +91,10 @@ Scene renumbered(const Scene& scene, const std::vector<int>& order) {
   };
   for (Term& term : other.model.terms)
     std::visit(Overloaded{[&](OneOf<Springs, Dashpots, Constraints> auto& t) { rename_ends(t.list); },
+                          [&](Bending& t) {
+                            for (auto& s : t.list)
+                              for (int k = 0; k < s.size; ++k) s.particle[k] = number[s.particle[k]];
+                          },
                           [&](Drag& drag) {
                             const Eigen::VectorXd c = drag.c;
                             for (int i = 0; i < n; ++i) drag.c[i] = c[order[i]];
@@ -105,16 +109,21 @@ Scene renumbered(const Scene& scene, const std::vector<int>& order) {
 
 Scene springs_reordered(Scene scene, unsigned seed) {
   std::mt19937_64 engine(seed + 3000);
+  const auto turn_round = Overloaded{[](auto& pair) { std::swap(pair.a, pair.b); },
+                                     [](Bending::Stencil& s) {
+                                       std::reverse(s.particle.begin(), s.particle.begin() + s.size);
+                                       std::reverse(s.weight.begin(), s.weight.begin() + s.size);
+                                     }};
   const auto reorder = [&](auto& list) {
     const auto old = list;
     const std::vector<int> order = seeded_order(static_cast<int>(list.size()), seed);
     for (size_t i = 0; i < list.size(); ++i) {
       list[i] = old[order[i]];
-      if (uniform(engine) < 0.5) std::swap(list[i].a, list[i].b);
+      if (uniform(engine) < 0.5) turn_round(list[i]);
     }
   };
   for (Term& term : scene.model.terms)
-    std::visit(Overloaded{[&](OneOf<Springs, Dashpots, Constraints> auto& t) { reorder(t.list); },
+    std::visit(Overloaded{[&](OneOf<Springs, Bending, Dashpots, Constraints> auto& t) { reorder(t.list); },
                           [](OneOf<Rotation, Gravity, Drag, Wind, Aerodynamics, Spheres> auto&) {}},
                term);
   scene.hash = hash_of(scene);
@@ -143,6 +152,10 @@ Scene scaled(Scene scene, const Scaling& scaling) {
         Overloaded{[&](Rotation& t) { t.rate /= time; }, [&](Gravity& t) { t.acceleration *= acceleration; },
                    [&](Springs& t) {
                      for (Spring& s : t.list) s.k *= mass / (time * time), s.rest *= length;
+                   },
+                   [&](Bending& t) {
+                     for (auto& s : t.list) s.k *= mass / (time * time);
+                     t.rigidity *= mass * length * length / (time * time);
                    },
                    [&](Dashpots& t) {
                      for (auto& d : t.list) d.c *= mass / time;
@@ -194,6 +207,19 @@ std::multiset<std::vector<double>> joined(const Scene& scene, const std::vector<
   for (const Term& term : scene.model.terms)
     std::visit(Overloaded{[&](const Springs& t) {
                             for (const Spring& s : t.list) add(0, s.a, s.b, s.k, static_cast<float>(s.rest));
+                          },
+                          [&](const Bending& t) {
+                            for (const auto& s : t.list) {
+                              std::vector<std::pair<int, double>> members;
+                              for (int i = 0; i < s.size; ++i) members.emplace_back(image[s.particle[i]], s.weight[i]);
+                              std::sort(members.begin(), members.end());
+                              // of all weights' signs alike: the energy is the same
+                              const double sign = members[0].second < 0 ? -1 : 1;
+                              std::vector<double> key{4, s.k};
+                              for (const auto& [particle, weight] : members)
+                                key.push_back(particle), key.push_back(sign * weight);
+                              all.insert(std::move(key));
+                            }
                           },
                           [&](const Dashpots& t) {
                             for (const auto& d : t.list) add(1, d.a, d.b, d.c, 0);

@@ -26,7 +26,7 @@ Scene placed(Scene scene, const Placement& placement);
 
 /// Particle `order[i]` of the scene is the new scene's i.
 Scene renumbered(const Scene& scene, const std::vector<int>& order);
-/// Springs, dashpots and hard distances in another order, half of them from their other end.
+/// Springs, bending, dashpots and hard distances in another order, half of them from their other end.
 Scene springs_reordered(Scene scene, unsigned seed);
 
 /// Factors of the units in which all is measured.

@@ -86,6 +86,7 @@ const std::vector<IngredientRow>& table() {
       {{"bend springs", {"grid.stiffness.bend"}, drop_family<Family::bend>}, has_family<Family::bend>},
       {{"single springs", {"spring"}, drop_family<Family::single>}, has_family<Family::single>},
       {{"all springs", {}, drop<Springs>}, has<Springs>},
+      {{"bending", {"grid.bending"}, drop<Bending>}, has<Bending>},
       {{"dashpots", {"grid.dashpot", "spring[].dashpot"}, drop<Dashpots>}, has<Dashpots>},
       {{"hard distances", {}, drop<Constraints>}, has<Constraints>},
       {{"drag", {"drag"}, drop<Drag>}, has<Drag>},

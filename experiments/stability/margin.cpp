@@ -12,16 +12,19 @@ namespace crosscheck {
 namespace {
 
 /// A bound of its fastest vibration (S. Gershgorin, 1931), rad/s: omega^2 <= max over particles a of the sum over its
-/// springs of k / m_a + k / sqrt(m_a m_b), pins left out.
+/// springs, and those that bending is, of |k| / m_a + |k| / sqrt(m_a m_b), pins left out.
 double bound_of_frequency(const Model& model) {
   const Particles& particles = model.particles;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(particles.size());
-  for (const Spring& s : model.find<Springs>()->list)
-    for (const auto& [a, b] : {std::pair{s.a, s.b}, std::pair{s.b, s.a}}) {
+  const auto add_spring = [&](int one, int other, double k) {
+    for (const auto& [a, b] : {std::pair{one, other}, std::pair{other, one}}) {
       if (particles.pinned[a]) continue;
-      sum[a] += s.k / particles.mass[a];
-      if (!particles.pinned[b]) sum[a] += s.k / std::sqrt(particles.mass[a] * particles.mass[b]);
+      sum[a] += std::abs(k) / particles.mass[a];
+      if (!particles.pinned[b]) sum[a] += std::abs(k) / std::sqrt(particles.mass[a] * particles.mass[b]);
     }
+  };
+  for (const Spring& s : model.find<Springs>()->list) add_spring(s.a, s.b, s.k);
+  if (const auto* bending = model.find<Bending>()) for_each_pair(*bending, add_spring);
   return sum.size() > 0 ? std::sqrt(sum.maxCoeff()) : 0;
 }
 

@@ -11,6 +11,7 @@
 #include "experiments/tables/disagreements.h"
 #include "experiments/tables/energy.h"
 #include "experiments/tables/engines.h"
+#include "experiments/tables/fabric.h"
 #include "experiments/tables/order.h"
 #include "experiments/tables/speed_accuracy.h"
 #include "experiments/tables/sphere.h"
@@ -26,7 +27,8 @@ using AllRows = std::tuple<                                                     
     ReboundRow, LeavingRow, ConeRow, DrapeRow, PenetrationRow, DrapeTimeRow,              //
     AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,                          //
     OrderRow, OrderSlopeRow,                                                              //
-    LinkStiffnessRow, NetworkStiffnessRow, EffectiveStiffnessRow,                         //
+    LinkStiffnessRow, NetworkStiffnessRow, EffectiveStiffnessRow, PulledSheetRow,         //
+    CantileverRow, StripVibrationRow, SkipOneRow,                                         //
     DisagreementRow, DisagreementCurveRow, ContactAngleRow,                               //
     SpeedAccuracyRow, SpeedAccuracyTimingRow, SpeedAccuracyCostRow, ParetoRow<Cost::evaluations>,
     ParetoRow<Cost::cpu>,                                                                           //

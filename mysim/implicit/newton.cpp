@@ -21,15 +21,16 @@ IncrementalPotential::IncrementalPotential(System& f) : f_(f), model_(f.model())
   drag_ = f.drag_rate() * model_.particles.mass.array();
   a_ = moved_ = Points::Zero(3, n);
   frozen_air_.f = Points::Zero(3, n);
-  if (const auto* springs = model_.find<Springs>()) {
-    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(n);
-    for (const Spring& s : springs->list) {
-      sum[s.a] += s.k;
-      sum[s.b] += s.k;
-      stiffness_ += s.k;
-    }
-    stiffest_ = sum.maxCoeff();
-  }
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(n);
+  const auto add_spring = [&](int a, int b, double k) {
+    sum[a] += std::abs(k);
+    sum[b] += std::abs(k);
+    stiffness_ += std::abs(k);
+  };
+  if (const auto* springs = model_.find<Springs>())
+    for (const Spring& s : springs->list) add_spring(s.a, s.b, s.k);
+  if (const auto* bending = model_.find<Bending>()) for_each_pair(*bending, add_spring);
+  stiffest_ = sum.maxCoeff();
 }
 
 void IncrementalPotential::clear_pins(Points& p) const {
@@ -90,8 +91,8 @@ double IncrementalPotential::value(const Points& u) {
   for (const Term& term : model_.terms)
     std::visit(
         [&]<class T>(const T& t) {
-          if constexpr (std::is_same_v<T, Springs>)
-            springs = potential_energy(t, particles, at);
+          if constexpr (std::is_same_v<T, Springs> || std::is_same_v<T, Bending>)
+            springs += potential_energy(t, particles, at);
           else if constexpr (HasPotential<T>)
             given += potential_energy(t, particles, at);
           if constexpr (std::is_same_v<T, Gravity>)

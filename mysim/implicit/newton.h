@@ -15,7 +15,7 @@ namespace crosscheck {
 
 /// With y = x_n + h v_n and the unknown u = x - y (0 at pins, which stand where they are at the end of the step),
 ///   P(u) = sum_i m_i |u_i|^2 / (2 h^2) + c_i |h v_n + u|_i^2 / (2 h)        inertia and drag
-///        + V(x) - sum_i m_i w . x_i - f_i . x_i                             springs, gravity, wind, air on triangles
+///        + V(x) - sum_i m_i w . x_i - f_i . x_i                             springs, bending, gravity, wind, air
 ///        + sum_d c_d (n_d . (moved_a - moved_b))^2 / (2 h)                  dashpots, moved = h v (x - x_n when free)
 /// has the gradient of the implicit Euler equations (J. Martin et al., ACM Trans. Graph. 30 (4), 2011). Air and the
 /// dashpots' directions n_d have no energy: they are frozen at a given position, and the caller repeats the solve with
@@ -54,7 +54,7 @@ class IncrementalPotential {
   System& f_;
   const Model& model_;
   Eigen::ArrayXd drag_;   // n, c, N s/m
-  double stiffness_ = 0;  // N/m, sum over all springs
+  double stiffness_ = 0;  // N/m, sum over all springs, those that stencils are included
   double stiffest_ = 0;   // N/m, largest sum over the springs of a particle
   State start_, end_;
   double h_ = 0;
@@ -62,7 +62,7 @@ class IncrementalPotential {
   Forces frozen_air_;
   Tangent frozen_damping_;   // dashpots along the frozen directions
   Eigen::ArrayXd inertia_;   // n, m / h^2 + c / h, N/m
-  Tangent tangent_;          // springs
+  Tangent tangent_;          // springs, bending
   Eigen::Matrix3Xd blocks_;  // 3 x 3n, inverted
   double rounding_ = 0, force_rounding_ = 0, force_scale_ = 0;
 };

@@ -20,7 +20,7 @@ Energy energy_of(const Model& model, const State& state) {
   for (int i = 0; i < state.v.cols(); ++i)
     if (!particles.pinned[i]) e.kinetic += 0.5 * particles.mass[i] * state.v.col(i).squaredNorm();
   const Overloaded add{
-      [&](const Springs& t) { e.elastic += potential_energy(t, particles, state); },
+      [&](const OneOf<Springs, Bending> auto& t) { e.elastic += potential_energy(t, particles, state); },
       [&](const Gravity& t) { e.gravitational += potential_energy(t, particles, state); },
       []<OneOf<Rotation, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres> T>(const T&) {
         static_assert(!HasPotential<T>);
@@ -56,6 +56,9 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
       [&](const OneOf<Wind, Aerodynamics> auto& t) { p.wind += free_power(particles, force_of(t), state.v); },
       [&](const Springs& t) {
         if (particles.move) p.pins -= on_pins(force_of(springs_at_pins(t, particles)));
+      },
+      [&](const Bending& t) {
+        if (particles.move) p.pins -= on_pins(force_of(t));
       },
       [&](const Dashpots& t) {
         const Points& f = force_of(t);

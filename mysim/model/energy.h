@@ -7,7 +7,7 @@ namespace crosscheck {
 
 struct Energy {
   double kinetic = 0;        // J, of the free particles
-  double elastic = 0;        // J, of the springs
+  double elastic = 0;        // J, of springs and bending
   double gravitational = 0;  // J, of the free particles, zero at the origin
   double total() const { return kinetic + elastic + gravitational; }
 };
@@ -17,7 +17,8 @@ struct Power {
   double drag = 0;      // W, taken by drag (not negative)
   double dashpots = 0;  // W, taken by dashpots (not negative)
   double wind = 0;      // W, given by the wind, uniform or on triangles
-  double pins = 0;  // W, given by moved pins: minus the force of springs and dashpots on each pin times its velocity
+  double pins =
+      0;  // W, given by moved pins: minus the force of springs, bending and dashpots on each pin times its velocity
   double dissipated() const { return drag + dashpots; }
 };
 

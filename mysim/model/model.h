@@ -19,6 +19,7 @@
 
 #include "mysim/particles.h"
 #include "mysim/terms/aerodynamics.h"
+#include "mysim/terms/bending.h"
 #include "mysim/terms/constraints.h"
 #include "mysim/terms/dashpots.h"
 #include "mysim/terms/drag.h"
@@ -30,7 +31,8 @@
 
 namespace crosscheck {
 
-using Term = std::variant<Rotation, Gravity, Springs, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres>;
+using Term =
+    std::variant<Rotation, Gravity, Springs, Bending, Dashpots, Constraints, Drag, Wind, Aerodynamics, Spheres>;
 
 /// Several functions as one, to visit a term with: each alternative of Term must find its own.
 template <class... Functions>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace crosscheck {
@@ -156,6 +157,39 @@ NetModuli moduli_of(const Model& model, const State& start) {
   // Cauchy's relation: so it is with central forces where each particle is a centre of symmetry
   m.c66 = m.c12;
   return {m, ""};
+}
+
+std::optional<BendingLength> bending_length_of(const Model& model, const State& start) {
+  const auto* bending = model.find<Bending>();
+  if (!bending) return std::nullopt;
+  BendingLength found{bending->rigidity, INFINITY, 0};
+  double area = 0, mass = 0;
+  std::vector<char> counted(static_cast<size_t>(model.particles.size()), 0);
+  for (const Bending::Stencil& s : bending->list) {
+    const auto side = [&](int i) -> Vec3 { return start.x.col(s.particle[i]) - start.x.col(s.particle[0]); };
+    found.spacing = std::max(found.spacing, side(1).norm());
+    if (s.size == 4) area += side(1).cross(side(2)).norm();
+    for (int i = 0; i < s.size; ++i)
+      if (!std::exchange(counted[static_cast<size_t>(s.particle[i])], 1)) mass += model.particles.mass[s.particle[i]];
+  }
+  if (const auto* gravity = model.find<Gravity>(); gravity && area > 0)
+    if (const double weight = mass * gravity->acceleration.norm() / area; weight > 0)
+      found.length = std::cbrt(found.rigidity / weight);
+  return found;
+}
+
+std::string sentence_of(const BendingLength& bending) {
+  const std::string rigidity = fmt::format("B = {:.4g} N m, Poisson's ratio 0", bending.rigidity);
+  if (std::isinf(bending.length)) return rigidity;
+  return fmt::format("{}; it folds under its weight over (B/w)^(1/3) = {:.3g} m, {:.3g} spacings of the grid", rigidity,
+                     bending.length, bending.spacings());
+}
+
+std::string coarse_grid_warning(const BendingLength& bending) {
+  // a fold needs a particle on its way down and one on its way up
+  if (!(bending.spacings() < 2)) return "";
+  return fmt::format("folds of {:.3g} m, which bending and weight ask for, are finer than two spacings of {:.3g} m",
+                     bending.length, bending.spacing);
 }
 
 }  // namespace crosscheck

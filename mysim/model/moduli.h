@@ -46,4 +46,20 @@ std::vector<std::string> sentences_of(const Moduli& moduli);
 /// What skip-one springs do, where they make more than half of c11; else empty.
 std::string skip_one_warning(const Moduli& moduli);
 
+/// How a sheet with bending falls into folds: over the length (B / w)^(1/3), w its weight per area.
+struct BendingLength {
+  double rigidity;  // B, N m
+  double length;    // m; infinite without gravity
+  double spacing;   // m, the largest of the grid
+
+  double spacings() const { return length / spacing; }
+};
+
+/// Nothing without bending. Weight and spacing are those of the start, the weight that of all particles over the area
+/// of all cells.
+std::optional<BendingLength> bending_length_of(const Model& model, const State& start);
+std::string sentence_of(const BendingLength& bending);
+/// What a grid does that is coarser than half a fold; else empty.
+std::string coarse_grid_warning(const BendingLength& bending);
+
 }  // namespace crosscheck

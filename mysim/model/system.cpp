@@ -76,7 +76,8 @@ void System::add_velocity_acceleration(const State& stage, Points& a) {
 
 void System::external_acceleration(const State& stage, Points& a) {
   sum_forces(stage, []<class T>(const T&) {
-    return !std::is_same_v<T, Springs> && !std::is_same_v<T, Dashpots> && !std::is_same_v<T, Drag>;
+    return !std::is_same_v<T, Springs> && !std::is_same_v<T, Bending> && !std::is_same_v<T, Dashpots> &&
+           !std::is_same_v<T, Drag>;
   });
   set_acceleration(a);
 }
@@ -123,9 +124,9 @@ double highest_frequency(const Model& model, const State& state) {
 }
 
 double highest_frequency_bound(const Model& model, const State& state) {
-  if (!model.find<Springs>()) return 0;
   Model far = model;
-  for (Spring& s : far.find<Springs>()->list) s.rest *= 1e-6;
+  if (auto* springs = far.find<Springs>())
+    for (Spring& s : springs->list) s.rest *= 1e-6;
   return highest_frequency(far, state);
 }
 

@@ -23,7 +23,7 @@ class System {
   /// a = F / m with every force, the drag at stage.v included (3 x n, m/s^2; zero at pins). Moves pins like derivative.
   void acceleration(State& stage, Points& a);
 
-  /// a = F / m of the forces that depend on position and time alone: springs, gravity, uniform wind.
+  /// a = F / m of the forces that depend on position and time alone: springs, bending, gravity, uniform wind.
   void position_acceleration(State& stage, Points& a);
   /// Adds F / m of the forces that depend on velocity too, drag left out: dashpots, air on triangles.
   void add_velocity_acceleration(const State& stage, Points& a);
@@ -57,8 +57,8 @@ class System {
 
 // Rates of a model: its fastest vibration, which decides what step an explicit rule can take, and its drag.
 
-/// Largest omega (rad/s) of M v'' = -K v with the stiffness K of the state, pins held; 0 without springs. Power
-/// iteration from a seeded start, to 1e-4 or 500 products: from below.
+/// Largest omega (rad/s) of M v'' = -K v with the stiffness K of the state, pins held; 0 without springs and bending.
+/// Power iteration from a seeded start, to 1e-4 or 500 products: from below.
 double highest_frequency(const Model& model, const State& state);
 
 /// The same with every spring stretched far: then it pulls across its line as it does along it, and no state is faster.

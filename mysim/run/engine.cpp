@@ -274,8 +274,10 @@ Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene
   const auto world = make_world(stepper, contact, scene, run, observer, execution);
   Outcome out = run_loop(*world, run, observer);
   if (execution.path == ExecutionPath::single_precision && !world->work().single_precision)
-    out.remark = fmt::format("computed in double precision: single is for regular cloths of {} columns or more",
-                             simd::fewest_columns);
+    out.remark = fmt::format(
+        "computed in double precision: single is for regular cloths of {} columns or more, without "
+        "bending, dashpots and air",
+        simd::fewest_columns);
   return out;
 }
 

@@ -82,6 +82,7 @@ struct ForceProbe {
   double t = 0;     // s
   Points x, v;      // m, m/s: where the particles were put, and how fast
   Points springs;   // of the springs alone, at x
+  Points bending;   // of bending alone, at x
   Points dashpots;  // of the dashpots alone, at x and v
   Points wind;      // of both winds, at x and t, the free particles at rest
 };

@@ -26,7 +26,9 @@ double springs_of_grid(const Grid& g) {
 /// while the list is handed on and sorted; places, velocity and mass.
 void require_memory_of_grid(const TomlTable& s, const Grid& g) {
   const double springs = springs_of_grid(g);
-  const double bytes = springs * 2 * sizeof(Spring) + g.size() * 16. * sizeof(double);
+  const double stencils = g.bending > 0 ? 3. * g.size() : 0;
+  const double bytes =
+      springs * 2 * sizeof(Spring) + stencils * 2 * sizeof(Bending::Stencil) + g.size() * 16. * sizeof(double);
   const double free = free_memory();
   if (bytes > free)
     s.fail("size", fmt::format("a grid that fits into the {} of memory that are free, got {} particles with {:.0f} "
@@ -81,6 +83,13 @@ Grid read_grid(const TomlTable& s) {
     if (k.has("bend")) g.stiffness.bend = k.positive("bend");
   }
   if (s.has("dashpot")) g.dashpot = s.positive("dashpot");
+  if (s.has("bending")) {
+    g.bending = s.positive("bending");
+    if (g.nw > 1) s.fail("bending", "none with a size of three numbers, which is a block: a sheet bends");
+    // 1e-9: at right angles but for the rounding of decimal numbers
+    if (std::abs(g.u.dot(g.v)) > 1e-9 * g.u.norm() * g.v.norm())
+      s.fail("bending", "none where u and v are not at right angles: it is derived for those that are");
+  }
   require_memory_of_grid(s, g);
   return g;
 }
@@ -135,6 +144,25 @@ std::vector<Spring> grid_springs(const Grid& g) {
         for (int axis = 0; axis < 3; ++axis) add(here, moved(here, axis, 2), g.stiffness.bend, Family::bend);
       }
   return list;
+}
+
+Bending grid_bending(const Grid& g) {
+  const double p = g.u.norm() / (g.nu - 1), q = g.v.norm() / (g.nv - 1);
+  Bending bending{{}, g.bending};
+  const auto row = [&](int middle, int stride, double k) {
+    bending.list.push_back({3, {middle - stride, middle, middle + stride}, {1, -2, 1}, k});
+  };
+  for (int j = 0; j < g.nv; ++j)
+    for (int i = 0; i < g.nu; ++i) {
+      const int here = i + g.nu * j;
+      const bool at_end_of_u = i == 0 || i == g.nu - 1, at_end_of_v = j == 0 || j == g.nv - 1;
+      if (!at_end_of_u) row(here, 1, (at_end_of_v ? 0.5 : 1) * g.bending * q / (p * p * p));
+      if (!at_end_of_v) row(here, g.nu, (at_end_of_u ? 0.5 : 1) * g.bending * p / (q * q * q));
+      if (i + 1 < g.nu && j + 1 < g.nv)
+        bending.list.push_back(
+            {4, {here, here + 1, here + g.nu, here + g.nu + 1}, {1, -1, -1, 1}, 2 * g.bending / (p * q)});
+    }
+  return bending;
 }
 
 std::vector<std::array<int, 3>> grid_triangles(const Grid& g) {

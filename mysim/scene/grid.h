@@ -6,6 +6,7 @@
 #include <array>
 
 #include "mysim/scene/toml.h"
+#include "mysim/terms/bending.h"
 #include "mysim/terms/springs.h"
 
 namespace crosscheck {
@@ -19,6 +20,7 @@ struct Grid {
     double structural, shear, bend;  // N/m; 0: the family is absent; infinite: it keeps its lengths
   } stiffness;
   double dashpot;  // N s/m along every spring; 0: none
+  double bending;  // N m, rigidity of a cloth whose sides are at right angles; 0: none
 
   int size() const { return nu * nv * nw; }
 };
@@ -30,6 +32,9 @@ Points grid_points(const Grid& grid);
 /// number for all springs of a direction, to which the places that they start from are rounded; stiffness is infinite
 /// for the structural family of an inextensible grid.
 std::vector<Spring> grid_springs(const Grid& grid);
+/// The stencils of mysim/terms/bending.h: for each particle those along u and v that it is the middle of, and that of
+/// the cell that starts there.
+Bending grid_bending(const Grid& grid);
 /// The cloth, or the six faces of the block seen from outside.
 std::vector<std::array<int, 3>> grid_triangles(const Grid& grid);
 

@@ -30,6 +30,7 @@ constexpr Key grid_keys[] = {
     {"mass", "a number above zero (kg), of the whole grid", required},
     {"stiffness", "of the springs", required, table, stiffness_keys, "inextensible"},
     {"inextensible", "\"structural\""},
+    {"bending", "a number above zero (N m), the rigidity of a cloth"},
     {"dashpot", "a number above zero (N s/m)"},
 };
 constexpr Key particle_keys[] = {

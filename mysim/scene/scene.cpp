@@ -41,6 +41,12 @@ class Hash {
     for (const Spring& s : t.list) add(s.a), add(s.b), add(s.k), add(s.rest);
     if (t.law != SpringLaw::hooke) add(name_of(t.law));
   }
+  void term(const Bending& t) {
+    for (const Bending::Stencil& s : t.list) {
+      add(s.size), add(s.k);
+      for (int i = 0; i < s.size; ++i) add(s.particle[i]), add(s.weight[i]);
+    }
+  }
   void term(const Dashpots& t) {
     for (const auto& [a, b, c] : t.list) add(a), add(b), add(c);
   }
@@ -132,8 +138,8 @@ Sphere read_sphere(const TomlTable& s) {
   return sphere;
 }
 
-// the table of terms that have a section of their own; springs, dashpots and constraints come from [grid], [[spring]]
-// and [[constraint]]
+// the table of terms that have a section of their own; springs, bending, dashpots and constraints come from [grid],
+// [[spring]] and [[constraint]]
 struct TermReader {
   std::string_view key;
   Term (*read)(const TomlTable&, const Scene&);
@@ -201,7 +207,7 @@ Family read_family(const TomlTable& s) {
                                did_you_mean(word, words)));
 }
 
-/// Springs, their dashpots and hard distances: of the grid first, then one by one.
+/// Springs, bending, dashpots and hard distances: of the grid first, then one by one.
 void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& scene) {
   Springs springs;
   Dashpots dashpots;
@@ -250,6 +256,7 @@ void read_pairs(const TomlTable& file, const std::optional<Grid>& grid, Scene& s
     if (springs.list.empty()) s.fail("law", "springs that follow it");
   }
   if (!springs.list.empty()) scene.model.terms.emplace_back(std::move(springs));
+  if (grid && grid->bending > 0) scene.model.terms.emplace_back(grid_bending(*grid));
   if (!dashpots.list.empty()) scene.model.terms.emplace_back(std::move(dashpots));
   if (!constraints.list.empty()) scene.model.terms.emplace_back(std::move(constraints));
 }

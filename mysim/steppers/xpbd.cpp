@@ -1,6 +1,6 @@
 // Extended position-based dynamics with small steps (M. Macklin, M. Mueller and N. Chentanez, Motion in Games, 2016; M.
-// Macklin et al., Symposium on Computer Animation, 2019): a free step, then one pass over dashpots, springs and hard
-// distances, each of which corrects the positions of its two ends at once.
+// Macklin et al., Symposium on Computer Animation, 2019): a free step, then one pass over dashpots, springs, bending
+// and hard distances, each of which corrects the positions of its particles at once.
 
 #include <algorithm>
 
@@ -14,25 +14,25 @@ class ProjectionPass {
   ProjectionPass(const Particles& particles, const Eigen::ArrayXd& drag_rate, const Points& x_n, double h, State& s)
       : particles_(particles), drag_rate_(drag_rate), x_n_(x_n), h_(h), s_(s) {}
 
-  double inverse_mass(int a, int b) const { return inverse_mass(a) + inverse_mass(b); }
-  Vec3 between(int a, int b) const { return s_.x.col(a) - s_.x.col(b); }
-  Vec3 moved_apart(int a, int b) const { return between(a, b) - (x_n_.col(a) - x_n_.col(b)); }
-  /// Moves the ends by their inverse mass times +-impulse (kg m).
-  void push(int a, int b, const Vec3& impulse) {
-    move(a, inverse_mass(a) * impulse);
-    move(b, -inverse_mass(b) * impulse);
-  }
-
- private:
   /// Drag is implicit: what a force changes in a step is less by 1 + h gamma, for these forces as for the others.
   double inverse_mass(int i) const {
     return particles_.pinned[i] ? 0 : 1 / (particles_.mass[i] * (1 + h_ * drag_rate_[i]));
   }
-  void move(int i, const Vec3& by) {
+  double inverse_mass(int a, int b) const { return inverse_mass(a) + inverse_mass(b); }
+  Vec3 between(int a, int b) const { return s_.x.col(a) - s_.x.col(b); }
+  Vec3 moved_apart(int a, int b) const { return between(a, b) - (x_n_.col(a) - x_n_.col(b)); }
+  /// Moves a particle by its inverse mass times the impulse (kg m).
+  void push(int i, const Vec3& impulse) {
+    const Vec3 by = inverse_mass(i) * impulse;
     s_.x.col(i) += by;
     s_.v.col(i) += by / h_;
   }
+  void push(int a, int b, const Vec3& impulse) {
+    push(a, impulse);
+    push(b, -impulse);
+  }
 
+ private:
   const Particles& particles_;
   const Eigen::ArrayXd& drag_rate_;
   const Points& x_n_;
@@ -76,6 +76,14 @@ void xpbd(System& f, State& s, double h, Workspace& w) {
       const auto [force, slope] = tension_of(p, springs->law, length);
       const double stiffening = h * h * std::max(0.0, slope) * pass.inverse_mass(p.a, p.b);
       pass.push(p.a, p.b, (-h * h * force / (length * (1 + stiffening))) * d);
+    }
+  if (const auto* bending = model.find<Bending>())
+    for (const Bending::Stencil& p : bending->list) {
+      double inverse = 0;  // 1/kg, of c
+      for (int i = 0; i < p.size; ++i) inverse += p.weight[i] * p.weight[i] * pass.inverse_mass(p.particle[i]);
+      // implicit and linear: what is left of c is c' with c' + (h^2 k inverse mass) c' = c
+      const Vec3 impulse = -h * h * p.k / (1 + h * h * p.k * inverse) * bent(p, s.x);
+      for (int i = 0; i < p.size; ++i) pass.push(p.particle[i], p.weight[i] * impulse);
     }
   if (const auto* constraints = model.find<Constraints>())
     for (const auto& [i, j, rest] : constraints->list) {

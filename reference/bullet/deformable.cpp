@@ -48,7 +48,24 @@ void SceneForce::addScaledElasticForce(btScalar scale, TVStack& force) {
   }
 }
 
+void SceneForce::add_bending_force(btScalar scale, TVStack& force) {
+  if (!carried_.bending) return;
+  for (const Bending::Stencil& s : carried_.bending->list) {
+    btVector3 c(0, 0, 0);
+    for (int i = 0; i < s.size; ++i) c += node(s.particle[i]).m_q * static_cast<btScalar>(s.weight[i]);
+    c *= static_cast<btScalar>(-scale * carried_.factor * s.k);
+    for (int i = 0; i < s.size; ++i) force[node(s.particle[i]).index] += c * static_cast<btScalar>(s.weight[i]);
+  }
+}
+
 void SceneForce::addScaledElasticForceDifferential(btScalar scale, const TVStack& dx, TVStack& df) {
+  if (carried_.bending)
+    for (const Bending::Stencil& s : carried_.bending->list) {
+      btVector3 c(0, 0, 0);
+      for (int i = 0; i < s.size; ++i) c += dx[node(s.particle[i]).index] * static_cast<btScalar>(s.weight[i]);
+      c *= static_cast<btScalar>(-scale * carried_.factor * s.k);
+      for (int i = 0; i < s.size; ++i) df[node(s.particle[i]).index] += c * static_cast<btScalar>(s.weight[i]);
+    }
   if (!carried_.springs) return;
   for (const Spring& s : carried_.springs->list) {
     const auto &a = node(s.a), &b = node(s.b);
@@ -87,6 +104,7 @@ void SceneForce::add_particle_forces(btScalar scale, TVStack& force) {
 
 void SceneForce::addScaledExplicitForce(btScalar scale, TVStack& force) {
   addScaledElasticForce(scale, force);
+  add_bending_force(scale, force);
   add_particle_forces(scale, force);
 }
 
@@ -160,6 +178,10 @@ DeformableForces::DeformableForces(const Scene& scene, double h, bool implicit, 
   const Overloaded take{
       [&](const Gravity& t) { gravity = &t; },
       [&](const Springs& t) { in_scene.springs = &t; },
+      [&](const Bending& t) {
+        ours.bending = &t;
+        mapped_["bending"] = "force class of our own: Bullet's deformable world has none for sheets of particles";
+      },
       [&](const Dashpots& t) { in_scene.dashpots = &t; },
       [&](const Drag& t) { in_scene.drag = &t; },
       [&](const Wind& t) {
@@ -294,20 +316,25 @@ ForceProbe DeformableForces::probe(btAlignedObjectArray<btDeformableLagrangianFo
   const auto by = static_cast<btScalar>(factor_);
   ProbeState placed(scene_, soft_body_, t_);
   using Stack = btDeformableLagrangianForce::TVStack;
-  Stack springs, dashpots, all;
-  for (Stack* stack : {&springs, &dashpots, &all}) stack->resize(particles.size(), btVector3(0, 0, 0));
+  Stack springs, bending, elastic, dashpots, all;  // elastic: both, added up as the world does, to the bit
+  for (Stack* stack : {&springs, &bending, &elastic, &dashpots, &all})
+    stack->resize(particles.size(), btVector3(0, 0, 0));
   for (int i = 0; i < in_world.size(); ++i) {
     if (in_world[i]->getForceType() == BT_MASSSPRING_FORCE)
-      static_cast<btDeformableMassSpringForce*>(in_world[i])->addScaledElasticForce(by, springs);
-    if (in_world[i]->getForceType() == SceneForce::type)
-      static_cast<SceneForce*>(in_world[i])->addScaledElasticForce(by, springs);
+      for (Stack* stack : {&springs, &elastic})
+        static_cast<btDeformableMassSpringForce*>(in_world[i])->addScaledElasticForce(by, *stack);
+    if (in_world[i]->getForceType() == SceneForce::type) {
+      auto* own = static_cast<SceneForce*>(in_world[i]);
+      for (Stack* stack : {&springs, &elastic}) own->addScaledElasticForce(by, *stack);
+      for (Stack* stack : {&bending, &elastic}) own->add_bending_force(by, *stack);
+    }
     in_world[i]->addScaledDampingForce(1, dashpots);
   }
   placed.stop();
   for (int i = 0; i < in_world.size(); ++i)
     if (in_world[i]->getForceType() != BT_GRAVITY_FORCE) in_world[i]->addScaledExplicitForce(by, all);
-  for (int i = 0; i < all.size(); ++i) all[i] -= springs[i];
-  return placed.probe(springs, dashpots, all);
+  for (int i = 0; i < all.size(); ++i) all[i] -= elastic[i];
+  return placed.probe(springs, bending, dashpots, all);
 }
 
 namespace {

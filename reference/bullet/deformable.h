@@ -12,8 +12,8 @@
 namespace crosscheck::bullet {
 
 // A force class of Crosscheck's in Bullet's deformable world, for what Bullet's own forces cannot carry: more than two
-// stiffnesses, another spring law than Hooke's, springs whose implicit step cannot blow up, dashpots that differ or
-// hang on moved pins, drag that differs between particles or is implicit, and wind.
+// stiffnesses, another spring law than Hooke's, springs whose implicit step cannot blow up, bending, dashpots that
+// differ or hang on moved pins, drag that differs between particles or is implicit, and wind.
 
 /// In the explicit world springs, drag and wind act at (x_n, v_n, t_n), and Bullet solves the dashpots by themselves,
 /// implicitly. In the implicit world all is taken at q = x + h v, v and t_{n+1}; the springs' stiffness is handed over
@@ -23,13 +23,14 @@ class SceneForce : public btDeformableLagrangianForce {
  public:
   struct CarriedTerms {
     const Springs* springs = nullptr;
+    const Bending* bending = nullptr;
     const Dashpots* dashpots = nullptr;
     const Drag* drag = nullptr;
     const Wind* wind = nullptr;
     const Aerodynamics* air = nullptr;
     double factor = 1;  // all forces but the dashpots' are multiplied by it
     bool implicit = false;
-    bool any() const { return springs || dashpots || drag || wind || air; }
+    bool any() const { return springs || bending || dashpots || drag || wind || air; }
   };
   SceneForce(const CarriedTerms& carried, const Scene& scene, const SoftBody& body);
 
@@ -43,8 +44,9 @@ class SceneForce : public btDeformableLagrangianForce {
   void addScaledElasticForceDifferential(btScalar scale, const TVStack& dx, TVStack& df) override;
   void buildDampingForceDifferentialDiagonal(btScalar scale, TVStack& diagonal) override;
 
-  /// Springs only, at m_q: for the certificate's probe too.
+  /// Springs only, and bending only, at m_q: for the certificate's probe too.
   void addScaledElasticForce(btScalar scale, TVStack& force);
+  void add_bending_force(btScalar scale, TVStack& force);
   /// A value that Bullet does not use: forces of a known type would be merged with the first of their kind.
   static constexpr auto type = static_cast<btDeformableLagrangianForceType>(100);
   btDeformableLagrangianForceType getForceType() override { return type; }
@@ -75,7 +77,8 @@ class DeformableForces {
 
   void set_time(double t);  // of wind and pins, s
 
-  /// Gravity, drag rates, and probes of springs, dashpots and wind, from the forces that the world's solver holds.
+  /// Gravity, drag rates, and probes of springs, bending, dashpots and wind, from the forces that the world's solver
+  /// holds.
   void read_back(btAlignedObjectArray<btDeformableLagrangianForce*>& in_world, Readback& readback) const;
 
  private:

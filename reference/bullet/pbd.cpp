@@ -62,6 +62,7 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
         [&](const Gravity&) { mapped_["gravity"] = gravity_text(settings.defaults); },
         [&](const Drag&) { mapped_["drag"] = fmt::format("kDP = 1 - exp(-gamma h) = {:.6g}", double(cfg.kDP)); },
         [&](const Wind&) { mapped_["wind"] = "added force m a(t) on each node"; },
+        [&](const Bending&) { mapped_["bending"] = added; },
         [&](const Dashpots&) { mapped_["dashpots"] = added; },
         [&](const Aerodynamics&) { mapped_["wind on triangles"] = settings.own_wind ? own : added; },
         [](const OneOf<Springs, Constraints> auto&) {},  // links, above
@@ -69,14 +70,14 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
         [](const Rotation&) {},                          // refused before a world is built
     };
     for (const Term& term : model.terms) std::visit(tell, term);
-    has_added_forces_ =
-        mapped_.contains("wind") || mapped_.contains("dashpots") || mapped_.contains("wind on triangles");
+    for (const char* each : {"bending", "wind", "dashpots", "wind on triangles"})
+      has_added_forces_ = has_added_forces_ || mapped_.contains(each);
   }
 
   ~PbdWorld() override { remove_all(); }
 
   void step(double t, double t_next) override {
-    if (has_added_forces_) add_forces(t, true, true);
+    if (has_added_forces_) add_forces(t, {.bending = true, .dashpots = true, .winds = true});
     if (settings_.own_wind) body().setWindVelocity(to_bullet(scene_.model.find<Aerodynamics>()->velocity.at(t)));
     soft_body_->place_pins(t_next);  // links are solved at the end of the step
     obstacles_.place(t_next);
@@ -132,19 +133,25 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
   }
 
   /// Terms that links cannot carry, as forces on the nodes for one step, at the nodes' state.
-  void add_forces(double t, bool winds, bool dashpots) {
+  struct Wanted {
+    bool bending = false, dashpots = false, winds = false;
+  };
+  void add_forces(double t, const Wanted& wanted) {
     const Model& model = scene_.model;
     added_.f.setZero(3, model.particles.size());
     const State& now = soft_body_->read_state(t);
     const Overloaded add{
         [&](const Wind& wind) {
-          if (winds) add_force(wind, model.particles, now, added_);
+          if (wanted.winds) add_force(wind, model.particles, now, added_);
         },
         [&](const Aerodynamics& air) {
-          if (winds && !settings_.own_wind) add_force(air, model.particles, now, added_);
+          if (wanted.winds && !settings_.own_wind) add_force(air, model.particles, now, added_);
+        },
+        [&](const Bending& bending) {
+          if (wanted.bending) add_force(bending, model.particles, now, added_);
         },
         [&](const Dashpots& pairs) {
-          if (dashpots) add_force(pairs, model.particles, now, added_);
+          if (wanted.dashpots) add_force(pairs, model.particles, now, added_);
         },
         [](const OneOf<Rotation, Gravity, Springs, Constraints, Drag, Spheres> auto&) {},  // Bullet's own
     };
@@ -157,19 +164,21 @@ class PbdWorld : public SoftBodyWorld<btSoftRigidDynamicsWorld> {
   ForceProbe probe(double t) {
     ProbeState placed(scene_, *soft_body_, t);
     using Stack = btAlignedObjectArray<btVector3>;
-    Stack none, dashpots, winds;
+    Stack none, bending, dashpots, winds;
     auto take = [&](Stack& forces) {
       for (int i = 0; i < body().m_nodes.size(); ++i) {
         forces.push_back(body().m_nodes[i].m_f);
         body().m_nodes[i].m_f = btVector3(0, 0, 0);
       }
     };
-    add_forces(t, false, true);
+    add_forces(t, {.bending = true});
+    take(bending);
+    add_forces(t, {.dashpots = true});
     take(dashpots);
     placed.stop();
-    add_forces(t, true, false);
+    add_forces(t, {.winds = true});
     if (!settings_.own_wind) take(winds);
-    return placed.probe(none, dashpots, winds);
+    return placed.probe(none, bending, dashpots, winds);
   }
 
   PbdSettings settings_;

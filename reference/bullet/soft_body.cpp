@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/random.h"
 
 namespace crosscheck::bullet {
 
@@ -21,6 +23,8 @@ std::vector<int> pieces_of(const Model& model) {
   };
   if (const auto* springs = model.find<Springs>())
     for (const Spring& s : springs->list) parent[root(s.a)] = root(s.b);
+  if (const auto* bending = model.find<Bending>())
+    for_each_pair(*bending, [&](int a, int b, double) { parent[root(a)] = root(b); });
   if (const auto* constraints = model.find<Constraints>())
     for (const auto& c : constraints->list) parent[root(c.a)] = root(c.b);
   std::vector<int> number(n, -1), piece(n);
@@ -31,6 +35,17 @@ std::vector<int> pieces_of(const Model& model) {
     piece[i] = known;
   }
   return piece;
+}
+
+Points small_offsets(const Bending& bending, const Points& x) {
+  double shortest = INFINITY;
+  for (const Bending::Stencil& s : bending.list)
+    shortest = std::min(shortest, (x.col(s.particle[0]) - x.col(s.particle[1])).norm());
+  std::mt19937_64 engine(1);
+  Points offsets(3, x.cols());
+  // a vector of three parts up to 1/90 is shorter than 1/50
+  for (double& part : offsets.reshaped()) part = shortest / 90 * (2 * uniform(engine) - 1);
+  return offsets;
 }
 
 void require_supported(const Scene& scene, bool may_hang) {

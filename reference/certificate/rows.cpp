@@ -1,4 +1,4 @@
-// The certificate's rows of each term: springs, hard distances, dashpots, gravity, drag, wind and spheres.
+// The certificate's rows of each term: springs, bending, hard distances, dashpots, gravity, drag, wind and spheres.
 #include "reference/certificate/rows.h"
 
 #include <algorithm>
@@ -77,6 +77,22 @@ void certify_forces(const Scene& scene, const Readback& r, CertificateWriter& w)
             r.probe->springs, force_free);
   } else if (springs && !w.has_different_law("springs")) {
     w.add_unattested("spring law", std::string(name_of(springs->law)));
+  }
+  if (const auto* bending = scene.model.find<Bending>(); bending && !bending->list.empty()) {
+    const auto [softest, stiffest] = std::ranges::minmax(bending->list, {}, &Bending::Stencil::k);
+    const std::string requested =
+        fmt::format("{} stencils of {}", bending->list.size(), range_of(softest.k, stiffest.k, "N/m"));
+    if (!r.probe || r.probe->bending.size() == 0)
+      w.add_unattested("bending", requested);
+    else
+      compare("bending", requested, *bending, r.probe->bending,
+              std::ranges::count_if(bending->list, [&](const Bending::Stencil& s) {
+                // flat but for a millionth of the way from one particle to the next
+                return bent(s, probed.x).norm() <=
+                       1e-6 * (probed.x.col(s.particle[0]) - probed.x.col(s.particle[1])).norm();
+              }));
+  } else if (r.probe && r.probe->bending.size() > 0 && largest_column(r.probe->bending) > 0) {
+    w.row("bending", "none", "some", false);
   }
   if (!dashpots) {
     if (r.probe && r.probe->dashpots.size() > 0 && largest_column(r.probe->dashpots) > 0)
@@ -189,10 +205,12 @@ void certify_wind(const Scene& scene, const Readback& r, CertificateWriter& w) {
   Points reported_forces = r.probe->wind;
   for (const int pin : scene.model.particles.pins) ours.f.col(pin).setZero(), reported_forces.col(pin).setZero();
   const double scale = largest_column(ours.f), off = largest_column(ours.f - reported_forces);
-  // left over when the springs are taken from the sum: their forces' rounding
-  const double springs = r.probe->springs.size() > 0 ? largest_column(r.probe->springs) : 0;
+  // left over when springs and bending are taken from the sum: their forces' rounding
+  double elastic = 0;
+  for (const Points* taken : {&r.probe->springs, &r.probe->bending})
+    if (taken->size() > 0) elastic = std::max(elastic, largest_column(*taken));
   w.row("wind", requested, fmt::format("forces at a known state off by {:.2g}", scale > 0 ? off / scale : off),
-        off <= 100 * w.tolerance() * (scale + springs));
+        off <= 100 * w.tolerance() * (scale + elastic));
 }
 
 std::string acceleration_text(const Vec3& v) {
@@ -256,8 +274,8 @@ void certify_terms(const Scene& scene, const Readback& r, CertificateWriter& w) 
       [&](const Gravity& t) { certify_gravity(t, r, w); },
       [&](const Drag& t) { certify_drag(t, scene.model.particles, r, w); },
       [&](const Rotation& t) { w.add_unattested("rotation", fmt::format("{:.6g} rad/s", t.rate)); },
-      [](const OneOf<Wind, Aerodynamics, Spheres> auto&) {},     // below: they may be in the engine alone
-      [](const OneOf<Springs, Dashpots, Constraints> auto&) {},  // rows.cpp
+      [](const OneOf<Wind, Aerodynamics, Spheres> auto&) {},              // below: they may be in the engine alone
+      [](const OneOf<Springs, Bending, Dashpots, Constraints> auto&) {},  // above
   };
   for (const Term& term : scene.model.terms) std::visit(certify_term, term);
   certify_wind(scene, r, w);

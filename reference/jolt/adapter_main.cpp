@@ -48,6 +48,9 @@ void require_supported(const Scene& scene, const Run& run, int iterations) {
   const Model& model = scene.model;
   if (model.first_order()) throw Unsupported("Jolt has no first-order systems");
   const Overloaded lacks{
+      [](const Bending&) {
+        throw Unsupported("not in Jolt: bending: Jolt bends by angles between triangles, not by a rigidity in N m");
+      },
       [](const Dashpots&) {
         throw Unsupported("not in Jolt: dashpots: Jolt damps velocities only, not along springs");
       },

@@ -14,6 +14,7 @@
 const jolt_version = '1.1.0';
 const known_terms = ['springs', 'constraints', 'gravity', 'drag', 'wind', 'sphere'];
 const lacking = {
+  bending: 'bending: Jolt bends by angles between triangles, not by a rigidity in N m',
   dashpots: 'dashpots: Jolt damps velocities only, not along springs',
   aerodynamics: 'aerodynamics: Jolt has no forces of the air on triangles',
   rotation: 'first-order fields',

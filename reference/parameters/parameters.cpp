@@ -45,7 +45,7 @@ std::vector<double> values_of(const Scene& scene, SceneNumber quantity) {
         if (quantity == SceneNumber::friction)
           for (const Sphere& s : spheres.list) values.push_back(s.friction);
       },
-      [](const OneOf<Rotation, Constraints, Wind, Aerodynamics> auto&) {},
+      [](const OneOf<Rotation, Bending, Constraints, Wind, Aerodynamics> auto&) {},
   };
   for (const Term& term : scene.model.terms) std::visit(take, term);
   return values;

@@ -327,6 +327,7 @@ struct Probe {
   double t = 0;                              // s
   std::vector<Vec> x, v;                     // m, m/s
   std::vector<Vec> springs, dashpots, wind;  // N: at x; at x and v; at x and t with the free particles at rest
+  std::vector<Vec> bending = {};             // N, at x
 };
 
 /// What the certificate sees: read it from your engine's own data, not from the scene. All of PROTOCOL.md's table.
@@ -420,6 +421,7 @@ class JsonWriter {
     JsonWriter w;
     w.add("t", p.t), w.add("x", p.x), w.add("v", p.v);
     w.add_unless_empty("springs", p.springs), w.add_unless_empty("dashpots", p.dashpots);
+    w.add_unless_empty("bending", p.bending);
     w.add_unless_empty("wind", p.wind);
     return w.object();
   }

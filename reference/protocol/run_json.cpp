@@ -60,6 +60,7 @@ Json readback_json(const Readback& r) {
     const std::pair<const char*, const Points*> parts[] = {{"x", &r.probe->x},
                                                            {"v", &r.probe->v},
                                                            {"springs", &r.probe->springs},
+                                                           {"bending", &r.probe->bending},
                                                            {"dashpots", &r.probe->dashpots},
                                                            {"wind", &r.probe->wind}};
     for (const auto& [key, points] : parts)
@@ -85,7 +86,7 @@ ForceProbe probe_of(const JsonField& f, int n) {
   probe.x = points_of(f["x"], n);
   probe.v = points_of(f["v"], n);
   const std::pair<const char*, Points*> parts[] = {
-      {"springs", &probe.springs}, {"dashpots", &probe.dashpots}, {"wind", &probe.wind}};
+      {"springs", &probe.springs}, {"bending", &probe.bending}, {"dashpots", &probe.dashpots}, {"wind", &probe.wind}};
   for (const auto& [key, points] : parts)
     if (const auto found = f.find(key)) *points = points_of(*found, n);
   return probe;

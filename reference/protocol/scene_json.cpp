@@ -57,6 +57,16 @@ void add(Json& json, const Springs& t) {
   for (const Spring& s : t.list)
     list.push({{"a", s.a}, {"b", s.b}, {"stiffness", s.k}, {"rest_length", s.rest}, {"family", name_of(s.family)}});
 }
+void add(Json& json, const Bending& t) {
+  json["rigidity"] = t.rigidity;
+  Json& list = json["list"] = Json::list();
+  for (const Bending::Stencil& s : t.list) {
+    const auto size = static_cast<size_t>(s.size);
+    list.push({{"particles", std::vector(s.particle.begin(), s.particle.begin() + s.size)},
+               {"weights", std::span(s.weight.data(), size)},
+               {"stiffness", s.k}});
+  }
+}
 void add(Json& json, const Dashpots& t) {
   Json& list = json["list"] = Json::list();
   for (const auto& [a, b, c] : t.list) list.push({{"a", a}, {"b", b}, {"coefficient", c}});
@@ -203,6 +213,22 @@ Term springs_of(const JsonField& f, const Scene& scene) {
   return springs;
 }
 
+Term bending_of(const JsonField& f, const Scene& scene) {
+  Bending bending{{}, f["rigidity"].number_from(0)};
+  for (const JsonField& s : f["list"].elements()) {
+    const std::vector<int> particles = s["particles"].indices(scene.model.particles.size());
+    const std::vector<double> weights = s["weights"].numbers();
+    if (particles.size() < 2 || particles.size() > Bending::most)
+      s["particles"].fail(fmt::format("two to {} particles", Bending::most));
+    if (weights.size() != particles.size()) s["weights"].fail("a weight for each of the particles");
+    Bending::Stencil stencil{static_cast<int>(particles.size()), {}, {}, s["stiffness"].number_from(0)};
+    std::copy(particles.begin(), particles.end(), stencil.particle.begin());
+    std::copy(weights.begin(), weights.end(), stencil.weight.begin());
+    bending.list.push_back(stencil);
+  }
+  return bending;
+}
+
 Term dashpots_of(const JsonField& f, const Scene& scene) {
   Dashpots dashpots;
   for (const JsonField& d : f["list"].elements())
@@ -248,6 +274,7 @@ constexpr TermReader term_readers[] = {
     {Rotation::name, [](const JsonField& f, const Scene&) -> Term { return Rotation{f["rate"].number()}; }},
     {Gravity::name, [](const JsonField& f, const Scene&) -> Term { return Gravity{vec3_of(f["acceleration"])}; }},
     {Springs::name, springs_of},
+    {Bending::name, bending_of},
     {Dashpots::name, dashpots_of},
     {Constraints::name, constraints_of},
     {Drag::name, drag_of},

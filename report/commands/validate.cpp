@@ -31,13 +31,14 @@ struct SceneSummary {
   std::vector<std::pair<std::string, double>> critical;  // of each explicit rule: s; 0 stable at no step
   ResourceEstimate demand{};
   NetModuli net;
+  std::optional<BendingLength> bending;
   int evaluations = 0;  // per step of the default method; 0: as its equations take
   bool adaptive = false;
   std::vector<std::string> warnings;
 };
 
 SceneSummary summary_of(Scene scene) {
-  SceneSummary summary{std::move(scene), {}, 0, {}, {}, {}, {}, 0, false, {}};
+  SceneSummary summary{std::move(scene), {}, 0, {}, {}, {}, {}, {}, 0, false, {}};
   const Model& model = summary.scene.model;
   if (const auto* springs = model.find<Springs>())
     for (const Spring& spring : springs->list) ++summary.springs[spring.family];
@@ -63,6 +64,10 @@ SceneSummary summary_of(Scene scene) {
                               summary.scene.step, name, limit)
                 : fmt::format("{} is stable at no step without drag: its energy grows", name));
   }
+  summary.bending = bending_length_of(model, summary.scene.start);
+  if (summary.bending)
+    if (std::string warning = coarse_grid_warning(*summary.bending); !warning.empty())
+      summary.warnings.push_back(std::move(warning));
   summary.net = moduli_of(model, summary.scene.start);
   if (summary.net.moduli)
     if (std::string warning = skip_one_warning(*summary.net.moduli); !warning.empty())
@@ -88,6 +93,12 @@ Json json_of(const NetModuli& net) {
   json["c22"] = m.c22, json["c12"] = m.c12, json["c66"] = m.c66;
   json["young"] = m.young(), json["poisson"] = m.poisson(), json["anisotropy"] = m.anisotropy();
   json["c11_of_skip_one_springs"] = m.c11_of_bend;
+  return json;
+}
+
+Json json_of(const BendingLength& bending) {
+  Json json = {{"rigidity", bending.rigidity}, {"spacing", bending.spacing}};
+  if (std::isfinite(bending.length)) json["length"] = bending.length, json["spacings"] = bending.spacings();
   return json;
 }
 
@@ -130,6 +141,7 @@ void print_summary(const SceneSummary& s, const std::string& given) {
     line("", fmt::format("from omega{}; {}longer springs than at the start change omega",
                          *s.gamma > 0 ? fmt::format(" and the drag rate of {:.3g} 1/s", *s.gamma) : "",
                          length_of_term<Dashpots>(model) > 0 ? "dashpots are left out, and make them shorter; " : ""));
+  if (s.bending) line("bending", sentence_of(*s.bending));
   if (s.net.moduli)
     line("moduli", fmt::format("{}", fmt::join(sentences_of(*s.net.moduli), fmt::format("\n{:19}", ""))));
   else if (!s.springs.empty())
@@ -173,6 +185,7 @@ Json json_of(const SceneSummary& s, const std::string& given) {
           {"disk_bytes", std::llround(s.demand.frames)},
           {"cpu_seconds", s.demand.seconds},
           {"moduli", json_of(s.net)},
+          {"bending", s.bending ? json_of(*s.bending) : Json()},
           {"warning", s.warnings.empty() ? Json() : Json(fmt::format("{}", fmt::join(s.warnings, "; ")))}};
 }
 

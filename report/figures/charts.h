@@ -88,6 +88,7 @@ std::vector<Chart> order_charts(const ChartInput& input);       // error against
 std::vector<Chart> energy_charts(const ChartInput& input);        // budget, drift, numerical damping
 std::vector<Chart> sphere_charts(const ChartInput& input);        // contact: friction, rebound, depth, drapes
 std::vector<Chart> stiffness_charts(const ChartInput& input);     // of position-based links
+std::vector<Chart> fabric_charts(const ChartInput& input);        // strips against the elastica
 std::vector<Chart> disagreement_charts(const ChartInput& input);  // where Bullet solves another problem
 std::vector<Chart> cheapest_charts(const ChartInput& input);      // the fastest method at an accuracy, over all scenes
 std::vector<Chart> speed_accuracy_charts(const ChartInput& input);  // work-precision diagrams

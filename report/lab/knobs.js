@@ -8,6 +8,7 @@ const knobTable = [
   {path: 'grid.stiffness.bend', word: 'bend', unit: 'N/m', from: 1 / 50, to: 50, zero: true},
   {path: 'spring.stiffness', word: 'stiffness', unit: 'N/m', from: 1 / 50, to: 50},
   {path: 'grid.mass', word: 'mass', unit: 'kg', from: 1 / 10, to: 10},
+  {path: 'grid.bending', word: 'bending', unit: 'N m', from: 1 / 50, to: 50, zero: true},
   {path: 'grid.dashpot', word: 'dashpot', unit: 'N s/m', from: 1 / 50, to: 50, zero: true},
   {path: 'drag.gamma', word: 'drag', unit: '1/s', from: 1 / 100, to: 10, zero: true},
   {path: 'drag.coefficient', word: 'drag', unit: 'N s/m', from: 1 / 100, to: 10, zero: true},

@@ -37,7 +37,7 @@ function numberAt(toml, path) {
 }
 
 /** What zero means at a path: the line goes, its whole section goes, or it is a number as any other. */
-const zeroOf = path => (/^(grid\.(stiffness\.(shear|bend)|dashpot)|spring\.dashpot)$/.test(path) ? 'line' :
+const zeroOf = path => (/^(grid\.(stiffness\.(shear|bend)|bending|dashpot)|spring\.dashpot)$/.test(path) ? 'line' :
                             /^drag\./.test(path)                                                 ? 'section' :
                                                                                                    'number');
 

@@ -73,6 +73,7 @@ const labWords = {
   structural: ['structural stiffness', '结构刚度'],
   shear: ['shear stiffness', '剪切刚度'],
   bend: ['bend stiffness', '弯曲刚度'],
+  bending: ['bending rigidity', '抗弯刚度'],
   mass: ['mass of the cloth', '布的质量'],
   dashpot: ['dashpot', '阻尼器'],
   drag: ['drag', '阻力'],

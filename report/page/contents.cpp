@@ -76,7 +76,7 @@ std::vector<Chapter> chapters() {
       {"adequacy",
        "How little model is enough",
        "Least model",
-       {},
+       {"fabric"},
        {"*-adequacy"},
        "",
        "<p>Each scene runs again without each of its ingredients, then without several, the cheapest to lose first, "

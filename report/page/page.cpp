@@ -93,6 +93,8 @@ std::string scene_html(const ScenePart& part, const PageContent& c) {
     if (const std::string warning = skip_one_warning(*net); !warning.empty())
       moduli += fmt::format(" Note: {}.", prose(warning));
   }
+  if (const auto bending = bending_length_of(scene.model, scene.start))
+    moduli += fmt::format(" Bending: {}.", prose(sentence_of(*bending)));
   const std::string predictable =
       facts.measured_window < scene.duration * (1 - 1e-9)
           ? fmt::format("it passes a thousandfold after {:.3g} s: single positions are not predictable from there on",

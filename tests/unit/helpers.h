@@ -97,10 +97,11 @@ inline std::string message_of(const std::string& text) {
 
 inline constexpr auto gravity_text = "[gravity]\nacceleration = [0, -9.81, 0]\n";
 
-/// A 5 x 5 cloth held along its upper edge, moved by hand, in gusts, with drag: every smooth ingredient at once.
-inline Scene small_cloth() {
-  return small_scene(std::string("[grid]\nsize = [5, 5]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\nv = [0, -0.9, 0.4]\n"
-                                 "mass = 0.25\n[grid.stiffness]\nstructural = 40\nshear = 30\nbend = 20\n"
+/// A 5 x 5 cloth held along its upper edge, moved by hand, in gusts, with drag: every smooth ingredient at once but
+/// those of the next. `of_grid`: more keys of its grid, each with its line.
+inline Scene small_cloth(const std::string& of_grid = "") {
+  return small_scene("[grid]\nsize = [5, 5]\norigin = [-0.5, 0, 0]\nu = [1, 0, 0]\nv = [0, -0.9, 0.4]\n" + of_grid +
+                     std::string("mass = 0.25\n[grid.stiffness]\nstructural = 40\nshear = 30\nbend = 20\n"
                                  "[pins]\nparticles = [0, 1, 2, 3, 4]\n[pins.motion]\namplitude = [0, 0, 0.1]\n"
                                  "frequency = 1\nramp = 0.25\n[drag]\ngamma = 2\n"
                                  "[wind]\nacceleration = [0, 0, 3]\n[wind.gusts]\nvariation = 1\nside = [1, 0, 0]\n"
@@ -108,9 +109,9 @@ inline Scene small_cloth() {
                      gravity_text);
 }
 
-/// The same without wind, with springs that damp, in air that streams past.
+/// The same with bending and without wind, with springs that damp, in air that streams past.
 inline Scene small_cloth_in_air() {
-  Scene scene = small_cloth();
+  Scene scene = small_cloth("bending = 0.1\n");
   std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Wind>(t); });
   Dashpots dashpots;
   for (const Spring& s : scene.model.find<Springs>()->list) dashpots.list.push_back({s.a, s.b, 0.01});

@@ -273,7 +273,7 @@ CgResult MultigridSolver::solve(const Eigen::ArrayXd& inertia, const Points& x, 
 
 std::unique_ptr<MultigridSolver> make_multigrid_solver(const Model& model) {
   const auto* springs = model.find<Springs>();
-  if (!springs || model.find<Dashpots>()) return nullptr;
+  if (!springs || model.find<Dashpots>() || model.find<Bending>()) return nullptr;
   const auto topology = simd::find_grid_topology(*springs, model.particles.size());
   if (!topology || topology->rows < fewest_rows || topology->columns < fewest_columns) return nullptr;
   return std::make_unique<MultigridSolver>(*topology, model.particles.pins);

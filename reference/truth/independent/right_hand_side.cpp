@@ -73,6 +73,13 @@ void RightHandSide::add_term(const Term& term) {
       f.link_law_ = t.law == SpringLaw::bullet_link;
       for (const Spring& s : t.list) f.pairs_.push_back({s.a, s.b, s.k, s.rest, 0});
     }
+    void operator()(const Bending& t) const {
+      // multiplied out: k/2 |sum w_i x_i|^2 is the energy of springs without rest length between each two particles
+      for (const auto& s : t.list)
+        for (int i = 0; i < s.size; ++i)
+          for (int j = i + 1; j < s.size; ++j)
+            f.bars_.push_back({s.particle[i], s.particle[j], -s.weight[i] * s.weight[j] * s.k});
+    }
     void operator()(const Dashpots& t) const {
       for (const auto& d : t.list) f.pairs_.push_back({d.a, d.b, 0, 0, d.c});
     }
@@ -131,6 +138,12 @@ void RightHandSide::operator()(const StateVector& y, StateVector& rate, double t
   }
   std::fill(f_.begin(), f_.end(), 0);
   for (const SpringDashpot& pair : pairs_) add_pair_force(pair);
+  for (const auto& [a, b, k] : bars_)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double pull = k * (x_[3 * b + axis] - x_[3 * a + axis]);
+      f_[3 * a + axis] += pull;
+      f_[3 * b + axis] -= pull;
+    }
   add_aerodynamic_forces(t);
   double all[3] = {gravity_[0], gravity_[1], gravity_[2]};  // m/s^2, the same for every particle
   for (const Signal& wind : winds_) {

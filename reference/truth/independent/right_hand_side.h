@@ -33,6 +33,10 @@ class RightHandSide {
     int a, b;
     double k, rest, damping;  // N/m, m, N s/m; a spring without dashpot has damping 0, and the other way round
   };
+  struct Bar {  // a spring without rest length, of either sign
+    int a, b;
+    double k;  // N/m
+  };
   struct Signal {  // w(t) = mean (1 + variation g1(t)) + side g2(t), each g a sum of sines
     struct Sine {
       double weight, omega, phase;
@@ -64,6 +68,7 @@ class RightHandSide {
   double rotation_rate_ = 0;       // rad/s, of the first-order field
   double gravity_[3] = {0, 0, 0};  // m/s^2
   std::vector<SpringDashpot> pairs_;
+  std::vector<Bar> bars_;  // what bending is
   std::vector<HardDistance> hard_distances_;
   std::vector<Signal> winds_, air_velocities_;  // m/s^2; m/s
   std::vector<int> triangles_;                  // 3 per triangle

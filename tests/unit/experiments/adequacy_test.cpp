@@ -155,7 +155,7 @@ TEST(Rest, OfASpringIsWhereItsForceIsTheWeight) {
 
 TEST(Bending, SkipOneSpringsStiffenAsTheFourthPowerOfTheCells) {
   std::vector<std::pair<double, double>> points;
-  for (const Bending& b : bending_stiffness({8, 10, 13})) points.emplace_back(b.cells, b.stiffness);
+  for (const BendSprings& b : bending_stiffness({8, 10, 13})) points.emplace_back(b.cells, b.stiffness);
   const auto law = power_law(points);
   ASSERT_TRUE(law);
   // the first cell is clamped: (n - 2) cells bend, which moves the exponent of so few by some tenths

@@ -51,8 +51,8 @@ TEST(Forces, AreMinusTheGradientOfEveryEnergyThereIs) {
           };
           for (int i = 0; i < f.cols(); ++i)
             for (int axis = 0; axis < 3; ++axis) {
-              // energies leave pins out of what is theirs alone; a spring's is shared
-              if (net.model.particles.pinned[i] && !std::is_same_v<T, Springs>) continue;
+              // energies leave pins out of what is theirs alone; those of springs and bending are shared
+              if (net.model.particles.pinned[i] && !HasTangent<T>) continue;
               const double slope_there = (energy(axis, i, step) - energy(axis, i, -step)) / (2 * step);
               // eps^(2/3) times the size of E''' (up to 5 springs of 3 k r / L^2 = 7000 N/m^2 each, a sixth counts; the
               // link law is no steeper) and of E
@@ -62,7 +62,7 @@ TEST(Forces, AreMinusTheGradientOfEveryEnergyThereIs) {
         }
       });
     }
-  EXPECT_EQ(energies, 2 * 2 * 20);  // springs and gravity
+  EXPECT_EQ(energies, 3 * 2 * 20);  // springs, bending and gravity
 }
 
 /// The product of the tangent of one term with d.
@@ -159,7 +159,8 @@ TEST(Forces, InsideABodyKeepMomentumAndAngularMomentum) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
       SCOPED_TRACE(fmt::format("{} seed {}", name_of(law), seed));
       const Network net = busy_network(seed, law);
-      for (const Points& f : {force_of(*net.model.find<Springs>(), net), force_of(*net.model.find<Dashpots>(), net)}) {
+      for (const Points& f : {force_of(*net.model.find<Springs>(), net), force_of(*net.model.find<Bending>(), net),
+                              force_of(*net.model.find<Dashpots>(), net)}) {
         const auto [sum, torque] = resultant(f, net.state.x);
         // thirty additions of forces up to 900 N (the link law has k L at most) at points up to 2 m from the origin
         EXPECT_LT(sum.norm(), 30 * eps * 900);

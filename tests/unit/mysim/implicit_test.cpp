@@ -241,6 +241,14 @@ TEST(ImplicitEuler, LinearOptionIsOneStepOfTheClampedFormula) {
       force.segment<3>(3 * s.a) -= s.k * (length - s.rest) / length * d;
       force.segment<3>(3 * s.b) += s.k * (length - s.rest) / length * d;
     }
+    for (const auto& stencil : net.model.find<Bending>()->list)
+      for (int i = 0; i < stencil.size; ++i)
+        for (int j = 0; j < stencil.size; ++j) {
+          const int one = 3 * stencil.particle[i], other = 3 * stencil.particle[j];
+          const double k = stencil.k * stencil.weight[i] * stencil.weight[j];
+          a.block<3, 3>(one, other).diagonal().array() += h * h * k;
+          force.segment<3>(one) -= k * q.x.col(stencil.particle[j]);
+        }
     for (int pin : particles.pins)
       for (int row = 3 * pin; row < 3 * pin + 3; ++row) {
         a.row(row).setZero(), a.col(row).setZero();

@@ -52,6 +52,17 @@ inline Dashpots random_dashpots(unsigned seed, const Network& net) {
   return dashpots;
 }
 
+/// Two rows, a cell, and a stencil of five.
+inline Bending random_bending(unsigned seed) {
+  Random random(seed + 4000);
+  const auto k = [&] { return random.between(1, 5); };
+  return {{{3, {0, 1, 2}, {1, -2, 1}, k()},
+           {3, {4, 2, 0}, {0.5, 1, -1.5}, k()},
+           {4, {1, 2, 4, 5}, {1, -1, -1, 1}, k()},
+           {5, {0, 1, 2, 3, 5}, {1, 1, -4, 1, 1}, k()}},
+          0};
+}
+
 inline Aerodynamics random_air(unsigned seed) {
   return {1.2, 1.5, gusty(static_cast<int>(seed)), {{0, 1, 2}, {2, 3, 4}, {1, 4, 5}, {5, 3, 0}}};
 }
@@ -68,13 +79,14 @@ inline void pin(Network& net, std::vector<int> pins, std::optional<Motion> motio
   p.place_pins(net.state);
 }
 
-/// The network with drag, dashpots, gusts, and the first and fourth particle moved by hand.
+/// The network with bending, drag, dashpots, gusts, and the first and fourth particle moved by hand.
 inline Network busy_network(unsigned seed, SpringLaw law = SpringLaw::hooke) {
   Network net = random_network(seed, law);
   Random random(seed + 2000);
   Eigen::VectorXd c(net.model.particles.size());
   for (double& each : c) each = random.between(0.1, 3);
   const Dashpots dashpots = random_dashpots(seed, net);
+  net.model.terms.emplace_back(random_bending(seed));
   net.model.terms.emplace_back(dashpots);
   net.model.terms.emplace_back(Drag{c});
   net.model.terms.emplace_back(Wind{gusty(static_cast<int>(seed))});

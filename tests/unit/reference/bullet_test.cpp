@@ -50,6 +50,10 @@ TEST(BulletExplicit, IsSymplecticEulerOnASmallClothWithEveryIngredient) {
   EXPECT_LE(apart(small_cloth(), {1e-3, 1, 20}, own_force), identity);
 }
 
+TEST(BulletExplicit, IsSymplecticEulerOnAClothThatBends) {
+  EXPECT_LE(apart(small_cloth("bending = 0.1\n"), {1e-3, 1, 20}, own_force), identity);
+}
+
 TEST(BulletExplicit, CarriesTwoStiffnessesByItself) {
   Scene scene = small_cloth();
   for (Spring& s : scene.model.find<Springs>()->list)
@@ -239,9 +243,10 @@ std::vector<Case> cases() {
           {"cloth on moved pins", cloth("", "", moved)},
           {"cloth in gusts", cloth(wind)},
           {"cloth in air", cloth(air)},
+          {"cloth that bends", cloth("", "bending = 0.02\n")},
           {"spring with a dashpot", dashed},
           {"cloth with dashpots", cloth("", dashpots)},
-          {"cloth with everything", cloth(drag + air, dashpots, moved)}};
+          {"cloth with everything", cloth(drag + air, dashpots + "bending = 0.02\n", moved)}};
 }
 
 TEST(BulletImplicit, TightIsOneNewtonStepOfBackwardEuler) {

@@ -5,6 +5,7 @@
 #include "mysim/forces.h"
 #include "mysim/particles.h"
 #include "mysim/terms/aerodynamics.h"
+#include "mysim/terms/bending.h"
 #include "mysim/terms/constraints.h"
 #include "mysim/terms/dashpots.h"
 #include "mysim/terms/drag.h"

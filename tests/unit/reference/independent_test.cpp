@@ -72,6 +72,9 @@ double round_off(const Scene& scene, const State& s) {
   auto both = [&](int a, int b, double newton) { sum[a] += newton, sum[b] += newton; };
   if (const auto* springs = scene.model.find<Springs>())
     for (const Spring& e : springs->list) both(e.a, e.b, e.k * ((s.x.col(e.a) - s.x.col(e.b)).norm() + e.rest));
+  if (const auto* bending = scene.model.find<Bending>())
+    for_each_pair(*bending,
+                  [&](int a, int b, double k) { both(a, b, std::abs(k) * (s.x.col(a).norm() + s.x.col(b).norm())); });
   if (const auto* dashpots = scene.model.find<Dashpots>())
     for (const auto& d : dashpots->list) both(d.a, d.b, d.c * (s.v.col(d.a).norm() + s.v.col(d.b).norm()));
   if (const auto* air = scene.model.find<Aerodynamics>())
@@ -136,6 +139,8 @@ TEST(RightHandSide, ASlipInAnyIngredientShows) {
        [](Scene& s) { s.model.find<Wind>()->acceleration.gusts->along.waves[2].omega += 1e-8; }},
       {"the side wind", small_cloth(), [](Scene& s) { s.model.find<Wind>()->acceleration.gusts->side.x() += 1e-8; }},
       {"the hand", small_cloth(), [](Scene& s) { s.model.particles.move->frequency *= 1 + 1e-8; }},
+      {"one stencil", small_cloth_in_air(), [](Scene& s) { s.model.find<Bending>()->list[7].k *= 1 + 1e-8; }},
+      {"one weight", small_cloth_in_air(), [](Scene& s) { s.model.find<Bending>()->list[7].weight[1] *= 1 + 1e-8; }},
       {"one dashpot", small_cloth_in_air(), [](Scene& s) { s.model.find<Dashpots>()->list[7].c *= 1 + 1e-8; }},
       {"the air", small_cloth_in_air(), [](Scene& s) { s.model.find<Aerodynamics>()->density *= 1 + 1e-8; }},
       {"one corner", small_cloth_in_air(), [](Scene& s) { s.model.find<Aerodynamics>()->triangles[3][0] = 24; }},

@@ -18,10 +18,10 @@ inline Scene draped() {
                          gravity_text,
                      1, 1e-3, 10);
 }
-/// A 4 x 4 cloth in air, free.
+/// A 4 x 4 cloth in air, free, with bending.
 inline Scene in_air() {
   return small_scene(std::string("[grid]\nsize = [4, 4]\norigin = [0, 0, 0]\nu = [0.5, 0, 0]\nv = [0, 0.5, 0]\n"
-                                 "mass = 0.1\n[grid.stiffness]\nstructural = 20\nshear = 20\nbend = 5\n"
+                                 "mass = 0.1\nbending = 0.01\n[grid.stiffness]\nstructural = 20\nshear = 20\nbend = 5\n"
                                  "[aerodynamics]\nvelocity = [1, 0, 3]\ndensity = 1.2\ncoefficient = 1\n") +
                          gravity_text,
                      1, 1e-3, 10);
@@ -141,6 +141,13 @@ inline const Mutation of_the_cloth_in_air[] = {
     {"another coefficient", [](Scene& s) { s.model.find<Aerodynamics>()->coefficient = 1.1; }, {"wind"}},
     {"air faster", [](Scene& s) { s.model.find<Aerodynamics>()->velocity.mean.z() *= 1.001; }, {"wind"}},
     {"a triangle less", [](Scene& s) { s.model.find<Aerodynamics>()->triangles.pop_back(); }, {"wind"}},
+    {"one stencil", [](Scene& s) { s.model.find<Bending>()->list[5].k *= 1.001; }, {"bending"}},
+    {"a stencil less", [](Scene& s) { s.model.find<Bending>()->list.pop_back(); }, {"bending"}},
+    {"bending without effect",
+     [](Scene& s) {
+       for (auto& stencil : s.model.find<Bending>()->list) stencil.k = 0;
+     },
+     {"bending"}},
     {"still air", drop<Aerodynamics>, {"wind"}},
     {"drag that nobody asked for", [](Scene& s) { s = with_drag(s, 0.5); }, {"drag"}},
 };

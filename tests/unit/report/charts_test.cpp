@@ -9,6 +9,7 @@
 #include "experiments/scenes/scenes.h"
 #include "experiments/speed_accuracy/work_precision.h"
 #include "experiments/sweep/sweep.h"
+#include "experiments/tables/fabric.h"
 #include "mysim/base/json.h"
 #include "report/base/assets.h"
 #include "report/figures/chart_json.h"
@@ -192,6 +193,26 @@ TEST(CheapestChart, NamesWhoIsThereAndWhichTimesAreScaled) {
   EXPECT_FALSE(contains(caption_of(whole), "odeint"));
   part[1].part = 0.1;
   EXPECT_TRUE(contains(caption_of(part), "in 1 of 1 quotients a time is scaled from the first part of its run; "));
+}
+
+TEST(FabricCharts, SayTheDeviationOnTheFinestGridAndItsOrder) {
+  Table drops = table_of<CantileverRow>(), frequencies = table_of<StripVibrationRow>(), nets = table_of<SkipOneRow>();
+  for (const long cells : {8, 16, 32}) {
+    const double part = 64. / static_cast<double>(cells * cells);
+    add(drops, CantileverRow{"its own weight", cells, 5, 0, 0.5 - 0.005 * part, 0.5, -0.01 * part});
+    add(frequencies, StripVibrationRow{cells, 1, 2, 2, 0.02 * part});
+    add(nets, SkipOneRow{"bending term", cells, 0, 0.5, 0.5});
+    add(nets, SkipOneRow{"skip-one springs", cells, 100, 0.01 * static_cast<double>(cells), 0.5});
+  }
+  TableSet rows;
+  for (const Table& table : {drops, frequencies, nets}) rows.add(table);
+  const auto charts = fabric_charts({{}, {}, rows, "commit"});
+  ASSERT_EQ(charts.size(), 2u);
+  for (const Chart& chart : charts) EXPECT_NO_THROW(drawing_of(std::get<Figure>(chart.figure)));
+  EXPECT_TRUE(contains(figure_info(charts[0])->finding, "right to 0.125 %")) << figure_info(charts[0])->finding;
+  EXPECT_TRUE(contains(figure_info(charts[0])->finding, "power 2.00 to 2.00"));
+  EXPECT_TRUE(contains(figure_info(charts[1])->finding, "hangs 8 % to 32 % of its length"));
+  EXPECT_TRUE(fabric_charts({{}, {}, {}, "commit"}).empty());
 }
 
 TEST(OwnCharts, AreOfScenesThatTheExperimentLooksAt) {

@@ -47,6 +47,25 @@ TEST_F(CliValidate, SaysWhatASceneIs) {
   EXPECT_EQ(scene["steps"].whole(), 100);
 }
 
+TEST_F(CliValidate, SaysHowAClothBends) {
+  // a sheet of 0.2 kg/m^2 and B = 5e-5 N m: (5e-5 / (0.2 x 9.81))^(1/3) = 0.0294 m; springs ask for longer steps than
+  // bending does, whose omega is 8 / d^2 sqrt(B / rho) = 1265 rad/s on 1 cm
+  const std::string text =
+      "question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 10\nstep = 2e-3\nwindow = 1\n"
+      "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = [21, 21]\norigin = [0, 0, 0]\nu = [0.2, 0, 0]\n"
+      "v = [0, 0, 0.2]\nmass = 0.008\nbending = 5e-5\n[grid.stiffness]\nstructural = 1\n[pins]\nparticles = [0]\n"
+      "[gravity]\nacceleration = [0, -9.81, 0]\n";
+  write("bends.toml", text);
+  const ProgramResult result = call({"validate", "bends.toml"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  for (const char* part :
+       {"B = 5e-05 N m, Poisson's ratio 0", "0.0294 m, 2.94 spacings of the grid", "is above leapfrog's critical step"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << " in " << result.out;
+  const ProgramResult json = call({"validate", "bends.toml", "--json"});
+  const auto told = JsonField::parse(json.out, "validate");
+  EXPECT_NEAR(told["scenes"][0]["bending"]["spacings"].number(), 2.943, 1e-3);
+}
+
 TEST_F(CliValidate, LooksAtAllScenesAndTellsEveryFault) {
   write("good.toml", own_scene);
   std::string text = own_scene;
