@@ -30,8 +30,9 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
   std::string same_as(stepper.name);  // that it freezes to spheres is another law, and is said of each run
   const std::string name = fmt::format("mysim/{}", stepper.name);
   for (const std::string& option : options) {
-    if (const auto rule_of_contact = contact_rule_of_option(option))
-      contact = *rule_of_contact;
+    // a rule of order 1 moves along another path than its velocities, by h^2 a / 2, as much as contact holds it by
+    if (const auto asked = contact_rule_of_option(option); asked && (asked != ContactRule::events || stepper.order > 1))
+      contact = *asked;
     else if (option == "linear" && stepper.linear)
       rule.step = stepper.linear, same_as += "+linear";
     else if (option == "plain" && stepper.composition)
@@ -44,9 +45,11 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
       execution.threads = *threads;
     else
       refuse_option(name, option,
-                    stepper.linear        ? "+linear, +events, +sticky or none"
-                    : stepper.composition ? "+events, +sticky, +fast, +single, +plain, +threads=N or none"
-                                          : "+events, +sticky or none");
+                    fmt::format("{}+sticky{} or none",
+                                stepper.linear      ? "+linear, "
+                                : stepper.order > 1 ? "+events, "
+                                                    : "",
+                                stepper.composition ? ", +fast, +single, +plain, +threads=N" : ""));
   }
   if (contact == ContactRule::events) {
     same_as += "+events";  // where spheres touch, not the same to round-off

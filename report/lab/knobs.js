@@ -156,7 +156,7 @@ class MethodKnobs {
   /** The method as the controls say it, with a step or tolerance that was moved. */
   take(moved, done) {
     const stepper = this.steppers.find(s => s.name === this.select.value);
-    const events = this.spec.method.includes('+events') ? '+events' : '';
+    const events = this.spec.method === `${stepper.name}+events` ? '+events' : '';
     const options = (this.linear.checked && stepper.linear ? '+linear' : '') + (this.sticky.checked && this.balls ? '+sticky' : events);
     const {step, tolerance} = {...this.spec, ...moved};
     const spec = {method: stepper.name + options, step: step || this.own};
