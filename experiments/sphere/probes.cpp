@@ -201,6 +201,29 @@ std::optional<ConeResult> cone(const Method& method, double degrees, double fric
   return result;
 }
 
+std::vector<Scene> contact_order_probes() {
+  const auto particle = [](double angle, double speed) {
+    return fmt::format("[[particle]]\nposition = [{:.17g}, {:.17g}, 0]\nmass = 0.1\nvelocity = [{:.17g}, {:.17g}, 0]\n",
+                       std::sin(angle), std::cos(angle), speed * std::cos(angle), -speed * std::sin(angle));
+  };
+  const auto sphere = [](double x, const std::string& surface) {
+    return fmt::format("[[sphere]]\ncentre = [{}, 0, 0]\nradius = 1\n{}\n", x, surface);
+  };
+  std::string chain;
+  for (int i = 0; i < 9; ++i) chain += particle(-0.3 + 0.9 * i / 8, 0);
+  for (int i = 0; i < 8; ++i) chain += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = 200\n", i, i + 1);
+  std::vector<Scene> scenes = {
+      probe("leaves", 1, particle(0.2, 0.6) + sphere(0, "") + downwards),
+      probe("leaves with friction", 1, particle(0, 1) + sphere(0, "friction = 0.2") + downwards),
+      probe("stops", 0.6, particle(0, 1) + sphere(0, "friction = 0.5") + downwards),
+      probe("bounces", 1,
+            "[[particle]]\nposition = [0, 1.3, 0]\nmass = 0.1\n" + sphere(0, "restitution = 0.7") + downwards),
+      probe("valley", 1, particle(0.2, 0) + sphere(0, "") + sphere(0.8, "") + downwards),
+      probe("chain", 0.5, chain + sphere(0, "friction = 0.3") + downwards)};
+  for (Scene& scene : scenes) scene.samples = 20;
+  return scenes;
+}
+
 namespace {
 
 Scene falling_cloth(const std::string& name, double aside, double friction, double gamma, double duration) {

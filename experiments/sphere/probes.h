@@ -67,6 +67,11 @@ struct ConeResult {
 };
 std::optional<ConeResult> cone(const Method& method, double degrees, double friction, double step, Outcome& out);
 
+// ---- order ----
+/// Scenes with contact whose truth is known, for the order of contact: a slide that leaves, without friction and with;
+/// a stop; a bouncing ball; the valley between two balls; a chain of nine on a ball.
+std::vector<Scene> contact_order_probes();
+
 // ---- drape ----
 /// Cloths of 1 m, 13 x 13 particles, dropped on a ball of 0.5 m. Centred, with friction 0.5: it hangs over the ball and
 /// must stay as symmetric as it starts.

@@ -84,6 +84,46 @@ void cones(const Request& request, const Method& method, TableSet& tables) {
   tables.add(table);
 }
 
+/// The order of contact of a rule, and of the same with events located within the step.
+void orders_of_contact(const Request& request, const Method& method, TableSet& tables) {
+  Table table = table_of<ContactOrderRow>();
+  std::vector<Method> methods = {method};
+  if (method.stepper->order > 1 && method.name.find('+') == std::string::npos)
+    methods.push_back(find_method(method.name + "+events"));
+  for (const Scene& scene : contact_order_probes()) {
+    const auto truth = truth_of(scene, default_run(scene));
+    if (!truth || truth->under_contact_rule) {
+      tables.notes.push_back(fmt::format("sphere knows no truth of '{}'", scene.name));
+      continue;
+    }
+    for (const Method& each : methods) {
+      std::optional<double> before;
+      for (int i = 0; i < (request.full ? 6 : 4); ++i) {
+        Run run = default_run(scene);
+        run.step = run.duration / run.samples / (4 << i);
+        Recorder recorder;
+        const Outcome out = run_method(each, scene, run, {&recorder});
+        ContactOrderRow row{.probe = scene.name,
+                            .method = each.name,
+                            .verdict = out.verdict,
+                            .step = out.step,
+                            .truth = truth->how,
+                            .truth_tier = truth->tier,
+                            .truth_bar = truth->error_bar};
+        if (out.verdict == Verdict::ok) {
+          row.error = largest_rms_distance(recorder.trajectory, truth->trajectory);
+          // below thirty bars an error is not known to a power of the step
+          const bool known = *row.error > 30 * truth->error_bar;
+          if (before && known) row.order = std::log2(*before / *row.error);
+          before = known ? row.error : std::nullopt;
+        }
+        add(table, row);
+      }
+    }
+  }
+  tables.add(table);
+}
+
 /// One run of a scene with balls: how deep, how long, where it ends.
 void drape(const Scene& scene, const Method& method, double step, TableSet& tables) {
   Table summary = table_of<DrapeRow>();
@@ -196,6 +236,8 @@ std::vector<Point> sphere_points(const Request& request) {
     add("rebound", method, drop_on_ball(0), rebounds);
     add("leaving", method, frictionless_slide(), leavings);
     add("Coulomb cone", method, on_slope(0, 0), cones);
+    if (method.stepper && !method.adaptive && !method.sticky_contact)
+      add("order of contact", method, contact_order_probes().back(), orders_of_contact);
   }
   return points;
 }

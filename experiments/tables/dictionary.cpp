@@ -21,15 +21,15 @@
 namespace crosscheck {
 namespace {
 
-using AllRows = std::tuple<                                                               //
-    EngineRow, EngineCostRow, EngineTimeRow, EngineEnergyRow, StatisticRow, AttestedRow,  //
-    SceneEnergyRow, SceneLedgerRow, EnergyRow, DampingRow,                                //
-    ReboundRow, LeavingRow, ConeRow, DrapeRow, PenetrationRow, DrapeTimeRow,              //
-    AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,                          //
-    OrderRow, OrderSlopeRow,                                                              //
-    LinkStiffnessRow, NetworkStiffnessRow, EffectiveStiffnessRow, PulledSheetRow,         //
-    CantileverRow, StripVibrationRow, SkipOneRow,                                         //
-    DisagreementRow, DisagreementCurveRow, ContactAngleRow,                               //
+using AllRows = std::tuple<                                                                    //
+    EngineRow, EngineCostRow, EngineTimeRow, EngineEnergyRow, StatisticRow, AttestedRow,       //
+    SceneEnergyRow, SceneLedgerRow, EnergyRow, DampingRow,                                     //
+    ReboundRow, LeavingRow, ContactOrderRow, ConeRow, DrapeRow, PenetrationRow, DrapeTimeRow,  //
+    AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,                               //
+    OrderRow, OrderSlopeRow,                                                                   //
+    LinkStiffnessRow, NetworkStiffnessRow, EffectiveStiffnessRow, PulledSheetRow,              //
+    CantileverRow, StripVibrationRow, SkipOneRow,                                              //
+    DisagreementRow, DisagreementCurveRow, ContactAngleRow,                                    //
     SpeedAccuracyRow, SpeedAccuracyTimingRow, SpeedAccuracyCostRow, ParetoRow<Cost::evaluations>,
     ParetoRow<Cost::cpu>,                                                                           //
     CheapestRow<Cost::evaluations>, CheapestRow<Cost::cpu>, EngineSpeedRow,                         //

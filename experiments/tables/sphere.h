@@ -60,6 +60,30 @@ struct LeavingRow {
   };
 };
 
+/// A scene with contact at one step, against its truth.
+struct ContactOrderRow {
+  std::string probe, method;
+  Verdict verdict = Verdict::ok;
+  double step = 0;
+  std::optional<double> error = {}, order = {};
+  std::string truth;
+  Tier truth_tier = Tier::exact;
+  double truth_bar = 0;
+
+  static constexpr std::string_view table = "sphere-order";
+  static constexpr auto columns = [](auto&& column) {
+    column("probe", "1", &ContactOrderRow::probe, "scene"),
+        column("method", "1", &ContactOrderRow::method, "method that was run"),
+        column("verdict", "1", &ContactOrderRow::verdict, "how the run ended"),
+        column("step", "s", &ContactOrderRow::step, "time step taken"),
+        column("error", "m", &ContactOrderRow::error, "largest RMS distance from the truth"),
+        column("order", "1", &ContactOrderRow::order, "slope of the error from twice the step to this one"),
+        column("truth", "1", &ContactOrderRow::truth, "how the truth was found"),
+        column("truth tier", "1", &ContactOrderRow::truth_tier, "how sure the truth is"),
+        column("truth bar", "m", &ContactOrderRow::truth_bar, "error bar of the truth");
+  };
+};
+
 /// A particle at rest on a slope.
 struct ConeRow {
   std::string method;

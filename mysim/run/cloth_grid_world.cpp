@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "mysim/run/contact_events.h"
 #include "mysim/simd/cloth_grid/cloth_grid.h"
 #include "mysim/simd/instruction_sets.h"
 
@@ -32,12 +33,13 @@ template <class T>
 class ClothGridWorld : public World {
  public:
   ClothGridWorld(const KickDriftComposition& composition, const GridTopology& topology, const Scene& scene, double h,
-                 Kernel<T> kernel, int threads, bool record_contact_loss)
+                 Kernel<T> kernel, int threads, ContactRule contact, bool record_contact_loss)
       : scene_(scene),
         kernel_(kernel),
         slabs_(topology, threads),
         slab_results_(slabs_.all().size()),
         spheres_(scene.model.find<Spheres>()),
+        locates_events_(contact == ContactRule::events),
         record_contact_loss_(record_contact_loss),
         s_(scene.start) {
     double begin = 0;
@@ -49,7 +51,7 @@ class ClothGridWorld : public World {
     }
     set_factors(composition, h);
     // pins stay where they are, and losses are summed one by one: such contacts are left to the callback
-    if (std::is_same_v<T, double> && spheres_ && !spheres_->moving() && !record_contact_loss_ &&
+    if (std::is_same_v<T, double> && spheres_ && !spheres_->moving() && !locates_events_ && !record_contact_loss_ &&
         scene.model.particles.pins.empty())
       for (const Sphere& s : spheres_->list)
         resting_spheres_.push_back(
@@ -116,6 +118,7 @@ class ClothGridWorld : public World {
     const Eigen::ArrayXd mass = particles.mass.array();
     Eigen::ArrayXd gamma = Eigen::ArrayXd::Zero(particles.size());
     if (const auto* drag = scene_.model.find<Drag>()) gamma = drag->c.array() / mass;
+    drag_rate_ = gamma;
     const bool alike = (mass == mass[0]).all() && (gamma == gamma[0]).all();
     stride_ = alike ? 0 : lanes<T>;
     for (Slab& slab : slabs_.all()) {
@@ -178,6 +181,7 @@ class ClothGridWorld : public World {
     for (SlabResult& result : slab_results_) result.lost.clear();
     bounding_spheres_.clear();
     if (!spheres_) return;
+    if (locates_events_) tracks_ = sphere_tracks(*spheres_, t_, t_next_);
     for (const Sphere& sphere : spheres_->list) {
       const Vec3 centre = sphere.centre_at(t_next_);
       // a little more than the radius: contact_particle() decides what touches
@@ -201,8 +205,10 @@ class ClothGridWorld : public World {
     Vec3 place = at(x), speed = at(v);
     // where it was and how fast when the step began
     const Vec3 v_n = slab.body.velocity(here), x_n = slab.body.position(here) - kicks_.back().drift_after * v_n;
-    const auto lost =
-        resolve_spheres(*spheres_, resolve_contact, t_, t_next_, x_n, v_n, place, speed, record_contact_loss_);
+    // a particle that ends its step outside was pressed on by no more than O(h) on the whole: it is taken as free
+    const auto lost = locates_events_ ? resolve_events(tracks_, t_next_ - t_, drag_rate_[i], x_n, v_n, place, speed)
+                                      : resolve_spheres(*spheres_, resolve_contact, t_, t_next_, x_n, v_n, place, speed,
+                                                        record_contact_loss_);
     if (!lost) return;
     if (record_contact_loss_) result.lost.push_back(scene_.model.particles.mass[i] * *lost);
     for (int c = 0; c < 3; ++c) x[c * lanes<T>] = static_cast<T>(place[c]), v[c * lanes<T>] = static_cast<T>(speed[c]);
@@ -213,7 +219,9 @@ class ClothGridWorld : public World {
   Slabs<T> slabs_;
   std::vector<SlabResult> slab_results_;
   const Spheres* spheres_;
-  bool record_contact_loss_;
+  bool locates_events_, record_contact_loss_;
+  std::vector<SphereTrack> tracks_;  // of the step under way, where events are located
+  Eigen::ArrayXd drag_rate_;         // n, 1/s
   std::vector<Kick> kicks_;
   std::vector<BoundingSphere> bounding_spheres_;
   std::vector<RestingSphere> resting_spheres_;  // where contacts are resolved in lanes
@@ -228,11 +236,12 @@ constexpr int particles_per_thread = 4096;
 
 template <class T>
 std::unique_ptr<World> make_world(const GridTopology& topology, const KickDriftComposition& composition,
-                                  const Scene& scene, double h, bool fast, int threads, const Observer& observer) {
+                                  const Scene& scene, double h, bool fast, int threads, ContactRule contact,
+                                  const Observer& observer) {
   if (!fits(topology)) return nullptr;
   const int useful_threads = std::clamp(scene.model.particles.size() / particles_per_thread, 1, threads);
   return std::make_unique<ClothGridWorld<T>>(composition, topology, scene, h, kernel<T>(active_instruction_set(), fast),
-                                             useful_threads, observer.every_step());
+                                             useful_threads, contact, observer.every_step());
 }
 
 }  // namespace
@@ -244,15 +253,15 @@ std::unique_ptr<World> make_cloth_grid_world(const Stepper& stepper, ContactRule
   if (execution.path == ExecutionPath::general || !stepper.composition || !springs || !has_only_supported_terms(model))
     return nullptr;
   const KickDriftComposition composition = stepper.composition();
-  if (model.find<Spheres>() && (contact != ContactRule::coulomb || composition.fractions.size() > 1)) return nullptr;
+  if (model.find<Spheres>() && (contact == ContactRule::sticky || composition.fractions.size() > 1)) return nullptr;
   const auto topology = find_grid_topology(*springs, model.particles.size());
   if (!topology) return nullptr;
 #ifndef __wasm__  // the page has no single precision
   if (execution.path == ExecutionPath::single_precision)
-    return make_world<float>(*topology, composition, scene, h, true, execution.threads, observer);
+    return make_world<float>(*topology, composition, scene, h, true, execution.threads, contact, observer);
 #endif
   const bool fast = execution.path == ExecutionPath::fastest;
-  return make_world<double>(*topology, composition, scene, h, fast, execution.threads, observer);
+  return make_world<double>(*topology, composition, scene, h, fast, execution.threads, contact, observer);
 }
 
 }  // namespace crosscheck::simd

@@ -3,7 +3,15 @@
 
 #include <cassert>
 
+#include "mysim/run/contact_events.h"
+
 namespace crosscheck {
+
+std::optional<ContactRule> contact_rule_of_option(std::string_view option) {
+  if (option == "events") return ContactRule::events;
+  if (option == "sticky") return ContactRule::sticky;
+  return std::nullopt;
+}
 
 std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction act, double t_n, double t,
                                       const Vec3& x_n, const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v,
@@ -40,7 +48,10 @@ std::optional<double> resolve_spheres(const Spheres& spheres, ContactFunction ac
 }
 
 Contacts::Contacts(const Model& model, ContactRule rule)
-    : particles_(model.particles), spheres_(model.find<Spheres>()), rule_(rule) {}
+    : particles_(model.particles), spheres_(model.find<Spheres>()), rule_(rule) {
+  drag_rate_ = Eigen::ArrayXd::Zero(particles_.size());
+  if (const auto* drag = model.find<Drag>()) drag_rate_ = drag->c.array() / particles_.mass.array();
+}
 
 void Contacts::begin(const State& s) {
   if (spheres_) before_ = s;
@@ -51,10 +62,14 @@ bool Contacts::resolve(State& s) {
   if (!spheres_) return false;
   assert(before_.x.cols() == s.x.cols());  // begin() came before
   const ContactFunction act = rule_ == ContactRule::sticky ? resolve_contact_sticky : resolve_contact;
+  std::vector<SphereTrack> tracks;
+  if (rule_ == ContactRule::events) tracks = sphere_tracks(*spheres_, before_.t, s.t);
   for (int i = 0; i < particles_.size(); ++i) {
     if (particles_.pinned[i]) continue;
-    const auto lost =
-        resolve_spheres(*spheres_, act, before_.t, s.t, before_.x.col(i), before_.v.col(i), s.x.col(i), s.v.col(i));
+    const Vec3 x_n = before_.x.col(i), v_n = before_.v.col(i);
+    const auto lost = rule_ == ContactRule::events
+                          ? resolve_events(tracks, s.t - before_.t, drag_rate_[i], x_n, v_n, s.x.col(i), s.v.col(i))
+                          : resolve_spheres(*spheres_, act, before_.t, s.t, x_n, v_n, s.x.col(i), s.v.col(i));
     if (lost) lost_ = lost_.value_or(0) + particles_.mass[i] * *lost;
   }
   return lost_.has_value();

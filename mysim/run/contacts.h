@@ -14,12 +14,19 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "mysim/model/model.h"
 
 namespace crosscheck {
 
-enum class ContactRule { coulomb, sticky };  // sticky: the assignment's sphere, kept to be shown failing
+enum class ContactRule {
+  coulomb,  // acts on whole steps (terms/sphere.h): of order 1
+  events,   // with touching, leaving and stopping located within the step (contact_events.h): of order 2
+  sticky,   // the assignment's sphere, kept to be shown failing
+};
+/// The rule that an option of a method asks for ("events", "sticky"), or nothing.
+std::optional<ContactRule> contact_rule_of_option(std::string_view option);
 
 /// The action of a rule on one particle that touches a sphere: as resolve_contact.
 using ContactFunction = double (*)(const Sphere&, const Vec3& centre, const Vec3& x_n, Eigen::Ref<Vec3> x,
@@ -47,7 +54,8 @@ class Contacts {
   const Particles& particles_;
   const Spheres* spheres_;
   ContactRule rule_;
-  State before_;  // where the step began
+  Eigen::ArrayXd drag_rate_;  // n, 1/s
+  State before_;              // where the step began
   std::optional<double> lost_;
 };
 

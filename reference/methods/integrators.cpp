@@ -34,6 +34,10 @@ std::vector<Integrator> integrators() {
        true,
        false,
        {"#2E9C86", "(3,4)", 9}},
+      {"odeint/dopri5", "events",
+       "Boost's odeint, Dormand-Prince 5(4), beside spheres at rest: cut where a particle hits, leaves, stops and "
+       "slips",
+       "", run_event_driven, true},
       {"sundials/arkode",
        "",
        "SUNDIALS ARKODE, Fehlberg 7(8) with error control, on the same: give --tol, not --step; +order=4: Zonneveld "

@@ -4,6 +4,7 @@
 
 #include <charconv>
 
+#include "mysim/base/errors.h"
 #include "mysim/base/text.h"
 #include "mysim/run/engine.h"
 #include "reference/method.h"
@@ -26,11 +27,12 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
   ContactRule contact = ContactRule::coulomb;
   Execution execution;
   Stepper rule = stepper;
-  std::string same_as(stepper.name);  // another contact rule changes nothing where nothing touches
+  std::string same_as(stepper.name);  // that it freezes to spheres is another law, and is said of each run
   const std::string name = fmt::format("mysim/{}", stepper.name);
   for (const std::string& option : options) {
-    if (option == "sticky")
-      contact = ContactRule::sticky;
+    // a rule of order 1 moves along another path than its velocities, by h^2 a / 2, as much as contact holds it by
+    if (const auto asked = contact_rule_of_option(option); asked && (asked != ContactRule::events || stepper.order > 1))
+      contact = *asked;
     else if (option == "linear" && stepper.linear)
       rule.step = stepper.linear, same_as += "+linear";
     else if (option == "plain" && stepper.composition)
@@ -43,9 +45,17 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
       execution.threads = *threads;
     else
       refuse_option(name, option,
-                    stepper.linear        ? "+linear, +sticky or none"
-                    : stepper.composition ? "+sticky, +fast, +single, +plain, +threads=N or none"
-                                          : "+sticky or none");
+                    fmt::format("{}+sticky{} or none",
+                                stepper.linear      ? "+linear, "
+                                : stepper.order > 1 ? "+events, "
+                                                    : "",
+                                stepper.composition ? ", +fast, +single, +plain, +threads=N" : ""));
+  }
+  if (contact == ContactRule::events) {
+    same_as += "+events";  // where spheres touch, not the same to round-off
+    if (execution.path == ExecutionPath::single_precision)
+      throw InputError(
+          fmt::format("method {}: +events locates contact in double precision; expected it without +single", name));
   }
   Method method{name,
                 fmt::format("{} (order {}{}; {})", stepper.what, stepper.order,

@@ -57,7 +57,9 @@ std::string_view name_of(Tier tier) {
 std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
   if (const auto exact = exact_solution(scene)) return from_closed_form(*exact, scene, run);
   const auto find = [&] {
-    return scene.model.find<Spheres>() ? contact_truth(scene, run) : converged_truth(scene, run);
+    if (!scene.model.find<Spheres>()) return converged_truth(scene, run);
+    auto truth = event_truth(scene, run);
+    return truth ? truth : contact_truth(scene, run);
   };
   const auto cache = TruthCache::from_environment();
   return cache ? cache->find_or_compute(scene, run, find) : find();
@@ -121,28 +123,22 @@ std::optional<Trajectory> run_rk4(const Scene& scene, const Run& run, bool const
   return std::move(recorder.trajectory);
 }
 
-/// Halves the step until that changes little; at least twice, so that an order can be seen.
-std::optional<RefinementStudy> refine_rk4(const Scene& scene, const Run& run) {
+/// Halves the step from h on until that changes little; at least twice, so that an order can be seen. `at` runs at a
+/// step, or returns nothing where that fails; `how` tells the step in ms.
+template <class RunAt, class How>
+std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int order, RunAt at, How how) {
   constexpr int most_halvings = 7;
   const double enough = 1e-8 * scene.size();  // far below what any scene needs; a few particles reach 1e-11 at once
-  const bool constrained = scene.model.find<Constraints>() != nullptr;
-  double h = first_step(scene, constrained);
-  const auto at = [&] { return run_rk4(scene, {h, run.duration, run.samples}, constrained); };
-  std::optional<Trajectory> coarse, middle = at();
+  std::optional<Trajectory> coarse, middle = at(h);
   double change = INFINITY;
   for (int i = 0; i < most_halvings && middle; ++i) {
     h /= 2;
-    auto fine = at();
+    auto fine = at(h);
     if (!fine) return std::nullopt;
     const double before = std::exchange(change, largest_rms_distance(*middle, *fine));
     // where halving no longer helps, round-off or chaos is what is left
     if (coarse && (change < enough || change > before / 2))
-      return RefinementStudy{fmt::format("mysim/rk4 at {:.3g} ms{}", 1e3 * h,
-                                         constrained ? ", with Lagrange multipliers for the hard distances" : ""),
-                             h,
-                             16,
-                             std::move(*coarse),
-                             std::move(*middle),
+      return RefinementStudy{how(1e3 * h),    h, std::exp2(order), std::move(*coarse), std::move(*middle),
                              std::move(*fine)};
     coarse = std::move(middle);
     middle = std::move(fine);
@@ -150,27 +146,68 @@ std::optional<RefinementStudy> refine_rk4(const Scene& scene, const Run& run) {
   return std::nullopt;
 }
 
-std::optional<RefinementStudy> refine_bulirsch_stoer(const Scene& scene, const Run& run) {
-  // a step's error, of the scene's size; round-off is at 1e-16
-  const auto tolerances = few_particles(scene) ? std::array{1e-11, 1e-12, 1e-13} : std::array{1e-8, 1e-9, 1e-10};
-  RefinementStudy study{
-      fmt::format("odeint (Boost {}), Bulirsch and Stoer's extrapolation, on a right-hand side written apart",
-                  odeint_version()),
-      0,
-      tolerances[0] / tolerances[1],
-      {},
-      {},
-      {}};
-  Trajectory* const runs[] = {&study.coarse, &study.middle, &study.fine};
-  for (size_t i = 0; i < tolerances.size(); ++i) {
+std::optional<RefinementStudy> refine_rk4(const Scene& scene, const Run& run) {
+  const bool constrained = scene.model.find<Constraints>() != nullptr;
+  return refine_step(
+      scene, first_step(scene, constrained), 4,
+      [&](double h) {
+        return run_rk4(scene, {h, run.duration, run.samples}, constrained);
+      },
+      [&](double ms) {
+        return fmt::format("mysim/rk4 at {:.3g} ms{}", ms,
+                           constrained ? ", with Lagrange multipliers for the hard distances" : "");
+      });
+}
+
+/// Runs under three tolerances, a factor of ten apart.
+std::optional<RefinementStudy> refine_tolerance(const Scene& scene, const Run& run, double loosest, std::string how,
+                                                Outcome (*engine)(const Scene&, const Run&, Observer&)) {
+  RefinementStudy study{std::move(how), 0, 10, {}, {}, {}};
+  double tolerance = loosest;
+  for (Trajectory* path : {&study.coarse, &study.middle, &study.fine}) {
     Recorder recorder;
-    const Run to{scene.step, run.duration, run.samples, tolerances[i]};
-    const Outcome out = run_odeint_bulirsch_stoer(scene, to, recorder);
+    const Outcome out = engine(scene, {scene.step, run.duration, run.samples, tolerance}, recorder);
     if (out.verdict != Verdict::ok) return std::nullopt;
     study.step = out.step;
-    *runs[i] = std::move(recorder.trajectory);
+    *path = std::move(recorder.trajectory);
+    tolerance /= 10;
   }
   return study;
+}
+
+std::optional<RefinementStudy> refine_bulirsch_stoer(const Scene& scene, const Run& run) {
+  // a step's error, of the scene's size; round-off is at 1e-16
+  return refine_tolerance(
+      scene, run, few_particles(scene) ? 1e-11 : 1e-8,
+      fmt::format("odeint (Boost {}), Bulirsch and Stoer's extrapolation, on a right-hand side written apart",
+                  odeint_version()),
+      run_odeint_bulirsch_stoer);
+}
+
+/// The truth of two routes: the path of `one`, with what `other` and both refinements say of its error. None where that
+/// exceeds a hundredth of the motion.
+std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, RefinementStudy one,
+                                     const RefinementStudy& other) {
+  Truth truth{Tier::converged, fmt::format("{}, against {}", one.how, other.how), one.fine, 0};
+  const auto& x = truth.trajectory.x;
+  RichardsonEstimate own_estimate(one), other_estimate(other);
+  // a rounding of each step's positions, adding up like a random walk
+  const double random_walk = 0.5 * std::numeric_limits<double>::epsilon() * std::sqrt(run.duration / one.step);
+  double motion = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    motion = std::max(motion, rms_distance(x[i], x[0]));
+    // and some units in the last place that each route has of its own, whatever it refines
+    const double place = x[i].norm() / std::sqrt(x[i].cols());
+    const double rounding = std::max(random_walk * place, 1e-15 * std::max(scene.size(), place));
+    // an error of the first route is what it is apart from the second, and what that one errs the same way
+    const double apart = rms_distance(x[i], other.fine.x[i]) + other_estimate.error_up_to(i),
+                 own = own_estimate.error_up_to(i);
+    const double error_bar = std::max(apart, own) + rounding;
+    truth.error_bar = std::isfinite(error_bar) ? std::max(truth.error_bar, error_bar) : INFINITY;
+    truth.error_bars.push_back(truth.error_bar);
+  }
+  if (!(truth.error_bar < 0.01 * motion)) return std::nullopt;
+  return truth;
 }
 
 }  // namespace
@@ -180,27 +217,7 @@ std::optional<Truth> converged_truth(const Scene& scene, const Run& run) try {
   if (!rk4_study) return std::nullopt;
   const auto odeint_study = refine_bulirsch_stoer(scene, run);
   if (!odeint_study) return std::nullopt;
-
-  Truth truth{Tier::converged, fmt::format("{}, against {}", rk4_study->how, odeint_study->how), rk4_study->fine, 0};
-  const auto& x = truth.trajectory.x;
-  RichardsonEstimate rk4_estimate(*rk4_study), odeint_estimate(*odeint_study);
-  // a rounding of each step's positions, adding up like a random walk
-  const double random_walk = 0.5 * std::numeric_limits<double>::epsilon() * std::sqrt(run.duration / rk4_study->step);
-  double motion = 0;
-  for (size_t i = 0; i < x.size(); ++i) {
-    motion = std::max(motion, rms_distance(x[i], x[0]));
-    // and some units in the last place that each route has of its own, whatever it refines
-    const double place = x[i].norm() / std::sqrt(x[i].cols());
-    const double rounding = std::max(random_walk * place, 1e-15 * std::max(scene.size(), place));
-    // an error of the first route is what it is apart from the second, and what that one errs the same way
-    const double apart = rms_distance(x[i], odeint_study->fine.x[i]) + odeint_estimate.error_up_to(i),
-                 own = rk4_estimate.error_up_to(i);
-    const double error_bar = std::max(apart, own) + rounding;
-    truth.error_bar = std::isfinite(error_bar) ? std::max(truth.error_bar, error_bar) : INFINITY;
-    truth.error_bars.push_back(truth.error_bar);
-  }
-  if (!(truth.error_bar < 0.01 * motion)) return std::nullopt;
-  return truth;
+  return truth_of_routes(scene, run, std::move(*rk4_study), *odeint_study);
 } catch (const Unsupported&) {
   return std::nullopt;
 } catch (const SolverFailure&) {
@@ -209,9 +226,9 @@ std::optional<Truth> converged_truth(const Scene& scene, const Run& run) try {
 
 namespace {
 
-std::optional<Trajectory> run_leapfrog(const Scene& scene, const Run& run) {
+std::optional<Trajectory> run_leapfrog(const Scene& scene, const Run& run, const char* method = "mysim/leapfrog") {
   Recorder recorder;
-  if (run_method(find_method("mysim/leapfrog"), scene, run, {&recorder}).verdict != Verdict::ok) return std::nullopt;
+  if (run_method(find_method(method), scene, run, {&recorder}).verdict != Verdict::ok) return std::nullopt;
   return std::move(recorder.trajectory);
 }
 
@@ -239,6 +256,28 @@ std::optional<SampleRange> predictable_samples(const Scene& scene, const Traject
 }
 
 }  // namespace
+
+std::optional<Truth> event_truth(const Scene& scene, const Run& run) try {
+  if (!few_particles(scene)) return std::nullopt;
+  auto events = refine_tolerance(
+      scene, run, 1e-10,
+      fmt::format("odeint (Boost {}), Dormand and Prince's pair cut at every event, on equations written apart",
+                  odeint_version()),
+      run_event_driven);
+  if (!events) return std::nullopt;
+  const auto leapfrog = refine_step(
+      scene, first_step(scene, false), 2,
+      [&](double h) {
+        return run_leapfrog(scene, {h, run.duration, run.samples}, "mysim/leapfrog+events");
+      },
+      [](double ms) { return fmt::format("mysim/leapfrog+events at {:.3g} ms", ms); });
+  if (!leapfrog) return std::nullopt;
+  return truth_of_routes(scene, run, std::move(*events), *leapfrog);
+} catch (const Unsupported&) {
+  return std::nullopt;
+} catch (const SolverFailure&) {
+  return std::nullopt;
+}
 
 std::optional<Truth> contact_truth(const Scene& scene, const Run& run) {
   if (scene.model.find<Constraints>() || scene.model.first_order()) return std::nullopt;

@@ -42,6 +42,14 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 /// to less than that is not known. The scene must be free of contact.
 std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 
+// Contact of few particles with spheres at rest: two independent routes as well.
+
+/// The path is that of an event-driven run on equations written apart (truth/independent/event_driven.cpp) at the last
+/// of three tolerances, against mysim's leapfrog+events, whose step is halved as above; the bar as above. None for 50
+/// particles or more, where a sphere moves, a particle moves between two, a route fails, or the bar exceeds a hundredth
+/// of the motion.
+std::optional<Truth> event_truth(const Scene& scene, const Run& run);
+
 // The limit of a scene with contact as the step goes to 0, under the in-house contact rule.
 
 /// mysim's leapfrog at 1/8, 1/16 and 1/32 of the scene's step. The result holds as long as the last

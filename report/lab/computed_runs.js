@@ -120,7 +120,7 @@ async function cellDepartures(stage, set, run) {
 // Doors.
 
 /** Whether the lab runs a method, options and all. */
-const isOfLab = method => Boolean(document.getElementById('lab-module')) && /^mysim\/[a-z0-9-]+(\+(sticky|linear))*$/.test(method);
+const isOfLab = method => Boolean(document.getElementById('lab-module')) && /^mysim\/[a-z0-9-]+(\+(events|sticky|linear))*$/.test(method);
 
 /** The small scene of a map with a row's stiffness (over its own) or drag rate. `taken`: what stands for a stiffness. */
 function textOfRow(toml, kind, value, taken = stiffness => stiffness) {

@@ -157,7 +157,8 @@ class MethodKnobs {
   /** The method as the controls say it, with a step or tolerance that was moved. */
   take(moved, done) {
     const stepper = this.steppers.find(s => s.name === this.select.value);
-    const options = (this.linear.checked && stepper.linear ? '+linear' : '') + (this.sticky.checked && this.balls ? '+sticky' : '');
+    const events = this.spec.method === `${stepper.name}+events` ? '+events' : '';
+    const options = (this.linear.checked && stepper.linear ? '+linear' : '') + (this.sticky.checked && this.balls ? '+sticky' : events);
     const {step, tolerance} = {...this.spec, ...moved};
     const spec = {method: stepper.name + options, step: step || this.own};
     this.changed(stepper.adaptive ? {method: spec.method, tolerance: tolerance || 1e-6} : spec, done);

@@ -42,12 +42,15 @@ void LiveRun::start(const Settings& settings) {
   Stepper rule = *found;
   ContactRule contact = ContactRule::coulomb;
   for (size_t i = 1; i < words.size(); ++i) {
-    if (words[i] == "sticky")
-      contact = ContactRule::sticky;
+    if (const auto asked = contact_rule_of_option(words[i]); asked && (asked != ContactRule::events || rule.order > 1))
+      contact = *asked;
     else if (words[i] == "linear" && rule.linear)
       rule.step = rule.linear;
     else
-      refuse_option(words[0], words[i], rule.linear ? "+linear, +sticky or none" : "+sticky or none");
+      refuse_option(words[0], words[i],
+                    rule.linear      ? "+linear, +sticky or none"
+                    : rule.order > 1 ? "+events, +sticky or none"
+                                     : "+sticky or none");
   }
   rule_ = rule, contact_ = contact, keep_ledger_ = settings.keep_ledger;
   const double interval = scene_.duration / scene_.samples;

@@ -60,6 +60,7 @@ const labWords = {
   'method.dopri5': ['dopri5', '五阶 Dormand–Prince（自适应）'],
   'method.implicit-euler': ['implicit Euler', '隐式欧拉'],
   'method.implicit-midpoint': ['implicit midpoint', '隐式中点'],
+  'option.events': ['events located', '步内定位接触'],
   'option.sticky': ['sticky', '粘性球'],
   'option.linear': ['linear', '一次牛顿迭代'],
   comma: [', ', '，'],

@@ -161,8 +161,9 @@ bool is_computed_in_page(const std::string& method) {
   const Stepper* rule = mysim_stepper(method);
   if (!rule) return false;
   const std::vector<std::string> words = split(method, '+');
-  return std::all_of(words.begin() + 1, words.end(),
-                     [&](const std::string& word) { return word == "sticky" || (word == "linear" && rule->linear); });
+  return std::all_of(words.begin() + 1, words.end(), [&](const std::string& word) {
+    return contact_rule_of_option(word) || (word == "linear" && rule->linear);
+  });
 }
 
 std::string cells_for_page(const std::string& json, bool lab) {

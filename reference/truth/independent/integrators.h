@@ -9,14 +9,18 @@
 
 namespace crosscheck {
 
-// All of them throw Unsupported where there is contact. Those under error control keep the estimated error of each step
-// below R (scene size + |component|), with R = run.tolerance and numbers in SI units: odeint in every component,
-// SUNDIALS in the root mean square.
+// All but the event-driven one throw Unsupported where there is contact. Those under error control keep the estimated
+// error of each step below R (scene size + |component|), with R = run.tolerance and numbers in SI units: odeint in
+// every component, SUNDIALS in the root mean square.
 
 /// odeint's classic Runge-Kutta rule at run.step.
 Outcome run_odeint_rk4(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's Dormand-Prince 5(4) to run.tolerance, with its own interpolant at the observed times.
 Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer);
+/// odeint's Dormand-Prince 5(4) in a scene with spheres at rest, cut at every impact, take-off, stop and slip, which
+/// are located to round-off (event_driven.cpp); steps end at the samples and are at most run.step. Throws Unsupported
+/// where there is no contact, where a sphere moves, and where a particle moves between two.
+Outcome run_event_driven(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's extrapolation of the midpoint rule, of varying order (Bulirsch and Stoer), to run.tolerance; steps end at
 /// the observed times. Its estimate compares results of different numbers of stages, so that it also sees an
 /// error that comes from time alone: Fehlberg's 7(8) pair has the same weights there in both rules, and follows a moved

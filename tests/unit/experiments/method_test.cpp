@@ -119,6 +119,7 @@ TEST(Methods, ABareNameMeansMysimAndOptionsFollowAPlus) {
   EXPECT_EQ(find_method("symplectic-euler").rule, find_method("bullet/deformable-explicit").rule);
   EXPECT_EQ(find_method("symplectic-euler+sticky").rule, find_method("symplectic-euler").rule);
   EXPECT_EQ(find_method("implicit-euler+linear").rule, find_method("bullet/deformable-implicit+tight").rule);
+  EXPECT_NE(find_method("leapfrog+events").rule, find_method("leapfrog").rule);
   EXPECT_NE(find_method("implicit-euler+linear").rule, find_method("implicit-euler").rule);
   for (const auto other : {"bullet/deformable-explicit+default-rest", "bullet/deformable-explicit+default-margin",
                            "bullet/deformable-explicit+default-sleep", "bullet/deformable-implicit",
@@ -134,12 +135,15 @@ TEST(Methods, UnknownNamesAndOptionsAreRefusedInOneLineThatHelps) {
   for (const Method& m : all_methods()) EXPECT_TRUE(contains(refusal("rk5"), m.name));
   const std::pair<const char*, const char*> cases[] = {
       {"leapfrog+threads=0",
-       "unknown option '+threads=0'; expected +sticky, +fast, +single, +plain, +threads=N or none"},
+       "unknown option '+threads=0'; expected +events, +sticky, +fast, +single, +plain, +threads=N or none"},
       {"leapfrog+threads=2x", "unknown option '+threads=2x'"},
-      {"rk4+single", "method mysim/rk4: unknown option '+single'; expected +sticky or none"},
-      {"rk4+stick", "method mysim/rk4: unknown option '+stick'; expected +sticky or none"},
+      {"rk4+single", "method mysim/rk4: unknown option '+single'; expected +events, +sticky or none"},
+      {"symplectic-euler+events",
+       "unknown option '+events'; expected +sticky, +fast, +single, +plain, +threads=N or none"},
+      {"leapfrog+events+single", "locates contact in double precision; expected it without +single"},
+      {"rk4+stick", "method mysim/rk4: unknown option '+stick'; expected +events, +sticky or none"},
       {"implicit-euler+x", "unknown option '+x'; expected +linear, +sticky or none"},
-      {"rk4+linear", "method mysim/rk4: unknown option '+linear'; expected +sticky or none"},
+      {"rk4+linear", "method mysim/rk4: unknown option '+linear'; expected +events, +sticky or none"},
       {"implicit-euler+line", "unknown option '+line'; expected +linear, +sticky or none"},
       {"rk4+sticky=1", "unknown option '+sticky=1'"},
       {"bullet/deformable-explicit+n=2",

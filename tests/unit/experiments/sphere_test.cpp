@@ -95,6 +95,26 @@ TEST(SphereRebound, ComesToTheSquareOfRestitution) {
   EXPECT_GT(*rebound(find_method("bullet/pbd"), drop_on_ball(0), 1. / 240, out), 1e-5);
 }
 
+TEST(SphereOrder, EveryProbeHasATruthAndEventsAreOfOrderTwoOnIt) {
+  for (const Scene& scene : contact_order_probes()) {
+    SCOPED_TRACE(scene.name);
+    crosscheck::Run run = default_run(scene);
+    const auto truth = truth_of(scene, run);
+    ASSERT_TRUE(truth);
+    EXPECT_FALSE(truth->under_contact_rule);
+    const auto error = [&](const char* method, int steps) {
+      run.step = run.duration / run.samples / steps;
+      return largest_rms_distance(run_and_record(method, scene, run).trajectory, truth->trajectory);
+    };
+    if (scene.name == "bounces") {
+      EXPECT_LT(error("leapfrog+events", 10), 1e-12);  // parabolas are exact: roundings of a hundred steps
+    } else {
+      EXPECT_NEAR(slope(error("leapfrog+events", 10), error("leapfrog+events", 40)) / 2, 2, 0.1);
+      EXPECT_GT(error("leapfrog", 40), 10 * error("leapfrog+events", 40));
+    }
+  }
+}
+
 TEST(SphereLeaving, IsWhereEnergyAndFreeFlightSay) {
   // on the ball v^2 = 2 g R (1 - cos); it leaves at cos = 2/3, and falls freely until the gap is a millimetre
   const double r = 1.02, g = 9.81, c = 2. / 3, s = std::sqrt(1 - c * c), v = std::sqrt(g * r * c);

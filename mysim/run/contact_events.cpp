@@ -1,0 +1,394 @@
+// One particle through one step: flight, impact, sliding, sticking, and a wedge between spheres.
+#include "mysim/run/contact_events.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace crosscheck {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr int most_events = 16;   // in a step; what is left then goes by the rule for whole steps (terms/sphere.h)
+constexpr int most_contacts = 4;  // of a particle at a time
+
+/// The first point at which a condition holds that does not hold at `low` and holds at `high`, to the last bit but few.
+template <class Condition>
+double first_time(Condition holds, double low, double high) {
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    if (!(middle > low && middle < high)) break;
+    (holds(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+double cubed(double s) { return s * s * s; }
+
+Vec3 without_normal_part(const Vec3& v, const Vec3& n) { return v - v.dot(n) * n; }
+
+Vec3 direction_of(const Vec3& v, const Vec3& otherwise) {
+  const double length = v.norm();
+  return length > 0 ? Vec3(v / length) : otherwise;
+}
+
+class ParticleStep {
+ public:
+  ParticleStep(std::span<const SphereTrack> spheres, double h, double gamma, const Vec3& x_n, const Vec3& v_n,
+               const Vec3& x, const Vec3& v)
+      : spheres_(spheres), h_(h), gamma_(gamma), x_(x_n), v_(v_n) {
+    b_ = (v - v_n) / h + gamma / 2 * (v_n + v);
+    bend_ = x - (x_n + h / 2 * (v_n + v));
+    ends_inside_ =
+        std::any_of(spheres.begin(), spheres.end(), [&](const SphereTrack& track) { return inside(track, x, h); });
+  }
+
+  /// False where nothing was touched.
+  bool run() {
+    for (int event = 0; event < most_events && done_ < h_; ++event) {
+      find_contacts();
+      if (count_ == 0)
+        fly();
+      else if (count_ == 1)
+        slide_or_stick(*contacts_[0].track);
+      else
+        wedge();
+    }
+    if (!touched_ && !ends_inside_) return false;
+    if (done_ < h_) finish_by_whole_step();
+    // out of one sphere may be into another: where both overlap, on to where their surfaces meet
+    for (int round = 0; round < 100; ++round) {
+      bool inside = false;
+      for (const SphereTrack& track : spheres_) inside |= put_outside(track);
+      if (!inside || spheres_.size() == 1) break;
+    }
+    return true;
+  }
+  const Vec3& x() const { return x_; }
+  const Vec3& v() const { return v_; }
+  double lost() const { return lost_; }
+
+ private:
+  struct Point {
+    Vec3 x, v;
+  };
+  struct Contact {
+    const SphereTrack* track;
+    Vec3 normal;
+  };
+  /// The end of a slide, relative to the sphere.
+  struct Slid {
+    Vec3 r, w;
+    double pressure;  // m/s^2, N there
+    Vec3 force;       // m/s^2, mean of the contact force
+    double friction;  // m/s^2, size of its tangential part
+    Vec3 along;       // unit vector of the motion that it acts against
+  };
+
+  static double gap(const SphereTrack& track, const Vec3& x, double s) {
+    return (x - track.centre(s)).norm() - track.radius();
+  }
+  /// By more than the roundings of a place on the surface: one that takes off from there is not inside.
+  static bool inside(const SphereTrack& track, const Vec3& x, double s) {
+    return gap(track, x, s) < -16 * eps * (track.radius() + track.centre(s).norm());
+  }
+  Vec3 normal_at(const SphereTrack& track) const { return direction_of(x_ - track.centre(done_), Vec3(0, 1, 0)); }
+  void put_on(const SphereTrack& track) { x_ = track.centre(done_) + track.radius() * normal_at(track); }
+  /// False where it is outside.
+  bool put_outside(const SphereTrack& track) {
+    if (!(gap(track, x_, done_) < 0)) return false;
+    put_on(track);
+    return true;
+  }
+  void change_velocity(const Vec3& v) {
+    lost_ += (v_.squaredNorm() - v.squaredNorm()) / 2;
+    v_ = v;
+  }
+
+  /// N (m/s^2) that keeps the particle on the sphere, by its velocity there.
+  double pressure(const SphereTrack& track, const Vec3& n) const {
+    const Vec3 w = without_normal_part(v_ - track.velocity(done_), n);
+    return -(b_ - gamma_ * v_ - track.acceleration()).dot(n) - w.squaredNorm() / track.radius();
+  }
+
+  /// Lets those spheres act that the particle runs against, and lists those that it stays on.
+  void find_contacts() {
+    std::array<Contact, most_contacts> near;
+    int touching = 0;
+    for (const SphereTrack& track : spheres_) {
+      // roundings of a place on the surface: of the centre, the radius, and a step there and back
+      const double rounding = 1e-12 * (track.radius() + track.centre(done_).norm());
+      if (touching == most_contacts || !(gap(track, x_, done_) <= rounding)) continue;
+      put_outside(track);
+      near[touching++] = {&track, normal_at(track)};
+    }
+    bool hit = false;
+    for (int round = 0; round < 20; ++round) {
+      bool again = false;
+      for (int i = 0; i < touching; ++i) again |= collide(near[i]);
+      hit |= again;
+      if (!again || touching == 1) break;
+    }
+    count_ = 0;
+    for (int i = 0; i < touching; ++i) {
+      const auto& [track, n] = near[i];
+      const double away = (v_ - track->velocity(done_)).dot(n), press = pressure(*track, n);
+      // after an impact, one that would be back within a step stays; else more than rounding leads away
+      const double slow = (hit ? 1 : 1e-6) * h_ * press / 2 + 8 * eps * v_.norm();
+      if (press > 0 && away <= slow) contacts_[count_++] = near[i];
+    }
+    for (int i = 0; i < count_; ++i) {
+      const auto& [track, n] = contacts_[i];
+      touched_ = true;
+      if (const double away = (v_ - track->velocity(done_)).dot(n); away > 0) change_velocity(v_ - away * n);
+    }
+  }
+
+  /// False where the particle does not move inward.
+  bool collide(const Contact& contact) {
+    const auto& [track, n] = contact;
+    const Sphere& sphere = track->sphere();
+    const Vec3 w = v_ - track->velocity(done_);
+    const double inward = -w.dot(n);
+    if (!(inward > 4 * eps * v_.norm())) return false;
+    touched_ = true;
+    const bool is_back_within_step = 2 * sphere.restitution * inward < h_ * pressure(*track, n);
+    const double change = (1 + (is_back_within_step ? 0 : sphere.restitution)) * inward;
+    const Vec3 along = without_normal_part(w, n);
+    const double speed = along.norm(), kept = std::max(0.0, speed - sphere.friction * change);
+    Vec3 after = (change - inward) * n;
+    if (speed > 0) after += kept / speed * along;
+    change_velocity(track->velocity(done_) + after);
+    return true;
+  }
+
+  /// What Hermite's cubic through the stepper's states has beyond the parabola, where the path begins with the step.
+  Vec3 bent(double s) const {
+    const double part = s / h_;
+    return done_ == 0 ? Vec3(part * part * (3 - 2 * part) * bend_) : Vec3::Zero();
+  }
+  Point flight(double s) const {
+    Vec3 v = v_ + s / (1 + s * gamma_ / 2) * (b_ - gamma_ * v_);
+    Vec3 x = x_ + s / 2 * (v_ + v);
+    x += bent(s);
+    if (const double part = s / h_; done_ == 0) v += 6 * part * (1 - part) / h_ * bend_;
+    return {x, v};
+  }
+
+  /// Free up to the first sphere, or to the end of the step.
+  void fly() {
+    double until = h_ - done_;
+    for (const SphereTrack& track : spheres_) {
+      const auto is_inside = [&](double s) { return inside(track, flight(s).x, done_ + s); };
+      const auto recedes = [&](double s) {
+        const Point p = flight(s);
+        return (p.x - track.centre(done_ + s)).dot(p.v - track.velocity(done_ + s)) > 0;
+      };
+      if (is_inside(until)) {
+        until = first_time(is_inside, 0, until);
+      } else if (!recedes(0) && recedes(until)) {
+        const double nearest = first_time(recedes, 0, until);
+        if (is_inside(nearest)) until = first_time(is_inside, 0, nearest);
+      }
+    }
+    const Point p = flight(until);
+    x_ = p.x, v_ = p.v;
+    advance(until);
+  }
+
+  void advance(double s) {
+    // the end of the step is the end: a remainder of rounding is none
+    done_ = done_ + s >= h_ * (1 - 4 * eps) ? h_ : done_ + s;
+  }
+
+  Slid slide(const SphereTrack& track, const Vec3& b, const Vec3& r, const Vec3& w, const Vec3& forward,
+             double s) const {
+    const double mu = track.sphere().friction, radius = track.radius();
+    const auto press = [&](const Vec3& n, const Vec3& speed) { return -b.dot(n) - speed.squaredNorm() / radius; };
+    const Vec3 n0 = r / radius;
+    const double press0 = std::max(0.0, press(n0, w));
+    // half of it; friction acts against the mean velocity of the slide, which is along what that were without friction:
+    // by the velocity at the beginning, small beside s mu N, a motion across would grow without bound
+    const Vec3 n = (r + s / 2 * w).normalized();
+    const Vec3 unheld = without_normal_part(w + s / 2 * (b - gamma_ * w + press0 * n0), n);
+    Slid end;
+    end.along = unheld.dot(forward) > 0 ? direction_of(unheld, forward) : forward;
+    const double pressure = std::max(0.0, press(n, unheld - s / 2 * mu * press0 * end.along));
+    end.friction = mu * pressure;
+    end.force = pressure * n - end.friction * end.along;
+    // the whole
+    end.w = w + s / (1 + s * gamma_ / 2) * (b + end.force - gamma_ * w);
+    const Vec3 n1 = (r + s / 2 * (w + end.w) + without_normal_part(bent(s), n)).normalized();
+    end.r = radius * n1;
+    end.w = without_normal_part(end.w, n1);
+    end.pressure = press(n1, end.w);
+    return end;
+  }
+
+  void slide_or_stick(const SphereTrack& track) {
+    const double rest = h_ - done_, mu = track.sphere().friction;
+    const Vec3 n = normal_at(track), r = track.radius() * n;
+    Vec3 w = without_normal_part(v_ - track.velocity(done_), n);
+    const Vec3 sphere_velocity = (track.velocity(done_) + track.velocity(h_)) / 2;
+    const Vec3 b = b_ - track.acceleration() - gamma_ * sphere_velocity;  // as felt on the sphere
+    const Vec3 b_along = without_normal_part(b, n);
+    const double press = -b.dot(n) - w.squaredNorm() / track.radius();
+    const bool holds = b_along.norm() <= mu * press;
+    // a speed that friction takes within a billionth of the step is none
+    if (w.norm() <= 1e-9 * h_ * b.norm() && (holds || mu > 0)) {
+      w.setZero();
+      if (holds) {
+        lost_ += rest * b.dot(sphere_velocity);
+        done_ = h_;
+        x_ = track.centre(h_) + r, v_ = track.velocity(h_);
+        return;
+      }
+    }
+    const Vec3 forward = direction_of(w, direction_of(b_along, Vec3::Zero()));
+    const auto stops = [&](const Slid& end) { return mu > 0 && !w.isZero(0) && end.w.dot(forward) <= 0; };
+    const auto ends = [&](double s) {
+      const Slid end = slide(track, b, r, w, forward, s);
+      if (end.pressure < 0 || stops(end)) return true;
+      const Vec3 x = track.centre(done_ + s) + end.r;
+      return std::any_of(spheres_.begin(), spheres_.end(),
+                         [&](const SphereTrack& other) { return &other != &track && inside(other, x, done_ + s); });
+    };
+    const double until = ends(rest) ? first_time(ends, 0, rest) : rest;
+    Slid end = slide(track, b, r, w, forward, until);
+    lost_ += until * (end.friction * end.along.dot(w + end.w) / 2 - end.force.dot(sphere_velocity));
+    advance(until);
+    if (stops(end)) {
+      end.w -= end.w.dot(forward) * forward;
+      if (without_normal_part(b, end.r / track.radius()).norm() <= mu * end.pressure) end.w.setZero();
+    }
+    x_ = track.centre(done_) + end.r, v_ = track.velocity(done_) + end.w;
+  }
+
+  /// Between several spheres, to the end of the step.
+  void wedge() {
+    const double rest = h_ - done_;
+    const Point free = flight(rest);
+    std::array<Vec3, most_contacts> normal, along;
+    std::array<double, most_contacts> pushed{};  // m/s
+    for (int i = 0; i < count_; ++i) {
+      const SphereTrack& track = *contacts_[i].track;
+      normal[i] = (x_ + rest / 2 * v_ - track.centre(done_ + rest / 2)).normalized();
+      along[i].setZero();
+    }
+    Vec3 v = free.v;
+    // each sweep divides what is left by the squared cosine of the angle between normals at least
+    for (int sweep = 0; sweep < 500; ++sweep) {
+      double change = 0;
+      for (int i = 0; i < count_; ++i) {
+        const Sphere& sphere = contacts_[i].track->sphere();
+        const Vec3 before = v;
+        Vec3 w = v - contacts_[i].track->velocity(h_);
+        const double push = std::max(0.0, pushed[i] - w.dot(normal[i]));
+        v += (push - pushed[i]) * normal[i];
+        pushed[i] = push;
+        w = without_normal_part(v - contacts_[i].track->velocity(h_), normal[i]);
+        Vec3 held = along[i] - w;
+        if (const double size = held.norm(), most = sphere.friction * push; size > most) held *= most / size;
+        v += held - along[i];
+        along[i] = held;
+        change = std::max(change, (v - before).norm());
+      }
+      if (!(change > eps * (free.v.norm() + v_.norm()))) break;
+    }
+    lost_ -= (v - free.v).dot(v + v_) / 2;
+    x_ += rest / 2 * (v_ + v), v_ = v;
+    done_ = h_;
+    for (int round = 0; round < 100; ++round) {
+      double off = 0;
+      for (int i = 0; i < count_; ++i) {
+        const SphereTrack& track = *contacts_[i].track;
+        const double g = gap(track, x_, done_);
+        if (g < 0 || pushed[i] > 0) put_on(track), off = std::max(off, std::abs(g));
+      }
+      if (!(off > 4 * eps * x_.norm())) break;
+    }
+  }
+
+  /// The rest of a step of too many events.
+  void finish_by_whole_step() {
+    const Vec3 x_n = x_, v_n = v_;
+    const Point p = flight(h_ - done_);
+    const double begun = done_;
+    x_ = p.x, v_ = p.v, done_ = h_;
+    for (const SphereTrack& track : spheres_) {
+      const Vec3 centre = track.centre(h_);
+      Vec3 w = v_ - track.velocity(h_);
+      resolve_contact(track.sphere(), centre, x_n + centre - track.centre(begun), x_, w);
+      v_ = track.velocity(h_) + w;
+    }
+    lost_ -= (v_ - p.v).dot(v_ + v_n) / 2;
+  }
+
+  const std::span<const SphereTrack> spheres_;
+  const double h_, gamma_;
+  Vec3 b_, bend_;    // m/s^2; m
+  Vec3 x_, v_;       // m, m/s: after the part `done_` of the step
+  double done_ = 0;  // s
+  double lost_ = 0;  // m^2/s^2
+  bool touched_ = false, ends_inside_;
+  std::array<Contact, most_contacts> contacts_;  // that last
+  int count_ = 0;
+};
+
+/// Whether a particle may come near the sphere in the step: a path of constant acceleration lies within h |v - v_n| / 8
+/// of its chord.
+bool comes_near(const SphereTrack& track, double h, const Vec3& x_n, const Vec3& v_n, const Vec3& x, const Vec3& v) {
+  const Vec3 from = x_n - track.centre(0), to = x - track.centre(h);
+  const double reach =
+      track.radius() * (1 + 1e-9) + (to - from).norm() + h / 8 * (v - v_n - h * track.acceleration()).norm();
+  return !(from.squaredNorm() > reach * reach);
+}
+
+}  // namespace
+
+SphereTrack::SphereTrack(const Sphere& sphere, double t_n, double t)
+    : sphere_(&sphere),
+      radius_(sphere.contact_radius()),
+      h_(t - t_n),
+      centre_(sphere.centre_at(t_n)),
+      velocity_(Vec3::Zero()),
+      end_centre_(centre_),
+      end_velocity_(Vec3::Zero()),
+      acceleration_(Vec3::Zero()),
+      rest_(Vec3::Zero()) {
+  if (!sphere.motion) return;
+  velocity_ = velocity_at(*sphere.motion, t_n);
+  end_centre_ = sphere.centre_at(t);
+  end_velocity_ = velocity_at(*sphere.motion, t);
+  acceleration_ = (end_velocity_ - velocity_) / h_;
+  rest_ = end_centre_ - (centre_ + h_ / 2 * (velocity_ + end_velocity_));
+}
+
+Vec3 SphereTrack::centre(double s) const {
+  if (!sphere_->motion || s == 0) return centre_;
+  if (s >= h_) return end_centre_;
+  return centre_ + s * velocity_ + s * s / 2 * acceleration_ + cubed(s / h_) * rest_;
+}
+
+Vec3 SphereTrack::velocity(double s) const { return s >= h_ ? end_velocity_ : Vec3(velocity_ + s * acceleration_); }
+
+std::vector<SphereTrack> sphere_tracks(const Spheres& spheres, double t_n, double t) {
+  std::vector<SphereTrack> tracks;
+  tracks.reserve(spheres.list.size());
+  for (const Sphere& sphere : spheres.list) tracks.emplace_back(sphere, t_n, t);
+  return tracks;
+}
+
+std::optional<double> resolve_events(std::span<const SphereTrack> spheres, double h, double gamma, const Vec3& x_n,
+                                     const Vec3& v_n, Eigen::Ref<Vec3> x, Eigen::Ref<Vec3> v) {
+  if (std::none_of(spheres.begin(), spheres.end(),
+                   [&](const SphereTrack& track) { return comes_near(track, h, x_n, v_n, x, v); }))
+    return std::nullopt;
+  ParticleStep step(spheres, h, gamma, x_n, v_n, x, v);
+  if (!step.run()) return std::nullopt;
+  x = step.x(), v = step.v();
+  return step.lost();
+}
+
+}  // namespace crosscheck

@@ -1,0 +1,380 @@
+// Contact located within the step: order 2 against closed forms and against an event-driven route of its own.
+
+#include <numbers>
+
+#include "reference/truth/exact/exact.h"
+#include "reference/truth/independent/integrators.h"
+#include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
+
+namespace crosscheck {
+namespace {
+
+using namespace testing_tools;
+
+constexpr double g = 9.81, degrees_of_turn = 180 / std::numbers::pi;
+
+/// The rules of order 2 and more. Dopri5 beside a sphere takes steps of at most run.step, by its tolerance.
+const std::vector<std::string> rules = {"leapfrog", "trapezoidal", "rk4", "suzuki4", "dopri5", "implicit-midpoint"};
+
+Trajectory with_events(const std::string& rule, const Scene& scene, double h, double until, int samples) {
+  Recorder recorder;
+  simulate(stepper(rule), ContactRule::events, scene, {h, until, samples, 1e-10}, recorder);
+  return recorder.trajectory;
+}
+
+/// Order between steps h, h/2 and h/4 by the errors at them.
+template <class Error>
+std::pair<double, double> orders(Error error, double h) {
+  const double coarse = error(h), middle = error(h / 2), fine = error(h / 4);
+  return {slope(coarse, middle), slope(middle, fine)};
+}
+
+/// Holds orders to 2 on both sides: leapfrog and trapezoidal within a tenth, the others from below.
+void expect_second_order(const std::string& rule, std::pair<double, double> seen) {
+  for (const double order : {seen.first, seen.second}) {
+    EXPECT_GT(order, 1.9) << rule;
+    if (rule == "leapfrog" || rule == "trapezoidal") {
+      EXPECT_LT(order, 2.1) << rule;
+    }
+  }
+}
+
+Scene on_ball(double degrees, const std::string& surface, const std::string& velocity = "[0, 0, 0]",
+              const std::string& more = "") {
+  const double angle = degrees / degrees_of_turn;
+  return small_scene(
+      fmt::format("[[particle]]\nposition = [{:.17g}, {:.17g}, 0]\nmass = 2\nvelocity = {}\n"
+                  "[sphere]\ncentre = [0, 0, 0]\nradius = 1\n{}\n{}{}",
+                  std::sin(angle), std::cos(angle), velocity, surface, more, gravity_text));
+}
+
+/// The angle (degrees) at which a particle left a ball of 1 m, from its state in free flight: it kept the horizontal
+/// speed v cos(theta) of the point where v^2 = g R cos(theta).
+double left_at(const State& s) { return std::acos(std::cbrt(s.v(0, 0) * s.v(0, 0) / g)) * degrees_of_turn; }
+
+TEST(ContactEvents, ParticleLeavesABallWhereEnergySays) {
+  const Scene scene = on_ball(1, "");
+  const double exact = std::acos(2. / 3 * std::cos(1 / degrees_of_turn)) * degrees_of_turn;
+  for (const auto& rule : rules) {
+    const auto error = [&](double h) {
+      const Trajectory t = with_events(rule, scene, h, 1.5, 1);
+      EXPECT_LT(t.x.back()(1, 0), 0.6) << "still on the ball";
+      return std::abs(left_at({t.t.back(), t.x.back(), t.v.back()}) - exact);
+    };
+    EXPECT_LT(error(1e-3), 1e-3) << rule;
+    expect_second_order(rule, orders(error, 0.01));
+  }
+}
+
+TEST(ContactEvents, FrictionOnABallLeavesToSecondOrderWhereTheWholeStepRuleIsFirst) {
+  const Scene scene = shipped_scene("slide");
+  const auto exact = exact_solution(scene);
+  const auto off = [&](const Trajectory& t) {
+    double worst = 0;
+    for (int i = 0; i < t.frames(); ++i) worst = std::max(worst, (t.x[i] - exact->at(t.t[i]).x).norm());
+    return worst;
+  };
+  for (const auto& rule : rules)
+    expect_second_order(rule, orders([&](double h) { return off(with_events(rule, scene, h, 1, 20)); }, 0.01));
+  const auto whole = orders([&](double h) { return off(trajectory_of(stepper("leapfrog"), scene, {h, 1, 20})); }, 0.01);
+  EXPECT_LT(whole.first, 1.5);
+  EXPECT_LT(whole.second, 1.5);
+}
+
+TEST(ContactEvents, StopsOnABallWhereCoulombSays) {
+  // u = theta'^2 obeys du/dtheta = 2 (g/R) (sin - mu cos) + 2 mu u: it stops at the root of its closed form
+  const double mu = 0.5, v0 = 1;
+  const double a = g * (4 * mu * mu - 2) / (1 + 4 * mu * mu), b = -6 * mu * g / (1 + 4 * mu * mu), c = v0 * v0 - a;
+  double low = 0, high = 0.3;
+  for (int i = 0; i < 80; ++i) {
+    const double at = (low + high) / 2;
+    (c * std::exp(2 * mu * at) + a * std::cos(at) + b * std::sin(at) > 0 ? low : high) = at;
+  }
+  ASSERT_LT(std::tan(low), mu);  // and friction holds it there
+  const Scene scene = on_ball(0, fmt::format("friction = {}", mu), fmt::format("[{}, 0, 0]", v0));
+  for (const auto& rule : rules) {
+    const auto error = [&](double h) {
+      const Trajectory t = with_events(rule, scene, h, 1, 10);
+      EXPECT_EQ(t.v.back(), Points::Zero(3, 1));
+      EXPECT_EQ(t.x[9], t.x[10]);
+      return std::abs(std::atan2(t.x.back()(0, 0), t.x.back()(1, 0)) - low);
+    };
+    expect_second_order(rule, orders(error, 0.02));
+  }
+}
+
+TEST(ContactEvents, StopsOnAPlaneAfterVSquaredOverTwoMuG) {
+  // a ball of 1e6 m: its slope changes the way by its square over the radius, 1e-6 of it
+  const Scene scene = small_scene(std::string("[[particle]]\nposition = [0, 1e6, 0]\nmass = 1\nvelocity = [1, 0, 0]\n"
+                                              "[sphere]\ncentre = [0, 0, 0]\nradius = 1e6\nfriction = 0.3\n") +
+                                  gravity_text);
+  for (const auto& rule : rules)
+    EXPECT_NEAR(with_events(rule, scene, 1e-2, 1, 10).x.back()(0, 0), 1 / (2 * 0.3 * g), 1e-6) << rule;
+}
+
+TEST(ContactEvents, HoldsAndSlidesWithinAThousandthOfCoulombsAngle) {
+  for (const double degrees : {5., 20., 50.})
+    for (const auto& rule : rules) {
+      SCOPED_TRACE(fmt::format("{} {}", rule, degrees));
+      const double limit = std::tan(degrees / degrees_of_turn);
+      const Scene held = on_ball(degrees, fmt::format("friction = {:.17g}", 1.001 * limit));
+      EXPECT_LT((with_events(rule, held, 1e-3, 2, 2).x.back() - held.start.x).norm(), 8 * eps);
+      const Scene loose = on_ball(degrees, fmt::format("friction = {:.17g}", 0.999 * limit));
+      // it goes by g (sin - mu cos) t^2 / 2 at least: the slope only grows
+      const double way = g * 0.001 * std::sin(degrees / degrees_of_turn) * 0.25 / 2;
+      EXPECT_GT((with_events(rule, loose, 1e-3, 0.5, 1).x.back() - loose.start.x).norm(), way);
+    }
+}
+
+TEST(ContactEvents, ThirdApexIsExactAndEndlessBouncesEndInRest) {
+  for (const double e : {0.5, 0.7, 1.})
+    for (const auto& rule : rules) {
+      SCOPED_TRACE(fmt::format("{} {}", rule, e));
+      Scene scene = on_ball(0, fmt::format("restitution = {}", e));
+      scene.start.x(1, 0) = 1.3;
+      const auto exact = exact_solution(scene);
+      ASSERT_TRUE(exact);
+      const double fall = std::sqrt(0.6 / g), apex = fall * (1 + 2 * e + 2 * e * e + e * e * e);
+      const Trajectory t = with_events(rule, scene, 7e-3, apex, 30);
+      // some roundings of 1.3 m, and of the time of an impact at 2.4 m/s, in some hundred steps; Newton's method of
+      // implicit rules leaves 1e-10 of the force m v / h: 1e-10 g t^2 of 2 m/s / (h g)
+      const double allowed = rule == "implicit-midpoint" ? 1e-7 : 1e-13 * 30;
+      for (int i = 0; i < t.frames(); ++i) EXPECT_NEAR(t.x[i](1, 0), exact->at(t.t[i]).x(1, 0), allowed);
+      EXPECT_NEAR(t.x.back()(1, 0) - 1, 0.3 * std::pow(e, 6), allowed);
+      if (e > 0.6) continue;
+      const Trajectory rest = with_events(rule, scene, 7e-3, 2, 2);
+      EXPECT_NEAR(rest.x.back()(1, 0), 1, 4 * eps);
+      EXPECT_NEAR(rest.v.back().norm(), 0, 1e-12);
+    }
+}
+
+TEST(ContactEvents, EnergyIsAccountedForInSlidesStopsAndImpacts) {
+  for (const auto& scene : {shipped_scene("slide"), on_ball(0, "friction = 0.5", "[1, 0, 0]"), shipped_scene("bounce")})
+    for (const auto& rule : {"leapfrog", "trapezoidal", "rk4", "suzuki4"}) {
+      const auto open = [&](double h) {
+        Ledger ledger(scene.model, ContactLoss::reported);
+        simulate(stepper(rule), ContactRule::events, scene, {h, 0.9, 9}, ledger);
+        double worst = 0;
+        for (const LedgerRow& row : ledger.rows())
+          worst = std::max(worst, std::abs(row.balance() - ledger.rows()[0].balance()));
+        return worst;
+      };
+      // J: second order, of some joules turned over at 1/s^2; bounces that are no more than a step high are left out,
+      // m g (g h^2 / 8) each
+      EXPECT_LT(open(1e-3), 1e-4) << rule;
+      EXPECT_LT(open(1e-4), 1e-6) << rule;
+    }
+}
+
+/// Two balls of 1 m beside each other, `gap` apart between their centres, and a particle on the first.
+Scene valley(double apart, double degrees, double friction) {
+  const double angle = degrees / degrees_of_turn;
+  return small_scene(
+      fmt::format("[[particle]]\nposition = [{:.17g}, {:.17g}, 0]\nmass = 1\n"
+                  "[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\nfriction = {}\n"
+                  "[[sphere]]\ncentre = [{}, 0, 0]\nradius = 1\nfriction = {}\n{}",
+                  std::sin(angle), std::cos(angle), friction, apart, friction, gravity_text));
+}
+
+TEST(ContactEvents, ComesToRestInTheValleyBetweenTwoBalls) {
+  for (const double apart : {0.6, 1., 1.6})
+    for (const double friction : {0., 0.1})
+      for (const auto& rule : rules) {
+        SCOPED_TRACE(fmt::format("{} {} {}", rule, apart, friction));
+        const Scene scene = valley(apart, 10, friction);
+        const Trajectory t = with_events(rule, scene, 1e-3, 4, 8);
+        EXPECT_NEAR(t.x.back()(0, 0), apart / 2, 1e-12);
+        EXPECT_NEAR(t.x.back()(1, 0), std::sqrt(1 - apart * apart / 4), 1e-12);
+        EXPECT_LT(t.v.back().norm(), 1e-12);
+      }
+}
+
+TEST(ContactEvents, ValleyAgreesWithTheEventDrivenRouteToSecondOrder) {
+  // it runs through the valley and up the other ball, several times
+  const Scene scene = valley(0.8, 10, 0.05);
+  Recorder truth;
+  run_event_driven(scene, {1e-3, 1.2, 24, 1e-12}, truth);
+  for (const auto& rule : {"leapfrog", "rk4"}) {
+    const auto error = [&](double h) { return sup_rms(with_events(rule, scene, h, 1.2, 24), truth.trajectory); };
+    EXPECT_LT(error(1e-3), 1e-5);
+    expect_second_order(rule, orders(error, 5e-3));
+  }
+}
+
+TEST(EventDriven, IsWhatClosedFormsSay) {
+  for (const auto name : {"slide", "bounce"}) {
+    const Scene scene = shipped_scene(name);
+    const auto exact = exact_solution(scene);
+    Recorder r;
+    run_event_driven(scene, {1e-3, 1, 50, 1e-12}, r);
+    for (int i = 0; i < r.trajectory.frames(); ++i)
+      // tolerance 1e-12 of some metres in each of a thousand steps
+      EXPECT_LT((r.trajectory.x[i] - exact->at(r.trajectory.t[i]).x).norm(), 1e-9) << name << ' ' << i;
+  }
+}
+
+/// A chain of n particles along a great circle over the top of a ball, on springs stretched by their own weight alone.
+Scene chain_on_ball(int n, double friction, const std::string& more = "") {
+  std::string text;
+  for (int i = 0; i < n; ++i) {
+    const double angle = -0.3 + 0.9 * i / (n - 1);
+    text +=
+        fmt::format("[[particle]]\nposition = [{:.17g}, {:.17g}, 0]\nmass = 0.1\n", std::sin(angle), std::cos(angle));
+  }
+  for (int i = 0; i + 1 < n; ++i) text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = 200\n", i, i + 1);
+  return small_scene(text + more + fmt::format("[sphere]\ncentre = [0, 0, 0]\nradius = 1\nfriction = {}\n", friction) +
+                     gravity_text);
+}
+
+TEST(ContactEvents, ChainOnABallAgreesWithTheEventDrivenRouteToSecondOrder) {
+  for (const double friction : {0., 0.3})
+    for (const auto more : {"", "[drag]\ngamma = 1\n"}) {
+      const Scene scene = chain_on_ball(9, friction, more);
+      Recorder truth;
+      run_event_driven(scene, {1e-3, 0.5, 10, 1e-11}, truth);
+      for (const auto& rule : {"leapfrog", "trapezoidal", "rk4", "suzuki4"}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", rule, friction, more));
+        const auto error = [&](double h) { return sup_rms(with_events(rule, scene, h, 0.5, 10), truth.trajectory); };
+        if (friction == 0) {
+          expect_second_order(rule, orders(error, 5e-3));
+        } else {
+          // where in its step friction lets go changes an error by some per cent: four halvings together
+          EXPECT_NEAR(slope(error(2.5e-3), error(2.5e-3 / 16)) / 4, 2, 0.1);
+        }
+      }
+    }
+}
+
+TEST(EventTruth, OfAChainCoversItsErrorAndIsNoDifference) {
+  const Scene scene = chain_on_ball(5, 0.3, "[drag]\ngamma = 1\n");
+  const crosscheck::Run run{2e-3, 0.3, 6};
+  const auto truth = event_truth(scene, run);
+  ASSERT_TRUE(truth);
+  EXPECT_EQ(truth->tier, Tier::converged);
+  EXPECT_FALSE(truth->under_contact_rule);
+  EXPECT_TRUE(contains(truth->how, "mysim/leapfrog+events"));
+  Recorder better;
+  run_event_driven(scene, {2e-4, 0.3, 6, 1e-13}, better);
+  const double off = sup_rms(truth->trajectory, better.trajectory);
+  EXPECT_LT(off, truth->error_bar);
+  // the bar is that of the route of order 2, which stops at 1e-8 of the scene's size
+  EXPECT_LT(truth->error_bar, 1e-8 * scene.size());
+}
+
+TEST(EventTruth, IsNoneWhereARouteKnowsNothingAndSaysWhy) {
+  const auto refused = [](const Scene& scene) -> std::string {
+    EXPECT_FALSE(event_truth(scene, {1e-3, 0.1, 2}));
+    try {
+      NullObserver nobody;
+      run_event_driven(scene, {1e-3, 0.1, 2, 1e-9}, nobody);
+    } catch (const Unsupported& e) {
+      return e.what();
+    }
+    return "";
+  };
+  Scene moving = chain_on_ball(3, 0);
+  moving.model.find<Spheres>()->list[0].motion = Motion{{0, 0.1, 0}, 1, 1};
+  EXPECT_TRUE(contains(refused(moving), "spheres at rest only"));
+  EXPECT_TRUE(contains(refused(shipped_scene("chain")), "no contact"));
+  // along the valley between two balls, across the plane of their centres
+  Scene groove = valley(1, 10, 0);
+  groove.start.x.col(0) = Vec3(0.5, std::sqrt(0.75) * std::cos(0.3), std::sqrt(0.75) * std::sin(0.3));
+  EXPECT_TRUE(contains(refused(groove), "between two balls"));
+  EXPECT_EQ(refused(chain_on_ball(60, 0)), "");  // it can be run, but truths of so many are not claimed
+}
+
+TEST(ContactEvents, NothingEndsInsideAndNothingPassesThrough) {
+  for (const Stepper& s : steppers())
+    for (const bool moving : {false, true})
+      for (const double h : {1e-3, 5e-2}) {  // the larger one tears the cloth apart in every explicit rule
+        SCOPED_TRACE(fmt::format("{} {} {}", s.name, moving, h));
+        const Scene scene = small_scene(
+            std::string("[grid]\nsize = [7, 7]\norigin = [-0.4, 1.05, -0.5]\nu = [1, 0, 0]\nv = [0, 0, 1]\nmass = 1\n"
+                        "[grid.stiffness]\nstructural = 100\nshear = 100\nbend = 100\n[drag]\ngamma = 2\n"
+                        "[[sphere]]\ncentre = [-0.5, 0, 0]\nradius = 1\nfriction = 0.3\n"
+                        "[[sphere]]\ncentre = [0.6, 0, 0]\nradius = 0.9\nrestitution = 0.5\n") +
+            (moving ? "[sphere.motion]\namplitude = [0, 0.2, 0.1]\nfrequency = 1\nramp = 0.2\n" : "") + gravity_text);
+        Recorder path;
+        simulate(s, ContactRule::events, scene, {h, 0.5, 10}, path);
+        for (int i = 0; i < path.trajectory.frames(); ++i)
+          for (int j = 0; j < path.trajectory.x[i].cols(); ++j) {
+            const Vec3 x = path.trajectory.x[i].col(j);
+            // put on the surface of one ball after the other and measured again
+            EXPECT_FALSE(clearance_from(*scene.model.find<Spheres>(), path.trajectory.t[i], x) < -1e-12);
+          }
+      }
+  // 100 m/s and steps of 1/20 s: it would be beyond the ball at once
+  const Scene fast = on_ball(0, "restitution = 1", "[0, 0, 0]");
+  Scene shot = fast;
+  shot.start.x.col(0) = Vec3(0, 3.5, 0), shot.start.v.col(0) = Vec3(0, -100, 0);
+  EXPECT_GT(with_events("leapfrog", shot, 0.05, 0.05, 1).x.back()(1, 0), 3);
+  EXPECT_LT(trajectory_of(stepper("leapfrog"), shot, {0.05, 0.05, 1}).x.back()(1, 0), -1);
+}
+
+TEST(ContactEvents, ChangeNoBitWhereNothingTouches) {
+  for (const auto& rule : rules) {
+    Scene scene = shipped_scene("chain");
+    scene.model.terms.emplace_back(Spheres{{Sphere{{0, 5, 0}, 1, 0, 0, 0, std::nullopt}}});
+    scene.duration = 1;
+    EXPECT_TRUE(identical(with_events(rule, scene, 1e-3, 1, 10), [&] {
+      Recorder r;
+      simulate(stepper(rule), ContactRule::coulomb, scene, {1e-3, 1, 10, 1e-10}, r);
+      return r.trajectory;
+    }()));
+  }
+}
+
+/// A ball on a sphere that is moved aside, seen from the sphere: there gravity has its acceleration against it.
+TEST(ContactEvents, AMovingSphereIsFollowedToSecondOrder) {
+  for (const double friction : {0., 0.1, 0.5}) {
+    const Scene scene = small_scene(
+        fmt::format("[[particle]]\nposition = [0, 1, 0]\nmass = 1\n[sphere]\ncentre = [0, 0, 0]\nradius = 1\n"
+                    "friction = {}\n[sphere.motion]\namplitude = [0.05, 0.02, 0.03]\nfrequency = 0.7\nramp = 0.5\n",
+                    friction) +
+        gravity_text);
+    for (const auto& rule : {"leapfrog", "rk4"}) {
+      SCOPED_TRACE(fmt::format("{} {}", rule, friction));
+      const Trajectory finest = with_events(rule, scene, 5e-5, 0.8, 8);
+      const auto error = [&](double h) { return sup_rms(with_events(rule, scene, h, 0.8, 8), finest); };
+      if (friction == 0) {
+        // the finest is off by 1/2500 of what the last one is
+        expect_second_order(rule, orders(error, 1e-2));
+      } else if (friction == 0.1) {
+        // it sticks and slips: where in its step it lets go decides how much of h^2 is left
+        EXPECT_LT(error(1.25e-3), 2e-6);
+        EXPECT_GT(sup_rms(trajectory_of(stepper(rule), scene, {1.25e-3, 0.8, 8}), finest), 5e-5);
+      } else {  // it is carried along: the sphere's place is known exactly
+        const Vec3 carried = displacement_at(*scene.model.find<Spheres>()->list[0].motion, 0.8);
+        EXPECT_LT((finest.x.back().col(0) - Vec3(0, 1, 0) - carried).norm(), 1e-12);
+        EXPECT_LT(error(1e-2), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(ContactEvents, AreTheSameInTheFusedStepOfACloth) {
+  for (const bool moving : {false, true}) {
+    const Scene scene = small_scene(
+        std::string("[grid]\nsize = [20, 20]\norigin = [-0.4, 1.05, -0.5]\nu = [1, 0, 0]\nv = [0, 0, 1]\nmass = 1\n"
+                    "[grid.stiffness]\nstructural = 100\nshear = 100\nbend = 100\n[drag]\ngamma = 2\n"
+                    "[sphere]\ncentre = [0, 0, 0]\nradius = 1\nfriction = 0.3\n") +
+        (moving ? "[sphere.motion]\namplitude = [0, 0.1, 0.1]\nfrequency = 1\nramp = 0.2\n" : "") + gravity_text);
+    for (const auto& rule : {"leapfrog", "symplectic-euler"}) {
+      Recorder fused, general;
+      simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, fused);
+      simulate(stepper(rule), ContactRule::events, scene, {1e-3, 0.2, 10}, general, {ExecutionPath::general, 1});
+      // rounding, and the fused step's particles that end a step outside, pressed on by O(h): h^3 each time one leaves;
+      // a rule of order 1 passes them on to its own path, h^2 away
+      EXPECT_LT(sup_rms(fused.trajectory, general.trajectory), rule == std::string_view("leapfrog") ? 1e-6 : 1e-3);
+      double nearest = 1;
+      for (int i = 0; i < general.trajectory.frames(); ++i)
+        for (const auto& x : general.trajectory.x[i].colwise())
+          nearest = std::min(nearest, clearance_from(*scene.model.find<Spheres>(), general.trajectory.t[i], x));
+      EXPECT_LT(nearest, 1e-9) << "it never touched";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace crosscheck
