@@ -42,7 +42,7 @@ std::vector<std::size_t> angles_in(const Texts& own, const Case& what);
 std::string smaller_text(const Texts& common, const Texts& own, const std::vector<Case>& small,
                          const std::vector<Answer>& answers);
 
-/// Where several cases of one number each are wrong by different factors: each factor; else empty.
+/// Of several cases of one number each, all compared to round-off, what came over what is right; else empty.
 std::string factors_text(const Texts& common, const std::vector<Case>& cases, const std::vector<Answer>& answers);
 
 /// One sentence or two: what was expected, what came, and where they first differ; of rows that are a set (text

@@ -49,17 +49,23 @@ std::map<int, double> gravities(const Numbers& raw) {
   return found;
 }
 
-/// What a velocity takes of the acceleration, per velocity: a sample of the particles, unnamed in the record.
-std::map<int, double> drags(const Numbers& raw) {
-  std::map<int, double> found;
+/// What a velocity takes of the acceleration, per velocity, of those particles that move and were looked at: "0.6", or
+/// where they differ "0.6 (of 20), 0 (of 12)".
+std::string drags(const Numbers& raw) {
+  std::map<std::string, int> found;
   const auto n = raw.empty() ? 0 : static_cast<std::size_t>(raw[0]);
   for (std::size_t i = 0; i < n && raw.size() >= 1 + 12 * n; ++i) {
     const double *w = &raw[1 + i * 12], *a0 = w + 3, *a1 = w + 6;
-    double along = 0, size = 0;
-    for (int k = 0; k < 3; ++k) along += (a0[k] - a1[k]) * w[k], size += w[k] * w[k];
-    if (size > 0 && along != 0) found[static_cast<int>(i)] = along / size;
+    double along = 0, size = 0, moves = 0;
+    for (int k = 0; k < 3; ++k)
+      along += (a0[k] - a1[k]) * w[k], size += w[k] * w[k], moves += std::abs(a0[k]) + std::abs(a1[k]);
+    if (size > 0 && moves > 0) ++found[three_digits(std::abs(along) < 1e-3 * size ? 0 : along / size)];
   }
-  return found;
+  if (found.size() == 1) return found.begin()->first;
+  std::string list;
+  for (const auto& [value, count] : found)
+    if (list.size() < 60) list += (list.empty() ? "" : ", ") + value + " (of " + std::to_string(count) + ")";
+  return list;
 }
 
 /// "0-1: 80, 0.6" for a few springs, else a line for each kind of neighbour on the grid.
@@ -101,7 +107,7 @@ std::string measured_text(const Texts& common, const std::string& part, const As
     std::vector<Numbers> raw;
     for (std::size_t i = 0; i < cases.size(); ++i)
       raw.push_back(answers[i].how == How::answered ? replay(cases[i], answers[i].got) : Numbers());
-    const std::string gravity = of_each(gravities(raw[0])), drag = of_each(drags(raw[1])),
+    const std::string gravity = of_each(gravities(raw[0])), drag = drags(raw[1]),
                       springs = springs_list(springs_of(raw[2]));
     if (gravity.empty() && springs.empty()) continue;
     const auto or_none = [](const std::string& one) { return one.empty() ? std::string("-") : one; };

@@ -23,12 +23,12 @@ Numbers times(const Numbers& a, const Numbers& x, double h) {
 
 Looked step_text(const Texts& common, const std::string& part, const Ask& student) {
   Random random(31);
-  // two steps of h and of h/2: terms differ in how they shrink
+  // three sizes of a step: terms differ in how they shrink, and h^2 is no sum of h and 1
   std::vector<Case> cases;
-  Terms columns(4);
+  Terms columns(5);
   Numbers a;
   for (int i = 0; i < 9; ++i) a.push_back(static_cast<float>(random.uniform(-1.5, 1.5)));
-  for (const double h : {0.25, 0.5}) {
+  for (const double h : {0.25, 0.5, 0.875}) {
     Case c{part + ".path", {h, 1}, {}, 3};
     c.in.insert(c.in.end(), a.begin(), a.end());
     c.in.push_back(0);
@@ -36,9 +36,9 @@ Looked step_text(const Texts& common, const std::string& part, const Ask& studen
     for (int i = 0; i < 12; ++i) x.push_back(static_cast<float>(random.uniform(-1.5, 1.5)));
     c.in.insert(c.in.end(), x.begin(), x.end());
     const Numbers once = times(a, x, h), twice = times(a, once, h);
-    const Numbers bare = times(a, x, 1);  // of a forgotten h
-    const Numbers* all[] = {&x, &once, &twice, &bare};
-    for (std::size_t k = 0; k < 4; ++k) columns[k].insert(columns[k].end(), all[k]->begin(), all[k]->end());
+    const Numbers bare = times(a, x, 1), squared = times(a, x, h * h);  // of a forgotten h, and of one too many
+    const Numbers* all[] = {&x, &once, &twice, &bare, &squared};
+    for (std::size_t k = 0; k < 5; ++k) columns[k].insert(columns[k].end(), all[k]->begin(), all[k]->end());
     cases.push_back(c);
   }
   Numbers result;
@@ -46,8 +46,8 @@ Looked step_text(const Texts& common, const std::string& part, const Ask& studen
     if (answer.how != How::answered || answer.got.size() != 12) return {};
     result.insert(result.end(), answer.got.begin(), answer.got.end());
   }
-  const std::vector<NamedTerm> terms{{"x"}, {"h f(x)"}, {"h^2 f(f(x))"}, {"f(x)"}};
-  const Numbers right{1, 1, part == "trapezoidal" ? 0.5 : 0, 0};
+  const std::vector<NamedTerm> terms{{"x"}, {"h f(x)"}, {"h^2 f(f(x))"}, {"f(x)"}, {"h^2 f(x)"}};
+  const Numbers right{1, 1, part == "trapezoidal" ? 0.5 : 0, 0, 0};
   // a step is some twenty roundings of 6e-8 of numbers below 10
   constexpr double rounding = 3e-5, known = 1e-3;
   Numbers found = coefficients(columns, result, rounding);
@@ -55,7 +55,7 @@ Looked step_text(const Texts& common, const std::string& part, const Ask& studen
   for (double& value : found)
     if (std::abs(value) < known) value = 0;
   bool same = true;
-  for (std::size_t k = 0; k < 4; ++k) same = same && std::abs(found[k] - right[k]) < known;
+  for (std::size_t k = 0; k < 5; ++k) same = same && std::abs(found[k] - right[k]) < known;
   return same ? Looked{common.of("rule.right_linear"), false}
               : Looked{common.fill("rule.linear", sum_text(terms, found, known), sum_text(terms, right, known)), true};
 }

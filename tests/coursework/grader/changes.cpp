@@ -149,9 +149,10 @@ std::vector<Change> removals_of(const Texts& own, const Case& what) {
     if (!is_told_by_rows(list, what)) all.push_back({Change::without, list.name});
   for (const Param& p : params_of(layout)) {
     if (p.name == "on") all.push_back({Change::choice, p.name, {}, 0});
-    // without a step nothing moves, and nothing is wrong
-    const bool is_step = p.name == "h" || p.name == "frame" || p.name == "duration";
-    if (!p.whole && !is_step) all.push_back({Change::zero, p.name});
+    // without a step nothing moves, without a radius nothing is met, and nothing is wrong; a place is no term
+    const bool is_no_term = p.name == "h" || p.name == "frame" || p.name == "duration" || p.name == "radius" ||
+                            p.name == "before" || p.name == "proposed";
+    if (!p.whole && !is_no_term) all.push_back({Change::zero, p.name});
   }
   return all;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "tests/coursework/check/judge.h"
@@ -86,13 +87,31 @@ class Observer {
     return true;
   }
 
+  /// Whether a little more of a changed number would be seen: where a limit is out of reach any large number will do.
+  bool is_sharp(const Change& change) const {
+    if (change.kind < Change::one || change.kind > Change::over) return true;
+    const std::optional<Numbers> in = changed(with_.own, *subject_, change);
+    if (!in) return false;
+    std::vector<Case> cases;
+    for (std::size_t i = 0; i < in->size(); ++i) {
+      if ((*in)[i] == subject_->in[i]) continue;
+      Numbers more = *in;
+      more[i] *= 1.01;
+      cases.push_back(with_numbers(*subject_, more));
+    }
+    const std::vector<Answer> answers = with_.reference(cases);
+    return std::any_of(answers.begin(), answers.end(),
+                       [&](const Answer& answer) { return !agree(*subject_, *got_, answer); });
+  }
+
   std::string right_with() const {
     const std::vector<Change> changes = changes_of(with_.own, *subject_);
     std::vector<std::size_t> made;
     const std::vector<Answer> answers = asked_with(with_.reference, changes, made);
     std::vector<Change> found;
     for (std::size_t i = 0; i < made.size(); ++i)
-      if (usable(*subject_, answers[i]) && agree(*subject_, *got_, answers[i]) && explains_all(changes[made[i]]))
+      if (usable(*subject_, answers[i]) && agree(*subject_, *got_, answers[i]) && explains_all(changes[made[i]]) &&
+          is_sharp(changes[made[i]]))
         found.push_back(changes[made[i]]);
     for (const int tier : {1, 2}) {
       std::string list;
