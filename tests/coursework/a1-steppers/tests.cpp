@@ -7,6 +7,9 @@
 #include "tests/coursework/grader/assignment.h"
 
 namespace coursework {
+namespace a1 {
+Looked tableau_text(const Texts& common, const std::string& part, const Ask& student);  // tableau.cpp
+}
 namespace {
 
 using namespace a1;
@@ -196,7 +199,7 @@ constexpr Part parts[] = {{"euler", "euler.title"}, {"trapezoidal", "trapezoidal
 }  // namespace
 
 const Assignment& a1_steppers() {
-  static const Assignment assignment{"a1-steppers", "Time steppers", parts, table()};
+  static const Assignment assignment{"a1-steppers", "Time steppers", parts, table(), nullptr, {}, a1::tableau_text};
   return assignment;
 }
 

@@ -19,6 +19,20 @@ inline std::vector<Case> four_cases(Random& random) {
   return cases;
 }
 
+/// The fixed particle and one more, with gravity alone, drag alone, a spring alone; then three with springs alone.
+inline std::vector<Case> small_chain_cases(Random& random) {
+  std::vector<Case> cases;
+  for (int force = 0; force < 4; ++force) {
+    const std::size_t n = force == 3 ? 3 : 2;
+    Row row = random_row(random, n, Members::different);
+    if (force != 0) row.gravity.setZero();
+    if (force != 1) row.drag = 0;
+    if (force < 2) row.stiffness.assign(n - 1, 0);
+    cases.push_back(chain_case(row, random_state(random, row)));
+  }
+  return cases;
+}
+
 inline std::vector<Case> length_cases(Random& random) {
   std::vector<Case> cases;
   for (const std::size_t n : {2, 3, 5, 8}) {

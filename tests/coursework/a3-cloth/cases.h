@@ -70,6 +70,7 @@ Cases spring_steps(Random& random);
 Cases spring_counts(Random& random);
 // part 3
 Cases one_spring(Random& random);
+Cases small_one_spring(Random& random);
 Cases sheet_springs(Random& random);
 Cases small_sheet_springs(Random& random);
 Cases spring_laws(Random& random);
@@ -81,6 +82,7 @@ Cases drag(Random& random);
 Cases triangles(Random& random);
 Cases air(Random& random);
 Cases one_triangle(Random& random);
+Cases small_triangle(Random& random);
 Cases wind_on_cloth(Random& random);
 Cases small_wind_on_cloth(Random& random);
 // part 5

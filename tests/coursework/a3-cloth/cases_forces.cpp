@@ -59,6 +59,21 @@ Cases one_spring(Random& random) {
   return cases;
 }
 
+Cases small_one_spring(Random&) {
+  // along an axis: stretched, shortened
+  Cases cases;
+  for (const double length : {3.0, 1.0}) {
+    Points x = Points::Zero(3, 2);
+    x(0, 0) = length;
+    Case c = force_case("spring_forces");
+    c.in = spring_input({Spring{0, 1, 10, 2}}, x);
+    put(c.expected, Vec3(-10 * (length - 2), 0, 0));
+    put(c.expected, Vec3(10 * (length - 2), 0, 0));
+    cases.push_back(c);
+  }
+  return cases;
+}
+
 namespace {
 
 Case springs_of(const Sheet& sheet) {
@@ -72,7 +87,7 @@ Case springs_of(const Sheet& sheet) {
 
 Cases sheet_springs(Random& random) { return {springs_of(random_sheet(random, 3, 5, 0.04))}; }
 Cases small_sheet_springs(Random& random) {
-  Cases cases;
+  Cases cases = small_one_spring(random);
   for (const int size : {2, 3, 4}) cases.push_back(springs_of(small_sheet(random, size, 0.04)));
   return cases;
 }

@@ -79,6 +79,27 @@ Cases one_triangle(Random& random) {
   return cases;
 }
 
+Cases small_triangle(Random&) {
+  // 6 m^2 that the air meets head on; from behind; slantwise; as it flies with half the wind; as one corner moves
+  Points x(3, 3);
+  x << 0, 0, 4, 0, 0, 0, 0, 3, 0;
+  Cases cases;
+  const auto add = [&](const Vec3& direction, const Vec3& corner, const Vec3& others) {
+    const Breeze breeze{true, direction, 5, 0, 1, 0, 1, 2};
+    Points v(3, 3);
+    v << corner, others, others;
+    Case c = wind_case(breeze, {{0, 1, 2}}, x, v, 0);
+    const Vec3 u = 5 * direction - (corner + 2 * others) / 3;
+    const Vec3 whole = 0.5 * 1 * 2 * 6 * u.norm() * Vec3(0, u.y(), 0);
+    for (int i = 0; i < 3; ++i) put(c.expected, Vec3(whole / 3));
+    cases.push_back(c);
+  };
+  const Vec3 still = Vec3::Zero();
+  add({0, 1, 0}, still, still), add({0, -1, 0}, still, still), add({0.6, 0.8, 0}, still, still);
+  add({0, 1, 0}, {0, 2.5, 0}, {0, 2.5, 0}), add({0, 1, 0}, {0, 3, 0}, still);
+  return cases;
+}
+
 namespace {
 
 /// From one side, from the other, and switched off.
@@ -113,7 +134,8 @@ Cases small_wind_on_cloth(Random& random) {
   // one triangle, then the two of a cell
   Sheet one{Mesh{1, 3, 0.4, 0.3, Vec3::Zero()}, {}, Points(3, 3)};
   one.x << 0, 0.4, 0, 0, 0, 0, 0, 0, 0.3;
-  Cases cases = wind_on(random, one, {{0, 1, 2}});
+  Cases cases = small_triangle(random), tilted = wind_on(random, one, {{0, 1, 2}});
+  cases.insert(cases.end(), tilted.begin(), tilted.end());
   const Sheet cell = small_sheet(random, 4, 0.04);
   const Cases two = wind_on(random, cell, grid_triangles(grid_of(cell.mesh, 1, 0, 0)));
   cases.insert(cases.end(), two.begin(), two.end());

@@ -81,6 +81,62 @@ Cases velocities(Random& random, double friction, double restitution, double sig
 
 }  // namespace
 
+namespace {
+
+/// A sphere around the origin that a particle touches at the height 1, so that each number is one thing only.
+Sphere plain_sphere(double friction, double restitution) {
+  return {Vec3::Zero(), 0.75, 0.25, friction, restitution, std::nullopt};
+}
+
+Case place_case(const char* call, const char* column, int columns, const Vec3& x, const Numbers& expected) {
+  Case c = contact_case(call, plain_sphere(0, 0), 1, column, columns);
+  put(c.in, x);
+  c.expected = expected;
+  return c;
+}
+
+Case move_case(double friction, const Vec3& before, const Vec3& proposed) {
+  const Sphere sphere = plain_sphere(friction, 0);
+  Case c = contact_case("corrected_position", sphere, 1, "position", 3);
+  put(c.in, before);
+  put(c.in, proposed);
+  put(c.expected, resolved(sphere, before, proposed, Vec3::Zero()).x);
+  return c;
+}
+
+/// At the top of the sphere.
+Case velocity_case(double friction, double restitution, const Vec3& v, const Vec3& after) {
+  Case c = contact_case("corrected_velocity", plain_sphere(friction, restitution), 1, "velocity", 3);
+  put(c.in, Vec3(0, 1, 0));
+  put(c.in, v);
+  put(c.expected, after);
+  return c;
+}
+
+}  // namespace
+
+Cases small_place(Random&) {
+  return {place_case("gap", "gap", 1, {0, 3, 0}, {2}), place_case("gap", "gap", 1, {0, 0.5, 0}, {-0.5}),
+          place_case("normal", "normal", 3, {0, 3, 0}, {0, 1, 0}),
+          place_case("nearest", "position", 3, {0, 3, 0}, {0, 1, 0}),
+          place_case("nearest", "position", 3, {0, 0.5, 0}, {0, 1, 0})};
+}
+
+Cases small_move(Random&) {
+  // outside, straight down, along without friction, held by friction, with friction
+  return {move_case(0.5, {0, 3, 0}, {0.5, 2, 0}), move_case(0, {0, 1.5, 0}, {0, 0.75, 0}),
+          move_case(0, {-0.5, 1.5, 0}, {0, 0.75, 0}), move_case(0.5, {-0.0625, 1.5, 0}, {0, 0.75, 0}),
+          move_case(0.5, {-0.5, 1.5, 0}, {0, 0.75, 0})};
+}
+
+Cases small_velocity(Random&) {
+  // going away, straight in, in and along, with restitution, with friction, held by friction, with both
+  return {velocity_case(0.25, 0.5, {3, 2, 0}, {3, 2, 0}),    velocity_case(0, 0, {0, -2, 0}, {0, 0, 0}),
+          velocity_case(0, 0, {3, -2, 0}, {3, 0, 0}),        velocity_case(0, 0.5, {3, -2, 0}, {3, 1, 0}),
+          velocity_case(0.25, 0, {3, -2, 0}, {2.5, 0, 0}),   velocity_case(0.25, 0, {0.25, -2, 0}, {0, 0, 0}),
+          velocity_case(0.25, 0.5, {3, -2, 0}, {2.25, 1, 0})};
+}
+
 Cases gap(Random& random) {
   return around(random, "gap", "gap", 1,
                 [](Numbers& out, const Sphere&, const Vec3&, double height) { out.push_back(height); });

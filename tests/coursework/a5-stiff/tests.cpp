@@ -1,5 +1,6 @@
 // a5-stiff: tests, points, and right answers from mysim's tangents and limits, whole numbers, and closed forms.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mysim/model/system.h"
@@ -8,6 +9,9 @@
 #include "tests/coursework/grader/assignment.h"
 
 namespace coursework {
+namespace a5 {
+Looked equation_text(const Texts& common, const std::string& part, const Ask& student);  // equation.cpp
+}
 namespace {
 
 namespace limits = crosscheck::limits;
@@ -55,6 +59,18 @@ std::vector<Case> shortened(Random& random) { return springs(random, 0.3, 0.8); 
 std::vector<Case> at_rest(Random& random) {
   std::vector<Case> cases = springs(random, 1, 1);
   cases.push_back(jacobian(Points::Zero(3, 2), random.uniform(10, 1000), random.uniform(0.5, 2)));
+  return cases;
+}
+
+/// Along an axis, where the matrix has nothing beside its diagonal: stretched, pressed, at rest; then across two.
+std::vector<Case> small_springs(Random&) {
+  std::vector<Case> cases;
+  for (const auto& [x, y, rest] : {std::array{2., 0., 1.}, std::array{2., 0., 3.}, std::array{2., 0., 2.},
+                                   std::array{3., 4., 1.}, std::array{0., 0., 1.}}) {
+    Points ends = Points::Zero(3, 2);
+    ends(0, 0) = x, ends(1, 0) = y;
+    cases.push_back(jacobian(ends, 10, rest));
+  }
   return cases;
 }
 
@@ -117,9 +133,13 @@ std::vector<Case> singular(Random& random) {
   return cases;
 }
 
-// two unknowns
+/// Two unknowns: a diagonal, then what stands below it alone, then above, then all.
 std::vector<Case> small_plain(Random& random) {
-  return {linear("linear.solve", strong_diagonal(random, 2, 1, 3), whole(random, 2))};
+  return {linear("linear.solve", {{4, 0}, {0, 8}}, whole(random, 2)),
+          linear("linear.solve", {{8, 0}, {4, 2}}, whole(random, 2)),
+          linear("linear.solve", {{4, 2}, {0, 8}}, whole(random, 2)),
+          linear("linear.solve", {{4, 2, 1}, {0, 8, 2}, {0, 0, 4}}, whole(random, 3)),
+          linear("linear.solve", strong_diagonal(random, 2, 1, 3), whole(random, 2))};
 }
 std::vector<Case> small_pivoting(Random& random) {
   return {linear("linear.solve", {{0, 2}, {4, 0}}, whole(random, 2)),
@@ -269,9 +289,17 @@ constexpr Part parts[] = {{"jacobian", "jacobian.title"},
                           {"choose", "choose.title"}};
 
 const Test tests[] = {
-    {"1.1", "jacobian", 3, 3, {"jacobian"}, "The stiffness of a spring", stretched},
-    {"1.2", "jacobian", 3, 3, {"jacobian", "compression"}, "The stiffness of a spring", shortened},
-    {"1.3", "jacobian", 2, 2, {"jacobian", "edge cases"}, "The stiffness of a spring", at_rest},
+    {"1.1", "jacobian", 3, 3, {"jacobian"}, "The stiffness of a spring", stretched, nullptr, small_springs},
+    {"1.2",
+     "jacobian",
+     3,
+     3,
+     {"jacobian", "compression"},
+     "The stiffness of a spring",
+     shortened,
+     nullptr,
+     small_springs},
+    {"1.3", "jacobian", 2, 2, {"jacobian", "edge cases"}, "The stiffness of a spring", at_rest, nullptr, small_springs},
     {"2.1", "linear", 3, 3, {"elimination"}, "Solving the equations", plain_systems, nullptr, small_plain},
     {"2.2", "linear", 2, 3, {"elimination", "pivoting"}, "Solving the equations", pivoting, nullptr, small_pivoting},
     {"2.3", "linear", 1, 2, {"elimination", "edge cases"}, "Solving the equations", singular, nullptr, small_singular},
@@ -307,7 +335,7 @@ const Test tests[] = {
 }  // namespace
 
 const Assignment& a5_stiff() {
-  static const Assignment assignment{"a5-stiff", "Stiff springs", parts, tests};
+  static const Assignment assignment{"a5-stiff", "Stiff springs", parts, tests, nullptr, {}, a5::equation_text};
   return assignment;
 }
 

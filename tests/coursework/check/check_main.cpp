@@ -9,6 +9,7 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <set>
 
 #include "calls.h"
@@ -16,6 +17,7 @@
 #include "judge.h"
 #include "page.h"
 #include "plot.h"
+#include "seen.h"
 #include "words.h"
 
 #ifndef HANDOUT_FOLDER
@@ -89,7 +91,7 @@ std::string smallest(const PublicTest& test, const Words& words) {
   return smaller_text(words.common, words.own, test.small, answers);
 }
 
-/// Runs its cases up to the first that is wrong; `failed_before` is the first test of its part that failed, if any,
+/// Runs its cases up to the first that is wrong; `failed_before` is the first test of its function that failed, if any,
 /// and `told` what small cases were told of; keeps a few plots, the wrong one among them.
 ShownTest run(const PublicTest& test, const Words& words, const std::string& failed_before,
               std::set<std::string>& told) {
@@ -106,8 +108,11 @@ ShownTest run(const PublicTest& test, const Words& words, const std::string& fai
     if (of > 1) shown.said = words.common.fill("which", std::to_string(which), std::to_string(of)) + " " + shown.said;
     if (const std::string given = given_text(words.common, words.own, what, judged); !given.empty())
       shown.said += "\n" + given;
+    std::string smaller;
     if (answer.how == How::answered && !test.small.empty() && told.insert(test.part + " " + test.small[0].call).second)
-      if (const std::string smaller = smallest(test, words); !smaller.empty()) shown.said += "\n" + smaller;
+      smaller = smallest(test, words);
+    if (smaller.empty()) smaller = seen_text(words.common, words.own, what, answer);
+    if (!smaller.empty()) shown.said += "\n" + smaller;
     if (const std::string hint = hint_text(words.common, words.own, test.id, failed_before); !hint.empty())
       shown.said += "\n" + hint;
     if (!test.read.empty()) shown.said += "\n" + words.common.fill("read", test.read);
@@ -142,16 +147,18 @@ int check(const std::string& language, const std::vector<std::string>& which) {
   for (const int signal : {SIGSEGV, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, crashed);
 
   std::vector<ShownTest> shown;
-  std::string part, total, failed;
+  std::string part, total;
+  std::map<std::string, std::string> failed;  // the first test of a function that failed
   std::set<std::string> told;
   int earned = 0, points = 0, passed = 0;
   for (const PublicTest& test : all.tests) {
     if (!asked_for(test, which) || test.cases.empty()) continue;
-    if (test.part != part) std::cout << "\n" << words.title_of(part = test.part) << "\n", failed.clear();
+    if (test.part != part) std::cout << "\n" << words.title_of(part = test.part) << "\n";
+    const std::string function = function_of(words.own, part, test.cases.front());
     // before it runs: when it never comes back, this is the last line
     std::cout << "  " << test.id << " " << words.title_of(test.id) << ": " << std::flush;
-    shown.push_back(run(test, words, failed, told));
-    if (!shown.back().passed && failed.empty()) failed = test.id;
+    shown.push_back(run(test, words, failed[function], told));
+    if (!shown.back().passed && failed[function].empty()) failed[function] = test.id;
     const bool good = shown.back().passed;
     points += test.points, earned += good ? test.points : 0, passed += good;
     std::cout << words.common.of(good ? "passed" : "failed") << ", "

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <set>
-#include <sstream>
 #include <vector>
+
+#include "layout.h"
+#include "seen.h"
 
 namespace coursework {
 namespace {
@@ -128,119 +129,27 @@ std::string column_text(const Texts& own, const Case& what, int column) {
   return count == all && text.size() == close - open + 1 ? names[at] : numbered;
 }
 
-namespace {
-
-std::string layout_key(const Texts& own, const Case& what) {
-  const std::string whole = "given." + what.call;
-  return own.has(whole) ? whole : "given." + what.call.substr(what.call.find('.') + 1);
-}
-
-/// Reads a layout beside the numbers of a call.
-class Given {
- public:
-  /// `row` of `rows` is the one that differs; -1: none is.
-  Given(const std::string& layout, const Numbers& in, int row, std::size_t rows) : in_(in), row_(row), rows_(rows) {
-    std::istringstream words(layout);
-    for (std::string word; words >> word;) words_.push_back(word);
-  }
-
-  /// "h = 0.3, x = (1, 2)"; empty where the layout does not fit, and where nobody would read so much.
-  std::string text(std::size_t most) {
-    std::size_t at = 0;
-    part(at, "");
-    return fits() && shown_ <= most ? text_ : "";
-  }
-
-  /// Where the angles are; after text().
-  const std::vector<std::size_t>& angles() const { return angles_; }
-  bool fits() const { return fits_ && read_ == in_.size(); }
-
- private:
-  /// Up to the end, or to the bracket that closes.
-  void part(std::size_t& at, const std::string& number) {
-    for (; at < words_.size() && words_[at] != ")"; ++at) {
-      const std::string& word = words_[at];
-      const std::size_t bracket = word.find('['), open = word.find('(');
-      if (open != std::string::npos && open > 0) {
-        const std::size_t begin = at + 1;
-        std::size_t end = begin;
-        while (end < words_.size() && words_[end] != ")") ++end;
-        const std::size_t count = word[0] == '~' ? repeats(begin, end) : count_of(word.substr(0, open - 1));
-        const int chosen = word[open - 1] == '@' && count > 0 && row_ >= 0 && rows_ >= count
-                               ? row_ / static_cast<int>(rows_ / count)
-                               : -1;
-        for (std::size_t i = 0; i < count && fits_; ++i) {
-          mute_ = chosen >= 0 && static_cast<int>(i) != chosen;
-          part(at = begin, "[" + std::to_string(i) + "]");
-        }
-        mute_ = false;
-        at = end;
-      } else if (bracket == std::string::npos) {
-        const bool angle = word.back() == '!';
-        if (angle) angles_.push_back(read_);
-        values((angle ? word.substr(0, word.size() - 1) : word) + number, 1, 1);
-        counts_[word] = fits_ ? in_[read_ - 1] : 0;
-      } else {
-        std::string of = word.substr(bracket + 1, word.size() - bracket - 2);
-        std::size_t rows = 1;
-        if (const std::size_t comma = of.find(','); comma != std::string::npos)
-          rows = count_of(of.substr(0, comma)), of = of.substr(comma + 1);
-        values(word.substr(0, bracket) + number, rows, count_of(of));
-      }
-    }
-  }
-  /// How often a group of single numbers and of vectors with counts fits into what is left.
-  std::size_t repeats(std::size_t begin, std::size_t end) const {
-    std::size_t size = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t bracket = words_[i].find('[');
-      size +=
-          bracket == std::string::npos ? 1 : count_of(words_[i].substr(bracket + 1, words_[i].size() - bracket - 2));
-    }
-    return size > 0 && read_ < in_.size() ? (in_.size() - read_) / size : 0;
-  }
-  std::size_t count_of(const std::string& word) const {
-    const bool less = word.size() > 2 && word.compare(word.size() - 2, 2, "-1") == 0;
-    const auto known = counts_.find(less ? word.substr(0, word.size() - 2) : word);
-    const double count = known != counts_.end() ? known->second : std::atof(word.c_str());
-    return count >= less && count < 1e6 ? static_cast<std::size_t>(count) - less : 0;
-  }
-  void values(const std::string& name, std::size_t rows, std::size_t columns) {
-    const std::size_t count = rows * columns;
-    fits_ = fits_ && read_ + count <= in_.size();
-    if (!fits_) return;
-    std::string list;
-    for (std::size_t i = 0; i < count; ++i)
-      list += (i == 0 ? "" : i % columns == 0 ? "; " : ", ") + with_digits(in_[read_ + i], 6);
-    read_ += count;
-    if (mute_) return;
-    shown_ += count;
-    text_ += (text_.empty() ? "" : ", ") + name + " = " + (count == 1 ? list : "(" + list + ")");
-  }
-
-  const Numbers& in_;
-  std::vector<std::string> words_;
-  std::vector<std::size_t> angles_;
-  std::map<std::string, double> counts_;
-  std::string text_;
-  int row_;
-  std::size_t rows_, read_ = 0, shown_ = 0;
-  bool fits_ = true, mute_ = false;
-};
-
-}  // namespace
-
 bool has_layout(const Texts& own, const Case& what) { return own.has(layout_key(own, what)); }
 
 std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged,
                        std::size_t most) {
-  if (!has_layout(own, what)) return "";
+  const CallLayout layout = CallLayout::of(own, what, judged.row);
+  if (!layout.fits) return "";
+  std::string given;
+  std::size_t shown = 0;
+  for (const Field& field : layout.fields) {
+    if (field.other) continue;
+    std::string list;
+    for (std::size_t i = 0; i < field.size(); ++i)
+      list += (i == 0 ? "" : i % field.columns == 0 ? "; " : ", ") + with_digits(what.in[field.begin + i], 6);
+    given += (given.empty() ? "" : ", ") + field.name;
+    if (field.item >= 0) given += "[" + std::to_string(field.item) + "]";
+    given += " = " + (field.size() == 1 ? list : "(" + list + ")");
+    shown += field.size();
+  }
+  if (given.empty() || shown > most) return "";
   const std::string& text = own.of(layout_key(own, what));
   const std::size_t bar = text.find('|');
-  if (bar == std::string::npos) return "";
-  const std::size_t rows = what.expected.size() / static_cast<std::size_t>(what.columns > 0 ? what.columns : 1);
-  const std::string given = Given(text.substr(bar + 1), what.in, judged.row, rows).text(most);
-  if (given.empty()) return "";
   const std::string sentence = bar == 0 ? "" : text.substr(0, text.find_last_not_of(' ', bar - 1) + 1);
   return sentence + (sentence.empty() ? "" : " ") + common.fill("given", given);
 }
@@ -251,12 +160,28 @@ std::string hint_text(const Texts& common, const Texts& own, const std::string& 
   return own.has(test + ".hint") ? common.fill("hint", own.of(test + ".hint")) : "";
 }
 
+std::string factors_text(const Texts& common, const std::vector<Case>& cases, const std::vector<Answer>& answers) {
+  std::string list;
+  for (std::size_t i = 0; i < cases.size() && i < answers.size(); ++i) {
+    const Answer& answer = answers[i];
+    if (cases[i].expected.size() != 1 || cases[i].tolerance > 1e-4 * std::abs(cases[i].expected[0])) return "";
+    if (answer.how != How::answered || answer.got.size() != 1 || !std::isfinite(answer.got[0])) return "";
+    const std::string factor = with_digits(answer.got[0] / cases[i].expected[0], 6);
+    list += (list.empty() ? "" : ", ") + std::to_string(i + 1) + ": " + factor;
+  }
+  return cases.size() > 1 ? common.fill("factors", list) : "";
+}
+
+std::string function_of(const Texts& own, const std::string& part, const Case& what) {
+  return own.has("function." + what.call) ? own.of("function." + what.call) : part;
+}
+
 std::vector<std::size_t> angles_in(const Texts& own, const Case& what) {
-  if (!has_layout(own, what)) return {};
-  const std::string& text = own.of(layout_key(own, what));
-  Given given(text.substr(text.find('|') + 1), what.in, -1, 0);
-  given.text(0);
-  return given.fits() ? given.angles() : std::vector<std::size_t>();
+  std::vector<std::size_t> angles;
+  const CallLayout layout = CallLayout::of(own, what);
+  for (const Field& field : layout.fields)
+    if (layout.fits && field.angle) angles.push_back(field.begin);
+  return angles;
 }
 
 namespace {
@@ -321,8 +246,10 @@ std::string smaller_text(const Texts& common, const Texts& own, const std::vecto
     const Judged judged = judge(small[i], answers[i]);
     if (judged.right) continue;
     if (ungraded(answers[i].how)) return "";
+    const std::string seen = seen_text(common, own, small[i], answers[i]);
     return common.fill("smaller", words(common, own, small[i], answers[i], judged),
-                       given_text(common, own, small[i], judged, 80));
+                       given_text(common, own, small[i], judged, 80)) +
+           (seen.empty() ? "" : "\n" + seen);
   }
   return "";
 }

@@ -21,18 +21,19 @@ std::string name_text(const Texts& own, const std::string& kind, const std::stri
 std::string column_text(const Texts& own, const Case& what, int column);
 
 /// What the student's code was given, as in "With h = 0.3, x = (1, 2)."; empty where the texts do not say how the
-/// numbers of the call are laid out, or where they are more than `most`, which nobody would
-/// read. "given.CALL" (or of what stands
-/// behind the call's point) is a sentence of its own, `|` and the layout: NAME, NAME[COUNTS] or COUNT*( ... ), where
-/// counts are numbers, names, or names less one (n-1); ~ is as many as there are. Of COUNT@( ... ) only the one is told
-/// whose row differs. NAME! is an angle in radians.
+/// numbers of the call are laid out (layout.h), or where they are more than `most`, which nobody would read.
+/// "given.CALL" is a sentence of its own, `|` and the layout.
 bool has_layout(const Texts& own, const Case& what);
 std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged,
                        std::size_t most = 60);
 
 /// The hint of a test that failed, or, as hints of tests that fail for the same reason need not agree, which test of
-/// its part is to be got right first; empty where it is the first and has no hint.
+/// the same function is to be got right first; empty where it is the first and has no hint.
 std::string hint_text(const Texts& common, const Texts& own, const std::string& test, const std::string& failed_before);
+
+/// The student's function that a call is about, where its part has several that do not call each other
+/// ("function.CALL"); else the part.
+std::string function_of(const Texts& own, const std::string& part, const Case& what);
 
 /// Which of a call's numbers are angles; none where the texts do not say.
 std::vector<std::size_t> angles_in(const Texts& own, const Case& what);
@@ -40,6 +41,9 @@ std::vector<std::size_t> angles_in(const Texts& own, const Case& what);
 /// Of a test that fails, the first of its small cases that fails too, with what was given; empty where all are right.
 std::string smaller_text(const Texts& common, const Texts& own, const std::vector<Case>& small,
                          const std::vector<Answer>& answers);
+
+/// Of several cases of one number each, all compared to round-off, what came over what is right; else empty.
+std::string factors_text(const Texts& common, const std::vector<Case>& cases, const std::vector<Answer>& answers);
 
 /// One sentence or two: what was expected, what came, and where they first differ; of rows that are a set (text
 /// "set.ROW") which are missing. `common` is check/common.LANGUAGE.txt, `own` the assignment's texts. Empty where the

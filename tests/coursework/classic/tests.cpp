@@ -9,6 +9,10 @@
 #include "tests/coursework/grader/assignment.h"
 
 namespace coursework {
+namespace classic {
+Looked step_text(const Texts& common, const std::string& part, const Ask& student);           // step_fit.cpp
+std::string measured_text(const Texts& common, const std::string& part, const Ask& student);  // measured.cpp
+}  // namespace classic
 namespace {
 
 // the student's process gives answers of evalF only: what was asked, and what follows, is found here
@@ -192,6 +196,10 @@ const Test tests[] = {
     {"5.10", "cloth", 1, 1, {"constraint"}, "Hanging it up", cloth_pins, features},
 };
 
+Looked look(const Texts& common, const std::string& part, const Ask& student) {
+  return part == "euler" || part == "trapezoidal" ? classic::step_text(common, part, student) : Looked();
+}
+
 constexpr int total(const auto& all) {
   int sum = 0;
   for (const Test& test : all) sum += test.points + test.hidden;
@@ -206,7 +214,9 @@ const Assignment& classic_particles() {
                               parts,
                               tests,
                               classic::whole_builder,
-                              classic::role_names()};
+                              classic::role_names(),
+                              look,
+                              classic::measured_text};
   static const int points = total(tests);
   if (points != 100) throw std::logic_error("classic: the points sum to " + std::to_string(points));
   return all;

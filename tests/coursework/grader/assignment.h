@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "tests/coursework/check/case.h"
 #include "tests/coursework/check/random.h"
+#include "tests/coursework/check/texts.h"
 
 namespace coursework {
 
@@ -35,6 +37,15 @@ struct Test {
   std::vector<Case> (*small)(Random&) = nullptr;
 };
 
+/// Answers of a program, one for each case.
+using Ask = std::function<std::vector<Answer>(const std::vector<Case>&)>;
+
+/// What a look at a formula found; empty where it found nothing.
+struct Looked {
+  std::string text = {};
+  bool explains = false;  // it says what is wrong
+};
+
 class Builder;
 class Sandbox;
 
@@ -47,6 +58,10 @@ struct Assignment {
   std::unique_ptr<Builder> (*builder)(const Assignment&, const Sandbox& trusted, const Sandbox& sandbox) = nullptr;
   bool takes_whole_program() const { return builder != nullptr; }
   std::span<const std::string_view> roles = {};  // what a student's grade.toml may name a class for
+  /// Asks the student's code for a part that fails and says what of its formula is found to be wrong, or right.
+  Looked (*look)(const Texts& common, const std::string& part, const Ask& student) = nullptr;
+  /// Says of a part what no test judges, whether it fails or not: constants that are a student's choice.
+  std::string (*measured)(const Texts& common, const std::string& part, const Ask& student) = nullptr;
   std::filesystem::path folder() const;
 };
 

@@ -11,12 +11,13 @@
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
-#include "mysim/base/hash.h"
 #include "tests/coursework/check/plot.h"
+#include "tests/coursework/check/seen.h"
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/engine.h"
 #include "tests/coursework/grader/mistakes.h"
+#include "tests/coursework/grader/observe.h"
 #include "tests/coursework/grader/result.h"
 #include "tests/coursework/grader/run.h"
 #include "tests/coursework/grader/suspects.h"
@@ -64,6 +65,7 @@ class Grading {
     }
     for (const Part& part : assignment_.parts) look_for_cause(std::string(part.name));
     require_unseen();
+    tell_measured();
     keep_engines();
     result_.complete = true;
     options_.on_progress(result_);
@@ -185,6 +187,15 @@ class Grading {
       if (const std::string smaller = one.hidden || judged.how != How::answered ? "" : smallest(*test_run.test);
           !smaller.empty() && small_told_.emplace(one.part, test_run.test->small).second)
         one.said += "\n" + smaller;
+      else if (const std::string seen =
+                   one.hidden || failed_already(test_run, one)
+                       ? ""
+                       : seen_text(options_.common, options_.own, test_run.cases[k], test_run.answers[k]);
+               !seen.empty())
+        one.said += "\n" + seen;
+      if (const std::string factors = one.hidden ? "" : factors_text(options_.common, test_run.cases, test_run.answers);
+          !factors.empty())
+        one.said += "\n" + factors;
       shown = k;
       break;
     }
@@ -198,6 +209,16 @@ class Grading {
     one.plot = plot(what, test_run.answers[shown].got,
                     {options_.common.of("legend.right"), options_.common.of("legend.yours"), x,
                      column_text(options_.own, what, what.plot_y)});
+  }
+
+  /// Whether a public test of the same function failed before, so that its feedback says what is seen.
+  bool failed_already(const TestRun& test_run, const TestResult& one) const {
+    const std::string function = function_of(options_.own, one.part, test_run.cases[0]);
+    for (std::size_t i = 0; &result_.tests[i] != &one; ++i)
+      if (result_.tests[i].part == one.part && !passed(result_.tests[i]) &&
+          function_of(options_.own, one.part, test_runs_[i].cases[0]) == function)
+        return true;
+    return false;
   }
 
   /// Asks a test that failed for its small cases; in a process of their own, so that they can cost nothing.
@@ -229,11 +250,11 @@ class Grading {
   /// Fills in the causes of a part's wrong answers. A crash or a loop is no answer: its message says all.
   void look_for_cause(const std::string& part) {
     std::vector<TestRun> of_part;
-    std::vector<TestResult*> wrong;
+    std::vector<TestResult*> wrong, tests;  // `tests` beside `of_part`
     for (std::size_t i = 0; i < test_runs_.size(); ++i) {
       if (result_.tests[i].part != part) continue;
       bool answered = !result_.tests[i].ungraded;
-      if (answered) of_part.push_back(test_runs_[i]);
+      if (answered) of_part.push_back(test_runs_[i]), tests.push_back(&result_.tests[i]);
       for (const Answer& answer : test_runs_[i].answers) answered = answered && answer.how == How::answered;
       if (answered && !passed(result_.tests[i])) wrong.push_back(&result_.tests[i]);
     }
@@ -243,25 +264,58 @@ class Grading {
         of_part);
     const std::vector<std::string> names =
         likely_causes(assignment_, part, of_part, mistakes_of(assignment_), *builder_, *trusted_, options_.jobs);
-    std::string cause;
-    for (const std::string& name : names) {
-      const std::string& behaves = text_or(options_.own, "mistake." + name, name);
-      cause += cause.empty() ? options_.common.fill(names.size() == 1 ? "cause" : "either", behaves)
-                             : " " + options_.common.fill("or", behaves);
-    }
     // what an experiment shows is more than a likeness
-    if (!suspect.key.empty()) cause = said(options_.common, suspect);
-    if (cause.empty()) cause = options_.common.of("no_cause");
+    const std::string cause =
+        suspect.key.empty() ? cause_text(options_.common, options_.own, names) : said(options_.common, suspect);
     // a test's own hint knows nothing of the others: where a cause is known it may contradict it, and where none is
     // the first test that fails has most to say
-    const bool known = cause != options_.common.of("no_cause");
+    const bool known = cause != options_.common.of("no_cause"),
+               seen = suspect.key.empty() && look_closer(part, of_part, tests, wrong);
     for (TestResult* test : wrong) {
       test->cause = cause;
-      if (known) continue;
-      const std::string before = test == wrong.front() ? "" : wrong.front()->id;
+      const std::string before = failed_before(*test, wrong);
+      if (known || (seen && before.empty())) continue;
       if (const std::string hint = hint_text(options_.common, options_.own, test->id, before); !hint.empty())
         test->said += "\n" + hint;
     }
+  }
+
+  /// The first of these tests that is about the same function, "" where this is it.
+  std::string failed_before(const TestResult& test, const std::vector<TestResult*>& wrong) const {
+    const auto function = [&](const TestResult& one) {
+      return function_of(options_.own, one.part,
+                         test_runs_[static_cast<std::size_t>(&one - &result_.tests[0])].cases[0]);
+    };
+    for (const TestResult* other : wrong)
+      if (function(*other) == function(test)) return other->id == test.id ? "" : other->id;
+    return "";
+  }
+
+  /// Adds to public tests what is seen when their calls are asked again. False: nothing is.
+  bool look_closer(const std::string& part, const std::vector<TestRun>& runs, const std::vector<TestResult*>& tests,
+                   const std::vector<TestResult*>& wrong) {
+    std::vector<bool> told_at;
+    for (TestResult* test : tests)
+      told_at.push_back(!test->hidden && std::find(wrong.begin(), wrong.end(), test) != wrong.end());
+    const std::vector<std::string> seen =
+        seen_at({asking(sandbox_, programs_.at(part)),
+                 asking(*trusted_, builder_->ours(part, content_of_file(solution_of(assignment_, *builder_, part)))),
+                 options_.common, options_.own},
+                assignment_, part, runs, told_at);
+    bool any = false;
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      if (!seen[i].empty()) tests[i]->said += "\n" + seen[i], any = true;
+    return any;
+  }
+
+  /// What no test judges.
+  void tell_measured() {
+    if (!assignment_.measured) return;
+    for (const Part& part : assignment_.parts)
+      if (const auto program = programs_.find(std::string(part.name)); program != programs_.end())
+        if (std::string text = assignment_.measured(options_.common, program->first, asking(sandbox_, program->second));
+            !text.empty())
+          result_.preflight.push_back(std::move(text));
   }
 
   /// Keeps the parts that answered every call: others would crash or hang in every run of the charts.
@@ -291,9 +345,6 @@ class Grading {
   Result result_;
 };
 
-/// One step of SplitMix64 on both: seeds that differ in one bit give unrelated ones.
-std::uint64_t mixed(std::uint64_t a, std::uint64_t b) { return Random(Random(a).next() ^ b).next(); }
-
 }  // namespace
 
 std::string said(const Texts& common, const Remark& remark) {
@@ -315,34 +366,6 @@ Submission submission_at(const fs::path& path, const Assignment& assignment) {
 
 Submission submission_of(const Handed& handed, const Assignment& assignment) {
   return read_submission(handed, wanted_files(assignment), {assignment.roles.begin(), assignment.roles.end()});
-}
-
-std::uint64_t public_seed(const Assignment& assignment, const Test& test) {
-  return mixed(crosscheck::Fnv1a::of(assignment.name), crosscheck::Fnv1a::of(test.id));
-}
-
-std::vector<Case> public_cases(const Assignment& assignment, const Test& test) {
-  constexpr std::size_t small = 40;  // numbers of a case that fits on a sheet of paper
-  Random random(public_seed(assignment, test));
-  std::vector<Case> usual = test.cases(random), all;
-  const Texts own = Texts::read((assignment.folder() / "texts.en.txt").string());
-  // where an answer is reduced first, or nobody is told what was given, there is nothing to work out
-  if (!test.reduce && !usual.empty() && has_layout(own, usual.front())) {
-    Random round(public_seed(assignment, test), true);
-    all = test.cases(round);
-    if (all.front().in.size() > small) all.clear();
-  }
-  all.insert(all.end(), usual.begin(), usual.end());
-  return all;
-}
-
-std::vector<Case> small_cases(const Assignment& assignment, const Test& test) {
-  Random round(public_seed(assignment, test), true);
-  return test.small ? test.small(round) : std::vector<Case>();
-}
-
-std::uint64_t hidden_seed(std::uint64_t seed, const Test& test) {
-  return mixed(seed + 1, crosscheck::Fnv1a::of(test.id));
 }
 
 Result grade(const Assignment& assignment, const Submission& submission, const Sandbox& sandbox,

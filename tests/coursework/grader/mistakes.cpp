@@ -212,4 +212,14 @@ std::vector<std::string> likely_causes(const Assignment& assignment, const std::
   return names;
 }
 
+std::string cause_text(const Texts& common, const Texts& own, const std::vector<std::string>& names) {
+  std::string cause;
+  for (const std::string& name : names) {
+    const std::string behaves = own.has("mistake." + name) ? own.of("mistake." + name) : name;
+    cause +=
+        cause.empty() ? common.fill(names.size() == 1 ? "cause" : "either", behaves) : " " + common.fill("or", behaves);
+  }
+  return cause.empty() ? common.of("no_cause") : cause;
+}
+
 }  // namespace coursework

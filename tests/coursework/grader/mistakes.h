@@ -46,4 +46,7 @@ std::vector<std::string> likely_causes(const Assignment& assignment, const std::
                                        const std::vector<TestRun>& runs, const std::vector<Mistake>& known,
                                        const Builder& builder, const Sandbox& trusted, unsigned jobs);
 
+/// Those mistakes in words, as the likely cause or as either; that none is known where there are none.
+std::string cause_text(const Texts& common, const Texts& own, const std::vector<std::string>& names);
+
 }  // namespace coursework

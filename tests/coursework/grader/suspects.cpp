@@ -137,6 +137,41 @@ bool takes_degrees(const Subject& subject, const std::vector<TestRun>& of_part, 
   return false;
 }
 
+/// The source with double in place of float, in declarations, functions and literals; empty where there is none. What
+/// stands in strings and comments stays. `line` is that of the first.
+std::string in_double(const std::string& source, int& line) {
+  static const std::regex single(R"(\bfloat\b|\b(sqrt|sin|cos|tan|fabs|pow|exp|hypot|fmax|fmin|floor|ceil)f\b|)"
+                                 R"((\d\.\d*|\.\d+|\d[eE][+-]?\d+)[fF]\b)");
+  const std::string code = code_of(source);
+  std::string out;
+  std::size_t done = 0;
+  line = 0;
+  for (std::sregex_iterator at(code.begin(), code.end(), single), end; at != end; ++at) {
+    const auto place = static_cast<std::size_t>(at->position());
+    if (line == 0)
+      line =
+          1 + static_cast<int>(std::count(source.begin(), source.begin() + static_cast<std::ptrdiff_t>(place), '\n'));
+    const std::string found = at->str();
+    out += source.substr(done, place - done) + (found == "float" ? "double" : found.substr(0, found.size() - 1));
+    done = place + found.size();
+  }
+  return line == 0 ? "" : out + source.substr(done);
+}
+
+/// The line of the first float of a file in which all is right with double: what is single in the middle of a formula
+/// leaves no trace in the answers' digits.
+int line_of_single(const Subject& subject, const std::vector<TestRun>& of_part, const std::string& file) {
+  const auto found = subject.submission.files.find(file);
+  if (found == subject.submission.files.end()) return 0;
+  int line = 0;
+  Submission changed = subject.submission;
+  changed.files[file] = in_double(found->second, line);
+  if (line == 0) return 0;
+  const Built built =
+      subject.builder.varied(changed, std::string(of_part.front().test->part), subject.scratch / "double");
+  return !built.program.empty() && mends(subject, built.program, of_part) ? line : 0;
+}
+
 /// Where all is right once the fraction is kept in some divisions of whole numbers: the line of the first that matters.
 int line_of_integer_division(const Subject& subject, const std::vector<TestRun>& of_part, const std::string& file) {
   constexpr std::size_t most = 4;  // a compiler each
@@ -193,6 +228,8 @@ Remark suspected(const Subject& subject, const std::vector<TestRun>& of_part) {
     for (const Answer& answer : one.answers)
       if (answer.how != How::answered) return {};
   const std::string file = subject.builder.file_of(std::string(of_part.front().test->part));
+  if (const int line = line_of_single(subject, of_part, file); line > 0)
+    return {"suspect.float_line", {file, std::to_string(line)}};
   if (takes_degrees(subject, of_part, file)) return {"suspect.degrees", {}};
   if (const int line = line_of_integer_division(subject, of_part, file); line > 0)
     return {"suspect.integer", {file, std::to_string(line)}};

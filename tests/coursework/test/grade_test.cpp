@@ -167,6 +167,8 @@ TEST(Grade, OtherMistakesAndTwoAtOnceAreGivenNoName) {
 TEST(Grade, CausesAreFoundByExperiment) {
   const std::pair<const char*, Remark> table[] = {
       {"const float single = static_cast<float>(x); return 2 * single;", {"suspect.float", {}}},
+      {"const float third = 1.0f / 3;\nreturn 6 * x * third;", {"suspect.float_line", {"twice.cpp", "3"}}},
+      {"const float third = 1.0f / 4;\nreturn 6 * x * third;", {"no_cause", {}}},
       {"static const double kept = x; return 2 * kept;", {"suspect.state", {}}},
       {"return 2 * x * 1.000001;", {"no_cause", {}}},
       {"return 2 * x + 100;", {"no_cause", {}}},

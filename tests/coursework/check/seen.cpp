@@ -1,0 +1,346 @@
+// Simple explanations, tried one after the other by direct arithmetic.
+#include "seen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+
+#include "words.h"
+
+namespace coursework {
+namespace {
+
+using std::size_t;
+
+/// One vector of each row: the numbers of a block, the right ones and those that came.
+class Seen {
+ public:
+  Seen(const Texts& common, const Texts& own, const Case& what, const Numbers& got)
+      : common_(common),
+        own_(own),
+        what_(what),
+        got_(got),
+        columns_(static_cast<size_t>(std::max(1, what.columns))),
+        rows_(what.expected.size() / columns_),
+        blocks_(blocks_of(own, what)) {
+    double largest = 0;
+    for (const double value : what.expected) largest = std::max(largest, std::abs(value));
+    for (const double value : got) largest_got_ = std::max(largest_got_, std::abs(value));
+    tolerance_ = std::max(what.tolerance, 1e-13 * largest);
+    // what is compared loosely is no arithmetic: an order, an angle that was measured
+    exact_ =
+        largest > 0 ? tolerance_ <= 1e-4 * largest && largest_got_ < 1e3 * largest : tolerance_ <= 1e-4 * largest_got_;
+    tolerance_ *= largest > 0 ? std::max(1.0, largest_got_ / largest) : 1;
+    const CallLayout layout = CallLayout::of(own, what);
+    if (layout.fits) params_ = params_of(layout);
+  }
+
+  bool exact() const { return exact_; }
+
+  std::string split() const {
+    std::string right, wrong;
+    for (const Block& block : blocks_) {
+      std::vector<size_t> bad, good;
+      for (size_t row = 0; row < rows_; ++row) (wrong_in(block, row) ? bad : good).push_back(row);
+      const auto add = [&](std::string& to, const std::vector<size_t>& rows) {
+        if (rows.empty()) return;
+        const std::string of = rows.size() == rows_ ? "" : rows_text(rows);
+        const std::string name = block_text(block);
+        to += (to.empty() ? "" : "; ") + (of.empty() ? name : common_.fill("seen.of", name, of));
+      };
+      const std::string parts = bad.empty() ? "" : parts_text(block, bad);
+      if (!parts.empty() && good.empty()) {
+        to_list(wrong, parts);
+        const std::string others = other_parts(block, bad);
+        to_list(right, others);
+        continue;
+      }
+      add(right, good), add(wrong, bad);
+    }
+    if (right.empty() || wrong.empty()) return "";
+    return common_.fill("seen.split", right, wrong);
+  }
+
+  /// Sentences on each vector that is wrong.
+  std::string instead() const {
+    std::string text;
+    for (const Block& block : blocks_) {
+      std::vector<size_t> bad;
+      for (size_t row = 0; row < rows_; ++row)
+        if (wrong_in(block, row)) bad.push_back(row);
+      if (bad.empty()) continue;
+      const std::vector<std::string> found = explanations(block, bad);
+      if (found.empty() || found.size() > 2) continue;
+      for (const std::string& one : found) text += (text.empty() ? "" : " ") + one;
+    }
+    return text;
+  }
+
+ private:
+  static void to_list(std::string& to, const std::string& one) {
+    if (!one.empty()) to += (to.empty() ? "" : "; ") + one;
+  }
+  double expected(const Block& b, size_t row, size_t k) const { return what_.expected[row * columns_ + b.begin + k]; }
+  double got(const Block& b, size_t row, size_t k) const { return got_[row * columns_ + b.begin + k]; }
+  bool wrong_at(const Block& b, size_t row, size_t k) const {
+    return !(std::abs(got(b, row, k) - expected(b, row, k)) <= std::max(what_.tolerance, 1e-300));
+  }
+  bool wrong_in(const Block& b, size_t row) const {
+    for (size_t k = 0; k < b.width; ++k)
+      if (wrong_at(b, row, k)) return true;
+    return false;
+  }
+  std::string block_text(const Block& block) const { return block.name.empty() ? common_.of("seen.row") : block.name; }
+
+  std::string rows_text(const std::vector<size_t>& rows) const {
+    const std::string name = name_text(own_, "row.", what_.row), first = "row." + what_.row + ".first";
+    const size_t from = own_.has(first) ? static_cast<size_t>(std::atoi(own_.of(first).c_str())) : 0;
+    const bool range = rows.back() - rows.front() + 1 == rows.size();
+    if (rows.size() > 2 && range)
+      return name + " " + std::to_string(rows.front() + from) + " - " + std::to_string(rows.back() + from);
+    if (rows.size() > 8) return common_.fill("seen.some", std::to_string(rows.size()), std::to_string(rows_), name);
+    std::string list;
+    for (const size_t row : rows) list += (list.empty() ? "" : ", ") + std::to_string(row + from);
+    return name + " " + list;
+  }
+
+  bool part_is_wrong(const Block& block, const std::vector<size_t>& rows, size_t k) const {
+    return std::any_of(rows.begin(), rows.end(), [&](size_t row) { return wrong_at(block, row, k); });
+  }
+  /// The parts of the vector that are wrong, where others are right that could have been wrong.
+  std::string parts_text(const Block& block, const std::vector<size_t>& rows) const {
+    if (block.width < 2 || other_parts(block, rows).empty()) return "";
+    return parts(block, rows, true);
+  }
+  std::string other_parts(const Block& block, const std::vector<size_t>& rows) const {
+    for (size_t k = 0; k < block.width; ++k) {
+      const bool some = std::any_of(rows.begin(), rows.end(), [&](size_t row) { return expected(block, row, k) != 0; });
+      if (!part_is_wrong(block, rows, k) && some) return parts(block, rows, false);
+    }
+    return "";
+  }
+  std::string parts(const Block& block, const std::vector<size_t>& rows, bool wrong) const {
+    std::string list;
+    for (size_t k = 0; k < block.width; ++k)
+      if (part_is_wrong(block, rows, k) == wrong)
+        to_list(list, column_text(own_, what_, static_cast<int>(block.begin + k)));
+    return list;
+  }
+
+  bool near(double a, double b, double size = 1) const { return std::abs(a - b) <= tolerance_ * std::max(1.0, size); }
+
+  /// Whether what came is everywhere in these rows what `other` says.
+  template <class Other>
+  bool is(const Block& block, const std::vector<size_t>& rows, Other other, double size = 1) const {
+    for (const size_t row : rows)
+      for (size_t k = 0; k < block.width; ++k)
+        if (!near(got(block, row, k), other(row, k), size)) return false;
+    return true;
+  }
+
+  /// The one number that `value` is of `unit` in all of these rows; nan: there is none, or too little to tell.
+  template <class Value, class Unit>
+  double multiple(const Block& block, const std::vector<size_t>& rows, Value value, Unit unit) const {
+    double both = 0, squares = 0, largest = 0;
+    size_t counted = 0;  // numbers that say something
+    for (const size_t row : rows)
+      for (size_t k = 0; k < block.width; ++k) {
+        const double u = unit(row, k);
+        both += u * value(row, k), squares += u * u, largest = std::max(largest, std::abs(u));
+      }
+    if (!(squares > 0)) return NAN;
+    const double factor = both / squares;
+    for (const size_t row : rows)
+      for (size_t k = 0; k < block.width; ++k) {
+        if (!near(value(row, k), factor * unit(row, k), std::abs(factor))) return NAN;
+        counted += std::abs(unit(row, k)) > 1e-6 * largest;
+      }
+    relative_ = std::max(
+        1e-11, 4 * tolerance_ * std::max(1.0, std::abs(factor)) / (largest * std::max(std::abs(factor), 1e-300)));
+    relative_ = std::min(relative_, 1e-3);
+    // a factor without a name has to fit more often than by chance
+    const bool named =
+        !name_of_number(factor, relative_, counted > 1 ? params_ : std::vector<Param>(), what_.in).empty();
+    return named || counted >= 6 ? factor : NAN;
+  }
+
+  /// A factor of each row that a list of the call holds, as m or 1/m; empty: there is none.
+  template <class Value, class Unit>
+  std::string row_multiple(const Block& block, const std::vector<size_t>& rows, Value value, Unit unit) const {
+    std::string found;
+    for (const Param& list : params_) {
+      if (list.whole || list.rows != rows_ || list.columns != 1 || rows_ < 2) continue;
+      const auto number = [&](size_t row) { return what_.in[list.at[row]]; };
+      const std::pair<std::string, std::function<double(size_t)>> factors[] = {
+          {list.name, number},
+          {"1/" + list.name, [&](size_t row) { return 1 / number(row); }},
+          {list.name + "/" + list.name + "[0]", [&](size_t row) { return number(row) / number(0); }},
+          {list.name + "[0]/" + list.name, [&](size_t row) { return number(0) / number(row); }}};
+      for (const auto& [text, factor] : factors)
+        for (const double sign : {1.0, -1.0}) {
+          size_t counted = 0;
+          bool fits = true;
+          for (const size_t row : rows)
+            for (size_t k = 0; k < block.width && fits; ++k) {
+              fits = near(value(row, k), sign * factor(row) * unit(row, k), std::abs(factor(row)));
+              counted += std::abs(unit(row, k)) > 1e3 * tolerance_;
+            }
+          if (!fits || counted < 2) continue;
+          if (!found.empty()) return "";
+          found = (sign < 0 ? "-" : "") + text;
+        }
+    }
+    return found;
+  }
+
+  std::vector<std::string> explanations(const Block& block, const std::vector<size_t>& rows) const {
+    const std::string name = block_text(block);
+    const auto right = [&](size_t row, size_t k) { return expected(block, row, k); };
+    const auto came = [&](size_t row, size_t k) { return got(block, row, k); };
+    if (is(block, rows, [](size_t, size_t) { return 0.0; })) return {common_.fill("seen.zero", name)};
+    if (const double factor = multiple(block, rows, came, right); std::isfinite(factor)) {
+      if (std::abs(factor + 1) < relative_) return {common_.fill("seen.sign", name)};
+      const std::string of_row = row_multiple(block, rows, came, right);
+      return {
+          common_.fill("seen.factor", name,
+                       named_number(factor, relative_, params_, what_.in) + (of_row.empty() ? "" : " = " + of_row))};
+    }
+    if (const std::string factor = row_multiple(block, rows, came, right); !factor.empty())
+      return {common_.fill("seen.factor", name, factor)};
+    std::vector<std::string> found;
+    for (const Param& param : params_)
+      if (is_of(param, block) && is(block, rows, [&](size_t row, size_t k) { return value(param, row, k); }))
+        found.push_back(common_.fill("seen.given", name, param.name));
+    // of one row in place of another's
+    for (const Param& param : params_)
+      for (size_t other = 0; other < param.rows && param.rows == rows_ && rows_ > 1; ++other)
+        if (is_of(param, block) && block.width > 1 && (rows.size() > 1 || rows[0] != other) &&
+            is(block, rows, [&](size_t, size_t k) { return what_.in[param.at[other * param.columns + k]]; }))
+          found.push_back(common_.fill("seen.given", name, common_.fill("seen.of", param.name, rows_text({other}))));
+    for (const int step : {-1, 1}) {
+      const auto beside = [&](size_t row, size_t k) {
+        const auto other = static_cast<std::ptrdiff_t>(row) + step;
+        return other < 0 || other >= static_cast<std::ptrdiff_t>(rows_)
+                   ? NAN
+                   : expected(block, static_cast<size_t>(other), k);
+      };
+      std::vector<size_t> inner;
+      for (const size_t row : rows)
+        if (!std::isnan(beside(row, 0))) inner.push_back(row);
+      if (inner.size() > 1 && inner.size() + 1 >= rows.size() && is(block, inner, beside))
+        found.push_back(
+            common_.fill(step < 0 ? "seen.before" : "seen.after", name, name_text(own_, "row.", what_.row)));
+    }
+    for (const Block& other : blocks_)
+      if (other.begin != block.begin && other.width == block.width &&
+          is(block, rows, [&](size_t row, size_t k) { return expected(other, row, k); }))
+        found.push_back(common_.fill("seen.other", name, block_text(other)));
+    if (block.width == 3)
+      for (const auto& order : {std::vector<size_t>{1, 0, 2}, {0, 2, 1}, {2, 1, 0}, {1, 2, 0}, {2, 0, 1}})
+        if (is(block, rows, [&](size_t row, size_t k) { return expected(block, row, order[k]); })) {
+          std::string parts;
+          for (const size_t k : order) parts += (parts.empty() ? "" : ", ") + std::string(1, "xyz"[k]);
+          found.push_back(common_.fill("seen.order", name, parts));
+        }
+    if (found.empty()) add_offsets(block, rows, found);
+    return found;
+  }
+
+  /// What is too much, or missing, as a multiple of something that has a name.
+  void add_offsets(const Block& block, const std::vector<size_t>& rows, std::vector<std::string>& found) const {
+    const std::string name = block_text(block);
+    const auto off = [&](size_t row, size_t k) { return got(block, row, k) - expected(block, row, k); };
+    std::vector<Numbers> tried;  // one thing may have two names
+    const auto add = [&](auto unit, const std::string& of) {
+      Numbers values;
+      for (const size_t row : rows)
+        for (size_t k = 0; k < block.width; ++k) values.push_back(unit(row, k));
+      if (std::find(tried.begin(), tried.end(), values) != tried.end()) return;
+      tried.push_back(values);
+      const double factor = multiple(block, rows, off, unit);
+      std::string times;
+      if (std::isfinite(factor))
+        times = named_number(factor, relative_, params_, what_.in);
+      else
+        times = row_multiple(block, rows, off, unit);
+      if (!times.empty()) found.push_back(common_.fill("seen.off", name, times, of));
+    };
+    for (const Param& param : params_)
+      if (is_of(param, block) && (block.width > 1 || !param.scalar()))
+        add([&](size_t row, size_t k) { return value(param, row, k); }, param.name);
+    for (const Block& other : blocks_)
+      if (other.begin != block.begin && other.width == block.width)
+        add([&](size_t row, size_t k) { return expected(other, row, k); }, block_text(other));
+  }
+
+  /// Whether the parameter has a vector of that width for each row, or one for all.
+  bool is_of(const Param& param, const Block& block) const {
+    return !param.whole && param.columns == block.width && (param.rows == rows_ || param.rows == 1);
+  }
+  double value(const Param& param, size_t row, size_t k) const {
+    return what_.in[param.at[(param.rows == 1 ? 0 : row) * param.columns + k]];
+  }
+
+  const Texts &common_, &own_;
+  const Case& what_;
+  const Numbers& got_;
+  size_t columns_, rows_;
+  std::vector<Block> blocks_;
+  std::vector<Param> params_;
+  double tolerance_ = 0, largest_got_ = 0;
+  mutable double relative_ = 0;  // how well the last multiple is known
+  bool exact_ = false;
+};
+
+bool comparable(const Texts& own, const Case& what, const Numbers& got) {
+  return got.size() == what.expected.size() && what.columns > 0 && !got.empty() && !own.has("set." + what.row) &&
+         got.size() % static_cast<std::size_t>(what.columns) == 0 &&
+         std::all_of(got.begin(), got.end(), [](double value) { return std::isfinite(value); });
+}
+
+}  // namespace
+
+std::vector<Block> blocks_of(const Texts& own, const Case& what) {
+  std::vector<Block> blocks;
+  std::string last_part;
+  for (int column = 0; column < std::max(1, what.columns); ++column) {
+    std::string name = column_text(own, what, column), part;
+    // "v'.x", "force x", "x of particle 1"
+    if (name.size() == 1 && name >= "x" && name <= "z") {
+      part = name, name.clear();
+    } else if (name.size() > 2 && (name[name.size() - 2] == '.' || name[name.size() - 2] == ' ') &&
+               name.back() >= 'x' && name.back() <= 'z') {
+      part = name.substr(name.size() - 1), name = name.substr(0, name.size() - 2);
+    } else if (name.size() > 1 && name[0] >= 'x' && name[0] <= 'z' && name[1] == ' ') {
+      part = name.substr(0, 1), name = name.substr(2);
+    }
+    const bool follows = !blocks.empty() && !part.empty() && blocks.back().name == name && !last_part.empty() &&
+                         part[0] == last_part[0] + 1;
+    if (follows)
+      ++blocks.back().width;
+    else
+      blocks.push_back({name, static_cast<std::size_t>(column), 1});
+    last_part = part;
+  }
+  // a part that stands alone keeps its name
+  for (Block& block : blocks)
+    if (block.width == 1) block.name = column_text(own, what, static_cast<int>(block.begin));
+  return blocks;
+}
+
+std::string seen_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer) {
+  if (answer.how != How::answered || !answer.of.empty() || !comparable(own, what, answer.got)) return "";
+  if (judge(what, answer).right) return "";
+  const Seen seen(common, own, what, answer.got);
+  const std::string split = seen.split(), instead = seen.exact() ? seen.instead() : "";
+  return split + (split.empty() || instead.empty() ? "" : " ") + instead;
+}
+
+std::string instead_text(const Texts& common, const Texts& own, const Case& what, const Numbers& got) {
+  if (!comparable(own, what, got)) return "";
+  const Seen seen(common, own, what, got);
+  return seen.exact() ? seen.instead() : "";
+}
+
+}  // namespace coursework

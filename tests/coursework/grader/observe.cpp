@@ -1,0 +1,236 @@
+// Asks once more, with something changed.
+#include "tests/coursework/grader/observe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "tests/coursework/check/judge.h"
+#include "tests/coursework/check/seen.h"
+#include "tests/coursework/check/words.h"
+#include "tests/coursework/grader/changes.h"
+#include "tests/coursework/grader/grade.h"
+#include "tests/coursework/grader/run.h"
+
+namespace coursework {
+namespace {
+
+constexpr std::size_t most_alike = 3;       // explanations that are told as either
+constexpr std::size_t most_numbers = 4000;  // of a case that is asked a hundred times
+
+bool usable(const Case& what, const Answer& answer) {
+  return answer.how == How::answered && answer.got.size() == what.expected.size() &&
+         std::all_of(answer.got.begin(), answer.got.end(), [](double v) { return std::isfinite(v); });
+}
+
+bool all_zero(const Numbers& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double v) { return v == 0; });
+}
+
+Case with_numbers(const Case& what, Numbers in) {
+  Case other = what;
+  other.in = std::move(in);
+  return other;
+}
+
+/// The case with another right answer.
+Case expecting(const Case& what, const Answer& right) {
+  Case other = what;
+  other.expected = right.got;
+  return other;
+}
+
+class Observer {
+ public:
+  Observer(const Observing& with, const std::vector<std::pair<Case, Answer>>& asked) : with_(with), asked_(asked) {
+    for (const auto& [what, answer] : asked) {
+      if (judge(what, answer).right) continue;
+      if (!usable(what, answer) || !answer.of.empty()) {
+        subject_ = nullptr;
+        return;
+      }
+      if (!subject_ || what.in.size() < subject_->in.size()) subject_ = &what, got_ = &answer;
+    }
+    if (subject_ && subject_->in.size() > most_numbers) subject_ = nullptr;
+  }
+
+  std::string text() const {
+    if (!subject_) return "";
+    // a tolerance that is no round-off would let much fit
+    double largest = 0;
+    for (const double value : subject_->expected) largest = std::max(largest, std::abs(value));
+    if (subject_->tolerance > 1e-4 * largest && largest > 0) return "";
+    const std::string right = right_with();
+    return right.empty() ? without() : right;
+  }
+
+ private:
+  std::vector<Answer> asked_with(const Ask& program, const std::vector<Change>& changes,
+                                 std::vector<std::size_t>& made) const {
+    std::vector<Case> cases;
+    for (std::size_t i = 0; i < changes.size(); ++i)
+      if (auto in = changed(with_.own, *subject_, changes[i]);
+          in && *in != subject_->in && std::all_of(in->begin(), in->end(), [](double v) { return std::isfinite(v); }))
+        cases.push_back(with_numbers(*subject_, *in)), made.push_back(i);
+    return program(cases);
+  }
+
+  bool explains_all(const Change& change) const {
+    std::vector<Case> cases;
+    for (const auto& [what, answer] : asked_)
+      cases.push_back(with_numbers(what, changed(with_.own, what, change).value_or(what.in)));
+    const std::vector<Answer> answers = with_.reference(cases);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      if (!usable(asked_[i].first, asked_[i].second) || !agree(asked_[i].first, asked_[i].second, answers[i]))
+        return false;
+    return true;
+  }
+
+  /// Whether a little more of a changed number would be seen: where a limit is out of reach any large number will do.
+  bool is_sharp(const Change& change) const {
+    if (change.kind < Change::one || change.kind > Change::over) return true;
+    const std::optional<Numbers> in = changed(with_.own, *subject_, change);
+    if (!in) return false;
+    std::vector<Case> cases;
+    for (std::size_t i = 0; i < in->size(); ++i) {
+      if ((*in)[i] == subject_->in[i]) continue;
+      Numbers more = *in;
+      more[i] *= 1.01;
+      cases.push_back(with_numbers(*subject_, more));
+    }
+    const std::vector<Answer> answers = with_.reference(cases);
+    return std::any_of(answers.begin(), answers.end(),
+                       [&](const Answer& answer) { return !agree(*subject_, *got_, answer); });
+  }
+
+  std::string right_with() const {
+    const std::vector<Change> changes = changes_of(with_.own, *subject_);
+    std::vector<std::size_t> made;
+    const std::vector<Answer> answers = asked_with(with_.reference, changes, made);
+    std::vector<Change> found;
+    for (std::size_t i = 0; i < made.size(); ++i)
+      if (usable(*subject_, answers[i]) && agree(*subject_, *got_, answers[i]) && explains_all(changes[made[i]]) &&
+          is_sharp(changes[made[i]]))
+        found.push_back(changes[made[i]]);
+    for (const int tier : {1, 2}) {
+      std::string list;
+      std::size_t count = 0;
+      for (const Change& change : found)
+        if (change.tier() == tier) {
+          const std::string one = change_text(with_.common, change);
+          list = list.empty() ? one : with_.common.fill("seen.or", list, one);
+          ++count;
+        }
+      if (count > most_alike) return "";
+      if (count > 0) return with_.common.fill("seen.right_with", list);
+    }
+    return "";
+  }
+
+  std::string without() const {
+    const std::vector<Change> changes = removals_of(with_.own, *subject_);
+    std::vector<std::size_t> made, again;
+    const std::vector<Answer> right = asked_with(with_.reference, changes, made),
+                              theirs = asked_with(with_.student, changes, again);
+    std::string text;
+    std::size_t count = 0;
+    std::set<Numbers> told;  // one thing may have several names
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      if (right[i].how != How::answered || right[i].got.size() != subject_->expected.size()) continue;
+      const Case less = expecting(*subject_, right[i]);
+      if (!usable(less, theirs[i]) || !judge(less, theirs[i]).right || !says_something(right[i].got)) continue;
+      if (hands_through(right[i].got) || !told.insert(right[i].got).second) continue;
+      if (++count > 2) return "";
+      const std::string name = change_text(with_.common, changes[made[i]]);
+      text += (text.empty() ? "" : " ") + with_.common.fill("seen.without", name);
+      const std::string added = instead_of_what_is_added(right[i].got, theirs[i].got);
+      if (!added.empty()) text += " " + with_.common.fill("seen.adds", added);
+    }
+    return text;
+  }
+
+  /// Whether a number that was wrong is still asked for.
+  bool says_something(const Numbers& without) const {
+    for (std::size_t i = 0; i < without.size(); ++i)
+      if (without[i] != 0 && !(std::abs(got_->got[i] - subject_->expected[i]) <= subject_->tolerance)) return true;
+    return false;
+  }
+
+  /// Whether the answer is one of the call's own numbers, so that without this nothing is computed.
+  bool hands_through(const Numbers& answer) const {
+    for (const Param& param : params_of(CallLayout::of(with_.own, *subject_)))
+      for (std::size_t from = 0; from + answer.size() <= param.at.size(); from += answer.size()) {
+        bool same = answer.size() > 1;
+        for (std::size_t k = 0; k < answer.size(); ++k) same = same && answer[k] == subject_->in[param.at[from + k]];
+        if (same) return true;
+      }
+    return false;
+  }
+
+  std::string instead_of_what_is_added(const Numbers& right, const Numbers& theirs) const {
+    Case added = *subject_;
+    Numbers got = got_->got;
+    for (std::size_t i = 0; i < got.size(); ++i) added.expected[i] -= right[i], got[i] -= theirs[i];
+    added.tolerance *= 3;  // differences of two numbers each
+    return all_zero(added.expected) ? "" : instead_text(with_.common, with_.own, added, got);
+  }
+
+  const Observing& with_;
+  const std::vector<std::pair<Case, Answer>>& asked_;
+  const Case* subject_ = nullptr;  // the smallest wrong case
+  const Answer* got_ = nullptr;
+};
+
+}  // namespace
+
+Ask asking(const Sandbox& sandbox, const std::filesystem::path& program) {
+  return [&sandbox, program](const std::vector<Case>& cases) {
+    Limits limits = limits_for(0);
+    limits.cpu = 5, limits.wall = 60;
+    return run_calls(sandbox, program, cases, limits);
+  };
+}
+
+std::vector<std::string> seen_at(const Observing& with, const Assignment& assignment, const std::string& part,
+                                 const std::vector<TestRun>& runs, const std::vector<bool>& told_at) {
+  std::vector<std::string> seen(runs.size());
+  const auto say = [&](std::size_t i, const std::string& text) {
+    if (!text.empty()) seen[i] += (seen[i].empty() ? "" : "\n") + text;
+  };
+  bool looked = !assignment.look;
+  std::set<std::string> told;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!told_at[i]) continue;
+    if (!looked) {
+      const Looked found = assignment.look(with.common, part, with.student);
+      say(i, found.text), looked = true;
+      if (found.explains) return seen;
+    }
+    const Test& test = *runs[i].test;
+    if (test.reduce) continue;
+    const std::vector<Case> small = small_cases(assignment, test);
+    const std::vector<Answer> to_small = small.empty() ? std::vector<Answer>() : with.student(small);
+    std::set<std::string> calls;  // that this test, or its small cases, find wrong
+    for (std::size_t k = 0; k < runs[i].cases.size(); ++k)
+      if (!judge(runs[i].cases[k], runs[i].answers[k]).right) calls.insert(runs[i].cases[k].call);
+    for (std::size_t k = 0; k < small.size(); ++k)
+      if (!judge(small[k], to_small[k]).right) calls.insert(small[k].call);
+    for (const std::string& call : calls) {
+      const std::string function = function_of(with.own, part, Case{call});
+      if (told.count(function)) continue;
+      std::vector<std::pair<Case, Answer>> asked;
+      for (const TestRun& other : runs)
+        for (std::size_t k = 0; k < other.cases.size() && !other.test->reduce; ++k)
+          if (other.cases[k].call == call) asked.emplace_back(other.cases[k], other.answers[k]);
+      for (std::size_t k = 0; k < small.size(); ++k)
+        if (small[k].call == call) asked.emplace_back(small[k], to_small[k]);
+      const std::string text = Observer(with, asked).text();
+      say(i, text);
+      if (!text.empty()) told.insert(function);  // other calls of it would say the same
+    }
+  }
+  return seen;
+}
+
+}  // namespace coursework
