@@ -147,10 +147,10 @@ std::optional<Finding> agreement_answer(const std::vector<Scene>&, const std::ve
 
 /// What the cheapest run of another engine costs beside mysim's; a tie is told as one.
 std::string beside_text(const EngineBeside& other) {
-  const std::string name = name_in_sentence(other.engine);
+  const std::string name = name_in_sentence(other.method);
   return other.low <= 1 && other.high >= 1
-             ? fmt::format(". {} within 1 % costs as much, within noise", name)
-             : fmt::format(". {} within 1 % needs {} times the computing", name, times_text(other.times));
+             ? fmt::format(". {} within 1 %: as much, within noise", name)
+             : fmt::format(". {} within 1 %: {} times the computing", name, times_text(other.times));
 }
 
 std::optional<Finding> method_answer(const std::vector<Scene>& scenes, const std::vector<SceneData>&,

@@ -33,7 +33,7 @@ std::vector<EngineBeside> engines_beside(const std::string& scene, double part_o
   for (const EngineSpeedRow& row : rows_of<EngineSpeedRow>(rows))
     if (row.scene == scene && is_part(row.part_of_motion, part_of_motion) && row.measure == Measure::error &&
         row.times_mysim && is_rival(row.method))
-      all.push_back({row.engine, *row.times_mysim, row.times_mysim_low.value_or(*row.times_mysim),
+      all.push_back({row.engine, row.method, *row.times_mysim, row.times_mysim_low.value_or(*row.times_mysim),
                      row.times_mysim_high.value_or(*row.times_mysim)});
   return all;
 }

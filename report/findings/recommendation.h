@@ -17,7 +17,7 @@ const Scene* main_scene(const std::vector<Scene>& scenes, const TableSet& rows);
 
 /// The cheapest run of another engine within the same accuracy.
 struct EngineBeside {
-  std::string engine;
+  std::string engine, method;
   double times = 0, low = 0, high = 0;  // its CPU time over that of mysim's cheapest, and what both intervals allow
 };
 
