@@ -82,7 +82,8 @@ std::vector<Chapter> chapters() {
        "<p>Each scene runs again without each of its ingredients, then without several, the cheapest to lose first, "
        "and "
        "is held against the truth of the full scene.</p><p>What can go depends on the error that you accept: <b>at 1 % "
-       "of the motion most scenes need all they have, at 10 % a family of springs can often go</b>. Fewer springs also lower the fastest "
+       "of the motion most scenes need all they have, at 10 % a family of springs can often go</b>. Fewer springs also "
+       "lower the fastest "
        "frequency, so that the step may grow.</p>",
        {{"bend-springs", "What bend springs do"}}},
   };
