@@ -70,7 +70,7 @@ Chart deviations(const std::vector<CantileverRow>& cantilevers, const std::vecto
       nice(worst), low, high);
   f.caption = fmt::format(
       "Strips of 20 cm clamped level, at rest under their weight or a load, or vibrating without "
-      "weight; clamped by pins half a cell before and behind the edge; commit {}.",
+      "weight; commit {}.",
       commit);
   f.tier = "two-point problem of the elastica, and roots of cos β cosh β = −1";
   return {

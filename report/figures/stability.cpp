@@ -88,7 +88,7 @@ std::string effort_text(const Table& table) {
   if (longest > 0)
     text = fmt::format(" Runs took {} steps.", range(fmt::format("{:.0f}", shortest), fmt::format("{:.0f}", longest)));
   if (coarsest > 0)
-    text += fmt::format(" In the end what failed was longer than what held by {} %.",
+    text += fmt::format(" Limits are known to {} %.",
                         range(fmt::format("{:.2g}", 100 * finest), fmt::format("{:.2g}", 100 * coarsest)));
   return text;
 }

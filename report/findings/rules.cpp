@@ -217,7 +217,7 @@ const std::vector<FindingRule>& finding_rules() {
        "On slopes {method} sticks or slides as Coulomb's law says in {value} of {cases} cases.",
        "cases whose answer is the answer by theory, of those whose verdict is ok", {"sphere-cone"}, "sphere-cone"},
       {"leaving", "contact", ball, "deviation of the separation angle", "degrees", "exact",
-       "With {method}{which}, particles leave the ball {off} at a step of {step}{worse}.",
+       "With {method}{which}, particles leave the ball {off} at {step}{worse}.",
        "angle - angle by theory at the shortest step, of mysim's methods the largest; and at the longest step",
        {"sphere-leaving"}, "sphere-leaving"},
       {"slides-off", "contact", ball, "height of the centre of mass", "m", other_engine,

@@ -534,7 +534,7 @@ TEST(SphereFindings, LeavingAnglesByEngineAndWhoGetsWorse) {
   EXPECT_NEAR(all[0].value, -0.01, 1e-9);
   EXPECT_NEAR(all[1].value, -1.6, 1e-9);
   EXPECT_EQ(sentence_of(all[1]),
-            "With Bullet's pbd, particles leave the ball 1.6 degrees too early at a step of 100 µs: shorter steps make "
+            "With Bullet's pbd, particles leave the ball 1.6 degrees too early at 100 µs: shorter steps make "
             "it worse.");
   t.rows.clear();
   EXPECT_TRUE(leaving_findings(t).empty());
