@@ -68,7 +68,8 @@ function listRuns(figure) {
     const markers = [...figure.querySelectorAll('[data-run]')];
     if (list.querySelector('select') || markers.length === 0) return;  // a figure is drawn when it comes into sight
     const ways = markers.map(marker => {
-      const [head, outcome = ''] = tipOf(marker).split('\n'), [method, asked, ...row] = head.split(', ');
+      const {method} = parts(marker.dataset.run), [head, outcome = ''] = tipOf(marker).split('\n');
+      const [asked, ...row] = head.replace(`${method}, `, '').split(', ');
       return [method, ...row, `${asked}: ${outcome}`];
     });
     const chosen = ways[0].map((_, level) => dropdown(['method', ...ways[0].length > 2 ? ['row'] : [], 'run'][level], []));
