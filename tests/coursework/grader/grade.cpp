@@ -272,7 +272,7 @@ class Grading {
     const bool known = cause != options_.common.of("no_cause"),
                seen = suspect.key.empty() && look_closer(part, of_part, tests, wrong);
     for (TestResult* test : wrong) {
-      test->cause = cause;
+      test->cause = known || !seen ? cause : "";  // what was seen says more than that nothing known matches
       const std::string before = failed_before(*test, wrong);
       if (known || (seen && before.empty())) continue;
       if (const std::string hint = hint_text(options_.common, options_.own, test->id, before); !hint.empty())
