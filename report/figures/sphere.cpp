@@ -71,8 +71,7 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
   }
   f.finding = fmt::format(
       "Particles of mysim are inside by at most {} % of the radius{}; the triangles between them cut "
-      "into the ball by what a chord is below its arc, also where no particle is inside: by {} % in mysim{}. "
-      "Below 0.001 % nothing is drawn.",
+      "into the ball as a chord does into its circle: by {} % in mysim{}. Below 0.001 % nothing is drawn.",
       depth_text(deepest[&subject()].first), particles_of_peers, depth_text(deepest[&subject()].second),
       triangles_of_peers);
   f.caption =

@@ -155,13 +155,10 @@ HeatMap map_of(const Table& cells, const Table& limits, const std::string& scene
       whole.push_back(p.title);
   if (!whole.empty()) map.finding += fmt::format(" No run of {} fails.", joined(whole));
   map.caption = fmt::format(
-      "Scene {}; each cell a run of {}from rest with a small kick, or from the start where there is no rest; growth of "
+      "Scene {}; each cell a run of {}from rest, or the start where there is none, with a small kick; growth of "
       "less than a millionth counts as none; commit {}.",
       scene, steps_of(steps), commit);
-  map.tier =
-      "exact for small motion under the discrete rule (dashed); measured limits (dots) lie between a step that held "
-      "and "
-      "one that failed, 2 % apart";
+  map.tier = "exact for small motion under the discrete rule (dashed); measured limits (dots) are known to 2 %";
   return map;
 }
 
