@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "experiments/scenes/scenes.h"
 #include "experiments/tables/table.h"
@@ -210,13 +209,12 @@ std::string last_of(const std::string& list) {
 
 std::string error_text(const std::optional<double>& error) { return error ? nice_length(*error) : "fails"; }
 
-/// The least models of `scenes`, each named in its first row.
+/// The least models of `scenes`.
 PageTable least_of(const Table& least, const std::set<std::string>& scenes) {
   PageTable page{"The least model against the full one, also from three initial states that were not used to find it.",
                  {"scene", "tolerance", "least model", "error", "error from unseen initial states", "cost / full model",
                   "meets tolerance"},
                  {}};
-  std::string named;
   for (size_t i = 0; i < least.rows.size(); ++i) {
     const std::string scene = text_at(least, i, "scene");
     if (!scenes.contains(scene)) continue;
@@ -229,7 +227,7 @@ PageTable least_of(const Table& least, const std::set<std::string>& scenes) {
                             : ""));
     const bool all = text_at(least, i, "left out").empty();
     page.rows.push_back(
-        {scene == std::exchange(named, scene) ? "" : scene,
+        {scene,
          fmt::format("{} ({})", nice_length(*number_at(least, i, "tolerance")), text_at(least, i, "tolerance is")),
          all ? "full" : text_at(least, i, "least model"), error_text(number_at(least, i, "error")),
          (all ? "any removal: " : "") + fmt::format("{}", fmt::join(unseen, ", ")),

@@ -73,10 +73,9 @@ Chart deviations(const std::vector<CantileverRow>& cantilevers, const std::vecto
       "weight; commit {}.",
       commit);
   f.tier = "two-point problem of the elastica, and roots of cos β cosh β = −1";
-  return {
-      "", std::move(f), "fabric",
-      "A rigidity B in N m means the same on every grid, as a beam's does. A clamp is two columns of pins, half a "
-      "cell before and behind the edge: with the last pins on the edge itself the strip would be half a cell longer."};
+  return {"", std::move(f), "fabric",
+          "A rigidity B in N m means the same on every grid, as a beam's does. A clamp is two columns of pins, half a "
+          "cell before and behind the edge."};
 }
 
 Chart skip_one(const std::vector<SkipOneRow>& rows, const std::string& commit) {
