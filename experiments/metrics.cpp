@@ -100,8 +100,10 @@ double Growth::window() const {
   return last;
 }
 
-Growth growth_of(const Method& method, const Scene& scene, const Run& run, const Trajectory* unperturbed) {
+Growth growth_of(const Method& method, const Scene& scene, const Run& given, const Trajectory* unperturbed) {
   constexpr double size = 1e-10;  // m: far above round-off (1e-16), far below every nonlinearity
+  Run run = given;
+  run.timed = false;
   Recorder a, b;
   if (!unperturbed) {
     run_method(method, scene, run, {&a});

@@ -28,6 +28,7 @@ Run run_until(const Scene& scene, double until, double step) {
   run.samples = std::clamp(static_cast<int>(std::floor(until / interval * (1 + 1e-9))), 1, scene.samples);
   run.duration = run.samples * interval;
   run.step = std::min(step, interval);
+  run.timed = false;
   return run;
 }
 

@@ -66,7 +66,8 @@ std::vector<GridResult> grid_convergence(const Scene& scene, const std::vector<i
     Scene& now = scenes.emplace_back(with_resolution(scene, n));
     const Grid grid = *cloth_grid_of(now);
     Recorder recorder;
-    const Run run{std::min(now.step, interval), samples * interval, samples};
+    Run run{std::min(now.step, interval), samples * interval, samples};
+    run.timed = false;
     const Outcome out = run_method(find_method("mysim/leapfrog"), now, run, {&recorder});
     Trajectory surface = std::move(recorder.trajectory);
     for (Points& x : surface.x) x = at_material_points(x, grid.nu, grid.nv, material_points);

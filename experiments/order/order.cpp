@@ -58,7 +58,8 @@ void order_on(const Request& request, const Scene& scene, TableSet& tables) {
     tables.notes.push_back(fmt::format("order leaves out {}: {}", scene.name, why));
     return;
   }
-  const Run base = run_of(request, scene);
+  Run base = run_of(request, scene);
+  base.timed = false;
   const auto truth = truth_of(scene, base);
   if (!truth) {
     tables.notes.push_back(fmt::format("order leaves out {}: no truth is known for it", scene.name));

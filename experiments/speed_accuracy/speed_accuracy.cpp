@@ -168,7 +168,8 @@ std::string why_not(const Scene& scene, double motion) {
 }  // namespace
 
 void speed_accuracy_on(const Request& request, const Scene& scene, TableSet& tables) {
-  const Run base = run_of(request, scene);
+  Run base = run_of(request, scene);
+  base.timed = false;  // time_speed_accuracy() does that
   const auto truth = truth_of(scene, base);
   const bool of_rule = truth && truth->under_contact_rule;
   Recorder plain;
@@ -262,7 +263,7 @@ void time_speed_accuracy(const Request& request, const Scene& scene, TableSet& t
   // the dear ones are most of the work, and their times spread least
   const auto times =
       time_round_robin(runs, request.full ? TimingOptions{.least = 3, .most = 9, .enough = 0.05, .warm = 0.05}
-                                          : TimingOptions{.least = 2, .most = 7, .enough = 0.01, .warm = 0.01});
+                                          : TimingOptions{.least = 2, .most = 7, .enough = 0.005, .warm = 0.005});
   const double noise = times.empty() ? 0 : noise_floor(times);
   Table table = table_of<SpeedAccuracyTimingRow>();
   for (size_t i = 0; i < timed.size(); ++i) {

@@ -101,6 +101,7 @@ void orders_of_contact(const Request& request, const Method& method, TableSet& t
       for (int i = 0; i < (request.full ? 6 : 4); ++i) {
         Run run = default_run(scene);
         run.step = run.duration / run.samples / (4 << i);
+        run.timed = false;
         Recorder recorder;
         const Outcome out = run_method(each, scene, run, {&recorder});
         ContactOrderRow row{.probe = scene.name,
@@ -131,6 +132,7 @@ void drape(const Scene& scene, const Method& method, double step, TableSet& tabl
   Table table = table_of<DrapeTimeRow>(scene.name + "-drape");
   Run run = default_run(scene);
   run.step = step;
+  run.timed = false;
   Recorder recorder;
   Ledger ledger(scene.model, method.contact);
   const Outcome out = run_method(method, scene, run, {&recorder, &ledger});

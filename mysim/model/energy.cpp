@@ -52,7 +52,10 @@ Power power_of(const Model& model, const State& state, Forces& scratch) {
     return power;
   };
   const Overloaded add{
-      [&](const Drag& t) { p.drag -= free_power(particles, force_of(t), state.v); },
+      [&](const Drag& t) {
+        for (int i = 0; i < particles.size(); ++i)
+          if (!particles.pinned[i]) p.drag += t.c[i] * state.v.col(i).squaredNorm();
+      },
       [&](const OneOf<Wind, Aerodynamics> auto& t) { p.wind += free_power(particles, force_of(t), state.v); },
       [&](const Springs& t) {
         if (particles.move) p.pins -= on_pins(force_of(springs_at_pins(t, particles)));

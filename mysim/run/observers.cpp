@@ -107,13 +107,14 @@ double fastest_decay(const Model& model) {
 
 double largest_length_ratio(const Model& model, const State& start, const Points& x) {
   const auto* springs = model.find<Springs>();
-  double most = 0;
+  double most = 0;  // of the squares, which take neither root nor division where a spring is not the longest so far
   if (springs)
     for (const Spring& s : springs->list) {
-      const double rest = s.rest > 0 ? s.rest : (start.x.col(s.a) - start.x.col(s.b)).norm();
-      if (rest > 0) most = std::max(most, (x.col(s.a) - x.col(s.b)).norm() / rest);
+      const double rest = s.rest > 0 ? s.rest * s.rest : (start.x.col(s.a) - start.x.col(s.b)).squaredNorm(),
+                   length = (x.col(s.a) - x.col(s.b)).squaredNorm();
+      if (rest > 0 && length > most * rest) most = length / rest;
     }
-  return most;
+  return std::sqrt(most);
 }
 
 std::optional<MotionBounds> motion_bounds_of(const Scene& scene, const Run& run) {

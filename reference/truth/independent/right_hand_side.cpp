@@ -71,7 +71,7 @@ void RightHandSide::add_term(const Term& term) {
     }
     void operator()(const Springs& t) const {
       f.link_law_ = t.law == SpringLaw::bullet_link;
-      for (const Spring& s : t.list) f.pairs_.push_back({s.a, s.b, s.k, s.rest, 0});
+      for (const Spring& s : t.list) f.springs_.push_back({s.a, s.b, s.k, s.rest});
     }
     void operator()(const Bending& t) const {
       // multiplied out: k/2 |sum w_i x_i|^2 is the energy of springs without rest length between each two particles
@@ -81,7 +81,7 @@ void RightHandSide::add_term(const Term& term) {
             f.bars_.push_back({s.particle[i], s.particle[j], -s.weight[i] * s.weight[j] * s.k});
     }
     void operator()(const Dashpots& t) const {
-      for (const auto& d : t.list) f.pairs_.push_back({d.a, d.b, 0, 0, d.c});
+      for (const auto& d : t.list) f.dashpots_.push_back({d.a, d.b, d.c});
     }
     void operator()(const Constraints& t) const {
       for (const auto& c : t.list) f.hard_distances_.push_back({c.a, c.b});
@@ -137,7 +137,8 @@ void RightHandSide::operator()(const StateVector& y, StateVector& rate, double t
     return;
   }
   std::fill(f_.begin(), f_.end(), 0);
-  for (const SpringDashpot& pair : pairs_) add_pair_force(pair);
+  add_spring_forces();
+  add_dashpot_forces();
   for (const auto& [a, b, k] : bars_)
     for (int axis = 0; axis < 3; ++axis) {
       const double pull = k * (x_[3 * b + axis] - x_[3 * a + axis]);
@@ -173,28 +174,41 @@ void RightHandSide::write_state(const StateVector& y, double t, State& state) {
     state.v = Points::Map(v_.data(), 3, n_);
 }
 
-/// The force of a spring and a dashpot on their ends: a factor times the vector from one to the other.
-void RightHandSide::add_pair_force(const SpringDashpot& p) {
-  const double* a = &x_[3 * p.a];
-  const double* b = &x_[3 * p.b];
-  const double difference[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const double square = difference[0] * difference[0] + difference[1] * difference[1] + difference[2] * difference[2];
-  if (square == 0) {
-    degenerate_springs_ += p.rest > 0;
-    return;
+/// Of each spring, on its ends: a factor times the vector from one to the other.
+void RightHandSide::add_spring_forces() {
+  const double* x = x_.data();
+  double* f = f_.data();
+  for (const auto& [a, b, k, rest] : springs_) {
+    const double* from = x + 3 * a;
+    const double* to = x + 3 * b;
+    const double d[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+    const double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    if (square == 0) {
+      degenerate_springs_ += rest > 0;
+      continue;
+    }
+    const double factor =
+        link_law_ ? k * (1 - 2 * rest * rest / (square + rest * rest)) : k * (1 - rest / std::sqrt(square));
+    for (int axis = 0; axis < 3; ++axis) {
+      f[3 * a + axis] += factor * d[axis];
+      f[3 * b + axis] -= factor * d[axis];
+    }
   }
-  double factor = 0;  // N/m, towards each other
-  if (p.k > 0)
-    factor = link_law_ ? p.k * (1 - 2 * p.rest * p.rest / (square + p.rest * p.rest))
-                       : p.k * (1 - p.rest / std::sqrt(square));
-  if (p.damping > 0) {
-    double parting = 0;  // half the rate of change of the square
-    for (int axis = 0; axis < 3; ++axis) parting += difference[axis] * (v_[3 * p.b + axis] - v_[3 * p.a + axis]);
-    factor += p.damping * parting / square;
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    f_[3 * p.a + axis] += factor * difference[axis];
-    f_[3 * p.b + axis] -= factor * difference[axis];
+}
+
+void RightHandSide::add_dashpot_forces() {
+  for (const auto& [a, b, c] : dashpots_) {
+    double d[3], square = 0, parting = 0;  // parting: half the rate of change of the square
+    for (int axis = 0; axis < 3; ++axis) {
+      d[axis] = x_[3 * b + axis] - x_[3 * a + axis];
+      square += d[axis] * d[axis];
+      parting += d[axis] * (v_[3 * b + axis] - v_[3 * a + axis]);
+    }
+    if (square == 0) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      f_[3 * a + axis] += c * parting / square * d[axis];
+      f_[3 * b + axis] -= c * parting / square * d[axis];
+    }
   }
 }
 

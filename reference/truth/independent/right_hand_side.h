@@ -29,9 +29,13 @@ class RightHandSide {
   long degenerate_springs() const { return degenerate_springs_; }  // springs met at zero length, over all evaluations
 
  private:
-  struct SpringDashpot {
+  struct LinearSpring {
     int a, b;
-    double k, rest, damping;  // N/m, m, N s/m; a spring without dashpot has damping 0, and the other way round
+    double k, rest;  // N/m, m
+  };
+  struct Dashpot {
+    int a, b;
+    double c;  // N s/m
   };
   struct Bar {  // a spring without rest length, of either sign
     int a, b;
@@ -52,7 +56,8 @@ class RightHandSide {
   static Signal signal_of(const WindSignal& wind_signal);
   void add_term(const Term& term);
   void set_state(const StateVector& y, double t);
-  void add_pair_force(const SpringDashpot& pair);
+  void add_spring_forces();
+  void add_dashpot_forces();
   void add_aerodynamic_forces(double t);
   void add_constraint_forces();
 
@@ -67,7 +72,8 @@ class RightHandSide {
   bool first_order_ = false, link_law_ = false;
   double rotation_rate_ = 0;       // rad/s, of the first-order field
   double gravity_[3] = {0, 0, 0};  // m/s^2
-  std::vector<SpringDashpot> pairs_;
+  std::vector<LinearSpring> springs_;
+  std::vector<Dashpot> dashpots_;
   std::vector<Bar> bars_;  // what bending is
   std::vector<HardDistance> hard_distances_;
   std::vector<Signal> winds_, air_velocities_;  // m/s^2; m/s
