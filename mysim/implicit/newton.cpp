@@ -131,14 +131,16 @@ void IncrementalPotential::gradient(const Points& u, Points& g) {
   f_.position_acceleration(at, a_);
   g.setZero(3, particles.size());
   frozen_damping_.add_product(0, 1 / h_, moved_, g);
-  force_scale_ = 0;
+  double scale = 0;  // N^2
   for (int i = 0; i < particles.size(); ++i) {
     if (particles.pinned[i]) continue;
     const double m = particles.mass[i];
     const Vec3 inertia = m / (h_ * h_) * u.col(i), drag = drag_[i] / h_ * moved_.col(i);
-    force_scale_ = std::max({force_scale_, m / h_ * start_.v.col(i).norm(), inertia.norm(), m * a_.col(i).norm()});
+    scale = std::max({scale, m * m / (h_ * h_) * start_.v.col(i).squaredNorm(), inertia.squaredNorm(),
+                      m * m * a_.col(i).squaredNorm()});
     g.col(i) += inertia + drag - m * a_.col(i) - frozen_air_.f.col(i);
   }
+  force_scale_ = std::sqrt(scale);
   clear_pins(g);
   // spring forces come from positions, each rounded by eps |x|
   force_rounding_ = 8 * eps * (stiffest_ * at.x.cwiseAbs().maxCoeff() + largest_column(a_) * particles.mass.maxCoeff());

@@ -84,13 +84,16 @@ PictureRequest picture_named(const std::string& name, const FiguresOptions& opti
 }
 
 /// Names are experiments, or SCENE-picture of a scene that --scene names or that comes with Crosscheck; no names are
-/// all experiments, and pictures of the named scenes or of the representative ones. Throws InputError that
+/// all experiments, and pictures of the named scenes or of the representative cloths. Throws InputError that
 /// lists what there is.
 FigureSelection select_figures(const FiguresOptions& options) {
   FigureSelection selection;
   if (options.names.empty()) {
     for (const Experiment& e : experiments()) selection.experiments.push_back(&e);
     selection.pictures = requested_pictures(options);
+    // the picture of a bead on a spring says little on paper: it is drawn where it is asked for
+    if (options.scenes.empty() && !options.full)
+      std::erase_if(selection.pictures, [](const PictureRequest& picture) { return picture.scene.triangles.empty(); });
   }
   for (size_t i = 0; i < options.names.size(); ++i) {
     const std::string& name = options.names[i];

@@ -66,6 +66,7 @@ Level::Level(const Layout& layout, const GridTopology& topology, double times_lo
              single_free_.data(), single_force_.data()};
   for (int d = 0; d < directions; ++d) {
     if (!topology.families[d]) continue;
+    stiffness_ += 2 * topology.families[d]->k;
     k_[d] = AlignedBuffer<double>(static_cast<size_t>(layout.tiles) * lanes);
     springs_[d] = AlignedBuffer<double>(4 * all), single_springs_[d] = AlignedBuffer<float>(4 * all);
     for (int c = 0; c < layout.columns; ++c)
@@ -83,6 +84,11 @@ void Level::load_inertia() {
     single_inertia_.data()[i] = static_cast<float>(inertia_.data()[i]);
     single_free_.data()[i] = static_cast<float>(free_.data()[i]);
   }
+}
+
+double Level::inertia_share() const {
+  const double least = inertia.minCoeff();
+  return least / (least + stiffness_);
 }
 
 void Level::linearise(const Kernels& f) {
@@ -109,9 +115,15 @@ struct ChebyshevSmoother {
 // the next grid holds waves of four of this one's springs and longer, whose eigenvalues are below about a fifth of 2;
 // by trial on hanging cloths of 24 to 128 columns at 60 and 240 steps a second one to four rounds take the same time
 constexpr ChebyshevSmoother level_smoother{2, 0.4};
-/// On the coarsest grid: as many rounds as a pull needs to cross it, which reduce by ten what is above the lowest.
-ChebyshevSmoother coarsest_smoother(const Layout& layout) {
-  const int rounds = std::clamp(std::max(layout.rows, layout.columns), 16, 64);
+/// With the share s of inertia in the diagonal D, D^-1 A has eigenvalues in [s, 2 - s], and Chebyshev's rounds reduce
+/// by 1 / cosh(rounds acosh(1 / (1 - s))) (Y. Saad, Iterative Methods for Sparse Linear Systems, 2003, 12.3.2): by ten,
+/// five rounds from this share on, which is less work than a coarser grid.
+constexpr double enough_inertia = 0.2;
+/// On the coarsest grid: rounds that reduce by ten, where inertia is less as many as a pull needs to cross it.
+ChebyshevSmoother coarsest_smoother(const Level& level) {
+  if (const double share = level.inertia_share(); share >= enough_inertia)
+    return {static_cast<int>(std::ceil(std::acosh(10.) / std::acosh(1 / (1 - share)))), share, 2 - share};
+  const int rounds = std::clamp(std::max(level.layout().rows, level.layout().columns), 16, 64);
   return {rounds, 2 * (1.6 / rounds) * (1.6 / rounds)};
 }
 
@@ -177,12 +189,14 @@ void VCycle::set_inertia(const Eigen::ArrayXd& inertia) {
             sum[r * coarse.columns + c] += levels_[l - 1].inertia[row * fine.columns + column] / 4;
     levels_[l].load_inertia();
   }
+  coarsest_ = 0;
+  while (coarsest_ + 1 < levels_.size() && levels_[coarsest_].inertia_share() < enough_inertia) ++coarsest_;
 }
 
 void VCycle::set(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature) {
   assert(inertia.size() == x.cols() && (inertia > 0).all());
   set_inertia(inertia);
-  for (size_t l = 0; l < levels_.size(); ++l) {
+  for (size_t l = 0; l <= coarsest_; ++l) {
     Level& level = levels_[l];
     if (l == 0)
       level.layout().put(x, 1, level.x);
@@ -196,19 +210,19 @@ void VCycle::set(const Eigen::ArrayXd& inertia, const Points& x, Curvature curva
 
 double VCycle::products() const {
   double sum = 0;
-  for (const Level& level : levels_) {
-    const bool last = &level == &levels_.back();
+  for (size_t l = 0; l <= coarsest_; ++l) {
+    const Level& level = levels_[l];
     // the first round, from 0, takes none
-    const double own = last ? coarsest_smoother(level.layout()).rounds - 1 : 2 * level_smoother.rounds;
+    const double own = l == coarsest_ ? coarsest_smoother(level).rounds - 1 : 2 * level_smoother.rounds;
     sum += own * static_cast<double>(level.free.size()) / static_cast<double>(levels_.front().free.size());
   }
   return sum;
 }
 
 void VCycle::cycle(size_t l) {
-  assert(l < levels_.size() && transfers_.size() + 1 == levels_.size());
+  assert(l <= coarsest_ && transfers_.size() + 1 == levels_.size());
   Level& level = levels_[l];
-  if (l + 1 == levels_.size()) return smooth(kernels_, level, coarsest_smoother(level.layout()), true);
+  if (l == coarsest_) return smooth(kernels_, level, coarsest_smoother(level), true);
   Level& coarse = levels_[l + 1];
   smooth(kernels_, level, level_smoother, true);
   kernels_.residual(level.matrix(), level.b.data(), level.u.data(), level.r.data());

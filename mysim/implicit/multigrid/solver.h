@@ -119,6 +119,8 @@ class Level {
   AlignedBuffer<float> b, u, change, r;  // fields: right side and solution of the V-cycle, and working memory
 
   void load_inertia();  // from `inertia` and `free`
+  /// Of inertia in the diagonal of the matrix, at least, over all particles: 1 without springs.
+  double inertia_share() const;
   /// Clamped stiffness at x, and the inverse blocks on the diagonal.
   void linearise(const Kernels& f);
   /// Stiffness as it is, in exact() alone.
@@ -126,6 +128,7 @@ class Level {
 
  private:
   Layout layout_;
+  double stiffness_ = 0;  // N/m, largest sum over the springs of a particle
   SpringGeometry geometry_{};
   AlignedBuffer<double> k_[directions], springs_[directions], inertia_, free_, blocks_, sums_, force_;
   AlignedBuffer<float> single_springs_[directions], single_inertia_, single_free_, single_blocks_, single_force_;
@@ -168,6 +171,7 @@ class VCycle {
   std::vector<Level> levels_;
   std::vector<GridTransfer> transfers_;
   Eigen::ArrayXd inertia_;  // of the particles, as last set
+  size_t coarsest_ = 0;     // level: the first on which relaxation alone does
 };
 
 // Conjugate gradients for the systems of implicit steps on a cloth.

@@ -158,20 +158,21 @@ Points cycle(multigrid::VCycle& matrix, const Points& r) {
 }
 
 TEST(Multigrid, APreconditionerIsSymmetricAndPositive) {
-  for (const auto& [rows, columns] : sizes) {
-    SCOPED_TRACE(fmt::format("{} x {}", rows, columns));
-    const Problem p(11, rows, columns), other(12, rows, columns);
-    multigrid::VCycle matrix(p.topology, p.pins);
-    matrix.set(p.inertia, p.x, Curvature::clamped);
-    Points second = other.b;
-    for (const int pin : p.pins) second.col(pin).setZero();
-    const Points z = cycle(matrix, p.b), w = cycle(matrix, second);
-    EXPECT_GT(dot(p.b, z), 0);
-    EXPECT_GT(dot(second, w), 0);
-    // single precision, and a few hundred roundings one after the other
-    const double scale = std::sqrt(dot(p.b, z) * dot(second, w));
-    EXPECT_NEAR(dot(second, z), dot(p.b, w), 300 * std::numeric_limits<float>::epsilon() * scale);
-  }
+  for (const auto& [rows, columns] : sizes)
+    for (const double heavier : {1., 30., 1e3}) {  // all grids; fewer; the finest alone
+      SCOPED_TRACE(fmt::format("{} x {}, {} times as heavy", rows, columns, heavier));
+      const Problem p(11, rows, columns), other(12, rows, columns);
+      multigrid::VCycle matrix(p.topology, p.pins);
+      matrix.set(heavier * p.inertia, p.x, Curvature::clamped);
+      Points second = other.b;
+      for (const int pin : p.pins) second.col(pin).setZero();
+      const Points z = cycle(matrix, p.b), w = cycle(matrix, second);
+      EXPECT_GT(dot(p.b, z), 0);
+      EXPECT_GT(dot(second, w), 0);
+      // single precision, and a few hundred roundings one after the other
+      const double scale = std::sqrt(dot(p.b, z) * dot(second, w));
+      EXPECT_NEAR(dot(second, z), dot(p.b, w), 300 * std::numeric_limits<float>::epsilon() * scale);
+    }
 }
 
 TEST(Multigrid, SameBitsOnEveryAvx) {
@@ -210,7 +211,8 @@ TEST(Multigrid, IterationsHardlyGrowWithTheSheet) {
 
 TEST(ImplicitCloth, StepsAreThoseOfTheListOfPairs) {
   Scene scene = hanging_cloth(24);
-  for (const double h : {1 / 60., 1 / 240.}) {
+  // at the shortest steps inertia rules and relaxation alone is the preconditioner
+  for (const double h : {1 / 60., 1 / 240., 1 / 1000., 1 / 4000.}) {
     System f(scene.model), g(scene.model);
     ImplicitStep fast(f), plain(g, true);
     State s = scene.start;
@@ -222,7 +224,7 @@ TEST(ImplicitCloth, StepsAreThoseOfTheListOfPairs) {
       EXPECT_LE(largest_column(a.x - b.x), 2 * force / inertia * 24) << i;
       s = a;
     }
-    EXPECT_GT(largest_column(s.x - scene.start.x), 1e-3);
+    EXPECT_GT(largest_column(s.x - scene.start.x), 40 * h * h);
     EXPECT_LT(fast.iterations(), plain.iterations());
   }
 }
