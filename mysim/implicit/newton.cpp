@@ -209,6 +209,24 @@ CgResult ImplicitStep::by_pairs(Curvature curvature, double tolerance) {
                              3 * static_cast<int>(u_.cols()) + 20, p_, cg_);
 }
 
+/// Goes from u_ along the direction of negative curvature to where the potential is lowest, of steps as long as the one
+/// before and doubled: near a saddle the gradient is small and Newton's step with it, and how far the potential falls
+/// is first below its rounding. Returns the potential there.
+double ImplicitStep::leave_saddle(double value, double step) {
+  const double size = largest_column(downhill_);
+  potential_.gradient(u_, g_);
+  if (dot(g_, downhill_) > 0) downhill_ = -downhill_;
+  double lowest = value, best = 0;
+  for (double length = step / size; size > 0 && step > 0; length *= 2) {
+    trial_ = u_ + length * downhill_;
+    const double tried = potential_.value(trial_);
+    if (!(tried <= lowest + potential_.rounding())) break;
+    if (tried < lowest) lowest = tried, best = length;
+  }
+  u_ += best * downhill_;
+  return lowest;
+}
+
 /// Descends from u_, where the potential is the last of descent_, to the minimum.
 void ImplicitStep::minimise() {
   assert(!descent_.empty());
@@ -221,7 +239,11 @@ void ImplicitStep::minimise() {
 
     // far from the minimum a rough direction does; near it the error should fall quadratically
     const double accuracy = std::min(0.1, std::sqrt(left / potential_.force_scale()));
-    if (newton_direction(Curvature::exact, accuracy).negative_curvature) newton_direction(Curvature::clamped, accuracy);
+    const bool saddle = newton_direction(Curvature::exact, accuracy).negative_curvature;
+    if (saddle) {
+      downhill_ = p_;
+      newton_direction(Curvature::clamped, accuracy);
+    }
 
     const double slope = dot(g_, p_);
     double length = 1, tried = 0;
@@ -235,6 +257,7 @@ void ImplicitStep::minimise() {
     }
     u_ = trial_;
     value = tried;
+    if (saddle) value = leave_saddle(value, length * largest_column(p_));
     descent_.push_back(value);
   }
   throw SolverFailure(fmt::format("Newton's method did not converge in {} steps", most_newton_steps));

@@ -94,11 +94,12 @@ class ImplicitStep {
 
  private:
   void minimise();
+  double leave_saddle(double value, double step);
   CgResult newton_direction(Curvature curvature, double tolerance);
   CgResult by_pairs(Curvature curvature, double tolerance);
 
   IncrementalPotential potential_;
-  Points u_, trial_, g_, minus_g_, p_;
+  Points u_, trial_, g_, minus_g_, p_, downhill_;
   CgMemory cg_;
   int iterations_ = 0;
   std::shared_ptr<multigrid::MultigridSolver>

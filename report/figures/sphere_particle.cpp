@@ -64,7 +64,7 @@ Chart cone_law(const Table& table, const std::string& commit) {
     if (!failed.empty()) wrong += (wrong.empty() ? "" : "; ") + failed;
     page.rows.push_back({method, std::to_string(right), std::to_string(all), wrong});
     if (right < all && !curve.points.empty())
-      differing.push_back(fmt::format("{} ({} of {})", method, all - right, all));
+      differing.push_back(fmt::format("{} ({} of {})", name_in_sentence(method), all - right, all));
     if ((right < all || shown_always(method)) && !curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.finding =
@@ -73,7 +73,7 @@ Chart cone_law(const Table& table, const std::string& commit) {
                          : fmt::format("Those that answer otherwise, and in how many cases: {}.", joined(differing)));
   f.caption = fmt::format(
       "A particle on a slope for 0.5 s, step {}; methods that "
-      "answer like mysim/symplectic-euler are in the table only; commit {}.",
+      "answer like symplectic Euler are in the table only; commit {}.",
       step_text(step), commit);
   f.tier = "exact (Coulomb's law)";
   Chart chart{"", std::move(f), "sphere",

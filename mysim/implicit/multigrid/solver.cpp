@@ -276,7 +276,8 @@ CgResult MultigridSolver::solve(const Eigen::ArrayXd& inertia, const Points& x, 
     const double curved = f.product(a, p_.data(), q_.data());
     if (!(curved > 0)) {
       result.negative_curvature = true;
-      break;
+      v_cycle_.layout().get(p_, 1, u);
+      return result;
     }
     keep = rz / curved;
     left = f.update_solution(a, keep, p_.data(), q_.data(), u_.data(), r_.data(), v_cycle_.b().data());

@@ -30,7 +30,7 @@ struct CgMemory {
 };
 
 /// Solves A x = b from x = 0 until |b - A x| <= tolerance |b|. apply(p, q): q = A p. precondition(r, z): z = M^-1 r
-/// with M symmetric positive definite. Stops at once at negative curvature, with the x reached so far.
+/// with M symmetric positive definite. Stops at once at negative curvature, x being the direction of it.
 template <class Apply, class Precondition>
 CgResult conjugate_gradients(Apply apply, Precondition precondition, const Points& b, double tolerance,
                              int most_iterations, Points& x, CgMemory& m) {
@@ -48,6 +48,7 @@ CgResult conjugate_gradients(Apply apply, Precondition precondition, const Point
     ++result.iterations;
     if (!(curvature > 0)) {
       result.negative_curvature = true;
+      x = m.p;
       break;
     }
     const double length = rz / curvature;
@@ -182,7 +183,7 @@ class MultigridSolver {
 
   /// Solves (inertia + K(x)) u = b for u (3 x n), until |b - A u| <= tolerance |b|. `inertia` (N/m) is of each
   /// particle, x (m) and b (N) are 3 x n; pins do not move. As conjugate_gradients (mysim/implicit): what is left is
-  /// the recurrence's, and the solve stops at once at negative curvature. Gives up after 500 iterations, ten times what
+  /// the recurrence's, and the solve stops at once at negative curvature, u being the direction of it. Gives up after 500 iterations, ten times what
   /// cloths are known to take.
   CgResult solve(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature, const Points& b, double tolerance,
                  Points& u);

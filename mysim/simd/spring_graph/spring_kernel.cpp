@@ -29,16 +29,13 @@ SpringKernel::SpringKernel(const Springs& springs, int particles) {
 SpringKernel::SpringKernel(SpringKernel&&) noexcept = default;
 SpringKernel::~SpringKernel() = default;
 
-void SpringKernel::add_force(const Points& x, Forces& forces) {
+void SpringKernel::add_on_lanes(const Points& x, Forces& forces) {
   assert(x.cols() == forces.f.cols());
-  if (impl_) {
-    auto& [kernels, dia, coo] = *impl_;
-    if (dia && kernels.dia(dia->view(), x.data(), forces.f.data()))
-      forces.degenerate_springs += dia->degenerate_springs();
-    if (coo && kernels.coo(coo->view(), x.data(), forces.f.data()))
-      forces.degenerate_springs += coo->degenerate_springs();
-  }
-  crosscheck::add_force(plain_, x, forces);
+  auto& [kernels, dia, coo] = *impl_;
+  if (dia && kernels.dia(dia->view(), x.data(), forces.f.data()))
+    forces.degenerate_springs += dia->degenerate_springs();
+  if (coo && kernels.coo(coo->view(), x.data(), forces.f.data()))
+    forces.degenerate_springs += coo->degenerate_springs();
 }
 
 }  // namespace crosscheck

@@ -22,11 +22,16 @@ class SpringKernel {
   SpringKernel(const Springs& springs, int particles);
   SpringKernel(SpringKernel&&) noexcept;
   ~SpringKernel();
-  void add_force(const Points& x, Forces& forces);
+  void add_force(const Points& x, Forces& forces) {
+    if (impl_) add_on_lanes(x, forces);
+    crosscheck::add_force(plain_, x, forces);
+  }
   /// The instruction set that its lanes are compiled for.
   simd::InstructionSet isa() const { return isa_; }
 
  private:
+  void add_on_lanes(const Points& x, Forces& forces);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;  // null where the plain loop takes all springs
   Springs plain_;               // those that the plain loop takes
