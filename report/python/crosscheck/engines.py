@@ -21,7 +21,8 @@ import numpy as np
 
 from .program import Error
 
-knows = ("springs", "dashpots", "gravity", "drag")
+knows = ("springs", "bullet-link", "dashpots", "gravity", "drag")
+"""What EngineScene.force models; bullet-link is the springs' other law."""
 
 
 class Springs:
@@ -102,7 +103,8 @@ class Engine:
     """A step function (x, v, scene, h) -> (x, v) as a method: pass it wherever a method is named.
 
     x, v: (n, 3) arrays, m and m/s; scene: an EngineScene; h: the time step, s. Pinned particles are put where the scene
-    holds them after each step. `terms`: what the function models; a scene with anything else is refused with the reason.
+    holds them after each step. `terms`: what the function models, as the terms of the protocol are called, without it what
+    `scene.force` does; "springs" are Hooke's, "bullet-link" their other law. A scene with anything else is refused.
 
     >>> @engine(terms=["gravity"])
     ... def fall(x, v, scene, h):
@@ -237,7 +239,9 @@ def main(dump):
         sys.exit(f"usage: {name} scene.json OUTDIR")
     with open(sys.argv[1], encoding="utf-8") as file:
         task = json.load(file)
-    lacking = sorted({term["type"] for term in task["terms"]} - set(terms))
+    asked = {term["type"] for term in task["terms"]}
+    asked |= {term["law"] for term in task["terms"] if term.get("law", "hooke") != "hooke"}
+    lacking = sorted(asked - set(terms))
     if lacking:
         refuse(f"{name} has no {', '.join(lacking)}")
     if task["first_order"]:
