@@ -147,7 +147,8 @@ class Comparison(Answer):
         self.certificates = {one["method"]: one["verdict"] for one in told}
 
     def _repr_html_(self):
-        return self.rows._repr_html_()
+        shown = ["method", "verdict", "largest error", "largest difference", "step", "evaluations"]
+        return self.rows[shown]._repr_html_()
 
     def plot(self, axes=None):
         """Draws error or difference over time, one curve for each method, and returns the axes (matplotlib)."""

@@ -47,7 +47,9 @@ class Table(np.ndarray):
             return None
 
         def text(value):
-            return f"{value:.4g}" if isinstance(value, float) else escape(str(value))
+            if isinstance(value, float):
+                return f"{value:.0f}" if value.is_integer() and abs(value) < 1e15 else f"{value:.4g}"
+            return escape(str(value))
 
         heads = "".join(f"<th>{escape(n)}{'' if self.units.get(n, '1') == '1' else f' / {escape(self.units[n])}'}</th>"
                         for n in self.dtype.names)

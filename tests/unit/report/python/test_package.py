@@ -118,6 +118,12 @@ class Runs(unittest.TestCase):
                 ask()
             self.assertEqual(str(caught.exception).count("\n"), 0)
 
+    def test_a_comparison_is_a_table_in_a_notebook(self):
+        html = crosscheck.compare("chain", ["rk4", "leapfrog"])._repr_html_()
+        self.assertIn("<th>method</th><th>verdict</th><th>largest error / m</th>", html)
+        self.assertIn("<td>mysim/rk4</td><td>ok</td><td>4.001e-09</td>", html)
+        self.assertIn("<td>12000</td>", html)
+
     def test_advice_that_cannot_be_given_says_why(self):
         a = crosscheck.advise("chain", tolerance=1e-30, methods="leapfrog")
         self.assertFalse(a)
