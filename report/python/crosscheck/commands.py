@@ -114,9 +114,9 @@ def run(scene, method=None, step=None, tol=None, duration=None, out=None):
     (6, 4, 3)
     >>> r.energies.units["kinetic"]
     'J'
-    >>> run("chain", step=-1)
+    >>> run("chain", step=-1)  # doctest: +ELLIPSIS
     Traceback (most recent call last):
-    crosscheck.Error: run: --step: expected a finite number above zero, got '-1' (crosscheck run --help shows what is expected)
+    crosscheck.Error: run: --step: expected a finite number above zero, got '-1' ...
     """
     words = [*option("--method", None if method is None else method_word(method)), *option("--step", step),
              *option("--tol", tol), *option("--duration", duration)]

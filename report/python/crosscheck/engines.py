@@ -26,7 +26,7 @@ knows = ("springs", "bullet-link", "dashpots", "gravity", "drag")
 
 
 class Springs:
-    """Arrays of a scene's springs: a, b (particles), stiffness (N/m), rest_length (m); law: "hooke" or "bullet-link"."""
+    """Arrays of a scene's springs: a, b (particles), stiffness (N/m), rest_length (m); law: "hooke", "bullet-link"."""
 
     def __init__(self, term):
         rows = term.get("list", [])
@@ -103,8 +103,8 @@ class Engine:
     """A step function (x, v, scene, h) -> (x, v) as a method: pass it wherever a method is named.
 
     x, v: (n, 3) arrays, m and m/s; scene: an EngineScene; h: the time step, s. Pinned particles are put where the scene
-    holds them after each step. `terms`: what the function models, as the terms of the protocol are called, without it what
-    `scene.force` does; "springs" are Hooke's, "bullet-link" their other law. A scene with anything else is refused.
+    holds them after each step. `terms`: what the function models, as the terms of the protocol are called, without it
+    what `scene.force` does; "springs" are Hooke's, "bullet-link" their other law. A scene with more is refused.
 
     >>> @engine(terms=["gravity"])
     ... def fall(x, v, scene, h):

@@ -17,8 +17,8 @@ class Error(Exception):
 
 
 def find_program():
-    """The path of the program: `crosscheck.program.path`, the variable CROSSCHECK, the source tree that this package stands
-    in, the folder bin/ of the prefix that it was installed to, PATH; the first of these that is there."""
+    """The path of the program: `crosscheck.program.path`, the variable CROSSCHECK, the source tree that this package
+    stands in, the folder bin/ of the prefix that it was installed to, PATH; the first of these that is there."""
     for where, named in (("crosscheck.program.path", path), ("the variable CROSSCHECK", os.environ.get("CROSSCHECK"))):
         if named:
             found = shutil.which(str(named))
