@@ -6,6 +6,7 @@
 #include "tests/unit/report/telling_apart.h"
 
 #include "reference/method.h"
+#include "report/figures/chapter_parts.h"
 #include "report/figures/charts.h"
 #include "tests/unit/helpers.h"
 
@@ -72,6 +73,22 @@ TEST(TellingApart, AllMethodsInOneFigure) {
     if (f.curves.empty()) break;
     EXPECT_EQ(looking_alike(drawing_of(f).script), "");
   }
+}
+
+TEST(TellingApart, EveryVerdictInOneMap) {
+  Table cells{
+      "stability-map",
+      {{"scene", "1"}, {"map", "1"}, {"method", "1"}, {"step", "s"}, {"value", "1"}, {"verdict", "1"}, {"end", "s"}},
+      {}};
+  const char* verdicts[] = {"ok", "energy", "nan", "stretch", "solver", "frozen", "timeout", "crash", "unsupported"};
+  for (size_t i = 0; i < std::size(verdicts); ++i)
+    cells.add({"s", "drag", "mysim/rk4", std::pow(10., static_cast<double>(i % 3)),
+               std::pow(10., static_cast<double>(i / 3)), verdicts[i], 1.});
+  const std::vector<Chart> maps = map_charts(cells, Table{"stability-map-limits", {}, {}}, "commit");
+  ASSERT_EQ(maps.size(), 1u);
+  const std::string drawn = drawing_of(std::get<HeatMap>(maps[0].figure)).script;
+  EXPECT_EQ(looks_of(drawn).size(), std::size(verdicts));
+  EXPECT_EQ(looking_alike(drawn), "");
 }
 
 }  // namespace
