@@ -98,7 +98,7 @@ TEST_F(RecipesCli, CommandsPrintWhatIsShown) {
     EXPECT_EQ(lacking(lines_of(end.out), shown), "") << end.out;
     ++commands;
   }
-  EXPECT_GE(commands, 15);
+  EXPECT_GE(commands, 14);
 }
 
 TEST_F(RecipesCli, PythonPrintsWhatIsShown) {
