@@ -81,12 +81,13 @@ int doctor_command() {
       {"gnuplot", "gnuplot-nox", "draws the figures", true},
       {"git", "git", "names the commit in tables and captions", false},
       {"ctest", "cmake", "runs the tests", true},
-      {"python3", "python3-numpy", "runs the example of an outside engine, with NumPy; the tests need it", false},
+      {"python3", "python3-numpy", "runs engines in NumPy, and the package for Python; the tests need it", false},
       {"ffmpeg", "ffmpeg", "writes clips: `render -o FILE.mp4`", false},
       {"clang++", "clang", "another compiler, in which `regress --prove-builds` builds too", false},
       {"wasm-ld-14", lab_packages, "compiles mysim to WebAssembly, with clang: the lab in the page", false},
       {"node", "nodejs", "runs Jolt as an engine: `engine jolt`; the tests run the lab's module in it", false},
       {"npm", "npm", "fetches Jolt, for `engine jolt`", false},
+      {"pdflatex", "texlive-latex-base", "the tests compile a paper with a set of figures", false},
       {"chromium", "chromium", "a browser: the tests try the page's player in it; prints the page as PDF", false},
   };
   bool complete = true;

@@ -63,6 +63,8 @@ void CurvePlot::fill_board() {
         for (const Place p : path) board_->add_mark(p);
     }
     for (const Place cross : crosses_of(part)) board_->add_mark(cross);
+    if (!part.failures.empty())
+      if (const auto sign = sign_of(part, rows_.at(part.failures[0]))) board_->add_mark(*sign);
   }
   for (size_t i = 1; i < f_.pareto.size(); ++i) {
     const Place a = place(f_.pareto[i - 1].first, f_.pareto[i - 1].second),

@@ -75,6 +75,9 @@ class CurvePlot {
   /// A longer name stands in the key.
   bool is_short(const NamedCurves& part) const { return width_of(part.name) < 0.45 * wide_; }
 
+  /// Where the mark of a part stands that says whose crosses stand beside it, so that colour alone need not: left of
+  /// them, or right of them where the frame is near. None where one part only failed, or the part has no mark.
+  std::optional<Place> sign_of(const NamedCurves& part, size_t row) const;
   void set_ranges();
   void assign_rows();
   void frame(double right_column);

@@ -159,15 +159,29 @@ void CurvePlot::set_ranges() {
   if (std::isfinite(y_floor_)) y_low_ = y_floor_;
 }
 
+std::optional<Place> CurvePlot::sign_of(const NamedCurves& part, size_t row) const {
+  if (!part.coloured || part.style.marker <= 0 || part.failures.empty() ||
+      std::ranges::count_if(parts_, [](const NamedCurves& n) { return !n.failures.empty(); }) < 2)
+    return {};
+  double left = 1e300, right = -1e300;
+  for (const FailureMark* m : part.failures) {
+    const double x = place(m->x, y_low_).x;
+    left = std::min(left, x), right = std::max(right, x);
+  }
+  return Place{left - 11 > box_.left + 5 ? left - 11 : right + 11, y_of_row(row)};
+}
+
 /// Crosses stand in rows from the top, in each as many as there is room for.
 void CurvePlot::assign_rows() {
   rows_.clear();
   strip_ = 0;
   std::vector<std::vector<double>> taken;
   for (const NamedCurves& part : parts_) {
+    std::vector<double> all;
+    for (const FailureMark* m : part.failures) all.push_back(place(m->x, y_low_).x);
+    if (const auto sign = sign_of(part, 0)) all.push_back(sign->x);
     const auto free = [&](size_t row) {
-      return row >= taken.size() || std::ranges::all_of(part.failures, [&](const FailureMark* m) {
-               const double x = place(m->x, y_low_).x;
+      return row >= taken.size() || std::ranges::all_of(all, [&](double x) {
                return std::ranges::none_of(taken[row], [&](double other) { return std::abs(other - x) < 9; });
              });
     };
@@ -175,7 +189,8 @@ void CurvePlot::assign_rows() {
     size_t row = 0;
     while (!free(row) && row < 5) ++row;
     if (row >= taken.size()) taken.emplace_back();
-    for (const FailureMark* m : part.failures) rows_[m] = row, taken[row].push_back(place(m->x, y_low_).x);
+    for (const FailureMark* m : part.failures) rows_[m] = row;
+    taken[row].insert(taken[row].end(), all.begin(), all.end());
   }
   strip_ = taken.size();
 }
@@ -335,6 +350,9 @@ std::string CurvePlot::script() const {
     if (leader.style.marker > 0)
       out += sheet.mark({leader.to.x + 5, leader.to.y}, leader.style.colour, leader.style.marker);
   }
+  for (const NamedCurves& part : parts_)
+    if (const auto sign = part.failures.empty() ? std::nullopt : sign_of(part, rows_.at(part.failures[0])))
+      out += sheet.mark(*sign, part.style.colour, part.style.marker, 0.6);
   for (const Label& label : labels_) out += sheet.text(label.at, label.words, label.align, label.colour);
   return out + terminals(f_, tall, elements());
 }

@@ -13,17 +13,18 @@
 namespace crosscheck {
 namespace {
 
+/// Nine colours, each at least 8 in lightness (CIE L*) from every other, so that a grey print tells them apart.
 std::vector<StackedBars::Part> parts_for(size_t bars) {
-  std::vector<StackedBars::Part> parts = {{"drag", "#0072B2", false, {}},
-                                          {"dashpots", "#56B4E9", false, {}},
-                                          {"contact", "#D55E00", false, {}},
-                                          {"contact (inferred)", "#D55E00", true, {}},
-                                          {"kinetic+elastic (end)", "#BFE6D6", false, {}},
-                                          {"energy residual", "#CC79A7", false, {}},
-                                          {"gravity", "#999999", false, {}},
-                                          {"kinetic+elastic (start)", "#333333", false, {}},
-                                          {"wind", "#F3C14B", false, {}},
-                                          {"moved pins", "#7A3B00", false, {}}};
+  std::vector<StackedBars::Part> parts = {{"drag", "#005F95", false, {}},
+                                          {"dashpots", "#71BBEB", false, {}},
+                                          {"contact", "#BA5100", false, {}},
+                                          {"contact (inferred)", "#BA5100", true, {}},
+                                          {"kinetic+elastic (end)", "#CFECE0", false, {}},
+                                          {"energy residual", "#CF86AE", false, {}},
+                                          {"gravity", "#868686", false, {}},
+                                          {"kinetic+elastic (start)", "#313131", false, {}},
+                                          {"wind", "#F4C664", false, {}},
+                                          {"moved pins", "#703600", false, {}}};
   for (StackedBars::Part& part : parts) part.height.assign(bars, 0);
   return parts;
 }

@@ -30,7 +30,11 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
   std::vector<std::string> failed;                                   // without a mark
   std::map<const MethodFamily*, std::pair<double, double>> deepest;  // particles and triangles, %
   std::map<double, std::pair<Curve, Curve>> by_step;
-  const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"};
+  // of each time step: its colour, and its marks for particles and triangles
+  static constexpr struct {
+    const char* colour;
+    int particles, triangles;
+  } looks[] = {{"#0072B2", 6, 9}, {"#D55E00", 4, 11}, {"#009E73", 12, 8}, {"#CC79A7", 14, 10}, {"#E69F00", 7, 13}};
   for (const std::string& method : distinct(table, "method")) {
     bool any = false;
     for (size_t i = 0; i < table.rows.size(); ++i) {
@@ -51,9 +55,10 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
       if (const Method* m = builtin_without_options(method); m && m->adaptive)
         continue;  // an adaptive method has no fixed step
       if (!by_step.contains(*h)) {
-        const std::string colour = colours[by_step.size() % std::size(colours)];
-        by_step[*h] = {{fmt::format("particles, time step {}", step_text(*h)), {colour, "1", 6}, {}, false, true},
-                       {fmt::format("triangles, time step {}", step_text(*h)), {colour, "1", 9}, {}, false, true}};
+        const auto& [colour, particles, flat] = looks[by_step.size() % std::size(looks)];
+        by_step[*h] = {
+            {fmt::format("particles, time step {}", step_text(*h)), {colour, "1", particles}, {}, false, true},
+            {fmt::format("triangles, time step {}", step_text(*h)), {colour, "1", flat}, {}, false, true}};
       }
       if (nodes && *nodes > 1e-3) by_step[*h].first.points.emplace_back(place - 0.12, *nodes);
       if (triangles && *triangles > 1e-3) by_step[*h].second.points.emplace_back(place + 0.12, *triangles);

@@ -96,9 +96,13 @@ std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
   f.curves.push_back(std::move(limit));
   const double step = usual_step(table);
   const std::vector<std::string> shown = representatives_in_contact();
-  const std::pair<const char*, int> outcomes[] = {{"sticks", 7}, {"slides", 6}, {"neither", 9}};
+  // a shape for each method: filled, open, and its triangle
+  static constexpr int shapes[][3] = {{7, 6, 9}, {5, 4, 8}, {13, 12, 11}, {15, 14, 10}};
+  const char* outcomes[] = {"sticks", "slides", "neither"};
   for (size_t m = 0; m < shown.size(); ++m)
-    for (const auto& [outcome, marker] : outcomes) {
+    for (size_t o = 0; o < 3; ++o) {
+      const char* outcome = outcomes[o];
+      const int marker = shapes[m % std::size(shapes)][o];
       const std::string word = std::string(outcome) == "neither" ? "creeps" : outcome;
       Curve curve{fmt::format("{} {}", shown[m], word), {style_of(shown[m]).colour, "1", marker}, {}, false, true};
       for (size_t i = 0; i < table.rows.size(); ++i) {

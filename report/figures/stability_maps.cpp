@@ -14,18 +14,18 @@
 namespace crosscheck {
 namespace {
 
-/// A verdict with its colour and its text in the key.
+/// A verdict with its colour and its text in the key. Each is at least 8 in lightness (CIE L*) from every other.
 struct CellClass {
   const char *verdict, *title, *colour;
 };
 constexpr CellClass cell_classes[] = {
-    {"ok", "stable", "#D8E8F0"},
-    {"energy", "blows up", "#D55E00"},
-    {"nan", "not a number", "#5B1A4F"},
-    {"stretch", "overstretched", "#E9B44C"},
-    {"solver", "solver gives up", "#7F7F7F"},
-    {"frozen", "frozen", "#56B4E9"},
-    {"timeout", "time limit", "#009E73"},
+    {"ok", "stable", "#CBDAE1"},
+    {"energy", "blows up", "#B44E00"},
+    {"nan", "not a number", "#5D2252"},
+    {"stretch", "overstretched", "#E8B34C"},
+    {"solver", "solver gives up", "#525252"},
+    {"frozen", "frozen", "#50A9DB"},
+    {"timeout", "time limit", "#00996F"},
     {"crash", "program fails", "#222222"},
     {"unsupported", "unsupported", "#F7F5EE"},
 };

@@ -7,6 +7,7 @@
 #include "tests/unit/compiler.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/report/adding/additions.h"
+#include "tests/unit/report/telling_apart.h"
 
 namespace crosscheck::testing_tools {
 namespace {
@@ -136,6 +137,9 @@ TEST(Adding, AThirdEngineIsInTablesChartsFindingsAndMaps) {
   for (const char* table :
        {"engines", "energy", "speed-accuracy", "speed-accuracy-engines-cost", "stability", "stability-map"})
     EXPECT_TRUE(contains(read_file(out / "data" / (std::string(table) + ".csv"), "a table"), "toy/step")) << table;
+  int figures = 0;
+  EXPECT_EQ(looking_alike_in(out / "figures", figures), "");
+  EXPECT_GE(figures, 15);
   // the second of the built-in methods without a look of its own, after the new stepper
   const std::string chart = read_file(out / "figures/two-masses-error.gp", "a chart");
   EXPECT_TRUE(contains(chart, "toy/step"));

@@ -13,6 +13,7 @@
 #include "tests/unit/experiments/advise_case.h"
 #include "tests/unit/report/cli.h"
 #include "tests/unit/report/readers.h"
+#include "tests/unit/report/telling_apart.h"
 
 namespace crosscheck {
 namespace {
@@ -178,6 +179,9 @@ TEST_F(Cli, ReportOfOwnSceneIsWholeAndTheSameTwice) {
   }
   EXPECT_GE(drawn, 3);
   EXPECT_LE(drawn, 5) << "a chapter has one";
+  int figures = 0;
+  EXPECT_EQ(looking_alike_in(folder_ / "one/figures", figures), "");
+  EXPECT_GE(figures, 15);
   EXPECT_TRUE(fs::exists(folder_ / "one/figures/circle-speed-accuracy-cost.svg")) << "the last scene stands for others";
   EXPECT_FALSE(fs::exists(folder_ / "one/figures/mine-agreement.svg"));
   EXPECT_TRUE(fs::exists(folder_ / "one/figures/mine-thumbnail.png"));
@@ -269,6 +273,8 @@ TEST_F(Cli, ReportOfBodiesAtRestAndFreeFlightIsWhole) {
                            "[sphere]\ncentre = [0, 0, 0]\nradius = 1\nrestitution = 0.5\n");
   const ProgramResult result = call({"report", "rest.toml", "bounce.toml", "--quick", "--out", "out"});
   EXPECT_EQ(result.status, 0) << result.err;
+  int figures = 0;
+  EXPECT_EQ(looking_alike_in(folder_ / "out/figures", figures), "");
   const std::string page = read(folder_ / "out/index.html");
   for (const char* number : {"nan ", "-nan", ">nan", "inf "})  // none of these can stand in the images' base64
     EXPECT_EQ(page.find(number), std::string::npos) << number;

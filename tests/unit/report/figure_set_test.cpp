@@ -2,6 +2,7 @@
 
 #include "report/figures/figure_set.h"
 
+#include <cstdlib>
 #include <regex>
 
 #include "mysim/base/errors.h"
@@ -11,6 +12,7 @@
 #include "report/figures/plot_layout.h"
 #include "report/pictures/png_file.h"
 #include "tests/unit/helpers.h"
+#include "tests/unit/reference/helpers.h"
 #include "tests/unit/report/readers.h"
 #include "tests/unit/temporary.h"
 
@@ -209,6 +211,52 @@ TEST_F(FigureSet, WordsSayWhatEachShows) {
   EXPECT_EQ(json["figures"][0]["files"]["csv"].text(), "lines.csv");
   EXPECT_EQ(json["provenance"]["commit"].text(), "abc");
   EXPECT_TRUE(contains(read(folder_ / "CITATION.cff"), "version: \"abc\"\ndate-released: \"2026-11-22\""));
+}
+
+/// All letters beyond ASCII that stand in the C++ sources of a folder, each once.
+std::set<std::string> letters_in(const std::filesystem::path& folder) {
+  std::set<std::string> letters;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream in(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    for (size_t i = 0; i < text.size(); ++i)
+      if ((text[i] & 0xC0) == 0xC0)  // the first byte of a letter in UTF-8
+        letters.insert(text.substr(i, (text[i] & 0xF0) == 0xF0 ? 4 : (text[i] & 0xE0) == 0xE0 ? 3 : 2));
+  }
+  return letters;
+}
+
+TEST_F(FigureSet, APaperWithTheSetCompiles) {
+  NEEDS_PROGRAM("pdflatex", "texlive-latex-base", "no paper with a set of figures is compiled");
+  all = charts();
+  // what captions are made of, and what is special to LaTeX
+  std::string letters = "a_b & 5 % of #1 {x} ~ ^ \\ $ < >";
+  for (const char* room : {"report/figures", "report/findings", "experiments"})
+    for (const std::string& letter : letters_in(std::filesystem::path(CROSSCHECK_SOURCE) / room))
+      letters += " " + letter;
+  EXPECT_GT(letters.size(), 80u);
+  std::string paper = "\\documentclass{article}\n\\usepackage{graphicx}\n\\begin{document}\n";
+  for (Chart& chart : all) {
+    ASSERT_TRUE(resize(chart, figure_size("paper", "")));
+    draw_figure(chart, {}, folder_);
+    FigureInfo words = *figure_info(chart);
+    words.caption += letters;
+    write_captions(words, folder_);
+    paper += "Figure~\\ref{fig:" + words.name + "} is input as it is.\n\\input{" + words.name + "}\n";
+  }
+  write("paper.tex", paper + "\\end{document}\n");
+  for (int pass = 0; pass < 2; ++pass) {  // the second one knows the labels
+    const ProgramResult compiled =
+        run_program({"pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper.tex"}, folder_);
+    ASSERT_EQ(compiled.status, 0) << compiled.out;
+  }
+  const std::string log = read(folder_ / "paper.log");
+  for (const char* bad : {"Missing character", "undefined references", "Overfull", "not set up"})
+    EXPECT_FALSE(contains(log, bad)) << log;
+  for (const char* name : {"lines", "bars", "map"}) EXPECT_TRUE(contains(log, "<" + std::string(name) + ".pdf"));
+  if (const char* keep = std::getenv("CROSSCHECK_KEPT_PICTURE"))
+    std::filesystem::copy_file(folder_ / "paper.pdf", keep, std::filesystem::copy_options::overwrite_existing);
 }
 
 using namespace testing_tools;
