@@ -41,6 +41,9 @@ class Compiler {
   std::filesystem::path cache_;
 };
 
+/// Options of Builder::checked(). No position-independent program: its addresses are those of its file.
+const std::vector<std::string>& checking_options();
+
 /// Runs the command in the sandbox, which may write to `writable`. Throws std::runtime_error that says what became of
 /// `what` where it did not end well: these are sources of ours.
 void compile_ours(const Sandbox& trusted, const std::vector<std::string>& command,
@@ -84,6 +87,12 @@ class Builder {
                        const std::vector<std::string>& = {}, const std::string& = "") const {
     return {};
   }
+
+  /// The part's program once more, which ends where it asks for an index that is not there and says which on standard
+  /// error, as the standard library's debug mode and the compiler's own checks do, and says where it is when it
+  /// crashes.
+  virtual Built checked(const Submission& submission, const std::string& part,
+                        const std::filesystem::path& folder) const = 0;
 
   /// A part's file within the folder of a solution.
   virtual std::string file_of(const std::string& part) const { return part + ".cpp"; }
