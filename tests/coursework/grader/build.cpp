@@ -50,6 +50,10 @@ std::string key_of(const std::string& content) {
   return fmt::format("{:016x}{:016x}", crosscheck::Fnv1a::of(content), crosscheck::Fnv1a::of(content + "/"));
 }
 
+std::string as_student_folder(const fs::path& folder) {
+  return fmt::format("-fdebug-prefix-map={}={}", folder.string(), student_folder);
+}
+
 const std::vector<std::string>& checking_options() {
   static const std::vector<std::string> options = {
       "-D_GLIBCXX_DEBUG", "-DTELLS_PLACES", "-g1", "-no-pie", "-fsanitize=bounds", "-fno-sanitize-recover=bounds"};
@@ -299,8 +303,8 @@ class PartBuilder : public Builder {
     crosscheck::write_file(in / file, submission.files.at(file));
     for (const fs::path& header : files_in(folder_ / "starter", "", ".h"))
       fs::copy_file(header, in / header.filename());
-    return made_in_sandbox({"-I" + in.string(), "-c", (in / file).string()}, in, folder / "object" / (part + ".o"),
-                           file);
+    return made_in_sandbox({"-I" + in.string(), as_student_folder(in), "-c", (in / file).string()}, in,
+                           folder / "object" / (part + ".o"), file);
   }
 
   /// Earlier parts are ours, so that a mistake in one costs nothing here. Later ones are never ours, since a solution

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/coursework/grader/assignment.h"
@@ -40,6 +41,11 @@ class Compiler {
   std::string fingerprint_;
   std::filesystem::path cache_;
 };
+
+/// Where a program says that a student's files stand, in whatever folder they were compiled.
+constexpr std::string_view student_folder = "/handed-in";
+/// The compiler's option for files that stand below this folder.
+std::string as_student_folder(const std::filesystem::path& folder);
 
 /// Options of Builder::checked(). No position-independent program: its addresses are those of its file.
 const std::vector<std::string>& checking_options();

@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/coursework/grader/build.h"
 #include "tests/coursework/grader/run.h"
 
 namespace coursework {
@@ -36,9 +37,8 @@ bool parse_place(const std::string& place, fs::path& path, int& line) {
   return line > 0;
 }
 
-/// The first place that is in no library and no handler of signals; false where it is not in a file of the student's,
-/// which stand below `folder`, beside some of ours where programs are whole.
-bool first_of_student(std::istream& places, const fs::path& folder, Crash& crash) {
+/// The first place that is in no library and no handler of signals; false where it is in no file of the student's.
+bool first_of_student(std::istream& places, Crash& crash) {
   for (std::string place; std::getline(places, place);) {
     fs::path path;
     int line = 0;
@@ -46,8 +46,7 @@ bool first_of_student(std::istream& places, const fs::path& folder, Crash& crash
     path = path.lexically_normal();
     crash.file = path.filename().string(), crash.line = line;
     if (path.string().rfind("/usr/", 0) == 0 || crash.file == "child_main.cpp") continue;
-    return path.string().find("/" + folder.filename().string() + "/") != std::string::npos &&
-           path.string().find("/in/ours/") == std::string::npos;
+    return path.string().rfind(std::string(student_folder) + "/", 0) == 0;
   }
   return false;
 }
@@ -80,8 +79,7 @@ Crash crash_in(const std::string& captured, std::vector<std::string>& addresses)
   return crash;
 }
 
-std::optional<Crash> crash_of(const Sandbox& sandbox, const fs::path& program, const fs::path& folder,
-                              const std::vector<Case>& cases) {
+std::optional<Crash> crash_of(const Sandbox& sandbox, const fs::path& program, const std::vector<Case>& cases) {
   Limits limits = limits_for(0);
   limits.cpu = 5, limits.wall = 60;
   std::string captured;
@@ -98,7 +96,7 @@ std::optional<Crash> crash_of(const Sandbox& sandbox, const fs::path& program, c
   job.command.insert(job.command.end(), addresses.begin(), addresses.end());
   const End end = sandbox.run(job);
   std::istringstream places(end.captured_output);
-  if (end.how != End::How::exited || end.code != 0 || !first_of_student(places, folder, crash)) return {};
+  if (end.how != End::How::exited || end.code != 0 || !first_of_student(places, crash)) return {};
   return crash;
 }
 

@@ -24,10 +24,10 @@ struct Crash {
 /// calls at hand. Students may have written anything else there: only numbers are taken.
 Crash crash_in(const std::string& captured, std::vector<std::string>& addresses);
 
-/// Asks the program that Builder::checked() made in `folder` and finds the line in which it crashes; nothing where it
+/// Asks the program of Builder::checked() and finds the line in which it crashes; nothing where it
 /// does not, or not in a line of the student's: what our calls do with an answer of another size is no index of his.
 std::optional<Crash> crash_of(const Sandbox& sandbox, const std::filesystem::path& program,
-                              const std::filesystem::path& folder, const std::vector<Case>& cases);
+                              const std::vector<Case>& cases);
 
 /// A sentence; `told` is the case, from 0, that is spoken of.
 std::string crash_text(const Texts& common, const Crash& crash, std::size_t told);

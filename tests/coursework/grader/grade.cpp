@@ -262,11 +262,9 @@ class Grading {
   /// The part's program that checks every index; built where it is needed first. Empty: it cannot be.
   const fs::path& checked_program(const std::string& part) {
     const auto [at, added] = checked_.try_emplace(part);
-    if (added) at->second = builder_->checked(submission_, part, checked_folder(part)).program;
+    if (added) at->second = builder_->checked(submission_, part, scratch_.path / ("checked-" + part)).program;
     return at->second;
   }
-
-  fs::path checked_folder(const std::string& part) const { return scratch_.path / ("checked-" + part); }
 
   /// Says of each test of the part that crashed in which line it did, and for which index.
   void tell_crashes(const std::string& part) {
@@ -278,7 +276,7 @@ class Grading {
       const std::vector<Answer>& answers = test_runs_[i].answers;
       const auto told =
           std::find_if(answers.begin(), answers.end(), [](const Answer& a) { return a.how == How::crashed; });
-      if (const auto crash = crash_of(sandbox_, checked_program(part), checked_folder(part), test_runs_[i].cases))
+      if (const auto crash = crash_of(sandbox_, checked_program(part), test_runs_[i].cases))
         said.replace(at, guess.size(),
                      crash_text(options_.common, *crash, static_cast<std::size_t>(told - answers.begin())));
     }
@@ -290,7 +288,7 @@ class Grading {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       if (tests[i]->hidden || passed(*tests[i])) continue;
       if (checked_program(part).empty()) return "";
-      const auto crash = crash_of(sandbox_, checked_program(part), checked_folder(part), runs[i].cases);
+      const auto crash = crash_of(sandbox_, checked_program(part), runs[i].cases);
       return crash && crash->why != Crash::Why::other
                  ? options_.common.fill("suspect.index", crash_text(options_.common, *crash, crash->which))
                  : "";
