@@ -159,7 +159,7 @@ class Observer {
   }
 
   /// By which number the cases that are right and those that are wrong are told apart: all of the ones have the same
-  /// count, or 0, and none of the others has.
+  /// simple one, 0 or a count of 1, and none of the others has.
   std::string parted() const {
     constexpr std::size_t least = 2;  // of each, so that one case is no rule
     std::string text;
@@ -173,7 +173,7 @@ class Observer {
       for (const bool right : {true, false}) {
         const std::vector<double>&same = of[right], &others = of[!right];
         const double value = same.front();
-        if (!p.whole && value != 0) continue;
+        if (value != 0 && !(p.whole && value == 1)) continue;
         if (std::count(same.begin(), same.end(), value) != static_cast<std::ptrdiff_t>(same.size())) continue;
         if (std::count(others.begin(), others.end(), value) > 0) continue;
         if (++count > 2) return "";
