@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "case.h"
+#include "texts.h"
 
 namespace coursework {
 
@@ -33,6 +34,10 @@ bool answer(const std::string& call, const Numbers& in, Numbers& out);
 /// Of the hand-out's `check` alone: what of an answer stands beside the case's `expected`. All of it (as_given.cpp), or
 /// what the assignment's calls.cpp finds in it, where constants are the student's choice.
 Found compared(const Case& what, const Numbers& answered);
+
+/// Of the hand-out's `check` alone: where an answer is no numbers that are compared as they are, what was asked and
+/// what came; else empty.
+std::string asked_and_came(const Texts& own, const Case& what, const Numbers& answered);
 
 /// Of the hand-out's `check` alone: a motion to draw beside a test that compares no curve itself, `expected` the right
 /// one and `got` the student's. False: there is none. What the student's code throws passes through.

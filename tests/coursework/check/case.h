@@ -60,9 +60,10 @@ struct Found {
   Found(Numbers numbers, Numbers all = {}) : got(std::move(numbers)), of(std::move(all)) {}
 };
 
-/// Whether it is no answer of the student's, right or wrong: it ran into a limit of ours that depends on the machine.
+/// Whether it is no answer of the student's, right or wrong: it ran into a limit of ours that depends on the machine,
+/// or what it answers does not let itself be measured.
 inline bool ungraded(How how) {
-  return how == How::out_of_time || how == How::waiting || how == How::too_much_answered;
+  return how == How::out_of_time || how == How::waiting || how == How::too_much_answered || how == How::undecided;
 }
 
 }  // namespace coursework

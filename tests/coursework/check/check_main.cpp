@@ -37,11 +37,13 @@ void crashed(int) {
   std::_Exit(3);
 }
 
-Answer ask(const Case& what) {
+/// `all`: what came, before it was compared.
+Answer ask(const Case& what, Numbers* all = nullptr) {
   Answer answer;
   try {
     if (!coursework::answer(what.call, what.in, answer.got))
       throw std::runtime_error("check does not know the call " + what.call + "; are its files those of the hand-out?");
+    if (all) *all = answer.got;
     const Found found = compared(what, answer.got);
     answer.got = found.got, answer.of = found.of;
     answer.how = answer.got.empty() && !what.expected.empty() ? How::undecided : How::answered;
@@ -81,14 +83,31 @@ std::string motion(const std::string& test, const Words& words) {
   }
 }
 
-/// Of what stands beside a test for the case that it fails: asked up to the first that fails too.
+/// Of what stands beside a test for the case that it fails: asked up to the second of a call that fails too.
 std::string smallest(const PublicTest& test, const Words& words) {
   std::vector<Answer> answers;
+  const Case* failed = nullptr;
   for (const Case& what : test.small) {
     answers.push_back(ask(what));
-    if (!judge(what, answers.back()).right) break;
+    if (failed && failed->call != what.call) continue;
+    if (judge(what, answers.back()).right) continue;
+    if (failed) break;
+    failed = &what;
   }
   return smaller_text(words.common, words.own, test.small, answers);
+}
+
+/// The numbers of a case that fails, and what is seen in them; others of its call are asked up to the next that fails.
+std::string shown_beside(const PublicTest& test, const Case& what, const Answer& answer, const Words& words) {
+  Answered others;
+  for (std::size_t i = static_cast<std::size_t>(&what - test.cases.data()) + 1; i < test.cases.size(); ++i)
+    if (answer.how == How::answered && test.cases[i].call == what.call && test.cases[i].in != what.in) {
+      others.emplace_back(test.cases[i], ask(test.cases[i]));
+      if (!judge(others.back().first, others.back().second).right) break;
+    }
+  std::string text = table_text(words.common, words.own, what, answer);
+  const std::string seen = seen_text(words.common, words.own, what, answer, others);
+  return text + (text.empty() || seen.empty() ? "" : "\n") + seen;
 }
 
 /// Runs its cases up to the first that is wrong; `failed_before` is the first test of its function that failed, if any,
@@ -97,7 +116,8 @@ ShownTest run(const PublicTest& test, const Words& words, const std::string& fai
               std::set<std::string>& told) {
   ShownTest shown{words.title_of(test.part), test.id + " " + words.title_of(test.id), true, "", {}};
   for (const Case& what : test.cases) {
-    const Answer answer = ask(what);
+    Numbers came;
+    const Answer answer = ask(what, &came);
     const Judged judged = judge(what, answer);
     shown.passed = judged.right;
     if (what.plot_y >= 0 && answer.how == How::answered && (shown.plots.size() < 2 || !judged.right))
@@ -108,10 +128,13 @@ ShownTest run(const PublicTest& test, const Words& words, const std::string& fai
     if (of > 1) shown.said = words.common.fill("which", std::to_string(which), std::to_string(of)) + " " + shown.said;
     if (const std::string given = given_text(words.common, words.own, what, judged); !given.empty())
       shown.said += "\n" + given;
+    if (const std::string more = answer.how == How::answered ? asked_and_came(words.own, what, came) : "";
+        !more.empty())
+      shown.said += "\n" + more;
     std::string smaller;
     if (answer.how == How::answered && !test.small.empty() && told.insert(test.part + " " + test.small[0].call).second)
       smaller = smallest(test, words);
-    if (smaller.empty()) smaller = seen_text(words.common, words.own, what, answer);
+    if (smaller.empty() && failed_before.empty()) smaller = shown_beside(test, what, answer, words);
     if (!smaller.empty()) shown.said += "\n" + smaller;
     if (const std::string hint = hint_text(words.common, words.own, test.id, failed_before); !hint.empty())
       shown.said += "\n" + hint;
@@ -141,8 +164,10 @@ int check(const std::string& language, const std::vector<std::string>& which) {
   const PublicTests all = read_cases(in);
   const Words words = Words::read(folder, language);
 
-  const std::string crash = "\n" + indented(words.common.fill("how.crashed", words.common.of("crash.here"))) +
-                            indented(words.common.of("crash.rest"));
+  const std::string crash =
+      "\n" +
+      indented(words.common.fill("how.crashed", words.common.of("crash.here")) + " " + words.common.of("crash.guess")) +
+      indented(words.common.of("crash.rest"));
   if_it_crashes = crash.c_str();
   for (const int signal : {SIGSEGV, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, crashed);
 

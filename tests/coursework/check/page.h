@@ -18,4 +18,7 @@ struct ShownTest {
 std::string page(const std::string& title, const std::string& total, const std::vector<ShownTest>& tests,
                  const std::string& passed, const std::string& failed);
 
+/// A paragraph for each line; lines of a table together as they stand.
+std::string paragraphs(const std::vector<std::string>& lines);
+
 }  // namespace coursework

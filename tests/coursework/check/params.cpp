@@ -43,16 +43,18 @@ std::string alone(const Simple& one) {
   return (above.empty() ? "1" : above.substr(0, above.size() - 1)) + below;
 }
 
-}  // namespace
-
-std::string name_of_number(double value, double relative, const std::vector<Param>& params, const Numbers& in) {
-  if (!std::isfinite(value) || value == 0) return "";
-  const std::string minus = value < 0 ? "-" : "";
-  const double size = std::abs(value);
-  const auto is = [&](double other) { return std::abs(size - other) <= relative * size; };
+/// As 4/3; empty where it is no such number.
+std::string simple_name(double value, double relative) {
   for (const Simple& one : simple)
-    if (is(one.value)) return minus + alone(one);
-  if (relative > 1e-6) return "";  // too many products come near
+    if (std::abs(std::abs(value) - one.value) <= relative * std::abs(value)) return (value < 0 ? "-" : "") + alone(one);
+  return "";
+}
+
+/// As h^2/2, and whatever else fits; products of two only where one alone does not.
+std::set<std::string> product_names(double value, double relative, const std::vector<Param>& params,
+                                    const Numbers& in) {
+  if (relative > 1e-6) return {};  // too many products come near
+  const auto is = [&](double other) { return std::abs(std::abs(value) - other) <= relative * std::abs(value); };
   std::set<std::string> names;
   std::vector<const Param*> scalars;
   for (const Param& param : params)
@@ -85,7 +87,26 @@ std::string name_of_number(double value, double relative, const std::vector<Para
         try_all(a / b, q->name + "/" + p->name, false);
         try_all(a * a * b, q->name + "^2 " + p->name, false);
       }
+  return names;
+}
+
+}  // namespace
+
+std::string name_of_number(double value, double relative, const std::vector<Param>& params, const Numbers& in) {
+  if (!std::isfinite(value) || value == 0) return "";
+  const std::string name = simple_name(value, relative);
+  if (!name.empty()) return name;
+  const std::set<std::string> names = product_names(value, relative, params, in);
   return names.size() == 1 ? *names.begin() : "";
+}
+
+std::vector<std::string> names_of_number(double value, double relative, const std::vector<Param>& params,
+                                         const Numbers& in) {
+  if (!std::isfinite(value) || value == 0) return {};
+  const std::set<std::string> products = product_names(value, relative, params, in);
+  std::vector<std::string> names(products.begin(), products.end());
+  if (const std::string simple = simple_name(value, relative); !simple.empty()) names.insert(names.begin(), simple);
+  return names;
 }
 
 std::string named_number(double value, double relative, const std::vector<Param>& params, const Numbers& in) {

@@ -29,4 +29,8 @@ std::string named_number(double value, double relative, const std::vector<Param>
 /// The same, and empty where no name fits, or several do.
 std::string name_of_number(double value, double relative, const std::vector<Param>& params, const Numbers& in);
 
+/// All that it may be called, as 1/2 and 1/m where m = 2; none where no name fits.
+std::vector<std::string> names_of_number(double value, double relative, const std::vector<Param>& params,
+                                         const Numbers& in);
+
 }  // namespace coursework

@@ -13,6 +13,12 @@ namespace {
 
 using std::size_t;
 
+/// What the wrong numbers of a vector are.
+struct Instead {
+  std::string text;
+  bool factor = false;  // it names one, which a single case may have by chance
+};
+
 /// One vector of each row: the numbers of a block, the right ones and those that came.
 class Seen {
  public:
@@ -62,20 +68,20 @@ class Seen {
     return common_.fill("seen.split", right, wrong);
   }
 
-  /// Sentences on each vector that is wrong.
-  std::string instead() const {
-    std::string text;
+  /// Sentences on each vector that is wrong, in the order of the vectors.
+  std::vector<std::vector<Instead>> instead() const {
+    std::vector<std::vector<Instead>> all;
     for (const Block& block : blocks_) {
       std::vector<size_t> bad;
       for (size_t row = 0; row < rows_; ++row)
         if (wrong_in(block, row)) bad.push_back(row);
-      if (bad.empty()) continue;
-      const std::vector<std::string> found = explanations(block, bad);
-      if (found.empty() || found.size() > 2) continue;
-      for (const std::string& one : found) text += (text.empty() ? "" : " ") + one;
+      all.push_back(bad.empty() ? std::vector<Instead>() : explanations(block, bad));
+      all_wrong_.push_back(!bad.empty());
     }
-    return text;
+    return all;
   }
+  /// Whether something of that vector is wrong; after instead().
+  bool is_wrong(size_t block) const { return all_wrong_.at(block); }
 
  private:
   static void to_list(std::string& to, const std::string& one) {
@@ -161,7 +167,7 @@ class Seen {
     relative_ = std::min(relative_, 1e-3);
     // a factor without a name has to fit more often than by chance
     const bool named =
-        !name_of_number(factor, relative_, counted > 1 ? params_ : std::vector<Param>(), what_.in).empty();
+        !names_of_number(factor, relative_, counted > 1 ? params_ : std::vector<Param>(), what_.in).empty();
     return named || counted >= 6 ? factor : NAN;
   }
 
@@ -194,30 +200,36 @@ class Seen {
     return found;
   }
 
-  std::vector<std::string> explanations(const Block& block, const std::vector<size_t>& rows) const {
+  /// `key` with each of the factor's names, and with what it is of each row.
+  void add_factors(std::vector<Instead>& found, double factor, const std::string& of_row, const std::string& key,
+                   const std::string& name, const std::string& of) const {
+    std::vector<std::string> names;
+    if (std::isfinite(factor)) names = names_of_number(factor, relative_, params_, what_.in);
+    if (std::isfinite(factor) && names.empty()) names.push_back(named_number(factor, relative_, params_, what_.in));
+    if (!of_row.empty()) names.push_back(of_row);
+    for (const std::string& one : names) found.push_back({common_.fill(key, name, one, of), true});
+  }
+
+  std::vector<Instead> explanations(const Block& block, const std::vector<size_t>& rows) const {
     const std::string name = block_text(block);
     const auto right = [&](size_t row, size_t k) { return expected(block, row, k); };
     const auto came = [&](size_t row, size_t k) { return got(block, row, k); };
-    if (is(block, rows, [](size_t, size_t) { return 0.0; })) return {common_.fill("seen.zero", name)};
-    if (const double factor = multiple(block, rows, came, right); std::isfinite(factor)) {
-      if (std::abs(factor + 1) < relative_) return {common_.fill("seen.sign", name)};
-      const std::string of_row = row_multiple(block, rows, came, right);
-      return {
-          common_.fill("seen.factor", name,
-                       named_number(factor, relative_, params_, what_.in) + (of_row.empty() ? "" : " = " + of_row))};
-    }
-    if (const std::string factor = row_multiple(block, rows, came, right); !factor.empty())
-      return {common_.fill("seen.factor", name, factor)};
-    std::vector<std::string> found;
+    std::vector<Instead> found;
+    if (is(block, rows, [](size_t, size_t) { return 0.0; })) return {{common_.fill("seen.zero", name)}};
+    const double factor = multiple(block, rows, came, right);
+    if (std::isfinite(factor) && std::abs(factor + 1) < relative_) return {{common_.fill("seen.sign", name)}};
+    add_factors(found, factor, row_multiple(block, rows, came, right), "seen.factor", name, "");
+    if (!found.empty()) return found;
+    const auto add = [&](const std::string& text) { found.push_back({text}); };
     for (const Param& param : params_)
       if (is_of(param, block) && is(block, rows, [&](size_t row, size_t k) { return value(param, row, k); }))
-        found.push_back(common_.fill("seen.given", name, param.name));
+        add(common_.fill("seen.given", name, param.name));
     // of one row in place of another's
     for (const Param& param : params_)
       for (size_t other = 0; other < param.rows && param.rows == rows_ && rows_ > 1; ++other)
         if (is_of(param, block) && block.width > 1 && (rows.size() > 1 || rows[0] != other) &&
             is(block, rows, [&](size_t, size_t k) { return what_.in[param.at[other * param.columns + k]]; }))
-          found.push_back(common_.fill("seen.given", name, common_.fill("seen.of", param.name, rows_text({other}))));
+          add(common_.fill("seen.given", name, common_.fill("seen.of", param.name, rows_text({other}))));
     for (const int step : {-1, 1}) {
       const auto beside = [&](size_t row, size_t k) {
         const auto other = static_cast<std::ptrdiff_t>(row) + step;
@@ -229,26 +241,25 @@ class Seen {
       for (const size_t row : rows)
         if (!std::isnan(beside(row, 0))) inner.push_back(row);
       if (inner.size() > 1 && inner.size() + 1 >= rows.size() && is(block, inner, beside))
-        found.push_back(
-            common_.fill(step < 0 ? "seen.before" : "seen.after", name, name_text(own_, "row.", what_.row)));
+        add(common_.fill(step < 0 ? "seen.before" : "seen.after", name, name_text(own_, "row.", what_.row)));
     }
     for (const Block& other : blocks_)
       if (other.begin != block.begin && other.width == block.width &&
           is(block, rows, [&](size_t row, size_t k) { return expected(other, row, k); }))
-        found.push_back(common_.fill("seen.other", name, block_text(other)));
+        add(common_.fill("seen.other", name, block_text(other)));
     if (block.width == 3)
       for (const auto& order : {std::vector<size_t>{1, 0, 2}, {0, 2, 1}, {2, 1, 0}, {1, 2, 0}, {2, 0, 1}})
         if (is(block, rows, [&](size_t row, size_t k) { return expected(block, row, order[k]); })) {
           std::string parts;
           for (const size_t k : order) parts += (parts.empty() ? "" : ", ") + std::string(1, "xyz"[k]);
-          found.push_back(common_.fill("seen.order", name, parts));
+          add(common_.fill("seen.order", name, parts));
         }
     if (found.empty()) add_offsets(block, rows, found);
     return found;
   }
 
   /// What is too much, or missing, as a multiple of something that has a name.
-  void add_offsets(const Block& block, const std::vector<size_t>& rows, std::vector<std::string>& found) const {
+  void add_offsets(const Block& block, const std::vector<size_t>& rows, std::vector<Instead>& found) const {
     const std::string name = block_text(block);
     const auto off = [&](size_t row, size_t k) { return got(block, row, k) - expected(block, row, k); };
     std::vector<Numbers> tried;  // one thing may have two names
@@ -259,12 +270,8 @@ class Seen {
       if (std::find(tried.begin(), tried.end(), values) != tried.end()) return;
       tried.push_back(values);
       const double factor = multiple(block, rows, off, unit);
-      std::string times;
-      if (std::isfinite(factor))
-        times = named_number(factor, relative_, params_, what_.in);
-      else
-        times = row_multiple(block, rows, off, unit);
-      if (!times.empty()) found.push_back(common_.fill("seen.off", name, times, of));
+      add_factors(found, factor, std::isfinite(factor) ? "" : row_multiple(block, rows, off, unit), "seen.off", name,
+                  of);
     };
     for (const Param& param : params_)
       if (is_of(param, block) && (block.width > 1 || !param.scalar()))
@@ -289,7 +296,8 @@ class Seen {
   std::vector<Block> blocks_;
   std::vector<Param> params_;
   double tolerance_ = 0, largest_got_ = 0;
-  mutable double relative_ = 0;  // how well the last multiple is known
+  mutable double relative_ = 0;          // how well the last multiple is known
+  mutable std::vector<bool> all_wrong_;  // by vector
   bool exact_ = false;
 };
 
@@ -329,18 +337,62 @@ std::vector<Block> blocks_of(const Texts& own, const Case& what) {
   return blocks;
 }
 
-std::string seen_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer) {
+Answered others_of(const Case& what, const std::vector<Case>& cases, const std::vector<Answer>& answers) {
+  Answered others;
+  for (std::size_t i = 0; i < cases.size() && i < answers.size(); ++i)
+    if (cases[i].call == what.call && cases[i].in != what.in) others.emplace_back(cases[i], answers[i]);
+  return others;
+}
+
+namespace {
+
+/// The sentences on one case that others bear out.
+std::string borne_out(const Texts& common, const Texts& own, const Seen& seen, const Answered& others) {
+  if (!seen.exact()) return "";
+  const std::vector<std::vector<Instead>> all = seen.instead();
+  std::vector<std::vector<Instead>> kept(all.size());
+  std::vector<bool> compared(all.size(), false);
+  for (const auto& [what, answer] : others) {
+    if (answer.how != How::answered || !comparable(own, what, answer.got) || judge(what, answer).right) continue;
+    const Seen other(common, own, what, answer.got);
+    if (!other.exact()) continue;
+    const std::vector<std::vector<Instead>> there = other.instead();
+    for (std::size_t i = 0; i < all.size() && i < there.size(); ++i) {
+      if (!other.is_wrong(i)) continue;
+      compared[i] = true;
+      for (const Instead& one : all[i]) {
+        const auto same = [&](const Instead& it) { return it.text == one.text; };
+        if (std::any_of(there[i].begin(), there[i].end(), same) && std::none_of(kept[i].begin(), kept[i].end(), same))
+          kept[i].push_back(one);
+      }
+    }
+  }
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!compared[i])
+      for (const Instead& one : all[i])
+        if (!one.factor) kept[i].push_back(one);
+    if (kept[i].size() > 2) continue;
+    for (const Instead& one : kept[i]) text += (text.empty() ? "" : " ") + one.text;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string seen_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer,
+                      const Answered& others) {
   if (answer.how != How::answered || !answer.of.empty() || !comparable(own, what, answer.got)) return "";
   if (judge(what, answer).right) return "";
   const Seen seen(common, own, what, answer.got);
-  const std::string split = seen.split(), instead = seen.exact() ? seen.instead() : "";
+  const std::string split = seen.split(), instead = borne_out(common, own, seen, others);
   return split + (split.empty() || instead.empty() ? "" : " ") + instead;
 }
 
-std::string instead_text(const Texts& common, const Texts& own, const Case& what, const Numbers& got) {
-  if (!comparable(own, what, got)) return "";
-  const Seen seen(common, own, what, got);
-  return seen.exact() ? seen.instead() : "";
+std::string instead_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer,
+                         const Answered& others) {
+  if (!comparable(own, what, answer.got)) return "";
+  return borne_out(common, own, Seen(common, own, what, answer.got), others);
 }
 
 }  // namespace coursework

@@ -1,6 +1,8 @@
 // Sentences from numbers.
 #include "words.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -14,7 +16,8 @@ namespace coursework {
 namespace {
 
 std::string with_digits(double value, int digits) {
-  if (std::isnan(value)) return "nan";  // its sign says nothing
+  if (std::isnan(value)) return "nan";  // its sign says nothing, nor does that of zero
+  if (value == 0) return "0";
   char text[40];
   std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
@@ -90,6 +93,14 @@ std::string ending(const Texts& common, const Answer& answer) {
     return common.fill("how.unusable", common.fill(common.has("unusable." + answer.detail) ? "unusable." + answer.detail
                                                                                            : "unusable.other",
                                                    count_text(answer, 0), count_text(answer, 1)));
+  if (answer.how == How::threw) {
+    std::size_t index = 0, size = 0;  // as libstdc++ says them
+    for (const char* form : {"vector::_M_range_check: __n (which is %zu) >= this->size() (which is %zu)",
+                             "array::at: __n (which is %zu) >= _Nm (which is %zu)"})
+      if (std::sscanf(answer.detail.c_str(), form, &index, &size) == 2)
+        return common.fill("how.threw_index", std::to_string(static_cast<std::ptrdiff_t>(index)), std::to_string(size));
+  }
+  if (answer.how == How::crashed) return common.fill("how.crashed", answer.detail) + " " + common.of("crash.guess");
   if (answer.how != How::out_of_time) return common.fill("how." + key_of(answer.how), answer.detail);
   std::string text = common.fill("how.out_of_time", answer.detail, with_digits(answer.reference, 2));
   std::string others;
@@ -240,16 +251,74 @@ std::string words(const Texts& common, const Texts& own, const Case& what, const
                      number_text(judged.expected, judged.got), number_text(judged.got, judged.expected));
 }
 
+namespace {
+
+/// How wide a text stands where all letters are of one width; Chinese ones are of two.
+std::size_t columns_of(const std::string& text) {
+  std::size_t columns = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xc0) != 0x80) columns += byte >= 0xe0 ? 2 : 1;  // the first byte of a letter
+  }
+  return columns;
+}
+
+std::string blanks(std::size_t columns, const std::string& text) {
+  return std::string(columns > columns_of(text) ? columns - columns_of(text) : 0, ' ');
+}
+
+/// Six digits; what is nothing beside the others is 0.
+std::string plain(double value, double largest) { return with_digits(std::abs(value) < 1e-9 * largest ? 0 : value, 6); }
+
+}  // namespace
+
+std::string table_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer) {
+  constexpr std::size_t most = 6;
+  const std::size_t all = what.expected.size(), columns = static_cast<std::size_t>(what.columns > 0 ? what.columns : 1);
+  if (answer.how != How::answered || answer.got.size() != all || all < 2 || !answer.of.empty()) return "";
+  if (own.has("set." + what.row)) return "";
+  const auto is_right = [&](std::size_t i) { return std::abs(answer.got[i] - what.expected[i]) <= what.tolerance; };
+  double largest = 0;
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < all; ++i) {
+    largest = std::max(largest, std::abs(what.expected[i]));
+    if (all <= most || !is_right(i)) shown.push_back(i);
+  }
+  if (shown.empty() || shown.size() > most) return "";
+  std::vector<std::array<std::string, 3>> lines{{"", common.of("table.expected"), common.of("table.got")}};
+  for (const std::size_t i : shown) {
+    Judged at;
+    at.row = static_cast<int>(i / columns), at.column = static_cast<int>(i % columns);
+    const double expected = what.expected[i], got = answer.got[i];
+    const std::string right = is_right(i) ? plain(expected, largest) : number_text(expected, got);
+    lines.push_back({place(common, own, what, at), right, is_right(i) ? right : number_text(got, expected)});
+  }
+  std::array<std::size_t, 3> widths{};
+  for (const auto& line : lines)
+    for (std::size_t k = 0; k < 3; ++k) widths[k] = std::max(widths[k], columns_of(line[k]));
+  std::string text;
+  for (std::size_t n = 0; n < lines.size(); ++n) {
+    text += (n ? "\n  " : "  ") + lines[n][0] + blanks(widths[0], lines[n][0]);
+    for (const std::size_t k : {1, 2}) text += "  " + blanks(widths[k], lines[n][k]) + lines[n][k];
+    if (n > 0 && !is_right(shown[n - 1])) text += "  " + common.of("table.differs");
+  }
+  return text + (all > most ? "\n  " + common.fill("table.rest", std::to_string(all - shown.size())) : "");
+}
+
+bool is_of_table(const std::string& line) { return line.compare(0, 2, "  ") == 0; }
+
 std::string smaller_text(const Texts& common, const Texts& own, const std::vector<Case>& small,
                          const std::vector<Answer>& answers) {
   for (std::size_t i = 0; i < small.size() && i < answers.size(); ++i) {
     const Judged judged = judge(small[i], answers[i]);
     if (judged.right) continue;
     if (ungraded(answers[i].how)) return "";
-    const std::string seen = seen_text(common, own, small[i], answers[i]);
-    return common.fill("smaller", words(common, own, small[i], answers[i], judged),
-                       given_text(common, own, small[i], judged, 80)) +
-           (seen.empty() ? "" : "\n" + seen);
+    std::string text = common.fill("smaller", words(common, own, small[i], answers[i], judged),
+                                   given_text(common, own, small[i], judged, 80));
+    for (const std::string& more : {table_text(common, own, small[i], answers[i]),
+                                    seen_text(common, own, small[i], answers[i], others_of(small[i], small, answers))})
+      if (!more.empty()) text += "\n" + more;
+    return text;
   }
   return "";
 }

@@ -27,6 +27,13 @@ bool has_layout(const Texts& own, const Case& what);
 std::string given_text(const Texts& common, const Texts& own, const Case& what, const Judged& judged,
                        std::size_t most = 60);
 
+/// All numbers of a wrong answer beside those expected, a line for each: where they are six at most, or else those of
+/// them that differ where these are. Lines begin with two blanks, and columns are aligned where all letters are of one
+/// width. Empty where there is but one number, shares, or a free order of rows.
+std::string table_text(const Texts& common, const Texts& own, const Case& what, const Answer& answer);
+/// Whether such a line is one of a table.
+bool is_of_table(const std::string& line);
+
 /// The hint of a test that failed, or, as hints of tests that fail for the same reason need not agree, which test of
 /// the same function is to be got right first; empty where it is the first and has no hint.
 std::string hint_text(const Texts& common, const Texts& own, const std::string& test, const std::string& failed_before);

@@ -46,7 +46,12 @@ BuildStep BuildPlan::compile(const std::string& source, const std::string& objec
                              const std::vector<std::string>& more) const {
   // no-strict-aliasing and no-lifetime-dse: old code reads memory as it likes, and finds it zeroed
   BuildStep step;
-  step.words = {"-std=" + standard, "-O1", "-g0", "-w", "-fno-strict-aliasing", "-fno-lifetime-dse"};
+  step.words = {"-std=" + standard,
+                "-O1",
+                "-w",
+                "-fno-strict-aliasing",
+                "-fno-lifetime-dse",
+                as_student_folder(tree_ / "in" / "his")};
   step.words.insert(step.words.end(), options_.begin(), options_.end());
   step.words.insert(step.words.end(), more.begin(), more.end());
   step.makes = tree_ / "out" / object;

@@ -216,7 +216,8 @@ const Assignment& classic_particles() {
                               classic::whole_builder,
                               classic::role_names(),
                               look,
-                              classic::measured_text};
+                              classic::measured_text,
+                              classic::shown};
   static const int points = total(tests);
   if (points != 100) throw std::logic_error("classic: the points sum to " + std::to_string(points));
   return all;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <sstream>
 
 #include "mysim/base/files.h"
@@ -67,12 +66,11 @@ class StepRunner {
     show(work);
     std::replace(command.begin(), command.end(), step.makes.string(), made.string());
     Limits limits = compile_limits;
-    limits.wall = std::min(limits.wall, tools_.seconds + more_ - spent_);
-    if (!(limits.wall > 0)) return std::string(too_long);
-    const auto begin = std::chrono::steady_clock::now();
+    limits.cpu = std::min(limits.cpu, tools_.seconds + more_ - spent_);
+    if (!(limits.cpu > 0)) return std::string(too_long);
     const End end = sandbox_.run(
         {.command = command, .readable = {tree_ / "in", tree_ / "out"}, .writable = work, .limits = limits});
-    spent_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    spent_ += end.cpu;
     if (end.how == End::How::cpu || end.how == End::How::wall) return std::string(too_long);
     if (end.how == End::How::memory || end.how == End::How::output) return std::string(too_much);
     if (end.how != End::How::exited || end.code != 0 || !there(made))
@@ -107,8 +105,8 @@ class StepRunner {
   const Toolchain& tools_;
   fs::path tree_;
   std::string headers_;
-  double more_ = 0;                // s, for what is built beside the parts
-  std::atomic<double> spent_ = 0;  // s, by all that ran, side by side or not
+  double more_ = 0;                // s of processor time, for what is built beside the parts
+  std::atomic<double> spent_ = 0;  // s of processor time, by all that ran
 };
 
 }  // namespace
@@ -205,7 +203,7 @@ namespace {
 
 constexpr std::size_t most_notes = 20;
 /// Of a class that is tried: the choice must not depend on how busy the machine is.
-constexpr Limits trial_limits{.cpu = 10, .wall = 60};
+constexpr Limits trial_limits{.cpu = 10, .wall = 600};
 
 /// The first file and line of the student's that a compiler's output names beside an error.
 std::string first_place(const std::string& said) {
@@ -240,14 +238,16 @@ Remark untried(const BuildPlan& plan, const Scout& scout, const std::string& cap
 
 class WholeBuilder : public Builder {
  public:
-  WholeBuilder(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox)
+  WholeBuilder(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox, bool checking = false)
       : assignment_(assignment),
         trusted_(trusted),
         sandbox_(sandbox),
         solution_(files_below(assignment.folder() / "solution")),
         coursework_(folder_of_coursework()) {
     for (const Part& part : assignment.parts) parts_.emplace_back(part.name);
-    surroundings_ = compiler_.fingerprint();
+    command_ = compiler_.command();
+    if (checking) command_.insert(command_.end(), checking_options().begin(), checking_options().end());
+    surroundings_ = compiler_.fingerprint() + (checking ? "checking" : "");
     for (const char* folder : {"base", "probe", "stubs"})
       for (const auto& [path, content] : files_below(assignment.folder() / folder)) surroundings_ += path + content;
     for (const auto& entry : fs::directory_iterator(assignment.folder()))
@@ -294,6 +294,10 @@ class WholeBuilder : public Builder {
     return all;
   }
 
+  Built checked(const Submission& submission, const std::string& part, const fs::path& folder) const override {
+    return WholeBuilder(assignment_, trusted_, sandbox_, true).theirs(submission, folder, 1).at(part);
+  }
+
   std::string file_of(const std::string& part) const override { return file_of_part(part); }
 
  private:
@@ -301,11 +305,11 @@ class WholeBuilder : public Builder {
 
   Toolchain tools(const fs::path& cache, unsigned jobs) const {
     const fs::path child = compiler_.cached(key_of(surroundings_ + "child"), ".o", [&](const fs::path& made) {
-      std::vector<std::string> command = compiler_.command();
+      std::vector<std::string> command = command_;
       command.insert(command.end(), {"-std=c++17", "-O1", "-c", child_source().string(), "-o", made.string()});
       compile_ours(trusted_, command, made.parent_path(), "child_main.cpp");
     });
-    return {compiler_.command(), "/usr/bin/ar", child, cache, jobs};
+    return {command_, "/usr/bin/ar", child, cache, jobs};
   }
 
   /// The public tests of each role of the class's kind, in the sandbox: which of them it would pass.
@@ -379,6 +383,7 @@ class WholeBuilder : public Builder {
   const Sandbox& trusted_;
   const Sandbox& sandbox_;
   const Compiler compiler_;
+  std::vector<std::string> command_;
   Files solution_;
   fs::path coursework_;
   std::vector<std::string> parts_;

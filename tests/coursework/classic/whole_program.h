@@ -41,7 +41,7 @@ struct Toolchain {
   std::filesystem::path child;        // object of tests/coursework/check/child_main.cpp
   std::filesystem::path cache = {};   // where objects are kept by content; empty (untrusted code): nowhere
   unsigned jobs = 1;
-  double seconds = 240;  // of all calls together; what has not begun by then is not tried
+  double seconds = 240;  // of processor time, all calls together; what has not begun by then is not tried
 };
 
 /// Where a part's solution stands within the folder of a solution: "TimeStepper.cpp".

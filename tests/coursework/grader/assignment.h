@@ -62,6 +62,8 @@ struct Assignment {
   Looked (*look)(const Texts& common, const std::string& part, const Ask& student) = nullptr;
   /// Says of a part what no test judges, whether it fails or not: constants that are a student's choice.
   std::string (*measured)(const Texts& common, const std::string& part, const Ask& student) = nullptr;
+  /// Where answers are reduced: what was asked of the student's code and what came, of what is not as it should be.
+  std::string (*shown)(const Texts& own, const Case& what, const Numbers& raw) = nullptr;
   std::filesystem::path folder() const;
 };
 

@@ -50,6 +50,16 @@ std::string key_of(const std::string& content) {
   return fmt::format("{:016x}{:016x}", crosscheck::Fnv1a::of(content), crosscheck::Fnv1a::of(content + "/"));
 }
 
+std::string as_student_folder(const fs::path& folder) {
+  return fmt::format("-fdebug-prefix-map={}={}", folder.string(), student_folder);
+}
+
+const std::vector<std::string>& checking_options() {
+  static const std::vector<std::string> options = {
+      "-D_GLIBCXX_DEBUG", "-DTELLS_PLACES", "-g1", "-no-pie", "-fsanitize=bounds", "-fno-sanitize-recover=bounds"};
+  return options;
+}
+
 Compiler::Compiler() : cache_(cache_folder()) {
   const fs::path program = find_compiler();
   // sandboxes set LANG to C, so that messages are in English; no fused multiply-add: the same numbers on every machine
@@ -154,7 +164,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& begin,
 
 class PartBuilder : public Builder {
  public:
-  PartBuilder(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox)
+  PartBuilder(const Assignment& assignment, const Sandbox& trusted, const Sandbox& sandbox, bool checking = false)
       : assignment_(assignment),
         trusted_(trusted),
         sandbox_(sandbox),
@@ -163,7 +173,10 @@ class PartBuilder : public Builder {
         command_(compiler_.command()) {
     command_.insert(command_.end(), {"-std=c++17", "-O1"});
     // an index outside a vector or an array ends the program; where charts time it, it costs what it costs at home
-    if (!fs::exists(folder_ / "calls_engine.cpp")) command_.push_back("-D_GLIBCXX_ASSERTIONS");
+    if (checking)
+      command_.insert(command_.end(), checking_options().begin(), checking_options().end());
+    else if (!fs::exists(folder_ / "calls_engine.cpp"))
+      command_.push_back("-D_GLIBCXX_ASSERTIONS");
     surroundings_ = compiler_.fingerprint() + fmt::format("{}", fmt::join(command_, " "));
     for (const fs::path& folder : {check_, folder_, folder_ / "starter"})
       for (const fs::path& header : files_in(folder, "", ".h")) surroundings_ += content_of_file(header);
@@ -191,6 +204,10 @@ class PartBuilder : public Builder {
     std::map<std::string, Built> all;
     for (std::size_t i = 0; i < count; ++i) all[part(i)] = built[i];
     return all;
+  }
+
+  Built checked(const Submission& submission, const std::string& part, const fs::path& folder) const override {
+    return PartBuilder(assignment_, trusted_, sandbox_, true).varied(submission, part, folder, {}, "");
   }
 
   Built varied(const Submission& submission, const std::string& part, const fs::path& folder,
@@ -286,8 +303,8 @@ class PartBuilder : public Builder {
     crosscheck::write_file(in / file, submission.files.at(file));
     for (const fs::path& header : files_in(folder_ / "starter", "", ".h"))
       fs::copy_file(header, in / header.filename());
-    return made_in_sandbox({"-I" + in.string(), "-c", (in / file).string()}, in, folder / "object" / (part + ".o"),
-                           file);
+    return made_in_sandbox({"-I" + in.string(), as_student_folder(in), "-c", (in / file).string()}, in,
+                           folder / "object" / (part + ".o"), file);
   }
 
   /// Earlier parts are ours, so that a mistake in one costs nothing here. Later ones are never ours, since a solution

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/coursework/grader/assignment.h"
@@ -40,6 +41,14 @@ class Compiler {
   std::string fingerprint_;
   std::filesystem::path cache_;
 };
+
+/// Where a program says that a student's files stand, in whatever folder they were compiled.
+constexpr std::string_view student_folder = "/handed-in";
+/// The compiler's option for files that stand below this folder.
+std::string as_student_folder(const std::filesystem::path& folder);
+
+/// Options of Builder::checked(). No position-independent program: its addresses are those of its file.
+const std::vector<std::string>& checking_options();
 
 /// Runs the command in the sandbox, which may write to `writable`. Throws std::runtime_error that says what became of
 /// `what` where it did not end well: these are sources of ours.
@@ -84,6 +93,12 @@ class Builder {
                        const std::vector<std::string>& = {}, const std::string& = "") const {
     return {};
   }
+
+  /// The part's program once more, which ends where it asks for an index that is not there and says which on standard
+  /// error, as the standard library's debug mode and the compiler's own checks do, and says where it is when it
+  /// crashes.
+  virtual Built checked(const Submission& submission, const std::string& part,
+                        const std::filesystem::path& folder) const = 0;
 
   /// A part's file within the folder of a solution.
   virtual std::string file_of(const std::string& part) const { return part + ".cpp"; }

@@ -31,8 +31,11 @@ std::vector<Case> public_cases(const Assignment& assignment, const Test& test) {
 }
 
 std::vector<Case> small_cases(const Assignment& assignment, const Test& test) {
-  Random round(public_seed(assignment, test), true);
-  return test.small ? test.small(round) : std::vector<Case>();
+  if (!test.small) return {};
+  Random round(public_seed(assignment, test), true), usual(public_seed(assignment, test));
+  std::vector<Case> all = test.small(round);
+  for (Case& one : test.small(usual)) all.push_back(std::move(one));
+  return all;
 }
 
 std::uint64_t hidden_seed(std::uint64_t seed, const Test& test) {

@@ -15,6 +15,7 @@
 #include "tests/coursework/check/seen.h"
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/crashes.h"
 #include "tests/coursework/grader/engine.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/observe.h"
@@ -63,6 +64,7 @@ class Grading {
       run_test(i);
       options_.on_progress(result_);
     }
+    for (const Part& part : assignment_.parts) tell_crashes(std::string(part.name));
     for (const Part& part : assignment_.parts) look_for_cause(std::string(part.name));
     require_unseen();
     tell_measured();
@@ -130,6 +132,7 @@ class Grading {
       return;
     } else
       test_run.answers = answers_to(one.part, test_run.cases);
+    const std::vector<Answer> raw = test_run.answers;
     for (std::size_t k = 0; k < test_run.cases.size(); ++k)
       test_run.answers[k] = reduced(*test_run.test, test_run.cases[k], test_run.answers[k]);
     for (Answer& answer : test_run.answers)
@@ -137,7 +140,7 @@ class Grading {
         answer.detail = shown_exception(answer.detail, submission_.files);
         if (answer.detail.empty()) answer.detail = options_.common.of("threw.unseen");
       }
-    judge_test(test_run, one);
+    judge_test(test_run, raw, one);
     one.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
@@ -166,14 +169,14 @@ class Grading {
   }
 
   /// The feedback is on the first wrong call; where all are right, the plot shows the first one.
-  void judge_test(const TestRun& test_run, TestResult& one) {
+  void judge_test(const TestRun& test_run, const std::vector<Answer>& raw, TestResult& one) {
     std::size_t shown = 0;
     one.said.clear();
     for (std::size_t k = 0; k < test_run.cases.size(); ++k) {
       const Judged judged = judge(test_run.cases[k], test_run.answers[k]);
       if (judged.right) continue;
       one.ungraded = ungraded(judged.how);
-      if (one.ungraded) ungraded_calls_.emplace(test_run.cases[k].call, one.id);
+      if (one.ungraded && judged.how != How::undecided) ungraded_calls_.emplace(test_run.cases[k].call, one.id);
       one.said = words(options_.common, options_.own, test_run.cases[k], test_run.answers[k], judged);
       const bool ran = unusable_.count(one.part) == 0;
       if (ran && test_run.cases.size() > 1)
@@ -184,15 +187,15 @@ class Grading {
               one.hidden ? "" : given_text(options_.common, options_.own, test_run.cases[k], judged);
           !given.empty())
         one.said += "\n" + given;
+      if (assignment_.shown && !one.hidden && judged.how == How::answered)
+        if (const std::string came = assignment_.shown(options_.own, test_run.cases[k], raw[k].got); !came.empty())
+          one.said += "\n" + came;
       if (const std::string smaller = one.hidden || judged.how != How::answered ? "" : smallest(*test_run.test);
           !smaller.empty() && small_told_.emplace(one.part, test_run.test->small).second)
         one.said += "\n" + smaller;
-      else if (const std::string seen =
-                   one.hidden || failed_already(test_run, one)
-                       ? ""
-                       : seen_text(options_.common, options_.own, test_run.cases[k], test_run.answers[k]);
-               !seen.empty())
-        one.said += "\n" + seen;
+      else if (!one.hidden)
+        for (const std::string& more : shown_beside(test_run, one, k))
+          if (!more.empty()) one.said += "\n" + more;
       if (const std::string factors = one.hidden ? "" : factors_text(options_.common, test_run.cases, test_run.answers);
           !factors.empty())
         one.said += "\n" + factors;
@@ -209,6 +212,15 @@ class Grading {
     one.plot = plot(what, test_run.answers[shown].got,
                     {options_.common.of("legend.right"), options_.common.of("legend.yours"), x,
                      column_text(options_.own, what, what.plot_y)});
+  }
+
+  /// Of the first test of a function that fails, the numbers of a case and what is seen in them.
+  std::vector<std::string> shown_beside(const TestRun& test_run, const TestResult& one, std::size_t k) const {
+    if (failed_already(test_run, one)) return {};
+    const Case& what = test_run.cases[k];
+    const Answer& answer = test_run.answers[k];
+    return {table_text(options_.common, options_.own, what, answer),
+            seen_text(options_.common, options_.own, what, answer, others_of(what, test_run.cases, test_run.answers))};
   }
 
   /// Whether a public test of the same function failed before, so that its feedback says what is seen.
@@ -247,6 +259,43 @@ class Grading {
         }
   }
 
+  /// The part's program that checks every index; built where it is needed first. Empty: it cannot be.
+  const fs::path& checked_program(const std::string& part) {
+    const auto [at, added] = checked_.try_emplace(part);
+    if (added) at->second = builder_->checked(submission_, part, scratch_.path / ("checked-" + part)).program;
+    return at->second;
+  }
+
+  /// Says of each test of the part that crashed in which line it did, and for which index.
+  void tell_crashes(const std::string& part) {
+    const std::string& guess = options_.common.of("crash.guess");
+    for (std::size_t i = 0; i < test_runs_.size(); ++i) {
+      std::string& said = result_.tests[i].said;
+      const std::size_t at = result_.tests[i].part == part ? said.find(guess) : std::string::npos;
+      if (at == std::string::npos || unusable_.count(part) || checked_program(part).empty()) continue;
+      const std::vector<Answer>& answers = test_runs_[i].answers;
+      const auto told =
+          std::find_if(answers.begin(), answers.end(), [](const Answer& a) { return a.how == How::crashed; });
+      if (const auto crash = crash_of(sandbox_, checked_program(part), test_runs_[i].cases))
+        said.replace(at, guess.size(),
+                     crash_text(options_.common, *crash, static_cast<std::size_t>(told - answers.begin())));
+    }
+  }
+
+  /// An index outside of something that does not end the program as it is; "" where there is none.
+  std::string index_cause(const std::string& part, const std::vector<TestRun>& runs,
+                          const std::vector<TestResult*>& tests) {
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      if (tests[i]->hidden || passed(*tests[i])) continue;
+      if (checked_program(part).empty()) return "";
+      const auto crash = crash_of(sandbox_, checked_program(part), runs[i].cases);
+      return crash && crash->why != Crash::Why::other
+                 ? options_.common.fill("suspect.index", crash_text(options_.common, *crash, crash->which))
+                 : "";
+    }
+    return "";
+  }
+
   /// Fills in the causes of a part's wrong answers. A crash or a loop is no answer: its message says all.
   void look_for_cause(const std::string& part) {
     std::vector<TestRun> of_part;
@@ -265,8 +314,10 @@ class Grading {
     const std::vector<std::string> names =
         likely_causes(assignment_, part, of_part, mistakes_of(assignment_), *builder_, *trusted_, options_.jobs);
     // what an experiment shows is more than a likeness
-    const std::string cause =
+    std::string cause =
         suspect.key.empty() ? cause_text(options_.common, options_.own, names) : said(options_.common, suspect);
+    if (cause == options_.common.of("no_cause"))
+      if (const std::string index = index_cause(part, of_part, tests); !index.empty()) cause = index;
     // a test's own hint knows nothing of the others: where a cause is known it may contradict it, and where none is
     // the first test that fails has most to say
     const bool known = cause != options_.common.of("no_cause"),
@@ -338,6 +389,7 @@ class Grading {
   std::unique_ptr<Builder> builder_;
   crosscheck::TemporaryFolder scratch_;
   std::map<std::string, fs::path> programs_;           // by part
+  std::map<std::string, fs::path> checked_;            // by part: programs that check every index
   std::map<std::string, Answer> unusable_;             // by part: missing, or it does not compile
   std::map<std::string, std::string> ungraded_calls_;  // the test that was not graded because of it
   std::vector<TestRun> test_runs_;                     // beside result_.tests

@@ -44,7 +44,8 @@ Submission submission_of(const Handed& handed, const Assignment& assignment);
 /// before them, where the texts lay out what is given, the same in round numbers, so that the first that fails can be
 /// worked out on paper.
 std::vector<Case> public_cases(const Assignment& assignment, const Test& test);
-/// What a test that fails is asked as well, in round numbers: see Test::small.
+/// What a test that fails is asked as well, in round numbers: see Test::small; then the same in others, for what is
+/// seen in one case alone may be chance.
 std::vector<Case> small_cases(const Assignment& assignment, const Test& test);
 std::uint64_t public_seed(const Assignment& assignment, const Test& test);
 /// The seed of a hidden test, from that of all hidden tests.

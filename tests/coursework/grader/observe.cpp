@@ -61,8 +61,9 @@ class Observer {
     double largest = 0;
     for (const double value : subject_->expected) largest = std::max(largest, std::abs(value));
     if (subject_->tolerance > 1e-4 * largest && largest > 0) return "";
-    const std::string right = right_with();
-    return right.empty() ? without() : right;
+    if (const std::string right = right_with(); !right.empty()) return right;
+    const std::string where = parted(), rest = without();
+    return where + (where.empty() || rest.empty() ? "" : " ") + rest;
   }
 
  private:
@@ -144,8 +145,43 @@ class Observer {
       if (++count > 2) return "";
       const std::string name = change_text(with_.common, changes[made[i]]);
       text += (text.empty() ? "" : " ") + with_.common.fill("seen.without", name);
-      const std::string added = instead_of_what_is_added(right[i].got, theirs[i].got);
+      const std::string added = instead_of_what_is_added(changes[made[i]], right[i].got, theirs[i].got);
       if (!added.empty()) text += " " + with_.common.fill("seen.adds", added);
+    }
+    return text;
+  }
+
+  /// A number of the case by its name; nothing where it has none, or several.
+  std::optional<double> number_of(const Case& what, const std::string& name) const {
+    for (const Param& p : params_of(CallLayout::of(with_.own, what)))
+      if (p.name == name && p.scalar()) return what.in[p.at[0]];
+    return {};
+  }
+
+  /// By which number the cases that are right and those that are wrong are told apart: all of the ones have the same
+  /// simple one, 0 or a count of 1, and none of the others has.
+  std::string parted() const {
+    constexpr std::size_t least = 2;  // of each, so that one case is no rule
+    std::string text;
+    std::size_t count = 0;
+    for (const Param& p : params_of(CallLayout::of(with_.own, *subject_))) {
+      if (!p.scalar()) continue;
+      std::vector<double> of[2];  // wrong, right
+      for (const auto& [what, answer] : asked_)
+        if (const auto value = number_of(what, p.name)) of[judge(what, answer).right].push_back(*value);
+      if (of[0].size() < least || of[1].size() < least || of[0].size() + of[1].size() != asked_.size()) continue;
+      for (const bool right : {true, false}) {
+        const std::vector<double>&same = of[right], &others = of[!right];
+        const double value = same.front();
+        if (value != 0 && !(p.whole && value == 1)) continue;
+        if (std::count(same.begin(), same.end(), value) != static_cast<std::ptrdiff_t>(same.size())) continue;
+        if (std::count(others.begin(), others.end(), value) > 0) continue;
+        if (++count > 2) return "";
+        text +=
+            (text.empty() ? "" : " ") + with_.common.fill(right ? "seen.right_where" : "seen.wrong_where", p.name,
+                                                          std::to_string(static_cast<int>(value)),
+                                                          std::to_string(same.size()), std::to_string(others.size()));
+      }
     }
     return text;
   }
@@ -168,12 +204,37 @@ class Observer {
     return false;
   }
 
-  std::string instead_of_what_is_added(const Numbers& right, const Numbers& theirs) const {
-    Case added = *subject_;
-    Numbers got = got_->got;
-    for (std::size_t i = 0; i < got.size(); ++i) added.expected[i] -= right[i], got[i] -= theirs[i];
-    added.tolerance *= 3;  // differences of two numbers each
-    return all_zero(added.expected) ? "" : instead_text(with_.common, with_.own, added, got);
+  /// The case of what something adds, from the answers with it and without it.
+  static std::pair<Case, Answer> added(const Case& what, const Answer& answer, const Numbers& right,
+                                       const Numbers& theirs) {
+    std::pair<Case, Answer> of{what, answer};
+    for (std::size_t i = 0; i < answer.got.size(); ++i) of.first.expected[i] -= right[i], of.second.got[i] -= theirs[i];
+    of.first.tolerance *= 3;  // differences of two numbers each
+    return of;
+  }
+
+  /// What the change adds to other cases that are wrong, as far as a second one is needed.
+  Answered added_to_others(const Change& change) const {
+    constexpr std::size_t enough = 4;
+    std::vector<std::size_t> of;
+    std::vector<Case> cases;
+    for (std::size_t i = 0; i < asked_.size() && of.size() < enough; ++i) {
+      const auto& [what, answer] = asked_[i];
+      if (what.in == subject_->in || what.in.size() > most_numbers || !usable(what, answer)) continue;
+      if (judge(what, answer).right) continue;
+      if (auto in = changed(with_.own, what, change)) cases.push_back(with_numbers(what, *in)), of.push_back(i);
+    }
+    Answered others;
+    const std::vector<Answer> right = with_.reference(cases), theirs = with_.student(cases);
+    for (std::size_t i = 0; i < of.size(); ++i)
+      if (usable(cases[i], right[i]) && usable(cases[i], theirs[i]))
+        others.push_back(added(asked_[of[i]].first, asked_[of[i]].second, right[i].got, theirs[i].got));
+    return others;
+  }
+
+  std::string instead_of_what_is_added(const Change& change, const Numbers& right, const Numbers& theirs) const {
+    const auto [what, answer] = added(*subject_, *got_, right, theirs);
+    return all_zero(what.expected) ? "" : instead_text(with_.common, with_.own, what, answer, added_to_others(change));
   }
 
   const Observing& with_;

@@ -8,6 +8,7 @@
 
 #include "mysim/base/errors.h"
 #include "mysim/base/json.h"
+#include "tests/coursework/check/page.h"
 #include "tests/coursework/check/plot.h"
 
 namespace coursework {
@@ -215,7 +216,7 @@ body{font:16px/1.5 system-ui,sans-serif;max-width:50rem;margin:2rem auto;padding
 h1{font-size:1.4rem}h2{font-size:1.15rem;margin-top:2rem}
 section{border-left:4px solid #d62728;padding:.2rem 1rem;margin:1rem 0;background:#fafafa}
 section.passed{border-color:#2ca02c}section.ungraded{border-color:#777}section h3{font-size:1rem;margin:.3rem 0}
-p{margin:.3rem 0}.points{float:right;font-weight:normal}.total{font-size:1.2rem;font-weight:bold;white-space:pre-line}
+p{margin:.3rem 0}pre{overflow-x:auto;margin:.3rem 0}.points{float:right;font-weight:normal}.total{font-size:1.2rem;font-weight:bold;white-space:pre-line}
 .cause{background:#e8f0fe;padding:.4rem .8rem}.remark{background:#fff3cd;padding:.4rem .8rem;white-space:pre-wrap}svg{max-width:100%;height:auto;background:#fff}
 </style>)";
 
@@ -227,8 +228,7 @@ std::string section_of(const Result& result, const TestResult& test, const Texts
                                   : "&#10007;",
                   escaped(test.id), escaped(test.title), test.hidden ? "(" + escaped(common.of("hidden")) + ")" : "",
                   escaped(points_of(test, common)));
-  for (const std::string& line : lines_on(result, test, common)) text += "<p>" + escaped(line) + "</p>\n";
-  return text + test.plot + "</section>\n";
+  return text + paragraphs(lines_on(result, test, common)) + test.plot + "</section>\n";
 }
 
 }  // namespace

@@ -203,7 +203,8 @@ Limits limits_for(double reference, double least) {
 }
 
 std::vector<Answer> run_calls(const Sandbox& sandbox, const std::filesystem::path& program,
-                              const std::vector<Case>& cases, const Limits& limits, double* cpu) {
+                              const std::vector<Case>& cases, const Limits& limits, double* cpu,
+                              std::string* captured) {
   const std::string token = fresh_token();
   Job job{.command = {program.string()}, .readable = {program.parent_path()}, .input = token + "\n", .limits = limits};
   for (const Case& one : cases) {
@@ -213,6 +214,7 @@ std::vector<Answer> run_calls(const Sandbox& sandbox, const std::filesystem::pat
   }
   const End end = sandbox.run(job);
   if (cpu) *cpu = end.cpu;
+  if (captured) *captured = end.captured_output;
   return answers_of(end, token, cases.size(), limits);
 }
 

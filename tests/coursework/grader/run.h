@@ -22,10 +22,11 @@ constexpr double times_reference = 20;
 /// sixty times further, for a machine with sixty busy programs on a processor, and whoever waits is found by that.
 Limits limits_for(double reference, double least = least_cpu);
 
-/// An answer per case, whatever the program does. `token` is what it must say at the end.
+/// An answer per case, whatever the program does; `captured`: the first of what it printed. `token` is what it must say
+/// at the end.
 std::vector<Answer> run_calls(const Sandbox& sandbox, const std::filesystem::path& program,
                               const std::vector<Case>& cases, const Limits& limits = limits_for(0),
-                              double* cpu = nullptr);
+                              double* cpu = nullptr, std::string* captured = nullptr);
 
 /// What may be shown of the text of an exception: all of it where it stands in one of the student's files or comes from
 /// the standard library, numbers of up to six digits aside; else nothing. Whatever else a program can get hold of, our

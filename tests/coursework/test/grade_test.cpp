@@ -63,7 +63,13 @@ TEST(Grade, EveryWayToFailHasItsMessageAndCostsItsOwnPart) {
        "#include <vector>\nstd::vector<double> sums(const std::vector<double>& n) { return n; }\n"
        "double twice(double x) { return 2 * x; }",
        "twice.cpp defines sums("},
-      {"crash", "double twice(double x) { volatile int* p = nullptr; return *p + x; }", "crashed (segmentation fault)"},
+      {"crash", "double twice(double x) { volatile int* p = nullptr; return *p + x; }",
+       "crashed (segmentation fault). Run once more, it ends in line 5 of twice.cpp."},
+      {"index",
+       "#include <vector>\ndouble twice(double x) { std::vector<double> all(3, x);\n  return all[1] + all[x < 99 ? 3 : "
+       "2]; }",
+       "crashed (aborted). Run once more with every index checked, line 7 of twice.cpp asks for index 3 of 3 "
+       "elements."},
       {"loop", "double twice(double x) { for (volatile int i = 0;;) i = 1; return x; }", "too slow"},
       {"throws", "double twice(double) { throw std::runtime_error(\"not today\"); }", "exception: not today"},
       {"recursion", "double twice(double x) { return twice(x) + 1; }", "a function called itself"},

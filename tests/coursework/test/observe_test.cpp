@@ -42,16 +42,18 @@ Numbers right_rates(const Numbers& in) {
   return rates(in, [](double m, double g, double drag, double v) { return m * g - drag * v; });
 }
 
-Case falling() {
-  Case c{"rates", {2, 0.5, 0.8, 0.7, -9, 0.3, 0.2, 1, 2, 3, 4, 5, 6, 0.6, -1.1, 0.9, -0.4, 1.7, 0.3}, {}, 6, 1e-9};
+Case falling(double drag = 0.2) {
+  Case c{"rates", {2, 0.5, 0.8, 0.7, -9, 0.3, drag, 1, 2, 3, 4, 5, 6, 0.6, -1.1, 0.9, -0.4, 1.7, 0.3}, {}, 6, 1e-9};
   c.row = "particle", c.column = "rates", c.expected = right_rates(c.in);
   return c;
 }
 
+/// What is seen in one case, which a second one with another drag bears out.
 template <class Force>
 std::string seen(Force force) {
-  const Case what = falling();
-  return seen_text(common_texts(), layouts(), what, {How::answered, rates(what.in, force)});
+  const Case what = falling(), other = falling(0.3);
+  return seen_text(common_texts(), layouts(), what, {How::answered, rates(what.in, force)},
+                   {{other, {How::answered, rates(other.in, force)}}});
 }
 
 TEST(Seen, SaysWhichVectorsAreRightAndWhatTheOthersAre) {
@@ -72,6 +74,44 @@ TEST(Seen, SaysWhichVectorsAreRightAndWhatTheOthersAre) {
   // two things at once: nothing simple
   EXPECT_EQ(seen([](double m, double g, double drag, double v) { return 1.3 * m * g - 1.7 * drag * v + 0.1; }),
             "Right: x'. Wrong: v'.");
+}
+
+// In one case a factor fits by chance, and may have several names.
+TEST(Seen, AFactorNeedsASecondCase) {
+  const Case what = falling(), other = falling(0.3);
+  const auto answer = [](const Case& c, double factor) {
+    return Answer{How::answered,
+                  rates(c.in, [=](double m, double g, double drag, double v) { return factor * (m * g - drag * v); })};
+  };
+  const auto told = [&](double here, double there) {
+    return seen_text(common_texts(), layouts(), what, answer(what, here), {{other, answer(other, there)}});
+  };
+  const std::string split = "Right: x'. Wrong: v'.";
+  EXPECT_EQ(seen_text(common_texts(), layouts(), what, answer(what, 1.0 / 6)), split);
+  EXPECT_EQ(told(1.0 / 6, 1.0 / 3), split);
+  EXPECT_EQ(told(1.0 / 6, 1.0 / 6), split + " Where v' is wrong, it is the right one times 1/6.");
+  // drag = 0.2 in this case, so that 0.1 is drag/2 here and 1/10 nowhere
+  EXPECT_EQ(told(0.1, 0.15), split + " Where v' is wrong, it is the right one times drag/2.");
+}
+
+TEST(Table, HasExpectedBesideGot) {
+  const Texts common = common_texts();
+  Case what{"rates", {}, {1, -9.81, 0, 1.0 / 3}, 2, 1e-9, "particle", "pair"};
+  const auto table = [&](const Numbers& got) { return table_text(common, layouts(), what, {How::answered, got}); };
+  EXPECT_EQ(table({1, 9.81, 1e-17, 1.0 / 3}),
+            "                       expected       got\n"
+            "  particle 0, pair[0]         1         1\n"
+            "  particle 0, pair[1]     -9.81      9.81  <- differs\n"
+            "  particle 1, pair[0]         0         0\n"
+            "  particle 1, pair[1]  0.333333  0.333333");
+  // of many only those that differ, where these are few
+  what.expected = Numbers(8, 1.0);
+  EXPECT_EQ(table({1, 1, 1, 2, 1, 1, 1, 1}),
+            "                       expected  got\n"
+            "  particle 1, pair[1]         1    2  <- differs\n"
+            "  (the other 7 are right)");
+  EXPECT_EQ(table(Numbers(8, 2.0)), "");
+  EXPECT_EQ(table({1, 2}), "");
 }
 
 TEST(Seen, TellsParticlesAndPartsApart) {
@@ -120,10 +160,11 @@ std::string observed(Numbers (*student)(const Numbers&)) {
   };
   const Texts common = common_texts();
   const Test test{"1.1", "part", 1, 0, {}, "", nullptr};
-  const Case what = falling();
+  const Case what = falling(), other = falling(0.3);
   const Assignment assignment{"test/tiny", "", {}, {}};
   return seen_at({answers(student), answers(right_rates), common, layouts()}, assignment, "part",
-                 {{&test, {what}, {{How::answered, student(what.in)}}}}, {true})
+                 {{&test, {what, other}, {{How::answered, student(what.in)}, {How::answered, student(other.in)}}}},
+                 {true})
       .at(0);
 }
 
@@ -149,6 +190,32 @@ TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
             "that comes in.");
   EXPECT_EQ(observed([](const Numbers& in) { return rates(in, [](double, double, double, double) { return 7.; }); }),
             "");
+}
+
+// A step of a frame: right where there is one in it.
+TEST(Observe, TellsByWhichNumberRightAndWrongAreToldApart) {
+  const Texts own = Texts::parse("[given.frame]\n| steps# frame x v\n", "texts");
+  const auto x = [](const Numbers& in, double h) { return in[2] + in[0] * h * in[3] + h * h * std::sin(in[1]); };
+  const auto answers = [&](bool right) {
+    return [&x, right](const std::vector<Case>& cases) {
+      std::vector<Answer> all;
+      for (const Case& what : cases)
+        all.push_back({How::answered, {x(what.in, right ? what.in[1] / what.in[0] : what.in[1])}});
+      return all;
+    };
+  };
+  TestRun one;
+  const coursework::Test test{"1.1", "part", 1, 0, {}, "", nullptr};
+  one.test = &test;
+  for (const double steps : {1., 1., 3., 4.})
+    one.cases.push_back({"frame", {steps, 0.1 + steps / 7, 0.4, 2 + steps}, {}, 1, 1e-9, "", "x"});
+  one.cases[1].in[3] = 7;
+  one.answers = answers(false)(one.cases);
+  for (Case& what : one.cases) what.expected = answers(true)({what}).at(0).got;
+  const Texts common = common_texts();
+  EXPECT_EQ(
+      seen_at({answers(false), answers(true), common, own}, {"test/tiny", "", {}, {}}, "part", {one}, {true}).at(0),
+      "Of all cases asked, those with steps = 1 are right (2 of them), and all others wrong (2).");
 }
 
 /// An assignment's look at a stepper of this kind: f is linear, and where it is called is written down.

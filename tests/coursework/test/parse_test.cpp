@@ -20,6 +20,7 @@
 #include "tests/coursework/check/random.h"
 #include "tests/coursework/check/words.h"
 #include "tests/coursework/grader/build.h"
+#include "tests/coursework/grader/crashes.h"
 #include "tests/coursework/grader/mistakes.h"
 #include "tests/coursework/grader/run.h"
 #include "tests/coursework/grader/suspects.h"
@@ -305,6 +306,38 @@ TEST(Words, OfASetTellWhatIsMissing) {
                       "triangles). Missing springs: (1, 2)."),
             std::string::npos)
       << say({0, 1, 2, 3});
+}
+
+TEST(Words, OfAnIndexTellWhichItWas) {
+  const auto say = [](const std::string& detail) {
+    const Answer answer{.how = How::threw, .detail = detail};
+    const Case what{"call", {}, {1}};
+    return words(common_texts(), Texts(), what, answer, judge(what, answer));
+  };
+  EXPECT_EQ(say("vector::_M_range_check: __n (which is 18446744073709551615) >= this->size() (which is 3)"),
+            "Your code threw an exception: at() was asked for index -1 of 3 elements.");
+  EXPECT_EQ(say("array::at: __n (which is 5) >= _Nm (which is 3)"),
+            "Your code threw an exception: at() was asked for index 5 of 3 elements.");
+  EXPECT_EQ(say("no such spring"), "Your code threw an exception: no such spring");
+}
+
+TEST(Crash, IsReadOffWhatChecksPrint) {
+  std::vector<std::string> addresses;
+  const Crash of_vector = crash_in(
+      "/usr/include/c++/12/debug/vector:442:\nError: attempt to subscript container with out-of-bounds index 3, but \n"
+      "container only holds 2 elements.\n\nat 0x4011a2 0x401200 \n",
+      addresses);
+  EXPECT_EQ(of_vector.why, Crash::Why::index);
+  EXPECT_EQ(of_vector.index, 3);
+  EXPECT_EQ(of_vector.size, 2);
+  EXPECT_EQ(addresses, (std::vector<std::string>{"0x4011a2", "0x401200"}));
+  addresses.clear();
+  const Crash of_array =
+      crash_in("a.cpp:5:69: runtime error: index -1 out of bounds for type 'double [3]'\n", addresses);
+  EXPECT_EQ(of_array.why, Crash::Why::index);
+  EXPECT_EQ(of_array.index, -1);
+  EXPECT_EQ(crash_in("index out of bounds\nat 0x12; reboot", addresses).why, Crash::Why::other);
+  EXPECT_TRUE(addresses.empty());
 }
 
 TEST(Words, OfSmallCasesTellTheFirstThatFails) {
