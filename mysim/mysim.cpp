@@ -35,7 +35,8 @@ std::string toml(const std::array<double, 3>& v) {
 /// As a scene file: what is written there is checked, with messages, by one reader.
 std::string toml(const Network& network, double duration, double step) {
   std::string text = fmt::format(
-      "question = \"\"\nparameters = \"\"\n[time]\nduration = {0:.17g}\nwindow = {0:.17g}\nsamples = 100\n"
+      "question = \"none\"\nparameters = \"a program gave them\"\n[time]\nduration = {0:.17g}\nwindow = "
+      "{0:.17g}\nsamples = 100\n"
       "step = {1:.17g}\ntolerance = 1e-3\nmethod = \"leapfrog\"\n",
       duration, step);
   std::vector<int> pins;
