@@ -45,7 +45,7 @@ std::vector<CommandHelp> all_commands(const CLI::App& app) {
   std::vector<CommandHelp> commands = commands_in(command_table(app));
   for (const CommandHelp& graders : commands_in(grader_table()))
     for (CommandHelp& command : commands)
-      if (command.name == graders.name && command.options.empty()) command = graders;
+      if (command.name == graders.name && command.words.empty()) command = graders;
   return commands;
 }
 
@@ -111,20 +111,19 @@ std::string bash_completion(const CLI::App& app) {
     std::vector<std::string> kinds;
     for (const auto& word : command.words)
       if (const auto kind = kinds_of(command, word.name); !kind.empty()) kinds.emplace_back(kind);
-    cases += fmt::format("    {}) options=\"{}\" kinds=\"{}\" ;;\n", command.name, fmt::join(options, " "),
-                         fmt::join(kinds, " "));
+    cases += fmt::format("    {}) options=\"{}\" kinds=\"{}\" words=\"{}\" ;;\n", command.name, fmt::join(options, " "),
+                         fmt::join(kinds, " "), command.name == "list" ? "scenes methods experiments assignments" : "");
   }
   return fmt::format(
       R"sh(# bash completion of crosscheck: commands, their options, and the names that `crosscheck list` knows
 _crosscheck() {{
-  local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD-1]}} options="" kinds="" kind
+  local cur=${{COMP_WORDS[COMP_CWORD]}} prev=${{COMP_WORDS[COMP_CWORD-1]}} options="" kinds="" words="" kind
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
     mapfile -t COMPREPLY < <(compgen -W "{} --help --version" -- "$cur")
     return
   fi
   case ${{COMP_WORDS[1]}} in
-    list) [ "$COMP_CWORD" -gt 2 ] || mapfile -t COMPREPLY < <(compgen -W "scenes methods experiments assignments" -- "$cur"); return ;;
 {}  esac
   case $prev in
     --method | --methods | --against) kinds=methods ;;
@@ -132,6 +131,7 @@ _crosscheck() {{
   case $cur in
     -*) mapfile -t COMPREPLY < <(compgen -W "$options" -- "$cur") ;;
     *)
+      mapfile -t COMPREPLY < <(compgen -W "$words" -- "$cur")
       for kind in $kinds; do
         mapfile -t -O "${{#COMPREPLY[@]}}" COMPREPLY < <(compgen -W "$("${{COMP_WORDS[0]}}" list "$kind" 2>/dev/null | cut -d' ' -f1)" -- "$cur")
       done

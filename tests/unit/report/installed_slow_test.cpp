@@ -38,6 +38,7 @@ class Installed : public testing::Test {
                        {"HOME=" + work().string(), "CROSSCHECK_CACHE=" + (work() / "cache").string(),
                         "CROSSCHECK_LOCK=" + (work() / "lock").string(), "ASAN_OPTIONS=detect_leaks=0"});
   }
+  static std::string read(const fs::path& file) { return read_file(file, "a file"); }
   static bool can_hide() { return unseen("true").status == 0; }
 
  private:
@@ -58,12 +59,16 @@ TEST_F(Installed, NoFileNamesTheSourceTree) {
 TEST_F(Installed, WorksWithoutTheSourceTree) {
   if (!can_hide()) GTEST_SKIP() << "this machine makes no mount namespaces: the source tree is not hidden";
   EXPECT_NE(unseen("cat " CROSSCHECK_SOURCE "/README.md").status, 0);
-  for (const std::string words :
-       {"list scenes", "list assignments", "validate cloth-hang",
-        "compare chain --methods leapfrog,bullet/deformable-explicit,bullet32/deformable-explicit",
-        "render chain -o chain.png --size 320x180 --quality fast", "assignment a1-steppers --out handout",
-        "check exec:" + (prefix() / "lib/crosscheck/example_engine").string() + " pendulum",
-        "regress --filter pendulum/mysim/leapfrog --no-speed"}) {
+  const std::vector<std::string> calls = {
+      "list scenes",
+      "list assignments",
+      "validate cloth-hang",
+      "compare chain --methods leapfrog,bullet/deformable-explicit,bullet32/deformable-explicit",
+      "render chain -o chain.png --size 320x180 --quality fast",
+      "assignment a1-steppers --out handout",
+      "check exec:" + (prefix() / "lib/crosscheck/example_engine").string() + " pendulum",
+      "regress --filter pendulum/mysim/leapfrog --no-speed"};
+  for (const std::string& words : calls) {
     const ProgramResult end = unseen(program().string() + " " + words);
     EXPECT_EQ(end.status, 0) << words << "\n" << end.out << end.err;
   }
