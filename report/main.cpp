@@ -28,6 +28,7 @@ constexpr AddCommand commands[] = {
     add_engine,      // another version of Bullet
     add_lab,         // a page with the live lab alone
     add_grader,      // grade and assignment
+    add_manual,      // the manual page and the shell's completions; hidden
 };
 
 int run(int argc, char** argv) {

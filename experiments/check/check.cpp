@@ -11,6 +11,7 @@
 #include "experiments/check/transformations.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/installation.h"
 #include "mysim/scene/toml.h"
 
 namespace crosscheck {
@@ -40,7 +41,7 @@ void withdraw_where_nothing_ran(std::vector<Answer>& answers) {
 
 }  // namespace
 
-std::filesystem::path shipped_known_breaks() { return CROSSCHECK_KNOWN_BREAKS; }
+std::filesystem::path shipped_known_breaks() { return data_folder() / "experiments/check/known.toml"; }
 
 std::vector<KnownBreak> read_known_breaks(const std::filesystem::path& file) {
   const TomlTable root = TomlTable::parse_text(read_file(file, "a table of known breaks"), file.string());

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/text.h"
 #include "mysim/scene/toml.h"
 #include "reference/method.h"
@@ -14,7 +15,8 @@
 namespace crosscheck {
 namespace {
 
-constexpr const char* folder_of_disagreements = CROSSCHECK_SCENES "/disagreements";
+std::filesystem::path folder_of_scenes() { return data_folder() / "experiments" / "scenes"; }
+std::filesystem::path folder_of_disagreements() { return folder_of_scenes() / "disagreements"; }
 
 /// Of several cloths a quick run uses one of each kind.
 constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-swing",   "cloth-wind",
@@ -61,7 +63,7 @@ namespace {
 /// The scenes of known disagreements, each a file in a folder of their own.
 std::vector<std::string> scenes_of_disagreements() {
   std::vector<std::string> names;
-  for (const auto& file : std::filesystem::directory_iterator(folder_of_disagreements))
+  for (const auto& file : std::filesystem::directory_iterator(folder_of_disagreements()))
     if (file.path().extension() == ".toml") names.push_back(file.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -84,13 +86,13 @@ Scene checked(const std::filesystem::path& file) {
 }  // namespace
 
 std::filesystem::path file_of_disagreement(const std::string& name) {
-  return std::filesystem::path(folder_of_disagreements) / (name + ".toml");
+  return folder_of_disagreements() / (name + ".toml");
 }
 
 Scene load_scene(const std::string& name) {
   const auto shipped = shipped_scenes();
   if (std::find(shipped.begin(), shipped.end(), name) != shipped.end())
-    return checked(std::filesystem::path(CROSSCHECK_SCENES) / (name + ".toml"));
+    return checked(folder_of_scenes() / (name + ".toml"));
   const auto known = scenes_of_disagreements();
   if (std::find(known.begin(), known.end(), name) != known.end()) return checked(file_of_disagreement(name));
   std::error_code unreadable;  // then the path of a file is what was meant, and it is named when it is read

@@ -1,4 +1,4 @@
-// Error messages of command lines, for the programs that use CLI11; mysim itself does not.
+// Error messages and tables of command lines, for the programs that use CLI11; mysim itself does not.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -42,6 +42,30 @@ inline std::string usage_error(const std::string& program, const CLI::App& app, 
                          top ? "a command, or one of" : "one of", fmt::format("{}", fmt::join(known, ", ")));
     }
   return fmt::format("{}{} ({} {}--help shows what is expected)", place, error.what(), program, help);
+}
+
+/// All that --help says, one thing a line, its parts separated by tabs: "command NAME WHAT", and behind each command
+/// "word NAME WHAT" for what has a place and "option NAMES VALUE WHAT", NAMES separated by commas and VALUE empty where
+/// none is taken. What --help hides is left out. The manual and the shell's completions are made of it.
+inline std::string command_table(const CLI::App& app) {
+  std::string table;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); })) {
+    table += fmt::format("command\t{}\t{}\n", command->get_name(), command->get_description());
+    for (const CLI::Option* option :
+         command->get_options([](const CLI::Option* one) { return !one->get_group().empty(); })) {
+      if (option->get_positional()) {
+        table += fmt::format("word\t{}\t{}\n", option->get_name(true), option->get_description());
+        continue;
+      }
+      std::vector<std::string> names;
+      for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+      const bool takes_value = option->get_items_expected_max() > 0;
+      table += fmt::format("option\t{}\t{}\t{}\n", fmt::join(names, ","), takes_value ? option->get_type_name() : "",
+                           option->get_description());
+    }
+  }
+  return table;
 }
 
 }  // namespace crosscheck

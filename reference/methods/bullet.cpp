@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "mysim/base/errors.h"
+#include "mysim/base/installation.h"
 #include "reference/bullet/worlds.h"
 #include "reference/method.h"
 #include "reference/protocol/exec_engine.h"
@@ -40,7 +41,7 @@ Method in_double_precision(const std::string& world, const MethodOptions& option
 
 /// No longer of the same rule: its round-off is of another size.
 Method in_single_precision(const std::string& world, const MethodOptions& options) {
-  Program program{CROSSCHECK_BULLET32, {}};
+  Program program{programs_folder() / "bullet32_engine", {}};
   for (const std::string& option : options) add_option(program, "bullet32/" + world, option);
   const bullet::WorldChoice chosen = bullet::choose_world(world, program.options);  // refuses before it runs
   program.options.insert(program.options.begin(), "world=" + world);

@@ -1,10 +1,10 @@
-# What adapters that are built against a tree of their engine have in common: the target mysim, the libraries of a build
-# of crosscheck.
-#   CROSSCHECK_BUILD   that build's folder
+# What adapters that are built against a tree of their engine have in common: the target mysim, the libraries that
+# crosscheck was built with.
+#   CROSSCHECK_LIBRARIES   the folder that they are in: a build folder, or lib/crosscheck of an installation
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
-set(CROSSCHECK_BUILD "" CACHE PATH "the build folder of crosscheck")
+set(CROSSCHECK_LIBRARIES "" CACHE PATH "the folder of libmysim.a and libprotocol.a")
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
 find_package(Threads REQUIRED)
@@ -15,4 +15,4 @@ target_include_directories(mysim INTERFACE ${CROSSCHECK_SOURCE})
 # as the rooms themselves are compiled: a fused multiply-add would give other numbers
 target_compile_options(mysim INTERFACE -ffp-contract=off -fno-math-errno)
 target_link_libraries(mysim INTERFACE
-  ${CROSSCHECK_BUILD}/reference/libprotocol.a ${CROSSCHECK_BUILD}/mysim/libmysim.a Eigen3::Eigen fmt::fmt)
+  ${CROSSCHECK_LIBRARIES}/libprotocol.a ${CROSSCHECK_LIBRARIES}/libmysim.a Eigen3::Eigen fmt::fmt)

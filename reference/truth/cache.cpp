@@ -15,6 +15,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
+#include "mysim/base/installation.h"
 
 namespace crosscheck {
 namespace {
@@ -211,15 +212,9 @@ class FileLock {
 
 std::optional<TruthCache> TruthCache::from_environment() {
   const std::string program = build_id();
-  const auto named = [](const char* variable) {
-    const char* value = std::getenv(variable);
-    return std::string(value ? value : "");
-  };
-  fs::path folder = named("CROSSCHECK_CACHE");
-  if (folder.empty() && !named("XDG_CACHE_HOME").empty()) folder = fs::path(named("XDG_CACHE_HOME")) / "crosscheck";
-  if (folder.empty() && !named("HOME").empty()) folder = fs::path(named("HOME")) / ".cache" / "crosscheck";
-  if (folder.empty() || program.empty()) return std::nullopt;
-  return TruthCache(folder, program);
+  const auto folder = cache_folder();
+  if (!folder || program.empty()) return std::nullopt;
+  return TruthCache(*folder, program);
 }
 
 std::string TruthCache::key_of(const Scene& scene, const Run& run) const {

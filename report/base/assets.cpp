@@ -1,13 +1,14 @@
-// Assets are read from the source tree that the program was built from.
+// Assets are read below report/, by their paths there.
 #include "report/base/assets.h"
 
 #include <stdexcept>
 
 #include "mysim/base/files.h"
+#include "mysim/base/installation.h"
 
 namespace crosscheck {
 
-std::string asset(const std::string& name) { return content_of_file(std::string(CROSSCHECK_REPORT) + "/" + name); }
+std::string asset(const std::string& name) { return content_of_file(data_folder() / "report" / name); }
 
 std::string content_of_file(const std::filesystem::path& file) {
   const std::string bytes = try_read_file(file).value_or("");

@@ -7,16 +7,20 @@
 #include <chrono>
 #include <fstream>
 
+#include "mysim/base/files.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/process.h"
 
 namespace crosscheck {
 namespace {
 
+/// Of the sources: written down where they are installed, asked of git in a source tree.
 std::string commit() {
+  if (const auto written = try_read_file(data_folder() / "commit.txt")) return written->substr(0, written->find('\n'));
   try {
     const auto git =
         run_program({"git", "describe", "--always", "--dirty=, with uncommitted changes", "--abbrev=12", "--exclude=*"},
-                    CROSSCHECK_SOURCE_DIR);
+                    data_folder());
     if (git.status == 0 && !git.out.empty()) return git.out.substr(0, git.out.find('\n'));
   } catch (const std::exception&) {
     // no git on this machine

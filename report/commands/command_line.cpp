@@ -33,11 +33,13 @@ CLI::Validator number(bool zero_allowed) {
 
 void require_known_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string> known;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    known.push_back(command->get_name());
-  if (std::find(known.begin(), known.end(), word) == known.end())
-    throw InputError(fmt::format("unknown command '{}'; expected one of: {}{}", word, fmt::join(known, ", "),
-                                 did_you_mean(word, known)));
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == word) return;
+    if (!command->get_group().empty()) known.push_back(command->get_name());
+  }
+  if (word == "test") throw InputError("test: the suite is built and run in a source tree: ./crosscheck test there");
+  throw InputError(fmt::format("unknown command '{}'; expected one of: {}{}", word, fmt::join(known, ", "),
+                               did_you_mean(word, known)));
 }
 
 }  // namespace
@@ -50,9 +52,11 @@ void add_quick_and_full(CLI::App& command, bool& full) {
   command.add_flag("--full", full, "more scenes, more measurements and finer pictures")->excludes(quick);
 }
 
+std::string program_and_version() { return "crosscheck " CROSSCHECK_VERSION; }
+
 std::string version_text() {
   const std::string id = build_id();
-  return fmt::format("crosscheck " CROSSCHECK_VERSION "{}", id.empty() ? "" : " (build " + id.substr(0, 12) + ")");
+  return fmt::format("{}{}", program_and_version(), id.empty() ? "" : " (build " + id.substr(0, 12) + ")");
 }
 
 int run_command_line(const std::string& description, const std::string& version, std::span<const AddCommand> commands,

@@ -21,6 +21,8 @@ int run_command_line(const std::string& description, const std::string& version,
 
 /// The name of the program and its version, that of the build where it has one.
 std::string version_text();
+/// The two without the build.
+std::string program_and_version();
 
 /// Finite numbers: CLI11's own range checks let nan through and print 309 digits.
 CLI::Validator above_zero();

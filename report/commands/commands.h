@@ -43,6 +43,11 @@ void add_grader(CLI::App& app, Invocation& call);
 /// starts it, and compares the student's steppers with other engines in a report next to the page. Throws
 /// std::runtime_error where the grader is not built.
 int grader_command(const std::vector<std::string>& words);
+/// The grader's commands as command_table() writes them (mysim/base/command_line.h).
+std::string grader_table();
+
+/// `manual`, which no --help shows: the build writes the manual page and the shell's completions with it.
+void add_manual(CLI::App& app, Invocation& call);
 
 struct ReportOptions {
   std::vector<std::string> scenes;

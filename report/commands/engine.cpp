@@ -15,6 +15,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/process.h"
 #include "mysim/base/progress.h"
 #include "mysim/base/text.h"
@@ -29,7 +30,24 @@ struct EngineOptions {
   fs::path prefix, program;
 };
 
-fs::path source() { return fs::path(CROSSCHECK_SOURCE_DIR).parent_path(); }
+/// Where adapters are built: what was compiled once is not compiled again.
+fs::path build_folder(const std::string& name) {
+  return cache_folder().value_or(fs::temp_directory_path() / fmt::format("crosscheck-{}", getuid())) / "engines" / name;
+}
+
+/// False where one of the tools is not on the path, with a line that says how to install what is missing.
+bool have_tools(const EngineOptions& options, std::initializer_list<std::pair<const char*, const char*>> tools,
+                std::string_view packages) {
+  for (const auto& [tool, package] : tools)
+    if (!on_path(tool)) {
+      fmt::print(stderr,
+                 "crosscheck: engine {}: there is no {}; package {} is not installed: "
+                 "apt-get install --no-install-recommends {}\n",
+                 options.what, tool, package, packages);
+      return false;
+    }
+  return true;
+}
 
 /// Runs a program in the folder; on failure prints the end of what it said. True when all went well.
 bool run_tool(const std::vector<std::string>& argv, const fs::path& folder, const EngineOptions& options,
@@ -60,8 +78,10 @@ void install(const std::string& program, const fs::path& as) {
 int build_adapter(const EngineOptions& options, const std::string& folder, const std::string& variable,
                   const std::string& program, double seconds) {
   const fs::path prefix = fs::canonical(options.prefix);
-  const fs::path build =
-      source() / "build" / "engines" / fmt::format("{}-{:016x}", options.what, Fnv1a::of(prefix.string()));
+  if (!have_tools(options, {{"cmake", "cmake"}, {"ninja", "ninja-build"}, {"g++", "g++"}},
+                  "cmake ninja-build g++ libeigen3-dev libfmt-dev"))
+    return 1;
+  const fs::path build = build_folder(fmt::format("{}-{:016x}", options.what, Fnv1a::of(prefix.string())));
   fmt::print(stderr, "crosscheck: building the adapter against {} in {}\n", prefix.string(), build.string());
   // a precision or a library found once may be another after the tree was built again
   std::error_code none;
@@ -70,9 +90,10 @@ int build_adapter(const EngineOptions& options, const std::string& folder, const
   progress.begin("configuring", 2);
   const unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   const bool configured =
-      run_tool({"cmake", "-S", (source() / folder).string(), "-B", build.string(), "-G", "Ninja",
+      run_tool({"cmake", "-S", (data_folder() / folder).string(), "-B", build.string(), "-G", "Ninja",
                 "-DCMAKE_BUILD_TYPE=Release", fmt::format("-D{}={}", variable, prefix.string()),
-                "-DCROSSCHECK_BUILD=" CROSSCHECK_BINARY_DIR, "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
+                fmt::format("-DCROSSCHECK_LIBRARIES={}", programs_folder().string()),
+                "-DCMAKE_EXE_LINKER_FLAGS=" CROSSCHECK_LINK_FLAGS},
                fs::current_path(), options, "cmake");
   if (!configured) fs::remove_all(build, none);
   progress.begin("compiling the adapter", seconds);
@@ -125,7 +146,7 @@ std::string jolt_program(const fs::path& package) {
   text = replaced(std::move(text), "import.meta.url", "\"file:///jolt.js\"", 2, bundle);
   text = replaced(std::move(text), "export default Jolt;", "", 1, bundle);
   return fmt::format("{}\n/* jolt-physics of npm, from here to the end:\n{}*/\n{}\n",
-                     read_file(source() / "reference/jolt/jolt_engine.js", "Jolt's adapter"),
+                     read_file(data_folder() / "reference/jolt/jolt_engine.js", "Jolt's adapter"),
                      read_file(package / "LICENSE", "the licence of jolt-physics"), text);
 }
 
@@ -141,19 +162,12 @@ int build_native_jolt(const EngineOptions& options) {
 int build_jolt(const EngineOptions& options) {
   require_program(options.program);
   if (!options.prefix.empty()) return build_native_jolt(options);
-  for (const auto& [tool, package] : {std::pair{"node", "nodejs"}, {"npm", "npm"}})
-    if (!on_path(tool)) {
-      fmt::print(stderr,
-                 "crosscheck: engine jolt: there is no {}; package {} is not installed: "
-                 "apt-get install --no-install-recommends nodejs npm\n",
-                 tool, package);
-      return 1;
-    }
+  if (!have_tools(options, {{"node", "nodejs"}, {"npm", "npm"}}, "nodejs npm")) return 1;
   // npm holds what it fetches against the checksum in package-lock.json, and keeps it in its own cache; two that are
   // started at once have a folder each
-  const fs::path folder = source() / "build" / "engines" / fmt::format("jolt-{}", getpid());
+  const fs::path folder = build_folder(fmt::format("jolt-{}", getpid()));
   for (const char* file : {"package.json", "package-lock.json"})
-    write_file(folder / file, read_file(source() / "reference/jolt" / file, "what npm is to fetch"));
+    write_file(folder / file, read_file(data_folder() / "reference/jolt" / file, "what npm is to fetch"));
   Progress progress(1);
   progress.begin("fetching jolt-physics", 5);  // s
   const bool fetched =

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "mysim/base/installation.h"
 #include "mysim/base/output_folder.h"
 #include "mysim/base/process.h"
 #include "mysim/base/text.h"
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path grader() {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "crosscheck-grade";
+  const fs::path program = programs_folder() / "crosscheck-grade";
   if (access(program.c_str(), X_OK) != 0)
     throw std::runtime_error(fmt::format("{} cannot be started; build the target crosscheck_grader", program.string()));
   return program;
@@ -66,6 +67,8 @@ int grade_with_charts(std::vector<std::string> words, const fs::path& page) {
 }
 
 }  // namespace
+
+std::string grader_table() { return run_program({grader().string(), "manual"}, fs::current_path()).out; }
 
 int grader_command(const std::vector<std::string>& words) {
   const bool of_class = std::find(words.begin(), words.end(), "--all") != words.end();

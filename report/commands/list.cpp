@@ -11,6 +11,7 @@
 #include "experiments/experiment.h"
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/json.h"
 #include "mysim/base/process.h"
 #include "mysim/base/text.h"
@@ -77,10 +78,14 @@ int doctor_command() {
              "Google's; optional: times kernels side by side for `bench`; of libbenchmark-dev");
   fmt::print("  {:<14} {:<10} {}\n\n", "OSMesa", "linked", "renders pictures without a display");
 
-  static constexpr Tool tools[] = {
+  // an installation compiles coursework and adapters alone
+  const bool in_source_tree = std::filesystem::exists(data_folder() / "CMakeLists.txt");
+  const Tool tools[] = {
       {"gnuplot", "gnuplot-nox", "draws the figures", true},
       {"git", "git", "names the commit in tables and captions", false},
-      {"ctest", "cmake", "runs the tests", true},
+      {"g++", "g++", "compiles coursework and adapters, and a source tree", in_source_tree},
+      {"cmake", "cmake", "builds adapters, and builds and tests a source tree", in_source_tree},
+      {"bwrap", "bubblewrap", "keeps a submission away from your files: `grade`", false},
       {"python3", "python3-numpy", "runs engines in NumPy, and the package for Python; the tests need it", false},
       {"ffmpeg", "ffmpeg", "writes clips: `render -o FILE.mp4`", false},
       {"clang++", "clang", "another compiler, in which `regress --prove-builds` builds too", false},

@@ -12,6 +12,7 @@
 #include "experiments/regress/mutations.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/json.h"
 #include "mysim/base/output_folder.h"
 #include "mysim/base/process.h"
@@ -84,9 +85,17 @@ struct Built {
   std::string said;  // the last lines of a build that failed; empty where it went well
 };
 
+/// Throws InputError where there is none: what is installed cannot be built with other sources.
+fs::path source_tree() {
+  if (!fs::exists(data_folder() / "CMakeLists.txt"))
+    throw InputError(
+        "regress --prove and --prove-builds build mysim anew; expected a source tree, not an installation");
+  return data_folder();
+}
+
 /// Configures and builds the program, and the engine that it starts, in build/builds/NAME of the source tree.
 Built built(const BuildVariant& build) {
-  const fs::path source = fs::path(CROSSCHECK_SOURCE_DIR).parent_path(), folder = source / "build/builds" / build.name;
+  const fs::path source = source_tree(), folder = source / "build/builds" / build.name;
   std::string type = build.type;
   std::transform(type.begin(), type.end(), type.begin(), [](unsigned char c) { return std::toupper(c); });
   const auto jobs = std::to_string(std::max(1u, std::thread::hardware_concurrency()));
@@ -138,15 +147,16 @@ Proof proof_of(const Mutation& mutation, const std::filesystem::path& program, c
 
 int prove_command(const RegressOptions& given) {
   RegressOptions options = given;
-  const std::filesystem::path program = std::filesystem::path(CROSSCHECK_BINARY_DIR) / "crosscheck-mutants";
+  const fs::path mutations = source_tree() / "tests/mutants/mutations.txt";
+  const fs::path program = programs_folder() / "crosscheck-mutants";
   if (!std::filesystem::exists(program))
     throw InputError(
         fmt::format("{}: expected the program of mutants; build the target crosscheck_mutants", program.string()));
-  if (options.baselines.empty()) options.baselines = CROSSCHECK_BASELINES;
+  if (options.baselines.empty()) options.baselines = shipped_baselines();
   OutputFolder folder(options.out, "regress");
   options.out = folder.path();
   int escaped = 0, wrongly_named = 0, named = 0, count = 0;
-  for (const Mutation& mutation : read_mutations(CROSSCHECK_MUTATIONS)) {
+  for (const Mutation& mutation : read_mutations(mutations)) {
     if (!options.mutant.empty() && options.mutant != mutation.name) continue;
     const Proof proof = proof_of(mutation, program, options);
     ++count;
@@ -159,9 +169,9 @@ int prove_command(const RegressOptions& given) {
   }
   if (count == 0) {
     std::vector<std::string> names;
-    for (const Mutation& mutation : read_mutations(CROSSCHECK_MUTATIONS)) names.push_back(mutation.name);
+    for (const Mutation& mutation : read_mutations(mutations)) names.push_back(mutation.name);
     throw InputError(fmt::format("--mutant {}: no such mutation; expected one of those in {}{}", options.mutant,
-                                 CROSSCHECK_MUTATIONS, did_you_mean(options.mutant, names)));
+                                 mutations.string(), did_you_mean(options.mutant, names)));
   }
   // the unchanged program must pass
   const Proof unchanged = proof_of({"none", "", {}, "", ""}, program, options);
@@ -232,7 +242,7 @@ BuildFinding regressed(const fs::path& program, const BuildVariant& build, const
 
 BuildFinding found(const BuildVariant& build, const RegressOptions& options) {
   if (const std::string missing = missing_for(build); !missing.empty()) return {.state = not_here, .note = missing};
-  fs::path program = fs::path(CROSSCHECK_BINARY_DIR) / "crosscheck";
+  fs::path program = programs_folder() / "crosscheck";
   if (build.compiled()) {
     fmt::print(stderr, "crosscheck: building {}: {} {}\n", build.name, build.compiler, build.flags);
     const Built done = built(build);
@@ -301,7 +311,7 @@ int prove_builds_command(const RegressOptions& given) {
   Selection selection{options.scenes, options.full, options.filter, {}};
   if (!options.methods.empty()) selection.methods = find_methods(options.methods);
   cases(selection);  // throws InputError for a selection that no build could run
-  if (options.baselines.empty()) options.baselines = CROSSCHECK_BASELINES;
+  if (options.baselines.empty()) options.baselines = shipped_baselines();
   OutputFolder folder(options.out, "regress");
   options.out = folder.path();
   Table table = empty_table();

@@ -16,6 +16,7 @@
 #include "experiments/timing/machine.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/output_folder.h"
 #include "report/base/provenance.h"
 #include "report/commands/command_line.h"
@@ -25,6 +26,8 @@
 namespace crosscheck {
 
 bool measures_speed(const RegressOptions& options) { return !options.no_speed && (!options.bisect || options.speed); }
+
+std::filesystem::path shipped_baselines() { return data_folder() / "reference" / "baselines"; }
 
 Machine machine_of(const Provenance& lines) {
   std::string compiler = value_of(lines, "compiler");
@@ -176,7 +179,7 @@ int regressed(const RegressOptions& options) {
       throw InputError("--against: expected one --method, which is set beside that one");
     regression.against = find_method(options.against);
   }
-  regression.baselines = options.baselines.empty() ? std::filesystem::path(CROSSCHECK_BASELINES) : options.baselines;
+  regression.baselines = options.baselines.empty() ? shipped_baselines() : options.baselines;
   OutputFolder folder(options.out, "regress");
   regression.out = folder.path();
   const Provenance lines = provenance(options.command_line);

@@ -31,6 +31,9 @@ int prove_speed_command(const RegressOptions& options);
 /// does, or could not be built; InputError where there is no such build.
 int prove_builds_command(const RegressOptions& options);
 
+/// The blessed results that come with the program.
+std::filesystem::path shipped_baselines();
+
 /// This machine and this program.
 Machine machine_of(const Provenance& lines);
 

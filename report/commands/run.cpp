@@ -1,4 +1,4 @@
-// run: one method on one scene; writes trajectory.npy, velocities.npy, energy.csv, run.json.
+// run: one method on one scene; writes trajectory.npy, velocities.npy, energy.csv, run.json, and meshes where asked.
 
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@
 #include "mysim/base/json.h"
 #include "mysim/base/output_folder.h"
 #include "reference/protocol/trajectory_files.h"
+#include "report/base/mesh_files.h"
 #include "report/base/provenance.h"
 #include "report/commands/command_line.h"
 #include "report/commands/commands.h"
@@ -22,7 +23,7 @@ namespace crosscheck {
 namespace {
 
 struct RunOptions {
-  std::string scene, method;
+  std::string scene, method, meshes;             // no form of meshes: none are written
   double step = 0, tolerance = 0, duration = 0;  // 0: the scene's own
   std::filesystem::path out = "out/run";
   std::string command_line;
@@ -69,11 +70,14 @@ int run_command(const RunOptions& options) {
                     run.step, scene.name, run.duration));
   require_resources_to_write(method, scene, run, options.out);
   OutputFolder folder(options.out, "run");
+  std::optional<MeshWriter> meshes;
+  if (!options.meshes.empty()) meshes.emplace(folder.path() / "meshes", scene, options.meshes);
 
   TrajectoryWriter frames(folder.path());
   Ledger ledger(scene.model, method.contact);
   std::vector<Observer*> observers{&frames};
   if (!scene.model.first_order()) observers.push_back(&ledger);
+  if (meshes) observers.push_back(&*meshes);
   Progress progress(1);
   Outcome out = run_method(with_progress(method, progress), scene, run, observers);
   progress.done();
@@ -101,6 +105,7 @@ int run_command(const RunOptions& options) {
   if (!out.remark.empty()) fmt::print("  {}\n", out.remark);
   if (out.degenerate_springs > 0)
     fmt::print("  springs met at zero length {} times and got no force there\n", out.degenerate_springs);
+  if (meshes) fmt::print("  {} meshes: meshes/frame-0001.{} and on\n", meshes->frames(), options.meshes);
   fmt::print("  {}\n", options.out.string());
   return 0;
 }
@@ -115,6 +120,8 @@ void add_run(CLI::App& app, Invocation& call) {
   run->add_option("--step", options->step, "time step of fixed-step methods, s")->check(above_zero());
   run->add_option("--tol", options->tolerance, "relative tolerance of adaptive methods")->check(above_zero());
   run->add_option("--duration", options->duration, "simulated time, s")->check(above_zero());
+  run->add_option("--meshes", options->meshes,
+                  "obj or ply: writes each sample as a file in DIR/meshes, triangles of cloths and lines of springs");
   run->add_option("--out", options->out, "folder (out/run)");
   run->callback([options, &call] {
     options->command_line = call.line;

@@ -8,6 +8,7 @@
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
+#include "mysim/base/installation.h"
 #include "mysim/base/process.h"
 #include "mysim/base/text.h"
 #include "report/base/assets.h"
@@ -33,12 +34,12 @@ constexpr std::string_view guided_scenes[] = {"circle", "pendulum", "cloth-hang"
 /// A program that knows the command `lab`: this one, or, in tests, the one that they start.
 fs::path lab_program() {
   const fs::path self = fs::read_symlink("/proc/self/exe");
-  return self.filename().string().starts_with("crosscheck") ? self : fs::path(CROSSCHECK_BINARY_DIR) / "crosscheck";
+  return self.filename().string().starts_with("crosscheck") ? self : programs_folder() / "crosscheck";
 }
 
 }  // namespace
 
-fs::path lab_module_file() { return fs::path(CROSSCHECK_BINARY_DIR) / "report" / "lab" / "lab.wasm"; }
+fs::path lab_module_file() { return programs_folder() / "lab.wasm"; }
 bool has_lab_module() { return fs::exists(lab_module_file()); }
 
 Json lab_fingerprints_json(const std::vector<Scene>& scenes) {

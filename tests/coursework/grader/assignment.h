@@ -67,7 +67,8 @@ struct Assignment {
   std::filesystem::path folder() const;
 };
 
-/// tests/coursework itself: where the program was built, or where the environment says (CROSSCHECK_COURSEWORK).
+/// tests/coursework itself: beside the program (mysim/base/installation.h), or where the environment says
+/// (CROSSCHECK_COURSEWORK).
 std::filesystem::path folder_of_coursework();
 
 std::span<const Assignment> assignments();

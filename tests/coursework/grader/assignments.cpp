@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "mysim/base/installation.h"
 #include "mysim/base/text.h"
 #include "tests/coursework/grader/assignment.h"
 
@@ -19,7 +20,7 @@ const Assignment& classic_particles();
 
 std::filesystem::path folder_of_coursework() {
   const char* named = std::getenv("CROSSCHECK_COURSEWORK");
-  return named && *named ? named : CROSSCHECK_COURSEWORK_SOURCE;
+  return named && *named ? named : crosscheck::data_folder() / "tests" / "coursework";
 }
 
 std::filesystem::path Assignment::folder() const { return folder_of_coursework() / name; }

@@ -15,6 +15,7 @@
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
 #include "mysim/base/hash.h"
+#include "mysim/base/installation.h"
 #include "tests/coursework/grader/parallel.h"
 
 namespace coursework {
@@ -34,12 +35,11 @@ fs::path find_compiler() {
       const fs::path real = fs::canonical(folder / name);  // sandboxes show /usr, not /etc/alternatives
       return real.filename().string().find("++") != std::string::npos ? real : folder / name;
     }
-  throw InputError("no C++ compiler found; expected g++ or clang++ on the PATH");
+  throw InputError("no C++ compiler found; expected g++ or clang++ on the PATH: apt-get install g++");
 }
 
-fs::path cache_folder() {
-  if (const char* named = std::getenv("CROSSCHECK_CACHE"); named && *named) return fs::absolute(named) / "coursework";
-  if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache/crosscheck/coursework";
+fs::path compiled_folder() {
+  if (const auto cache = crosscheck::cache_folder()) return *cache / "coursework";
   return fs::temp_directory_path() / fmt::format("crosscheck-coursework-{}", getuid());
 }
 
@@ -60,7 +60,7 @@ const std::vector<std::string>& checking_options() {
   return options;
 }
 
-Compiler::Compiler() : cache_(cache_folder()) {
+Compiler::Compiler() : cache_(compiled_folder()) {
   const fs::path program = find_compiler();
   // sandboxes set LANG to C, so that messages are in English; no fused multiply-add: the same numbers on every machine
   command_ = {program.string(), "-w", "-ffp-contract=off", "-fno-diagnostics-show-caret", "-fdiagnostics-color=never"};

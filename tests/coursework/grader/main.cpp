@@ -72,6 +72,10 @@ int run(int argc, char** argv) {
   runs->add_option("--lane", engine.sandbox);
   runs->callback([&] { status = engine_command(engine); });
 
+  app.add_subcommand("manual", "the table of the commands above, for the manual")->group("")->callback([&] {
+    fmt::print("{}", crosscheck::command_table(app));
+  });
+
   bool json = false;
   auto* list = app.add_subcommand("list", "lists the assignments");
   list->add_flag("--json", json, "prints JSON");

@@ -159,7 +159,6 @@ set -e
 cd "$(dirname "$0")"
 mkdir -p objects cache
 export FLAGS="-std=c++20 -O1 -w -ffp-contract=off -fno-math-errno -DFMT_HEADER_ONLY -I. -isystem headers"
-export FLAGS="$FLAGS -DCROSSCHECK_COURSEWORK_SOURCE=\"$PWD/tests/coursework\""
 xargs -P "$(nproc)" -I SOURCE sh -c '
   object=objects/$(echo SOURCE | tr / _).o
   test -e "$object" || g++ $FLAGS -c SOURCE -o "$object"' < sources.txt

@@ -14,6 +14,7 @@
 
 #include "mysim/base/errors.h"
 #include "mysim/base/text.h"
+#include "tests/coursework/grader/assignment.h"
 #include "tests/coursework/grader/seccomp.h"
 #include "tests/coursework/grader/spawn.h"
 #include "tests/coursework/grader/staging.h"
@@ -89,6 +90,9 @@ std::vector<std::string> arguments(const Job& job, const StagingFolder& staging)
                                "ALL", "--hostname",    "sandbox",           "--clearenv"};
   const auto add = [&all](std::initializer_list<std::string> more) { all.insert(all.end(), more); };
   for (const char* folder : system_folders) add({"--ro-bind-try", folder, folder});
+  // where Crosscheck is installed the system's folders hold its tests
+  if (const auto tests = folder_of_coursework(); tests.string().starts_with("/usr/"))
+    add({"--tmpfs", tests.string(), "--remount-ro", tests.string()});
   // bwrap's own first process runs inside under the same user and without the filter: who has /proc could write to its
   // memory. Compilers are shown it, students' programs are not.
   if (job.limits.processes > 0) add({"--proc", "/proc"});

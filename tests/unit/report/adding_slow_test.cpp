@@ -77,8 +77,7 @@ TEST(Adding, ALineThatDoesNotStandThereOnceIsRefused) {
 ProgramResult compiled(const Addition& a, const std::string& file) {
   const TemporaryFolder folder("adding");
   write_addition(a, source, folder.path);
-  return check_syntax((fs::exists(folder.path / file) ? folder.path : source) / file,
-                      {"-DCROSSCHECK_COURSEWORK_SOURCE=\"\"", "-I", folder.path.string()});
+  return check_syntax((fs::exists(folder.path / file) ? folder.path : source) / file, {"-I", folder.path.string()});
 }
 
 TEST(Adding, WhatIsNotLinkedHereCompilesAsItIsDescribed) {

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Checks an engine, as CI does it: relations that need no truth, then its results beside those that were blessed.
+#
+#   check-engine.sh ENGINE OUT [SCENE]...     ENGINE is a program of the engine protocol; OUT gets check/ and regress/,
+#                                             a page each; without scenes the small ones, pendulum and chain, are asked
+#
+# Environment: PREPARE, a shell command that is run first, such as what builds the engine; BASELINES, the folder of
+# blessed results (crosscheck-baselines). Exit status: 0 nothing is broken and nothing moved; 1 something is; 2 bad use.
+set -euo pipefail
+[ $# -ge 2 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0" >&2; exit 2; }
+engine=$1 out=$2
+shift 2
+scenes=("$@")
+[ ${#scenes[@]} -gt 0 ] || scenes=(pendulum chain)
+baselines=${BASELINES:-crosscheck-baselines}
+[ -z "${PREPARE:-}" ] || bash -euxc "$PREPARE"
+
+status=0
+step() { # NAME COMMAND...: runs it; 1 is an answer, anything above ends here
+  local name=$1 ended=0
+  shift
+  printf '== %s\n' "$*"
+  "$@" || ended=$?
+  [ "$ended" -le 1 ] || exit "$ended"
+  [ "$ended" -eq 0 ] || status=1
+  [ -z "${GITHUB_STEP_SUMMARY:-}" ] || printf -- '- %s: %s\n' "$name" "$([ "$ended" -eq 0 ] && echo passed || echo FAILED)" >>"$GITHUB_STEP_SUMMARY"
+}
+
+step check crosscheck check "exec:$engine" "${scenes[@]}" --out "$out/check"
+if [ -d "$baselines" ]; then
+  step regress crosscheck regress "${scenes[@]}" --method "exec:$engine" --baselines "$baselines" --no-speed --out "$out/regress"
+else
+  printf 'no results are blessed yet: commit the folder that this writes, where you trust the engine:\n  %s\n' \
+    "crosscheck regress ${scenes[*]} --method exec:$engine --baselines $baselines --no-speed --bless --reason \"first results\""
+fi
+exit "$status"
