@@ -255,6 +255,17 @@ std::optional<size_t> cheapest(const std::vector<Trial>& trials, const std::stri
 
 }  // namespace
 
+std::vector<Method> advisable_methods(const Scene& scene) {
+  std::vector<Method> methods;
+  for (Method& m : all_methods()) {
+    if (!m.family().is_subject()) continue;
+    if (scene.model.find<Spheres>() && m.stepper && m.stepper->order > 1)
+      methods.push_back(find_method(m.name + "+events"));
+    methods.push_back(std::move(m));
+  }
+  return methods;
+}
+
 Advice advise(const Scene& scene, double tolerance, std::vector<Method> methods) {
   const DenseTruth path(scene, tolerance);
   Advice a = guarantee_of(scene, tolerance, path);

@@ -52,6 +52,9 @@ struct Advice {
   std::vector<std::string> caveats;
 };
 
+/// All of mysim; beside spheres their `+events` too, where there is one.
+std::vector<Method> advisable_methods(const Scene& scene);
+
 /// Tries each method on the scene, and on the least model whose own error is half the tolerance at most. A step is
 /// taken when it meets the tolerance, every smaller one that was tried does so too, and among them one of half its
 /// length; steps are refined to 5 %. Errors are looked for after every step, not at the samples alone (dense_truth.h).

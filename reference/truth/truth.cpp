@@ -95,6 +95,8 @@ class RichardsonEstimate {
   double before_ = 0, last_ = 0;
 };
 
+constexpr int most_followed = 150;  // particles, from event to event
+
 bool few_particles(const Scene& scene) { return scene.model.particles.size() < 50; }
 
 /// Steps of the scene's own, whatever the run's: truth must not depend on what is compared with it.
@@ -123,21 +125,22 @@ std::optional<Trajectory> run_rk4(const Scene& scene, const Run& run, bool const
   return std::move(recorder.trajectory);
 }
 
-/// Halves the step from h on until that changes little; at least twice, so that an order can be seen. `at` runs at a
-/// step, or returns nothing where that fails; `how` tells the step in ms.
+/// Halves the step from h on until that changes little; at least twice, so that an order can be seen, and at most
+/// `most_halvings` times. `at` runs at a step, or returns nothing where that fails; `how` tells the step in ms.
 template <class RunAt, class How>
-std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int order, RunAt at, How how) {
-  constexpr int most_halvings = 7;
+std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int order, int most_halvings, RunAt at,
+                                           How how) {
   const double enough = 1e-8 * scene.size();  // far below what any scene needs; a few particles reach 1e-11 at once
   std::optional<Trajectory> coarse, middle = at(h);
   double change = INFINITY;
-  for (int i = 0; i < most_halvings && middle; ++i) {
+  for (int i = 1; i <= most_halvings && middle; ++i) {
     h /= 2;
     auto fine = at(h);
     if (!fine) return std::nullopt;
     const double before = std::exchange(change, largest_rms_distance(*middle, *fine));
-    // where halving no longer helps, round-off or chaos is what is left
-    if (coarse && (change < enough || change > before / 2))
+    // where halving no longer helps, round-off or chaos is what is left; between events it helps more and less in turn
+    const bool helps = change <= before / 2 || order < 4;
+    if (coarse && (change < enough || !helps || (order < 4 && i == most_halvings)))
       return RefinementStudy{how(1e3 * h),    h, std::exp2(order), std::move(*coarse), std::move(*middle),
                              std::move(*fine)};
     coarse = std::move(middle);
@@ -149,7 +152,7 @@ std::optional<RefinementStudy> refine_step(const Scene& scene, double h, int ord
 std::optional<RefinementStudy> refine_rk4(const Scene& scene, const Run& run) {
   const bool constrained = scene.model.find<Constraints>() != nullptr;
   return refine_step(
-      scene, first_step(scene, constrained), 4,
+      scene, first_step(scene, constrained), 4, 7,
       [&](double h) {
         return run_rk4(scene, {h, run.duration, run.samples}, constrained);
       },
@@ -184,8 +187,19 @@ std::optional<RefinementStudy> refine_bulirsch_stoer(const Scene& scene, const R
       run_odeint_bulirsch_stoer);
 }
 
-/// The truth of two routes: the path of `one`, with what `other` and both refinements say of its error. None where that
-/// exceeds a hundredth of the motion.
+/// The truth with so many of its samples; none without any.
+std::optional<Truth> ended_after(size_t samples, Truth truth) {
+  if (samples == 0) return std::nullopt;
+  Trajectory& path = truth.trajectory;
+  if (samples < path.t.size()) truth.until = path.t[samples - 1];
+  path.t.resize(samples), path.x.resize(samples), path.v.resize(samples);
+  truth.error_bars.resize(samples);
+  truth.error_bar = truth.error_bars.back();
+  return truth;
+}
+
+/// The truth of two routes: the path of `one`, with what `other` and both refinements say of its error, up to where
+/// that exceeds a hundredth of the motion.
 std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, RefinementStudy one,
                                      const RefinementStudy& other) {
   Truth truth{Tier::converged, fmt::format("{}, against {}", one.how, other.how), one.fine, 0};
@@ -194,7 +208,8 @@ std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, Refinem
   // a rounding of each step's positions, adding up like a random walk
   const double random_walk = 0.5 * std::numeric_limits<double>::epsilon() * std::sqrt(run.duration / one.step);
   double motion = 0;
-  for (size_t i = 0; i < x.size(); ++i) {
+  size_t known = 0;  // samples
+  for (size_t i = 0; i < std::min(x.size(), other.fine.x.size()); ++i) {
     motion = std::max(motion, rms_distance(x[i], x[0]));
     // and some units in the last place that each route has of its own, whatever it refines
     const double place = x[i].norm() / std::sqrt(x[i].cols());
@@ -205,9 +220,9 @@ std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, Refinem
     const double error_bar = std::max(apart, own) + rounding;
     truth.error_bar = std::isfinite(error_bar) ? std::max(truth.error_bar, error_bar) : INFINITY;
     truth.error_bars.push_back(truth.error_bar);
+    if (truth.error_bar < 0.01 * motion) known = i + 1;
   }
-  if (!(truth.error_bar < 0.01 * motion)) return std::nullopt;
-  return truth;
+  return ended_after(known, std::move(truth));
 }
 
 }  // namespace
@@ -217,7 +232,8 @@ std::optional<Truth> converged_truth(const Scene& scene, const Run& run) try {
   if (!rk4_study) return std::nullopt;
   const auto odeint_study = refine_bulirsch_stoer(scene, run);
   if (!odeint_study) return std::nullopt;
-  return truth_of_routes(scene, run, std::move(*rk4_study), *odeint_study);
+  auto truth = truth_of_routes(scene, run, std::move(*rk4_study), *odeint_study);
+  return truth && std::isinf(truth->until) ? truth : std::nullopt;
 } catch (const Unsupported&) {
   return std::nullopt;
 } catch (const SolverFailure&) {
@@ -257,22 +273,68 @@ std::optional<SampleRange> predictable_samples(const Scene& scene, const Traject
 
 }  // namespace
 
-std::optional<Truth> event_truth(const Scene& scene, const Run& run) try {
-  if (!few_particles(scene)) return std::nullopt;
-  auto events = refine_tolerance(
-      scene, run, 1e-10,
+namespace {
+
+/// Runs of the event-driven route under three tolerances, up to where the first of them ends; none where it does so
+/// before something was touched.
+std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run) {
+  RefinementStudy study{
       fmt::format("odeint (Boost {}), Dormand and Prince's pair cut at every event, on equations written apart",
                   odeint_version()),
-      run_event_driven);
+      scene.step,
+      10,
+      {},
+      {},
+      {}};
+  double tolerance = 1e-10;
+  Run shorter = run;
+  for (Trajectory* path : {&study.coarse, &study.middle, &study.fine}) {
+    Recorder recorder;
+    try {
+      const Outcome out = run_event_driven(scene, {scene.step, shorter.duration, shorter.samples, tolerance}, recorder);
+      if (out.verdict == Verdict::ok) study.step = out.step;
+    } catch (const Unsupported&) {
+      if (recorder.trajectory.frames() == 0) throw;  // of the scene; else of where a particle came to be
+    }
+    *path = std::move(recorder.trajectory);
+    const int end = path->frames() - 1;
+    if (end < 1) return std::nullopt;
+    shorter.duration = run.duration / run.samples * end, shorter.samples = end;
+    tolerance /= 10;
+  }
+  return study;
+}
+
+}  // namespace
+
+std::optional<Truth> event_truth(const Scene& scene, const Run& run) try {
+  const int n = scene.model.particles.size();
+  if (n > most_followed) return std::nullopt;
+  auto events = refine_events(scene, run);
   if (!events) return std::nullopt;
+  const Trajectory& path = events->fine;
+  const Run shared{run.step, path.t.back(), path.frames() - 1};
+  // 1e7 steps of a particle take a second or two
+  const double first = first_step(scene, false), steps = shared.duration / first * n;
+  const int halvings = std::clamp(static_cast<int>(std::log2(1e7 / steps)), 2, 7);
   const auto leapfrog = refine_step(
-      scene, first_step(scene, false), 2,
+      scene, first, 2, halvings,
       [&](double h) {
-        return run_leapfrog(scene, {h, run.duration, run.samples}, "mysim/leapfrog+events");
+        return run_leapfrog(scene, {h, shared.duration, shared.samples}, "mysim/leapfrog+events");
       },
       [](double ms) { return fmt::format("mysim/leapfrog+events at {:.3g} ms", ms); });
   if (!leapfrog) return std::nullopt;
-  return truth_of_routes(scene, run, std::move(*events), *leapfrog);
+  auto truth = truth_of_routes(scene, shared, std::move(*events), *leapfrog);
+  if (!truth) return std::nullopt;
+  if (shared.samples < run.samples) truth->until = std::min(truth->until, shared.duration);
+  if (std::isinf(truth->until)) return truth;
+  // what ends before anything was touched for a while shows nothing of contact
+  const Trajectory& known = truth->trajectory;
+  int touch = 0;
+  while (touch < known.frames() &&
+         !in_contact(*scene.model.find<Spheres>(), scene.model.particles, known.t[touch], known.x[touch]))
+    ++touch;
+  return touch + 1 < known.frames() ? truth : std::nullopt;
 } catch (const Unsupported&) {
   return std::nullopt;
 } catch (const SolverFailure&) {

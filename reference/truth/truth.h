@@ -42,12 +42,13 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run);
 /// to less than that is not known. The scene must be free of contact.
 std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 
-// Contact of few particles with spheres at rest: two independent routes as well.
+// Contact of few particles with spheres at rest: two independent routes as well, as long as both can be followed.
 
 /// The path is that of an event-driven run on equations written apart (truth/independent/event_driven.cpp) at the last
-/// of three tolerances, against mysim's leapfrog+events, whose step is halved as above; the bar as above. None for 50
-/// particles or more, where a sphere moves, a particle moves between two, a route fails, or the bar exceeds a hundredth
-/// of the motion.
+/// of three tolerances, against mysim's leapfrog+events, whose step is halved as above, up to 1e7 steps of a particle;
+/// the bar as above. It ends where the bar exceeds a hundredth of the motion, where events come too close to each other
+/// to be followed, and where a particle moves between two spheres. None for more than 150 particles, where a sphere
+/// moves, where a route fails at once, or where it would end before or at the first touch.
 std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 
 // The limit of a scene with contact as the step goes to 0, under the in-house contact rule.

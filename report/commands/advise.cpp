@@ -206,10 +206,7 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
   const auto file = out / "advice.toml";
   if (!toml.empty()) write_file(file, toml);
   if (options.tolerance > 0) {
-    std::vector<Method> methods;
-    if (!options.methods.empty()) methods = find_methods(options.methods);
-    for (Method& m : all_methods())
-      if (options.methods.empty() && m.family().is_subject()) methods.push_back(std::move(m));
+    std::vector<Method> methods = options.methods.empty() ? advisable_methods(*scene) : find_methods(options.methods);
     // the truth's run, and that of each method; each of them is tried at several steps
     require_resources_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
     Progress progress(0);

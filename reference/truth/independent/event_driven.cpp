@@ -5,8 +5,9 @@
 // Each free particle is in one of four modes. On a sphere of radius R about c, with r = x - c and n = r / R:
 //   flies    r'' = a, until |r| = R
 //   slides   differentiating |r|^2 = R^2 twice, r . r'' = -|r'|^2: the sphere pushes by N = -a.n - |r'|^2 / R along n,
-//   and by
-//            mu N against the motion; until N = 0 or r' = 0
+//            and by mu N against the motion; until N = 0 or r' = 0. Friction turns a slow motion along the force within
+//            |r'| / (mu N), close to rest faster than any step: where that time is below 1e-5 s and the force along the
+//            motion to a hundredth, it goes straight on ("creeps"), which leaves out a hundredth of |r'| at most
 //   sticks   r'' = 0, until the part of a along the surface exceeds mu N
 //   wedged   between two spheres, at rest: a lies between the planes of both, else the run is refused
 // An impact reverses the normal speed u times e and takes at most mu (1 + e) u of the tangential one. A rebound that is
@@ -14,12 +15,14 @@
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <variant>
 
 #include "mysim/base/errors.h"
@@ -32,8 +35,10 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-constexpr double shortest_flight = 1e-7;    // s; within it gravity moves a particle by 5e-14 m
-constexpr double surface_rounding = 1e-13;  // of the radius: no impact
+constexpr double shortest_flight = 1e-6;    // s; within it gravity moves a particle by 5e-12 m
+constexpr double fastest_turn = 1e5;        // 1/s, beyond it a slide creeps
+constexpr double surface_rounding = 2e-15;  // of the radius and the centre: no impact
+constexpr double most_work = 1e7;           // accelerations of a particle, from sample to sample: a second or two
 constexpr int most_events_in_interval = 10000;
 
 struct Ball {
@@ -45,6 +50,7 @@ struct Particle {
   enum class Mode { flies, slides, sticks, wedged } mode = Mode::flies;
   int ball = -1, other = -1;    // those that it touches
   Vec3 forward = Vec3::Zero();  // of its slide, where the last step began
+  bool creeps = false;          // a slide close to rest
 };
 
 Scene without_spheres(Scene scene) {
@@ -60,6 +66,24 @@ std::vector<Ball> balls_of(const Scene& scene) {
   std::vector<Ball> balls;
   for (const Sphere& s : spheres->list) balls.push_back({s.centre, s.radius + s.margin, s.friction, s.restitution});
   return balls;
+}
+
+/// Where a function that is negative at `high`, by `at_high`, and not at 0, becomes so, to round-off: a point where it
+/// is negative.
+template <class Function>
+double first_negative(Function f, double high, double at_high) {
+  constexpr double least = std::numeric_limits<double>::min();
+  const auto nowhere_zero = [&](double s) {
+    const double value = f(s);
+    return value == 0 ? least : value;
+  };
+  // what is 0 at the start, of a slide from rest say, counts as not negative: a half of the bracket is then tried
+  const double at_start = std::max(f(0), -at_high);
+  const auto narrow = [](double a, double b) {
+    return b - a <= 1e-16 + 4 * std::numeric_limits<double>::epsilon() * b;
+  };
+  std::uintmax_t iterations = 200;
+  return boost::math::tools::toms748_solve(nowhere_zero, 0., high, at_start, at_high, narrow, iterations).second;
 }
 
 class EventDrivenWorld : public World {
@@ -80,6 +104,7 @@ class EventDrivenWorld : public World {
   }
 
   void step(double t, double t_next) override {
+    const long begun = f_.evaluations();
     for (int events = 0; t < t_next;) {
       const bool last = t + 1.01 * h_ >= t_next;
       double h = last ? t_next - t : h_, now = t;
@@ -91,21 +116,23 @@ class EventDrivenWorld : public World {
         h_ = h;
         continue;
       }
+      if (static_cast<double>(f_.evaluations() - begun) * n_ > most_work)
+        throw SolverFailure(fmt::format("events too close to each other from t = {:.4g} s on", t));
       ++accepted_;
       const double taken = now - t;
       h_ = std::min(last ? std::max(h_, h) : h, longest_);
-      if (!any_event(y_, before, now)) {
+      const double after = least_margin(y_, before, now);
+      if (!(after < 0)) {
         t = last ? t_next : now;
       } else {
         if (++events > most_events_in_interval)
           throw SolverFailure(fmt::format("impacts without end at t = {:.4g} s", t));
         // the event is where the step is so short that nothing has happened yet
-        double low = 0, high = taken;
-        for (int i = 0; i < 60 && high - low > 1e-16; ++i) {
-          const double middle = (low + high) / 2;
-          y_ = advanced(before, t, middle);
-          (any_event(y_, before, t + middle) ? high : low) = middle;
-        }
+        const auto margin = [&](double part) {
+          y_ = advanced(before, t, part);
+          return least_margin(y_, before, t + part);
+        };
+        const double high = first_negative(margin, taken, after);
         y_ = advanced(before, t, high);
         t += high;
         happen(before, t);
@@ -157,7 +184,12 @@ class EventDrivenWorld : public World {
       Vec3 direction = along(v, n);
       const double size = direction.norm();
       direction = size > 0 ? Vec3(direction / size * (direction.dot(p.forward) < 0 ? -1 : 1)) : p.forward;
-      put(rate, n_ + i, a + pressed * n - friction * pressed * direction);
+      Vec3 sum = a + pressed * n - friction * pressed * direction;
+      if (p.creeps) {
+        const Vec3 e = along(p.forward, n).normalized(), force = along(a, n);
+        sum += force.dot(e) * e - force + friction * pressed * (direction - e);
+      }
+      put(rate, n_ + i, sum);
     }
   }
 
@@ -186,38 +218,43 @@ class EventDrivenWorld : public World {
     }
   }
 
-  bool enters(const StateVector& y, const StateVector& before, int i, int ball) const {
+  /// m: how far a particle is from running into a ball; negative where it does.
+  double way_in(const StateVector& y, const StateVector& before, int i, int ball) const {
     const Vec3 c = balls_[ball].centre;
-    if (height(y, i, ball) < -surface_rounding * balls_[ball].radius) return true;
+    const double rounding = surface_rounding * (balls_[ball].radius + c.norm()), above = height(y, i, ball) + rounding;
     // in and out again within the step: the height of the chord's nearest point, for steps far shorter than the ball
     const Vec3 from = place(before, i) - c, to = place(y, i) - c;
-    if (!(from.dot(speed(before, i)) < 0 && to.dot(speed(y, i)) > 0)) return false;
+    if (above < 0 || !(from.dot(speed(before, i)) < 0 && to.dot(speed(y, i)) > 0) || !(height(before, i, ball) > 0))
+      return above;
     const Vec3 way = to - from;
     const Vec3 nearest = from - from.dot(way) / way.squaredNorm() * way;
-    return nearest.norm() < balls_[ball].radius * (1 - surface_rounding) && height(before, i, ball) > 0;
+    return std::min(above, nearest.norm() - balls_[ball].radius + rounding);
   }
 
-  /// Whether a particle's mode ended between two states.
-  bool ended(const StateVector& y, const StateVector& before, int i) const {
+  /// Of a particle's mode, from one state to another: negative where it has ended. In m, m/s or m/s^2.
+  double margin(const StateVector& y, const StateVector& before, int i) const {
     const Particle& p = particles_[i];
     const Vec3 a = place(free_rate_, n_ + i);
+    double least = INFINITY;
     if (p.mode == Mode::flies || p.mode == Mode::slides)
       for (int ball = 0; ball < static_cast<int>(balls_.size()); ++ball)
-        if ((p.mode == Mode::flies || ball != p.ball) && enters(y, before, i, ball)) return true;
-    if (p.mode == Mode::slides)
-      return push(y, i, p.ball, a) < 0 || (balls_[p.ball].friction > 0 && speed(y, i).dot(p.forward) < 0);
+        if (p.mode == Mode::flies || ball != p.ball) least = std::min(least, way_in(y, before, i, ball));
+    if (p.mode == Mode::slides) {
+      least = std::min(least, push(y, i, p.ball, a));
+      if (balls_[p.ball].friction > 0) least = std::min(least, speed(y, i).dot(p.forward));
+    }
     if (p.mode == Mode::sticks)
-      return !(along(a, normal(y, i, p.ball)).norm() <= balls_[p.ball].friction * push(y, i, p.ball, a));
+      least = balls_[p.ball].friction * push(y, i, p.ball, a) - along(a, normal(y, i, p.ball)).norm();
     if (p.mode == Mode::wedged && !is_wedged(i, p.ball, p.other)) throw Unsupported("a particle leaves a wedge");
-    return false;
+    return least;
   }
-  bool any_event(const StateVector& y, const StateVector& before, double t) {
+  bool ended(const StateVector& y, const StateVector& before, int i) const { return !(margin(y, before, i) >= 0); }
+  double least_margin(const StateVector& y, const StateVector& before, double t) {
     f_(y, free_rate_, t);
-    for (int i = 0; i < n_; ++i)
-      if (ended(y, before, i)) return true;
-    return false;
+    double least = INFINITY;
+    for (int i = 0; i < n_; ++i) least = std::min(least, margin(y, before, i));
+    return least;
   }
-
   /// Lets what ended begin anew, at the present state.
   void happen(const StateVector& before, double t) {
     accelerations(t);
@@ -246,7 +283,11 @@ class EventDrivenWorld : public World {
     const Vec3 a = place(free_rate_, n_ + i);
     std::vector<int> touched;
     for (int ball = 0; ball < static_cast<int>(balls_.size()); ++ball)
-      if (height(y_, i, ball) <= 1e-11 * balls_[ball].radius) touched.push_back(ball);
+      if (height(y_, i, ball) <= 1e-11 * balls_[ball].radius) {
+        touched.push_back(ball);
+        // what is inside by rounding would be found to run in, again and again
+        if (height(y_, i, ball) < 0) put(y_, i, balls_[ball].centre + balls_[ball].radius * normal(y_, i, ball));
+      }
     p = {};
     bool hit = false;
     for (int round = 0; round < 10000; ++round) {
@@ -288,18 +329,24 @@ class EventDrivenWorld : public World {
     }
     p.mode = Mode::slides;
     p.forward = rests ? Vec3(force.normalized()) : Vec3(w.normalized());
+    p.creeps = rests && balls_[p.ball].friction > 0;
     if (rests) put(y_, n_ + i, Vec3::Zero());
     hold(i);
   }
 
-  /// Takes the rounding of a slide off the surface.
+  /// Takes the rounding of a slide off the surface, and tells whether it creeps.
   void hold(int i) {
-    const Particle& p = particles_[i];
+    Particle& p = particles_[i];
     if (p.mode != Mode::slides) return;
     const Ball& ball = balls_[p.ball];
     const Vec3 n = normal(y_, i, p.ball);
     put(y_, i, ball.centre + ball.radius * n);
     put(y_, n_ + i, along(speed(y_, i), n));
+    if (!(ball.friction > 0)) return;
+    const Vec3 a = place(free_rate_, n_ + i), force = along(a, n);
+    const double held = ball.friction * push(y_, i, p.ball, a);
+    const Vec3 aside = force - force.dot(p.forward) * p.forward;
+    p.creeps = aside.norm() < 0.01 * held && speed(y_, i).norm() * fastest_turn < held;
   }
 
   const std::vector<Ball> balls_;

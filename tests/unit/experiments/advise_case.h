@@ -41,4 +41,61 @@ inline AdviseCase advise_case(const Scene& scene, double part) {
   return c;
 }
 
+/// Advice on a scene with contact within a part of its motion, and its file run against the event-driven route after
+/// every step.
+struct ContactCase {
+  bool promised = false, met = false;
+  std::string why, method;
+  int particles = 0;
+  long steps = 0;
+  double duration = 0, until = 0, step = 0, tolerance = 0, error = 0, bar = 0;  // s and m
+};
+
+/// Observes every step.
+class StepRecorder : public Observer {
+ public:
+  bool every_step() const override { return true; }
+  Verdict observe(const State& state, bool) override {
+    states.push_back(state);
+    return Verdict::ok;
+  }
+  std::vector<State> states;
+};
+
+inline ContactCase contact_case(const Scene& scene, double part) {
+  ContactCase c{.particles = scene.model.particles.size(), .duration = scene.duration};
+  Recorder plain;
+  run_method(find_method("leapfrog"), scene, default_run(scene), {&plain});
+  c.tolerance = part * motion_of(plain.trajectory);
+  try {
+    const Advice a = advise(scene, c.tolerance, advisable_methods(scene));
+    c.promised = true, c.until = a.until, c.bar = a.error_bar, c.step = a.trials[a.chosen].step;
+    const Scene written = parse_scene(a.toml, scene.name);
+    const Method method = find_method(written.method);
+    c.method = written.method;
+    StepRecorder run;
+    const Outcome out = run_method(method, written, default_run(written), {&run});
+    // the other route, at every step of the run up to where the promise ends; where a rule chooses its steps these are
+    // the ends of the steps that it may take at most
+    Run dense = default_run(scene);
+    const double h = method.adaptive ? written.step : out.step;
+    dense.samples = scene.samples * std::max(1, static_cast<int>(std::lround(scene.duration / scene.samples / h)));
+    dense.tolerance = 1e-12;
+    Recorder truth;
+    run_event_driven(scene, dense, truth);
+    const Trajectory& path = truth.trajectory;
+    for (const State& s : run.states) {
+      if (s.t > a.until * (1 + 1e-9)) break;
+      const auto at = static_cast<size_t>(std::lround(s.t / scene.duration * dense.samples));
+      if (std::abs(path.t[at] - s.t) > 1e-9 * scene.duration) continue;
+      c.error = std::max(c.error, rms_distance(s.x, path.x[at]));
+      ++c.steps;
+    }
+    c.met = out.verdict == Verdict::ok && c.steps > 1 && c.error <= c.tolerance;
+  } catch (const CannotGuarantee& e) {
+    c.why = e.what();
+  }
+  return c;
+}
+
 }  // namespace crosscheck::testing_tools

@@ -5,6 +5,7 @@
 #include "experiments/scenes/scenes.h"
 #include "reference/truth/exact/exact.h"
 #include "reference/truth/truth.h"
+#include "tests/unit/experiments/advise_case.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
 
@@ -74,6 +75,17 @@ TEST(ContactTruth, IsCalledADifferenceInTheTables) {
     EXPECT_TRUE(std::holds_alternative<std::monostate>(rows.at(i, "error")));
     EXPECT_EQ(std::holds_alternative<double>(rows.at(i, "difference from converged contact")),
               std::get<double>(rows.at(i, "t")) < 0.361);
+  }
+}
+
+TEST(ContactTruth, AdvicePromisesOnRandomScenesAndKeepsItAfterEveryStep) {
+  // particles, a chain and a net; twenty seeds are those of `advise_trials contact 1 20`
+  for (const unsigned seed : {6u, 7u, 20u}) {
+    const ContactCase c = contact_case(random_contact_scene(seed), 0.01);
+    EXPECT_TRUE(c.promised) << seed << ": " << c.why;
+    EXPECT_LE(c.error, c.tolerance) << seed;
+    EXPECT_TRUE(c.met) << seed;
+    EXPECT_TRUE(c.method.ends_with("+events")) << c.method;
   }
 }
 

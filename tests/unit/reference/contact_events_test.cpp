@@ -6,6 +6,7 @@
 #include "reference/truth/independent/integrators.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
+#include "tests/unit/reference/random_scenes.h"
 
 namespace crosscheck {
 namespace {
@@ -262,6 +263,18 @@ TEST(EventTruth, OfAChainCoversItsErrorAndIsNoDifference) {
   EXPECT_LT(truth->error_bar, 1e-8 * scene.size());
 }
 
+TEST(EventDriven, StopsSlipsAndShortBouncesDoNotHoldItUp) {
+  // friction turns slow slides faster than any step: without creeping the second took 4e7 evaluations, the third came
+  // to no end; nor did the bounces of the first where an impact was seen 1e-13 of the radius inside
+  for (const unsigned seed : {3u, 4u, 8u}) {
+    const Scene scene = random_contact_scene(seed);
+    NullObserver nobody;
+    const Outcome out = run_event_driven(scene, {scene.step, scene.duration, 20, 1e-10}, nobody);
+    EXPECT_EQ(out.verdict, Verdict::ok) << seed;
+    EXPECT_LT(out.evaluations, 4e5) << seed;
+  }
+}
+
 TEST(EventTruth, IsNoneWhereARouteKnowsNothingAndSaysWhy) {
   const auto refused = [](const Scene& scene) -> std::string {
     EXPECT_FALSE(event_truth(scene, {1e-3, 0.1, 2}));
@@ -281,7 +294,7 @@ TEST(EventTruth, IsNoneWhereARouteKnowsNothingAndSaysWhy) {
   Scene groove = valley(1, 10, 0);
   groove.start.x.col(0) = Vec3(0.5, std::sqrt(0.75) * std::cos(0.3), std::sqrt(0.75) * std::sin(0.3));
   EXPECT_TRUE(contains(refused(groove), "between two balls"));
-  EXPECT_EQ(refused(chain_on_ball(60, 0)), "");  // it can be run, but truths of so many are not claimed
+  EXPECT_EQ(refused(chain_on_ball(160, 0)), "");  // it can be run, but truths of so many are not claimed
 }
 
 TEST(ContactEvents, NothingEndsInsideAndNothingPassesThrough) {

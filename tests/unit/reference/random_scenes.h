@@ -1,4 +1,4 @@
-// Random scenes, by seed: such as have a closed form, and small contact-free networks.
+// Random scenes, by seed: such as have a closed form, small contact-free networks, and few particles on balls at rest.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -32,6 +32,10 @@ class SceneWriter {
   }
   void drag(double gamma) {
     if (gamma > 0) text_ += fmt::format("[drag]\ngamma = {}\n", gamma);
+  }
+  void sphere(const Vec3& centre, double radius, double friction, double restitution) {
+    text_ += fmt::format("[[sphere]]\ncentre = {}\nradius = {}\nfriction = {}\nrestitution = {}\n", list(centre),
+                         radius, friction, restitution);
   }
   void wind(const Vec3& a) { text_ += fmt::format("[wind]\nacceleration = {}\n", list(a)); }
   /// After wind().
@@ -203,6 +207,81 @@ inline Scene random_contact_free_scene(unsigned seed) {
   // omega^2 <= 2 max sum k / m (Gershgorin), and a step is stable to 2 / omega
   const double omega = std::sqrt(2 * *std::max_element(load.begin(), load.end()));
   return w.scene(fmt::format("random-network-{}", seed), 0.5, 0.2 / omega, 10);
+}
+
+/// Particles, a pendulum, a short chain or a small net that falls on one ball or two at rest, with friction from 0 to
+/// 0.6 and restitution from 0 to 0.9, in drag or not. 0.5 to 1.2 s, in steps of a tenth of what is stable.
+inline Scene random_contact_scene(unsigned seed) {
+  Random random(seed);
+  SceneWriter w;
+  const double radius = random.between(0.3, 1), friction = chance(random, 0.25) ? 0 : random.between(0.05, 0.6);
+  const double restitution = chance(random, 0.5) ? 0 : random.between(0.1, 0.9);
+  const double mass = decades(random, 0.01, 0.5), high = radius + decades(random, 0.003, 0.2);
+  std::vector<Vec3> x;
+  std::vector<std::pair<int, int>> joined;
+  std::vector<int> pinned;
+  double omega_2 = 1e3;  // 1/s^2, k/m of the springs
+  int most = 2;          // springs at a particle
+  const int kind = seed % 5;
+  if (kind == 0) {  // one to four, thrown
+    for (int i = whole(random, 1, 4); i > 0; --i) x.push_back(Vec3(0, high, 0) + 0.4 * radius * random.vector());
+    for (Vec3& at : x) at *= std::max(1., (radius + 0.003) / at.norm());
+  } else if (kind == 1) {  // a pendulum of one or two springs, let go beside the ball
+    const double length = random.between(0.5, 1.2) * radius;
+    const Vec3 anchor(-random.between(0, 0.4) * radius, radius + random.between(0.5, 0.9) * length, 0);
+    const Vec3 along(-std::cos(random.between(0.1, 0.6)), std::sin(random.between(-0.2, 0.4)),
+                     random.between(-0.3, 0.3));
+    const int links = whole(random, 1, 2);
+    x.push_back(anchor);
+    for (int i = 1; i <= links; ++i) {
+      x.push_back(anchor + length * i / links * along.normalized());
+      joined.emplace_back(i - 1, i);
+    }
+    pinned = {0};
+    omega_2 = decades(random, 500, 5000);
+  } else if (kind == 2) {  // a chain across the ball, on it or above
+    const int n = whole(random, 3, 12);
+    const double span = random.between(0.5, 1.5), from = random.between(-1, 0) * span, turn = random.between(0, 3);
+    for (int i = 0; i < n; ++i) {
+      const double angle = from + span * i / (n - 1), away = high * std::sin(angle);
+      x.push_back({away * std::cos(turn), high * std::cos(angle), away * std::sin(turn)});
+      if (i > 0) joined.emplace_back(i - 1, i);
+    }
+    omega_2 = decades(random, 500, 5000);
+  } else {  // a net, level or a little tilted, off the centre
+    const int rows = whole(random, 2, 7), columns = whole(random, 2, 7);
+    const double side = random.between(0.4, 1.2) * radius, tilt = random.between(-0.1, 0.1);
+    const Vec3 u(1, tilt, 0), v(0, random.between(-0.1, 0.1), 1);
+    const double spacing = side / (std::max(rows, columns) - 1);
+    const Vec3 corner = Vec3(0, high + 0.25 * side, 0) - random.between(0.1, 0.9) * (columns - 1) * spacing * u -
+                        random.between(0.1, 0.9) * (rows - 1) * spacing * v;
+    for (int r = 0; r < rows; ++r)
+      for (int c = 0; c < columns; ++c) {
+        const int i = static_cast<int>(x.size());
+        x.push_back(corner + spacing * (c * u + r * v));
+        if (c > 0) joined.emplace_back(i - 1, i);
+        if (r > 0) joined.emplace_back(i - columns, i);
+        if (r > 0 && c > 0) joined.emplace_back(i - columns - 1, i), joined.emplace_back(i - columns, i - 1);
+      }
+    omega_2 = decades(random, 500, 5000), most = 8;
+  }
+  const double speed = kind == 1 ? 0 : decades(random, 0.05, 1);
+  const Vec3 all = speed * Vec3(random.between(-1, 1), random.between(-1, 0), random.between(-1, 1));
+  for (int i = 0; i < static_cast<int>(x.size()); ++i)
+    w.particle(x[i], mass,
+               std::count(pinned.begin(), pinned.end(), i) > 0 ? Vec3(0, 0, 0) : Vec3(all + 0.02 * random.vector()));
+  for (const auto& [a, b] : joined) w.spring(a, b, mass * omega_2, (x[a] - x[b]).norm());
+  if (!pinned.empty()) w.pins(pinned);
+  w.gravity({0, -9.81, 0});
+  if (chance(random, 0.6)) w.drag(decades(random, 0.2, 5));
+  w.sphere({0, 0, 0}, radius, friction, restitution);
+  if (chance(random, 0.3)) {  // a second ball below, that what slides off may meet
+    const double turn = random.between(0, 6.28), other = random.between(0.3, 0.8) * radius;
+    w.sphere({(radius + other) * std::cos(turn), -random.between(0.2, 0.6) * radius, (radius + other) * std::sin(turn)},
+             other, friction, restitution);
+  }
+  const double omega = joined.empty() ? 100 : std::sqrt(2 * most * omega_2);
+  return w.scene(fmt::format("random-contact-{}", seed), random.between(0.5, 1.2), 0.2 / omega, 20);
 }
 
 }  // namespace crosscheck::testing_tools
