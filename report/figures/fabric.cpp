@@ -137,8 +137,7 @@ Chart hanging(const std::vector<HangingStripRow>& rows, const std::vector<Hangin
       nice(100 * worst), low, high);
   f.caption = fmt::format("A strip of 20 cm between hinges 14 cm apart; commit {}.", commit);
   f.tier = "closed form of the catenary, and two-point problem of the elastica";
-  return {"", std::move(f), "fabric",
-          "Without bending the strip is a chain; with it, the hinges turn but do not bend it."};
+  return {"", std::move(f), "fabric"};
 }
 
 /// The drape itself, from above and from the side: a scene that rests there.
@@ -174,7 +173,7 @@ Chart drape(const std::vector<DrapedDiscRow>& rows, const std::vector<DrapedPart
   f.title = "A round cloth over a disc: the drape coefficient of states of rest";
   f.x = {"nodes (folds of the cloth)", false, 3.5, 9.5};
   for (int nodes = 4; nodes < 10; ++nodes) f.categories.emplace_back(nodes, std::to_string(nodes));
-  f.y = {"drape coefficient / %", false, 60, 80};
+  f.y = {"drape coefficient / %", false, 64, 80};
   f.floor = {"cotton, measured", 68.4};
   // on the finest net; of the same cloth as the first
   const DrapedDiscRow& lowest = *std::find_if(
@@ -197,17 +196,15 @@ Chart drape(const std::vector<DrapedDiscRow>& rows, const std::vector<DrapedPart
       "states of all starts have {:.0f} to {:.0f} %.",
       lowest.nodes, lowest.coefficient, std::abs(lowest.coefficient - before), lowest.rings / 2, least, most);
   f.caption = fmt::format(
-      "Specimen of 30 cm, disc of 18 cm (ISO 9073-9), B = {:g} µN m, 0.15 kg/m², C66 = {:g} N/m; with four times as "
-      "much "
-      "{:.1f} % on {} rings. Cotton: 68.4 measured, 71.0 by finite elements (Gan, Ly, Steven 1991), 60 to 76 "
-      "elsewhere; "
-      "commit {}.",
+      "30 cm over 18 cm (ISO 9073-9), B = {:g} µN m, 0.15 kg/m², C66 = {:g} N/m; with four times as much {:.1f} % "
+      "on {} rings. Cotton: 68.4 measured, 71.0 by finite elements (Gan, Ly, Steven 1991), 60 to 76 elsewhere; commit "
+      "{}.",
       1e6 * lowest.rigidity, lowest.shear, sheared, rows.front().rings, commit);
   f.tier = "difference from net to net; the fabric measured is another";
   Chart chart{
       "", std::move(f), "fabric",
-      "A cloth hangs in one of several numbers of folds, by how it was laid down: the spread over the starts is "
-      "the error bar of its coefficient. Folds do not touch here, and what lies on the disc is held."};
+      "How the cloth was laid down decides its folds: the spread over the starts is the error bar. Folds do not "
+      "touch here."};
   if (!shape.empty()) {
     chart.snapshots.push_back(draped(shape, "fabric-drape-above", {0.02, 1, 0}, "The drape, from above"));
     chart.snapshots.push_back(draped(shape, "fabric-drape-side", {0.3, 0.45, 1}, "and from the side"));
