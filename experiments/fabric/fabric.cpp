@@ -1,12 +1,18 @@
-// Experiment `fabric`: strips of cloth with the bending term against Euler's elastica and a clamped beam, over the
-// grid; and skip-one springs beside it.
+// Experiment `fabric`: strips of cloth with the bending term against Euler's elastica, a clamped beam and the catenary,
+// over the grid; skip-one springs beside it; and Cusick's drape.
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "experiments/experiment.h"
+#include "experiments/fabric/disc.h"
+#include "experiments/fabric/rest.h"
 #include "experiments/fabric/strip.h"
 #include "experiments/tables/fabric.h"
+#include "mysim/model/energy.h"
 
 namespace crosscheck {
 namespace {
@@ -90,13 +96,105 @@ void skip_one(TableSet& tables) {
   tables.add(table);
 }
 
+void hanging(TableSet& tables) {
+  Table table = table_of<HangingStripRow>(), shapes = table_of<HangingShapeRow>();
+  for (const double gamma : {0., 60.})
+    for (const int cells : grids) {
+      const HangingNet net{cells, gamma};
+      const HangingStrip strip = continuum_of(net);
+      const Scene scene = strip_scene(net);
+      const auto rest = rest_near(scene, scene.start.x);
+      if (!rest) throw std::runtime_error("a hanging strip found no rest");
+      const double sag = sag_of(net, *rest), truth = strip.sag() / strip_length;
+      add(table, HangingStripRow{cells, gamma, sag, truth, sag / truth - 1});
+      constexpr int drawn = 16, fine = 4;  // cells of the net in the figure, places of the curve for each
+      if (cells == drawn)
+        for (int i = 0; i <= drawn * fine; ++i) {
+          const HangingStrip::Place place = strip.at(strip_length * (static_cast<double>(i) / (drawn * fine) - 0.5));
+          HangingShapeRow row{gamma, place.x, place.height - strip.sag()};
+          if (i % fine == 0) row.net_x = (*rest)(0, i / fine), row.net_height = (*rest)(1, i / fine);
+          add(shapes, row);
+        }
+    }
+  tables.add(table);
+  tables.add(shapes);
+}
+
+/// A cloth as stiff as makes its bending length (B / w)^(1/3) 2.4 cm.
+constexpr double draped_rigidity = 2e-5;  // N m
+
+struct Drape {
+  DrapedDisc disc;
+  std::string start;
+  Points rest;
+  double energy;
+};
+
+/// Nothing where no rest is found.
+std::optional<Drape> drape_from(const DrapedDisc& disc, const std::string& start, const Points& guess) {
+  const Scene scene = disc_scene(disc);
+  const auto rest = rest_near(scene, guess);
+  if (!rest) return std::nullopt;
+  const Energy energy = energy_of(scene.model, State{0, *rest, scene.start.v});
+  return Drape{disc, start, *rest, energy.elastic + energy.gravitational};
+}
+
+void add_drape(Table& table, const Drape& drape) {
+  add(table, DrapedDiscRow{drape.start, drape.disc.rings, nodes_of(drape.disc, drape.rest), drape.disc.rigidity,
+                           drape.disc.shear, drape_coefficient(drape.disc, drape.rest), drape.energy});
+}
+
+/// From several starts on a coarse net; the lowest one is followed to finer nets.
+void drapes(TableSet& tables, int finest, int most_waves, unsigned random_starts) {
+  Table table = table_of<DrapedDiscRow>(), shape = table_of<DrapedParticleRow>();
+  std::vector<Drape> found;
+  const DrapedDisc coarse{8, draped_rigidity};
+  const auto search = [&](const DrapedDisc& disc, const std::string& start, const Points& guess) {
+    auto drape = drape_from(disc, start, guess);
+    if (drape)
+      add_drape(table, *drape);
+    else
+      tables.notes.push_back(fmt::format("fabric: no rest was found from {} on {} rings", start, disc.rings));
+    return drape;
+  };
+  const auto search_from = [&](int waves, unsigned seed, const std::string& start) {
+    if (auto drape = search(coarse, start, wavy(coarse, waves, seed))) found.push_back(std::move(*drape));
+  };
+  for (int waves = 4; waves <= most_waves; ++waves) search_from(waves, 1, fmt::format("{} waves", waves));
+  for (unsigned seed = 1; seed <= random_starts; ++seed) search_from(0, seed, fmt::format("random {}", seed));
+  if (found.empty()) throw std::runtime_error("a draped disc found no rest");
+  Drape lowest = *std::ranges::min_element(found, {}, &Drape::energy);
+  DrapedDisc sheared = coarse;
+  sheared.shear *= 4;
+  search(sheared, lowest.start, lowest.rest);
+  while (2 * lowest.disc.rings <= finest) {
+    DrapedDisc finer = lowest.disc;
+    finer.rings *= 2;
+    auto drape = search(finer, lowest.start, on_net(lowest.disc, lowest.rest, finer));
+    if (!drape) break;
+    lowest = std::move(*drape);
+    if (finer.rings == 16)
+      for (int i = 0; i <= finer.rings + 1; ++i)
+        for (int j = 0; j < finer.spokes(); ++j) {
+          const Vec3 at = lowest.rest.col(finer.particle(i, j));
+          add(shape, DrapedParticleRow{i, j, at.x(), at.y(), at.z()});
+        }
+  }
+  tables.add(table);
+  tables.add(shape);
+}
+
 }  // namespace
 
 std::vector<Point> fabric_points(const Request& request) {
   if (request.scenes_only) return {};
+  const bool full = request.full;
   return {{"fabric: cantilevers", "drops", cantilevers},
           {"fabric: vibrations", "frequencies", vibrations},
-          {"fabric: skip-one springs", "drops", skip_one}};
+          {"fabric: skip-one springs", "drops", skip_one},
+          {"fabric: hanging strips", "sags", hanging},
+          {"fabric: drapes", full ? "up to 64 rings" : "up to 16 rings",
+           [full](TableSet& tables) { full ? drapes(tables, 64, 9, 10) : drapes(tables, 16, 7, 0); }}};
 }
 
 }  // namespace crosscheck

@@ -1,22 +1,36 @@
 #include "experiments/fabric/strip.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <Eigen/Eigenvalues>
-#include <Eigen/SparseCholesky>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "experiments/stability/spectrum.h"
-#include "mysim/model/energy.h"
-#include "mysim/model/system.h"
 
 namespace crosscheck {
 namespace {
 
-constexpr double strip_length = 0.2, gravity = 9.81;
+constexpr double gravity = 9.81, hanging_span = 0.7 * strip_length;
 
 double cell_of(const StripNet& net) { return strip_length / net.cells; }
+
+/// Two rows of particles along a strip that begins at `from`, whose springs give way by a millionth of its length under
+/// the load (N/m); bending rigidity and skip-one stiffness, 0: none.
+Scene two_rows(int cells, double from, double load, const std::array<int, 4>& pins, double rigidity, double skip_one) {
+  const double d = strip_length / cells, k = load * 1e6 / 2;  // two rows of k each on a width of d
+  return parse_scene(
+      fmt::format("question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 1\nstep = 1e-4\nwindow = 1\n"
+                  "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = [{}, 2]\norigin = [{}, 0, 0]\n"
+                  "u = [{}, 0, 0]\nv = [0, 0, {}]\nmass = {}\n{}[grid.stiffness]\nstructural = {}\nshear = {}\n{}"
+                  "[pins]\nparticles = [{}]\n[gravity]\nacceleration = [0, {}, 0]\n",
+                  cells + 1, from, strip_length, d, strip_density * d * d * (cells + 1),
+                  rigidity > 0 ? fmt::format("bending = {}\n", rigidity) : "", k, k,
+                  skip_one > 0 ? fmt::format("bend = {}\n", skip_one) : "", fmt::join(pins, ", "), -gravity),
+      "strip");
+}
 
 }  // namespace
 
@@ -31,21 +45,35 @@ Scene strip_scene(const StripNet& net) {
   const ClampedStrip strip = continuum_of(net);
   const double d = cell_of(net);
   const int n = net.cells + 1;  // particles in a row
-  // two rows of k each on a width of d
-  const double k = (strip.weight * strip.length + strip.load) * 1e6 / 2;
-  Scene scene = parse_scene(
-      fmt::format("question = \"q\"\nparameters = \"p\"\n[time]\nduration = 1\nsamples = 1\nstep = 1e-4\nwindow = 1\n"
-                  "tolerance = 1e-3\nmethod = \"leapfrog\"\n[grid]\nsize = [{}, 2]\norigin = [{}, 0, 0]\n"
-                  "u = [{}, 0, 0]\nv = [0, 0, {}]\nmass = {}\n{}[grid.stiffness]\nstructural = {}\nshear = {}\n{}"
-                  "[pins]\nparticles = [0, 1, {}, {}]\n[gravity]\nacceleration = [0, {}, 0]\n",
-                  n, -d / 2, strip.length, d, strip_density * d * d * n,
-                  net.skip_one ? "" : fmt::format("bending = {}\n", strip.rigidity), k, k,
-                  net.skip_one ? fmt::format("bend = {}\n", *net.skip_one) : "", n, n + 1, -gravity),
-      "strip");
+  Scene scene = two_rows(net.cells, -d / 2, strip.weight * strip.length + strip.load, {0, 1, n, n + 1},
+                         net.skip_one ? 0 : strip.rigidity, net.skip_one.value_or(0));
   for (const int last : {n - 1, 2 * n - 1}) scene.model.particles.mass[last] += strip.load * d / gravity / 2;
   scene.hash = hash_of(scene);
   return scene;
 }
+
+HangingStrip continuum_of(const HangingNet& net) {
+  const double weight = strip_density * gravity;
+  return {strip_length, hanging_span, weight, net.gamma > 0 ? weight * std::pow(strip_length, 3) / net.gamma : 0};
+}
+
+Scene strip_scene(const HangingNet& net) {
+  const double weight = strip_density * gravity, d = strip_length / net.cells;
+  const int n = net.cells + 1;
+  Scene scene = two_rows(net.cells, -strip_length / 2, weight * strip_length, {0, n - 1, n, 2 * n - 1},
+                         net.gamma > 0 ? weight * std::pow(strip_length, 3) / net.gamma : 0, 0);
+  const HangingStrip strip = continuum_of(net);
+  for (int i = 0; i < 2 * n; ++i) {
+    const HangingStrip::Place place = strip.at((i % n) * d - strip_length / 2);
+    scene.start.x.col(i).head<2>() << place.x, place.height - strip.sag();
+  }
+  for (int pin = 0; pin < 4; ++pin)
+    scene.model.particles.pin_home.col(pin) = scene.start.x.col(scene.model.particles.pins[pin]);
+  scene.hash = hash_of(scene);
+  return scene;
+}
+
+double sag_of(const HangingNet& net, const Points& x) { return -x(1, net.cells / 2) / strip_length; }
 
 double drop_of(const StripNet& net, const Points& x) {
   const double last = x(1, net.cells), before = x(1, net.cells - 1);
@@ -65,45 +93,6 @@ Points along_elastica(const StripNet& net) {
           x.col(row * n + i - 1).head<2>() + d * Vec3(std::cos(angle), -std::sin(angle), 0).head<2>();
     }
   return x;
-}
-
-std::optional<Points> rest_near(const Scene& scene, const Points& guess) {
-  const Model& model = scene.model;
-  System f(model);
-  State s = scene.start;
-  s.x = guess;
-  Points a(3, s.x.cols()), tried(3, s.x.cols());
-  const auto energy = [&](const State& state) {
-    const Energy e = energy_of(model, state);
-    return e.elastic + e.gravitational;
-  };
-  f.acceleration(s, a);
-  double lowest = energy(s), shift = 0;
-  constexpr int most = 5000;
-  for (int i = 0; i < most; ++i) {
-    const Linearised l = linearised(model, s);
-    const double stiffest = l.k.diagonal().maxCoeff();
-    Eigen::SparseMatrix<double> k = l.k;
-    for (int j = 0; j < l.size(); ++j) k.coeffRef(j, j) += shift;
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(k);
-    if (solver.info() == Eigen::Success && (solver.vectorD().array() > 0).all()) {
-      State next = s;
-      next.x += l.offsets(solver.solve(l.weighted(a)), static_cast<int>(s.x.cols()));
-      f.acceleration(next, tried);
-      const double reached = energy(next);
-      const bool is_nearer = largest_column(tried) < 0.5 * largest_column(a);
-      if (is_nearer || reached < lowest - 1e-13 * std::abs(lowest)) {
-        s = std::move(next), a = tried, lowest = reached;
-        shift = shift > 1e-12 * stiffest ? shift / 5 : 0;
-        continue;
-      }
-      // nothing to gain, in forces by half or in energy above its rounding: what is left is that of stiff springs
-      if (largest_column(a) <= 1e-4 * gravity) return s.x;
-    }
-    if (shift > stiffest) break;
-    shift = std::max(4 * shift, 1e-12 * stiffest);
-  }
-  return std::nullopt;
 }
 
 std::vector<double> frequencies_of(const StripNet& net) {

@@ -21,6 +21,7 @@ struct StripNet {
 /// The strip as a continuum: 0.2 m long, 0.2 kg/m^2.
 ClampedStrip continuum_of(const StripNet& net);
 constexpr double strip_density = 0.2;  // kg/m^2
+constexpr double strip_length = 0.2;   // m
 
 /// The particles stand in the middle of cells of equal mass, and two columns of pins half a cell before the clamp and
 /// behind it, level; its springs give way by a millionth of the length under its own weight and the load.
@@ -29,12 +30,19 @@ Scene strip_scene(const StripNet& net);
 /// Drop of the tip over the length: half a cell beyond the last particle, in its direction.
 double drop_of(const StripNet& net, const Points& x);
 
+/// The strip between two hinges on one level, 0.7 of its length apart.
+struct HangingNet {
+  int cells;         // even
+  double gamma = 0;  // w L^3 / B; 0: without bending
+};
+HangingStrip continuum_of(const HangingNet& net);
+/// Its first and its last column are pinned. The start is along the continuum.
+Scene strip_scene(const HangingNet& net);
+/// Depth of its middle below the hinges, over the length.
+double sag_of(const HangingNet& net, const Points& x);
+
 /// The particles along the elastica, each a cell from the one before.
 Points along_elastica(const StripNet& net);
-
-/// The scene's state of rest (3 x n, m) that Newton's method, kept downhill (K. Levenberg, 1944), finds from a guess;
-/// nothing where it does not get to a ten-thousandth of gravity.
-std::optional<Points> rest_near(const Scene& scene, const Points& guess);
 
 /// Frequencies (Hz) of the strip's vibrations out of its plane, both rows alike, about the flat state; rising.
 std::vector<double> frequencies_of(const StripNet& net);

@@ -27,6 +27,7 @@ Sparse assembled(const std::vector<Tangent::Pair>& pairs, const std::vector<int>
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j) {
             const int row = row_of[3 * a + i], column = row_of[3 * b + j];
+            if (i != j && p.along == p.across) continue;  // a multiple of the unit matrix
             if (row < 0 || column < 0) continue;
             parts.emplace_back(row, column, (a == b ? 1 : -1) * block(i, j) / (root[row] * root[column]));
           }

@@ -28,7 +28,8 @@ using AllRows = std::tuple<                                                     
     AdequacyRow, LeastModelRow, GridRow, BendingRow, ScalingRow,                               //
     OrderRow, OrderSlopeRow,                                                                   //
     LinkStiffnessRow, NetworkStiffnessRow, EffectiveStiffnessRow, PulledSheetRow,              //
-    CantileverRow, StripVibrationRow, SkipOneRow,                                              //
+    CantileverRow, StripVibrationRow, SkipOneRow, HangingStripRow, HangingShapeRow,            //
+    DrapedDiscRow, DrapedParticleRow,                                                          //
     DisagreementRow, DisagreementCurveRow, ContactAngleRow,                                    //
     SpeedAccuracyRow, SpeedAccuracyTimingRow, SpeedAccuracyCostRow, ParetoRow<Cost::evaluations>,
     ParetoRow<Cost::cpu>,                                                                           //

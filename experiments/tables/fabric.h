@@ -54,4 +54,66 @@ struct SkipOneRow {
   };
 };
 
+/// A strip that hangs between two hinges.
+struct HangingStripRow {
+  long cells = 0;
+  double gamma = 0, sag = 0, truth = 0, deviation = 0;
+
+  static constexpr std::string_view table = "fabric-hanging";
+  static constexpr auto columns = [](auto&& column) {
+    column("cells", "1", &HangingStripRow::cells, "cells along the strip"),
+        column("gamma", "1", &HangingStripRow::gamma, "weight per area x length^3 / rigidity; 0: without bending"),
+        column("sag", "1", &HangingStripRow::sag, "how far the middle hangs below the hinges, over the length"),
+        column("true sag", "1", &HangingStripRow::truth, "of the catenary; with bending by the two-point problem"),
+        column("deviation", "1", &HangingStripRow::deviation, "sag over the true one, less 1");
+  };
+};
+
+/// The same strip along its length, on one grid: where it should be and, at each particle, where the net is.
+struct HangingShapeRow {
+  double gamma = 0, x = 0, height = 0;
+  std::optional<double> net_x = {}, net_height = {};
+
+  static constexpr std::string_view table = "fabric-hanging-shapes";
+  static constexpr auto columns = [](auto&& column) {
+    column("gamma", "1", &HangingShapeRow::gamma, "weight per area x length^3 / rigidity; 0: without bending"),
+        column("x", "m", &HangingShapeRow::x, "of the true curve, from the middle"),
+        column("height", "m", &HangingShapeRow::height, "of the true curve, above the hinges"),
+        column("net x", "m", &HangingShapeRow::net_x, "of the particle that belongs there; empty: none does"),
+        column("net height", "m", &HangingShapeRow::net_height, "of the particle that belongs there");
+  };
+};
+
+/// A round cloth over a disc: a state of rest that was found from one start.
+struct DrapedDiscRow {
+  std::string start;
+  long rings = 0, nodes = 0;
+  double rigidity = 0, shear = 0, coefficient = 0, energy = 0;
+
+  static constexpr std::string_view table = "fabric-drapes";
+  static constexpr auto columns = [](auto&& column) {
+    column("start", "1", &DrapedDiscRow::start, "the shape that the search began from"),
+        column("rings", "1", &DrapedDiscRow::rings, "rings of free particles between the disc and the rim"),
+        column("rigidity", "N m", &DrapedDiscRow::rigidity, "bending rigidity of the cloth"),
+        column("shear stiffness", "N/m", &DrapedDiscRow::shear, "C66 of the cloth in its plane, a third of C11"),
+        column("nodes", "1", &DrapedDiscRow::nodes, "folds of the cloth at rest"),
+        column("drape coefficient", "%", &DrapedDiscRow::coefficient, "(projected area - disc) / (specimen - disc)"),
+        column("energy", "J", &DrapedDiscRow::energy, "elastic and gravitational energy above the flat sheet's");
+  };
+};
+
+/// The particles of the drape of lowest energy, on one net.
+struct DrapedParticleRow {
+  long ring = 0, spoke = 0;
+  double x = 0, y = 0, z = 0;
+
+  static constexpr std::string_view table = "fabric-drape-shape";
+  static constexpr auto columns = [](auto&& column) {
+    column("ring", "1", &DrapedParticleRow::ring, "from the disc's edge outwards; the first two are pinned"),
+        column("spoke", "1", &DrapedParticleRow::spoke, "around the axis"),
+        column("x", "m", &DrapedParticleRow::x, "position"), column("y", "m", &DrapedParticleRow::y, "height"),
+        column("z", "m", &DrapedParticleRow::z, "position");
+  };
+};
+
 }  // namespace crosscheck

@@ -68,6 +68,79 @@ Elastica::Place Elastica::at(double s) const {
   return {state[2], state[3], state[0]};
 }
 
+namespace {
+
+using HangingState = std::array<double, 4>;
+
+/// Between hinges that pull it rises from its middle to them, by less than a right angle.
+constexpr double most_angle = std::numbers::pi / 2;
+
+/// Half of a hanging strip, in units of its length: theta'' = pull sin theta - weight s cos theta from theta'(0) on;
+/// states after each of the steps, up to one that bends down or stands upright.
+std::vector<HangingState> hanging_states(double pull, double weight, double curvature) {
+  boost::numeric::odeint::runge_kutta4<HangingState> rule;
+  HangingState state{0, curvature, 0, 0};
+  std::vector<HangingState> all{state};
+  for (int i = 0; i < steps; ++i) {
+    rule.do_step(
+        [&](const HangingState& y, HangingState& rate, double s) {
+          rate = {y[1], pull * std::sin(y[0]) - weight * s * std::cos(y[0]), std::cos(y[0]), std::sin(y[0])};
+        },
+        state, static_cast<double>(i) / steps, 1. / steps);
+    all.push_back(state);
+    if (state[0] < 0 || state[0] > most_angle) break;
+  }
+  return all;
+}
+
+/// The first theta'(0) above 0 at which no moment is left at the hinge: at 0 the strip bends down, at weight / 2, what
+/// a level beam has without pull, up.
+double hanging_curvature(double pull, double weight) {
+  const auto left = [&](double curvature) {
+    const HangingState end = hanging_states(pull, weight, curvature).back();
+    return end[0] > most_angle ? 1 : end[0] < 0 ? -1 : end[1];
+  };
+  double low = 0, high = 0;
+  const double most = 0.51 * weight;
+  while (high < most && left(high) < 0) low = high, high += 0.02 * most;
+  return root_between(low, high, left);
+}
+
+}  // namespace
+
+HangingStrip::HangingStrip(double length, double span, double weight, double rigidity) : half_(length / 2) {
+  assert(0 < span && span < length && weight > 0 && rigidity >= 0);
+  // sinh(u) / u = length / span with u = span / (2 H / w); between 0 and where sinh(u) / u > e^u / (2 u) is larger
+  const double ratio = length / span;
+  const double u =
+      root_between(1e-8, 4 + 2 * std::log(ratio + 1), [&](double at) { return std::sinh(at) / at - ratio; });
+  const double catenary = span / (2 * u);
+  if (rigidity == 0) {
+    catenary_ = catenary;
+    return;
+  }
+  const double unit = half_ * half_ / rigidity, carried = weight * half_ * unit;
+  const auto too_wide = [&](double pull) {
+    return hanging_states(pull, carried, hanging_curvature(pull, carried)).back()[2] - span / length;
+  };
+  assert(too_wide(0) < 0);
+  const double pull = root_between(0, 3 * weight * catenary * unit, too_wide);
+  states_ = hanging_states(pull, carried, hanging_curvature(pull, carried));
+}
+
+HangingStrip::Place HangingStrip::at(double s) const {
+  const double from_middle = std::abs(s), side = s < 0 ? -1 : 1;
+  if (states_.empty())
+    return {side * catenary_ * std::asinh(from_middle / catenary_), std::hypot(catenary_, from_middle) - catenary_};
+  // along the curve from the step before, by the angle half way: an error of the order of a step's cube
+  const double at = from_middle / half_ * steps;
+  const size_t i = std::min<size_t>(static_cast<size_t>(at), states_.size() - 1);
+  const double ds = (at - static_cast<double>(i)) / steps;
+  const auto& [angle, curvature, x, height] = states_[i];
+  const double between = angle + curvature * ds / 2;
+  return {side * half_ * (x + ds * std::cos(between)), half_ * (height + ds * std::sin(between))};
+}
+
 double vibration_of_clamped_strip(const ClampedStrip& strip, double density, int mode) {
   // the roots lie near odd multiples of pi / 2; divided by cosh, the function stays of the order of 1
   const double near = (mode + 0.5) * std::numbers::pi;

@@ -43,6 +43,28 @@ class Elastica {
   std::vector<State> states_;
 };
 
+/// A strip that hangs between two hinges on one level, closer to each other than it is long. With theta the angle above
+/// the level at arc length s from its middle, where it is lowest, H the pull along the level and w s the weight
+/// between,
+///   B theta'' = H sin theta - w s cos theta, theta(0) = 0, theta'(L/2) = 0, the integral of cos theta half the span.
+/// Solved by shooting over theta'(0), for each H, and over H. Without rigidity it is a catenary in closed form:
+/// tan theta = w s / H.
+class HangingStrip {
+ public:
+  /// Lengths in m, weight in N/m^2, rigidity in N m (0: none; at most so much that the hinges still pull).
+  HangingStrip(double length, double span, double weight, double rigidity);
+
+  struct Place {
+    double x, height;  // m from the middle, above it
+  };
+  Place at(double s) const;  // from -length / 2 to length / 2
+  double sag() const { return at(half_).height; }
+
+ private:
+  double half_, catenary_ = 0;                 // m; H / w of a catenary, 0 with bending
+  std::vector<std::array<double, 4>> states_;  // theta, theta', x, height over half the length, evenly spaced
+};
+
 /// Frequency (Hz) of the strip's first, second or third vibration without weight (mode 0 to 2): beta^2 / (2 pi)
 /// sqrt(B / (rho L^4)), rho its mass per area (kg/m^2), cos beta cosh beta = -1.
 double vibration_of_clamped_strip(const ClampedStrip& strip, double density, int mode);

@@ -1,9 +1,17 @@
 // Strips of cloth against the elastica: the two-point problem against published and limiting values, drops and
 // frequencies over the grid, and what skip-one springs make of the same.
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+
 #include <numbers>
 
+#include "experiments/fabric/disc.h"
+#include "experiments/fabric/rest.h"
 #include "experiments/fabric/strip.h"
+#include "experiments/stability/spectrum.h"
+#include "mysim/model/energy.h"
 #include "tests/unit/helpers.h"
 
 namespace crosscheck {
@@ -75,6 +83,181 @@ TEST(Fabric, ACantileverHangsAsTheElasticaToTheSecondOrder) {
     EXPECT_LT(std::abs(fine), 5e-4);
     EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
   }
+}
+
+TEST(HangingStrip, IsACatenaryInTheLimit) {
+  const HangingStrip loose(2, 1.4, 3, 0);
+  // a height h at arc length s is that of a catenary of c = (s^2 - h^2) / 2 h, which holds for every s
+  const double h = loose.at(0.5).height, c = (0.25 - h * h) / (2 * h);
+  EXPECT_NEAR(loose.at(1).x, 0.7, 1e-12);
+  EXPECT_NEAR(loose.at(-1).x, -0.7, 1e-12);
+  EXPECT_NEAR(loose.sag(), c * (std::cosh(0.7 / c) - 1), 1e-12);
+  // with little rigidity the sag differs in proportion to it, but for what acts within (B / H)^(1/2) of the hinges,
+  // a twentieth of the half, and falls with the root of the rigidity
+  const HangingStrip limp(2, 1.4, 3, 0.006), limper(2, 1.4, 3, 0.003);
+  EXPECT_NEAR((limp.sag() - loose.sag()) / (limper.sag() - loose.sag()), 2, 0.25);
+  EXPECT_NEAR(limp.at(1).x, 0.7, 1e-9);
+  // between two steps of the integration as on them
+  EXPECT_NEAR((limp.at(0.50005).height - limp.at(0.49995).height) / 1e-4,
+              (limp.at(0.5005).height - limp.at(0.4995).height) / 1e-3, 1e-6);
+}
+
+TEST(Fabric, AStripBetweenHingesHangsAsTheContinuumToTheSecondOrder) {
+  for (const double gamma : {0., 60.}) {
+    SCOPED_TRACE(fmt::format("w L^3 / B = {}", gamma));
+    const auto deviation = [&](int cells) {
+      const HangingNet net{cells, gamma};
+      const Scene scene = strip_scene(net);
+      const auto rest = rest_near(scene, scene.start.x);
+      EXPECT_TRUE(rest);
+      return rest ? sag_of(net, *rest) / (continuum_of(net).sag() / strip_length) - 1 : NAN;
+    };
+    const double coarse = deviation(32), fine = deviation(64);
+    fmt::print("gamma {}: {:.2e} {:.2e} order {:.3f}\n", gamma, coarse, fine, std::log2(coarse / fine));
+    EXPECT_LT(std::abs(fine), 5e-4);
+    EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
+  }
+}
+
+TEST(DrapedDisc, BendsAsAPlateOfGivenDeflection) {
+  // the flat sheet, and any sheet that is linear in it, hold no energy
+  const DrapedDisc disc{16, 2e-5};
+  const auto energy_of_heights = [](const DrapedDisc& d, auto height) {
+    const Scene scene = disc_scene(d);
+    State s = scene.start;
+    for (int i = 0; i < s.x.cols(); ++i)
+      s.x(1, i) = height(std::hypot(s.x(0, i), s.x(2, i)), std::atan2(s.x(2, i), s.x(0, i)));
+    return potential_energy(*scene.model.find<Bending>(), scene.model.particles, s);
+  };
+  EXPECT_LT(energy_of_heights(disc, [](double r, double t) { return r * std::cos(t + 1); }),
+            1e-22 * energy_of_heights(disc, [](double r, double) { return r * r; }));
+  // r^3 cos 3t has x_rr = 6 r cos 3t = -(x_r / r + x_tt / r^2) and (x_t / r)_r = -6 r sin 3t; of constant r each gives
+  // 36 pi r^3 B / 2, the twist twice. x_rr counts up to half a spacing before the rim, where no moment acts, the twist
+  // from half a spacing inside the disc's edge
+  const auto deviation = [&](int rings) {
+    const DrapedDisc d{rings, 2e-5};
+    const double half = d.spacing() / 2;
+    const auto up_to = [](double r) { return std::pow(r, 4) / 4; };
+    const double truth = d.rigidity / 2 * 36 * std::numbers::pi *
+                         (up_to(d.specimen - half) + up_to(d.specimen) - 2 * up_to(d.disc) +
+                          2 * (up_to(d.specimen) - up_to(d.disc - half)));
+    return energy_of_heights(d, [](double r, double t) { return std::pow(r, 3) * std::cos(3 * t); }) / truth - 1;
+  };
+  fmt::print("energy of r^3 cos 3t: {:.2e} {:.2e}\n", deviation(16), deviation(32));
+  EXPECT_LT(std::abs(deviation(32)), 1e-3);
+  EXPECT_NEAR(std::log2(deviation(16) / deviation(32)), 2, 0.15);
+}
+
+TEST(DrapedDisc, ItsForcesAreTheSlopeOfItsEnergy) {
+  const DrapedDisc disc{8, 2e-5};
+  const Scene scene = disc_scene(disc);
+  State s = scene.start;
+  s.x = wavy(disc, 0, 3);
+  Forces forces{Points::Zero(3, s.x.cols())};
+  const auto& bending = *scene.model.find<Bending>();
+  add_force(bending, scene.model.particles, s, forces);
+  for (const int i : {disc.particle(2, 0), disc.particle(5, 11), disc.particle(9, 79)})
+    for (int axis = 0; axis < 3; ++axis) {
+      // the energy is quadratic: the central difference has no error but rounding
+      const double at = s.x(axis, i), step = 1e-3;
+      s.x(axis, i) = at + step;
+      const double above = potential_energy(bending, scene.model.particles, s);
+      s.x(axis, i) = at - step;
+      const double below = potential_energy(bending, scene.model.particles, s);
+      s.x(axis, i) = at;
+      EXPECT_NEAR(forces.f(axis, i), -(above - below) / (2 * step), 1e-12 * above / step);
+    }
+}
+
+TEST(DrapedDisc, IsIsotropicInItsPlane) {
+  // a uniform strain of axes at any angle: C11 (a^2 + b^2) / 2 + C12 a b per area, with C12 = C11 / 3
+  const DrapedDisc disc{8, 2e-5};
+  const Scene scene = disc_scene(disc);
+  const double a = 1e-6, b = -0.4e-6, c11 = 3 * disc.shear;
+  const int n = disc.spokes();
+  const double area = n * std::sin(2 * std::numbers::pi / n) / 2 *
+                      (std::pow(disc.specimen, 2) - std::pow(disc.disc + disc.spacing() / 2, 2));
+  for (const double angle : {0., 0.3, 0.7}) {
+    State s = scene.start;
+    const Eigen::Rotation2Dd turn(angle);
+    for (int i = 0; i < s.x.cols(); ++i) {
+      Eigen::Vector2d at = turn * Eigen::Vector2d(s.x(0, i), s.x(2, i));
+      at = turn.inverse() * Eigen::Vector2d((1 + a) * at.x(), (1 + b) * at.y());
+      s.x(0, i) = at.x(), s.x(2, i) = at.y();
+    }
+    const double energy = potential_energy(*scene.model.find<Springs>(), scene.model.particles, s);
+    // spokes at angles of 2 pi / 80: cells are trapezia, the ring's first spring has a half of a cell too much
+    EXPECT_NEAR(energy / (area * (c11 * (a * a + b * b) / 2 + c11 / 3 * a * b)), 1, 0.03);
+  }
+}
+
+/// Deflection of the rim of a plate clamped at r = a and free at r = b under a load q per area, Poisson's ratio 0:
+/// w = q r^4 / 64 B + A + C ln r + D r^2 + E r^2 ln r with w = w' = 0 at a and w'' = 0, (w'' + w' / r)' = 0 at b (S.
+/// Timoshenko and S. Woinowsky-Krieger, chapter 3).
+double rim_of_plate(double a, double b, double q, double rigidity) {
+  const double unit = q / (64 * rigidity);
+  Eigen::Matrix4d m;
+  m << 1, std::log(a), a * a, a * a * std::log(a),  //
+      0, 1 / a, 2 * a, 2 * a * std::log(a) + a,     //
+      0, -1 / (b * b), 2, 2 * std::log(b) + 3,      //
+      0, 0, 0, 4 / b;                               //
+  const Eigen::Vector4d right(-unit * std::pow(a, 4), -4 * unit * std::pow(a, 3), -12 * unit * b * b, -32 * unit * b);
+  const Eigen::Vector4d c = m.fullPivLu().solve(right);
+  return unit * std::pow(b, 4) + c[0] + c[1] * std::log(b) + c[2] * b * b + c[3] * b * b * std::log(b);
+}
+
+TEST(DrapedDisc, SagsAsAPlateUnderALightLoad) {
+  const auto deviation = [](int rings) {
+    const DrapedDisc disc{rings, 2e-5};
+    const Scene scene = disc_scene(disc);
+    const Linearised l = linearised(scene.model, scene.start);
+    Points gravity = Points::Zero(3, scene.start.x.cols());
+    gravity.row(1).setConstant(1e-6);
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(l.k);
+    const Points u = l.offsets(solver.solve(l.weighted(gravity)), static_cast<int>(gravity.cols()));
+    return u(1, disc.particle(rings + 1, 5)) /
+               rim_of_plate(disc.disc, disc.specimen, 1e-6 * disc.density, disc.rigidity) -
+           1;
+  };
+  const double coarse = deviation(8), fine = deviation(16);
+  fmt::print("rim of a plate: {:.2e} {:.2e} order {:.3f}\n", coarse, fine, std::log2(coarse / fine));
+  EXPECT_LT(std::abs(fine), 5e-3);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.15);
+}
+
+TEST(DrapedDisc, ItsCoefficientIsThatOfKnownShadows) {
+  const DrapedDisc disc{8, 2e-5};
+  Points x = disc_scene(disc).start.x;
+  // rows of 2 R / 2000 of a round edge
+  EXPECT_NEAR(drape_coefficient(disc, x), 100, 2e-3);
+  // folded over its disc: a shadow of radius r, from a part of it
+  for (int i = 2; i <= disc.rings + 1; ++i)
+    for (int j = 0; j < disc.spokes(); ++j) {
+      const double shrunk = (0.09 + 0.6 * (disc.radius(i) - 0.09)) / disc.radius(i);
+      x(0, disc.particle(i, j)) *= shrunk, x(2, disc.particle(i, j)) *= shrunk;
+    }
+  EXPECT_NEAR(drape_coefficient(disc, x), 100 * (0.126 * 0.126 - 0.0081) / (0.0225 - 0.0081), 5e-3);
+  for (int j = 0; j < disc.spokes(); ++j)
+    x.col(disc.particle(9, j)) *= 1 + 0.02 * std::cos(6 * 2 * std::numbers::pi * j / disc.spokes());
+  EXPECT_EQ(nodes_of(disc, x), 6);
+}
+
+TEST(DrapedDisc, FallsIntoFoldsToTheSecondOrderInTheNet) {
+  DrapedDisc disc{8, 2e-5};
+  std::vector<double> coefficients;
+  Points guess = wavy(disc, 5, 1);
+  for (;;) {
+    const auto rest = rest_near(disc_scene(disc), guess);
+    ASSERT_TRUE(rest);
+    EXPECT_EQ(nodes_of(disc, *rest), 5);
+    coefficients.push_back(drape_coefficient(disc, *rest));
+    if (disc.rings == 16) break;
+    DrapedDisc finer = disc;
+    finer.rings = 16;
+    guess = on_net(disc, *rest, finer), disc = finer;
+  }
+  EXPECT_NEAR(coefficients[0], coefficients[1], 2);
+  EXPECT_NEAR(coefficients[1], 72, 1);  // 72.05 on 32 rings
 }
 
 TEST(Fabric, AStripVibratesAsAClampedBeam) {

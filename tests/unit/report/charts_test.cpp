@@ -215,6 +215,31 @@ TEST(FabricCharts, SayTheDeviationOnTheFinestGridAndItsOrder) {
   EXPECT_TRUE(fabric_charts({{}, {}, {}, "commit"}).empty());
 }
 
+TEST(FabricCharts, SayTheDrapeAndWhatItDependsOn) {
+  Table drapes = table_of<DrapedDiscRow>(), strips = table_of<HangingStripRow>(), shapes = table_of<HangingShapeRow>();
+  add(drapes, DrapedDiscRow{"5 waves", 8, 5, 2e-5, 40, 71, -2e-4});
+  add(drapes, DrapedDiscRow{"6 waves", 8, 6, 2e-5, 40, 74, -1e-4});
+  add(drapes, DrapedDiscRow{"5 waves", 8, 5, 2e-5, 160, 76, -1e-4});
+  add(drapes, DrapedDiscRow{"5 waves", 16, 5, 2e-5, 40, 71.5, -2e-4});
+  for (const double gamma : {0., 60.}) {
+    add(strips, HangingStripRow{8, gamma, 0.3, 0.3, 0.04});
+    add(strips, HangingStripRow{16, gamma, 0.3, 0.3, 0.01});
+    for (const double x : {-1., 0., 1.}) add(shapes, HangingShapeRow{gamma, x, x * x, x, x * x});
+  }
+  TableSet rows;
+  for (const Table& table : {drapes, strips, shapes}) rows.add(table);
+  const auto charts = fabric_charts({{}, {}, rows, "commit"});
+  ASSERT_EQ(charts.size(), 2u);
+  for (const Chart& chart : charts) EXPECT_NO_THROW(drawing_of(std::get<Figure>(chart.figure)));
+  EXPECT_TRUE(contains(figure_info(charts[0])->finding, "right to 1 %, and")) << figure_info(charts[0])->finding;
+  EXPECT_TRUE(contains(figure_info(charts[0])->finding, "power 2.00 to 2.00"));
+  EXPECT_TRUE(contains(figure_info(charts[1])->finding,
+                       "5 nodes and a coefficient of 71.5 %, 0.5 points from that on 8 rings; the states of all "
+                       "starts have 71 to 74 %."))
+      << figure_info(charts[1])->finding;
+  EXPECT_TRUE(contains(figure_info(charts[1])->caption, "with four times as much 76.0 % on 8 rings"));
+}
+
 TEST(OwnCharts, AreOfScenesThatTheExperimentLooksAt) {
   for (const Experiment& e : experiments())
     for (const std::string_view scene : e.quick_charts) {
