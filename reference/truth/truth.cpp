@@ -95,7 +95,7 @@ class RichardsonEstimate {
   double before_ = 0, last_ = 0;
 };
 
-constexpr int most_followed = 150;  // particles, from event to event
+constexpr int most_followed = 49;  // particles, from event to event
 
 bool few_particles(const Scene& scene) { return scene.model.particles.size() < 50; }
 

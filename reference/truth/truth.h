@@ -47,7 +47,7 @@ std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 /// The path is that of an event-driven run on equations written apart (truth/independent/event_driven.cpp) at the last
 /// of three tolerances, against mysim's leapfrog+events, whose step is halved as above, up to 1e7 steps of a particle;
 /// the bar as above. It ends where the bar exceeds a hundredth of the motion, where events come too close to each other
-/// to be followed, and where a particle moves between two spheres. None for more than 150 particles, where a sphere
+/// to be followed, and where a particle moves between two spheres. None for more than 49 particles, where a sphere
 /// moves, where a route fails at once, or where it would end before or at the first touch.
 std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 
