@@ -180,6 +180,8 @@ void IncrementalPotential::precondition(const Points& r, Points& out) const {
 namespace {
 
 constexpr int most_newton_steps = 200, most_repetitions = 100;
+/// Ten do on most cloths. Far from a minimum to go on along the curvature may be a detour: it is left to those that stay.
+constexpr int few_newton_steps = 20;
 
 }  // namespace
 
@@ -257,7 +259,7 @@ void ImplicitStep::minimise() {
     }
     u_ = trial_;
     value = tried;
-    if (saddle) value = leave_saddle(value, length * largest_column(p_));
+    if (saddle && step >= few_newton_steps) value = leave_saddle(value, length * largest_column(p_));
     descent_.push_back(value);
   }
   throw SolverFailure(fmt::format("Newton's method did not converge in {} steps", most_newton_steps));

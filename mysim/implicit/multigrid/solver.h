@@ -183,8 +183,8 @@ class MultigridSolver {
 
   /// Solves (inertia + K(x)) u = b for u (3 x n), until |b - A u| <= tolerance |b|. `inertia` (N/m) is of each
   /// particle, x (m) and b (N) are 3 x n; pins do not move. As conjugate_gradients (mysim/implicit): what is left is
-  /// the recurrence's, and the solve stops at once at negative curvature, u being the direction of it. Gives up after 500 iterations, ten times what
-  /// cloths are known to take.
+  /// the recurrence's, and the solve stops at once at negative curvature, u being the direction of it. Gives up after
+  /// 500 iterations, ten times what cloths are known to take.
   CgResult solve(const Eigen::ArrayXd& inertia, const Points& x, Curvature curvature, const Points& b, double tolerance,
                  Points& u);
 
