@@ -172,12 +172,11 @@ TEST(Observe, TellsWithWhichNumbersTheAnswersWouldBeRight) {
   EXPECT_EQ(
       observed([](const Numbers& in) { return rates(in, [](double m, double g, double, double) { return m * g; }); }),
       "Tried with other numbers: all your answers of this kind are what the right code gives with drag = 0.");
-  EXPECT_EQ(
-      observed([](const Numbers& in) {
-        return rates(in, [&](double, double g, double drag, double v) { return in[1] * g - drag * v; });
-      }),
-      "Tried with other numbers: with g = 0 your answer to this case is right, so the mistake is where that comes "
-      "in. Of what it adds: Where v' is wrong, it is the right one times m[0]/m.");
+  EXPECT_EQ(observed([](const Numbers& in) {
+              return rates(in, [&](double, double g, double drag, double v) { return in[1] * g - drag * v; });
+            }),
+            "Tried with other numbers: with g = 0 your answer to this case is right: it goes wrong only where that "
+            "comes in. Of what it adds: Where v' is wrong, it is the right one times m[0]/m.");
 }
 
 TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
@@ -185,9 +184,9 @@ TEST(Observe, TellsWithoutWhichTermTheAnswerIsRight) {
               return rates(in,
                            [](double m, double g, double drag, double v) { return m * g - drag * v * std::abs(v); });
             }),
-            "Tried with other numbers: with drag = 0 your answer to this case is right, so the mistake is where that "
-            "comes in. Tried with other numbers: with v = 0 your answer to this case is right, so the mistake is where "
-            "that comes in.");
+            "Tried with other numbers: with drag = 0 your answer to this case is right: it goes wrong only where that "
+            "comes in. Tried with other numbers: with v = 0 your answer to this case is right: it goes wrong only "
+            "where that comes in.");
   EXPECT_EQ(observed([](const Numbers& in) { return rates(in, [](double, double, double, double) { return 7.; }); }),
             "");
 }
