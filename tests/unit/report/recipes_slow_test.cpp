@@ -1,4 +1,5 @@
-// The pages for people are true: their commands are run in an empty folder, one after the other, and print what they show.
+// The pages for people are true: their commands are run in an empty folder, one after the other, and print what is
+// shown.
 
 #include <fmt/format.h>
 
@@ -62,7 +63,7 @@ TEST(Recipes, DotsStandForAnything) {
 }
 
 /// A command of a page, and what the page shows of its output.
-struct Step {
+struct TypedCommand {
   std::string command;
   std::vector<std::string> shown;
 };
@@ -70,10 +71,10 @@ struct Step {
 /// What a page tells a reader to type: lines after "$ " in blocks of ```console, and whole blocks of ```sh with the
 /// block of ```text behind them. A block that begins with "# takes" says how long and is not tried. Where a page has a
 /// section "Ten minutes", nothing behind that section is tried.
-std::vector<Step> steps_of(const std::string& page) {
+std::vector<TypedCommand> steps_of(const std::string& page) {
   const size_t path = page.find("\n## Ten minutes");
   const size_t end = path == std::string::npos ? path : page.find("\n## ", path + 1);
-  std::vector<Step> steps;
+  std::vector<TypedCommand> steps;
   std::string kind;
   bool slow = false;
   for (const std::string& line : lines_of(page.substr(0, end))) {
@@ -94,7 +95,7 @@ std::vector<Step> steps_of(const std::string& page) {
       steps.back().shown.push_back(line);
     }
   }
-  std::erase_if(steps, [](const Step& step) { return step.command.starts_with("# takes"); });
+  std::erase_if(steps, [](const TypedCommand& step) { return step.command.starts_with("# takes"); });
   return steps;
 }
 
@@ -109,12 +110,12 @@ TEST(Recipes, StepsAreWhatAReaderTypes) {
   EXPECT_EQ(steps[2].shown, std::vector<std::string>{"is"});
 }
 
-struct Page {
+struct Document {
   const char *name, *file;
   size_t least;  ///< commands that it holds at least
 };
 
-class Pages : public Cli, public testing::WithParamInterface<Page> {
+class Documents : public Cli, public testing::WithParamInterface<Document> {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("crosscheck-" + std::string(GetParam().name) + std::to_string(getpid()));
@@ -134,18 +135,16 @@ class Pages : public Cli, public testing::WithParamInterface<Page> {
 
 // A page's commands are run in one empty folder, one after the other, with the program and the package found as an
 // installation has them.
-TEST_P(Pages, CommandsPrintWhatIsShown) {
+TEST_P(Documents, CommandsPrintWhatIsShown) {
   if (run_program({"/usr/bin/python3", "-c", "import numpy"}, "/").status != 0)
     GTEST_SKIP() << "package python3-numpy is not installed: the commands of " << GetParam().file << " are not tried";
   const std::string page = read(fs::path(CROSSCHECK_SOURCE) / GetParam().file);
-  const std::vector<std::string> environment{"ASAN_OPTIONS=detect_leaks=0",
-                                             "CROSSCHECK_LOCK=" + folder_.string() + ".lock",
-                                             "CROSSCHECK=" CROSSCHECK_PROGRAM,
-                                             "PYTHONPATH=" CROSSCHECK_SOURCE "/report/python",
-                                             "PYTHONDONTWRITEBYTECODE=1",
-                                             "PATH=" + programs_.string() + ":" + std::getenv("PATH")};
-  const std::vector<Step> steps = steps_of(page);
-  for (const Step& step : steps) {
+  const std::vector<std::string> environment{
+      "ASAN_OPTIONS=detect_leaks=0",    "CROSSCHECK_LOCK=" + folder_.string() + ".lock",
+      "CROSSCHECK=" CROSSCHECK_PROGRAM, "PYTHONPATH=" CROSSCHECK_SOURCE "/report/python",
+      "PYTHONDONTWRITEBYTECODE=1",      "PATH=" + programs_.string() + ":" + std::getenv("PATH")};
+  const std::vector<TypedCommand> steps = steps_of(page);
+  for (const TypedCommand& step : steps) {
     SCOPED_TRACE(step.command);
     // baselines are blessed by people, never where CI is set; a status that is not 0 is shown by `echo $?`
     const ProgramResult end = run_program({"bash", "-c", "unset CI; " + step.command}, folder_, environment);
@@ -159,12 +158,12 @@ TEST_P(Pages, CommandsPrintWhatIsShown) {
   EXPECT_EQ(tried.status, 0) << tried.out << tried.err;
 }
 
-INSTANTIATE_TEST_SUITE_P(Documents, Pages,
-                         testing::Values(Page{"recipes", "report/recipes.md", 14},
-                                         Page{"authors", "report/README.md", 5},
-                                         Page{"lecturers", "tests/coursework/README.md", 5},
-                                         Page{"engines", "reference/README.md", 5},
-                                         Page{"scenes", "experiments/README.md", 5}),
+INSTANTIATE_TEST_SUITE_P(ForPeople, Documents,
+                         testing::Values(Document{"recipes", "report/recipes.md", 14},
+                                         Document{"authors", "report/README.md", 4},
+                                         Document{"lecturers", "tests/coursework/README.md", 5},
+                                         Document{"engines", "reference/README.md", 5},
+                                         Document{"scenes", "experiments/README.md", 5}),
                          [](const auto& page) { return std::string(page.param.name); });
 
 }  // namespace
