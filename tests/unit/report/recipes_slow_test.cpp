@@ -115,6 +115,9 @@ struct Document {
   size_t least;  ///< commands that it holds at least
 };
 
+/// What ctest calls it.
+void PrintTo(const Document& document, std::ostream* out) { *out << document.name; }
+
 class Documents : public Cli, public testing::WithParamInterface<Document> {
  protected:
   void SetUp() override {
@@ -159,7 +162,7 @@ TEST_P(Documents, CommandsPrintWhatIsShown) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ForPeople, Documents,
-                         testing::Values(Document{"recipes", "report/recipes.md", 14},
+                         testing::Values(Document{"recipes", "report/recipes.md", 10},
                                          Document{"authors", "report/README.md", 4},
                                          Document{"lecturers", "tests/coursework/README.md", 5},
                                          Document{"engines", "reference/README.md", 5},
