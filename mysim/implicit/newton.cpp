@@ -180,7 +180,8 @@ void IncrementalPotential::precondition(const Points& r, Points& out) const {
 namespace {
 
 constexpr int most_newton_steps = 200, most_repetitions = 100;
-/// Ten do on most cloths. Far from a minimum to go on along the curvature may be a detour: it is left to those that stay.
+/// Ten do on most cloths. Far from a minimum to go on along the curvature may be a detour: it is left to those that
+/// stay.
 constexpr int few_newton_steps = 20;
 
 }  // namespace

@@ -21,7 +21,8 @@ std::vector<Chapter> chapters() {
        "each.</p><p>Where both have <b>the same rule</b>, as mysim and Bullet's explicit world have symplectic Euler, "
        "the same step must give the same motion, but for round-off: what they differ by there is the floor below which "
        "nothing else may be claimed.</p><p>A ring is "
-       "a law that the other engine writes otherwise, a dash what it does not tell; a law's cause and size are below, in "
+       "a law that the other engine writes otherwise, a dash what it does not tell; a law's cause and size are below, "
+       "in "
        "the smallest scene that shows it.</p>",
        {},
        {},
