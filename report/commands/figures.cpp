@@ -19,6 +19,7 @@
 #include "report/commands/commands.h"
 #include "report/figures/figure_set.h"
 #include "report/findings/evidence.h"
+#include "report/findings/findings_text.h"
 #include "report/page/assemble.h"
 
 namespace crosscheck {
@@ -230,7 +231,7 @@ int finish(std::vector<FigureInSet>& drawn, const FigureSize& size, const Proven
   folder.finish();
   if (drawn.empty()) problems.tell("there is nothing to draw");
   for (const std::string& note : notes) fmt::print("note: {}\n", note);
-  fmt::print("{} figures, {:g} cm wide, letters of {:g} pt\n{}\n", drawn.size(), size.width, size.font,
+  fmt::print("{}, {:g} cm wide, letters of {:g} pt\n{}\n", counted(drawn.size(), "figure"), size.width, size.font,
              (given.out / "figures.json").string());
   return problems.any() ? 1 : 0;
 }
