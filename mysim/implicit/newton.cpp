@@ -244,7 +244,7 @@ void ImplicitStep::minimise() {
     const double accuracy = std::min(0.1, std::sqrt(left / potential_.force_scale()));
     const bool saddle = newton_direction(Curvature::exact, accuracy).negative_curvature;
     if (saddle) {
-      downhill_ = p_;
+      downhill_.swap(p_);
       newton_direction(Curvature::clamped, accuracy);
     }
 

@@ -84,11 +84,8 @@ void Level::load_inertia() {
     single_inertia_.data()[i] = static_cast<float>(inertia_.data()[i]);
     single_free_.data()[i] = static_cast<float>(free_.data()[i]);
   }
-}
-
-double Level::inertia_share() const {
   const double least = inertia.minCoeff();
-  return least / (least + stiffness_);
+  inertia_share_ = least / (least + stiffness_);
 }
 
 void Level::linearise(const Kernels& f) {

@@ -121,7 +121,7 @@ class Level {
 
   void load_inertia();  // from `inertia` and `free`
   /// Of inertia in the diagonal of the matrix, at least, over all particles: 1 without springs.
-  double inertia_share() const;
+  double inertia_share() const { return inertia_share_; }
   /// Clamped stiffness at x, and the inverse blocks on the diagonal.
   void linearise(const Kernels& f);
   /// Stiffness as it is, in exact() alone.
@@ -129,7 +129,7 @@ class Level {
 
  private:
   Layout layout_;
-  double stiffness_ = 0;  // N/m, largest sum over the springs of a particle
+  double stiffness_ = 0, inertia_share_ = 0;  // N/m, largest sum over the springs of a particle; 1
   SpringGeometry geometry_{};
   AlignedBuffer<double> k_[directions], springs_[directions], inertia_, free_, blocks_, sums_, force_;
   AlignedBuffer<float> single_springs_[directions], single_inertia_, single_free_, single_blocks_, single_force_;
