@@ -13,7 +13,6 @@
 #include "seen.h"
 
 namespace coursework {
-namespace {
 
 std::string with_digits(double value, int digits) {
   if (std::isnan(value)) return "nan";  // its sign says nothing, nor does that of zero
@@ -22,6 +21,8 @@ std::string with_digits(double value, int digits) {
   std::snprintf(text, sizeof text, "%.*g", digits, value);
   return text;
 }
+
+namespace {
 
 std::string count_text(double value) { return std::to_string(static_cast<long>(std::round(value))); }
 

@@ -9,6 +9,9 @@
 
 namespace coursework {
 
+/// The number with so many digits; "nan" and "0" have no sign.
+std::string with_digits(double value, int digits);
+
 /// As short as tells it apart from `other`: six digits, or as many as it takes.
 std::string number_text(double value, double other);
 

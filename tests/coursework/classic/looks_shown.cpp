@@ -1,9 +1,9 @@
 // What a probe asked of a system and what came, told of the first particle or spring that is not as it should be.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 
+#include "tests/coursework/check/words.h"
 #include "tests/coursework/classic/looks.h"
 #include "tests/coursework/classic/replay.h"
 #include "tests/coursework/classic/springs.h"
@@ -11,11 +11,7 @@
 namespace coursework::classic {
 namespace {
 
-std::string four_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", std::abs(value) < 1e-9 ? 0.0 : value);
-  return text;
-}
+std::string four_digits(double value) { return with_digits(std::abs(value) < 1e-9 ? 0 : value, 4); }
 std::string vector_text(const double* v) {
   return "(" + four_digits(v[0]) + ", " + four_digits(v[1]) + ", " + four_digits(v[2]) + ")";
 }

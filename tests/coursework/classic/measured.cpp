@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "tests/coursework/check/words.h"
 #include "tests/coursework/classic/replay.h"
 #include "tests/coursework/classic/springs.h"
 #include "tests/coursework/grader/assignment.h"
@@ -12,11 +13,7 @@
 namespace coursework::classic {
 namespace {
 
-std::string three_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", std::abs(value) < 1e-6 ? 0.0 : value);
-  return text;
-}
+std::string three_digits(double value) { return with_digits(std::abs(value) < 1e-6 ? 0 : value, 3); }
 
 /// "9.8", or where they differ "1: 9.8, 2: 4.9".
 std::string of_each(const std::map<int, double>& values) {
