@@ -7,7 +7,9 @@ export CI=1
 ./crosscheck lab pendulum -o build/lab.html
 as_root=()
 [ "$(id -u)" -eq 0 ] || as_root=(sudo)
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends dpkg-dev file gzip >/dev/null
+# git names the commit in the package
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends dpkg-dev file git gzip \
+  >/dev/null
 cmake --build build/release --target products
 cd build/release
 cpack -G DEB
