@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes build/release/crosscheck.deb of this tree, in a Debian of nothing but its minimum too.
+# Makes crosscheck.deb and python3-crosscheck.deb of this tree in build/release, in a Debian of nothing but its minimum
+# too.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 export CI=1
@@ -13,3 +14,4 @@ as_root=()
 cmake --build build/release --target products
 cd build/release
 cpack -G DEB
+cpack --config ../../report/python/deb.cmake

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numbers>
 
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -61,15 +63,47 @@ std::string ply_bytes(const Points& x, const Shape& shape) {
   return bytes;
 }
 
+std::pair<Points, Shape> ball_mesh(double radius) {
+  constexpr int around = 64, rings = 31, last = 1 + rings * around;
+  Points x(3, last + 1);
+  x.col(0) << 0, radius, 0;
+  x.col(last) << 0, -radius, 0;
+  Shape shape;
+  const auto vertex = [](int ring, int meridian) { return 1 + ring * around + meridian % around; };
+  for (int ring = 0; ring < rings; ++ring)
+    for (int meridian = 0; meridian < around; ++meridian) {
+      const double polar = std::numbers::pi * (ring + 1) / (rings + 1);
+      const double azimuth = 2 * std::numbers::pi * meridian / around;
+      const Vec3 normal(std::sin(polar) * std::sin(azimuth), std::cos(polar), std::sin(polar) * std::cos(azimuth));
+      x.col(vertex(ring, meridian)) = radius * normal;
+      const int here = vertex(ring, meridian), beside = vertex(ring, meridian + 1);
+      const bool first = ring == 0;
+      shape.triangles.push_back({first ? 0 : vertex(ring - 1, meridian + 1), here, beside});
+      shape.triangles.push_back({here, ring + 1 == rings ? last : vertex(ring + 1, meridian), beside});
+    }
+  return {x, shape};
+}
+
 MeshWriter::MeshWriter(std::filesystem::path folder, const Scene& scene, const std::string& form)
     : folder_(std::move(folder)), shape_(shape_of(scene)), form_(form) {
   if (form != "obj" && form != "ply") throw InputError(fmt::format("--meshes {}: expected obj or ply", form));
+  if (const auto* spheres = scene.model.find<Spheres>()) spheres_ = *spheres;
+}
+
+void MeshWriter::write(const std::string& name, const Points& x, const Shape& shape) const {
+  write_file(folder_ / fmt::format("{}.{}", name, form_), form_ == "obj" ? obj_bytes(x, shape) : ply_bytes(x, shape));
 }
 
 Verdict MeshWriter::observe(const State& state, bool sample) {
   if (!sample) return Verdict::ok;
-  write_file(folder_ / fmt::format("frame-{:04}.{}", ++frames_, form_),
-             form_ == "obj" ? obj_bytes(state.x, shape_) : ply_bytes(state.x, shape_));
+  write(fmt::format("frame-{:04}", ++frames_), state.x, shape_);
+  for (std::size_t i = 0; i < spheres_.list.size(); ++i) {
+    const Sphere& sphere = spheres_.list[i];
+    if (!sphere.motion && frames_ > 1) continue;
+    auto [x, shape] = ball_mesh(sphere.radius);
+    x.colwise() += sphere.centre_at(state.t);
+    write(sphere.motion ? fmt::format("sphere-{}-{:04}", i + 1, frames_) : fmt::format("sphere-{}", i + 1), x, shape);
+  }
   return Verdict::ok;
 }
 

@@ -142,8 +142,8 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options) {
 std::string script_of(const PictureRequest& picture, const FiguresOptions& options, const FigureSize& size) {
   const std::string name = picture_name(picture.scene);
   return fmt::format(
-      "#!/bin/sh\n# Draws {0} again; to be started where crosscheck is. $1: the folder\n"
-      "./crosscheck figures {0} --scene {1} --set {2} --width {3:g}cm{4} --out \"${{1:-{0}}}\"\n",
+      "#!/bin/sh\n# Draws {0} again. $1: the folder for it\n"
+      "\"$(command -v crosscheck || echo ./crosscheck)\" figures {0} --scene {1} --set {2} --width {3:g}cm{4} --out \"${{1:-{0}}}\"\n",
       name, shell_single_quote(picture.given), options.set, size.width, options.full ? " --full" : "");
 }
 

@@ -120,8 +120,10 @@ void add_run(CLI::App& app, Invocation& call) {
   run->add_option("--step", options->step, "time step of fixed-step methods, s")->check(above_zero());
   run->add_option("--tol", options->tolerance, "relative tolerance of adaptive methods")->check(above_zero());
   run->add_option("--duration", options->duration, "simulated time, s")->check(above_zero());
-  run->add_option("--meshes", options->meshes,
-                  "obj or ply: writes each sample as a file in DIR/meshes, triangles of cloths and lines of springs");
+  run->add_option(
+      "--meshes", options->meshes,
+      "obj or ply: writes each sample as a file in DIR/meshes, triangles of cloths and lines of springs, and the "
+      "spheres beside them");
   run->add_option("--out", options->out, "folder (out/run)");
   run->callback([options, &call] {
     options->command_line = call.line;

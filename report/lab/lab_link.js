@@ -50,4 +50,4 @@ async function copyText(text) {
 
 /** The native program's command line of a method in a scene. */
 const commandOf = (scene, {method, step, tolerance}) =>
-    `./crosscheck run ${scene} --method ${method} ${tolerance ? `--tol ${tolerance}` : `--step ${step}`}`;
+    `crosscheck run ${scene} --method ${method} ${tolerance ? `--tol ${tolerance}` : `--step ${step}`}`;

@@ -16,7 +16,7 @@ const labWords = {
   computingRuns: ['mysim is computing {methods} …', 'mysim 正在计算 {methods} ……'],
   noWasmForRun: ['This browser does not run WebAssembly: runs of mysim, which this page computes when they are wanted, cannot be shown. Those of other engines are stored and can.', '此浏览器不能运行 WebAssembly：本页在需要时才计算的 mysim 运行无法显示；其他引擎的运行已保存，可以播放。'],
   waiting: ['The engine is being unpacked …', '正在解包引擎……'],
-  noModule: ['The live lab is not in this page: it was made without the packages that compile mysim to WebAssembly (clang, lld, wasi-libc, libc++; see ./crosscheck doctor).', '本页不含实时实验室：生成时没有把 mysim 编译成 WebAssembly 所需的软件包（clang、lld、wasi-libc、libc++；见 ./crosscheck doctor）。'],
+  noModule: ['The live lab is not in this page: it was made without the packages that compile mysim to WebAssembly (clang, lld, wasi-libc, libc++; see crosscheck doctor).', '本页不含实时实验室：生成时没有把 mysim 编译成 WebAssembly 所需的软件包（clang、lld、wasi-libc、libc++；见 crosscheck doctor）。'],
   noWasm: ['This browser does not run WebAssembly, which the live lab needs. The stored motions and all numbers of the page are there without it.', '此浏览器不能运行 WebAssembly，实时实验室因此无法打开。本页保存的动画和所有数据不受影响。'],
   noWebgl: ['This browser does not draw with WebGL 2, which the live lab needs. All numbers of the page are there without it.', '此浏览器不支持 WebGL 2，实时实验室因此无法打开。本页所有数据不受影响。'],
 

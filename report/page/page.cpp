@@ -103,7 +103,7 @@ std::string scene_html(const ScenePart& part, const PageContent& c) {
   return out + fmt::format(
                    "<p class=\"note\">{} Step {}, {:.3g} s of motion; pointwise comparison up to {:.3g} s, where a "
                    "perturbation of 1e-10 m has grown {}-fold; {}. Scene hash {}.{}</p>\n<p "
-                   "class=\"call\"><code>./crosscheck "
+                   "class=\"call\"><code>crosscheck "
                    "compare {}</code></p>\n",
                    prose(scene.parameters), own_step_text(scene), scene.duration, scene.window, nice(facts.growth),
                    predictable, scene.hash, moduli, escaped(scene.name));

@@ -47,7 +47,7 @@ async function playRun(key, marker) {
   }
   if (run && file.scene)
     box.append(make('p', {class: 'hint'}, 'The same run: ',
-        make('code', {}, `./crosscheck run ${scene} --method ${method} ${run.tolerance ? `--tol ${run.tolerance}` : `--step ${run.step}`}`)));
+        make('code', {}, `crosscheck run ${scene} --method ${method} ${run.tolerance ? `--tol ${run.tolerance}` : `--step ${run.step}`}`)));
   const shut = () => {
     if (!dialog.isConnected) return;
     if (player.stage) player.sleep();

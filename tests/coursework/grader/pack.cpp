@@ -193,17 +193,32 @@ void add_folder(Files& files, const fs::path& from, const std::string& to) {
       files[to + "/" + fs::relative(entry.path(), from).generic_string()] = content_of_file(entry.path());
 }
 
-/// Libraries that consist of headers, as far as they are used: the folder of headers, and one by which it is known.
+/// A library of which headers are packed: their folder, one of them, and Debian's package.
+struct HeaderLibrary {
+  const char *folder, *header, *package;
+};
+
+/// Throws crosscheck::InputError with the packages that are not installed.
 void add_headers(Files& files) {
-  constexpr std::pair<const char*, const char*> libraries[] = {
-      {"Eigen", "Core"}, {"fmt", "core.h"}, {"nlohmann", "json.hpp"}, {"CLI", "CLI.hpp"}, {"toml++", "toml.h"}};
-  for (const auto& [folder, header] : libraries) {
+  constexpr HeaderLibrary libraries[] = {{"Eigen", "Core", "libeigen3-dev"},
+                                         {"fmt", "core.h", "libfmt-dev"},
+                                         {"nlohmann", "json.hpp", "nlohmann-json3-dev"},
+                                         {"CLI", "CLI.hpp", "libcli11-dev"},
+                                         {"toml++", "toml.h", "libtomlplusplus-dev"}};
+  std::string missing;
+  for (const auto& [folder, header, package] : libraries) {
     fs::path found;
     for (const char* place : {"/usr/include", "/usr/include/eigen3", "/usr/local/include", "/usr/local/include/eigen3"})
       if (found.empty() && fs::exists(fs::path(place) / folder / header)) found = fs::path(place) / folder;
-    if (found.empty()) throw std::runtime_error(fmt::format("{}/{} is not found in /usr/include", folder, header));
-    add_folder(files, found, std::string("headers/") + folder);
+    if (found.empty())
+      missing += std::string(" ") + package;
+    else
+      add_folder(files, found, std::string("headers/") + folder);
   }
+  if (!missing.empty())
+    throw crosscheck::InputError(fmt::format(
+        "the grader is packed with headers of libraries that are not here: apt-get install --no-install-recommends{}",
+        missing));
 }
 
 std::string identifier_of(std::string_view assignment) {

@@ -485,7 +485,7 @@ const labUse = (() => {
     check(file.text === lab.tomlNow && /\.toml$/.test(file.name), 'saves', file.name);
     lab.view.say('');
     button('copyCommand').click();
-    const command = await until(() => /\.\/crosscheck run .*/.exec(lab.view.said.textContent)?.[0], 'the command line');
+    const command = await until(() => /crosscheck run .*/.exec(lab.view.said.textContent)?.[0], 'the command line');
     const {method, step, scene} = {...lab.methods[0], scene: lab.reading.scene};
     check(sim.steps < countedSteps, 'is', sim.steps, 'steps on');
     const fingerprint = steps(sim, countedSteps - sim.steps);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <numbers>
+#include <set>
 #include <sstream>
 
 #include "experiments/scenes/scenes.h"
@@ -101,6 +103,50 @@ TEST(MeshFiles, TrianglesAreClothLinesAreSprings) {
   EXPECT_TRUE(cloth.lines.empty());
   EXPECT_TRUE(chain.triangles.empty());
   EXPECT_EQ(chain.lines, (std::vector<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 3}}));
+}
+
+/// The volume inside triangles that are seen counter-clockwise from outside, by the divergence theorem.
+double volume_inside(const Points& x, const std::vector<std::array<int, 3>>& triangles) {
+  double six_volumes = 0;
+  for (const auto& [a, b, c] : triangles) six_volumes += x.col(a).dot(Vec3(x.col(b)).cross(Vec3(x.col(c))));
+  return six_volumes / 6;
+}
+
+TEST(MeshFiles, ABallIsClosedAndRoundAndSeenFromOutside) {
+  const double radius = 0.4;
+  const auto [x, shape] = ball_mesh(radius);
+  for (Eigen::Index i = 0; i < x.cols(); ++i) EXPECT_NEAR(x.col(i).norm(), radius, 1e-15);
+  std::set<std::pair<int, int>> edges;
+  for (const auto& [a, b, c] : shape.triangles)
+    for (const auto& edge : {std::pair(a, b), {b, c}, {c, a}}) EXPECT_TRUE(edges.insert(edge).second);
+  for (const auto& [a, b] : edges) EXPECT_TRUE(edges.count({b, a}));
+  EXPECT_EQ(x.cols() - edges.size() / 2 + shape.triangles.size(), 2u);  // Euler's characteristic of a sphere
+  // the dips, of second order in the angles pi / 32 along and across, take their sum from the volume at most
+  const double ball = 4 * std::numbers::pi / 3 * std::pow(radius, 3), dip = std::pow(std::numbers::pi / 32, 2);
+  EXPECT_LT(volume_inside(x, shape.triangles), ball);
+  EXPECT_GT(volume_inside(x, shape.triangles), ball * (1 - dip));
+}
+
+TEST(MeshFiles, SpheresStandBesideTheFramesAndMoveWithThem) {
+  for (const char* name : {"cloth-carried", "bounce"}) {
+    SCOPED_TRACE(name);
+    const Written written(name, "ply");
+    const auto& list = written.scene.model.find<Spheres>()->list;
+    const auto& times = written.recorder.trajectory.t;
+    std::size_t files = times.size();
+    for (std::size_t i = 0; i < list.size(); ++i)
+      for (std::size_t frame = 0; frame < (list[i].motion ? times.size() : 1); ++frame, ++files) {
+        const std::string file =
+            list[i].motion ? fmt::format("sphere-{}-{:04}.ply", i + 1, frame + 1) : fmt::format("sphere-{}.ply", i + 1);
+        const ReadBack read = read_ply(read_file(written.folder.path / file, "a sphere"));
+        const Vec3 centre = list[i].centre_at(times[frame]);
+        ASSERT_EQ(read.x.size(), 3u * ball_mesh(1).first.cols());
+        for (std::size_t v = 0; v < read.x.size(); v += 3)
+          EXPECT_NEAR((Vec3(read.x[v], read.x[v + 1], read.x[v + 2]) - centre).norm(), list[i].radius, 1e-14);
+      }
+    const auto all = std::filesystem::directory_iterator(written.folder.path);
+    EXPECT_EQ(static_cast<std::size_t>(std::distance(begin(all), end(all))), files);
+  }
 }
 
 TEST(MeshFiles, AnotherFormIsRefused) {

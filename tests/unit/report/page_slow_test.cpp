@@ -383,7 +383,7 @@ TEST_F(RunsPage, AClickOnAMarkerOrAChoiceInTheListPlaysItsRun) {
     EXPECT_TRUE(w["closed"].boolean()) << w.dump();
   }
   EXPECT_EQ(saw["windows"][0]["panels"].number(), 3) << "the run beside the truth, and their difference";
-  EXPECT_NE(saw["windows"][0]["says"].text().find("./crosscheck run chain --method mysim/leapfrog --step"),
+  EXPECT_NE(saw["windows"][0]["says"].text().find("crosscheck run chain --method mysim/leapfrog --step"),
             std::string::npos)
       << saw["windows"][0]["says"].dump();
   EXPECT_LT(saw["windows"][0]["apart"].number(), 1e-3) << "m: as near to the truth as the run is, with its lattice";

@@ -1,5 +1,5 @@
 // The pages for people are true: their commands are run in an empty folder, one after the other, and print what is
-// shown.
+// shown. With CROSSCHECK_INSTALLED=/usr the pages, the program and the Python package are those installed there.
 
 #include <fmt/format.h>
 
@@ -125,7 +125,7 @@ class Documents : public Cli, public testing::WithParamInterface<Document> {
     programs_ = folder_.string() + "-programs";
     fs::create_directories(folder_);
     fs::create_directories(programs_);
-    fs::create_symlink(CROSSCHECK_PROGRAM, programs_ / "crosscheck");
+    fs::create_symlink(program_, programs_ / "crosscheck");
     // python3 in PATH may be another than Debian's, which has Debian's numpy
     fs::create_symlink("/usr/bin/python3", programs_ / "python3");
   }
@@ -133,7 +133,13 @@ class Documents : public Cli, public testing::WithParamInterface<Document> {
     Cli::TearDown();
     fs::remove_all(programs_);
   }
+  static fs::path installation() {
+    const char* prefix = std::getenv("CROSSCHECK_INSTALLED");
+    return prefix ? prefix : "";
+  }
   fs::path programs_;
+  const fs::path pages_ = installation().empty() ? CROSSCHECK_SOURCE : installation() / "share/doc/crosscheck";
+  const fs::path program_ = installation().empty() ? CROSSCHECK_PROGRAM : installation() / "bin/crosscheck";
 };
 
 // A page's commands are run in one empty folder, one after the other, with the program and the package found as an
@@ -141,11 +147,13 @@ class Documents : public Cli, public testing::WithParamInterface<Document> {
 TEST_P(Documents, CommandsPrintWhatIsShown) {
   if (run_program({"/usr/bin/python3", "-c", "import numpy"}, "/").status != 0)
     GTEST_SKIP() << "package python3-numpy is not installed: the commands of " << GetParam().file << " are not tried";
-  const std::string page = read(fs::path(CROSSCHECK_SOURCE) / GetParam().file);
-  const std::vector<std::string> environment{
-      "ASAN_OPTIONS=detect_leaks=0",    "CROSSCHECK_LOCK=" + folder_.string() + ".lock",
-      "CROSSCHECK=" CROSSCHECK_PROGRAM, "PYTHONPATH=" CROSSCHECK_SOURCE "/report/python",
-      "PYTHONDONTWRITEBYTECODE=1",      "PATH=" + programs_.string() + ":" + std::getenv("PATH")};
+  const std::string page = read(pages_ / GetParam().file);
+  std::vector<std::string> environment{"ASAN_OPTIONS=detect_leaks=0", "CROSSCHECK_LOCK=" + folder_.string() + ".lock",
+                                       "PYTHONDONTWRITEBYTECODE=1",
+                                       "PATH=" + programs_.string() + ":" + std::getenv("PATH")};
+  if (installation().empty())
+    environment.insert(environment.end(),
+                       {"CROSSCHECK=" CROSSCHECK_PROGRAM, "PYTHONPATH=" CROSSCHECK_SOURCE "/report/python"});
   const std::vector<TypedCommand> steps = steps_of(page);
   for (const TypedCommand& step : steps) {
     SCOPED_TRACE(step.command);
