@@ -5,12 +5,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <memory>
 
 #include "experiments/advise/advice.h"
 #include "experiments/advise/fit.h"
 #include "experiments/estimate.h"
+#include "experiments/metrics.h"
 #include "experiments/scenes/scenes.h"
 #include "mysim/base/errors.h"
 #include "mysim/base/files.h"
@@ -27,11 +29,34 @@ namespace fs = std::filesystem;
 namespace {
 
 struct AdviseOptions {
-  std::string scene, methods;
-  double tolerance = 0;  // m; 0: only parameters are fitted
+  std::string scene, methods, tolerance;  // without a tolerance only parameters are fitted
   std::filesystem::path out = "out/advise";
   std::string command_line;
 };
+
+/// The length that a text asks for: metres, or per cent of the motion, which the scene's own method at its own step
+/// knows well enough to say what is asked. Throws InputError.
+double tolerance_of(const std::string& text, const Scene& scene) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, failed] = std::from_chars(text.data(), end, value);
+  const bool of_motion = std::string_view(rest, end) == "%";
+  if (failed != std::errc() || (rest != end && !of_motion) || !(value > 0) || !std::isfinite(value))
+    throw InputError(fmt::format(
+        "--tolerance: expected a length above zero (m), or a part of the motion such as 1%, got '{}'", text));
+  if (!of_motion) return value;
+  Recorder recorder;
+  const Outcome own = run_method(find_method(scene.method), scene, default_run(scene), {&recorder});
+  if (own.verdict != Verdict::ok)
+    throw InputError(
+        fmt::format("--tolerance: the motion of {} is not known, as its own method fails ({}): give metres", scene.name,
+                    in_words(own.verdict)));
+  Trajectory& path = recorder.trajectory;
+  while (path.t.back() > scene.window * (1 + 1e-9)) path.t.pop_back(), path.x.pop_back(), path.v.pop_back();
+  const double motion = motion_of(path), tolerance = value / 100 * motion;
+  fmt::print("{:g} % of the motion, {}, is {}\n", value, nice_length(motion), nice_length(tolerance));
+  return tolerance;
+}
 
 /// A work-precision diagram of all trials, with the requested tolerance as a line and the advised run marked; failed
 /// runs are crosses at the cost they had spent.
@@ -199,20 +224,21 @@ int advised(const AdviseOptions& options, OutputFolder& folder) {
     }
   }
   if (!scene) scene = load_scene(options.scene);
-  if (options.tolerance == 0 && toml.empty())
+  if (options.tolerance.empty() && toml.empty())
     throw InputError(
         fmt::format("--tolerance: expected a length above zero (m), as {} has nothing to be fitted", options.scene));
   const fs::path& out = folder.path();
   const auto file = out / "advice.toml";
   if (!toml.empty()) write_file(file, toml);
-  if (options.tolerance > 0) {
+  if (!options.tolerance.empty()) {
+    const double tolerance = tolerance_of(options.tolerance, *scene);
     std::vector<Method> methods = options.methods.empty() ? advisable_methods(*scene) : find_methods(options.methods);
     // the truth's run, and that of each method; each of them is tried at several steps
     require_resources_to_keep({find_method(scene->method), find_method(scene->method)}, *scene, default_run(*scene));
     Progress progress(0);
     progress.begin(fmt::format("truth of {}", scene->name));
     for (Method& method : methods) method = with_progress(method, progress);
-    const Advice a = advise(*scene, options.tolerance, std::move(methods));
+    const Advice a = advise(*scene, tolerance, std::move(methods));
     progress.done();
     const Provenance lines = with_scene(provenance(options.command_line), *scene);
     write_csv(trials_table(a), lines, out);
@@ -254,10 +280,9 @@ void add_advise(CLI::App& app, Invocation& call) {
       ->add_option("SCENE", options->scene,
                    "a shipped scene or a TOML file; values of \"fit\" are found from its [wish]")
       ->required();
-  advise
-      ->add_option("--tolerance", options->tolerance,
-                   "largest RMS position error, m; not needed to fit a scene's values alone")
-      ->check(above_zero());
+  advise->add_option("--tolerance", options->tolerance,
+                     "largest RMS position error, m, or in per cent of the motion (1%); not needed to fit a scene's "
+                     "values alone");
   advise->add_option("--methods", options->methods, "methods to try: A,B,... (default: all of mysim)");
   advise->add_option("--out", options->out, "folder (out/advise)");
   advise->callback([options, &call] {

@@ -203,7 +203,8 @@ class Advice(Answer):
 
 
 def advise(scene, tolerance, methods=None, out=None):
-    """Finds the cheapest method and step whose RMS position error stays within `tolerance` (m); returns an Advice.
+    """Finds the cheapest method and step whose RMS position error stays within `tolerance` (m, or a part of
+    the motion: "1%"); returns an Advice.
 
     >>> advise("chain", tolerance=1e-3)
     <mysim/leapfrog at a step of 0.01 s: error 0.00083 m>

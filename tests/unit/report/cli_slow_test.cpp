@@ -10,6 +10,7 @@
 #include <map>
 
 #include "mysim/base/json.h"
+#include "report/findings/report_data.h"
 #include "tests/unit/experiments/advise_case.h"
 #include "tests/unit/report/cli.h"
 #include "tests/unit/report/readers.h"
@@ -521,6 +522,31 @@ TEST_F(Cli, AdviseWritesAFileThatRuns) {
   const ProgramResult run = call({"run", "a/advice.toml", "--out", "r"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_TRUE(contains(run.out, "ok"));
+}
+
+TEST_F(Cli, AdviseTakesAPartOfTheMotion) {
+  const Scene scene = load_scene("spring");
+  Recorder exact;
+  ASSERT_EQ(run_method(find_method("truth/exact"), scene, default_run(scene), {&exact}).verdict, Verdict::ok);
+  double motion = 0;
+  for (std::size_t i = 0; i < exact.trajectory.t.size() && exact.trajectory.t[i] <= scene.window; ++i)
+    motion = std::max(motion, rms_distance(exact.trajectory.x[i], exact.trajectory.x[0]));
+  const ProgramResult advised = call({"advise", "spring", "--tolerance", "0.5%"});
+  ASSERT_EQ(advised.status, 0) << advised.err;
+  EXPECT_TRUE(contains(
+      advised.out, fmt::format("0.5 % of the motion, {}, is {}\n", nice_length(motion), nice_length(0.005 * motion))))
+      << advised.out << motion;
+  for (const char* wrong : {"0%", "-1%", "1 %", "%", "1mm", "nan", "inf%"}) {
+    const ProgramResult refused = call({"advise", "spring", "--tolerance=" + std::string(wrong)});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_TRUE(contains(refused.err, fmt::format("such as 1%, got '{}'", wrong))) << refused.err;
+  }
+  std::string stiff = own_scene;
+  stiff.replace(stiff.find("stiffness = 150"), 15, "stiffness = 1.5e7");
+  write("fails.toml", stiff);
+  const ProgramResult unknown = call({"advise", "fails.toml", "--tolerance", "1%"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_TRUE(contains(unknown.err, "the motion of fails is not known, as its own method fails")) << unknown.err;
 }
 
 TEST_F(Cli, AdviseFitsAndRefuses) {
