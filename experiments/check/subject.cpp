@@ -117,22 +117,35 @@ Subject::Noise Subject::noise_with_unsolved(const Scene& scene) {
   return noise;
 }
 
-std::optional<Method> Subject::with_iterations(int times) const {
-  // the option n= is what position-based methods call their iterations by; without it there is one
-  std::string name;
-  int iterations = 1;
-  if (!method_.position_based) return std::nullopt;
-  for (size_t at = 0; at <= method_.name.size();) {
-    const size_t end = std::min(method_.name.find('+', at), method_.name.size());
-    const std::string part = method_.name.substr(at, end - at);
+namespace {
+
+struct NamedIterations {
+  std::string method;  // without them
+  int count = 1;
+};
+
+/// The option n= is what position-based methods call their iterations by; without it there is one.
+NamedIterations iterations_in(const std::string& name) {
+  NamedIterations found;
+  for (size_t at = 0; at <= name.size();) {
+    const size_t end = std::min(name.find('+', at), name.size());
+    const std::string part = name.substr(at, end - at);
     at = end + 1;
     if (!part.starts_with("n="))
-      name += (name.empty() ? "" : "+") + part;
+      found.method += (found.method.empty() ? "" : "+") + part;
     else
-      std::from_chars(part.data() + 2, part.data() + part.size(), iterations);
+      std::from_chars(part.data() + 2, part.data() + part.size(), found.count);
   }
+  return found;
+}
+
+}  // namespace
+
+std::optional<Method> Subject::with_iterations(int times) const {
+  if (!method_.position_based) return std::nullopt;
+  const NamedIterations own = iterations_in(method_.name);
   try {
-    return find_method(fmt::format("{}+n={}", name, times * iterations));
+    return find_method(fmt::format("{}+n={}", own.method, times * own.count));
   } catch (const std::exception&) {  // no such option
     return std::nullopt;
   }
@@ -145,9 +158,10 @@ std::optional<std::vector<double>> Subject::iteration_error(const Scene& scene) 
   const SubjectRun& here = run(scene);
   const SubjectRun& there = twice_->run(scene);
   std::vector<double> apart(here.path.frames());
+  const double times = 2 + 1.0 / iterations_in(method_.name).count;
   double most = 0;
   for (size_t i = 0; i < apart.size(); ++i)
-    apart[i] = most = std::max(most, 2 * largest_column(here.path.x[i] - there.path.x[i]));
+    apart[i] = most = std::max(most, times * largest_column(here.path.x[i] - there.path.x[i]));
   return apart;
 }
 

@@ -75,8 +75,9 @@ class Subject {
   double rounding(double lengths, long steps, bool projected) const;
 
   /// Position-based solvers go through particles and links one after the other: another order is another unconverged
-  /// answer. The error of n of them falls as 1 / n, so that it is twice the distance of n and 2n iterations: that for
-  /// each sample, m; nothing where the engine has no option n=.
+  /// answer. The error of n of them falls as 1 / (n + a), of which a first one that takes half of it or more makes a at
+  /// most 1: so it is at most 2 + 1 / n times the distance of n and 2n iterations: that for each sample, m; nothing
+  /// where the engine has no option n=.
   std::optional<std::vector<double>> iteration_error(const Scene& scene);
   /// The same engine with so many times the iterations; nothing without an option n=.
   std::optional<Method> with_iterations(int times) const;

@@ -46,6 +46,7 @@ std::optional<Points> rest_near(const Scene& scene, const Points& guess) {
       }
       // nothing to gain, in forces by half or in energy above its rounding: what is left is that of stiff springs
       if (largest_column(a) <= 1e-4 * gravity) {
+        if (shift <= 1e-9 * stiffest) return s.x;  // positive definite with less added
         solver.setShift(1e-9 * stiffest);
         solver.factorize(l.k);
         if ((solver.vectorD().array() > 0).all()) return s.x;

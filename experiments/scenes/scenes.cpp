@@ -19,8 +19,8 @@ std::filesystem::path folder_of_scenes() { return data_folder() / "experiments" 
 std::filesystem::path folder_of_disagreements() { return folder_of_scenes() / "disagreements"; }
 
 /// Of several cloths a quick run uses one of each kind.
-constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-swing",   "cloth-wind",
-                                                  "flag",        "cloth-carried", "jelly"};
+constexpr std::string_view left_to_full_runs[] = {"cloth-stiff", "cloth-cantilever", "cloth-swing", "cloth-wind",
+                                                  "flag",        "cloth-carried",    "jelly"};
 
 }  // namespace
 
@@ -40,6 +40,7 @@ std::span<const std::string_view> shipped_scenes() {
       "cloth-hang",          //
       "cloth-stiff",         //
       "cloth-inextensible",  //
+      "cloth-cantilever",    //
       "cloth-swing",         //
       "cloth-wind",          //
       "flag",                //

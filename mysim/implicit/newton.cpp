@@ -179,7 +179,10 @@ void IncrementalPotential::precondition(const Points& r, Points& out) const {
 
 namespace {
 
-constexpr int most_newton_steps = 200, most_repetitions = 100;
+constexpr int most_repetitions = 100;
+/// 200, more of few particles: a strut of stiff springs buckles by many short steps, since each that turns its springs
+/// stretches them to the second order; they cost little, and all of them descend.
+int most_newton_steps(long particles) { return static_cast<int>(std::max(200L, 100'000 / particles)); }
 /// Ten do on most cloths. Far from a minimum to go on along the curvature may be a detour: it is left to those that
 /// stay.
 constexpr int few_newton_steps = 20;
@@ -234,7 +237,8 @@ double ImplicitStep::leave_saddle(double value, double step) {
 void ImplicitStep::minimise() {
   assert(!descent_.empty());
   double value = descent_.back();
-  for (int step = 0; step < most_newton_steps; ++step) {
+  const int most = most_newton_steps(u_.cols());
+  for (int step = 0; step < most; ++step) {
     potential_.gradient(u_, g_);
     const double left = largest_column(g_),
                  goal = std::max(force_tolerance * potential_.force_scale(), potential_.force_rounding());
@@ -263,7 +267,7 @@ void ImplicitStep::minimise() {
     if (saddle && step >= few_newton_steps) value = leave_saddle(value, length * largest_column(p_));
     descent_.push_back(value);
   }
-  throw SolverFailure(fmt::format("Newton's method did not converge in {} steps", most_newton_steps));
+  throw SolverFailure(fmt::format("Newton's method did not converge in {} steps", most));
 }
 
 const State& ImplicitStep::solve(const State& s, double h) {

@@ -62,9 +62,15 @@ void System::acceleration(State& stage, Points& a) {
   set_acceleration(a);
 }
 
-void System::position_acceleration(State& stage, Points& a) {
+const Points& System::position_forces(State& stage) {
   model_.particles.place_pins(stage);
   sum_forces(stage, []<class T>(const T&) { return !std::is_same_v<T, Drag> && !UsesVelocity<T>; });
+  for (int pin : model_.particles.pins) forces_.f.col(pin).setZero();
+  return forces_.f;
+}
+
+void System::position_acceleration(State& stage, Points& a) {
+  position_forces(stage);
   set_acceleration(a);
 }
 

@@ -25,6 +25,8 @@ class System {
 
   /// a = F / m of the forces that depend on position and time alone: springs, bending, gravity, uniform wind.
   void position_acceleration(State& stage, Points& a);
+  /// F of the same forces (3 x n, N; zero at pins), valid until the next evaluation.
+  const Points& position_forces(State& stage);
   /// Adds F / m of the forces that depend on velocity too, drag left out: dashpots, air on triangles.
   void add_velocity_acceleration(const State& stage, Points& a);
   bool has_velocity_forces() const { return has_velocity_forces_; }

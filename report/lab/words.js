@@ -166,6 +166,7 @@ const labWords = {
   'question.chain-link': ['To what does a position-based world converge as its step shrinks?', '步长缩小时，基于位置的方法收敛到什么？'],
   'question.chain': ['Do the engines agree on a chain of springs that is whipped about?', '对一条甩动的弹簧链，各引擎结果一致吗？'],
   'question.circle': ['How fast does each rule leave a circle that it should stay on?', '本应停留在圆上时，各种方法以多快的速度离开它？'],
+  'question.cloth-cantilever': ['How far does a strip of cloth droop under its own weight, held up by its bending rigidity alone?', '一条布只靠自身的抗弯刚度支撑，在自重下会下垂多少？'],
   'question.cloth-carried': ['Does a ball that moves take the cloth on it along?', '移动的球会带着上面的布一起走吗？'],
   'question.cloth-hang': ['Do the engines agree on a cloth that falls, swings and comes to hang?', '布料下落、摆动、最后静止悬挂，各引擎结果一致吗？'],
   'question.cloth-inextensible': ['Does a cloth whose threads cannot stretch swing as it should?', '线不可伸长的布料，摆动正确吗？'],

@@ -1,6 +1,7 @@
 // Relations: no engine here breaks what is not known, no defect is taken for another, no seed gives a false alarm.
 
 #include "experiments/check/check.h"
+#include "experiments/scenes/scenes.h"
 #include "tests/unit/experiments/defects.h"
 #include "tests/unit/helpers.h"
 
@@ -53,6 +54,18 @@ TEST(Seeds, OfTurnsShiftsAndOrdersGiveNoFalseAlarm) {
               << name << " " << relation << " seed " << seed << ": " << answer.sentence();
         }
       }
+  }
+}
+
+TEST(IterationError, CoversAStripWhoseErrorIsAllAsymmetry) {
+  const Scene scene = load_scene("cloth-cantilever");
+  const Relation& mirror = find_relation("mirror");
+  for (const char* name : {"bullet/pbd", "bullet/pbd+n=4"}) {
+    Subject subject(find_method(name));
+    const Answer answer = ask(mirror, subject, scene, 1, {});
+    EXPECT_EQ(answer.mark, RelationMark::holds) << name << ": " << answer.sentence();
+    // and by no more than its derivation leaves: four times the distance of n and 2n iterations are reached
+    EXPECT_GT(answer.finding.ratio(), 0.6) << name;
   }
 }
 

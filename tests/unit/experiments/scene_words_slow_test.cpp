@@ -9,6 +9,7 @@
 #include "mysim/model/system.h"
 #include "mysim/scene/toml.h"
 #include "reference/truth/exact/exact.h"
+#include "tests/unit/experiments/helpers.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/reference/helpers.h"
 
@@ -166,6 +167,14 @@ const ClaimedNumber claims[] = {
        const Vec3 down = s.start.x.col(s.start.x.cols() - 1) - s.start.x.col(7);
        return std::atan2(down.z(), -down.y()) / degree;
      }},
+    {"cloth-cantilever", "{} kg/m^2, bending", [](const Scene& s) { return strip_of(s).weight / 9.81; }},
+    {"cloth-cantilever", "w L^3 / B is {},",
+     [](const Scene& s) {
+       const ClampedStrip strip = strip_of(s);
+       return strip.weight * std::pow(strip.length, 3) / strip.rigidity;
+     }},
+    {"cloth-cantilever", "elastica rests {} of its length",
+     [](const Scene& s) { return Elastica(strip_of(s)).tip().drop / strip_of(s).length; }},
     {"cloth-student", "particles of {} kg", [](const Scene& s) { return s.model.particles.mass[9]; }},
     {"cloth-student", "wave turns by {} rad", [](const Scene& s) { return s.step * omega_of(s); }},
     {"cloth-student", "a step {} times shorter, explicit",

@@ -1,6 +1,9 @@
 // Implicit steps: the potential and its derivatives, the linear solver, and the equations that a step must satisfy.
 
+#include <fmt/format.h>
 #include <Eigen/Dense>
+
+#include <numbers>
 
 #include "mysim/base/eigenvalues.h"
 #include "mysim/implicit/newton.h"
@@ -291,6 +294,24 @@ TEST(Implicit, LinksAtRestAreSolvedWhereRoundingLeavesThemNoEnergy) {
     NullObserver nobody;
     const Outcome out = simulate(stepper("implicit-euler"), ContactRule::coulomb, scene, {step, 0x1p-7, 1}, nobody);
     EXPECT_EQ(out.verdict, Verdict::ok) << step << ": " << out.reason;
+  }
+}
+
+TEST(Implicit, AStrutOfStiffSpringsBuckles) {
+  // twenty springs, pressed together by a tenth of their length and a millimetre off the straight line
+  constexpr int n = 20;
+  std::string text;
+  for (int i = 0; i <= n; ++i)
+    text += fmt::format("[[particle]]\nposition = [{}, {}, 0]\nmass = 0.01\n", i / 20.,
+                        i % n ? 1e-3 * std::sin(std::numbers::pi * i / n) : 0);
+  for (int i = 0; i < n; ++i)
+    text += fmt::format("[[spring]]\nends = [{}, {}]\nstiffness = 1e6\nrest = 0.055\n", i, i + 1);
+  text += fmt::format("[pins]\nparticles = [0, {}]\n[gravity]\nacceleration = [0, -9.81, 0]\n", n);
+  for (const auto name : {"implicit-euler", "implicit-midpoint"}) {
+    NullObserver nobody;
+    const Scene scene = small_scene(text, 0.1, 0.1, 1);
+    const Outcome out = simulate(stepper(name), ContactRule::coulomb, scene, {0.1, 0.1, 1}, nobody);
+    EXPECT_EQ(out.verdict, Verdict::ok) << name << ": " << out.reason;
   }
 }
 
