@@ -37,7 +37,8 @@ struct Point {
   std::string name;     // for people: "engines: cloth-hang"; no two of a sweep share it
   std::string content;  // everything, beside the program, that its rows depend on
   std::function<void(TableSet&)> compute;
-  bool timed = false;  // measures time: is run alone, pinned to one core, after all others
+  bool timed = false;    // measures time: is run alone, pinned to one core, after all others
+  bool is_long = false;  // takes seconds: begins before the others, so that no core waits for it at the end
 
   /// Fingerprint of name, content and program: 16 hexadecimal digits. The same point of another build is another point.
   std::string hash() const;

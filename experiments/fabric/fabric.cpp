@@ -194,7 +194,7 @@ std::vector<Point> fabric_points(const Request& request) {
           {"fabric: skip-one springs", "drops", skip_one},
           {"fabric: hanging strips", "sags", hanging},
           {"fabric: drapes", full ? "up to 64 rings" : "up to 16 rings",
-           [full](TableSet& tables) { full ? drapes(tables, 64, 9, 10) : drapes(tables, 16, 7, 0); }}};
+           [full](TableSet& tables) { full ? drapes(tables, 64, 9, 10) : drapes(tables, 16, 7, 0); }, false, true}};
 }
 
 }  // namespace crosscheck

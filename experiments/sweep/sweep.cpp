@@ -160,6 +160,7 @@ std::vector<FailedPoint> run_points(std::span<const Point> points, const SweepOp
           todo.push_back(&points[i]);
       }
     if (todo.empty()) continue;
+    std::ranges::stable_partition(todo, &Point::is_long);
     const int workers = timed ? 1 : std::min(jobs, static_cast<int>(todo.size()));
     for (FailedPoint& f : Batch(std::move(todo), workers, store, progress).run()) failed.push_back(std::move(f));
   }

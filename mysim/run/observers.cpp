@@ -78,8 +78,10 @@ class MotionBoundsObserver : public Observer {
   Verdict observe(const State& state, bool) override {
     if (!state.x.allFinite() || !state.v.allFinite()) return Verdict::nan;
     const Particles& particles = scene_.model.particles;
+    double fastest = 0;  // m^2/s^2
     for (int i = 0; i < particles.size(); ++i)
-      if (!particles.pinned[i]) bounds.speed = std::max(bounds.speed, state.v.col(i).norm());
+      if (!particles.pinned[i]) fastest = std::max(fastest, state.v.col(i).squaredNorm());
+    bounds.speed = std::max(bounds.speed, std::sqrt(fastest));
     bounds.stretch = std::max(bounds.stretch, largest_length_ratio(scene_.model, scene_.start, state.x));
     return Verdict::ok;
   }

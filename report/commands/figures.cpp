@@ -117,7 +117,8 @@ struct Work {
   std::vector<Point> points;  // of the experiments
 };
 
-Work work_of(const FigureSelection& selection, const FiguresOptions& options) {
+/// `on_engines` is given the runs of `engines`.
+Work work_of(const FigureSelection& selection, const FiguresOptions& options, const RunCallback& on_engines) {
   Work work;
   Request request;
   request.full = options.full;
@@ -125,6 +126,7 @@ Work work_of(const FigureSelection& selection, const FiguresOptions& options) {
   for (const Experiment* experiment : selection.experiments) {
     work.experiments.emplace_back(experiment->name);
     request.scenes = scenes_for(*experiment, options.scenes, options.full);
+    request.on_runs = experiment->points == engines_points ? on_engines : RunCallback();
     for (const Scene& scene : request.scenes)
       require_resources_to_keep(methods_of(request, scene), scene, run_of(request, scene));
     add_missing(work.scenes, request.scenes);
@@ -147,29 +149,78 @@ std::string script_of(const PictureRequest& picture, const FiguresOptions& optio
       name, shell_single_quote(picture.given), options.set, size.width, options.full ? " --full" : "");
 }
 
-/// Draws the picture of a scene into the folder, and returns its entry of the catalogue.
-Point picture_point(const PictureRequest& picture, const FiguresOptions& options, const FigureSize& size,
-                    const Provenance& lines) {
-  return {"picture: " + picture_name(picture.scene), content_of(picture.scene), [&, size](TableSet& rows) {
-            const Scene& scene = picture.scene;
-            MethodResults answers;
-            std::vector<const MethodResult*> shown;
-            for (const std::string& name : pictured_methods(scene)) {
-              const MethodResult& a = result_of({}, scene, find_method(name), answers);
-              if (a.trajectory.frames() > 0) shown.push_back(&a);
+/// Pictures of scenes, drawn into the folder. A scene that `engines` looks at is drawn in the same process, from the
+/// same runs: they are a third of a picture's work.
+class Pictures {
+ public:
+  Pictures(const std::vector<PictureRequest>& requests, const FiguresOptions& options, const FigureSize& size,
+           const Provenance& lines)
+      : requests_(requests), options_(options), size_(size), lines_(lines), runs_(std::make_shared<MethodResults>()) {}
+
+  /// Keeps those runs that a picture shows.
+  RunCallback keeping() const {
+    return [this, runs = runs_](const RecordedRuns& recorded) {
+      const bool pictured = std::ranges::any_of(requests_, [&](const PictureRequest& picture) {
+        return content_of(picture.scene) == content_of(recorded.scene);
+      });
+      if (pictured && std::ranges::count(pictured_methods(recorded.scene), recorded.method) > 0)
+        runs->push_back({recorded.scene.name, recorded.method, recorded.runs[0].outcome, recorded.runs[0].path});
+    };
+  }
+
+  /// The pictures as points of their own; their rows are their entries of the catalogue.
+  std::vector<Point> points() const {
+    std::vector<Point> points;
+    for (const PictureRequest& picture : requests_)
+      points.push_back({"picture: " + picture_name(picture.scene), content_of(picture.scene),
+                        [this, &picture](TableSet& rows) { draw(picture, rows); }});
+    return points;
+  }
+
+  /// Lets each point of `engines` draw its scene when it is done. A picture that fails there is none of its rows: it
+  /// is drawn again, and reported, with the figures.
+  void draw_with_engines(std::vector<Point>& points, const Store& store) const {
+    const std::vector<Point> own = this->points();
+    for (Point& point : points)
+      for (size_t i = 0; i < own.size(); ++i)
+        if (point.name == "engines: " + requests_[i].scene.name)
+          point.compute = [compute = std::move(point.compute), picture = own[i], &store](TableSet& rows) {
+            compute(rows);
+            try {
+              TableSet entry;
+              picture.compute(entry);
+              store.keep(picture.hash(), entry);
+            } catch (const std::exception&) {
             }
-            const FigureInfo words = picture_info(scene, shown, size, value_of(lines, "commit"));
-            write_printed(scene, shown, shot_for_print(scene, size, options.full), words, with_scene(lines, scene),
-                          options.out);
-            const auto script = options.out / (words.name + ".sh");
-            write_file(script, script_of(picture, options, size));
-            std::filesystem::permissions(script, std::filesystem::perms::owner_exec,
-                                         std::filesystem::perm_options::add);
-            Table table{"words", {{"title", "1"}, {"finding", "1"}, {"caption", "1"}}, {}};
-            table.add({words.title, words.finding, words.caption});
-            rows.add(table);
-          }};
-}
+          };
+  }
+
+ private:
+  void draw(const PictureRequest& picture, TableSet& rows) const {
+    const Scene& scene = picture.scene;
+    MethodResults runs = std::exchange(*runs_, {});
+    std::vector<const MethodResult*> shown;
+    for (const std::string& name : pictured_methods(scene)) {
+      const MethodResult& a = result_of({}, scene, find_method(name), runs);
+      if (a.trajectory.frames() > 0) shown.push_back(&a);
+    }
+    const FigureInfo words = picture_info(scene, shown, size_, value_of(lines_, "commit"));
+    write_printed(scene, shown, shot_for_print(scene, size_, options_.full), words, with_scene(lines_, scene),
+                  options_.out);
+    const auto script = options_.out / (words.name + ".sh");
+    write_file(script, script_of(picture, options_, size_));
+    std::filesystem::permissions(script, std::filesystem::perms::owner_exec, std::filesystem::perm_options::add);
+    Table table{"words", {{"title", "1"}, {"finding", "1"}, {"caption", "1"}}, {}};
+    table.add({words.title, words.finding, words.caption});
+    rows.add(table);
+  }
+
+  const std::vector<PictureRequest>& requests_;
+  const FiguresOptions& options_;
+  const FigureSize& size_;
+  const Provenance& lines_;
+  std::shared_ptr<MethodResults> runs_;  // of this process, for the next picture
+};
 
 class Problems {
  public:
@@ -206,10 +257,12 @@ std::vector<Chart> charts_of_report(const ReportData& data, const std::vector<st
   return charts;
 }
 
-/// Draws charts, several at a time, and returns their entries of the catalogue.
+/// Draws charts, several at a time and after `first`, and returns their entries of the catalogue.
 std::vector<FigureInSet> draw_charts(std::vector<Chart>& charts, const FigureSize& size, const Provenance& lines,
-                                     const std::filesystem::path& folder, const Store& store, Problems& problems) {
-  std::vector<Point> drawings;
+                                     const std::filesystem::path& folder, const Store& store, Problems& problems,
+                                     std::vector<Point> first = {}) {
+  std::vector<Point> drawings = std::move(first);
+  const size_t begin = drawings.size();
   for (Chart& chart : charts) {
     resize(chart, size);
     drawings.push_back({"figure: " + figure_info(chart)->name, figure_info(chart)->name,
@@ -218,7 +271,8 @@ std::vector<FigureInSet> draw_charts(std::vector<Chart>& charts, const FigureSiz
   problems.compute(drawings, store);
   std::vector<FigureInSet> drawn;
   for (size_t i = 0; i < charts.size(); ++i)
-    if (store.find(drawings[i].hash())) drawn.push_back({*figure_info(charts[i]), charts[i].scene, chart_endings});
+    if (store.find(drawings[begin + i].hash()))
+      drawn.push_back({*figure_info(charts[i]), charts[i].scene, chart_endings});
   return drawn;
 }
 
@@ -254,34 +308,22 @@ int figures_command(const FiguresOptions& given) {
   FiguresOptions options = given;
   const FigureSize size = figure_size(options.set, options.width);
   const FigureSelection selection = select_figures(options);
-  const Work work = work_of(selection, options);
+  const Provenance plain = provenance(options.command_line);
+  const Pictures pictures(selection.pictures, options, size, plain);
+  Work work = work_of(selection, options, pictures.keeping());
   OutputFolder folder(options.out, "figures");
   options.out = folder.path();
   std::vector<Scene> scenes = work.scenes;
   for (const PictureRequest& picture : selection.pictures) add_missing(scenes, {picture.scene});
-  const Provenance plain = provenance(options.command_line), lines = with_scenes(plain, scenes);
+  const Provenance lines = with_scenes(plain, scenes);
   const Store store(store_in(options.out));
   store.clear();
+  pictures.draw_with_engines(work.points, store);
   Problems problems;
-  std::vector<Point> points;  // the pictures first, which take longest
-  for (const PictureRequest& picture : selection.pictures)
-    points.push_back(picture_point(picture, options, size, plain));
-  const size_t pictures = points.size();
-  points.insert(points.end(), work.points.begin(), work.points.end());
-  problems.compute(points, store);
+  problems.compute(work.points, store);
   std::vector<std::string> missing;  // reported already
   const TableSet rows = joined(point_list_of(work.experiments, work.points, lines), {&store, 1}, missing);
 
-  std::vector<FigureInSet> drawn;
-  for (size_t i = 0; i < pictures; ++i)
-    if (const auto found = store.find(points[i].hash())) {
-      const Table& words = *found->table("words");
-      const auto text = [&](const char* column) { return std::get<std::string>(words.at(0, column)); };
-      const Scene& scene = selection.pictures[i].scene;
-      drawn.push_back({{picture_name(scene), text("title"), text("caption"), "", text("finding"), false, size},
-                       scene.name,
-                       picture_endings});
-    }
   std::vector<Chart> charts;
   if (!selection.experiments.empty()) {
     const AllFindings findings = all_findings(work.scenes, rows);
@@ -289,8 +331,18 @@ int figures_command(const FiguresOptions& given) {
         {work.scenes, findings.facts, rows, value_of(lines, "commit"), options.full || !options.scenes.empty()});
     std::erase_if(charts, [](const Chart& chart) { return !figure_info(chart); });
   }
-  for (FigureInSet& chart : draw_charts(charts, size, lines, options.out, store, problems))
-    drawn.push_back(std::move(chart));
+  const std::vector<Point> pictured = pictures.points();
+  std::vector<FigureInSet> drawn, of_charts = draw_charts(charts, size, lines, options.out, store, problems, pictured);
+  for (size_t i = 0; i < pictured.size(); ++i)
+    if (const auto found = store.find(pictured[i].hash())) {
+      const Table& words = *found->table("words");
+      const auto text = [&](const char* column) { return std::get<std::string>(words.at(0, column)); };
+      const Scene& scene = selection.pictures[i].scene;
+      drawn.push_back({{picture_name(scene), text("title"), text("caption"), "", text("finding"), false, size},
+                       scene.name,
+                       picture_endings});
+    }
+  std::ranges::move(of_charts, std::back_inserter(drawn));
   store.clear();
   return finish(drawn, size, lines, given, folder, rows.notes, problems);
 }

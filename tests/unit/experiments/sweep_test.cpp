@@ -236,6 +236,14 @@ TEST_F(Sweep, TimedPointsRunAfterAllOthersOneAtATime) {
   EXPECT_EQ(timed, (std::vector<std::string>{"begin 0", "end 0", "begin 3", "end 3", "begin 4", "end 4"}));
 }
 
+TEST_F(Sweep, LongPointsBeginFirstAndTheirRowsStandInTheirPlace) {
+  std::vector<Point> points = several(4);
+  points[2].is_long = true;
+  EXPECT_TRUE(run(points, {1, {}}).empty());
+  EXPECT_EQ(ran(), (std::vector<std::string>{"p2", "p0", "p1", "p3"}));
+  EXPECT_EQ(text(whole(points)), text(computed(points)));
+}
+
 TEST_F(Sweep, TimedPointsOfOneSweepWaitForThePointsOfAnother) {
   std::vector<Point> others = several(3), timed = {point("timed", 1)};
   for (Point& p : others)
