@@ -121,9 +121,8 @@ std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
   f.finding =
       "Above the line it must stick (filled), below it slide (open); a triangle does neither: it moves at a "
       "steady creep.";
-  f.caption = fmt::format(
-      "The same runs as above, methods side by side at each slope, in the order of the key; step {}; commit {}.",
-      step_text(step), commit);
+  f.caption = fmt::format("The same runs, methods side by side in the order of the key; step {}; commit {}.",
+                          step_text(step), commit);
   f.tier = "exact (Coulomb's law)";
   return Chart{"", std::move(f), "sphere"};
 }
@@ -199,13 +198,10 @@ std::optional<Chart> leaving_chart(const Table& table, const std::string& commit
   if (f.curves.empty()) return std::nullopt;
   f.floor = {"exact", 0};
   f.finding = fmt::format(
-      "Contact ends at 48.2 degrees, where cos = 2/3; the gap must pass 1 mm at {:.2f} degrees and {:.3f} m/s. {} A "
-      "particle that never comes off, as on the sticky sphere, has no point here.",
+      "Contact ends at 48.2 degrees, where cos = 2/3; the gap must pass 1 mm at {:.2f} degrees and {:.3f} m/s. {}",
       exact, speed, sentences_of(leaving_findings(table)));
   f.caption = fmt::format(
-      "A ball of 1.02 m, no friction, started 1 degree off its top; the gap of 1 mm is compared, as some engines let "
-      "the particle hop before it leaves; commit {}.",
-      commit);
+      "A ball of 1.02 m, no friction, started 1 degree off its top; the gap of 1 mm is compared; commit {}.", commit);
   f.tier = "exact (energy on the ball, then free flight)";
   return Chart{"", std::move(f), "sphere"};
 }
