@@ -129,7 +129,7 @@ void engines_on(const Request& request, const Scene& scene, MethodResults& resul
                   .step_limit = predicted_limit(method, scene, omega),
                   .different_law = fmt::format("{}", fmt::join(out.different_law, "; "))};
     if (truth) row.truth = truth->how, row.truth_kind = {truth->tier, of_rule}, row.truth_bar = truth->error_bar;
-    if (of_rule) row.truth_until = truth->until;
+    if (truth && std::isfinite(truth->until)) row.truth_until = truth->until;
     if (out.verdict == Verdict::ok) {
       row.error = largest(samples, &EngineTimeRow::error, scene.window);
       row.contact_difference = largest(samples, &EngineTimeRow::contact_difference, scene.window);

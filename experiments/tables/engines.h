@@ -60,7 +60,7 @@ struct EngineRow {
         column("truth tier", "1", &EngineRow::truth_kind, "how sure the truth is"),
         column("truth bar", "m", &EngineRow::truth_bar, "error bar of the truth"),
         column("truth until", "s", &EngineRow::truth_until,
-               "until when the contact rule's converged answer is known; empty of other truths"),
+               "until when the truth is known, where that is not to the end"),
         column("largest error", "m", &EngineRow::error, "largest RMS distance from the truth in the window"),
         column("largest difference from converged contact", "m", &EngineRow::contact_difference,
                "largest RMS distance in the window from what the in-house contact rule converges to"),

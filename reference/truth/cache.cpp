@@ -56,7 +56,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto extension = ".truth";
-constexpr int error_bar_version = 3;  // raised with what a truth's error bar means: no truth of an older rule is found
+constexpr int error_bar_version = 4;  // raised with what a truth's error bar means: no truth of an older rule is found
 
 class ByteWriter {
  public:

@@ -59,6 +59,7 @@ std::optional<Truth> truth_of(const Scene& scene, const Run& run) {
   const auto find = [&] {
     if (!scene.model.find<Spheres>()) return converged_truth(scene, run);
     auto truth = event_truth(scene, run);
+    if (!truth) truth = time_stepping_truth(scene, run);
     return truth ? truth : contact_truth(scene, run);
   };
   const auto cache = TruthCache::from_environment();
@@ -89,6 +90,8 @@ class RichardsonEstimate {
     const double r = std::min(before_ / last_, study_.ratio);
     return r >= 2 ? 3 * last_ / (r - 1) : last_;
   }
+  /// m, the last difference up to the same sample.
+  double last_change() const { return last_; }
 
  private:
   const RefinementStudy& study_;
@@ -199,9 +202,9 @@ std::optional<Truth> ended_after(size_t samples, Truth truth) {
 }
 
 /// The truth of two routes: the path of `one`, with what `other` and both refinements say of its error, up to where
-/// that exceeds a hundredth of the motion.
+/// that exceeds `most` (m) or a hundredth of the motion.
 std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, RefinementStudy one,
-                                     const RefinementStudy& other) {
+                                     const RefinementStudy& other, double most = INFINITY) {
   Truth truth{Tier::converged, fmt::format("{}, against {}", one.how, other.how), one.fine, 0};
   const auto& x = truth.trajectory.x;
   RichardsonEstimate own_estimate(one), other_estimate(other);
@@ -214,13 +217,17 @@ std::optional<Truth> truth_of_routes(const Scene& scene, const Run& run, Refinem
     // and some units in the last place that each route has of its own, whatever it refines
     const double place = x[i].norm() / std::sqrt(x[i].cols());
     const double rounding = std::max(random_walk * place, 1e-15 * std::max(scene.size(), place));
-    // an error of the first route is what it is apart from the second, and what that one errs the same way
-    const double apart = rms_distance(x[i], other.fine.x[i]) + other_estimate.error_up_to(i),
-                 own = own_estimate.error_up_to(i);
+    // an error of the first route is what it is apart from the second, and what that one errs the same way; a second
+    // one of order 1 errs by far the most, and otherwise: what is left of it is its last change
+    const double theirs = other_estimate.error_up_to(i), own = own_estimate.error_up_to(i),
+                 between = rms_distance(x[i], other.fine.x[i]);
+    const double apart = other.ratio > 2         ? between + theirs
+                         : std::isfinite(theirs) ? std::max(between, other_estimate.last_change())
+                                                 : INFINITY;
     const double error_bar = std::max(apart, own) + rounding;
     truth.error_bar = std::isfinite(error_bar) ? std::max(truth.error_bar, error_bar) : INFINITY;
     truth.error_bars.push_back(truth.error_bar);
-    if (truth.error_bar < 0.01 * motion) known = i + 1;
+    if (truth.error_bar < 0.01 * motion && truth.error_bar <= most) known = i + 1;
   }
   return ended_after(known, std::move(truth));
 }
@@ -305,6 +312,38 @@ std::optional<RefinementStudy> refine_events(const Scene& scene, const Run& run)
   return study;
 }
 
+/// The truth of a run's first part with its end; none where that comes before anything was touched for a while, which
+/// shows nothing of contact.
+std::optional<Truth> truth_of_part(const Scene& scene, const Run& run, const Run& part, std::optional<Truth> truth) {
+  if (!truth) return std::nullopt;
+  if (part.samples < run.samples) truth->until = std::min(truth->until, part.duration);
+  if (std::isinf(truth->until)) return truth;
+  const Trajectory& known = truth->trajectory;
+  int touch = 0;
+  while (touch < known.frames() &&
+         !in_contact(*scene.model.find<Spheres>(), scene.model.particles, known.t[touch], known.x[touch]))
+    ++touch;
+  return touch + 1 < known.frames() ? std::move(truth) : std::nullopt;
+}
+
+std::optional<RefinementStudy> refine_leapfrog_events(const Scene& scene, const Run& run, double first, int halvings) {
+  return refine_step(
+      scene, first, 2, halvings,
+      [&](double h) {
+        return run_leapfrog(scene, {h, run.duration, run.samples}, "mysim/leapfrog+events");
+      },
+      [](double ms) { return fmt::format("mysim/leapfrog+events at {:.3g} ms", ms); });
+}
+
+/// The first part of a run, at least one sample, up to where a route's own estimate exceeds `most` (m).
+Run known_part(const RefinementStudy& study, const Run& run, double most) {
+  RichardsonEstimate estimate(study);
+  int last = 0;
+  while (last + 1 < study.fine.frames() && estimate.error_up_to(static_cast<size_t>(last) + 1) <= most) ++last;
+  last = std::max(last, 1);
+  return {run.step, run.duration / run.samples * last, last};
+}
+
 }  // namespace
 
 std::optional<Truth> event_truth(const Scene& scene, const Run& run) try {
@@ -317,24 +356,40 @@ std::optional<Truth> event_truth(const Scene& scene, const Run& run) try {
   // 1e7 steps of a particle take a second or two
   const double first = first_step(scene, false), steps = shared.duration / first * n;
   const int halvings = std::clamp(static_cast<int>(std::log2(1e7 / steps)), 2, 7);
-  const auto leapfrog = refine_step(
-      scene, first, 2, halvings,
-      [&](double h) {
-        return run_leapfrog(scene, {h, shared.duration, shared.samples}, "mysim/leapfrog+events");
-      },
-      [](double ms) { return fmt::format("mysim/leapfrog+events at {:.3g} ms", ms); });
+  const auto leapfrog = refine_leapfrog_events(scene, shared, first, halvings);
   if (!leapfrog) return std::nullopt;
   auto truth = truth_of_routes(scene, shared, std::move(*events), *leapfrog);
-  if (!truth) return std::nullopt;
-  if (shared.samples < run.samples) truth->until = std::min(truth->until, shared.duration);
-  if (std::isinf(truth->until)) return truth;
-  // what ends before anything was touched for a while shows nothing of contact
-  const Trajectory& known = truth->trajectory;
-  int touch = 0;
-  while (touch < known.frames() &&
-         !in_contact(*scene.model.find<Spheres>(), scene.model.particles, known.t[touch], known.x[touch]))
-    ++touch;
-  return touch + 1 < known.frames() ? truth : std::nullopt;
+  return truth_of_part(scene, run, shared, std::move(truth));
+} catch (const Unsupported&) {
+  return std::nullopt;
+} catch (const SolverFailure&) {
+  return std::nullopt;
+}
+
+std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run) try {
+  if (scene.model.find<Constraints>() || scene.model.first_order()) return std::nullopt;
+  const double omega = highest_frequency(scene.model, scene.start);
+  const double first = omega > 0 ? std::min(scene.step, 1.4 / omega) : scene.step;
+  // later than the scene's window nobody looks
+  const double interval = run.duration / run.samples;
+  const int most = std::clamp(static_cast<int>(scene.window / interval * (1 + 1e-9)), 1, run.samples);
+  const Run seen{run.step, interval * most, most};
+  auto events = refine_leapfrog_events(scene, seen, first, 2);
+  if (!events) return std::nullopt;
+  // a third: what is left of the tolerance for a run's own error is then at least twice the bar
+  const double largest_bar = scene.tolerance / 3;
+  const Run part = known_part(*events, seen, largest_bar);
+  RefinementStudy stepping{"", first / 32, 2, {}, {}, {}};
+  stepping.how = fmt::format("Moreau's time stepping at {:.3g} ms on equations written apart", 1e3 * stepping.step);
+  double h = 4 * stepping.step;
+  for (Trajectory* path : {&stepping.coarse, &stepping.middle, &stepping.fine}) {
+    Recorder recorder;
+    if (run_time_stepping(scene, {h, part.duration, part.samples}, recorder).verdict != Verdict::ok)
+      return std::nullopt;
+    *path = std::move(recorder.trajectory);
+    h /= 2;
+  }
+  return truth_of_part(scene, run, part, truth_of_routes(scene, part, std::move(*events), stepping, largest_bar));
 } catch (const Unsupported&) {
   return std::nullopt;
 } catch (const SolverFailure&) {

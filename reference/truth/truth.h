@@ -51,6 +51,18 @@ std::optional<Truth> converged_truth(const Scene& scene, const Run& run);
 /// moves, where a route fails at once, or where it would end before or at the first touch.
 std::optional<Truth> event_truth(const Scene& scene, const Run& run);
 
+// Contact of more particles, of cloths say, or with moving spheres: two rules of contact that share no equation, as
+// long as the motion is not too sensitive for them to agree.
+
+/// The path is that of mysim's leapfrog+events at the scene's step (at most h omega = 1.4), a half and a quarter of it,
+/// against Moreau's time stepping on equations written apart (truth/independent/time_stepping.cpp) at 1/8, 1/16 and
+/// 1/32. That one is of order 1: the bar is the largest of the difference of the two, of its last change, and of the
+/// first route's estimate. It ends where the bar exceeds a third of the scene's tolerance or a hundredth of the motion:
+/// where the motion becomes sensitive, which of two rules is right can no longer be told; and with the scene's window.
+/// None where a route fails, where a particle touches two spheres at once, or where it would end before or at the first
+/// touch.
+std::optional<Truth> time_stepping_truth(const Scene& scene, const Run& run);
+
 // The limit of a scene with contact as the step goes to 0, under the in-house contact rule.
 
 /// mysim's leapfrog at 1/8, 1/16 and 1/32 of the scene's step. The result holds as long as the last

@@ -117,9 +117,12 @@ int compare_command(const CompareOptions& options) {
 
   const std::vector<EngineRow> runs = rows_of<EngineRow>(result);
   const std::optional<TruthKind> tier = runs.at(0).truth_kind;
-  fmt::print("\n{}: {}\ntruth: {}{}\n\n", scene.name, scene.question,
-             tier ? std::get<std::string>(to_cell(*tier)) : "none",
-             tier ? fmt::format(", error bar {} m ({})", shown(runs[0].truth_bar), *runs[0].truth) : "");
+  fmt::print(
+      "\n{}: {}\ntruth: {}{}\n\n", scene.name, scene.question, tier ? std::get<std::string>(to_cell(*tier)) : "none",
+      tier
+          ? fmt::format(", error bar {} m{} ({})", shown(runs[0].truth_bar),
+                        runs[0].truth_until ? fmt::format(" until {:.3g} s", *runs[0].truth_until) : "", *runs[0].truth)
+          : "");
   // under contact nobody is right: what differs from the converged in-house rule is no error
   const bool of_rule = tier && tier->of_contact_rule;
   fmt::print("{:<28} {:<12} {:>10} {:>10} {:>12} {:>10} {:>10}\n", "method", "verdict", of_rule ? "rule/m" : "error/m",

@@ -21,6 +21,9 @@ Chart cone_law(const Table& cones, const std::string& commit);
 std::optional<Chart> cone_map(const Table& cones, const std::string& commit);
 Chart rebound_chart(const Table& rebounds, const std::string& commit);
 std::optional<Chart> leaving_chart(const Table& leavings, const std::string& commit);
+/// Error against step of a slide with friction that leaves the ball, with and without +events; empty without a run of
+/// both.
+std::optional<Chart> contact_order_chart(const Table& orders, const std::string& commit);
 
 /// Maps over step and stiffness, step and drag, one for each scene and kind.
 std::vector<Chart> map_charts(const Table& cells, const Table& limits, const std::string& commit);

@@ -23,7 +23,8 @@ std::vector<Chart> error_charts(const ChartInput& input) {
     f.title = scene.name + ": error against the truth";
     f.caption = caption_of(scene, input.commit);
     f.tier = tier_of(facts);
-    f.x = {"t / s", false, 0.0, scene.duration};
+    const double end = facts.truth_until.value_or(scene.duration);
+    f.x = {"t / s", false, 0.0, end};
     const double top = 10 * facts.motion;
     f.y = {"RMS position error / m", true, std::max(facts.error_bar, 1e-16) / 3, top};
     std::vector<std::string> failed, cut;
@@ -38,14 +39,15 @@ std::vector<Chart> error_charts(const ChartInput& input) {
       }
       if (above) cut.push_back(m.method);
       if (!m.ok()) {
-        f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), m.end,
-                              curve.points.empty() ? top / 3 : std::min(top / 3, curve.points.back().second * 3)});
+        if (m.end <= end)
+          f.failures.push_back({m.method + ": " + m.failure(), style_of(m.method), m.end,
+                                curve.points.empty() ? top / 3 : std::min(top / 3, curve.points.back().second * 3)});
         failed.push_back(m.method);
       }
       if (!curve.points.empty()) f.curves.push_back(std::move(curve));
     }
     f.floor = {"error bar of the truth", facts.error_bar};
-    f.finding = fmt::format("Errors of {} methods over {:.3g} s{}.", f.curves.size(), scene.duration,
+    f.finding = fmt::format("Errors of {} methods over {:.3g} s{}.", f.curves.size(), end,
                             failed.empty() ? "" : fmt::format("; failed: {}", failed.size()));
     if (!cut.empty())
       f.caption += fmt::format(" Not drawn: errors above ten times the motion ({}), which {} {}.", nice_length(top),

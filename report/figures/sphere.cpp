@@ -239,6 +239,7 @@ std::vector<Chart> sphere_charts(const ChartInput& input) {
   }
   if (const Table* table = rows.table("sphere-rebound")) add(rebound_chart(*table, input.commit));
   if (const Table* table = rows.table("sphere-leaving")) add(leaving_chart(*table, input.commit));
+  if (const Table* table = rows.table("sphere-order")) add(contact_order_chart(*table, input.commit));
   const Table *drapes = rows.table("sphere-drape"), *deep = rows.table("sphere-penetration");
   if (!drapes || !deep) return charts;
   for (const std::string& scene : distinct(*drapes, "scene")) {

@@ -99,7 +99,7 @@ void accuracy(Said& said) {
   const MethodData* best = nearest(judged, data, tied);
   if (!best || !(data.motion > 0)) return;
   Finding f = error_of(*best, "nearest", data);
-  f.words["window"] = said.window();
+  f.words["window"] = step_text(std::min(said.scene.window, data.truth_until.value_or(said.scene.window)));
   f.words["others"] = tied == 1 ? "" : fmt::format(", with {} as near", counted(tied - 1, "other"));
   said.add(f);
   if (const MethodData* of_single = nearest(single, data, tied); of_single && !ties_with(*of_single, *best, data))

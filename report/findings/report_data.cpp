@@ -51,8 +51,11 @@ SceneData scene_data(const std::string& scene, const TableSet& result) {
     facts.measured_window = run.measured_window, facts.growth = run.growth;
     facts.round_off = run.round_off_bound;
     facts.truth = run.truth.value_or("");
-    facts.contact_until = run.truth_until;
-    if (run.truth_kind && !run.truth_until) facts.tier = name_of(run.truth_kind->tier);
+    facts.truth_until = run.truth_until;
+    if (run.truth_kind && run.truth_kind->of_contact_rule)
+      facts.contact_until = run.truth_until;
+    else if (run.truth_kind)
+      facts.tier = name_of(run.truth_kind->tier);
     facts.error_bar = run.truth_bar.value_or(0);
     facts.methods.push_back({.method = run.method,
                              .reason = run.reason,

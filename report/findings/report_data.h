@@ -59,7 +59,8 @@ struct SceneData {
   std::string tier;                 // of the truth; empty without one
   double error_bar = 0;             // m
   std::string truth;                // how it was found, one sentence
-  // of scenes with contact: what the in-house rule converges to is known up to here (s), to `bar`; tier is then empty
+  std::optional<double> truth_until;  // s, of a truth that ends before the scene does
+  // where the truth is what the in-house contact rule converges to: the same; tier is then empty
   std::optional<double> contact_until;
   std::vector<MethodData> methods;
   const MethodData* find(const std::string& method) const;

@@ -45,7 +45,8 @@ std::string readouts(const ScenePart& part) {
                                    : facts.motion > 0 ? percent(*run.error, facts.motion) + " off"
                                                       : "off"));
   if (!facts.tier.empty())
-    add("truth", fmt::format("<b>± {}</b> {}", prose(nice_length(facts.error_bar)), escaped(facts.tier)));
+    add("truth", fmt::format("<b>± {}</b> {}{}", prose(nice_length(facts.error_bar)), escaped(facts.tier),
+                             facts.truth_until ? ", until " + step_text(*facts.truth_until) : ""));
   else if (facts.contact_until)
     add("the contact rule's limit", "as the step goes to zero");
   return out + "</div>\n";

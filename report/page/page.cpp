@@ -149,8 +149,7 @@ std::string made_html(const PageContent& c) {
   std::string out =
       "<p>The error bar of a converged truth is the difference of its two routes, or, where that is more, three times "
       "what the order at which refining goes down leaves of the last change. A difference is the distance between two "
-      "engines, or from what the in-house contact rule converges to. The second route is odeint's extrapolation on a "
-      "right-hand side written apart from mysim's. Data, figures and scripts lie beside this page in "
+      "engines. The second route is written apart from mysim. Data, figures and scripts lie beside this page in "
       "<code>data/</code> and <code>figures/</code>; <code>report --verify</code> recomputes every sentence from "
       "them.</p>\n";
   size_t left_to_full = 0;

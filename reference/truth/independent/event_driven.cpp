@@ -53,11 +53,6 @@ struct Particle {
   bool creeps = false;          // a slide close to rest
 };
 
-Scene without_spheres(Scene scene) {
-  std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Spheres>(t); });
-  return scene;
-}
-
 std::vector<Ball> balls_of(const Scene& scene) {
   const auto* spheres = scene.model.find<Spheres>();
   if (!spheres) throw Unsupported("the scene has no contact: there are no events in it");

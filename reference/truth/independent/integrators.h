@@ -9,7 +9,7 @@
 
 namespace crosscheck {
 
-// All but the event-driven one throw Unsupported where there is contact. Those under error control keep the estimated
+// All but the two for contact throw Unsupported where there is contact. Those under error control keep the estimated
 // error of each step below R (scene size + |component|), with R = run.tolerance and numbers in SI units: odeint in
 // every component, SUNDIALS in the root mean square.
 
@@ -21,6 +21,10 @@ Outcome run_odeint_dopri5(const Scene& scene, const Run& run, Observer& observer
 /// are located to round-off (event_driven.cpp); steps end at the samples and are at most run.step. Throws Unsupported
 /// where there is no contact, where a sphere moves, and where a particle moves between two.
 Outcome run_event_driven(const Scene& scene, const Run& run, Observer& observer);
+/// Moreau's midpoint rule at run.step in a scene with spheres, at rest or moved, of any number of particles
+/// (time_stepping.cpp): order 1 with contact. No method's name: a route to truth alone. Throws Unsupported where there
+/// is no contact, and where a particle touches two spheres at once.
+Outcome run_time_stepping(const Scene& scene, const Run& run, Observer& observer);
 /// odeint's extrapolation of the midpoint rule, of varying order (Bulirsch and Stoer), to run.tolerance; steps end at
 /// the observed times. Its estimate compares results of different numbers of stages, so that it also sees an
 /// error that comes from time alone: Fehlberg's 7(8) pair has the same weights there in both rules, and follows a moved

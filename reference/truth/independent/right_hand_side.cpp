@@ -16,6 +16,28 @@ void copy(const Vec3& from, double to[3]) { std::copy_n(from.data(), 3, to); }
 
 }  // namespace
 
+PrescribedMotion::PrescribedMotion(const Motion& motion)
+    : omega_(2 * std::numbers::pi * motion.frequency), ramp_(motion.ramp) {
+  copy(motion.amplitude, amplitude_);
+}
+
+void PrescribedMotion::at(double t, double displacement[3], double velocity[3]) const {
+  // s = 10 u^3 - 15 u^4 + 6 u^5 until u = t / ramp = 1
+  const double u = std::min(t / ramp_, 1.0);
+  const double ramp_value = 10 * std::pow(u, 3) - 15 * std::pow(u, 4) + 6 * std::pow(u, 5);
+  const double ramp_rate = 30 * u * u * std::pow(1 - u, 2) / ramp_;
+  const double sine = std::sin(omega_ * t), cosine = std::cos(omega_ * t);
+  for (int axis = 0; axis < 3; ++axis) {
+    displacement[axis] = amplitude_[axis] * ramp_value * sine;
+    velocity[axis] = amplitude_[axis] * (ramp_rate * sine + ramp_value * omega_ * cosine);
+  }
+}
+
+Scene without_spheres(Scene scene) {
+  std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Spheres>(t); });
+  return scene;
+}
+
 RightHandSide::Signal RightHandSide::signal_of(const WindSignal& wind_signal) {
   Signal signal;
   copy(wind_signal.mean, signal.mean);
@@ -46,12 +68,7 @@ RightHandSide::RightHandSide(const Scene& scene) : n_(scene.model.particles.size
   for (size_t i = 0; i < p.pins.size(); ++i) copy(p.pin_home.col(static_cast<int>(i)), &start_position_[3 * p.pins[i]]);
   for (int i = 0; i < n_; ++i)
     if (!pinned_[i]) free_.push_back(i);
-  if (p.move) {
-    pins_move_ = true;
-    copy(p.move->amplitude, pin_amplitude_);
-    pin_omega_ = 2 * std::numbers::pi * p.move->frequency;
-    pin_ramp_ = p.move->ramp;
-  }
+  if (p.move) pin_motion_.emplace(*p.move);
   for (const Term& term : scene.model.terms) add_term(term);
   x_ = start_position_;
   v_.assign(3 * n_, 0);
@@ -105,16 +122,13 @@ StateVector RightHandSide::start() const { return start_; }
 
 /// Positions and velocities of all particles at time t.
 void RightHandSide::set_state(const StateVector& y, double t) {
-  if (pins_move_) {
-    // s = 10 u^3 - 15 u^4 + 6 u^5 until u = t / ramp = 1
-    const double u = std::min(t / pin_ramp_, 1.0);
-    const double ramp_value = 10 * std::pow(u, 3) - 15 * std::pow(u, 4) + 6 * std::pow(u, 5);
-    const double ramp_rate = 30 * u * u * std::pow(1 - u, 2) / pin_ramp_;
-    const double sine = std::sin(pin_omega_ * t), cosine = std::cos(pin_omega_ * t);
+  if (pin_motion_) {
+    double displacement[3], velocity[3];
+    pin_motion_->at(t, displacement, velocity);
     for (int i = 0; i < n_; ++i)
       for (int axis = 0; axis < 3 && pinned_[i]; ++axis) {
-        x_[3 * i + axis] = start_position_[3 * i + axis] + pin_amplitude_[axis] * ramp_value * sine;
-        v_[3 * i + axis] = pin_amplitude_[axis] * (ramp_rate * sine + ramp_value * pin_omega_ * cosine);
+        x_[3 * i + axis] = start_position_[3 * i + axis] + displacement[axis];
+        v_[3 * i + axis] = velocity[axis];
       }
   }
   const size_t half = 3 * free_.size();

@@ -2,6 +2,7 @@
 // (odeint, SUNDIALS) solve. Where both codes agree, neither has a slip of the pen.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "mysim/scene/scene.h"
@@ -11,6 +12,21 @@ namespace crosscheck {
 /// The unknowns of the free particles, one after the other: 3 n positions (m), then 3 n velocities (m/s); of a
 /// first-order scene positions only. Pins are no unknowns: their place is a function of time.
 using StateVector = std::vector<double>;
+
+/// A prescribed motion, of pins or of a sphere.
+class PrescribedMotion {
+ public:
+  explicit PrescribedMotion(const Motion& motion);
+  /// m and m/s, from where it starts.
+  void at(double t, double displacement[3], double velocity[3]) const;
+
+ private:
+  double amplitude_[3];  // m
+  double omega_, ramp_;  // rad/s, s
+};
+
+/// The same scene without its spheres.
+Scene without_spheres(Scene scene);
 
 class RightHandSide {
  public:
@@ -67,8 +83,7 @@ class RightHandSide {
   std::vector<double> mass_, drag_;     // n, kg and N s/m; drag_ is empty without drag
   std::vector<double> start_position_;  // 3 n, m, positions at the start, of which the pins' count
   std::vector<char> pinned_;            // n
-  bool pins_move_ = false;              // pins move
-  double pin_amplitude_[3] = {0, 0, 0}, pin_omega_ = 0, pin_ramp_ = 1;
+  std::optional<PrescribedMotion> pin_motion_;
   bool first_order_ = false, link_law_ = false;
   double rotation_rate_ = 0;       // rad/s, of the first-order field
   double gravity_[3] = {0, 0, 0};  // m/s^2

@@ -33,6 +33,49 @@ TEST(ContactTruth, FollowsADrapeFor300MillisecondsAndAFinerRunLiesWithinTheBar) 
   EXPECT_GT(off, truth->error_bar / 40);
 }
 
+TEST(ContactTruth, OfADrapeIsThatOfTwoRulesWithoutACommonEquationUntilItIsSensitive) {
+  Scene scene = load_scene("cloth-sphere");
+  scene.duration = scene.window = 0.7, scene.samples = 35;
+  const crosscheck::Run run = default_run(scene);
+  const auto truth = time_stepping_truth(scene, run);
+  ASSERT_TRUE(truth);
+  EXPECT_FALSE(truth->under_contact_rule);
+  EXPECT_EQ(truth->tier, Tier::converged);
+  // a perturbation has grown a thousandfold at 0.56 s: from there on the two rules part
+  EXPECT_GT(truth->until, 0.47);
+  EXPECT_LT(truth->until, 0.57);
+  EXPECT_EQ(truth->trajectory.t.back(), truth->until);
+  EXPECT_EQ(truth->error_bars.size(), truth->trajectory.t.size());
+  EXPECT_LE(truth->error_bar, scene.tolerance / 3);
+  // a rule of mysim's that is neither route
+  const Trajectory finer =
+      trajectory_of(stepper("rk4"), scene, {scene.step / 16, truth->until, truth->trajectory.frames() - 1});
+  const double off = sup_rms(truth->trajectory, finer);
+  fmt::print("drape: bar {:.2g} m, {:.2g} m from another rule, until {:.2g} s\n", truth->error_bar, off, truth->until);
+  EXPECT_LT(off, truth->error_bar);
+  EXPECT_GT(off, truth->error_bar / 40);
+}
+
+TEST(ContactTruth, ThatEndsEarlyIsHeldAgainstNothingLater) {
+  // what is later than the truth's end has a motion, and no error
+  Scene scene = load_scene("cloth-sphere");
+  scene.duration = scene.window = 0.7, scene.samples = 35;
+  Request request;
+  request.scenes = {scene};
+  request.methods = find_methods("leapfrog");
+  MethodResults results;
+  TableSet tables;
+  engines_on(request, scene, results, tables);
+  const double until = std::get<double>(tables.table("engines")->at(0, "truth until"));
+  EXPECT_LT(until, 0.57);
+  EXPECT_GT(std::get<double>(tables.table("engines")->at(0, "largest error")), 0);
+  const Table& rows = *tables.table("cloth-sphere-engines");
+  EXPECT_NEAR(std::get<double>(rows.at(rows.rows.size() - 1, "t")), 0.7, 1e-9);
+  for (size_t i = 0; i < rows.rows.size(); ++i)
+    EXPECT_EQ(std::holds_alternative<double>(rows.at(i, "error")),
+              std::get<double>(rows.at(i, "t")) <= until * (1 + 1e-9));
+}
+
 TEST(ContactTruth, OfOneParticleCoversTheExactSlide) {
   const Scene scene = load_scene("slide");
   const auto truth = contact_truth(scene, default_run(scene));
@@ -60,6 +103,10 @@ TEST(ContactTruth, IsCalledADifferenceInTheTables) {
   request.scenes[0].samples = 20;
   request.scenes[0].window = 0.4;
   request.methods = find_methods("leapfrog,symplectic-euler");
+  // two spheres at once the second route refuses: what is left is the contact rule's own limit
+  auto& spheres = std::get<Spheres>(*std::ranges::find_if(
+      request.scenes[0].model.terms, [](const Term& t) { return std::holds_alternative<Spheres>(t); }));
+  spheres.list.push_back(spheres.list.front());
   MethodResults results;
   TableSet result;
   engines_on(request, request.scenes[0], results, result);
