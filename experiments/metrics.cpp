@@ -125,36 +125,43 @@ double perturbation_growth(const Method& method, const Scene& scene, double step
   return growth_of(method, scene, {step, until, samples}).until(until);
 }
 
-namespace {
-
-Statistic moments(const char* quantity, const char* unit, const std::vector<double>& values) {
-  double sum = 0, squares = 0;
-  for (const double v : values) sum += v;
-  const double n = static_cast<double>(values.size()), mean = sum / n;
-  for (const double v : values) squares += (v - mean) * (v - mean);
-  return {quantity, unit, mean, std::sqrt(squares / (n - 1))};
+std::vector<Statistic> contact_quantities(const Scene& scene, const Trajectory& path) {
+  const State end{path.t.back(), path.x.back(), path.v.back()};
+  const Energy energy = energy_of(scene.model, end);
+  const Vec3 centre = centre_of_mass(scene, end.x);
+  double lowest = INFINITY, aside = 0;
+  for (int i = 0; i < path.frames(); ++i) lowest = std::min(lowest, *clearance(scene, path.t[i], path.x[i]));
+  int free = 0;
+  for (int i = 0; i < end.x.cols(); ++i)
+    if (!scene.model.particles.pinned[i]) {
+      const Vec3 d = end.x.col(i) - centre;
+      aside += d.x() * d.x() + d.z() * d.z(), ++free;
+    }
+  return {{"height of the centre of mass at the end", "m", centre.y(), 0},
+          {"smallest clearance", "m", lowest, 0},
+          {"kinetic energy at the end", "J", energy.kinetic, 0},
+          {"elastic energy at the end", "J", energy.elastic, 0},
+          {"outline at the end", "m", std::sqrt(aside / free), 0}};
 }
 
-}  // namespace
-
 std::vector<Statistic> contact_statistics(const Method& method, const Scene& scene, const Run& run) {
-  std::vector<double> height, lowest, kinetic, elastic;
+  std::vector<std::vector<Statistic>> runs;
   for (unsigned seed = 1; seed <= ContactStatistics::runs; ++seed) {
-    const Scene start = perturbed(scene, ContactStatistics::perturbation, seed);
     Recorder recorder;
+    const Scene start = perturbed(scene, ContactStatistics::perturbation, seed);
     if (run_method(method, start, run, {&recorder}).verdict != Verdict::ok) return {};
-    const Trajectory& path = recorder.trajectory;
-    const State end{path.t.back(), path.x.back(), path.v.back()};
-    const Energy energy = energy_of(scene.model, end);
-    height.push_back(centre_of_mass(scene, end.x).y());
-    kinetic.push_back(energy.kinetic);
-    elastic.push_back(energy.elastic);
-    double least = INFINITY;
-    for (int i = 0; i < path.frames(); ++i) least = std::min(least, *clearance(scene, path.t[i], path.x[i]));
-    lowest.push_back(least);
+    runs.push_back(contact_quantities(start, recorder.trajectory));
   }
-  return {moments("height of the centre of mass at the end", "m", height), moments("smallest clearance", "m", lowest),
-          moments("kinetic energy at the end", "J", kinetic), moments("elastic energy at the end", "J", elastic)};
+  std::vector<Statistic> all = runs.front();
+  const double n = static_cast<double>(runs.size());
+  for (size_t q = 0; q < all.size(); ++q) {
+    double sum = 0, squares = 0;
+    for (const auto& values : runs) sum += values[q].mean;
+    all[q].mean = sum / n;
+    for (const auto& values : runs) squares += std::pow(values[q].mean - all[q].mean, 2);
+    all[q].deviation = std::sqrt(squares / (n - 1));
+  }
+  return all;
 }
 
 }  // namespace crosscheck

@@ -62,7 +62,7 @@ std::optional<double> single_precision_bound(const Scene& scene, double motion, 
 
 struct Statistic {
   std::string quantity, unit;
-  double mean, deviation;  // over the runs; deviation with n - 1
+  double mean, deviation;  // over the runs; deviation with n - 1, 0 of one run
 };
 
 struct ContactStatistics {
@@ -72,9 +72,13 @@ struct ContactStatistics {
   static constexpr double perturbation = 1e-6;
 };
 
-/// Height (y) of the centre of mass, kinetic and elastic energy at the end, and the smallest clearance at any sample,
-/// of 16 runs of the method that differ in the seed of the perturbation. Empty where the method does not take the scene
-/// or a run fails. For scenes with a sphere.
+/// Of one run with velocities, without deviations: height (y) of the centre of mass, kinetic and elastic energy and
+/// outline (RMS distance of the free particles from the vertical through their centre of mass) at the end, and the
+/// smallest clearance at any sample. For scenes with a sphere.
+std::vector<Statistic> contact_quantities(const Scene& scene, const Trajectory& path);
+
+/// Means and deviations of the same over 16 runs of the method that differ in the seed of the perturbation. Empty where
+/// the method does not take the scene or a run fails. For scenes with a sphere.
 std::vector<Statistic> contact_statistics(const Method& method, const Scene& scene, const Run& run);
 
 }  // namespace crosscheck

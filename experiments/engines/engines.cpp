@@ -41,6 +41,19 @@ std::optional<double> predicted_limit(const Method& method, const Scene& scene, 
 void add_statistics(const Request& request, const Scene& scene, const Run& run, MethodResults& results,
                     TableSet& tables) {
   Table table = table_of<StatisticRow>(scene.name + "-statistics");
+  std::vector<Statistic> reference;   // of the subject
+  constexpr double rounding = 1e-12;  // m, J: a spread below it is none of the motion
+  const auto add_rows = [&](const Method& method, const std::vector<Statistic>& statistics, bool of_one_run) {
+    for (size_t i = 0; i < statistics.size(); ++i) {
+      const Statistic& s = statistics[i];
+      StatisticRow row{method.name, s.quantity, s.unit, s.mean};
+      if (!of_one_run) row.deviation = s.deviation;
+      if (!reference.empty() && !(method.family().is_subject() && !of_one_run) && reference[i].deviation > rounding)
+        row.apart = std::abs(s.mean - reference[i].mean) / reference[i].deviation;
+      add(table, row);
+    }
+  };
+  std::vector<std::string> perturbed_methods;
   // the rules that stand for the engines: sixteen runs of every method would show no more
   for (const MethodFamily& family : method_families()) {
     if (!family.by_default()) continue;
@@ -56,8 +69,18 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     // a method that refuses the scene, or failed on it, has no statistics
     const MethodResult& result = result_of(request, scene, *method, results);
     if (result.outcome.verdict != Verdict::ok) continue;
-    for (const Statistic& s : contact_statistics(*method, scene, run))
-      add(table, StatisticRow{method->name, s.quantity, s.unit, s.mean, s.deviation});
+    const std::vector<Statistic> statistics = contact_statistics(*method, scene, run);
+    if (family.is_subject()) reference = statistics;
+    add_rows(*method, statistics, false);
+    perturbed_methods.push_back(method->name);
+  }
+  // of the others the run at hand, where there is a spread to tell it in
+  for (const Method& method : methods_of(request, scene)) {
+    const MethodResult& result = result_of(request, scene, method, results);
+    const bool runs = result.outcome.verdict == Verdict::ok && result.trajectory.frames() > 0 &&
+                      result.trajectory.v.back().cols() == result.trajectory.x.back().cols();
+    if (!reference.empty() && runs && std::ranges::find(perturbed_methods, method.name) == perturbed_methods.end())
+      add_rows(method, contact_quantities(scene, result.trajectory), true);
   }
   if (!table.rows.empty()) tables.add(table);
 }

@@ -139,18 +139,22 @@ struct EngineEnergyRow {
   };
 };
 
-/// Statistics of sixteen perturbed runs of a scene with contact.
+/// Statistics of a scene with contact: of sixteen perturbed runs, or of one run in units of the spread of such runs.
 struct StatisticRow {
   std::string method, quantity, unit;
-  double mean = 0, deviation = 0;
+  double mean = 0;
+  std::optional<double> deviation = {}, apart = {};
 
   static constexpr std::string_view table = "SCENE-statistics";
   static constexpr auto columns = [](auto&& column) {
     column("method", "1", &StatisticRow::method, "method that was run"),
         column("quantity", "1", &StatisticRow::quantity, "what the mean is of"),
         column("unit", "1", &StatisticRow::unit, "unit of mean and deviation"),
-        column("mean", "see unit", &StatisticRow::mean, "mean over runs from perturbed starts"),
-        column("deviation", "see unit", &StatisticRow::deviation, "standard deviation over these runs");
+        column("mean", "see unit", &StatisticRow::mean,
+               "mean over runs from perturbed starts, or of one run without a deviation"),
+        column("deviation", "see unit", &StatisticRow::deviation, "standard deviation over these runs"),
+        column("apart", "1", &StatisticRow::apart,
+               "distance of the mean from that of mysim's perturbed runs, in their standard deviations");
   };
 };
 

@@ -55,10 +55,10 @@ struct SceneData {
   std::string scene;
   double motion = 0, window = 0, growth = 0;  // m, s, 1
   double measured_window = 0;                 // s, until a perturbation of 1e-10 m has grown a thousandfold
-  std::optional<double> round_off;  // m, what the same rule may differ by; empty where nothing can be predicted
-  std::string tier;                 // of the truth; empty without one
-  double error_bar = 0;             // m
-  std::string truth;                // how it was found, one sentence
+  std::optional<double> round_off;    // m, what the same rule may differ by; empty where nothing can be predicted
+  std::string tier;                   // of the truth; empty without one
+  double error_bar = 0;               // m
+  std::string truth;                  // how it was found, one sentence
   std::optional<double> truth_until;  // s, of a truth that ends before the scene does
   // where the truth is what the in-house contact rule converges to: the same; tier is then empty
   std::optional<double> contact_until;

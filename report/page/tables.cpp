@@ -121,7 +121,8 @@ std::string statistics_html(const Table& table) {
     if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
   };
   for (size_t i = 0; i < table.rows.size(); ++i)
-    note(quantities, table.at(i, "quantity")), note(methods, table.at(i, "method"));
+    if (number_at(table, i, "deviation"))  // single runs stand in the table of data alone
+      note(quantities, table.at(i, "quantity")), note(methods, table.at(i, "method"));
   for (const std::string& m : methods) out += fmt::format("<th>{}</th>", escaped(m));
   out += "</tr></thead><tbody>\n";
   for (const std::string& quantity : quantities) {
