@@ -15,11 +15,6 @@ namespace {
 
 using namespace testing_tools;
 
-Scene without_spheres(Scene scene) {
-  std::erase_if(scene.model.terms, [](const Term& t) { return std::holds_alternative<Spheres>(t); });
-  return scene;
-}
-
 /// Every shipped scene, its contacts left out, and two cloths with every smooth ingredient.
 std::vector<Scene> smooth_scenes() {
   std::vector<Scene> scenes{small_cloth(), small_cloth_in_air()};
