@@ -237,7 +237,9 @@ std::optional<Chart> contact_order_chart(const Table& table, const std::string& 
   }
   if (slopes.size() < 2) return std::nullopt;
   const auto range = [&](bool located) {
-    return fmt::format("{:.2f} to {:.2f}", slopes[located].first, slopes[located].second);
+    const std::string least = fmt::format("{:.2f}", slopes[located].first),
+                      largest = fmt::format("{:.2f}", slopes[located].second);
+    return least == largest ? least : least + " to " + largest;
   };
   f.finding =
       fmt::format("On a ball all rules fall to order {}; with +events the order is {}.", range(false), range(true));
