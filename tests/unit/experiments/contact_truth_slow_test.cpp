@@ -78,15 +78,20 @@ TEST(ContactTruth, ThatEndsEarlyIsHeldAgainstNothingLater) {
 
 TEST(ContactTruth, OfOneParticleCoversTheExactSlide) {
   const Scene scene = load_scene("slide");
-  const auto truth = contact_truth(scene, default_run(scene));
   const auto exact = exact_solution(scene);
-  ASSERT_TRUE(truth && exact);
-  EXPECT_EQ(truth->until, scene.window);  // one particle is followed to the end
-  double error = 0;
-  for (int i = 0; i < truth->trajectory.frames(); ++i)
-    error = std::max(error, rms_distance(truth->trajectory.x[i], exact->at(truth->trajectory.t[i]).x));
-  EXPECT_LT(error, truth->error_bar);
-  EXPECT_GT(error, truth->error_bar / 40);
+  for (const auto& truth : {contact_truth(scene, default_run(scene)), time_stepping_truth(scene, default_run(scene))}) {
+    ASSERT_TRUE(truth && exact);
+    EXPECT_EQ(truth->until, scene.window) << truth->how;  // one particle is followed to the end
+    double error = 0;
+    for (int i = 0; i < truth->trajectory.frames(); ++i)
+      error = std::max(error, rms_distance(truth->trajectory.x[i], exact->at(truth->trajectory.t[i]).x));
+    fmt::print("slide: bar {:.2g} m, error {:.2g} m, {}\n", truth->error_bar, error, truth->how);
+    EXPECT_LT(error, truth->error_bar) << truth->how;
+    // the bar of a route of order 1 says little of one of order 2 beside it
+    if (truth->under_contact_rule) {
+      EXPECT_GT(error, truth->error_bar / 40);
+    }
+  }
 }
 
 TEST(ContactTruth, IsNoneWhereNothingTouchesOrNoOrderIsSeen) {
