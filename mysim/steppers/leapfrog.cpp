@@ -12,7 +12,8 @@ Vec3 kicked(double gamma, const Vec3& v, const Vec3& a, double h) {
   return v + h / (1 + h / 2 * gamma) * (a - gamma * v);
 }
 
-void step_with_position_forces(System& f, State& s, double h) {
+/// `middle`: the time of the force, s.
+void step_with_position_forces(System& f, State& s, double middle, double h) {
   const Eigen::VectorXd& mass = f.model().particles.mass;
   const Eigen::ArrayXd& gamma = f.drag_rate();
   const double start = s.t;
@@ -20,7 +21,7 @@ void step_with_position_forces(System& f, State& s, double h) {
 
   // Few particles are taken one by one, so that nothing is loaded in other parts than it was stored in just before,
   // which would wait for the stores; many in one go, which takes fewer instructions.
-  s.t = start + h / 2;
+  s.t = middle;
   if (few)
     for (int i = 0; i < s.x.cols(); ++i) s.x.col(i) += h / 2 * s.v.col(i);
   else
@@ -35,13 +36,13 @@ void step_with_position_forces(System& f, State& s, double h) {
   s.t = start;
 }
 
-void step_with_velocity_forces(System& f, State& s, double h, int passes, Workspace& w) {
+void step_with_velocity_forces(System& f, State& s, double middle_time, double h, int passes, Workspace& w) {
   State& middle = w[0];
   Points &a = w[1].v, &position_only = w[1].x, &v = w[2].v;
   const Eigen::ArrayXd& gamma = f.drag_rate();
 
   // drift to the middle
-  middle.t = s.t + h / 2;
+  middle.t = middle_time;
   middle.x = s.x + h / 2 * s.v;
   middle.v = s.v;
 
@@ -65,10 +66,11 @@ void step_with_velocity_forces(System& f, State& s, double h, int passes, Worksp
 }  // namespace
 
 void leapfrog_step(System& f, State& s, double h, int passes, Workspace& w) {
+  const double middle = s.t + h / 2;
   if (f.has_velocity_forces())
-    step_with_velocity_forces(f, s, h, passes, w);
+    step_with_velocity_forces(f, s, middle, h, passes, w);
   else
-    step_with_position_forces(f, s, h);
+    step_with_position_forces(f, s, middle, h);
 }
 
 void leapfrog(System& f, State& s, double h, Workspace& w) { leapfrog_step(f, s, h, 2, w); }

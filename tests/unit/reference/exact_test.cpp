@@ -164,7 +164,7 @@ TEST(Exact, TruthSaysItsTier) {
   const auto converged = truth_of(shipped_scene("pendulum"), {0.05, 1, 10});
   ASSERT_TRUE(converged);
   EXPECT_EQ(converged->tier, Tier::converged);
-  EXPECT_FALSE(truth_of(shipped_scene("cloth-sphere"), {1e-3, 0.1, 10}));
+  EXPECT_EQ(truth_of(shipped_scene("cloth-sphere"), {1e-3, 0.1, 10})->tier, Tier::converged);  // it still falls
   // the error bar of the converged truth covers its distance to a far finer one
   const Trajectory finer = trajectory_of(stepper("rk4"), shipped_scene("pendulum"), {2e-5, 1, 10});
   EXPECT_LE(sup_rms(converged->trajectory, finer),
