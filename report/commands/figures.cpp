@@ -145,7 +145,8 @@ std::string script_of(const PictureRequest& picture, const FiguresOptions& optio
   const std::string name = picture_name(picture.scene);
   return fmt::format(
       "#!/bin/sh\n# Draws {0} again. $1: the folder for it\n"
-      "\"$(command -v crosscheck || echo ./crosscheck)\" figures {0} --scene {1} --set {2} --width {3:g}cm{4} --out \"${{1:-{0}}}\"\n",
+      "\"$(command -v crosscheck || echo ./crosscheck)\" figures {0} --scene {1} --set {2} --width {3:g}cm{4} --out "
+      "\"${{1:-{0}}}\"\n",
       name, shell_single_quote(picture.given), options.set, size.width, options.full ? " --full" : "");
 }
 
