@@ -170,11 +170,11 @@ std::vector<Chart> cheapest_charts(const ChartInput& input) {
   });
   f.finding = summary_of(f);
   f.caption = fmt::format(
-      "To the right of the line mysim is faster, to the left the other. Of each engine the cheapest of all runs tried, "
-      "whatever its method, step or tolerance: as none steps over a sampling interval, some are far nearer than asked "
-      "for; "
-      "thread CPU time on one core, medians, and the widest that both 90 % "
-      "intervals allow; {}a scene without a marker has no such run of that engine; {}; commit {}.",
+      "Right of the line mysim is faster. Of each engine the cheapest run, whatever its method, step or tolerance: "
+      "some "
+      "are far nearer than asked for, as none steps over a sampling interval; medians of thread CPU time, and the "
+      "widest "
+      "that both 90 % intervals allow; {}a scene without a marker has no such run of that engine; {}; commit {}.",
       scaled_text(*t), builds_text(drawn_engines(engines)), input.commit);
   f.tier = "each scene's truth, its error bar taken off the 1 %";
   return {{"", f, "speed-accuracy", "", "CPU time for 1 % error"}};

@@ -71,16 +71,14 @@ std::string motion_sentence(const Table& grids, const TableSet& rows, const std:
   if (!falls.empty())
     text = fmt::format(
         "With the stiffnesses left as they are the motion {} that of the finest grid: its distance goes as the number "
-        "of cells to the power {}.{}",
-        fewest < 4 ? "seems to near" : "nears", joined(falls),
-        fewest < 4 ? " So few grids hint at a power and prove none." : "");
+        "of cells to the power {}{}.",
+        fewest < 4 ? "seems to near" : "nears", joined(falls), fewest < 4 ? ", which so few grids do not prove" : "");
   if (!others.empty())
     text += fmt::format("{}Up to the last refinement no nearing is seen where the power is {}.",
                         text.empty() ? "" : " ", joined(others));
   if (!unbounded.empty())
     text += fmt::format(
-        "{}On {} the sag at rest grows with the logarithm of the number of cells and does not slow down: no grid is "
-        "near a limit there, and the distance falls only since the finest of these grids is what it is measured from.",
+        "{}On {} the sag at rest grows with the logarithm of the number of cells: no grid is near a limit there.",
         text.empty() ? "" : " ", joined(unbounded));
   return text.empty() ? "Distances of the motion from that of the finest grid." : text;
 }

@@ -14,9 +14,8 @@ namespace crosscheck {
 namespace {
 
 constexpr auto builds =
-    "thread CPU time, medians of runs taken in turns on one pinned core; mysim is compiled in this build for any "
-    "x86-64, "
-    "Bullet is Debian's generic x86-64 build";
+    "thread CPU time, medians of runs in turns on one core; mysim is compiled in this build, Bullet is Debian's, both "
+    "for any x86-64";
 
 Chart size_chart(const Table& t, const std::string& commit) {
   Figure f;
@@ -123,12 +122,10 @@ Chart roofline_chart(const Table& t, const std::string& commit) {
       "of {} billion.",
       times_text(best), at, 100 * best / peak, times_text(peak));
   f.caption = fmt::format(
-      "Lines: what measured bandwidth and peak allow, for data of that size. The peak is that of multiplications and "
-      "additions that wait for nothing, with the instructions that the kernel uses on this machine. Springs are "
-      "counted as {:g} operations and {:g} bytes, particles as "
-      "{:g} bytes, as if each were read anew: what stays in a cache between two springs lifts a point above the line "
-      "of "
-      "a larger memory; commit {}.",
+      "Lines: what measured bandwidth and peak allow; the peak is that of independent multiplications and additions, "
+      "by "
+      "the kernel's instructions. Springs count as {:g} operations and {:g} bytes, particles as {:g} bytes, each read "
+      "anew: what stays in a cache lifts a point above the line of a larger memory; commit {}.",
       flop_per_spring, bytes_per_spring, bytes_per_particle, commit);
   f.tier = "measured: bandwidth and peak of this machine in the same run";
   return {"", std::move(f), "cost"};

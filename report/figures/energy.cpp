@@ -145,7 +145,7 @@ Chart drift_chart(const Table& table, const Table& rows, const std::string& scen
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
-  f.finding = "What becomes of the energy that does not add up.";
+  f.finding = "Energy that does not add up.";
   for (const auto& [what, methods] : classes) f.finding += fmt::format(" {}: {}.", capital(what), joined(methods));
   f.tier = "exact (it is zero), to the rounding of the sums";
   f.caption = fmt::format(

@@ -98,8 +98,8 @@ Chart skip_one(const std::vector<SkipOneRow>& rows, const std::string& commit) {
       "clamp, by the grid; the elastica's hangs {} %.",
       nice(100 * low), nice(100 * high), nice(100 * rows.front().truth));
   f.caption = fmt::format(
-      "A strip of w L³ / B = 5 at rest under its own weight; skip-one springs are as stiff on every "
-      "grid as they must be for the elastica's drop on the grid of 16 cells; commit {}.",
+      "A strip of w L³ / B = 5 at rest under its own weight; skip-one springs are as stiff on every grid as the "
+      "elastica's drop asks on 16 cells; commit {}.",
       commit);
   f.tier = "two-point problem of the elastica";
   return {

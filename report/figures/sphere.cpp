@@ -75,8 +75,8 @@ std::optional<Chart> depth_chart(const Table& table, const std::string& scene, c
     triangles_of_peers += fmt::format(", {} % in {}", depth_text(deepest[peer].second), peer->title);
   }
   f.finding = fmt::format(
-      "Particles of mysim are inside by at most {} % of the radius{}; the triangles between them cut "
-      "into the ball as a chord does into its circle: by {} % in mysim{}. Below 0.001 % nothing is drawn.",
+      "Particles of mysim are inside by at most {} % of the radius{}; the triangles between them, like chords, by {} % "
+      "in mysim{}. Below 0.001 % nothing is drawn.",
       depth_text(deepest[&subject()].first), particles_of_peers, depth_text(deepest[&subject()].second),
       triangles_of_peers);
   f.caption =

@@ -164,10 +164,9 @@ Chart rebound_chart(const Table& table, const std::string& commit) {
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.finding =
-      "A rebound that lasts to the next step is late by up to one, so that the error falls with the step; what is "
-      "within "
-      "0.01 mm is not drawn. Bullet's soft bodies have no restitution against an obstacle: drawn is how high they come "
-      "back where none is asked.";
+      "A rebound that lasts to the next step is late by up to one, so that the error falls with the step; below 0.01 "
+      "mm "
+      "nothing is drawn. Bullet's soft bodies have no restitution: drawn is how high they come back unasked.";
   f.caption = fmt::format("Dropped by 0.3 m on a ball, e = 0.5 where nothing is said; commit {}.", commit);
   f.tier = "exact (parabolas)";
   Chart chart{"", std::monostate{}, "sphere",

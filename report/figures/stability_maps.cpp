@@ -155,9 +155,8 @@ HeatMap map_of(const Table& cells, const Table& limits, const std::string& scene
       whole.push_back(p.title);
   if (!whole.empty()) map.finding += fmt::format(" No run of {} fails.", joined(whole));
   map.caption = fmt::format(
-      "Scene {}; each cell a run of {}from rest, or the start where there is none, with a small kick; growth of "
-      "less than a millionth counts as none; commit {}.",
-      scene, steps_of(steps), commit);
+      "Scene {}; each cell a run of {}after a small kick; growth below a millionth counts as none; commit {}.", scene,
+      steps_of(steps), commit);
   map.tier = "exact for small motion under the discrete rule (dashed); measured limits (dots) are known to 2 %";
   return map;
 }

@@ -125,7 +125,8 @@ namespace {
 
 /// A caption stands for itself wherever its figure goes; the page names the commit once.
 std::string without_commit(std::string caption) {
-  static const Pattern commit("; commit [^ ;]*\\.| Commit [^ ;]*\\.");
+  static const Pattern commit(
+      "; commit [^ ;]*(, with uncommitted changes)?\\.| Commit [^ ;]*(, with uncommitted changes)?\\.");
   return commit.replaced_in(caption, caption.find("; commit") == std::string::npos ? "" : ".");
 }
 
