@@ -84,16 +84,14 @@ std::optional<Chart> budget_chart(const Table& table, const std::string& scene, 
   if (std::all_of(bars.parts.begin(), bars.parts.end(), nothing)) return std::nullopt;  // at rest
   bars.finding = "What each run was given, left of zero, and where it went, right of it.";
   if (inferred)
-    bars.finding +=
-        " Hatched: an engine that does not tell its impulses; what is missing is called contact, and no closure is "
-        "claimed.";
+    bars.finding += " Hatched: what is missing where an engine does not tell its impulses; no closure is claimed.";
   bars.tier = "exact (the sum is zero), to the rounding of the sums";
   bars.caption = fmt::format("Scene {}; {}, rules that solve a whole step at ten times that; commit {}.", scene,
                              length_text(table, scene), commit);
   const std::string about =
       scene == "all-at-once"
-          ? "One small scene with everything that takes or gives energy: a cloth of 5 x 5 particles, held by two moved "
-            "corners, swings in gusts against a ball, with drag, springs that damp, and friction."
+          ? "Everything takes or gives energy: a cloth of 5 x 5 particles, held by two moved corners, swings in gusts "
+            "against a ball, with drag, springs that damp, and friction."
           : "";
   return Chart{"", std::move(bars), "energy", about + failed};
 }
@@ -145,11 +143,11 @@ Chart drift_chart(const Table& table, const Table& rows, const std::string& scen
     if (!curve.points.empty()) f.curves.push_back(std::move(curve));
   }
   f.y.low = std::pow(10, std::floor(std::log10(lowest)));
-  f.finding = "Energy that does not add up.";
-  for (const auto& [what, methods] : classes) f.finding += fmt::format(" {}: {}.", capital(what), joined(methods));
+  for (const auto& [what, methods] : classes)
+    f.finding += fmt::format("{}{}: {}.", f.finding.empty() ? "" : " ", capital(what), joined(methods));
   f.tier = "exact (it is zero), to the rounding of the sums";
   f.caption = fmt::format(
-      "Scene {}, nothing damps it; {}; rules that solve the whole step at ten times the step; "
+      "Scene {}, undamped; {}, rules that solve a whole step at ten times that; "
       "commit {}.",
       scene, length_text(table, scene), commit);
   if (!absent.empty()) f.caption += fmt::format(" Not drawn: {}.", joined(absent));

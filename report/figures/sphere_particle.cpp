@@ -71,8 +71,7 @@ Chart cone_law(const Table& table, const std::string& commit) {
   }
   f.finding =
       "On slopes of 10 to 50 degrees with frictions of 0 to 1.2 all answers must fall on one line. " +
-      (differing.empty() ? "Those of all methods do."
-                         : fmt::format("Those that answer otherwise, and in how many cases: {}.", joined(differing)));
+      (differing.empty() ? "Those of all methods do." : fmt::format("Those that do not: {}.", joined(differing)));
   f.caption = fmt::format(
       "A particle on a slope for 0.5 s, step {}; methods that "
       "answer like symplectic Euler are in the table only; commit {}.",
@@ -119,9 +118,8 @@ std::optional<Chart> cone_map(const Table& table, const std::string& commit) {
     }
   if (f.curves.size() == 1) return std::nullopt;  // none of these was run
   f.finding =
-      "Above the line it must stick (filled), below it slide (open); a triangle does neither: it moves at a "
-      "steady creep.";
-  f.caption = fmt::format("The same runs, methods side by side in the order of the key; step {}; commit {}.",
+      "Above the line it must stick (filled), below it slide (open); a triangle creeps steadily, which is neither.";
+  f.caption = fmt::format("The same runs, methods side by side in the key's order; step {}; commit {}.",
                           step_text(step), commit);
   f.tier = "exact (Coulomb's law)";
   return Chart{"", std::move(f), "sphere"};
@@ -197,8 +195,8 @@ std::optional<Chart> leaving_chart(const Table& table, const std::string& commit
   if (f.curves.empty()) return std::nullopt;
   f.floor = {"exact", 0};
   f.finding = fmt::format(
-      "Contact ends at 48.2 degrees, where cos = 2/3; the gap must pass 1 mm at {:.2f} degrees and {:.3f} m/s. {}",
-      exact, speed, sentences_of(leaving_findings(table)));
+      "Contact ends at 48.2 degrees, where cos = 2/3; the gap must pass 1 mm at {:.2f} degrees and {:.3f} m/s.", exact,
+      speed);
   f.caption = fmt::format(
       "A ball of 1.02 m, no friction, started 1 degree off its top; the gap of 1 mm is compared; commit {}.", commit);
   f.tier = "exact (energy on the ball, then free flight)";

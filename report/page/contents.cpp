@@ -112,8 +112,9 @@ struct Word {
 
 constexpr Word words[] = {
     {"scene", "scene",
-     "Particles, springs, pins and a start, with a question; written once and built alike in every engine. A number "
-     "behind its name is the same cloth with so many particles along its longer side."},
+     "Particles, springs, pins, a start and a question, built alike in every engine. A number behind its name: the "
+     "same "
+     "cloth with so many particles along its longer side."},
     {"method", "method",
      "An engine with a stepper: mysim/leapfrog is mysim's leapfrog, bullet/pbd Bullet's position-based world."},
     {"evaluation", "force evaluation", "One computation of all forces; a step of leapfrog takes one, of rk4 four."},
@@ -121,17 +122,17 @@ constexpr Word words[] = {
      "What an error is measured from. Exact: a closed form. Converged: two independent routes refined until they "
      "agree, with an error bar. Another engine: no truth, only a difference."},
     {"error", "error",
-     "How far a run is from the truth: root mean square (RMS) over the particles, the largest over time; in % it is a "
-     "part of the motion. None is said to be less than the truth's error bar."},
+     "How far a run is from the truth: root mean square (RMS) over the particles, the largest over time; in % of the "
+     "motion. None is said to be less than the truth's error bar."},
     {"motion", "motion", "The largest RMS distance of the particles from where they started."},
     {"window", "window",
-     "The time up to which positions are compared particle by particle: later a perturbation of 1e-10 m has grown so "
-     "much that two correct engines differ."},
+     "The time up to which positions are compared: later a perturbation of 1e-10 m has grown until two correct engines "
+     "differ."},
     {"round-off", "round-off",
      "The error of arithmetic with 16 digits; two engines that differ by no more take the same steps."},
     {"failed", "failed",
-     "Blew up: a particle is more than ten times as fast as any ever is in the true motion. Overstretched: a spring "
-     "is more than ten times as long. Frozen: it no longer moves. Solver gave up: its iteration did not converge."},
+     "Blew up: a particle is more than ten times as fast as any in the true motion. Overstretched: a spring is more "
+     "than ten times as long. Frozen: nothing moves. Solver gave up: not converged."},
     {"least", "least model",
      "A scene without what is not needed for an error of 1 %, or 10 %, of the motion; checked from three other "
      "starts."},
@@ -139,17 +140,16 @@ constexpr Word words[] = {
     {"symplectic", "symplectic",
      "Steppers whose energy oscillates about its first value in an undamped motion, and does not drift."},
     {"residual", "energy residual",
-     "Energy now, plus all that was dissipated, less all that was supplied, less energy at the start: zero in an exact "
-     "solution. Relative: over the largest change of any energy in the run, what was turned over."},
+     "Energy now, plus what was dissipated, less what was supplied, less energy at the start: zero in an exact "
+     "solution. "
+     "Relative: over what was turned over, the largest change of any energy."},
     {"implicit", "implicit",
      "Steppers that solve an equation for the next state: stable at long time steps, often with numerical damping."},
     {"trapezoidal", "trapezoidal", "Here the explicit rule, also called Heun's method."},
     {"sticky", "sticky sphere", "The ball of the classic assignment, to which particles freeze; kept to be compared."},
     {"creep", "creep", "The sliding speed of particles in contact that should be at rest."},
     {"bound", "bound by",
-     "What keeps a step from being longer: stability, accuracy, or sampling, as no step is longer than the time "
-     "between "
-     "samples."},
+     "What keeps a step from being longer: stability, accuracy, or sampling, the time between samples."},
     {"sweep", "fused step",
      "One vectorised pass over the grid, in which mysim steps regular cloths; +plain asks for the general engine "
      "instead."},

@@ -148,8 +148,8 @@ std::vector<std::string> with_joined_reasons(const std::vector<std::string>& not
 std::string made_html(const PageContent& c) {
   std::string out =
       "<p>The error bar of a converged truth is the difference of its two routes, or, where that is more, three times "
-      "what the order at which refining goes down leaves of the last change. A difference is the distance between two "
-      "engines. The second route is written apart from mysim. Data, figures and scripts lie beside this page in "
+      "what the order at which refining goes down leaves of the last change. "
+      "The second route is written apart from mysim. Data, figures and scripts lie beside this page in "
       "<code>data/</code> and <code>figures/</code>; <code>report --verify</code> recomputes every sentence from "
       "them.</p>\n";
   size_t left_to_full = 0;
