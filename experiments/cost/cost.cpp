@@ -87,13 +87,10 @@ std::function<double()> step_of(const Method& method, const Scene& scene, long s
   };
 }
 
-/// What the runs say is the time of a step and not of themselves: they are long enough as they are. `warm`: the caller
-/// has run each of them before.
-std::vector<std::vector<double>> steps_timed(std::span<const std::function<double()>> runs, bool full,
-                                             bool warm = false) {
+/// What the runs say is the time of a step and not of themselves: they are long enough as they are.
+std::vector<std::vector<double>> steps_timed(std::span<const std::function<double()>> runs, bool full) {
   const int repetitions = full ? 9 : 5;
-  return time_round_robin(runs,
-                          {.least = repetitions, .most = repetitions, .resolution = 0, .warm = warm ? 0. : INFINITY});
+  return time_round_robin(runs, {.least = repetitions, .most = repetitions, .resolution = 0});
 }
 
 long springs_of(const Scene& scene) { return static_cast<long>(scene.model.find<Springs>()->list.size()); }
@@ -107,15 +104,14 @@ void cost_of_size(const Request& request, int n, TableSet& tables) {
   if (request.methods.empty()) requested.push_back(find_method(std::string(subject().representative) + "+plain"));
   for (Method& method : requested) {
     if (method.adaptive) continue;  // how long its steps are is its own choice
-    // which warms it up, too
-    if (run_method(method, scene, steps_of(scene, steps_to_time(method, scene)), {}).verdict != Verdict::unsupported)
+    if (run_method(method, scene, steps_of(scene, 1), {}).verdict != Verdict::unsupported)
       methods.push_back(std::move(method));
   }
   std::vector<std::function<double()>> runs;
   std::vector<Outcome> outcomes(methods.size());
   for (size_t i = 0; i < methods.size(); ++i)
     runs.push_back(step_of(methods[i], scene, steps_to_time(methods[i], scene), &outcomes[i]));
-  const auto times = steps_timed(runs, request.full, true);
+  const auto times = steps_timed(runs, request.full);
   const double noise = noise_floor(times);
   Table table = table_of<SizeCostRow>();
   const auto particles = static_cast<long>(scene.start.x.cols());

@@ -48,7 +48,7 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
       const Statistic& s = statistics[i];
       StatisticRow row{method.name, s.quantity, s.unit, s.mean};
       if (!of_one_run) row.deviation = s.deviation;
-      if (!reference.empty() && !(method.family().is_subject() && !of_one_run) && reference[i].deviation > rounding)
+      if (!reference.empty() && reference[i].deviation > rounding)
         row.apart = std::abs(s.mean - reference[i].mean) / reference[i].deviation;
       add(table, row);
     }
@@ -70,8 +70,8 @@ void add_statistics(const Request& request, const Scene& scene, const Run& run, 
     const MethodResult& result = result_of(request, scene, *method, results);
     if (result.outcome.verdict != Verdict::ok) continue;
     const std::vector<Statistic> statistics = contact_statistics(*method, scene, run);
-    if (family.is_subject()) reference = statistics;
     add_rows(*method, statistics, false);
+    if (family.is_subject()) reference = statistics;
     perturbed_methods.push_back(method->name);
   }
   // of the others the run at hand, where there is a spread to tell it in
