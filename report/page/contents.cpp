@@ -112,9 +112,8 @@ struct Word {
 
 constexpr Word words[] = {
     {"scene", "scene",
-     "Particles, springs, pins, a start and a question, built alike in every engine. A number behind its name: the "
-     "same "
-     "cloth with so many particles along its longer side."},
+     "Particles, springs, pins, a start and a question, built alike in every engine. A number behind its name: "
+     "the same cloth with so many particles along its longer side."},
     {"method", "method",
      "An engine with a stepper: mysim/leapfrog is mysim's leapfrog, bullet/pbd Bullet's position-based world."},
     {"evaluation", "force evaluation", "One computation of all forces; a step of leapfrog takes one, of rk4 four."},
@@ -141,8 +140,7 @@ constexpr Word words[] = {
      "Steppers whose energy oscillates about its first value in an undamped motion, and does not drift."},
     {"residual", "energy residual",
      "Energy now, plus what was dissipated, less what was supplied, less energy at the start: zero in an exact "
-     "solution. "
-     "Relative: over what was turned over, the largest change of any energy."},
+     "solution. Relative: over what was turned over, the largest change of any energy."},
     {"implicit", "implicit",
      "Steppers that solve an equation for the next state: stable at long time steps, often with numerical damping."},
     {"trapezoidal", "trapezoidal", "Here the explicit rule, also called Heun's method."},
