@@ -76,21 +76,35 @@ long steps_to_time(const Method& method, const Scene& scene) {
   return std::clamp(std::lround(0.01 / each), 2L, 2000L);
 }
 
-/// CPU time of one step, s, of a run of so many; 0 where the method does not take the scene.
-std::function<double()> step_of(const Method& method, const Scene& scene, long steps, Outcome* outcome = nullptr) {
-  return [&method, &scene, steps, outcome] {
+/// What takes CPU time, s, and how many steps or calls that is, once it was run.
+struct TimedLoop {
+  std::function<double()> run;
+  std::shared_ptr<double> count = std::make_shared<double>(1);
+};
+
+/// Steps of a method; no time where it does not take the scene.
+TimedLoop timed_steps(const Method& method, const Scene& scene, long steps, Outcome* outcome = nullptr) {
+  TimedLoop loop;
+  loop.run = [&method, &scene, steps, outcome, count = loop.count] {
     NullObserver null_observer;
     Outcome out = method.engine(scene, steps_of(scene, steps), null_observer);
-    const double each = out.steps > 0 ? out.cpu_seconds / static_cast<double>(out.steps) : 0;
+    *count = static_cast<double>(std::max(1L, out.steps));
+    const double seconds = out.steps > 0 ? out.cpu_seconds : 0;
     if (outcome) *outcome = std::move(out);
-    return each;
+    return seconds;
   };
+  return loop;
 }
 
-/// What the runs say is the time of a step and not of themselves: they are long enough as they are.
-std::vector<std::vector<double>> steps_timed(std::span<const std::function<double()>> runs, bool full) {
-  const int repetitions = full ? 9 : 5;
-  return time_round_robin(runs, {.least = repetitions, .most = repetitions, .resolution = 0});
+/// Times of one step or call of each, s. What takes 5 ms is the same the first time, and three times tell its spread.
+std::vector<std::vector<double>> times_of(const std::vector<TimedLoop>& loops, bool full) {
+  std::vector<std::function<double()>> runs;
+  for (const TimedLoop& loop : loops) runs.push_back(loop.run);
+  auto times = time_round_robin(runs, full ? TimingOptions{.least = 9, .most = 9}
+                                           : TimingOptions{.least = 2, .most = 3, .enough = 0.1, .warm = 0.005});
+  for (size_t i = 0; i < loops.size(); ++i)
+    for (double& time : times[i]) time /= *loops[i].count;
+  return times;
 }
 
 long springs_of(const Scene& scene) { return static_cast<long>(scene.model.find<Springs>()->list.size()); }
@@ -107,11 +121,11 @@ void cost_of_size(const Request& request, int n, TableSet& tables) {
     if (run_method(method, scene, steps_of(scene, 1), {}).verdict != Verdict::unsupported)
       methods.push_back(std::move(method));
   }
-  std::vector<std::function<double()>> runs;
+  std::vector<TimedLoop> loops;
   std::vector<Outcome> outcomes(methods.size());
   for (size_t i = 0; i < methods.size(); ++i)
-    runs.push_back(step_of(methods[i], scene, steps_to_time(methods[i], scene), &outcomes[i]));
-  const auto times = steps_timed(runs, request.full);
+    loops.push_back(timed_steps(methods[i], scene, steps_to_time(methods[i], scene), &outcomes[i]));
+  const auto times = times_of(loops, request.full);
   const double noise = noise_floor(times);
   Table table = table_of<SizeCostRow>();
   const auto particles = static_cast<long>(scene.start.x.cols());
@@ -142,31 +156,31 @@ void cost_of_size(const Request& request, int n, TableSet& tables) {
 
 namespace {
 
-/// The kernel alone, per call, s.
-std::function<double()> springs_alone(const Scene& scene) {
+/// Calls of the kernel alone.
+TimedLoop springs_alone(const Scene& scene) {
   auto kernel = std::make_shared<SpringKernel>(*scene.model.find<Springs>(), static_cast<int>(scene.start.x.cols()));
   auto forces = std::make_shared<Forces>(Forces{Points::Zero(3, scene.start.x.cols())});
   const int calls = std::max(2, static_cast<int>(2e6 / static_cast<double>(springs_of(scene))));
-  return [kernel, forces, &scene, calls] {
-    const auto call_all = [&] {
+  const auto run = [kernel, forces, &scene, calls] {
+    return cpu_time_of([&] {
       for (int i = 0; i < calls; ++i) kernel->add_force(scene.start.x, *forces);
-    };
-    return cpu_time_of(call_all) / calls;
+    });
   };
+  return {run, std::make_shared<double>(calls)};
 }
 
-/// All forces, as the stepper computes them, per call, s.
-std::function<double()> forces_alone(const Scene& scene) {
+/// Calls for all forces, as the stepper computes them.
+TimedLoop forces_alone(const Scene& scene) {
   auto system = std::make_shared<System>(scene.model);
   auto state = std::make_shared<State>(scene.start);
   auto a = std::make_shared<Points>(Points::Zero(3, scene.start.x.cols()));
   const int calls = std::max(2, static_cast<int>(2e6 / static_cast<double>(springs_of(scene))));
-  return [system, state, a, calls] {
-    const auto call_all = [&] {
+  const auto run = [system, state, a, calls] {
+    return cpu_time_of([&] {
       for (int i = 0; i < calls; ++i) system->position_acceleration(*state, *a);
-    };
-    return cpu_time_of(call_all) / calls;
+    });
   };
+  return {run, std::make_shared<double>(calls)};
 }
 
 /// a - b, as wide as both.
@@ -202,15 +216,15 @@ void cost_of_phases(const Request& request, int n, TableSet& tables) {
     if (m.family().is_default_peer() && run_method(m, above, steps_of(above, 1), {}).verdict != Verdict::unsupported)
       others.push_back(std::move(m));
   const long steps = steps_to_time(ours, above);
-  std::vector<std::function<double()>> runs{springs_alone(plain), forces_alone(plain), step_of(ours, plain, steps),
-                                            step_of(ours, above, steps), step_of(fused, above, steps)};
+  std::vector<TimedLoop> loops{springs_alone(plain), forces_alone(plain), timed_steps(ours, plain, steps),
+                               timed_steps(ours, above, steps), timed_steps(fused, above, steps)};
   std::vector<std::string> names{ours.name, fused.name};
   for (const Method& m : others) {
-    runs.push_back(step_of(m, above, steps_to_time(m, above)));
+    loops.push_back(timed_steps(m, above, steps_to_time(m, above)));
     names.push_back(m.name);
   }
   std::vector<Timing> t;
-  for (const auto& times : steps_timed(runs, request.full)) t.push_back(timing_of(times));
+  for (const auto& times : times_of(loops, request.full)) t.push_back(timing_of(times));
   tables.add(phases_table(n, names, t));
 }
 
@@ -228,12 +242,12 @@ void cost_against_roofline(bool full, TableSet& tables) {
   std::vector<Scene> scenes;
   for (const int n : sides) scenes.push_back(sized_cloth(n));
   std::vector<RooflineRow> loops;
-  std::vector<std::function<double()>> runs;
-  const auto add_loop = [&](const std::string& name, double flop, double bytes, std::function<double()> run) {
+  std::vector<TimedLoop> timed;
+  const auto add_loop = [&](const std::string& name, double flop, double bytes, TimedLoop loop) {
     loops.push_back({.what = name, .work = flop, .bytes = bytes});
-    runs.push_back(std::move(run));
+    timed.push_back(std::move(loop));
   };
-  const auto add_kernel = [&](const std::string& name, const Kernel& k) { add_loop(name, k.flop, k.bytes, k.run); };
+  const auto add_kernel = [&](const std::string& name, const Kernel& k) { add_loop(name, k.flop, k.bytes, {k.run}); };
   add_kernel("peak of multiplications and additions", multiply_add_kernel());
   add_kernel("bandwidth, 24 kB", triad_kernel(24e3));
   add_kernel("bandwidth, 1 MB", triad_kernel(1e6));
@@ -244,7 +258,7 @@ void cost_against_roofline(bool full, TableSet& tables) {
              bytes_per_spring * springs + bytes_per_particle * static_cast<double>(scenes[i].start.x.cols()),
              springs_alone(scenes[i]));
   }
-  const auto times = steps_timed(runs, full);
+  const auto times = times_of(timed, full);
   Table table = table_of<RooflineRow>();
   for (size_t i = 0; i < loops.size(); ++i) {
     const Timing t = timing_of(times[i]);

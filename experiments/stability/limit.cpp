@@ -265,14 +265,15 @@ Scene perturbed_scene(const BaseState& base, const Perturbation& perturbation) {
 }
 
 PerturbedRun run_perturbed(const Method& method, const BaseState& base, double h, long steps,
-                           const Perturbation& perturbation, std::vector<Observer*> observers) {
+                           const Perturbation& perturbation, std::vector<Observer*> observers,
+                           const MotionBoundsFunction& bounds) {
   const Run run = run_of_perturbed(h, steps);
   const Stepper* rule = stepper_of(method);
   const bool rotation = base.scene.model.first_order(), one_factor = rotation || (rule && is_runge_kutta(*rule));
   const bool multiplies = base.at_rest && base.spectrum.commuting && one_factor;
   GrowthObserver growth_observer(base, multiplies, perturbation.mode, run.duration);
   if (base.at_rest) observers.push_back(&growth_observer);
-  const Outcome out = run_method(method, perturbed_scene(base, perturbation), run, observers);
+  const Outcome out = run_method(method, perturbed_scene(base, perturbation), run, observers, bounds);
   PerturbedRun trial{out.verdict, out.reason, out.end};
   // a rule of its own, and one that corrects positions spring by spring, may rest elsewhere, unless the scene turns
   // about the origin: what moves there is no growth
@@ -326,8 +327,9 @@ MeasuredLimit measured_limit(const Method& method, const BaseState& base, long s
   const bool damped = base.scene.model.find<Drag>() || base.scene.model.find<Dashpots>();
   std::map<double, std::string> refused;  // by step
   bool accepted = false;
+  MotionBoundsCache bounds;  // all trials begin alike
   const auto holds = [&](double h) {
-    const PerturbedRun trial = run_perturbed(method, base, h, steps, perturbation);
+    const PerturbedRun trial = run_perturbed(method, base, h, steps, perturbation, {}, std::ref(bounds));
     if (trial.unsupported()) refused[h] = trial.reason;
     accepted |= !trial.unsupported();
     return trial.held();

@@ -75,20 +75,22 @@ class MotionBoundsObserver : public Observer {
  public:
   explicit MotionBoundsObserver(const Scene& scene) : scene_(scene) {}
   bool every_step() const override { return true; }
-  Verdict observe(const State& state, bool) override {
+  Verdict observe(const State& state, bool sample) override {
     if (!state.x.allFinite() || !state.v.allFinite()) return Verdict::nan;
     const Particles& particles = scene_.model.particles;
     double fastest = 0;  // m^2/s^2
     for (int i = 0; i < particles.size(); ++i)
       if (!particles.pinned[i]) fastest = std::max(fastest, state.v.col(i).squaredNorm());
-    bounds.speed = std::max(bounds.speed, std::sqrt(fastest));
-    bounds.stretch = std::max(bounds.stretch, largest_length_ratio(scene_.model, scene_.start, state.x));
+    so_far_.speed = std::max(so_far_.speed, std::sqrt(fastest));
+    so_far_.stretch = std::max(so_far_.stretch, largest_length_ratio(scene_.model, scene_.start, state.x));
+    if (sample) until[state.t] = so_far_;
     return Verdict::ok;
   }
-  MotionBounds bounds;
+  std::map<double, MotionBounds> until;  // by time, s: up to each sample
 
  private:
   const Scene& scene_;
+  MotionBounds so_far_;
 };
 
 /// The fastest decay that drag and dashpots can give, 1/s, by the largest row sum (S. Gershgorin, 1931).
@@ -119,7 +121,10 @@ double largest_length_ratio(const Model& model, const State& start, const Points
   return std::sqrt(most);
 }
 
-std::optional<MotionBounds> motion_bounds_of(const Scene& scene, const Run& run) {
+namespace {
+
+/// The bounds up to each of the run's samples, by time; empty where there are none.
+std::map<double, MotionBounds> motion_bounds_over_time(const Scene& scene, const Run& run) {
   const auto rules = steppers();
   const Stepper& rule =
       *std::find_if(rules.begin(), rules.end(), [](const Stepper& s) { return s.name == "leapfrog"; });
@@ -130,13 +135,35 @@ std::optional<MotionBounds> motion_bounds_of(const Scene& scene, const Run& run)
                  false};
   MotionBoundsObserver observer(scene);
   try {
-    if (simulate(rule, ContactRule::coulomb, scene, fine, observer).verdict != Verdict::ok) return std::nullopt;
+    if (simulate(rule, ContactRule::coulomb, scene, fine, observer).verdict != Verdict::ok) return {};
   } catch (const Unsupported&) {
-    return std::nullopt;
+    return {};
   } catch (const InputError&) {  // more steps than a run may have
-    return std::nullopt;
+    return {};
   }
-  return observer.bounds;
+  return std::move(observer.until);
+}
+
+}  // namespace
+
+std::optional<MotionBounds> motion_bounds_of(const Scene& scene, const Run& run) {
+  const auto until = motion_bounds_over_time(scene, run);
+  return until.empty() ? std::nullopt : std::optional(until.rbegin()->second);
+}
+
+std::optional<MotionBounds> MotionBoundsCache::operator()(const Scene& scene, const Run& run) {
+  if (run.duration >= none_from_) return std::nullopt;
+  const double end = run.duration * (1 - 1e-9);
+  if (until_.empty() || until_.rbegin()->first < end) {
+    auto longer = motion_bounds_over_time(scene, run);
+    if (longer.empty()) {
+      none_from_ = run.duration;
+      return std::nullopt;
+    }
+    until_ = std::move(longer);
+  }
+  const auto found = until_.lower_bound(end);
+  return found == until_.end() ? until_.rbegin()->second : found->second;
 }
 
 DivergenceMonitor::DivergenceMonitor(const Scene& scene, const Run& run, MotionBoundsFunction bounds)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -114,17 +115,15 @@ std::optional<MotionBounds> motion_bounds_of(const Scene& scene, const Run& run)
 
 using MotionBoundsFunction = std::function<std::optional<MotionBounds>(const Scene&, const Run&)>;
 
-/// motion_bounds_of() for callers that run one scene again and again: each duration is computed once.
+/// motion_bounds_of() for callers that run one scene again and again: of the longest of these runs, up to the sample at
+/// which a shorter one has ended.
 class MotionBoundsCache {
  public:
-  std::optional<MotionBounds> operator()(const Scene& scene, const Run& run) {
-    const auto [at, is_new] = known_.try_emplace({run.duration, run.samples});
-    if (is_new) at->second = motion_bounds_of(scene, run);
-    return at->second;
-  }
+  std::optional<MotionBounds> operator()(const Scene& scene, const Run& run);
 
  private:
-  std::map<std::pair<double, int>, std::optional<MotionBounds>> known_;  // by duration (s) and samples
+  std::map<double, MotionBounds> until_;                        // by time, s
+  double none_from_ = std::numeric_limits<double>::infinity();  // s: runs of such a duration have none
 };
 
 // Detects a failed run: it moves ten times as fast, or makes a spring ten times as long, as the true motion ever

@@ -73,14 +73,10 @@ SceneData scene_data(const std::string& scene, const TableSet& result) {
                              .creep = run.creep,
                              .limit = run.step_limit});
   }
-  const auto costs = rows_of<EngineCostRow>(result);
   const auto energies = rows_of<EngineEnergyRow>(result);
-  for (MethodData& m : facts.methods) {
-    for (const EngineCostRow& row : costs)
-      if (row.scene == scene && row.method == m.method) m.cpu = row.cpu;
+  for (MethodData& m : facts.methods)
     for (const EngineEnergyRow& row : energies)
       if (row.scene == scene && row.method == m.method) m.energy_error = row.relative_balance_error;
-  }
   return facts;
 }
 

@@ -36,7 +36,6 @@ struct MethodData {
   std::optional<double> difference;        // m, largest RMS difference from mysim/symplectic-euler in the window
   std::optional<double> centres;           // m, largest difference of the centres of mass over the run
   std::optional<double> clearance, creep;  // m, m/s
-  std::optional<double> cpu;               // s
   std::optional<double> energy_error;      // relative
   std::optional<double> limit;             // s, largest stable step by theory, for the scene's fastest vibration
   bool supported() const { return verdict != Verdict::unsupported; }

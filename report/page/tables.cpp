@@ -89,9 +89,7 @@ std::string run_table_html(const ScenePart& part) {
   std::string out = fmt::format(
       "<div class=\"scroll\"><table><thead><tr><th>method</th><th>verdict</th><th>RMS position "
       "error</th><th>difference "
-      "from symplectic Euler</th>{}<th>relative energy residual</th><th>force evaluations</th><th title=\"of the run "
-      "with "
-      "all its observers; the chapter on cost times steps alone\">CPU time / s</th></tr></thead><tbody>\n",
+      "from symplectic Euler</th>{}<th>relative energy residual</th><th>force evaluations</th></tr></thead><tbody>\n",
       contact ? "<th>distance between centres of mass</th><th>clearance</th><th>creep at end</th>" : "");
   for (const MethodData& m : part.facts->methods) {
     out += fmt::format(
@@ -106,8 +104,7 @@ std::string run_table_html(const ScenePart& part) {
       out += m.creep ? fmt::format("<td>{} mm/s</td>", nice(1e3 * *m.creep)) : "<td class=\"none\">–</td>";
     }
     out += m.energy_error ? fmt::format("<td>{} %</td>", nice(100 * *m.energy_error)) : "<td class=\"none\">–</td>";
-    out += m.supported() ? fmt::format("<td>{}</td><td>{}</td>", m.evaluations, m.cpu ? nice(*m.cpu) : "–")
-                         : "<td class=\"none\">–</td><td class=\"none\">–</td>";
+    out += m.supported() ? fmt::format("<td>{}</td>", m.evaluations) : "<td class=\"none\">–</td>";
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
