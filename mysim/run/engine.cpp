@@ -108,11 +108,12 @@ class SteppedWorld : public World {
         workspace_(scene.start) {}
 
   void step(double, double t_next) override {
-    contacts_.begin(s_);
+    if (contacts_.any()) contacts_.begin(s_);
     stepper_.step(f_, s_, h_, workspace_);  // steppers/leapfrog.cpp and the files next to it
     s_.t = t_next;
-    particles_.place_pins(s_);
-    contacts_.resolve(s_);
+    // no rule moves pins that stand still: they have neither velocity nor acceleration
+    if (particles_.move) particles_.place_pins(s_);
+    if (contacts_.any()) contacts_.resolve(s_);
   }
 
   const State& state(double) override { return s_; }
