@@ -277,7 +277,7 @@ Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene
   if (execution.path == ExecutionPath::single_precision && !world->work().single_precision)
     out.remark = fmt::format(
         "computed in double precision: single is for regular cloths of {} columns or more, without "
-        "bending, dashpots and air",
+        "bending, dashpots and air, and with spheres for symplectic-euler and leapfrog without +sticky",
         simd::fewest_columns);
   return out;
 }
