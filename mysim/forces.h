@@ -19,7 +19,7 @@ struct Forces {
     if (f.cols() > few_particles)
       f.setZero();
     else
-      for (int i = 0; i < f.cols(); ++i) f.col(i).setZero();
+      for (double *at = f.data(), *end = at + f.size(); at < end; at += 3) Eigen::Map<Vec3>(at).setZero();
     degenerate_springs = 0;
   }
 };

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "experiments/metrics.h"
+#include "mysim/model/system.h"
 
 namespace crosscheck {
 
@@ -97,8 +98,8 @@ Subject::Noise Subject::noise(const Scene& scene, double lengths) {
   return noise;
 }
 
-Subject::Noise Subject::noise_with_unsolved(const Scene& scene) {
-  Noise noise = this->noise(scene);
+Subject::Noise Subject::noise_with_unsolved(const Scene& scene, double lengths) {
+  Noise noise = this->noise(scene, lengths);
   const Stepper* rule = stepper_of(method_);
   if (!rule || rule->solved_to == 0) return noise;
   const Particles& p = scene.model.particles;
@@ -107,7 +108,10 @@ Subject::Noise Subject::noise_with_unsolved(const Scene& scene) {
     if (!p.pinned[i]) heaviest = std::max(heaviest, p.mass[i]), lightest = std::min(lightest, p.mass[i]);
   if (heaviest == 0) return noise;
   const SubjectRun& plain = run(scene);
-  const double unsolved = rule->solved_to * largest_speed(plain.path) * heaviest / lightest *
+  const double omega = highest_frequency(scene.model, scene.start);
+  const double rounded =
+      48 * unit_roundoff() * omega * omega * std::max(lengths, lengths_in(scene, plain.path)) * plain.outcome.step;
+  const double unsolved = std::max(rule->solved_to * largest_speed(plain.path) * heaviest / lightest, rounded) *
                           static_cast<double>(std::max(1L, plain.outcome.steps));
   // it grows as the perturbation did
   const double factor = 1 + unsolved * scene.duration / noise.start;

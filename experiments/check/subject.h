@@ -65,9 +65,11 @@ class Subject {
   Noise noise(const Scene& scene, double lengths = 0);
   /// The same, with what a rule of mysim's leaves of the equation in its step: for relations that hold a run against
   /// something that leaves it not, or otherwise. It stops at a part e of the largest force, of which inertia m v / h is
-  /// one, so that the lightest particle's velocity is off by up to e v m_max / m_min in each step, however short, and
-  /// always to the same side: n of that after n steps, and places by that speed over the duration.
-  Noise noise_with_unsolved(const Scene& scene);
+  /// one, so that the lightest particle's velocity is off by up to e v m_max / m_min in each step, however short, or at
+  /// the rounding of the spring forces, 8 eps L sum k, where the stiffnesses at a particle are at most 3 m omega^2, so
+  /// that the velocity is off by 24 eps omega^2 L h; and always to the same side: n of that after n steps, and places
+  /// by that speed over the duration.
+  Noise noise_with_unsolved(const Scene& scene, double lengths = 0);
   /// The part of it that is no growth, m. `projected`: places are put where they must be, and what was there before
   /// does not come back: the velocity that is left is off by u L / h in each step, which adds up to u L n sqrt(n). So
   /// do position-based rules, and so do contacts: on which side of a surface a particle lies that rests there is a

@@ -12,8 +12,9 @@ RelationResult beside_placed(Subject& subject, const Scene& scene, const Placeme
   const Trajectory& here = subject.run(scene).path;
   const Trajectory& there = subject.run(other).path;
   const double lengths = std::max(lengths_in(scene, here), lengths_in(other, there));
+  // where an equation is solved no further is a matter of coordinates, and so what is left of it is another in each run
   return farthest(what, with_positions(here, [&](const Points& x) { return placement.of(x); }), there,
-                  subject.noise(scene, lengths).x, lengths);
+                  subject.noise_with_unsolved(scene, lengths).x, lengths);
 }
 
 /// The bound of runs that differ in the order of what is summed or gone through: each is off by its own iterations.

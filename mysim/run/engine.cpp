@@ -108,11 +108,12 @@ class SteppedWorld : public World {
         workspace_(scene.start) {}
 
   void step(double, double t_next) override {
-    contacts_.begin(s_);
+    if (contacts_.any()) contacts_.begin(s_);
     stepper_.step(f_, s_, h_, workspace_);  // steppers/leapfrog.cpp and the files next to it
     s_.t = t_next;
-    particles_.place_pins(s_);
-    contacts_.resolve(s_);
+    // no rule moves pins that stand still: they have neither velocity nor acceleration
+    if (particles_.move) particles_.place_pins(s_);
+    if (contacts_.any()) contacts_.resolve(s_);
   }
 
   const State& state(double) override { return s_; }
@@ -276,7 +277,7 @@ Outcome simulate(const Stepper& stepper, ContactRule contact, const Scene& scene
   if (execution.path == ExecutionPath::single_precision && !world->work().single_precision)
     out.remark = fmt::format(
         "computed in double precision: single is for regular cloths of {} columns or more, without "
-        "bending, dashpots and air",
+        "bending, dashpots and air, and with spheres for symplectic-euler and leapfrog without +sticky",
         simd::fewest_columns);
   return out;
 }

@@ -32,17 +32,6 @@ void add_force(const Springs& springs, const Particles&, const State& state, For
   add_force(springs, state.x, forces);
 }
 
-/// -T / L at squared length L^2 > 0.
-template <SpringLaw law>
-static double scale_of(const Spring& s, double squared) {
-  if constexpr (law == SpringLaw::hooke) {
-    const double length = std::sqrt(squared);
-    return s.k * (s.rest - length) / length;
-  }
-  const double r2 = s.rest * s.rest;
-  return s.k * (r2 - squared) / (squared + r2);
-}
-
 /// For each law a loop of its own: no branch is taken spring by spring.
 template <SpringLaw law>
 static void loop(const std::vector<Spring>& list, const Points& x, Forces& forces) {
@@ -54,7 +43,7 @@ static void loop(const std::vector<Spring>& list, const Points& x, Forces& force
       forces.degenerate_springs += s.rest > 0;
       continue;
     }
-    const Vec3 f = scale_of<law>(s, squared) * d;
+    const Vec3 f = force_over_length<law>(s.k, s.rest, squared) * d;
     forces.f.col(s.a) += f;
     forces.f.col(s.b) -= f;
   }

@@ -5,6 +5,7 @@
 //                 Bullet's position-based links follow as the step goes to 0 (its projection per step over h^2).
 #pragma once
 
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -37,6 +38,17 @@ struct Tension {
   double force, slope;
 };
 Tension tension_of(const Spring& spring, SpringLaw law, double length);
+
+/// -T / L at squared length L^2 > 0 (m^2), N/m.
+template <SpringLaw law>
+double force_over_length(double k, double rest, double squared) {
+  if constexpr (law == SpringLaw::hooke) {
+    const double length = std::sqrt(squared);
+    return k * (rest - length) / length;
+  }
+  const double r2 = rest * rest;
+  return k * (r2 - squared) / (squared + r2);
+}
 
 /// The plain edge loop: the definition of the term, and the oracle of every faster kernel
 /// (mysim/simd/spring_graph/spring_kernel.h).

@@ -29,6 +29,14 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
   Stepper rule = stepper;
   std::string same_as(stepper.name);  // that it freezes to spheres is another law, and is said of each run
   const std::string name = fmt::format("mysim/{}", stepper.name);
+  std::string path_option;  // that chose the path
+  const auto choose = [&](const std::string& option, ExecutionPath path) {
+    if (!path_option.empty() && path_option != option)
+      throw InputError(fmt::format("method {}: +{} and +{} each choose how a step is computed; expected one of them",
+                                   name, path_option, option));
+    path_option = option;
+    execution.path = path;
+  };
   for (const std::string& option : options) {
     // a rule of order 1 moves along another path than its velocities, by h^2 a / 2, as much as contact holds it by
     if (const auto asked = contact_rule_of_option(option); asked && (asked != ContactRule::events || stepper.order > 1))
@@ -36,11 +44,11 @@ Method mysim_method(const Stepper& stepper, const MethodOptions& options) {
     else if (option == "linear" && stepper.linear)
       rule.step = stepper.linear, same_as += "+linear";
     else if (option == "plain" && stepper.composition)
-      execution.path = ExecutionPath::general;
+      choose(option, ExecutionPath::general);
     else if (option == "fast" && stepper.composition)
-      execution.path = ExecutionPath::fastest;
+      choose(option, ExecutionPath::fastest);
     else if (option == "single" && stepper.composition)
-      execution.path = ExecutionPath::single_precision;
+      choose(option, ExecutionPath::single_precision);
     else if (const auto threads = threads_in(option); threads && stepper.composition)
       execution.threads = *threads;
     else

@@ -2,6 +2,7 @@
 
 #include "experiments/check/check.h"
 #include "experiments/check/transformations.h"
+#include "experiments/scenes/scenes.h"
 #include "tests/unit/experiments/defects.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/temporary.h"
@@ -68,6 +69,20 @@ TEST(Relations, CountWhatAnImplicitStepLeavesUnsolved) {
   const Scene net = falling_nets()[0];
   Subject explicit_rule(find_method("leapfrog"));
   EXPECT_EQ(explicit_rule.noise_with_unsolved(net).x, explicit_rule.noise(net).x);
+}
+
+TEST(Relations, OfPlacedRunsCountWhatAnImplicitStepLeavesUnsolvedOfABendingStrip) {
+  Scene strip = load_scene("cloth-cantilever");
+  strip.duration = strip.window = 0.1, strip.samples = 5;
+  Subject implicit(find_method("implicit-midpoint")), explicit_rule(find_method("leapfrog"));
+  const Answer shifted = ask(find_relation("shifted"), implicit, strip, 1, {});
+  EXPECT_EQ(shifted.mark, RelationMark::holds) << shifted.sentence();
+  EXPECT_GT(shifted.finding.measured, implicit.noise(strip).x.back());  // more than rounding
+  EXPECT_LT(shifted.finding.tolerance, 1e-6 * strip.size());            // and no defect that anybody would see
+  EXPECT_EQ(ask(find_relation("turned"), implicit, strip, 1, {}).mark, RelationMark::holds);
+  const Answer rounded = ask(find_relation("shifted"), explicit_rule, strip, 1, {});
+  EXPECT_EQ(rounded.mark, RelationMark::holds) << rounded.sentence();
+  EXPECT_LE(rounded.finding.tolerance, 1e-12);
 }
 
 TEST(Relations, TakeARunThatFailsForBroken) {

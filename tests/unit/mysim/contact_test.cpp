@@ -55,6 +55,25 @@ double leaving_angle(const Stepper& s, double h) {
 // energy: v^2 = 2 g R (cos theta0 - cos theta); the push ends where v^2 / R = g cos theta
 const double exact_leaving_angle = std::acos(2.0 / 3 * std::cos(1 * degree));
 
+TEST(SinglePrecision, OnSpheresIsForRulesOfOneKickWithoutStickyAndOthersSaySo) {
+  const Scene scene = small_scene(
+      std::string("[grid]\nsize = [20, 20]\norigin = [-0.5, 1.1, -0.5]\nu = [1, 0, 0]\nv = [0, 0, 1]\nmass = 1\n"
+                  "[grid.stiffness]\nstructural = 100\n[sphere]\ncentre = [0, 0, 0]\nradius = 1\n") +
+      gravity_text);
+  const auto remark = [&](const char* rule, ContactRule contact) {
+    NullObserver nobody;
+    return simulate(stepper(rule), contact, scene, {1e-3, 0.01, 1}, nobody, {ExecutionPath::single_precision}).remark;
+  };
+  EXPECT_EQ(remark("leapfrog", ContactRule::coulomb), "");
+  EXPECT_EQ(remark("symplectic-euler", ContactRule::coulomb), "");
+  for (const std::string& said : {remark("leapfrog", ContactRule::sticky), remark("suzuki4", ContactRule::coulomb)})
+    EXPECT_TRUE(
+        contains(said,
+                 "computed in double precision: single is for regular cloths of 17 columns or more, without "
+                 "bending, dashpots and air, and with spheres for symplectic-euler and leapfrog without +sticky"))
+        << said;
+}
+
 TEST(Contact, FrictionlessParticleLeavesAtTheExactAngleInEveryStepper) {
   for (const Stepper& s : steppers()) {
     SCOPED_TRACE(s.name);

@@ -8,6 +8,7 @@
 #include "mysim/run/observers.h"
 #include "tests/unit/helpers.h"
 #include "tests/unit/mysim/declared.h"
+#include "tests/unit/mysim/networks.h"
 
 namespace crosscheck {
 namespace {
@@ -58,6 +59,34 @@ TEST(Steppers, LeapfrogIsItsOwnInverseUnderDrag) {
   for (int i = 50; i > 0; --i) leapfrog(f, s, -h, w), s.t = (i - 1) * h, scene.model.particles.place_pins(s);
   // a hundred steps of a few ulps of a scene of 1 m, with velocities of some m/s over h
   EXPECT_LT((s.x - scene.start.x).cwiseAbs().maxCoeff(), 1e3 * eps);
+}
+
+TEST(Steppers, LeapfrogOfFewSpringsInALoopOfItsOwnIsTheGeneralOneToTheLastBit) {
+  for (const SpringLaw law : {SpringLaw::hooke, SpringLaw::bullet_link})
+    for (const bool moved : {false, true}) {
+      Network net = random_network(3, law);
+      net.model.terms.emplace_back(Drag{Eigen::VectorXd::LinSpaced(6, 0.1, 2)});
+      pin(net, {0, 3}, moved ? std::optional(Motion{{0.2, 0.1, 0}, 0.7, 0.5}) : std::nullopt);
+      Scene few = scene_of(net), general = few;
+      general.model.terms.emplace_back(Wind{{Vec3::Zero(), {}}});  // of no force: the terms are summed one by one
+      ASSERT_NE(System(few.model).few_springs(), nullptr);
+      ASSERT_EQ(System(general.model).few_springs(), nullptr);
+      for (const char* rule : {"leapfrog", "suzuki4"}) {
+        SCOPED_TRACE(rule);
+        const auto ends = [&](const Scene& scene) {
+          NullObserver nobody;
+          const auto world =
+              make_world(stepper(rule), ContactRule::coulomb, scene, default_run(scene), nobody, Execution{});
+          for (int i = 0; i < 500; ++i) world->step(i * scene.step, (i + 1) * scene.step);
+          return std::pair(world->state(500 * scene.step), world->work());
+        };
+        const auto [one, work] = ends(few);
+        const auto [other, other_work] = ends(general);
+        EXPECT_EQ(one.x, other.x);
+        EXPECT_EQ(one.v, other.v);
+        EXPECT_EQ(work.evaluations, other_work.evaluations);
+      }
+    }
 }
 
 TEST(Steppers, TwoRunsAreBitEqual) {
